@@ -1,0 +1,135 @@
+//! A pinhole camera: eye, target and vertical field of view. Raster and rays see the same picture through it.
+
+use glam::{Mat4, Vec2, Vec3, camera::rh};
+
+/// A pinhole camera in world space.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Camera {
+    /// Position of the pinhole.
+    pub eye: Vec3,
+    /// A point in the middle of the picture.
+    pub target: Vec3,
+    /// The direction that is up in the picture; not parallel to the line of sight.
+    pub up: Vec3,
+    /// Vertical field of view in degrees, in (0, 180).
+    pub fov_y: f32,
+    /// Nearest distance that the raster draws; rays ignore it.
+    pub near: f32,
+    /// Farthest distance that the raster draws; rays ignore it.
+    pub far: f32,
+}
+
+/// A camera's orthonormal axes scaled so that `forward + x * right + y * up` passes through the point (x, y) of the
+/// picture, x and y in [-1, 1].
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PictureFrame {
+    /// The pinhole.
+    pub eye: Vec3,
+    /// Unit line of sight.
+    pub forward: Vec3,
+    /// From the middle of the picture to its right edge at distance 1.
+    pub right: Vec3,
+    /// From the middle of the picture to its top edge at distance 1.
+    pub up: Vec3,
+}
+
+impl Camera {
+    /// The frame of a picture of `aspect` = width / height.
+    pub fn frame(&self, aspect: f32) -> PictureFrame {
+        let forward = (self.target - self.eye).normalize();
+        let right = forward.cross(self.up).normalize();
+        let up = right.cross(forward);
+        let half_height = (self.fov_y.to_radians() * 0.5).tan();
+        PictureFrame { eye: self.eye, forward, right: right * (half_height * aspect), up: up * half_height }
+    }
+
+    /// The matrix that takes world space to clip space (depth 0 near, 1 far), as the raster needs it.
+    pub fn clip_from_world(&self, aspect: f32) -> Mat4 {
+        let view_from_world = rh::view::look_at_mat4(self.eye, self.target, self.up);
+        rh::proj::directx::perspective(self.fov_y.to_radians(), aspect, self.near, self.far) * view_from_world
+    }
+
+    /// Why this camera sees nothing, if it does not: a line for the user.
+    pub fn fault(&self) -> Option<&'static str> {
+        let sight = self.target - self.eye;
+        if !(self.eye.is_finite() && self.target.is_finite() && self.up.is_finite()) {
+            Some("its eye, target and up must be finite")
+        } else if sight.length_squared() <= 1e-12 * self.eye.length_squared().max(f32::MIN_POSITIVE) {
+            Some("its eye and target must differ")
+        } else if sight.normalize_or_zero().cross(self.up.normalize_or_zero()).length() < 1e-4 {
+            Some("its up must not be parallel to the line from eye to target")
+        } else if !(self.fov_y > 0.0 && self.fov_y < 180.0) {
+            Some("its field of view must lie between 0 and 180 degrees")
+        } else if !(self.near > 0.0 && self.far > self.near) {
+            Some("its near must be positive and below its far")
+        } else {
+            None
+        }
+    }
+
+    /// The camera turned about its target by `yaw` and `pitch` radians, stopping short of the poles.
+    pub fn orbited(&self, yaw: f32, pitch: f32) -> Self {
+        let arm = self.eye - self.target;
+        let up = self.up.normalize();
+        let height = up.dot(arm.normalize()).clamp(-1.0, 1.0).asin();
+        let limit = 89f32.to_radians();
+        let pitch = (height + pitch).clamp(-limit, limit) - height;
+        let side = arm.normalize().cross(up).normalize();
+        let turn = glam::Quat::from_axis_angle(up, yaw) * glam::Quat::from_axis_angle(side, pitch);
+        Camera { eye: self.target + turn * arm, ..*self }
+    }
+
+    /// The camera moved sideways so that what lies at the target follows a drag by `shift`, in picture heights.
+    pub fn panned(&self, shift: Vec2) -> Self {
+        let frame = self.frame(1.0);
+        let distance = (self.target - self.eye).length();
+        let by = (frame.right * -shift.x + frame.up * shift.y) * (2.0 * distance);
+        Camera { eye: self.eye + by, target: self.target + by, ..*self }
+    }
+
+    /// The camera moved towards its target: the distance is divided by `factor` (> 0).
+    pub fn dollied(&self, factor: f32) -> Self {
+        Camera { eye: self.target + (self.eye - self.target) / factor, ..*self }
+    }
+}
+
+impl PictureFrame {
+    /// Unit direction of the ray through `point`, in [0, 1]^2 from the picture's top left corner.
+    pub fn direction(&self, point: Vec2) -> Vec3 {
+        let (x, y) = (2.0 * point.x - 1.0, 1.0 - 2.0 * point.y);
+        (self.forward + self.right * x + self.up * y).normalize()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const CAMERA: Camera = Camera {
+        eye: Vec3::new(1.0, 2.0, 3.0),
+        target: Vec3::new(0.0, 1.0, 0.0),
+        up: Vec3::Y,
+        fov_y: 50.0,
+        near: 0.1,
+        far: 100.0,
+    };
+
+    #[test]
+    fn ray_and_raster_agree_on_where_a_point_lands() {
+        let frame = CAMERA.frame(1.5);
+        for point in [Vec2::new(0.1, 0.2), Vec2::new(0.5, 0.5), Vec2::new(0.93, 0.41)] {
+            let seen = frame.eye + frame.direction(point) * 7.0;
+            let clip = CAMERA.clip_from_world(1.5).project_point3(seen);
+            let landed = Vec2::new(0.5 + 0.5 * clip.x, 0.5 - 0.5 * clip.y);
+            assert!((landed - point).length() < 1e-5, "{point} landed at {landed}");
+        }
+    }
+
+    #[test]
+    fn orbit_keeps_the_distance_and_stops_at_the_pole() {
+        let start = (CAMERA.eye - CAMERA.target).length();
+        let turned = CAMERA.orbited(1.0, 10.0);
+        assert!(((turned.eye - turned.target).length() - start).abs() < 1e-5);
+        assert_eq!(turned.fault(), None);
+    }
+}

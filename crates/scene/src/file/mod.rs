@@ -1,0 +1,222 @@
+//! The scene file: TOML, described in `assets/README.md`. Text becomes [`raw::RawScene`] (shape and ranges of every
+//! value), which becomes a [`Scene`] (what refers to what). Every fault is one line: `file:line:column: what`.
+
+mod number;
+mod raw;
+
+use crate::fake::{FakeMaterial, FakeNumbers};
+use crate::material::{Checkerboard, Emission};
+use crate::{Bsdf, Camera, Geometry, Material, Scene, Shape, Sun, Texture};
+use glam::Vec3;
+use raw::{RawMaterial, RawScene, RawTexture};
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+use toml::Spanned;
+
+/// Why there is no scene.
+#[derive(Debug, thiserror::Error)]
+pub enum SceneError {
+    /// Neither a built-in name nor a file.
+    #[error("unknown scene '{name}': the built-in scenes are {known}; a file's name ends in .toml")]
+    Unknown {
+        /// What was asked for.
+        name: String,
+        /// The built-in names.
+        known: String,
+    },
+    /// The file could not be read.
+    #[error("cannot read the scene file ({source}): {}", path.display())]
+    Read {
+        /// The file.
+        path: PathBuf,
+        /// What the system said.
+        source: std::io::Error,
+    },
+    /// The file does not hold a scene.
+    #[error("{}:{line}:{column}: {message}", path.display())]
+    Wrong {
+        /// The file.
+        path: PathBuf,
+        /// Line of the fault, from 1.
+        line: usize,
+        /// Column of the fault in characters, from 1.
+        column: usize,
+        /// What is wrong and what was expected.
+        message: String,
+    },
+}
+
+/// Largest scene file that is read, in bytes; beyond it lies no scene that TOML is the right home for.
+const LARGEST_FILE: u64 = 256 << 20;
+
+/// Reads a scene file.
+///
+/// # Errors
+/// [`SceneError::Read`] if the file cannot be read, [`SceneError::Wrong`] if it does not hold a scene.
+pub fn load(path: &Path) -> Result<Scene, SceneError> {
+    let read = |source| SceneError::Read { path: path.to_owned(), source };
+    let size = std::fs::metadata(path).map_err(read)?.len();
+    if size > LARGEST_FILE {
+        let why = format!("it has {size} bytes, a scene file at most {LARGEST_FILE}");
+        return Err(read(std::io::Error::new(std::io::ErrorKind::FileTooLarge, why)));
+    }
+    let text = std::fs::read_to_string(path).map_err(read)?;
+    let name = path.file_stem().map(|s| s.to_string_lossy().into_owned()).unwrap_or_default();
+    parse(&text, &name, path)
+}
+
+/// Parses the text of a scene file; `path` is only named in errors.
+///
+/// # Errors
+/// [`SceneError::Wrong`] with the place of the first fault.
+pub fn parse(text: &str, name: &str, path: &Path) -> Result<Scene, SceneError> {
+    let wrong = |fault: Fault| {
+        let (line, column) = line_and_column(text, fault.at.start);
+        SceneError::Wrong { path: path.to_owned(), line, column, message: fault.message }
+    };
+    let raw: RawScene = toml::from_str(text).map_err(|e| {
+        let message = e.message().lines().collect::<Vec<_>>().join(", ");
+        wrong(Fault { at: e.span().unwrap_or(0..0), message })
+    })?;
+    build(raw, name).map_err(wrong)
+}
+
+/// A fault at a byte range of the text.
+struct Fault {
+    at: Range<usize>,
+    message: String,
+}
+
+fn fault<T>(at: Range<usize>, message: impl Into<String>) -> Result<T, Fault> {
+    Err(Fault { at, message: message.into() })
+}
+
+fn line_and_column(text: &str, at: usize) -> (usize, usize) {
+    let before = text.get(..at).unwrap_or(text);
+    let line_start = before.rfind('\n').map_or(0, |i| i + 1);
+    (before.matches('\n').count() + 1, before[line_start..].chars().count() + 1)
+}
+
+fn build(raw: RawScene, name: &str) -> Result<Scene, Fault> {
+    let camera = camera(raw.camera)?;
+    let materials = raw.material.into_iter().map(|(name, m)| material(name, m)).collect::<Result<Vec<_>, _>>()?;
+    let mut shapes = Vec::new();
+    let mut add = |geometry, wears: Spanned<String>| {
+        let found = materials.iter().position(|m| m.name == *wears.get_ref());
+        let Some(material) = found else {
+            let known = materials.iter().map(|m| m.name.as_str()).collect::<Vec<_>>().join(", ");
+            let message = format!("no material is called '{}': the file has {known}", wears.get_ref());
+            return fault(wears.span(), message);
+        };
+        shapes.push(Shape { geometry, material });
+        Ok(())
+    };
+    for s in raw.sphere {
+        add(Geometry::Sphere { center: s.center.into(), radius: s.radius.get() }, s.material)?;
+    }
+    for r in raw.rectangle {
+        let (at, edge_u, edge_v) = (r.edge_v.span(), Vec3::from(r.edge_u), Vec3::from(r.edge_v.into_inner()));
+        if !(edge_u.normalize_or_zero().cross(edge_v.normalize_or_zero()).length() > 1e-6) {
+            return fault(at, "edge_u and edge_v must span an area");
+        }
+        add(Geometry::Rectangle { corner: r.corner.into(), edge_u, edge_v }, r.material)?;
+    }
+    for b in raw.boxes {
+        let size = Vec3::from_array(b.size.map(|side| side.get()));
+        add(Geometry::Box { corner: b.corner.into(), size, turn_y: b.turn_y.get() }, b.material)?;
+    }
+    for m in raw.mesh {
+        let corners = m.positions.len();
+        if let Some(&index) = m.triangles.get_ref().iter().flatten().find(|&&i| i as usize >= corners) {
+            return fault(m.triangles.span(), format!("corner {index} is named, but positions has {corners}"));
+        }
+        let positions = m.positions.into_iter().map(Vec3::from).collect();
+        add(Geometry::Mesh { positions, triangles: m.triangles.into_inner() }, m.material)?;
+    }
+    let sun = raw.sun.map(sun).transpose()?;
+    let d = FakeNumbers::default();
+    let fake = FakeNumbers {
+        ambient: raw.fake.ambient.map_or(d.ambient, |v| v.get()),
+        intensity: raw.fake.intensity.map_or(d.intensity, |v| v.get()),
+        light_position: raw.fake.light_position.map(Vec3::from),
+        shadow_half_width: raw.fake.shadow_half_width.map(|v| v.get()),
+        shadow_map: raw.fake.shadow_map.map_or(d.shadow_map, |v| v.get()),
+        cube_map: raw.fake.cube_map.map_or(d.cube_map, |v| v.get()),
+        segments: raw.fake.segments.map_or(d.segments, |v| v.get()),
+    };
+    Ok(Scene { name: name.to_owned(), camera, materials, shapes, sun, sky: raw.sky.radiance.into(), fake })
+}
+
+fn camera(raw: Spanned<raw::RawCamera>) -> Result<Camera, Fault> {
+    let (at, raw) = (raw.span(), raw.into_inner());
+    let camera = Camera {
+        eye: raw.eye.into(),
+        target: raw.target.into(),
+        up: raw.up.map_or(Vec3::Y, Vec3::from),
+        fov_y: raw.fov_y.get(),
+        near: raw.near.map_or(0.1, |v| v.get()),
+        far: raw.far.map_or(3000.0, |v| v.get()),
+    };
+    camera.fault().map_or(Ok(camera), |why| fault(at, format!("the camera sees nothing: {why}")))
+}
+
+fn sun(raw: raw::RawSun) -> Result<Sun, Fault> {
+    let towards = Vec3::from(*raw.towards.get_ref()).normalize_or_zero();
+    if towards == Vec3::ZERO {
+        return fault(raw.towards.span(), "the direction towards the sun must not be zero");
+    }
+    let angular_radius = raw.angular_radius.get_ref().get();
+    if angular_radius >= 90.0 {
+        return fault(raw.angular_radius.span(), "expected degrees below 90");
+    }
+    Ok(Sun { towards, angular_radius, irradiance: raw.irradiance.into() })
+}
+
+fn material(name: String, raw: Spanned<RawMaterial>) -> Result<Material, Fault> {
+    let (at, raw) = (raw.span(), raw.into_inner());
+    let kinds = [raw.diffuse.is_some(), raw.mirror.is_some(), raw.dielectric.is_some()];
+    if kinds.iter().filter(|&&k| k).count() > 1 {
+        return fault(
+            at,
+            format!("material '{name}' scatters in several ways: expected one of diffuse, mirror, dielectric"),
+        );
+    }
+    let bsdf = if let Some(diffuse) = raw.diffuse {
+        Bsdf::Diffuse { albedo: texture(diffuse.albedo) }
+    } else if let Some(mirror) = raw.mirror {
+        Bsdf::Mirror { reflectance: mirror.reflectance.into() }
+    } else if let Some(glass) = raw.dielectric {
+        Bsdf::Dielectric { ior: glass.ior.get() }
+    } else if raw.emissive.is_some() {
+        Bsdf::Diffuse { albedo: Texture::Constant(Vec3::ZERO) }
+    } else {
+        return fault(at, format!("material '{name}' is empty: expected diffuse, mirror, dielectric or emissive"));
+    };
+    if raw.emissive.is_some() && matches!(bsdf, Bsdf::Mirror { .. } | Bsdf::Dielectric { .. }) {
+        return fault(at, format!("material '{name}': expected emissive alone or with diffuse"));
+    }
+    let emission = raw.emissive.map(|e| Emission { radiance: e.radiance.into(), two_sided: e.two_sided });
+    let d = FakeMaterial::default();
+    let fake = FakeMaterial {
+        refraction_ratio: raw.fake.refraction_ratio.map(|v| v.get()),
+        reflectivity: raw.fake.reflectivity.map_or(d.reflectivity, |v| v.get()),
+        specular: raw.fake.specular.map_or(d.specular, |v| v.get()),
+        shininess: raw.fake.shininess.map_or(d.shininess, |v| v.get()),
+    };
+    Ok(Material { name, bsdf, emission, fake })
+}
+
+fn texture(raw: RawTexture) -> Texture {
+    match raw {
+        RawTexture::Constant(colour) => Texture::Constant(colour.into()),
+        RawTexture::Checkerboard(b) => Texture::Checkerboard(Checkerboard {
+            even: b.even.into(),
+            odd: b.odd.into(),
+            origin: b.origin.into(),
+            cell: b.cell.into(),
+        }),
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,89 @@
+use super::*;
+
+const SMALL: &str = r#"
+[camera]
+eye = [0, 0, 5]
+target = [0, 0, 0]
+fov_y = 45
+
+[material.white]
+diffuse = { albedo = [0.5, 0.5, 0.5] }
+
+[[sphere]]
+center = [0, 0, 0]
+radius = 1
+material = "white"
+"#;
+
+fn fault_of(text: &str) -> String {
+    parse(text, "test", Path::new("test.toml")).expect_err("a fault").to_string()
+}
+
+#[test]
+fn both_built_in_scenes_load() {
+    for name in crate::builtin::names() {
+        let scene = crate::builtin::named(name).unwrap();
+        assert!(!scene.shapes.is_empty());
+    }
+}
+
+#[test]
+fn a_small_scene_has_what_it_says() {
+    let scene = parse(SMALL, "small", Path::new("small.toml")).unwrap();
+    assert_eq!(scene.shapes[0].geometry, Geometry::Sphere { center: Vec3::ZERO, radius: 1.0 });
+    assert_eq!((scene.sun, scene.sky), (None, Vec3::ZERO));
+}
+
+#[test]
+fn syntax_errors_name_line_and_column() {
+    let said = fault_of("[camera\neye = 1");
+    assert!(said.starts_with("test.toml:1:"), "{said}");
+    assert_eq!(said.lines().count(), 1);
+}
+
+#[test]
+fn numbers_that_are_not_finite_are_refused_where_they_stand() {
+    for bad in ["nan", "inf", "-inf", "1e300"] {
+        let said = fault_of(&SMALL.replace("eye = [0, 0, 5]", &format!("eye = [0, {bad}, 5]")));
+        assert!(said.starts_with("test.toml:3:11: ") && said.contains("finite number"), "{said}");
+    }
+}
+
+#[test]
+fn ranges_types_and_names_are_checked_where_they_stand() {
+    let cases = [
+        ("radius = 1", "radius = 0", "test.toml:12:10: 0 is not a finite number above 0"),
+        (
+            "radius = 1",
+            "radius = \"big\"",
+            "test.toml:12:10: invalid type: string \"big\", expected a finite number above 0",
+        ),
+        ("radius = 1", "radios = 1", "test.toml:12:1: unknown field `radios`"),
+        (
+            "material = \"white\"",
+            "material = \"grey\"",
+            "test.toml:13:12: no material is called 'grey': the file has white",
+        ),
+        ("[0.5, 0.5, 0.5]", "[0.5, 1.5, 0.5]", "1.5 is not a number from 0 to 1"),
+        ("[0.5, 0.5, 0.5]", "3", "expected a colour [r, g, b] or a checkerboard"),
+        (
+            "target = [0, 0, 0]",
+            "target = [0, 0, 5]",
+            "test.toml:2:1: the camera sees nothing: its eye and target must differ",
+        ),
+        ("fov_y = 45", "fov_y = 180", "its field of view must lie between 0 and 180 degrees"),
+        ("fov_y = 45\n", "", "missing field `fov_y`"),
+    ];
+    for (from, to, expected) in cases {
+        let said = fault_of(&SMALL.replace(from, to));
+        assert!(said.contains(expected), "'{to}' said: {said}");
+        assert_eq!(said.lines().count(), 1);
+    }
+}
+
+#[test]
+fn mesh_corners_out_of_range_are_refused() {
+    let mesh = "[[mesh]]\npositions = [[0,0,0],[1,0,0],[0,1,0]]\ntriangles = [[0,1,3]]\nmaterial = \"white\"\n";
+    let said = fault_of(&format!("{SMALL}{mesh}"));
+    assert!(said.contains("corner 3 is named, but positions has 3"), "{said}");
+}

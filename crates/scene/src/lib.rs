@@ -1,0 +1,92 @@
+//! What is seen, without saying how: camera, shapes, materials and lights of a [`Scene`], the TOML file that holds one,
+//! the [`Film`] that every technique fills, and the one [`display`] transform that every picture goes through.
+//!
+//! Right-handed, y up, lengths in scene units, colours linear RGB (Rec. 709 primaries). No GPU and no window here.
+
+pub mod builtin;
+pub mod camera;
+pub mod colour;
+pub mod display;
+pub mod fake;
+pub mod file;
+pub mod film;
+pub mod light;
+pub mod material;
+mod needs;
+pub mod shape;
+
+pub use camera::Camera;
+pub use file::{SceneError, load, parse};
+pub use film::Film;
+pub use glam::{self, Vec3};
+pub use light::Sun;
+pub use material::{Bsdf, Material, Texture};
+pub use needs::Needs;
+pub use shape::{Geometry, Shape};
+
+use fake::FakeNumbers;
+
+/// Everything a technique may look at. Written once, physically; the fake's and Whitted's views are derived from it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Scene {
+    /// The name shown to the user: a built-in's name, or the file's stem.
+    pub name: String,
+    /// Where the scene is seen from unless the user moves.
+    pub camera: Camera,
+    /// Materials; [`Shape::material`] indexes this list.
+    pub materials: Vec<Material>,
+    /// Shapes in file order.
+    pub shapes: Vec<Shape>,
+    /// A distant disc of light, at most one.
+    pub sun: Option<Sun>,
+    /// Radiance that arrives from every direction in which nothing is hit; zero for black.
+    pub sky: Vec3,
+    /// Numbers that only the rasterised fake reads.
+    pub fake: FakeNumbers,
+}
+
+impl Scene {
+    /// The material of a shape.
+    pub fn material_of(&self, shape: &Shape) -> &Material {
+        &self.materials[shape.material]
+    }
+
+    /// Smallest axis-parallel box around all shapes: (lower corner, upper corner). The origin twice if there are none.
+    pub fn bounds(&self) -> (Vec3, Vec3) {
+        let all = self.shapes.iter().map(|s| s.geometry.bounds());
+        all.reduce(|a, b| (a.0.min(b.0), a.1.max(b.1))).unwrap_or((Vec3::ZERO, Vec3::ZERO))
+    }
+
+    /// Index of refraction outside over inside of the scene's first dielectric; `None` if there is no glass.
+    pub fn refraction_ratio(&self) -> Option<f32> {
+        self.materials.iter().find_map(|m| match m.bsdf {
+            Bsdf::Dielectric { ior } => Some(1.0 / ior),
+            _ => None,
+        })
+    }
+
+    /// Moves the one refraction ratio (> 0) of every dielectric, and of the fake that stands for it.
+    pub fn set_refraction_ratio(&mut self, ratio: f32) {
+        for material in &mut self.materials {
+            if let Bsdf::Dielectric { ior } = &mut material.bsdf {
+                *ior = 1.0 / ratio;
+                material.fake.refraction_ratio = Some(ratio);
+            }
+        }
+    }
+
+    /// How much of the fake's glass is its environment, in [0, 1]; `None` if there is no glass.
+    pub fn reflectivity(&self) -> Option<f32> {
+        let glass = |m: &&Material| matches!(m.bsdf, Bsdf::Dielectric { .. });
+        self.materials.iter().find(glass).map(|m| m.fake.reflectivity)
+    }
+
+    /// Sets [`Scene::reflectivity`] of every dielectric's fake.
+    pub fn set_reflectivity(&mut self, reflectivity: f32) {
+        for material in &mut self.materials {
+            if matches!(material.bsdf, Bsdf::Dielectric { .. }) {
+                material.fake.reflectivity = reflectivity;
+            }
+        }
+    }
+}

@@ -1,0 +1,40 @@
+//! Lights that are not shapes: the sun. Emissive shapes are lights through their material, the sky is a number.
+
+use glam::Vec3;
+
+/// A distant disc of constant radiance.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Sun {
+    /// Unit direction towards the centre of the disc.
+    pub towards: Vec3,
+    /// Half the angle under which the disc is seen, in degrees, in [0, 90). Zero is a delta light: hard shadows, and
+    /// nothing that a ray can hit by chance.
+    pub angular_radius: f32,
+    /// Irradiance on a surface that faces the sun, RGB. Kept when the radius changes.
+    pub irradiance: Vec3,
+}
+
+impl Sun {
+    /// Radiance of the disc: `E / (pi sin^2 radius)`; zero for a delta sun, which has none.
+    pub fn radiance(&self) -> Vec3 {
+        let sine = self.angular_radius.to_radians().sin();
+        if sine > 0.0 { self.irradiance / (std::f32::consts::PI * sine * sine) } else { Vec3::ZERO }
+    }
+
+    /// `1 - cos radius`, without the cancellation that the difference has for a small sun.
+    pub fn one_minus_cos(&self) -> f32 {
+        let half = (self.angular_radius.to_radians() * 0.5).sin();
+        2.0 * half * half
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sun_of_2_5_degrees_has_the_radiance_that_makes_a_white_wall_one() {
+        let sun = Sun { towards: Vec3::Y, angular_radius: 2.5, irradiance: Vec3::splat(std::f32::consts::PI) };
+        assert!((sun.radiance().x - 525.6).abs() < 0.05);
+    }
+}

@@ -1,0 +1,111 @@
+//! Materials, written once and physically. What the fake sees of one is derived in [`crate::fake`].
+
+use crate::fake::FakeMaterial;
+use glam::Vec3;
+
+/// How a surface looks.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Material {
+    /// The name that shapes refer to in the scene file.
+    pub name: String,
+    /// How it scatters light.
+    pub bsdf: Bsdf,
+    /// The light that it sends out itself, if any.
+    pub emission: Option<Emission>,
+    /// What the fake shows instead where physics is beyond it.
+    pub fake: FakeMaterial,
+}
+
+/// How a surface scatters light.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Bsdf {
+    /// Lambert's law on both sides: BRDF = albedo / pi. Black for a lamp that scatters nothing.
+    Diffuse {
+        /// Share of the light that is reflected, each channel in [0, 1].
+        albedo: Texture,
+    },
+    /// A perfect mirror on both sides.
+    Mirror {
+        /// Share of the light that is reflected, each channel in [0, 1].
+        reflectance: Vec3,
+    },
+    /// Smooth clear glass inside a closed shape.
+    Dielectric {
+        /// Index of refraction of the inside over the outside, > 0.
+        ior: f32,
+    },
+}
+
+/// Light that a surface sends out, the same in all directions.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Emission {
+    /// Radiance, RGB.
+    pub radiance: Vec3,
+    /// Whether both sides shine; else only the one that the normal points away from.
+    pub two_sided: bool,
+}
+
+/// A colour that may vary over space.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Texture {
+    /// One colour.
+    Constant(Vec3),
+    /// A solid checkerboard: the parity of the cell that a point lies in.
+    Checkerboard(Checkerboard),
+}
+
+/// Cells of two colours that fill space, so that no shape needs texture coordinates.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Checkerboard {
+    /// Colour of cells whose indices add up to an even number.
+    pub even: Vec3,
+    /// Colour of the others.
+    pub odd: Vec3,
+    /// A corner of cell (0, 0, 0), world space.
+    pub origin: Vec3,
+    /// Size of a cell along each axis; 0 where the pattern does not change along that axis.
+    pub cell: Vec3,
+}
+
+impl Texture {
+    /// The colour at a point of world space.
+    pub fn at(&self, point: Vec3) -> Vec3 {
+        match self {
+            Texture::Constant(colour) => *colour,
+            Texture::Checkerboard(board) => board.at(point),
+        }
+    }
+}
+
+impl Checkerboard {
+    /// The colour at a point of world space ("Task 1 a) Add Checkerboard").
+    pub fn at(&self, point: Vec3) -> Vec3 {
+        let index = (point - self.origin) * self.cells_per_unit();
+        let sum = index.x.floor() + index.y.floor() + index.z.floor();
+        if sum - 2.0 * (sum * 0.5).floor() < 0.5 { self.even } else { self.odd }
+    }
+
+    /// `1 / cell`, and 0 along axes on which the pattern does not change.
+    pub fn cells_per_unit(&self) -> Vec3 {
+        Vec3::from_array(self.cell.to_array().map(|size| if size > 0.0 { 1.0 / size } else { 0.0 }))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn checkerboard_alternates_also_left_of_its_origin_and_ignores_flat_axes() {
+        let board = Checkerboard {
+            even: Vec3::ONE,
+            odd: Vec3::ZERO,
+            origin: Vec3::new(-23.0, 0.0, -7.5),
+            cell: Vec3::new(1.0, 0.0, 1.0),
+        };
+        assert_eq!(board.at(Vec3::new(-22.5, 0.0, -7.0)), Vec3::ONE);
+        assert_eq!(board.at(Vec3::new(-21.5, 9.0, -7.0)), Vec3::ZERO);
+        assert_eq!(board.at(Vec3::new(-23.5, -3.0, -7.0)), Vec3::ZERO);
+        assert_eq!(board.at(Vec3::new(-23.5, 0.0, -8.0)), Vec3::ONE);
+    }
+}

@@ -1,0 +1,44 @@
+//! What a scene asks for, so that techniques, controls and reports leave out what it does not.
+
+use crate::{Bsdf, Geometry, Scene, Texture};
+
+/// Which features occur in a scene.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Needs {
+    /// Analytic spheres.
+    pub spheres: bool,
+    /// Rectangles, boxes or meshes.
+    pub triangles: bool,
+    /// A checkerboard.
+    pub checkerboard: bool,
+    /// A mirror.
+    pub mirror: bool,
+    /// Glass.
+    pub dielectric: bool,
+    /// A shape that shines.
+    pub lamps: bool,
+    /// A sun.
+    pub sun: bool,
+    /// A sky that is not black.
+    pub sky: bool,
+}
+
+impl Scene {
+    /// What this scene asks for; materials that no shape wears do not count.
+    pub fn needs(&self) -> Needs {
+        let mut needs = Needs { sun: self.sun.is_some(), sky: self.sky.max_element() > 0.0, ..Needs::default() };
+        for shape in &self.shapes {
+            let sphere = matches!(shape.geometry, Geometry::Sphere { .. });
+            needs.spheres |= sphere;
+            needs.triangles |= !sphere;
+            let material = self.material_of(shape);
+            needs.lamps |= material.emission.is_some();
+            match material.bsdf {
+                Bsdf::Diffuse { albedo } => needs.checkerboard |= matches!(albedo, Texture::Checkerboard(_)),
+                Bsdf::Mirror { .. } => needs.mirror = true,
+                Bsdf::Dielectric { .. } => needs.dielectric = true,
+            }
+        }
+        needs
+    }
+}
