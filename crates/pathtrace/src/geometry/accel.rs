@@ -1,0 +1,194 @@
+//! The acceleration structure: obvhs' BVH2 over triangles and spheres.
+
+use super::sphere::Sphere;
+use super::surface_point::SurfacePoint;
+use super::triangle::{ShearedRay, Triangle};
+use super::{Ray, gamma};
+use obvhs::BvhBuildParams;
+use obvhs::aabb::Aabb;
+use obvhs::bvh2::Bvh2;
+use obvhs::bvh2::builder::build_bvh2;
+use obvhs::ray::RayHit;
+use scene::glam::Vec3A;
+use scene::{Geometry, Scene, Vec3};
+
+/// What a ray can hit.
+#[derive(Debug, Clone, Copy)]
+enum Primitive {
+    Triangle(Triangle),
+    Sphere(Sphere),
+}
+
+/// A primitive and what shading needs of it, beside the part that intersection reads.
+#[derive(Debug, Clone, Copy)]
+struct Surface {
+    /// Unit normal of a triangle; a sphere has its own.
+    normal: Vec3,
+    material: u32,
+}
+
+/// All shapes of a scene, ready for rays.
+pub struct Accel {
+    bvh: Bvh2,
+    /// In the order of the BVH's leaves.
+    primitives: Vec<Primitive>,
+    /// Each primitive's place in the scene's order, which decides ties.
+    ids: Vec<u32>,
+    surfaces: Vec<Surface>,
+}
+
+/// The nearest meeting of a ray with a surface.
+#[derive(Debug, Clone, Copy)]
+pub struct Hit {
+    /// Where, with the outward normal.
+    pub point: SurfacePoint,
+    /// Index into the scene's materials.
+    pub material: u32,
+}
+
+/// The nearest candidate so far, as little as can be carried through the traversal.
+#[derive(Clone, Copy)]
+struct Nearest {
+    t: f32,
+    index: usize,
+    id: u32,
+    barycentrics: [f32; 3],
+}
+
+impl Accel {
+    /// Builds the structure. Triangles without area, which no ray can meet, are left out.
+    pub fn new(scene: &Scene) -> Self {
+        let (primitives, surfaces) = primitives(scene);
+        let boxes = padded_boxes(&primitives);
+        let mut build_time = std::time::Duration::ZERO;
+        let bvh = build_bvh2(&boxes, BvhBuildParams::medium_build(), &mut build_time);
+        let order = bvh.primitive_indices.clone();
+        Accel {
+            bvh,
+            primitives: order.iter().map(|&i| primitives[i as usize]).collect(),
+            surfaces: order.iter().map(|&i| surfaces[i as usize]).collect(),
+            ids: order,
+        }
+    }
+
+    /// Number of triangles and spheres.
+    pub fn len(&self) -> usize {
+        self.primitives.len()
+    }
+
+    /// Whether there is nothing to hit.
+    pub fn is_empty(&self) -> bool {
+        self.primitives.is_empty()
+    }
+
+    /// The nearest hit before `ray.tmax`; of several at one distance the primitive that comes first in the scene.
+    pub fn closest(&self, ray: &Ray) -> Option<Hit> {
+        let sheared = ShearedRay::new(ray);
+        let mut nearest = Nearest { t: ray.tmax, index: usize::MAX, id: u32::MAX, barycentrics: [0.0; 3] };
+        self.traverse(ray, |index, tmax| {
+            // one step beyond, so that equal distances reach the comparison of ids
+            if let Some((t, barycentrics)) = self.primitives[index].intersect(ray, &sheared, tmax.next_up()) {
+                let id = self.ids[index];
+                if t < nearest.t || (t == nearest.t && id < nearest.id) {
+                    nearest = Nearest { t, index, id, barycentrics };
+                }
+            }
+            Visit::Before(nearest.t)
+        });
+        let surface = self.surfaces.get(nearest.index)?;
+        let point = match self.primitives[nearest.index] {
+            Primitive::Triangle(t) => SurfacePoint::on_triangle(t.corners, nearest.barycentrics, surface.normal),
+            Primitive::Sphere(s) => SurfacePoint::on_sphere(s.center, s.radius, ray.origin + ray.direction * nearest.t),
+        };
+        Some(Hit { point, material: surface.material })
+    }
+
+    /// Whether anything lies on the ray before `ray.tmax`.
+    pub fn occluded(&self, ray: &Ray) -> bool {
+        let sheared = ShearedRay::new(ray);
+        let mut occluded = false;
+        self.traverse(ray, |index, tmax| {
+            occluded = self.primitives[index].intersect(ray, &sheared, tmax).is_some();
+            if occluded { Visit::Stop } else { Visit::Before(tmax) }
+        });
+        occluded
+    }
+
+    #[inline(always)]
+    fn traverse(&self, ray: &Ray, mut visit: impl FnMut(usize, f32) -> Visit) {
+        let box_ray = obvhs::ray::Ray::new(Vec3A::from(ray.origin), Vec3A::from(ray.direction), 0.0, ray.tmax);
+        let mut leaf = |node: &obvhs::bvh2::node::Bvh2Node, ray: &mut obvhs::ray::Ray, _: &mut RayHit| {
+            let first = node.first_index as usize;
+            for index in first..first + node.prim_count as usize {
+                match visit(index, ray.tmax) {
+                    Visit::Before(t) => ray.tmax = t,
+                    Visit::Stop => return false,
+                }
+            }
+            true
+        };
+        obvhs::fast_stack!(u32, (96, 192), self.bvh.max_depth, stack, {
+            self.bvh.ray_traverse_dynamic(&mut stack, box_ray, &mut RayHit::none(), &mut leaf);
+        });
+    }
+}
+
+enum Visit {
+    /// Go on; only what lies before this distance matters from here.
+    Before(f32),
+    Stop,
+}
+
+impl Primitive {
+    #[inline(always)]
+    fn intersect(&self, ray: &Ray, sheared: &ShearedRay, tmax: f32) -> Option<(f32, [f32; 3])> {
+        match self {
+            Primitive::Triangle(triangle) => triangle.intersect(sheared, tmax).map(|hit| (hit.t, hit.barycentrics)),
+            Primitive::Sphere(sphere) => sphere.intersect(ray, tmax).map(|t| (t, [0.0; 3])),
+        }
+    }
+
+    fn bounds(&self) -> (Vec3, Vec3) {
+        match self {
+            Primitive::Triangle(Triangle { corners: [a, b, c], .. }) => (a.min(*b).min(*c), a.max(*b).max(*c)),
+            Primitive::Sphere(s) => (s.center - Vec3::splat(s.radius), s.center + Vec3::splat(s.radius)),
+        }
+    }
+}
+
+fn primitives(scene: &Scene) -> (Vec<Primitive>, Vec<Surface>) {
+    let (mut primitives, mut surfaces) = (Vec::new(), Vec::new());
+    for shape in &scene.shapes {
+        let material = shape.material as u32;
+        if let Geometry::Sphere { center, radius } = shape.geometry {
+            primitives.push(Primitive::Sphere(Sphere { center, radius }));
+            surfaces.push(Surface { normal: Vec3::ZERO, material });
+        }
+        let (positions, triangles) = shape.geometry.flat_triangles();
+        for triangle in triangles {
+            let corners = triangle.map(|i| positions[i as usize]);
+            if let Some(normal) = triangle_normal(corners) {
+                primitives.push(Primitive::Triangle(Triangle::new(corners)));
+                surfaces.push(Surface { normal, material });
+            }
+        }
+    }
+    (primitives, surfaces)
+}
+
+/// Unit normal by winding, in f64 so that slivers have one too; `None` without area.
+pub(crate) fn triangle_normal([a, b, c]: [Vec3; 3]) -> Option<Vec3> {
+    let (a, b, c) = (a.as_dvec3(), b.as_dvec3(), c.as_dvec3());
+    (b - a).cross(c - a).try_normalize().map(|n| n.as_vec3())
+}
+
+/// Boxes grown by 2^-20 of (largest coordinate + extent): the box test rounds, and treats directions below 1.2e-7 as if
+/// they were that. Measured on a bumpy sphere of 100,000 triangles: without, up to 2 % of axis-parallel rays are lost;
+/// with it none of 10 million.
+fn padded_boxes(primitives: &[Primitive]) -> Vec<Aabb> {
+    let bounds = primitives.iter().map(Primitive::bounds);
+    let scene = bounds.clone().reduce(|a, b| (a.0.min(b.0), a.1.max(b.1))).unwrap_or((Vec3::ZERO, Vec3::ZERO));
+    let largest = scene.0.abs().max(scene.1.abs()).max_element();
+    let padding = Vec3::splat((largest + (scene.1 - scene.0).max_element()) / 1_048_576.0 + gamma(1) * largest);
+    bounds.map(|(lo, hi)| Aabb::new(Vec3A::from(lo - padding), Vec3A::from(hi + padding))).collect()
+}

@@ -1,0 +1,48 @@
+//! Where rays meet shapes, in f32 and without a single absolute epsilon.
+//!
+//! [`triangle`] is watertight, [`sphere`] holds far away and huge, [`accel`] puts both into a BVH whose boxes are padded
+//! against the rounding of its box test, and [`surface_point`] says where a hit lies and how far to step off it.
+
+pub mod accel;
+pub mod sphere;
+pub mod surface_point;
+pub mod triangle;
+
+pub use accel::{Accel, Hit};
+pub use surface_point::SurfacePoint;
+
+use scene::Vec3;
+
+/// A ray; points on it are `origin + t * direction` for `0 < t < tmax`.
+#[derive(Debug, Clone, Copy)]
+pub struct Ray {
+    /// Where it starts, world space.
+    pub origin: Vec3,
+    /// Where it goes; unit length but for shadow rays, which end at `t` = 1. Never has a -0.0.
+    pub direction: Vec3,
+    /// Hits must lie before this.
+    pub tmax: f32,
+}
+
+impl Ray {
+    /// A ray without end along the unit vector `direction`.
+    pub fn new(origin: Vec3, direction: Vec3) -> Self {
+        Ray { origin, direction: without_negative_zero(direction), tmax: f32::INFINITY }
+    }
+
+    /// A shadow ray: everything strictly between two points.
+    pub fn between(from: Vec3, to: Vec3) -> Self {
+        Ray { origin: from, direction: without_negative_zero(to - from), tmax: 1.0 }
+    }
+}
+
+/// Wide box tests choose near and far planes by the sign of the direction, where -0.0 is a trap.
+fn without_negative_zero(v: Vec3) -> Vec3 {
+    v + Vec3::ZERO
+}
+
+/// Higham's bound on the relative error of `n` roundings in a row, f32.
+pub const fn gamma(n: u32) -> f32 {
+    let error = n as f32 * (0.5 * f32::EPSILON);
+    error / (1.0 - error)
+}

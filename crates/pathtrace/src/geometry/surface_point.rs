@@ -1,0 +1,48 @@
+//! A point on a surface with a bound on its rounding error, and the step off the surface that the bound asks for (pbrt,
+//! section 6.8): large enough that a new ray cannot meet the surface it leaves, and no larger.
+
+use super::gamma;
+use scene::Vec3;
+
+/// A point on a surface.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SurfacePoint {
+    /// World space.
+    pub position: Vec3,
+    /// The true point lies within this distance along each axis.
+    pub error: Vec3,
+    /// Unit geometric normal.
+    pub normal: Vec3,
+}
+
+impl SurfacePoint {
+    /// The point of a triangle with these barycentrics. Far more exact than `origin + t * direction`.
+    pub fn on_triangle(corners: [Vec3; 3], barycentrics: [f32; 3], normal: Vec3) -> Self {
+        let [a, b, c] = [0, 1, 2].map(|i| corners[i] * barycentrics[i]);
+        SurfacePoint { position: a + b + c, error: gamma(7) * (a.abs() + b.abs() + c.abs()), normal }
+    }
+
+    /// The point of a sphere nearest to `near`, which may be off by the rounding of a long ray.
+    pub fn on_sphere(center: Vec3, radius: f32, near: Vec3) -> Self {
+        let normal = (near - center).normalize();
+        let out = normal * radius;
+        SurfacePoint { position: center + out, error: gamma(5) * (center.abs() + out.abs()), normal }
+    }
+
+    /// The start of a ray that leaves on the side of `direction`.
+    pub fn leaving_towards(&self, direction: Vec3) -> Vec3 {
+        let along = self.normal.abs().dot(self.error);
+        let outwards = if direction.dot(self.normal) < 0.0 { -self.normal } else { self.normal };
+        let moved = (self.position + outwards * along).to_array();
+        let outwards = outwards.to_array();
+        Vec3::from_array(std::array::from_fn(|axis| {
+            if outwards[axis] > 0.0 {
+                moved[axis].next_up()
+            } else if outwards[axis] < 0.0 {
+                moved[axis].next_down()
+            } else {
+                moved[axis]
+            }
+        }))
+    }
+}

@@ -1,0 +1,100 @@
+//! Watertight ray/triangle intersection: Woop, Benthin and Wald, "Watertight Ray/Triangle Intersection" (JCGT 2(1), 2013).
+
+use super::Ray;
+use scene::Vec3;
+use scene::glam::DVec3;
+
+/// A ray turned so that its largest direction component is z, and the shear that takes it onto the z axis.
+#[derive(Debug, Clone, Copy)]
+pub struct ShearedRay {
+    origin: Vec3,
+    direction: Vec3,
+    axes: [usize; 3],
+    shear: Vec3,
+}
+
+impl ShearedRay {
+    /// Prepares a ray for any number of triangles.
+    pub fn new(ray: &Ray) -> Self {
+        let d = ray.direction.to_array();
+        let size = d.map(f32::abs);
+        let kz = if size[0] > size[1] && size[0] > size[2] {
+            0
+        } else if size[1] > size[2] {
+            1
+        } else {
+            2
+        };
+        let (kx, ky) = ((kz + 1) % 3, (kz + 2) % 3);
+        let shear = Vec3::new(d[kx] / d[kz], d[ky] / d[kz], 1.0 / d[kz]);
+        ShearedRay { origin: ray.origin, direction: ray.direction, axes: [kx, ky, kz], shear }
+    }
+
+    /// The point in the ray's frame: the ray is the z axis, z is t.
+    fn apply(&self, point: Vec3) -> Vec3 {
+        let p = (point - self.origin).to_array();
+        let z = p[self.axes[2]];
+        Vec3::new(p[self.axes[0]] - self.shear.x * z, p[self.axes[1]] - self.shear.y * z, self.shear.z * z)
+    }
+}
+
+/// A triangle whose corners are sorted by position, so that the neighbours of an edge evaluate one and the same
+/// expression for it even where multiply-adds are fused.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Triangle {
+    /// Corners in lexicographic order of their coordinates.
+    pub corners: [Vec3; 3],
+    /// Normal of the sorted corners, not unit. In f64, see [`Triangle::plane_distance`].
+    normal: DVec3,
+}
+
+/// Where a ray meets a triangle.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TriangleHit {
+    /// Distance in lengths of the ray's direction.
+    pub t: f32,
+    /// Weights of the corners, adding up to 1.
+    pub barycentrics: [f32; 3],
+}
+
+impl Triangle {
+    /// Sorts the corners.
+    pub fn new(mut corners: [Vec3; 3]) -> Self {
+        corners.sort_by(|a, b| {
+            let (a, b) = (a.to_array(), b.to_array());
+            a.iter().zip(&b).map(|(a, b)| a.total_cmp(b)).find(|o| o.is_ne()).unwrap_or(std::cmp::Ordering::Equal)
+        });
+        let [a, b, c] = corners.map(|corner| corner.as_dvec3());
+        Triangle { corners, normal: (b - a).cross(c - a) }
+    }
+
+    /// Meets the triangle from either side, its edges included: a ray between two neighbours hits at least one of them.
+    pub fn intersect(&self, ray: &ShearedRay, tmax: f32) -> Option<TriangleHit> {
+        let [a, b, c] = self.corners.map(|corner| ray.apply(corner));
+        let (u, v, w) = (edge(b, c), -edge(a, c), edge(a, b));
+        if (u < 0.0 || v < 0.0 || w < 0.0) && (u > 0.0 || v > 0.0 || w > 0.0) {
+            return None;
+        }
+        let determinant = u + v + w;
+        let t = self.plane_distance(ray);
+        // NaN, from a triangle seen exactly edge-on, fails too
+        if determinant == 0.0 || !(t > 0.0) {
+            return None;
+        }
+        // u, v, w of one sign make the hit a mean of the corners: nearly edge-on, where the plane says little, it still is
+        let t = t.clamp(a.z.min(b.z).min(c.z), a.z.max(b.z).max(c.z));
+        (t > 0.0 && t < tmax).then(|| TriangleHit { t, barycentrics: [u, v, w].map(|area| area / determinant) })
+    }
+
+    /// Distance to the triangle's plane, in f64 so that its sign is right: from a point just above a wall 500 units wide
+    /// f32 cannot tell above from below, and the wall would shadow itself.
+    fn plane_distance(&self, ray: &ShearedRay) -> f32 {
+        let to_plane = self.corners[0].as_dvec3() - ray.origin.as_dvec3();
+        (self.normal.dot(to_plane) / self.normal.dot(ray.direction.as_dvec3())) as f32
+    }
+}
+
+/// Twice the signed area of (z axis, p, q). Rounding is monotone, so without fusing its sign is right or it is 0.
+fn edge(p: Vec3, q: Vec3) -> f32 {
+    p.x * q.y - p.y * q.x
+}
