@@ -5,6 +5,6 @@ mod metrics;
 mod plot;
 mod table;
 
-pub use metrics::{CompareError, Errors, errors};
+pub use metrics::{CompareError, Errors, errors, errors_of_radiances};
 pub use plot::{LogLogPlot, Series};
 pub use table::{BenchRow, csv};

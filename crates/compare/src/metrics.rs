@@ -1,6 +1,6 @@
 //! Error metrics between two films.
 
-use scene::Film;
+use scene::{Film, Vec3};
 
 /// Why two films cannot be compared.
 #[derive(Debug, thiserror::Error, PartialEq, Eq)]
@@ -33,32 +33,43 @@ pub fn errors(film: &Film, reference: &Film) -> Result<Errors, CompareError> {
     if (film.width(), film.height()) != (reference.width(), reference.height()) {
         return Err(CompareError::Sizes(film.width(), film.height(), reference.width(), reference.height()));
     }
+    let pairs = film.pixels().iter().zip(reference.pixels());
+    Ok(errors_of(pairs.map(|(pixel, reference)| (pixel.mean(), reference.mean()))))
+}
+
+/// The same over bare radiances, pixel by pixel in one order; pixels that only one of them has are left out.
+pub fn errors_of_radiances(film: &[Vec3], reference: &[Vec3]) -> Errors {
+    let wide = |radiance: &Vec3| radiance.to_array().map(f64::from);
+    errors_of(film.iter().zip(reference).map(|(pixel, reference)| (wide(pixel), wide(reference))))
+}
+
+fn errors_of(pairs: impl Iterator<Item = ([f64; 3], [f64; 3])>) -> Errors {
     let mut sum = Errors::default();
-    let mut reference_sum = 0.0;
-    for (pixel, reference) in film.pixels().iter().zip(reference.pixels()) {
-        for (value, reference) in pixel.mean().into_iter().zip(reference.mean()) {
+    let (mut reference_sum, mut values) = (0.0, 0u64);
+    for (pixel, reference) in pairs {
+        for (value, reference) in pixel.into_iter().zip(reference) {
             let difference = value - reference;
             sum.rmse += difference * difference;
             sum.rel_mse += difference * difference / (reference * reference + 0.01);
             sum.mae += difference.abs();
             sum.bias += difference;
             reference_sum += reference;
+            values += 1;
         }
     }
-    let values = (3 * film.pixels().len()).max(1) as f64;
-    Ok(Errors {
+    let values = values.max(1) as f64;
+    Errors {
         rmse: (sum.rmse / values).sqrt(),
         rel_mse: sum.rel_mse / values,
         mae: sum.mae / values,
         bias: sum.bias / values,
         relative_bias: if reference_sum > 0.0 { sum.bias / reference_sum } else { 0.0 },
-    })
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use scene::Vec3;
 
     fn film(values: [f32; 2]) -> Film {
         Film::from_radiances(2, 1, values.map(Vec3::splat)).unwrap()

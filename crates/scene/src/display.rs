@@ -20,8 +20,13 @@ impl DisplayTransform {
 
     /// Bytes of a whole film, four a pixel, rows from the top.
     pub fn film_to_rgba8(&self, film: &Film) -> Vec<u8> {
+        self.to_rgba8(film.radiances())
+    }
+
+    /// Bytes of bare radiances, four each.
+    pub fn to_rgba8(&self, radiances: impl Iterator<Item = Vec3>) -> Vec<u8> {
         let scale = self.scale();
-        film.radiances().flat_map(|radiance| self.encode(radiance, scale)).collect()
+        radiances.flat_map(|radiance| self.encode(radiance, scale)).collect()
     }
 
     fn scale(&self) -> f32 {

@@ -168,16 +168,10 @@ pub struct RawSun {
     pub irradiance: Triple<AtLeastZero>,
 }
 
-#[derive(Deserialize)]
+#[derive(Deserialize, Default)]
 #[serde(deny_unknown_fields)]
 pub struct RawSky {
     pub radiance: Triple<AtLeastZero>,
-}
-
-impl Default for RawSky {
-    fn default() -> Self {
-        RawSky { radiance: Triple::default() }
-    }
 }
 
 #[derive(Deserialize, Default)]
