@@ -1,0 +1,147 @@
+//! The device that rasteriser and GPU path tracer share: which adapter is taken and why, how WGSL is composed from
+//! plain files, and how data gets there and back. Nothing here knows what is drawn.
+//!
+//! A fault of the device never panics: it is kept, and [`Gpu::fault`] tells it.
+
+mod adapter;
+mod error;
+pub mod readback;
+pub mod upload;
+pub mod wgsl;
+
+pub use adapter::{AdapterReport, Rank, choose};
+pub use error::GpuError;
+pub use wgpu;
+
+use std::sync::{Arc, Mutex, PoisonError};
+
+/// A graphics device with its queue. Clones share it.
+#[derive(Debug, Clone)]
+pub struct Gpu {
+    /// Where the adapter came from; surfaces are made from it.
+    pub instance: wgpu::Instance,
+    /// The physical or software device.
+    pub adapter: wgpu::Adapter,
+    /// The logical device, with every limit that the adapter offers.
+    pub device: wgpu::Device,
+    /// Where work is submitted.
+    pub queue: wgpu::Queue,
+    fault: Arc<Mutex<Option<String>>>,
+}
+
+/// An instance that can present on `display`, or that only renders where there is none. The environment variable
+/// `WGPU_BACKEND` (`vulkan`, `gl`, ...) restricts it.
+pub fn new_instance(display: Option<Box<dyn wgpu::wgt::WgpuHasDisplayHandle>>) -> wgpu::Instance {
+    wgpu::Instance::new(match display {
+        Some(display) => wgpu::InstanceDescriptor::new_with_display_handle_from_env(display),
+        None => wgpu::InstanceDescriptor::new_without_display_handle_from_env(),
+    })
+}
+
+impl Gpu {
+    /// The best device of this computer, without a window.
+    ///
+    /// # Errors
+    /// [`GpuError::NoAdapter`] if there is none, [`GpuError::Device`] if it refuses.
+    pub fn headless() -> Result<Gpu, GpuError> {
+        let instance = new_instance(None);
+        let adapters = adapter::all(&instance);
+        Gpu::open(instance, adapters, GpuError::NoAdapter)
+    }
+
+    /// The best device that can present on `surface`, which `instance` made.
+    ///
+    /// # Errors
+    /// [`GpuError::NoAdapterForWindow`] if there is none, [`GpuError::Device`] if it refuses.
+    pub fn for_surface(instance: wgpu::Instance, surface: &wgpu::Surface<'_>) -> Result<Gpu, GpuError> {
+        let mut adapters = adapter::all(&instance);
+        adapters.retain(|adapter| adapter.is_surface_supported(surface));
+        Gpu::open(instance, adapters, GpuError::NoAdapterForWindow)
+    }
+
+    /// Every adapter of this computer in the order in which they answer, and which one [`Gpu::headless`] takes.
+    pub fn adapters() -> Vec<AdapterReport> {
+        adapter::report(&adapter::all(&new_instance(None)))
+    }
+
+    fn open(instance: wgpu::Instance, mut adapters: Vec<wgpu::Adapter>, none: GpuError) -> Result<Gpu, GpuError> {
+        let infos: Vec<_> = adapters.iter().map(wgpu::Adapter::get_info).collect();
+        let adapter = adapters.swap_remove(choose(&infos).ok_or(none)?);
+        let descriptor = wgpu::DeviceDescriptor {
+            label: Some("visavis"),
+            required_limits: adapter.limits(),
+            ..wgpu::DeviceDescriptor::default()
+        };
+        let refused = |source| GpuError::Device {
+            adapter: adapter::describe(&adapter.get_info()),
+            why: error::one_line(&source),
+        };
+        let (device, queue) = pollster::block_on(adapter.request_device(&descriptor)).map_err(refused)?;
+        let fault = Arc::new(Mutex::new(None));
+        remember_faults(&device, &fault);
+        Ok(Gpu { instance, adapter, device, queue, fault })
+    }
+
+    /// Whether the processor plays the graphics device.
+    pub fn is_software(&self) -> bool {
+        self.adapter.get_info().device_type == wgpu::DeviceType::Cpu
+    }
+
+    /// Name and interface, as in "llvmpipe (LLVM 19.1, 256 bits), Vulkan".
+    pub fn describe(&self) -> String {
+        adapter::describe(&self.adapter.get_info())
+    }
+
+    /// The first thing that went wrong outside of [`Gpu::checked`], or the loss of the device: one line.
+    pub fn fault(&self) -> Option<String> {
+        self.fault.lock().unwrap_or_else(PoisonError::into_inner).clone()
+    }
+
+    /// Runs `work` and turns what the device objects to into an error. `what` names the work in the message.
+    ///
+    /// # Errors
+    /// [`GpuError::Refused`] with the device's objection.
+    pub fn checked<T>(&self, what: &str, work: impl FnOnce() -> T) -> Result<T, GpuError> {
+        let filters = [wgpu::ErrorFilter::OutOfMemory, wgpu::ErrorFilter::Validation, wgpu::ErrorFilter::Internal];
+        let mut scopes: Vec<_> = filters.into_iter().map(|filter| self.device.push_error_scope(filter)).collect();
+        let done = work();
+        let mut objection = None;
+        while let Some(scope) = scopes.pop() {
+            objection = pollster::block_on(scope.pop()).or(objection);
+        }
+        match objection {
+            Some(why) => Err(GpuError::Refused { what: what.to_owned(), why: error::one_line(&why) }),
+            None => Ok(done),
+        }
+    }
+
+    /// Refuses a picture or map that this device can't hold. `what` names it in the message.
+    ///
+    /// # Errors
+    /// [`GpuError::Empty`] for a side of 0, [`GpuError::TooLarge`] beyond the device's limit.
+    pub fn check_size(&self, what: &str, width: u32, height: u32) -> Result<(), GpuError> {
+        let limit = self.device.limits().max_texture_dimension_2d;
+        let what = what.to_owned();
+        if width == 0 || height == 0 {
+            Err(GpuError::Empty { what, width, height })
+        } else if width.max(height) > limit {
+            Err(GpuError::TooLarge { what, width, height, limit, adapter: self.describe() })
+        } else {
+            Ok(())
+        }
+    }
+}
+
+fn remember_faults(device: &wgpu::Device, fault: &Arc<Mutex<Option<String>>>) {
+    let keep = |fault: &Mutex<Option<String>>, message: String| {
+        fault.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert(message);
+    };
+    let uncaptured = Arc::clone(fault);
+    device.on_uncaptured_error(Arc::new(move |why: wgpu::Error| keep(&uncaptured, error::one_line(&why))));
+    let lost = Arc::clone(fault);
+    device.set_device_lost_callback(move |reason, message| {
+        if reason != wgpu::DeviceLostReason::Destroyed {
+            keep(&lost, format!("the graphics device was lost: {}", error::one_line(&message)));
+        }
+    });
+}

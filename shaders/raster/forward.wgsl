@@ -1,0 +1,156 @@
+//#import raster/view.wgsl
+//#import lib/checkerboard.wgsl
+//#import lib/refraction.wgsl
+//#import lib/shading.wgsl
+//#import lib/shadow.wgsl
+// Pass 2: every shape, shaded where it is drawn. The same pass fills the faces of the cube maps and the picture.
+// Mirrors of the structs: crates/raster/src/gpu_data.rs.
+
+const SHADING_PHONG: u32 = 1u;
+const SHADING_BLINN_PHONG: u32 = 2u;
+
+const LAMP_NONE: u32 = 0u;
+const LAMP_WITHOUT_DECAY: u32 = 1u;
+const LAMP_ALL_AROUND: u32 = 2u;
+const LAMP_ONE_SIDED: u32 = 3u;
+
+const KIND_GLASS: u32 = 1u;
+
+struct Lights {
+    sun_towards: vec3f,
+    shading: u32,
+    sun_incident: vec3f,
+    refracts_per_vertex: u32,
+    lamp_position: vec3f,
+    lamp_pattern: u32,
+    lamp_normal: vec3f,
+    lamp_incident: vec3f,
+    ambient: vec3f,
+    sky: vec3f,
+    // 0: the sun's; 1 to 6: the lamp's, +x, -x, +y, -y, +z, -z
+    shadow_views: array<View, 7>,
+}
+
+struct Object {
+    even: vec3f,
+    refraction_ratio: f32,
+    odd: vec3f,
+    reflectivity: f32,
+    origin: vec3f,
+    specular: f32,
+    cells_per_unit: vec3f,
+    shininess: f32,
+    emission: vec3f,
+    emitting_sides: u32,
+    kind: u32,
+    has_cube_map: u32,
+    // texels by which the shape's own depth may differ within the shadow kernel
+    slack: f32,
+}
+
+@group(0) @binding(0) var<uniform> view: View;
+@group(0) @binding(1) var<uniform> lights: Lights;
+@group(0) @binding(2) var shadow_map: texture_2d_array<u32>;
+@group(1) @binding(0) var<uniform> object: Object;
+@group(1) @binding(1) var cube_map: texture_cube<f32>;
+@group(1) @binding(2) var cube_sampler: sampler;
+
+struct Varying {
+    @builtin(position) clip: vec4f,
+    @location(0) position: vec3f,
+    @location(1) normal: vec3f,
+    @location(2) refracted: vec3f,
+}
+
+@vertex
+fn vertex(@location(0) position: vec3f, @location(1) normal: vec3f) -> Varying {
+    let clip = view.clip_from_world * vec4f(position, 1.0);
+    return Varying(clip, position, normal, refracted(position, normal));
+}
+
+@fragment
+fn fragment(in: Varying, @builtin(front_facing) front: bool) -> @location(0) vec4f {
+    return vec4f(radiance(in, front), 1.0);
+}
+
+// Into a target of f32 bits, which every backend can draw.
+@fragment
+fn fragment_bits(in: Varying, @builtin(front_facing) front: bool) -> @location(0) vec4u {
+    return bitcast<vec4u>(vec4f(radiance(in, front), 1.0));
+}
+
+fn radiance(in: Varying, front: bool) -> vec3f {
+    if object.kind == KIND_GLASS {
+        return glass(in);
+    }
+    let n = normalize(in.normal) * select(-1.0, 1.0, front);
+    let shines = object.emitting_sides == 2u || (object.emitting_sides == 1u && front);
+    return surface(in.position, n) + select(vec3f(0.0), object.emission, shines);
+}
+
+// Only back faces of glass are drawn: the normal that faces the viewer is the inner one.
+fn refracted(position: vec3f, normal: vec3f) -> vec3f {
+    return refract(normalize(position - view.eye), -normal, object.refraction_ratio);
+}
+
+fn glass(in: Varying) -> vec3f {
+    var direction = in.refracted;
+    if lights.refracts_per_vertex == 0u {
+        direction = refracted(in.position, normalize(in.normal));
+    }
+    var environment = lights.sky;
+    if object.has_cube_map != 0u && view.sees_cube_maps != 0u {
+        environment = textureSampleLevel(cube_map, cube_sampler, cube_direction(direction), 0.0).rgb;
+    }
+    return mix(vec3f(1.0), environment, object.reflectivity);
+}
+
+fn surface(p: vec3f, n: vec3f) -> vec3f {
+    let kd = checkerboard(Checkerboard(object.even, object.odd, object.origin, object.cells_per_unit), p);
+    let v = normalize(view.eye - p);
+    var sum = kd * lights.ambient;
+    if any(lights.sun_incident > vec3f(0.0)) {
+        let l = lights.sun_towards;
+        sum += shadow(0u, p, dot(n, l)) * shaded(n, l, v, kd, lights.sun_incident);
+    }
+    if lights.lamp_pattern != LAMP_NONE {
+        let to_lamp = lights.lamp_position - p;
+        let l = normalize(to_lamp);
+        let seen = shadow(1u + face_of(-to_lamp), p, dot(n, l));
+        sum += seen * shaded(n, l, v, kd, lamp_incident(to_lamp, l));
+    }
+    return sum;
+}
+
+fn shaded(n: vec3f, l: vec3f, v: vec3f, kd: vec3f, incident: vec3f) -> vec3f {
+    switch lights.shading {
+        case SHADING_PHONG: { return phong(n, l, v, kd, object.specular, object.shininess, incident); }
+        case SHADING_BLINN_PHONG: { return blinn_phong(n, l, v, kd, object.specular, object.shininess, incident); }
+        default: { return three_blinn_phong(n, l, v, kd, object.specular, object.shininess, incident); }
+    }
+}
+
+fn lamp_incident(to_lamp: vec3f, l: vec3f) -> vec3f {
+    if lights.lamp_pattern == LAMP_WITHOUT_DECAY {
+        return lights.lamp_incident;
+    }
+    let decayed = lights.lamp_incident / dot(to_lamp, to_lamp);
+    if lights.lamp_pattern == LAMP_ALL_AROUND {
+        return decayed;
+    }
+    let cosine = dot(lights.lamp_normal, -l);
+    return decayed * select(abs(cosine), max(cosine, 0.0), lights.lamp_pattern == LAMP_ONE_SIDED);
+}
+
+// A plane's depth changes by at most 1 / (N.L) per unit across the light's view: that times the kernel's reach is what a
+// shape that casts its own lit side must be forgiven. Light that grazes below 3 degrees (N.L < .05) is not told apart.
+fn shadow(index: u32, p: vec3f, n_dot_l: f32) -> f32 {
+    let clip = lights.shadow_views[index].clip_from_world * vec4f(p, 1.0);
+    let uv = vec2f(0.5, -0.5) * clip.xy / clip.w + 0.5;
+    let depth = dot(lights.shadow_views[index].depth_from_world, vec4f(p, 1.0));
+    if any(uv < vec2f(0.0)) || any(uv > vec2f(1.0)) || depth > 1.0 {
+        return 1.0;
+    }
+    let texel = lights.shadow_views[index].texel.x + lights.shadow_views[index].texel.y * depth;
+    return pcf_soft(shadow_map, index, uv, depth - object.slack * texel / max(n_dot_l, 0.05));
+}

@@ -1,0 +1,21 @@
+//#import raster/view.wgsl
+// Pass 1: the depths nearest to a light, as a colour of f32 bits: not every backend reads single texels of a depth texture,
+// nor draws floats.
+
+@group(0) @binding(0) var<uniform> view: View;
+
+struct Varying {
+    @builtin(position) clip: vec4f,
+    @location(0) depth: f32,
+}
+
+@vertex
+fn vertex(@location(0) position: vec3f) -> Varying {
+    let p = vec4f(position, 1.0);
+    return Varying(view.clip_from_world * p, dot(view.depth_from_world, p));
+}
+
+@fragment
+fn fragment(in: Varying) -> @location(0) vec4u {
+    return vec4u(bitcast<u32>(in.depth), 0u, 0u, 0u);
+}
