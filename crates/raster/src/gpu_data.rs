@@ -1,0 +1,94 @@
+//! Mirrors of the structs that the shaders read; field for field the ones in `shaders/raster/`. A test compares every
+//! offset with the shader compiler's. Padding is spelled out as `unused*`.
+
+use bytemuck::{Pod, Zeroable};
+use scene::Vec3;
+use scene::glam::{Mat4, Vec2, Vec4};
+
+/// `View` in `shaders/raster/view.wgsl`: a camera of any pass.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
+pub struct View {
+    /// World to clip space, depth 0 to 1.
+    pub clip_from_world: Mat4,
+    /// The plane whose value is a shadow map's depth.
+    pub depth_from_world: Vec4,
+    /// Where it looks from.
+    pub eye: Vec3,
+    /// 1 if glass may look up its cube map.
+    pub sees_cube_maps: u32,
+    /// Size of a shadow map's texel in units of depth: `x + y * depth`.
+    pub texel: Vec2,
+    /// Padding.
+    pub unused: Vec2,
+}
+
+/// `Lights` in `shaders/raster/forward.wgsl`.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
+pub struct Lights {
+    /// Unit direction.
+    pub sun_towards: Vec3,
+    /// 0 three, 1 Phong, 2 Blinn-Phong.
+    pub shading: u32,
+    /// What a white Lambert surface facing the sun sends back; zero for no sun.
+    pub sun_incident: Vec3,
+    /// 1 if refraction is interpolated between vertices.
+    pub refracts_per_vertex: u32,
+    /// Middle of the lamp.
+    pub lamp_position: Vec3,
+    /// How the lamp's light spreads.
+    pub lamp_pattern: u32,
+    /// Unit normal of a flat lamp.
+    pub lamp_normal: Vec3,
+    /// Padding.
+    pub unused0: u32,
+    /// What a white Lambert surface facing the lamp sends back, at distance 1 if it decays.
+    pub lamp_incident: Vec3,
+    /// Padding.
+    pub unused1: u32,
+    /// Light from everywhere.
+    pub ambient: Vec3,
+    /// Padding.
+    pub unused2: u32,
+    /// Radiance of the sky.
+    pub sky: Vec3,
+    /// Padding.
+    pub unused3: u32,
+    /// The shadow map's layers: the sun's, then six of the lamp.
+    pub shadow_views: [View; 7],
+}
+
+/// `Object` in `shaders/raster/forward.wgsl`: what one shape looks like.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
+pub struct Object {
+    /// Colour of even cells; of all of them without a checkerboard.
+    pub even: Vec3,
+    /// Index of refraction outside over inside.
+    pub refraction_ratio: f32,
+    /// Colour of odd cells.
+    pub odd: Vec3,
+    /// Share of the environment in glass.
+    pub reflectivity: f32,
+    /// A corner of cell (0, 0, 0).
+    pub origin: Vec3,
+    /// Highlight colour, grey.
+    pub specular: f32,
+    /// 1 / cell size, 0 along axes without pattern.
+    pub cells_per_unit: Vec3,
+    /// Exponent of the highlight.
+    pub shininess: f32,
+    /// Radiance sent out.
+    pub emission: Vec3,
+    /// 0 none, 1 the one that the normal points away from, 2 both.
+    pub emitting_sides: u32,
+    /// 0 surface, 1 glass.
+    pub kind: u32,
+    /// 1 if a cube map is bound.
+    pub has_cube_map: u32,
+    /// Shadow texels by which the shape may lie behind itself.
+    pub slack: f32,
+    /// Padding.
+    pub unused: u32,
+}

@@ -1,0 +1,178 @@
+//! The fake's lights: a sun with one shadow view, and the lamp of greatest power as a point with six.
+//!
+//! Fair lamps stand for the one-sample direct light: a flat lamp of radiance L and area A gives the irradiance
+//! `L A cos' cos / d^2`, others, seen as convex, `L A/4 cos / d^2` all around (a convex body's mean silhouette is a quarter
+//! of its surface: Cauchy). As taught it is three.js' PointLight: it does not decay.
+
+use crate::cube;
+use crate::gpu_data::{Lights, View};
+use crate::settings::{Fake, RasterSettings, Shading};
+use bytemuck::Zeroable;
+use scene::glam::{Mat4, Vec2, Vec4, camera::rh};
+use scene::{Geometry, Scene, Shape, Sun, Vec3, colour};
+use std::f32::consts::{FRAC_1_PI, PI};
+
+/// Texels that the shadow kernel reaches from its middle, along an axis.
+const KERNEL_REACH: f32 = 2.0;
+
+/// How many texels across the kernel's diagonal, rounded up: what [`crate::gpu_data::Object::slack`] is, for shapes that
+/// cast their own lit side.
+pub const SLACK: f32 = 3.0;
+
+/// The lamp that sheds light.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Lamp {
+    /// Middle of its bounds.
+    pub position: Vec3,
+    /// Unit normal of a flat lamp.
+    pub normal: Vec3,
+    /// Radiant flux over pi: radiance times shining area.
+    pub power: Vec3,
+    pattern: u32,
+}
+
+impl Lamp {
+    /// The lamp of greatest power in `scene`, by luminance.
+    pub fn brightest(scene: &Scene) -> Option<Lamp> {
+        let lamps = scene.shapes.iter().filter_map(|shape| Lamp::of(scene, shape));
+        lamps.max_by(|a, b| colour::luminance(a.power).total_cmp(&colour::luminance(b.power)))
+    }
+
+    fn of(scene: &Scene, shape: &Shape) -> Option<Lamp> {
+        let emission = scene.material_of(shape).emission.filter(|e| e.radiance.max_element() > 0.0)?;
+        let (normal, pattern) = match &shape.geometry {
+            Geometry::Rectangle { edge_u, edge_v, .. } => {
+                (edge_u.cross(*edge_v).normalize_or_zero(), if emission.two_sided { 4 } else { 3 })
+            }
+            _ => (Vec3::ZERO, 2),
+        };
+        let sides = if pattern == 4 { 2.0 } else { 1.0 };
+        let power = emission.radiance * (area(&shape.geometry) * sides);
+        Some(Lamp { position: shape.geometry.center(), normal, power, pattern })
+    }
+
+    /// What a white Lambert surface at distance 1, facing the lamp, sends back: irradiance / pi.
+    fn incident(&self) -> Vec3 {
+        let silhouette = match self.pattern {
+            2 => 0.25,
+            4 => 0.5,
+            _ => 1.0,
+        };
+        self.power * (silhouette * FRAC_1_PI)
+    }
+}
+
+fn area(geometry: &Geometry) -> f32 {
+    if let Geometry::Sphere { radius, .. } = geometry {
+        return 4.0 * PI * radius * radius;
+    }
+    let (positions, triangles) = geometry.flat_triangles();
+    let area = |[a, b, c]: [Vec3; 3]| 0.5 * (b - a).cross(c - a).length();
+    triangles.iter().map(|t| area(t.map(|i| positions[i as usize]))).sum()
+}
+
+/// The sun of `scene`, the lamp that is lit beside it, and the place that light comes from for deciding who casts shadows.
+pub fn lit(scene: &Scene, fake: Fake) -> (Option<Sun>, Option<Lamp>) {
+    let lamp = Lamp::brightest(scene).filter(|_| fake == Fake::Fair || scene.sun.is_none());
+    (scene.sun, lamp)
+}
+
+/// The lights' uniforms. `casts` tells the shapes that throw shadows.
+pub fn lights(scene: &Scene, settings: &RasterSettings, casts: impl Fn(usize) -> bool) -> Lights {
+    let as_taught = settings.fake == Fake::AsTaught;
+    let (sun, lamp) = lit(scene, settings.fake);
+    let intensity = Vec3::splat(scene.fake.intensity);
+    let mut lights = Lights {
+        shading: match settings.shading {
+            Shading::Three => 0,
+            Shading::Phong => 1,
+            Shading::BlinnPhong => 2,
+        },
+        refracts_per_vertex: u32::from(as_taught),
+        ambient: if as_taught { Vec3::splat(scene.fake.ambient) } else { scene.sky },
+        sky: scene.sky,
+        ..Lights::zeroed()
+    };
+    if let Some(sun) = sun {
+        lights.sun_towards = sun_towards(scene, &sun, settings.fake);
+        lights.sun_incident = if as_taught { intensity } else { sun.irradiance * FRAC_1_PI };
+        lights.shadow_views[0] = sun_view(scene, lights.sun_towards, casts);
+    }
+    if let Some(lamp) = lamp {
+        lights.lamp_position = lamp.position;
+        lights.lamp_normal = lamp.normal;
+        lights.lamp_pattern = if as_taught { 1 } else { lamp.pattern };
+        lights.lamp_incident = if as_taught { intensity } else { lamp.incident() };
+        for axis in 0..6 {
+            lights.shadow_views[1 + axis] = lamp_view(scene, lamp.position, axis);
+        }
+    }
+    lights
+}
+
+/// As taught, a directional light shines from its position towards the origin.
+fn sun_towards(scene: &Scene, sun: &Sun, fake: Fake) -> Vec3 {
+    let position = scene.fake.light_position.filter(|_| fake == Fake::AsTaught).unwrap_or_default();
+    position.try_normalize().unwrap_or(sun.towards)
+}
+
+/// The sun's view: three.js' DirectionalLight, near .5, far 500, from its position; without one, from twice the scene's
+/// radius. It covers what casts across, and what there is along the light.
+fn sun_view(scene: &Scene, towards: Vec3, casts: impl Fn(usize) -> bool) -> View {
+    let fake = &scene.fake;
+    let (low, high) = scene.bounds();
+    let radius = (0.5 * (high - low).length()).max(f32::MIN_POSITIVE);
+    let position = fake.light_position.unwrap_or(0.5 * (low + high) + towards * (2.0 * radius));
+    let up = if towards.y.abs() > 0.999 { Vec3::Z } else { Vec3::Y };
+    let view_from_world = rh::view::look_to_mat4(position, -towards, up);
+    let in_view = |bounds: (Vec3, Vec3)| corners(bounds).map(|corner| view_from_world.transform_point3(corner));
+    let across = |p: Vec3| p.x.abs().max(p.y.abs());
+    let casters = scene.shapes.iter().enumerate().filter(|(index, _)| casts(*index));
+    let covering = casters.flat_map(|(_, s)| in_view(s.geometry.bounds())).map(across).fold(0.0, f32::max);
+    let half_width = fake.shadow_half_width.unwrap_or(covering).max(1e-6 * radius);
+    let farthest = in_view((low, high)).map(|p| -p.z).into_iter().fold(0.0, f32::max);
+    let (near, far) = match fake.light_position {
+        Some(_) => (0.5, farthest.max(500.0)),
+        None => (0.9 * radius, 3.1 * radius),
+    };
+    let clip_from_view = rh::proj::directx::orthographic(-half_width, half_width, -half_width, half_width, near, far);
+    let clip_from_world = clip_from_view * view_from_world;
+    View {
+        clip_from_world,
+        depth_from_world: clip_from_world.row(2),
+        eye: position,
+        texel: Vec2::new(2.0 * half_width / (fake.shadow_map as f32 * (far - near)), 0.0),
+        ..View::zeroed()
+    }
+}
+
+/// A lamp's view along an axis: wider than a cube's face by the kernel's reach, so that no lookup leaves its face. The depth
+/// that it keeps is linear, because the kernel compares depths of neighbouring texels.
+fn lamp_view(scene: &Scene, position: Vec3, axis: usize) -> View {
+    let size = scene.fake.shadow_map as f32;
+    let reach = size / (size - 2.0 * KERNEL_REACH).max(1.0);
+    let distances = corners(scene.bounds()).map(|corner| (corner - position).length());
+    let far = (1.001 * distances.into_iter().fold(0.0, f32::max)).max(f32::MIN_POSITIVE);
+    let plane = cube::forward(axis) / far;
+    View {
+        clip_from_world: cube::clip_from_world(position, axis, reach, 1e-4 * far, far),
+        depth_from_world: plane.extend(-plane.dot(position)),
+        eye: position,
+        texel: Vec2::new(0.0, 2.0 * reach / size),
+        ..View::zeroed()
+    }
+}
+
+/// The picture's view with its pixels moved by `shift` pixels to the right and down.
+pub fn picture_view(clip_from_world: Mat4, eye: Vec3, shift: Vec2, size: Vec2) -> View {
+    let by = shift * Vec2::new(2.0, -2.0) / size;
+    let clip_from_world = Mat4::from_translation(by.extend(0.0)) * clip_from_world;
+    View { clip_from_world, eye, depth_from_world: Vec4::ZERO, sees_cube_maps: 1, ..View::zeroed() }
+}
+
+fn corners((low, high): (Vec3, Vec3)) -> [Vec3; 8] {
+    std::array::from_fn(|i| {
+        let pick = |bit: usize, low: f32, high: f32| if i >> bit & 1 == 0 { low } else { high };
+        Vec3::new(pick(0, low.x, high.x), pick(1, low.y, high.y), pick(2, low.z, high.z))
+    })
+}

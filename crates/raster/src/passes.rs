@@ -1,0 +1,257 @@
+//! The frame on the device: uniforms are written once, then one command buffer draws shadow map, cube maps and picture.
+//! A cube map is drawn without its glass, and without the shadow of it; so each has its own shadow map before it, in the
+//! same texture.
+
+use crate::error::RasterError;
+use crate::pipelines::{Forward, Pipelines};
+use crate::plan::Plan;
+use crate::settings::Fake;
+use crate::targets::Targets;
+use crate::tessellation::World;
+use bytemuck::Pod;
+use gpu::{Gpu, GpuError};
+use scene::Vec3;
+use wgpu::{BindGroup, BindGroupLayout, BindingResource, BufferUsages, CommandEncoder, RenderPass, TextureView};
+
+/// Distance of uniforms that dynamic offsets choose from: every device allows this one.
+const STRIDE: usize = 256;
+
+/// The uniform buffers; they grow with the scene.
+#[derive(Debug)]
+pub struct Uniforms {
+    views: wgpu::Buffer,
+    lights: wgpu::Buffer,
+    objects: wgpu::Buffer,
+}
+
+impl Uniforms {
+    /// Buffers that the first frame replaces.
+    pub fn new(gpu: &Gpu) -> Result<Uniforms, GpuError> {
+        let empty = || uniforms(gpu, &[0; STRIDE]);
+        Ok(Uniforms { views: empty()?, lights: empty()?, objects: empty()? })
+    }
+
+    /// Fills them with a frame's numbers.
+    pub fn write(&mut self, gpu: &Gpu, plan: &Plan) -> Result<(), RasterError> {
+        fill(gpu, &mut self.views, &spaced(&plan.views))?;
+        fill(gpu, &mut self.lights, bytemuck::bytes_of(&plan.lights))?;
+        fill(gpu, &mut self.objects, &spaced(&plan.objects))?;
+        Ok(())
+    }
+}
+
+fn uniforms(gpu: &Gpu, bytes: &[u8]) -> Result<wgpu::Buffer, GpuError> {
+    gpu.buffer("the fake's numbers", bytes, BufferUsages::UNIFORM | BufferUsages::COPY_DST)
+}
+
+fn fill(gpu: &Gpu, buffer: &mut wgpu::Buffer, bytes: &[u8]) -> Result<(), GpuError> {
+    if (buffer.size() as usize) < bytes.len() {
+        *buffer = uniforms(gpu, bytes)?;
+    } else {
+        gpu.queue.write_buffer(buffer, 0, bytes);
+    }
+    Ok(())
+}
+
+fn spaced<T: Pod>(items: &[T]) -> Vec<u8> {
+    let mut bytes = vec![0; STRIDE * items.len()];
+    for (slot, item) in bytes.chunks_exact_mut(STRIDE).zip(items) {
+        slot[..size_of::<T>()].copy_from_slice(bytemuck::bytes_of(item));
+    }
+    bytes
+}
+
+/// Submits a frame.
+pub fn draw(gpu: &Gpu, pipelines: &Pipelines, uniforms: &Uniforms, world: &World, targets: &Targets, plan: &Plan) {
+    let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("the fake") });
+    let frame = Frame { pipelines, world, targets, plan, groups: Groups::new(gpu, pipelines, uniforms, targets) };
+    for (index, &glass) in plan.cube_maps.iter().enumerate() {
+        frame.shadow_map(&mut encoder, Some(glass));
+        frame.cube_map(&mut encoder, index, glass);
+    }
+    frame.shadow_map(&mut encoder, None);
+    frame.picture(&mut encoder);
+    if plan.fake == Fake::Fair {
+        frame.resolve(gpu, &mut encoder);
+    }
+    gpu.queue.submit([encoder.finish()]);
+}
+
+/// What is bound.
+struct Groups {
+    shadow: BindGroup,
+    frame: BindGroup,
+    without_cube_map: BindGroup,
+    with_cube_map: Vec<BindGroup>,
+}
+
+impl Groups {
+    fn new(gpu: &Gpu, pipelines: &Pipelines, uniforms: &Uniforms, targets: &Targets) -> Groups {
+        let view = || sized::<crate::gpu_data::View>(&uniforms.views);
+        let shadow_map = BindingResource::TextureView(&targets.shadow_map.all);
+        let object = |cube: &TextureView| {
+            let sampler = BindingResource::Sampler(&pipelines.sampler);
+            let object = sized::<crate::gpu_data::Object>(&uniforms.objects);
+            bind(gpu, &pipelines.object_layout, &[object, BindingResource::TextureView(cube), sampler])
+        };
+        Groups {
+            shadow: bind(gpu, &pipelines.shadow_layout, &[view()]),
+            frame: bind(
+                gpu,
+                &pipelines.frame_layout,
+                &[view(), sized::<crate::gpu_data::Lights>(&uniforms.lights), shadow_map],
+            ),
+            without_cube_map: object(&targets.no_cube_map),
+            with_cube_map: targets.cube_maps.iter().map(|cube| object(&cube.all)).collect(),
+        }
+    }
+}
+
+fn sized<T>(buffer: &wgpu::Buffer) -> BindingResource<'_> {
+    let size = std::num::NonZeroU64::new(size_of::<T>() as u64);
+    BindingResource::Buffer(wgpu::BufferBinding { buffer, offset: 0, size })
+}
+
+fn bind(gpu: &Gpu, layout: &BindGroupLayout, resources: &[BindingResource<'_>]) -> BindGroup {
+    let numbered = (0..).zip(resources);
+    let entries: Vec<_> =
+        numbered.map(|(binding, resource)| wgpu::BindGroupEntry { binding, resource: resource.clone() }).collect();
+    gpu.device.create_bind_group(&wgpu::BindGroupDescriptor { label: None, layout, entries: &entries })
+}
+
+struct Frame<'a> {
+    pipelines: &'a Pipelines,
+    world: &'a World,
+    targets: &'a Targets,
+    plan: &'a Plan,
+    groups: Groups,
+}
+
+impl Frame<'_> {
+    fn shadow_map(&self, encoder: &mut CommandEncoder, without: Option<usize>) {
+        for layer in self.plan.shadow_layers.clone() {
+            let target = Target {
+                colour: &self.targets.shadow_map.each[layer],
+                resolved: None,
+                depth: Some(&self.targets.shadow_depth),
+                // nothing is farther
+                clear: bits(Vec3::ONE),
+            };
+            let mut pass = target.begin(encoder);
+            self.bind_world(&mut pass);
+            pass.set_bind_group(0, &self.groups.shadow, &[offset(layer)]);
+            for (shape, &casting) in self.plan.casting.iter().enumerate().filter(|(shape, _)| without != Some(*shape)) {
+                if let Some(pipeline) = self.pipelines.casting(casting) {
+                    pass.set_pipeline(pipeline);
+                    pass.draw_indexed(self.world.ranges[shape].clone(), 0, 0..1);
+                }
+            }
+        }
+    }
+
+    fn cube_map(&self, encoder: &mut CommandEncoder, index: usize, glass: usize) {
+        for layer in 0..6 {
+            let target = Target {
+                colour: &self.targets.cube_maps[index].each[layer],
+                resolved: None,
+                depth: Some(&self.targets.cube_depth),
+                clear: self.sky(),
+            };
+            let forward = &self.pipelines.of(self.plan.fake).cube_map;
+            self.forward(&mut target.begin(encoder), forward, self.plan.cube_view(index, layer), Some(glass));
+        }
+    }
+
+    fn picture(&self, encoder: &mut CommandEncoder) {
+        let multisampled = self.plan.fake == Fake::AsTaught;
+        for (pass, view) in self.plan.picture_views.clone().enumerate() {
+            let target = Target {
+                colour: &self.targets.passes.each[pass],
+                resolved: multisampled.then_some(&self.targets.resolved),
+                depth: Some(&self.targets.depth),
+                clear: self.sky_of_picture(),
+            };
+            self.forward(&mut target.begin(encoder), &self.pipelines.of(self.plan.fake).picture, view, None);
+        }
+    }
+
+    fn resolve(&self, gpu: &Gpu, encoder: &mut CommandEncoder) {
+        let target = Target { colour: &self.targets.resolved, resolved: None, depth: None, clear: wgpu::Color::BLACK };
+        let passes = BindingResource::TextureView(&self.targets.passes.all);
+        let group = bind(gpu, &self.pipelines.resolve_layout, &[passes]);
+        let mut pass = target.begin(encoder);
+        pass.set_pipeline(&self.pipelines.resolve);
+        pass.set_bind_group(0, &group, &[]);
+        pass.draw(0..3, 0..1);
+    }
+
+    /// Every shape but `without`, as `view` sees it. In a cube map no glass has a cube map of its own, least of all the
+    /// one that is being drawn.
+    fn forward(&self, pass: &mut RenderPass<'_>, forward: &Forward, view: usize, without: Option<usize>) {
+        self.bind_world(pass);
+        pass.set_bind_group(0, &self.groups.frame, &[offset(view)]);
+        for (shape, object) in self.plan.objects.iter().enumerate().filter(|(shape, _)| without != Some(*shape)) {
+            let cube_map = self.plan.cube_maps.iter().position(|&glass| glass == shape).filter(|_| without.is_none());
+            let group = cube_map.map_or(&self.groups.without_cube_map, |index| &self.groups.with_cube_map[index]);
+            pass.set_pipeline(if object.kind == 1 { &forward.glass } else { &forward.surface });
+            pass.set_bind_group(1, group, &[offset(shape)]);
+            pass.draw_indexed(self.world.ranges[shape].clone(), 0, 0..1);
+        }
+    }
+
+    fn bind_world(&self, pass: &mut RenderPass<'_>) {
+        pass.set_vertex_buffer(0, self.world.vertices.slice(..));
+        pass.set_index_buffer(self.world.indices.slice(..), wgpu::IndexFormat::Uint32);
+    }
+
+    fn sky(&self) -> wgpu::Color {
+        let [r, g, b] = self.plan.sky.to_array().map(f64::from);
+        wgpu::Color { r, g, b, a: 1.0 }
+    }
+
+    fn sky_of_picture(&self) -> wgpu::Color {
+        match self.plan.fake {
+            Fake::AsTaught => self.sky(),
+            Fake::Fair => bits(self.plan.sky),
+        }
+    }
+}
+
+/// The colour that clears a target of f32 bits.
+fn bits(colour: Vec3) -> wgpu::Color {
+    let [r, g, b] = colour.to_array().map(|channel| f64::from(channel.to_bits()));
+    wgpu::Color { r, g, b, a: f64::from(1f32.to_bits()) }
+}
+
+fn offset(slot: usize) -> u32 {
+    (slot * STRIDE) as u32
+}
+
+/// What one pass draws into.
+struct Target<'a> {
+    colour: &'a TextureView,
+    resolved: Option<&'a TextureView>,
+    depth: Option<&'a TextureView>,
+    clear: wgpu::Color,
+}
+
+impl Target<'_> {
+    fn begin<'e>(&self, encoder: &'e mut CommandEncoder) -> RenderPass<'e> {
+        let store = if self.resolved.is_some() { wgpu::StoreOp::Discard } else { wgpu::StoreOp::Store };
+        let depth = self.depth.map(|view| wgpu::RenderPassDepthStencilAttachment {
+            view,
+            depth_ops: Some(wgpu::Operations { load: wgpu::LoadOp::Clear(1.0), store: wgpu::StoreOp::Discard }),
+            stencil_ops: None,
+        });
+        encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+            color_attachments: &[Some(wgpu::RenderPassColorAttachment {
+                view: self.colour,
+                depth_slice: None,
+                resolve_target: self.resolved,
+                ops: wgpu::Operations { load: wgpu::LoadOp::Clear(self.clear), store },
+            })],
+            depth_stencil_attachment: depth,
+            ..wgpu::RenderPassDescriptor::default()
+        })
+    }
+}

@@ -1,0 +1,213 @@
+//! Pipelines and the layouts of what is bound to them.
+
+use crate::error::RasterError;
+use crate::plan::Casting;
+use crate::settings::Fake;
+use crate::targets::{Colours, DEPTH, SHADOW};
+use crate::tessellation::Vertex;
+use gpu::{Gpu, wgsl};
+use std::num::NonZeroU64;
+use wgpu::{BindGroupLayout, BindingType, Face, RenderPipeline, ShaderStages, TextureFormat, TextureViewDimension};
+
+/// The forward pass into one kind of target.
+#[derive(Debug)]
+pub struct Forward {
+    /// Both sides of everything but glass.
+    pub surface: RenderPipeline,
+    /// Back faces of glass.
+    pub glass: RenderPipeline,
+}
+
+/// The forward passes of a fake.
+#[derive(Debug)]
+pub struct FakePipelines {
+    /// Into a cube map's face.
+    pub cube_map: Forward,
+    /// Into the picture.
+    pub picture: Forward,
+}
+
+/// All pipelines.
+#[derive(Debug)]
+pub struct Pipelines {
+    /// Group 0 of the shadow pass: the view.
+    pub shadow_layout: BindGroupLayout,
+    /// Group 0 of the forward pass: view, lights, shadow map.
+    pub frame_layout: BindGroupLayout,
+    /// Group 1 of the forward pass: object, cube map.
+    pub object_layout: BindGroupLayout,
+    /// Group 0 of the resolve pass: the picture's passes.
+    pub resolve_layout: BindGroupLayout,
+    /// Linear, for cube maps.
+    pub sampler: wgpu::Sampler,
+    /// Mean of the picture's passes.
+    pub resolve: RenderPipeline,
+    fair: FakePipelines,
+    as_taught: FakePipelines,
+    both_sides: RenderPipeline,
+    back_faces: RenderPipeline,
+    front_faces: RenderPipeline,
+}
+
+impl Pipelines {
+    /// Composes and compiles all of them.
+    pub fn new(gpu: &Gpu) -> Result<Pipelines, RasterError> {
+        let shadow = wgsl::compose("raster/shadow_map.wgsl")?.create(gpu)?;
+        let forward = wgsl::compose("raster/forward.wgsl")?.create(gpu)?;
+        let resolve = wgsl::compose("film/resolve.wgsl")?.create(gpu)?;
+        Ok(gpu.checked("the fake's pipelines", || compile(gpu, &shadow, &forward, &resolve))?)
+    }
+
+    /// The forward passes of a fake.
+    pub fn of(&self, fake: Fake) -> &FakePipelines {
+        match fake {
+            Fake::Fair => &self.fair,
+            Fake::AsTaught => &self.as_taught,
+        }
+    }
+
+    /// The shadow pass of a shape.
+    pub fn casting(&self, casting: Casting) -> Option<&RenderPipeline> {
+        match casting {
+            Casting::Nothing => None,
+            Casting::BothSides => Some(&self.both_sides),
+            Casting::BackFaces => Some(&self.back_faces),
+            Casting::FrontFaces => Some(&self.front_faces),
+        }
+    }
+}
+
+fn compile(
+    gpu: &Gpu,
+    shadow: &wgpu::ShaderModule,
+    forward: &wgpu::ShaderModule,
+    resolve: &wgpu::ShaderModule,
+) -> Pipelines {
+    let texture =
+        |sample_type, view_dimension| BindingType::Texture { sample_type, view_dimension, multisampled: false };
+    let array = texture(wgpu::TextureSampleType::Uint, TextureViewDimension::D2Array);
+    let cube = texture(wgpu::TextureSampleType::Float { filterable: true }, TextureViewDimension::Cube);
+    let sampler = BindingType::Sampler(wgpu::SamplerBindingType::Filtering);
+    let shadow_layout = layout(gpu, &[uniform::<crate::gpu_data::View>(true)]);
+    let frame = [uniform::<crate::gpu_data::View>(true), uniform::<crate::gpu_data::Lights>(false), array];
+    let frame_layout = layout(gpu, &frame);
+    let object = [uniform::<crate::gpu_data::Object>(true), cube, sampler];
+    let object_layout = layout(gpu, &object);
+    let resolve_layout = layout(gpu, &[array]);
+
+    let casting = |cull_mode| {
+        let groups: &[_] = &[&shadow_layout];
+        Build { groups, module: shadow, format: SHADOW, samples: 1, cull_mode, full_screen: false }.pipeline(gpu)
+    };
+    let into = |format, samples| {
+        let groups: &[_] = &[&frame_layout, &object_layout];
+        let surface = Build { groups, module: forward, format, samples, cull_mode: None, full_screen: false };
+        let glass = Build { cull_mode: Some(Face::Front), ..surface };
+        Forward { surface: surface.pipeline(gpu), glass: glass.pipeline(gpu) }
+    };
+    let fake = |fake| {
+        let colours = Colours::of(fake, gpu);
+        FakePipelines { cube_map: into(colours.cube_map, 1), picture: into(colours.picture, colours.samples) }
+    };
+    let format = Colours::of(Fake::Fair, gpu).picture;
+    let groups: &[_] = &[&resolve_layout];
+    let resolve = Build { groups, module: resolve, format, samples: 1, cull_mode: None, full_screen: true };
+    Pipelines {
+        sampler: gpu.device.create_sampler(&wgpu::SamplerDescriptor {
+            mag_filter: wgpu::FilterMode::Linear,
+            min_filter: wgpu::FilterMode::Linear,
+            ..wgpu::SamplerDescriptor::default()
+        }),
+        resolve: resolve.pipeline(gpu),
+        fair: fake(Fake::Fair),
+        as_taught: fake(Fake::AsTaught),
+        both_sides: casting(None),
+        back_faces: casting(Some(Face::Front)),
+        front_faces: casting(Some(Face::Back)),
+        shadow_layout,
+        frame_layout,
+        object_layout,
+        resolve_layout,
+    }
+}
+
+/// Bindings 0, 1, 2 ... of a group; every stage may read all of them.
+fn layout(gpu: &Gpu, bindings: &[BindingType]) -> BindGroupLayout {
+    let entry = |(binding, ty): (usize, &BindingType)| wgpu::BindGroupLayoutEntry {
+        binding: binding as u32,
+        visibility: ShaderStages::VERTEX_FRAGMENT,
+        ty: *ty,
+        count: None,
+    };
+    let entries: Vec<_> = bindings.iter().enumerate().map(entry).collect();
+    gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label: None, entries: &entries })
+}
+
+fn uniform<T>(has_dynamic_offset: bool) -> BindingType {
+    BindingType::Buffer {
+        ty: wgpu::BufferBindingType::Uniform,
+        has_dynamic_offset,
+        min_binding_size: NonZeroU64::new(size_of::<T>() as u64),
+    }
+}
+
+/// What tells the pipelines apart.
+#[derive(Clone, Copy)]
+struct Build<'a> {
+    groups: &'a [&'a BindGroupLayout],
+    module: &'a wgpu::ShaderModule,
+    format: TextureFormat,
+    samples: u32,
+    cull_mode: Option<Face>,
+    /// One triangle without corners and depth.
+    full_screen: bool,
+}
+
+impl Build<'_> {
+    fn fragment(&self) -> &'static str {
+        let forward_into_bits = self.format == TextureFormat::Rgba32Uint && !self.full_screen;
+        if forward_into_bits { "fragment_bits" } else { "fragment" }
+    }
+
+    fn pipeline(&self, gpu: &Gpu) -> RenderPipeline {
+        let groups: Vec<_> = self.groups.iter().copied().map(Some).collect();
+        let layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+            label: None,
+            bind_group_layouts: &groups,
+            immediate_size: 0,
+        });
+        let corners = [Some(wgpu::VertexBufferLayout {
+            array_stride: size_of::<Vertex>() as u64,
+            step_mode: wgpu::VertexStepMode::Vertex,
+            attributes: &wgpu::vertex_attr_array![0 => Float32x3, 1 => Float32x3],
+        })];
+        let depth = wgpu::DepthStencilState {
+            format: DEPTH,
+            depth_write_enabled: Some(true),
+            depth_compare: Some(wgpu::CompareFunction::LessEqual),
+            stencil: wgpu::StencilState::default(),
+            bias: wgpu::DepthBiasState::default(),
+        };
+        gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+            label: None,
+            layout: Some(&layout),
+            vertex: wgpu::VertexState {
+                module: self.module,
+                entry_point: Some("vertex"),
+                compilation_options: wgpu::PipelineCompilationOptions::default(),
+                buffers: if self.full_screen { &[] } else { &corners },
+            },
+            primitive: wgpu::PrimitiveState { cull_mode: self.cull_mode, ..wgpu::PrimitiveState::default() },
+            depth_stencil: (!self.full_screen).then_some(depth),
+            multisample: wgpu::MultisampleState { count: self.samples, ..wgpu::MultisampleState::default() },
+            fragment: Some(wgpu::FragmentState {
+                module: self.module,
+                entry_point: Some(self.fragment()),
+                compilation_options: wgpu::PipelineCompilationOptions::default(),
+                targets: &[Some(self.format.into())],
+            }),
+            multiview_mask: None,
+            cache: None,
+        })
+    }
+}
