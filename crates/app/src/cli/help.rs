@@ -1,0 +1,41 @@
+//! The text of `--help`.
+
+/// What `visavis --help` prints.
+pub const HELP: &str = "\
+Visavis: the rasterised fake of a scene face to face with its path-traced truth.
+
+visavis [SCENE]                  open the viewer; SCENE is whitted, cornell or a .toml file (default whitted)
+visavis render SCENE -o OUT      render to OUT, .png (display-transformed) or .exr (linear, settings in the header)
+    --technique raster|path      the fake or the truth (default path)
+    --device auto|cpu|gpu        where: the fake needs the gpu, the truth the cpu (default auto)
+    --size WxH                   pixels (default 1280x720)
+    --eye X,Y,Z --target X,Y,Z --fov DEG
+                                 camera (default the scene's)
+    --refraction-ratio R         index outside over inside of all glass, above 0 (default the scene's)
+    --exposure EV                stops added before display, PNG only (default 0)
+    --json                       print one JSON object about the result on stdout
+  the truth:
+    --spp N                      samples per pixel (default 64)
+    --time SECONDS               stop after this long, or at --spp if that is given and comes first
+    --bounces N|inf              scattering vertices after the first; 0 is direct light (default inf)
+    --roulette P|throughput|off  probability to survive a vertex, in (0, 1] (default throughput)
+    --estimator uniform|cosine|light
+                                 directions uniform or cosine-weighted with light by chance, or light sampled
+                                 (default light)
+    --sun-radius DEG             angular radius of the sun, 0 is a delta light (default the scene's)
+    --seed N                     selects one of 2^32 independent pictures (default 1)
+  the fake:
+    --fake fair|as-taught        on the truth's data, linear; or as the tutorial's viewer drew it (default fair)
+visavis compare A B              how far picture A is from reference B (.exr or .png): RMSE, relMSE, MAE, bias
+    --json                       as one JSON object
+visavis bench -o DIR --quick     speed against error on both scenes: CSV and SVG plots
+visavis info                     adapters, limits, what would be used and why
+visavis --help, --version
+
+Exit code: 0 done, 1 failed (one line on stderr), 2 wrong usage.
+In the window: drag the line to wipe, drag the picture to orbit (Shift: pan, wheel: zoom), T swaps A and B,
+1 2 3 show A, B, wipe, R restarts, C resets the camera, H hides the panel, Ctrl+S saves the picture as seen.
+";
+
+/// What `visavis --version` prints.
+pub const VERSION: &str = concat!("visavis ", env!("CARGO_PKG_VERSION"), "\n");

@@ -1,0 +1,100 @@
+//! The command line, a contract that scripts depend on. Words become a [`Command`] (in `args`); a command runs and either
+//! is done or fails with one line.
+
+mod args;
+mod bench;
+mod compare;
+mod help;
+mod info;
+mod render;
+
+pub use args::{RenderArgs, ViewArgs};
+
+use std::path::PathBuf;
+
+/// What the user asked for.
+#[derive(Debug)]
+pub enum Command {
+    /// The viewer.
+    View(ViewArgs),
+    /// A picture to a file, without a window.
+    Render(Box<RenderArgs>),
+    /// The distance between two pictures.
+    Compare {
+        /// The picture to judge.
+        film: PathBuf,
+        /// The picture to judge it by.
+        reference: PathBuf,
+        /// One JSON object on stdout instead of a table.
+        json: bool,
+    },
+    /// Speed against error of all techniques on the built-in scenes.
+    Bench {
+        /// Folder for table and plots.
+        folder: PathBuf,
+    },
+    /// Adapters, limits, and what would be used.
+    Info,
+    /// A text to print.
+    Print(&'static str),
+}
+
+/// Why the program stops.
+#[derive(Debug)]
+pub enum CliError {
+    /// The words make no command: exit code 2.
+    Usage(String),
+    /// The command failed: exit code 1.
+    Failed(anyhow::Error),
+}
+
+impl CliError {
+    /// What, where, and what to do, in one line.
+    pub fn line(&self) -> String {
+        match self {
+            CliError::Usage(line) => format!("{line} (visavis --help lists the options)"),
+            CliError::Failed(error) => format!("{error:#}").lines().collect::<Vec<_>>().join(", "),
+        }
+    }
+
+    /// 1 or 2.
+    pub fn exit_code(&self) -> u8 {
+        match self {
+            CliError::Usage(_) => 2,
+            CliError::Failed(_) => 1,
+        }
+    }
+}
+
+impl From<anyhow::Error> for CliError {
+    fn from(error: anyhow::Error) -> Self {
+        CliError::Failed(error)
+    }
+}
+
+impl Command {
+    /// Does it.
+    ///
+    /// # Errors
+    /// [`CliError::Failed`] with one line for the user.
+    pub fn execute(self) -> Result<(), CliError> {
+        match self {
+            Command::View(args) => crate::window::open(&args)?,
+            Command::Render(args) => render::run(&args)?,
+            Command::Compare { film, reference, json } => compare::run(&film, &reference, json)?,
+            Command::Bench { folder } => bench::run(&folder)?,
+            Command::Info => info::run()?,
+            Command::Print(text) => print(text)?,
+        }
+        Ok(())
+    }
+}
+
+/// Prints to stdout; that a pipe was closed early is not a failure.
+fn print(text: &str) -> anyhow::Result<()> {
+    use std::io::{ErrorKind, Write};
+    match std::io::stdout().lock().write_all(text.as_bytes()) {
+        Err(e) if e.kind() != ErrorKind::BrokenPipe => Err(anyhow::anyhow!("cannot print to stdout ({e})")),
+        _ => Ok(()),
+    }
+}

@@ -1,0 +1,27 @@
+//! Visavis: the rasterised fake of a scene face to face with its path-traced truth.
+//!
+//! [`run`] reads the command line ([`cli`]): headless commands, or the viewer. The viewer is three layers: [`ui`] draws
+//! controls and pictures into egui and knows no window; [`workers`] render beside it; [`window`] is the shell around
+//! both, the only place that knows winit.
+
+pub mod cli;
+pub mod picture_file;
+pub mod technique;
+pub mod ui;
+pub mod window;
+pub mod workers;
+
+use std::ffi::OsString;
+use std::process::ExitCode;
+
+/// Runs the program on its arguments (without its own name). Exit code 0 is done, 1 failed, 2 wrong usage; a failure
+/// prints one line on stderr.
+pub fn run(args: impl IntoIterator<Item = OsString>) -> ExitCode {
+    match cli::Command::parse(args).and_then(cli::Command::execute) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("visavis: {}", error.line());
+            ExitCode::from(error.exit_code())
+        }
+    }
+}

@@ -1,0 +1,34 @@
+//! The shell around the viewer: one winit window, one egui context, one wgpu device that the window and the fake share.
+
+mod shell;
+mod stopwatch;
+mod surface;
+mod textures;
+mod viewer_window;
+
+use crate::cli::ViewArgs;
+use anyhow::Context;
+use scene::builtin;
+use winit::event_loop::EventLoop;
+
+/// Something happened beside the UI thread that it should look at.
+#[derive(Debug, Clone, Copy)]
+pub struct WokenUp;
+
+/// Opens the viewer and returns when it is closed.
+///
+/// # Errors
+/// If the scene does not load, if there is no display, or if no adapter can draw the window.
+pub fn open(args: &ViewArgs) -> anyhow::Result<()> {
+    let started = std::time::Instant::now();
+    let scene = builtin::named(&args.scene)?;
+    let events = EventLoop::<WokenUp>::with_user_event().build().map_err(|e| {
+        anyhow::anyhow!(
+            "no window can be opened here ({e}); without a display, use: visavis render {} -o out.png",
+            args.scene
+        )
+    })?;
+    let mut shell = shell::Shell::new(scene, args.ui_dump.clone(), events.create_proxy(), started);
+    events.run_app(&mut shell).context("the window stopped")?;
+    shell.outcome()
+}

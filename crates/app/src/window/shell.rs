@@ -1,0 +1,90 @@
+//! The application as winit sees it: events in, frames out.
+
+use super::WokenUp;
+use super::viewer_window::ViewerWindow;
+use scene::Scene;
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::time::Instant;
+use winit::application::ApplicationHandler;
+use winit::event::{StartCause, WindowEvent};
+use winit::event_loop::{ActiveEventLoop, ControlFlow, EventLoopProxy};
+use winit::window::WindowId;
+
+/// Before there is a window, with one, after a failure.
+pub struct Shell {
+    /// Taken when the window opens.
+    scene: Option<Scene>,
+    ui_dump: Option<PathBuf>,
+    proxy: EventLoopProxy<WokenUp>,
+    started: Instant,
+    window: Option<ViewerWindow>,
+    failure: Option<anyhow::Error>,
+}
+
+impl Shell {
+    pub fn new(scene: Scene, ui_dump: Option<PathBuf>, proxy: EventLoopProxy<WokenUp>, started: Instant) -> Self {
+        Shell { scene: Some(scene), ui_dump, proxy, started, window: None, failure: None }
+    }
+
+    /// How it ended.
+    pub fn outcome(self) -> anyhow::Result<()> {
+        self.failure.map_or(Ok(()), Err)
+    }
+
+    fn finish(&mut self, events: &ActiveEventLoop, outcome: anyhow::Result<()>) {
+        self.failure = outcome.err();
+        self.window = None;
+        events.exit();
+    }
+}
+
+impl ApplicationHandler<WokenUp> for Shell {
+    fn resumed(&mut self, events: &ActiveEventLoop) {
+        let Some(scene) = self.scene.take() else { return };
+        let proxy = self.proxy.clone();
+        let wake = Arc::new(move || {
+            // a closed event loop has nobody left to wake
+            let _ = proxy.send_event(WokenUp);
+        });
+        match ViewerWindow::open(events, scene, self.started, wake) {
+            Ok(window) => self.window = Some(window),
+            Err(error) => self.finish(events, Err(error)),
+        }
+    }
+
+    fn user_event(&mut self, _: &ActiveEventLoop, _: WokenUp) {
+        if let Some(window) = &self.window {
+            window.request_frame();
+        }
+    }
+
+    fn new_events(&mut self, _: &ActiveEventLoop, cause: StartCause) {
+        if let (StartCause::ResumeTimeReached { .. }, Some(window)) = (cause, &self.window) {
+            window.request_frame();
+        }
+    }
+
+    fn about_to_wait(&mut self, events: &ActiveEventLoop) {
+        let next = self.window.as_ref().and_then(ViewerWindow::next_frame);
+        events.set_control_flow(next.map_or(ControlFlow::Wait, ControlFlow::WaitUntil));
+    }
+
+    fn window_event(&mut self, events: &ActiveEventLoop, _: WindowId, event: WindowEvent) {
+        let Some(window) = &mut self.window else { return };
+        window.hear(&event);
+        match event {
+            WindowEvent::CloseRequested => self.finish(events, Ok(())),
+            WindowEvent::Resized(size) => window.resize(size.width, size.height),
+            WindowEvent::RedrawRequested => {
+                window.frame();
+                if let Some(file) = &self.ui_dump
+                    && let Err(error) = window.write_dump(file)
+                {
+                    self.finish(events, Err(error));
+                }
+            }
+            _ => {}
+        }
+    }
+}

@@ -1,0 +1,148 @@
+//! The window's surface: configuring it, getting a frame, drawing egui into it or into a texture that is read back.
+
+use anyhow::Context;
+use egui_wgpu::ScreenDescriptor;
+use gpu::Gpu;
+use std::sync::Arc;
+use winit::window::Window;
+
+/// The window's surface and egui's renderer for it.
+pub struct WindowSurface {
+    window: Arc<Window>,
+    surface: wgpu::Surface<'static>,
+    config: wgpu::SurfaceConfiguration,
+    /// Draws egui's triangles.
+    pub renderer: egui_wgpu::Renderer,
+}
+
+/// What became of a frame.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Presented {
+    /// It is on the screen.
+    Shown,
+    /// There was none to draw to; try again later.
+    Skipped,
+}
+
+/// Triangles of one frame.
+pub struct Painting<'a> {
+    /// What to draw.
+    pub jobs: &'a [egui::ClippedPrimitive],
+    /// Size and scale of the window.
+    pub screen: ScreenDescriptor,
+}
+
+impl WindowSurface {
+    /// Makes the surface and the device behind it.
+    ///
+    /// # Errors
+    /// If no adapter can draw to this window: one line that says what to install.
+    pub fn new(window: Arc<Window>, display: winit::event_loop::OwnedDisplayHandle) -> anyhow::Result<(Self, Gpu)> {
+        let instance = gpu::new_instance(Some(Box::new(display)));
+        let surface = instance.create_surface(window.clone()).context("the window has no surface to draw to")?;
+        let gpu = Gpu::for_surface(instance, &surface)?;
+        let size = window.inner_size();
+        let mut config = surface
+            .get_default_config(&gpu.adapter, size.width.max(1), size.height.max(1))
+            .context("this adapter cannot draw to the window; see visavis info")?;
+        // egui blends in sRGB-encoded values: a format that does not encode
+        let formats = surface.get_capabilities(&gpu.adapter).formats;
+        let plain = [wgpu::TextureFormat::Rgba8Unorm, wgpu::TextureFormat::Bgra8Unorm];
+        config.format = plain.into_iter().find(|f| formats.contains(f)).unwrap_or(config.format);
+        config.present_mode = wgpu::PresentMode::AutoVsync;
+        surface.configure(&gpu.device, &config);
+        let renderer = egui_wgpu::Renderer::new(&gpu.device, config.format, egui_wgpu::RendererOptions::default());
+        Ok((WindowSurface { window, surface, config, renderer }, gpu))
+    }
+
+    /// Follows the window's size; a minimised window has none and keeps the last.
+    pub fn resize(&mut self, gpu: &Gpu, width: u32, height: u32) {
+        if width == 0 || height == 0 || (width, height) == (self.config.width, self.config.height) {
+            return;
+        }
+        let limit = gpu.device.limits().max_texture_dimension_2d;
+        (self.config.width, self.config.height) = (width.min(limit), height.min(limit));
+        self.surface.configure(&gpu.device, &self.config);
+    }
+
+    /// Width and height in physical pixels.
+    pub fn size(&self) -> [u32; 2] {
+        [self.config.width, self.config.height]
+    }
+
+    /// Draws and presents a frame.
+    pub fn present(&mut self, gpu: &Gpu, painting: &Painting) -> Presented {
+        use wgpu::CurrentSurfaceTexture as Frame;
+        let (frame, suboptimal) = match self.surface.get_current_texture() {
+            Frame::Success(frame) => (frame, false),
+            Frame::Suboptimal(frame) => (frame, true),
+            Frame::Timeout | Frame::Occluded => return Presented::Skipped,
+            Frame::Outdated | Frame::Validation => {
+                self.surface.configure(&gpu.device, &self.config);
+                return Presented::Skipped;
+            }
+            Frame::Lost => {
+                if let Ok(surface) = gpu.instance.create_surface(self.window.clone()) {
+                    self.surface = surface;
+                    self.surface.configure(&gpu.device, &self.config);
+                }
+                return Presented::Skipped;
+            }
+        };
+        let view = frame.texture.create_view(&wgpu::TextureViewDescriptor::default());
+        self.draw(gpu, painting, &view);
+        self.window.pre_present_notify();
+        gpu.queue.present(frame);
+        if suboptimal {
+            self.surface.configure(&gpu.device, &self.config);
+        }
+        Presented::Shown
+    }
+
+    /// The same frame once more, read back: opaque RGBA bytes of the whole window, rows from the top.
+    ///
+    /// # Errors
+    /// If the device cannot make or read the texture.
+    pub fn capture(&mut self, gpu: &Gpu, painting: &Painting) -> anyhow::Result<Vec<u8>> {
+        let texture = gpu.device.create_texture(&wgpu::TextureDescriptor {
+            label: Some("picture as seen"),
+            size: wgpu::Extent3d { width: self.config.width, height: self.config.height, depth_or_array_layers: 1 },
+            mip_level_count: 1,
+            sample_count: 1,
+            dimension: wgpu::TextureDimension::D2,
+            format: self.config.format,
+            usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::COPY_SRC,
+            view_formats: &[],
+        });
+        self.draw(gpu, painting, &texture.create_view(&wgpu::TextureViewDescriptor::default()));
+        let mut bytes = gpu.read_texture("picture as seen", &texture)?;
+        if self.config.format.remove_srgb_suffix() == wgpu::TextureFormat::Bgra8Unorm {
+            bytes.chunks_exact_mut(4).for_each(|pixel| pixel.swap(0, 2));
+        }
+        Ok(bytes)
+    }
+
+    fn draw(&mut self, gpu: &Gpu, painting: &Painting, view: &wgpu::TextureView) {
+        let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("window") });
+        let mut commands =
+            self.renderer.update_buffers(&gpu.device, &gpu.queue, &mut encoder, painting.jobs, &painting.screen);
+        {
+            let pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+                label: Some("egui"),
+                color_attachments: &[Some(wgpu::RenderPassColorAttachment {
+                    view,
+                    depth_slice: None,
+                    resolve_target: None,
+                    ops: wgpu::Operations {
+                        load: wgpu::LoadOp::Clear(wgpu::Color::BLACK),
+                        store: wgpu::StoreOp::Store,
+                    },
+                })],
+                ..Default::default()
+            });
+            self.renderer.render(&mut pass.forget_lifetime(), painting.jobs, &painting.screen);
+        }
+        commands.push(encoder.finish());
+        gpu.queue.submit(commands);
+    }
+}

@@ -1,0 +1,120 @@
+//! Rendering beside the UI. Three threads, each fed through an [`Inbox`] in which newer wishes replace older ones:
+//! [`fake`] and [`truth`] turn jobs into [`Picture`]s, the [`darkroom`] develops pictures into bytes for the screen and
+//! measures how far apart they are. The UI thread only posts and collects.
+
+pub mod crew;
+pub mod darkroom;
+pub mod fake;
+pub mod truth;
+
+use scene::Vec3;
+use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
+
+/// A side of the comparison.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Side {
+    /// Left of the wipe.
+    A,
+    /// Right of it.
+    B,
+}
+
+/// What a technique has made so far, in linear radiance.
+#[derive(Debug, Clone)]
+pub struct Picture {
+    /// Width in pixels; smaller than asked for in a rough first picture.
+    pub width: u32,
+    /// Height in pixels.
+    pub height: u32,
+    /// Rows from the top.
+    pub radiances: Arc<[Vec3]>,
+    /// Samples per pixel; `None` for a technique that does not sample.
+    pub spp: Option<u32>,
+    /// Seconds of rendering.
+    pub seconds: f64,
+    /// Whether this is a rough picture at a lower resolution.
+    pub rough: bool,
+    /// Counts the jobs of its side.
+    pub job: u64,
+}
+
+/// Wakes the UI thread when there is something to collect.
+pub type Wake = Arc<dyn Fn() + Send + Sync>;
+
+/// A place for the latest wish: posting changes what has not been taken yet.
+#[derive(Debug, Default)]
+pub struct Inbox<T> {
+    state: Mutex<State<T>>,
+    arrived: Condvar,
+}
+
+#[derive(Debug, Default)]
+struct State<T> {
+    content: T,
+    fresh: bool,
+    closed: bool,
+}
+
+impl<T: Default> Inbox<T> {
+    /// Changes the content and wakes the taker.
+    pub fn post(&self, change: impl FnOnce(&mut T)) {
+        let mut state = self.lock();
+        change(&mut state.content);
+        state.fresh = true;
+        self.arrived.notify_one();
+    }
+
+    /// Waits for something fresh and takes it; `None` once closed.
+    pub fn take(&self) -> Option<T> {
+        let mut state = self.lock();
+        while !state.fresh && !state.closed {
+            state = self.arrived.wait(state).unwrap_or_else(PoisonError::into_inner);
+        }
+        if state.closed {
+            return None;
+        }
+        state.fresh = false;
+        Some(std::mem::take(&mut state.content))
+    }
+
+    /// Takes what is fresh now, without waiting.
+    pub fn take_now(&self) -> Option<T> {
+        let mut state = self.lock();
+        std::mem::take(&mut state.fresh).then(|| std::mem::take(&mut state.content))
+    }
+
+    /// Ends the taker's loop.
+    pub fn close(&self) {
+        self.lock().closed = true;
+        self.arrived.notify_all();
+    }
+
+    /// A thread that panicked while it held the lock left whole content behind: posting and taking do not stop midway.
+    fn lock(&self) -> MutexGuard<'_, State<T>> {
+        self.state.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn newer_wishes_replace_older_ones() {
+        let inbox = Inbox::<u32>::default();
+        inbox.post(|v| *v = 1);
+        inbox.post(|v| *v = 2);
+        assert_eq!((inbox.take(), inbox.take_now()), (Some(2), None));
+    }
+
+    #[test]
+    fn closing_ends_a_waiting_taker() {
+        let inbox = Arc::new(Inbox::<u32>::default());
+        let taker = std::thread::spawn({
+            let inbox = inbox.clone();
+            move || inbox.take()
+        });
+        inbox.close();
+        assert_eq!(taker.join().unwrap(), None);
+    }
+}

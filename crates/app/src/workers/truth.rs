@@ -1,0 +1,170 @@
+//! The thread that path traces: a rough picture at once, then ever more samples, until the wished number or a new job.
+
+use super::darkroom::Darkroom;
+use super::{Inbox, Picture, Side};
+use crate::technique::TruthSettings;
+use pathtrace::Tracer;
+use scene::{Camera, Film, Scene};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::thread::JoinHandle;
+use std::time::{Duration, Instant};
+
+/// A picture to make.
+#[derive(Debug, Clone)]
+pub struct TruthJob {
+    /// What is seen.
+    pub scene: Arc<Scene>,
+    /// From where.
+    pub camera: Camera,
+    /// How, and how long.
+    pub settings: TruthSettings,
+    /// Width and height in pixels.
+    pub size: (u32, u32),
+    /// Counts the jobs.
+    pub job: u64,
+}
+
+/// A job, and the flag that stops it.
+type Commission = (TruthJob, Arc<AtomicBool>);
+
+/// The worker; dropping it ends its thread.
+pub struct TruthWorker {
+    inbox: Arc<Inbox<Option<Commission>>>,
+    /// The cancel flag of the job in hand.
+    cancel: Arc<AtomicBool>,
+    thread: Option<JoinHandle<()>>,
+}
+
+/// Time that a rough picture may take, so that it is on the screen within a tenth of a second.
+const ROUGH: Duration = Duration::from_millis(40);
+/// Time between two pictures once the resolution is full.
+const REFRESH: Duration = Duration::from_millis(200);
+
+impl TruthWorker {
+    /// Starts the thread and its pool, which leaves one core to the UI.
+    ///
+    /// # Errors
+    /// If the system gives no threads.
+    pub fn start(darkroom: Arc<Darkroom>) -> anyhow::Result<Self> {
+        let cores = std::thread::available_parallelism().map_or(1, usize::from);
+        let pool = rayon::ThreadPoolBuilder::new()
+            .num_threads(cores.saturating_sub(1).max(1))
+            .thread_name(|i| format!("truth {i}"))
+            .build()?;
+        let inbox = Arc::new(Inbox::default());
+        let commissions: Arc<Inbox<Option<Commission>>> = inbox.clone();
+        let thread = std::thread::Builder::new().name("truth".into()).spawn(move || {
+            let mut painter = Painter { darkroom, tracer: None, seconds_per_sample: 1e-6 };
+            while let Some(commission) = commissions.take() {
+                if let Some((job, cancel)) = commission {
+                    pool.install(|| painter.paint(&job, &cancel));
+                }
+            }
+        })?;
+        Ok(TruthWorker { inbox, cancel: Arc::default(), thread: Some(thread) })
+    }
+
+    /// Asks for a picture; the one in hand stops at once.
+    pub fn submit(&mut self, job: TruthJob) {
+        self.cancel.store(true, Ordering::Relaxed);
+        self.cancel = Arc::default();
+        let cancel = self.cancel.clone();
+        self.inbox.post(|slot| *slot = Some((job, cancel)));
+    }
+}
+
+impl Drop for TruthWorker {
+    fn drop(&mut self) {
+        self.cancel.store(true, Ordering::Relaxed);
+        self.inbox.close();
+        if let Some(thread) = self.thread.take() {
+            // a panic there has been printed already, and the window is closing
+            let _ = thread.join();
+        }
+    }
+}
+
+struct Painter {
+    darkroom: Arc<Darkroom>,
+    /// The scene of the last job, ready for rays.
+    tracer: Option<(Arc<Scene>, Tracer)>,
+    /// Measured on the last job: what one sample of one pixel costs on the whole pool.
+    seconds_per_sample: f64,
+}
+
+impl Painter {
+    fn paint(&mut self, job: &TruthJob, cancel: &AtomicBool) {
+        let tracer = match self.tracer.take() {
+            Some((scene, tracer)) if Arc::ptr_eq(&scene, &job.scene) => tracer,
+            _ => Tracer::new(&job.scene),
+        };
+        self.rough(&tracer, job, cancel);
+        self.refine(&tracer, job, cancel);
+        self.tracer = Some((job.scene.clone(), tracer));
+    }
+
+    /// Pictures of an eighth, a quarter and half the resolution, beginning with the finest that is ready in time.
+    fn rough(&mut self, tracer: &Tracer, job: &TruthJob, cancel: &AtomicBool) {
+        let pixels = f64::from(job.size.0) * f64::from(job.size.1);
+        let budget = ROUGH.as_secs_f64() / self.seconds_per_sample;
+        for shrink in [8, 4, 2] {
+            let (pixels, finer) = (pixels / f64::from(shrink * shrink), pixels / f64::from(shrink * shrink / 4));
+            if finer <= budget {
+                continue;
+            }
+            let mut film = Film::new(job.size.0.div_ceil(shrink), job.size.1.div_ceil(shrink));
+            let samples = ((budget / pixels) as u32).clamp(1, job.settings.spp.min(16));
+            let start = Instant::now();
+            self.expose(tracer, &mut film, job, samples, cancel);
+            if cancel.load(Ordering::Relaxed) {
+                return;
+            }
+            self.deliver(&film, job, start.elapsed(), true);
+        }
+    }
+
+    fn refine(&mut self, tracer: &Tracer, job: &TruthJob, cancel: &AtomicBool) {
+        let mut film = Film::new(job.size.0, job.size.1);
+        let (mut done, mut spent, mut shown) = (0, Duration::ZERO, Instant::now());
+        while done < job.settings.spp {
+            let start = Instant::now();
+            let per_pass = self.seconds_per_sample * film.pixels().len() as f64;
+            let samples =
+                ((REFRESH.as_secs_f64() / per_pass) as u32).clamp(1, done.max(1)).min(job.settings.spp - done);
+            self.expose(tracer, &mut film, job, samples, cancel);
+            if cancel.load(Ordering::Relaxed) {
+                return;
+            }
+            done += samples;
+            spent += start.elapsed();
+            if done == samples || done == job.settings.spp || shown.elapsed() >= REFRESH {
+                self.deliver(&film, job, spent, false);
+                shown = Instant::now();
+            }
+        }
+    }
+
+    fn expose(&mut self, tracer: &Tracer, film: &mut Film, job: &TruthJob, samples: u32, cancel: &AtomicBool) {
+        let start = Instant::now();
+        let stats = tracer.render(film, &job.camera, &job.settings.path, samples, cancel);
+        if stats.samples > 1000 {
+            self.seconds_per_sample = start.elapsed().as_secs_f64() / stats.samples as f64;
+        }
+    }
+
+    fn deliver(&self, film: &Film, job: &TruthJob, spent: Duration, rough: bool) {
+        self.darkroom.deliver(
+            Side::B,
+            Picture {
+                width: film.width(),
+                height: film.height(),
+                radiances: film.radiances().collect(),
+                spp: Some(film.samples_per_pixel()),
+                seconds: spent.as_secs_f64(),
+                rough,
+                job: job.job,
+            },
+        );
+    }
+}

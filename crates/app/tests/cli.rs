@@ -1,0 +1,234 @@
+//! The command line: good input makes the file, bad input makes one line and nothing else.
+
+#![expect(clippy::expect_used, reason = "a test stops at the first thing that is not as it must be")]
+
+use serde_json::Value;
+use std::process::{Command, Output};
+use visavis_tests::TestFolder;
+
+fn visavis(arguments: &[&str]) -> Output {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_visavis"));
+    command.args(arguments).env_remove("DISPLAY").env_remove("WAYLAND_DISPLAY").env_remove("WAYLAND_SOCKET");
+    command.output().expect("the program")
+}
+
+/// Runs and expects failure with `code` and one line on stderr that holds all of `words`, nothing on stdout.
+fn assert_refused(arguments: &[&str], code: i32, words: &[&str]) {
+    let output = visavis(arguments);
+    let line = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(code), "{arguments:?}: {line}");
+    assert_eq!(line.lines().count(), 1, "{arguments:?}: {line}");
+    assert!(output.stdout.is_empty(), "{arguments:?}");
+    for word in words {
+        assert!(line.contains(word), "{arguments:?}: '{word}' is not in: {line}");
+    }
+}
+
+fn json(output: &Output) -> Value {
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    serde_json::from_slice(&output.stdout).expect("one JSON object")
+}
+
+#[test]
+fn bad_values_are_wrong_usage_and_write_nothing() {
+    let folder = TestFolder::new();
+    let out = folder.file("out.png");
+    let out = out.to_str().unwrap();
+    let cases: [(&[&str], &str); 16] = [
+        (&["--refraction-ratio", "0"], "a number above 0"),
+        (&["--refraction-ratio", "-1"], "a number above 0"),
+        (&["--refraction-ratio", "nan"], "a number above 0"),
+        (&["--refraction-ratio", "inf"], "a number above 0"),
+        (&["--spp", "0"], "whole number from 1"),
+        (&["--roulette", "0"], "probability above 0 and at most 1"),
+        (&["--roulette", "1.5"], "probability above 0 and at most 1"),
+        (&["--roulette", "nan"], "probability above 0 and at most 1"),
+        (&["--size", "0x100"], "both at least 1"),
+        (&["--size", "big"], "WIDTHxHEIGHT"),
+        (&["--size", "100000x100000"], "at most"),
+        (&["--bounces", "-1"], "or inf"),
+        (&["--estimator", "mis"], "uniform, cosine or light"),
+        (&["--technique", "whitted"], "raster or path"),
+        (&["--eye", "1,2"], "three finite numbers"),
+        (&["--sun-radius", "90"], "from 0 to below 90"),
+    ];
+    for (extra, word) in cases {
+        let arguments = [&["render", "whitted", "-o", out], extra].concat();
+        assert_refused(&arguments, 2, &[extra[0], extra[1], word]);
+    }
+    assert_refused(&["render", "whitted", "-o", "out.jpg"], 2, &[".png or .exr", "out.jpg"]);
+    assert_refused(&["render", "whitted"], 2, &["-o"]);
+    assert_refused(&["render", "whitted", "-o", out, "--denoise"], 2, &["--denoise"]);
+    assert_refused(&["compare", "one.png"], 2, &["two pictures"]);
+    assert_refused(&["check"], 1, &["unknown scene 'check'"]);
+    assert_refused(&["bench", "-o", out], 2, &["--quick"]);
+    assert_eq!(folder.names(), [""; 0]);
+}
+
+#[test]
+fn bad_scenes_fail_with_the_place_and_write_nothing() {
+    let folder = TestFolder::new();
+    let out = folder.file("out.png");
+    let render = |scene: &str| vec!["render".to_owned(), scene.to_owned(), "-o".into(), out.to_str().unwrap().into()];
+    let refused = |scene: &str, words: &[&str]| {
+        let arguments = render(scene);
+        assert_refused(&arguments.iter().map(String::as_str).collect::<Vec<_>>(), 1, words);
+    };
+    refused("nonsense", &["unknown scene 'nonsense'", "whitted, cornell"]);
+    refused("missing.toml", &["missing.toml", "cannot read"]);
+    let broken = folder.file("broken.toml");
+    for (text, words) in [
+        ("[camera\n", &["broken.toml:1:8", "expected"][..]),
+        ("[camera]\neye = [0, nan, 0]\n", &["broken.toml:2:11", "finite number"][..]),
+        ("[camera]\neye = [0, 0, 1]\ntarget = [inf, 0, 0]\n", &["broken.toml:3:11", "finite number"][..]),
+    ] {
+        std::fs::write(&broken, text).unwrap();
+        refused(broken.to_str().unwrap(), words);
+    }
+    assert_eq!(folder.names(), ["broken.toml"]);
+}
+
+#[test]
+fn output_that_cannot_be_written_fails_before_rendering() {
+    let start = std::time::Instant::now();
+    let spp = ["--spp", "1000000"];
+    assert_refused(
+        &[&["render", "cornell", "-o", "/nowhere/at/all/out.exr"][..], &spp].concat(),
+        1,
+        &["cannot write", "/nowhere"],
+    );
+    let folder = TestFolder::new();
+    std::fs::create_dir(folder.file("taken.png")).unwrap();
+    let taken = folder.file("taken.png");
+    assert_refused(
+        &[&["render", "cornell", "-o", taken.to_str().unwrap()][..], &spp].concat(),
+        1,
+        &["folder", "taken.png"],
+    );
+    assert!(start.elapsed().as_secs() < 10);
+}
+
+#[test]
+fn a_camera_that_sees_nothing_is_refused() {
+    let folder = TestFolder::new();
+    let out = folder.file("out.png");
+    assert_refused(
+        &["render", "cornell", "-o", out.to_str().unwrap(), "--eye", "278,278,0"],
+        1,
+        &["camera", "eye and target must differ"],
+    );
+}
+
+#[test]
+fn a_raster_beyond_the_device_limit_names_the_limit() {
+    let folder = TestFolder::new();
+    let out = folder.file("out.png");
+    let output =
+        visavis(&["render", "cornell", "--technique", "raster", "--size", "60000x8", "-o", out.to_str().unwrap()]);
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(1), "{said}");
+    // the driver may have complained before about its own surroundings
+    let line = said.lines().last().unwrap_or_default();
+    assert!(line.starts_with("visavis: ") && line.contains("60000") && line.contains("at most"), "{said}");
+    assert_eq!(folder.names(), [""; 0]);
+}
+
+#[test]
+fn without_a_display_the_viewer_names_the_headless_command() {
+    assert_refused(&[], 1, &["display", "visavis render whitted -o"]);
+}
+
+#[test]
+fn with_no_adapter_the_raster_says_what_to_install_and_the_tracer_works() {
+    let folder = TestFolder::new();
+    let out = folder.file("out.png");
+    let run = |technique: &str| {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_visavis"));
+        // only an interface that this system does not have
+        command.env("WGPU_BACKEND", "dx12").args(["render", "cornell", "--size", "8x8", "--spp", "1"]);
+        command.args(["--technique", technique, "-o", out.to_str().unwrap()]).output().expect("the program")
+    };
+    let refused = run("raster");
+    let said = String::from_utf8_lossy(&refused.stderr);
+    assert_eq!(refused.status.code(), Some(1), "{said}");
+    assert!(said.contains("mesa-vulkan-drivers"), "{said}");
+    assert!(!out.exists());
+    assert!(run("path").status.success());
+    assert_eq!(folder.names(), ["out.png"]);
+}
+
+#[test]
+fn render_reports_every_field_of_the_contract() {
+    let folder = TestFolder::new();
+    let out = folder.file("c.exr");
+    let output = visavis(&[
+        "render",
+        "cornell",
+        "--size",
+        "32x24",
+        "--spp",
+        "4",
+        "--seed",
+        "7",
+        "--json",
+        "-o",
+        out.to_str().unwrap(),
+    ]);
+    let report = json(&output);
+    for field in ["scene", "technique", "device", "adapter", "seconds", "samples_per_second", "rays_per_second"] {
+        assert!(!report[field].is_null(), "{field}");
+    }
+    assert_eq!((&report["width"], &report["height"], &report["spp"]), (&32.into(), &24.into(), &4.into()));
+    assert_eq!((&report["nonfinite"], &report["seed"]), (&0.into(), &7.into()));
+    assert_eq!(report["mean"].as_array().map(Vec::len), Some(3));
+}
+
+#[test]
+fn one_seed_is_one_picture_and_exr_keeps_it_exactly() {
+    let folder = TestFolder::new();
+    let [a, b, c] = ["a.exr", "b.exr", "c.exr"].map(|name| folder.file(name).to_str().unwrap().to_owned());
+    for (out, seed) in [(&a, "5"), (&b, "5"), (&c, "6")] {
+        let size = ["--size", "24x24", "--spp", "8", "--seed", seed];
+        assert!(visavis(&[&["render", "whitted", "-o", out][..], &size].concat()).status.success());
+    }
+    assert_eq!(json(&visavis(&["compare", &a, &b, "--json"]))["rmse"], 0.0);
+    assert!(json(&visavis(&["compare", &a, &c, "--json"]))["rmse"].as_f64() > Some(0.0));
+}
+
+#[test]
+fn both_fakes_render_and_a_png_is_near_its_exr() {
+    let folder = TestFolder::new();
+    let [png, exr] = ["a.png", "a.exr"].map(|name| folder.file(name).to_str().unwrap().to_owned());
+    for out in [&png, &exr] {
+        let size = ["--size", "64x36", "--technique", "raster", "--fake", "as-taught"];
+        assert!(visavis(&[&["render", "whitted", "-o", out][..], &size].concat()).status.success());
+    }
+    // as taught, the film holds the light that its bytes emit: the PNG holds exactly those bytes
+    assert!(json(&visavis(&["compare", &png, &exr, "--json"]))["rmse"].as_f64() < Some(1e-6));
+}
+
+#[test]
+fn time_stops_a_render() {
+    let folder = TestFolder::new();
+    let out = folder.file("t.png");
+    let output =
+        visavis(&["render", "cornell", "--size", "64x64", "--time", "1", "--json", "-o", out.to_str().unwrap()]);
+    let report = json(&output);
+    let seconds = report["seconds"].as_f64().unwrap();
+    assert!((0.9..3.0).contains(&seconds), "{seconds}");
+    assert!(report["spp"].as_u64() > Some(1));
+}
+
+#[test]
+fn help_lists_every_option_and_exits_well() {
+    let output = visavis(&["--help"]);
+    let text = String::from_utf8_lossy(&output.stdout);
+    assert!(output.status.success());
+    for option in
+        ["--technique", "--spp", "--bounces", "--roulette", "--estimator", "--refraction-ratio", "--fake", "--json"]
+    {
+        assert!(text.contains(option), "{option}");
+    }
+    assert!(visavis(&["--version"]).status.success());
+    assert!(visavis(&["info"]).status.success());
+}

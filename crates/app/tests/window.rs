@@ -1,0 +1,112 @@
+//! The real window under Xvfb, with real mouse and keys.
+
+use std::path::Path;
+use std::sync::{Mutex, MutexGuard};
+use visavis_tests::{Frame, Screen, ViewerUnderTest};
+
+/// One window at a time: each test has the machine to itself, as a user has.
+fn alone() -> MutexGuard<'static, ()> {
+    static ONE: Mutex<()> = Mutex::new(());
+    ONE.lock().unwrap_or_else(std::sync::PoisonError::into_inner)
+}
+
+fn viewer_on(screen: &Screen, arguments: &[&str]) -> ViewerUnderTest {
+    ViewerUnderTest::start(Path::new(env!("CARGO_BIN_EXE_visavis")), screen, arguments)
+}
+
+fn both_ready(frame: &Frame) -> bool {
+    frame.state("a_ready") == true && frame.state("b_ready") == true
+}
+
+#[test]
+fn a_lecturer_toggles_slides_wipes_orbits_saves_and_closes() {
+    let _alone = alone();
+    let screen = Screen::start(1280, 720);
+    let mut viewer = viewer_on(&screen, &[]);
+    let first = viewer.wait_for("both pictures", both_ready);
+    assert_eq!(first.state("view"), "Wipe");
+    assert_eq!(first.state("faults"), &serde_json::json!([null, null]));
+    let window = screen.focus("Visavis");
+
+    screen.key('t', false);
+    viewer.wait_for("A alone", |f| f.state("view") == "A");
+    screen.key('t', false);
+    viewer.wait_for("B alone", |f| f.state("view") == "B");
+    screen.click(first.point("view Wipe", 0.5, 0.5));
+    viewer.wait_for("the wipe again", |f| f.state("view") == "Wipe");
+
+    assert_eq!(first.value("refraction ratio"), "0.7");
+    // the slider's rail starts at the widget's left edge and is 130 points long
+    let [left, top, _, bottom] = first.rect("refraction ratio");
+    let y = 0.5 * (top + bottom);
+    screen.drag([left + 65.0, y], [left + 20.0, y]);
+    let slid = |f: &Frame| f.value("refraction ratio").parse::<f32>().is_ok_and(|r| r < 0.55);
+    viewer.wait_for("the slider to stand at its new place", slid);
+
+    let middle = first.point("picture", 0.5, 0.5);
+    screen.drag(middle, first.point("picture", 0.25, 0.6));
+    let wiped = viewer.wait_for("the line to move", |f| f.state("wipe").as_f64().is_some_and(|w| w < 0.3));
+    assert_eq!(wiped.state("eye"), first.state("eye"), "dragging the line must not move the camera");
+
+    screen.drag(first.point("picture", 0.7, 0.7), first.point("picture", 0.75, 0.65));
+    viewer.wait_for("the camera to orbit", |f| f.state("eye") != first.state("eye"));
+
+    viewer.wait_for("both pictures of the new view", |f| both_ready(f) && f.state("b_rough") == false);
+    screen.key('s', true);
+    let saved =
+        viewer.wait_for("the message", |f| f.state("message").as_str().is_some_and(|m| m.starts_with("Saved ")));
+    let path = saved.state("message").as_str().unwrap()["Saved ".len()..].to_owned();
+    assert!(Path::new(&path).starts_with(viewer.home()));
+    let picture = image::open(&path).expect("a PNG").to_rgb8();
+    let [left, top, right, bottom] = saved.rect("picture").map(|v| v as u32);
+    assert_eq!(picture.dimensions(), (right - left, bottom - top));
+    let line_at = left + (saved.state("wipe").as_f64().unwrap() * f64::from(right - left)) as u32;
+    let white = (top..bottom).filter(|y| picture.get_pixel(line_at - left, y - top).0 == [255; 3]).count();
+    assert!(white as u32 > (bottom - top) / 2, "the line is part of the saved picture");
+
+    screen.close(window);
+    assert!(viewer.wait_for_end().success());
+}
+
+#[test]
+fn scenes_change_controls_that_do_not_apply_go_and_the_window_may_be_resized() {
+    let _alone = alone();
+    let screen = Screen::start(1280, 720);
+    let mut viewer = viewer_on(&screen, &["cornell"]);
+    let first = viewer.wait_for("both pictures", both_ready);
+    assert!(!first.shows("refraction ratio") && !first.shows("sun radius"));
+    let window = screen.focus("Visavis");
+
+    screen.click(first.point("limit bounces", 0.05, 0.5));
+    viewer.wait_for("the bounce slider", |f| f.shows("bounces"));
+    screen.click(first.point("scene", 0.5, 0.5));
+    let menu = viewer.wait_for("the menu", |f| f.shows("scene whitted"));
+    screen.click(menu.point("scene whitted", 0.5, 0.5));
+    viewer
+        .wait_for("the other scene", |f| f.state("scene") == "whitted" && f.shows("refraction ratio") && both_ready(f));
+
+    for (width, height) in [(900, 500), (500, 330), (1100, 700)] {
+        screen.resize(window, width, height);
+    }
+    let resized = viewer.wait_for("the new size", |f| f.rect("picture")[3] > 650.0 && f.rect("picture")[3] <= 700.0);
+    assert!(resized.rect("controls")[2] <= 1100.0);
+    screen.close(window);
+    assert!(viewer.wait_for_end().success());
+}
+
+#[test]
+fn a_slider_brings_a_new_picture_within_a_tenth_of_a_second_of_work() {
+    let _alone = alone();
+    let screen = Screen::start(1280, 720);
+    let mut viewer = viewer_on(&screen, &["cornell"]);
+    let first = viewer.wait_for("a full picture", |f| both_ready(f) && f.state("b_rough") == false);
+    screen.focus("Visavis");
+    screen.click(first.point("estimator cosine", 0.5, 0.5));
+    let changed = viewer.wait_for("the new estimator's first picture", |f| {
+        f.value("estimator cosine") == "true" && !f.state("latency_ms").is_null()
+    });
+    let latency = changed.state("latency_ms").as_u64().expect("a measured latency");
+    println!("{latency} ms from the change to its first picture on the screen");
+    // the goal is 100 ms on an idle machine; the test machine may be busy with other tests
+    assert!(latency < 500, "{latency} ms from the change to the first picture");
+}
