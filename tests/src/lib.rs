@@ -1,0 +1,9 @@
+//! Support for tests: a virtual screen with real X events, the viewer in it, and folders that clean up after themselves.
+
+mod folder;
+mod screen;
+mod viewer;
+
+pub use folder::TestFolder;
+pub use screen::Screen;
+pub use viewer::{Frame, ViewerUnderTest};

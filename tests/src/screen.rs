@@ -1,0 +1,171 @@
+//! A virtual screen (Xvfb) and a hand on its mouse and keyboard (XTEST).
+
+use std::io::{BufRead, BufReader};
+use std::process::{Child, Command, Stdio};
+use std::time::Duration;
+use x11rb::connection::Connection;
+use x11rb::protocol::xproto::{self, ConnectionExt as _};
+use x11rb::protocol::xtest::ConnectionExt as _;
+use x11rb::rust_connection::RustConnection;
+use x11rb::wrapper::ConnectionExt as _;
+
+/// An X server of its own, ended when dropped.
+pub struct Screen {
+    server: Child,
+    /// What DISPLAY has to be.
+    pub display: String,
+    connection: RustConnection,
+    root: xproto::Window,
+}
+
+/// How long the mouse rests between two steps, so that every step is a frame of its own.
+const STEP: Duration = Duration::from_millis(15);
+/// How long a pressed button stays down before and after a drag: a hand is never faster, and a loaded machine may need it.
+const HOLD: Duration = Duration::from_millis(150);
+
+impl Screen {
+    /// Starts a server on a free display.
+    ///
+    /// # Panics
+    /// If Xvfb is missing (setup.sh installs it) or does not answer.
+    pub fn start(width: u32, height: u32) -> Self {
+        let mut server = Command::new("Xvfb")
+            .args(["-displayfd", "1", "-screen", "0", &format!("{width}x{height}x24"), "-nolisten", "tcp"])
+            .stdout(Stdio::piped())
+            .stderr(Stdio::null())
+            .spawn()
+            .expect("Xvfb, which setup.sh installs");
+        let mut number = String::new();
+        let stdout = server.stdout.take().expect("the server's output");
+        BufReader::new(stdout).read_line(&mut number).expect("a display number");
+        let display = format!(":{}", number.trim());
+        let (connection, screen) = x11rb::connect(Some(&display)).expect("the new display");
+        let root = connection.setup().roots[screen].root;
+        Screen { server, display, connection, root }
+    }
+
+    /// Moves the mouse.
+    pub fn move_to(&self, x: f32, y: f32) {
+        self.fake(xproto::MOTION_NOTIFY_EVENT, 0, x, y);
+    }
+
+    /// Clicks with the left button.
+    pub fn click(&self, at: [f32; 2]) {
+        self.move_to(at[0], at[1]);
+        self.fake(xproto::BUTTON_PRESS_EVENT, 1, at[0], at[1]);
+        self.fake(xproto::BUTTON_RELEASE_EVENT, 1, at[0], at[1]);
+    }
+
+    /// Drags with the left button, in a few steps.
+    pub fn drag(&self, from: [f32; 2], to: [f32; 2]) {
+        self.move_to(from[0], from[1]);
+        self.fake(xproto::BUTTON_PRESS_EVENT, 1, from[0], from[1]);
+        std::thread::sleep(HOLD);
+        for step in 1..=10 {
+            let share = step as f32 / 10.0;
+            self.move_to(from[0] + share * (to[0] - from[0]), from[1] + share * (to[1] - from[1]));
+        }
+        std::thread::sleep(HOLD);
+        self.fake(xproto::BUTTON_RELEASE_EVENT, 1, to[0], to[1]);
+    }
+
+    /// Turns the wheel by one notch, away from the user.
+    pub fn wheel_up(&self, at: [f32; 2]) {
+        self.move_to(at[0], at[1]);
+        self.fake(xproto::BUTTON_PRESS_EVENT, 4, at[0], at[1]);
+        self.fake(xproto::BUTTON_RELEASE_EVENT, 4, at[0], at[1]);
+    }
+
+    /// Types the key of a Latin letter or digit, with Control held if asked.
+    pub fn key(&self, character: char, control: bool) {
+        const CONTROL_L: u32 = 0xffe3;
+        let hold = control.then(|| self.keycode(CONTROL_L));
+        let key = self.keycode(u32::from(character));
+        for code in hold.into_iter().chain([key]) {
+            self.fake(xproto::KEY_PRESS_EVENT, code, 0.0, 0.0);
+        }
+        for code in [key].into_iter().chain(hold) {
+            self.fake(xproto::KEY_RELEASE_EVENT, code, 0.0, 0.0);
+        }
+    }
+
+    /// Gives the keyboard to the window of that title and returns it.
+    ///
+    /// # Panics
+    /// If there is none.
+    pub fn focus(&self, title: &str) -> xproto::Window {
+        let window = self.find(title).expect("the window");
+        self.connection.set_input_focus(xproto::InputFocus::PARENT, window, x11rb::CURRENT_TIME).expect("focus");
+        self.connection.sync().expect("the server");
+        window
+    }
+
+    /// Asks the window to close, as a window manager's button does.
+    ///
+    /// # Panics
+    /// If the server does not answer.
+    pub fn close(&self, window: xproto::Window) {
+        let atom =
+            |name: &[u8]| self.connection.intern_atom(false, name).expect("an atom").reply().expect("an atom").atom;
+        let data = [atom(b"WM_DELETE_WINDOW"), x11rb::CURRENT_TIME, 0, 0, 0];
+        let event = xproto::ClientMessageEvent::new(32, window, atom(b"WM_PROTOCOLS"), data);
+        self.connection.send_event(false, window, xproto::EventMask::NO_EVENT, event).expect("the message");
+        self.connection.sync().expect("the server");
+    }
+
+    /// Sets the size of a window.
+    ///
+    /// # Panics
+    /// If the server does not answer.
+    pub fn resize(&self, window: xproto::Window, width: u32, height: u32) {
+        let size = xproto::ConfigureWindowAux::new().width(width).height(height);
+        self.connection.configure_window(window, &size).expect("the request");
+        self.connection.sync().expect("the server");
+    }
+
+    /// Colours of a rectangle of the screen, RGB, rows from the top.
+    ///
+    /// # Panics
+    /// If the server does not answer.
+    pub fn pixels(&self, x: u32, y: u32, width: u32, height: u32) -> Vec<[u8; 3]> {
+        let plane = xproto::ImageFormat::Z_PIXMAP;
+        let request =
+            self.connection.get_image(plane, self.root, x as i16, y as i16, width as u16, height as u16, u32::MAX);
+        let image = request.expect("the request").reply().expect("the picture");
+        image.data.chunks_exact(4).map(|p| [p[2], p[1], p[0]]).collect()
+    }
+
+    fn fake(&self, event: u8, detail: u8, x: f32, y: f32) {
+        let (x, y) = (x.round() as i16, y.round() as i16);
+        self.connection.xtest_fake_input(event, detail, 0, self.root, x, y, 0).expect("a fake event");
+        self.connection.sync().expect("the server");
+        std::thread::sleep(STEP);
+    }
+
+    fn keycode(&self, keysym: u32) -> u8 {
+        let setup = self.connection.setup();
+        let (first, last) = (setup.min_keycode, setup.max_keycode);
+        let request = self.connection.get_keyboard_mapping(first, last - first + 1);
+        let map = request.expect("the request").reply().expect("the keyboard");
+        let per_code = usize::from(map.keysyms_per_keycode);
+        let place = map.keysyms.iter().position(|&k| k == keysym).expect("a key for the character");
+        first + (place / per_code) as u8
+    }
+
+    fn find(&self, title: &str) -> Option<xproto::Window> {
+        let tree = self.connection.query_tree(self.root).ok()?.reply().ok()?;
+        tree.children.into_iter().find(|&window| {
+            let name = xproto::AtomEnum::WM_NAME;
+            let request = self.connection.get_property(false, window, name, xproto::AtomEnum::ANY, 0, 256);
+            request.ok().and_then(|r| r.reply().ok()).is_some_and(|r| r.value == title.as_bytes())
+        })
+    }
+}
+
+impl Drop for Screen {
+    fn drop(&mut self) {
+        // it may have ended already
+        let _ = self.server.kill();
+        let _ = self.server.wait();
+    }
+}

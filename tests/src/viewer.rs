@@ -1,0 +1,129 @@
+//! The viewer as a process on a virtual screen, watched through its dump of widgets.
+
+use crate::{Screen, TestFolder};
+use serde_json::Value;
+use std::path::Path;
+use std::process::{Child, Command, ExitStatus, Stdio};
+use std::time::{Duration, Instant};
+
+/// A running viewer, ended when dropped.
+pub struct ViewerUnderTest {
+    process: Child,
+    folder: TestFolder,
+}
+
+/// What the viewer said of one frame.
+#[derive(Debug, Clone)]
+pub struct Frame(Value);
+
+impl ViewerUnderTest {
+    /// Starts `binary` on a screen, with a home folder of its own that is empty.
+    ///
+    /// # Panics
+    /// If it does not start.
+    pub fn start(binary: &Path, screen: &Screen, arguments: &[&str]) -> Self {
+        let folder = TestFolder::new();
+        let home = folder.file("home");
+        std::fs::create_dir(&home).expect("a home folder");
+        let process = Command::new(binary)
+            .args(arguments)
+            .arg("--ui-dump")
+            .arg(folder.file("dump.json"))
+            .env("DISPLAY", &screen.display)
+            .env_remove("WAYLAND_DISPLAY")
+            .env_remove("WAYLAND_SOCKET")
+            .env("HOME", &home)
+            .stderr(Stdio::inherit())
+            .spawn()
+            .expect("the viewer");
+        ViewerUnderTest { process, folder }
+    }
+
+    /// The home folder that it sees.
+    pub fn home(&self) -> std::path::PathBuf {
+        self.folder.file("home")
+    }
+
+    /// Waits for a frame of which `holds` is true.
+    ///
+    /// # Panics
+    /// If none comes within a minute, or the viewer ends.
+    pub fn wait_for(&mut self, what: &str, holds: impl Fn(&Frame) -> bool) -> Frame {
+        let start = Instant::now();
+        let mut last = None;
+        while start.elapsed() < Duration::from_secs(60) {
+            if let Some(status) = self.process.try_wait().expect("the process") {
+                panic!("the viewer ended with {status} while waiting for: {what}");
+            }
+            let text = std::fs::read_to_string(self.folder.file("dump.json")).unwrap_or_default();
+            if let Ok(value) = serde_json::from_str(&text) {
+                let frame = Frame(value);
+                if holds(&frame) {
+                    return frame;
+                }
+                last = Some(frame);
+            }
+            std::thread::sleep(Duration::from_millis(20));
+        }
+        panic!("waited a minute for: {what}; last seen: {:?}", last.map(|f| f.0["state"].to_string()));
+    }
+
+    /// Waits for the process to end by itself.
+    ///
+    /// # Panics
+    /// If it does not within ten seconds.
+    pub fn wait_for_end(&mut self) -> ExitStatus {
+        let start = Instant::now();
+        while start.elapsed() < Duration::from_secs(10) {
+            if let Some(status) = self.process.try_wait().expect("the process") {
+                return status;
+            }
+            std::thread::sleep(Duration::from_millis(20));
+        }
+        panic!("the viewer did not close within ten seconds");
+    }
+}
+
+impl Drop for ViewerUnderTest {
+    fn drop(&mut self) {
+        // it may have ended already
+        let _ = self.process.kill();
+        let _ = self.process.wait();
+    }
+}
+
+impl Frame {
+    /// A value of the viewer's state.
+    pub fn state(&self, name: &str) -> &Value {
+        &self.0["state"][name]
+    }
+
+    /// A widget's rectangle in pixels: left, top, right, bottom.
+    ///
+    /// # Panics
+    /// If it is not on the screen.
+    pub fn rect(&self, name: &str) -> [f32; 4] {
+        let rect = &self.widget(name).unwrap_or_else(|| panic!("no widget '{name}' on the screen"))["rect"];
+        std::array::from_fn(|i| rect[i].as_f64().expect("a number") as f32)
+    }
+
+    /// The point at a share of a widget's width and height.
+    pub fn point(&self, name: &str, x: f32, y: f32) -> [f32; 2] {
+        let [left, top, right, bottom] = self.rect(name);
+        [left + x * (right - left), top + y * (bottom - top)]
+    }
+
+    /// A widget's value as text; empty if it is not on the screen.
+    pub fn value(&self, name: &str) -> &str {
+        self.widget(name).and_then(|w| w["value"].as_str()).unwrap_or_default()
+    }
+
+    /// Whether a widget is on the screen.
+    pub fn shows(&self, name: &str) -> bool {
+        self.widget(name).is_some()
+    }
+
+    fn widget(&self, name: &str) -> Option<&Value> {
+        self.0["widgets"].as_array()?.iter().find(|w| w["name"] == name)
+    }
+}

@@ -1,0 +1,273 @@
+//! The fake's functions in WGSL and in Rust give the same numbers: each is run on the device over random inputs.
+
+use gpu::upload::TexturePlan;
+use gpu::{Gpu, wgpu, wgsl};
+use raster::shading;
+use scene::Vec3;
+use scene::material::Checkerboard;
+
+const ITEMS: usize = 4096;
+
+/// Splitmix-like generator: the inputs are the same on every machine.
+struct Random(u64);
+
+impl Random {
+    fn unit(&mut self) -> f32 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let x = (self.0 ^ self.0 >> 30).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        let x = (x ^ x >> 27).wrapping_mul(0x94d0_49bb_1331_11eb);
+        ((x ^ x >> 31) >> 40) as f32 / (1u64 << 24) as f32
+    }
+
+    fn between(&mut self, low: f32, high: f32) -> f32 {
+        low + (high - low) * self.unit()
+    }
+
+    fn direction(&mut self) -> Vec3 {
+        loop {
+            let v = Vec3::new(self.between(-1.0, 1.0), self.between(-1.0, 1.0), self.between(-1.0, 1.0));
+            if (0.01..1.0).contains(&v.length_squared()) {
+                return v.normalize();
+            }
+        }
+    }
+}
+
+/// Runs `body`, which turns the numbers from `in_at` on into a vec3f, for each item of `width` numbers. `map` is a square
+/// shadow map.
+fn run(import: &str, body: &str, width: usize, input: &[f32], map: &[f32]) -> Vec<Vec3> {
+    let shader = format!(
+        "//#import {import}\n
+        @group(0) @binding(0) var<storage, read> numbers: array<f32>;
+        @group(0) @binding(1) var<storage, read_write> results: array<f32>;
+        @group(0) @binding(2) var map: texture_2d_array<u32>;
+        fn vec(at: u32) -> vec3f {{ return vec3f(numbers[at], numbers[at + 1u], numbers[at + 2u]); }}
+        fn result(at: u32) -> vec3f {{ {body} }}
+        @compute @workgroup_size(64)
+        fn main(@builtin(global_invocation_id) id: vec3u) {{
+            let texels = textureNumLayers(map);
+            let at = id.x * {width}u;
+            if texels == 0u || at >= arrayLength(&numbers) {{ return; }}
+            let r = result(at);
+            results[id.x * 3u] = r.x;
+            results[id.x * 3u + 1u] = r.y;
+            results[id.x * 3u + 2u] = r.z;
+        }}"
+    );
+    let find = |path: &str| match path {
+        "test.wgsl" => Some(shader.as_str()),
+        _ => wgsl::FILES.iter().find(|(name, _)| *name == path).map(|(_, text)| *text),
+    };
+    let gpu = Gpu::headless().unwrap();
+    let module = wgsl::compose_from("test.wgsl", &find).unwrap().create(&gpu).unwrap();
+    let items = input.len() / width;
+    let storage = wgpu::BufferUsages::STORAGE;
+    let numbers = gpu.buffer("numbers", input, storage).unwrap();
+    let results = gpu.buffer("results", &vec![f32::NAN; 3 * items], storage | wgpu::BufferUsages::COPY_SRC).unwrap();
+    let side = (map.len() as f32).sqrt() as u32;
+    let plan = TexturePlan {
+        width: side,
+        height: side,
+        layers: 2,
+        samples: 1,
+        format: wgpu::TextureFormat::R32Uint,
+        usage: wgpu::TextureUsages::TEXTURE_BINDING,
+    };
+    // the layer under test is the second one
+    let texels: Vec<u32> = [vec![0.5; map.len()], map.to_vec()].concat().into_iter().map(f32::to_bits).collect();
+    let texture = gpu.texture_of("map", &plan, &texels).unwrap();
+    let view = texture.create_view(&wgpu::TextureViewDescriptor {
+        dimension: Some(wgpu::TextureViewDimension::D2Array),
+        ..wgpu::TextureViewDescriptor::default()
+    });
+    dispatch(&gpu, &module, &numbers, &results, &view, items);
+    let bytes = gpu.read_buffer("results", &results).unwrap();
+    assert_eq!(gpu.fault(), None);
+    bytemuck::pod_collect_to_vec::<u8, f32>(&bytes).chunks_exact(3).map(Vec3::from_slice).collect()
+}
+
+fn dispatch(
+    gpu: &Gpu,
+    module: &wgpu::ShaderModule,
+    numbers: &wgpu::Buffer,
+    results: &wgpu::Buffer,
+    map: &wgpu::TextureView,
+    items: usize,
+) {
+    let storage = |binding, read_only| wgpu::BindGroupLayoutEntry {
+        binding,
+        visibility: wgpu::ShaderStages::COMPUTE,
+        ty: wgpu::BindingType::Buffer {
+            ty: wgpu::BufferBindingType::Storage { read_only },
+            has_dynamic_offset: false,
+            min_binding_size: None,
+        },
+        count: None,
+    };
+    let texture = wgpu::BindGroupLayoutEntry {
+        binding: 2,
+        visibility: wgpu::ShaderStages::COMPUTE,
+        ty: wgpu::BindingType::Texture {
+            sample_type: wgpu::TextureSampleType::Uint,
+            view_dimension: wgpu::TextureViewDimension::D2Array,
+            multisampled: false,
+        },
+        count: None,
+    };
+    let entries = [storage(0, true), storage(1, false), texture];
+    let layout =
+        gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label: None, entries: &entries });
+    let pipeline_layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+        label: None,
+        bind_group_layouts: &[Some(&layout)],
+        immediate_size: 0,
+    });
+    let pipeline = gpu.device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+        label: None,
+        layout: Some(&pipeline_layout),
+        module,
+        entry_point: Some("main"),
+        compilation_options: wgpu::PipelineCompilationOptions::default(),
+        cache: None,
+    });
+    let group = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
+        label: None,
+        layout: &layout,
+        entries: &[
+            wgpu::BindGroupEntry { binding: 0, resource: numbers.as_entire_binding() },
+            wgpu::BindGroupEntry { binding: 1, resource: results.as_entire_binding() },
+            wgpu::BindGroupEntry { binding: 2, resource: wgpu::BindingResource::TextureView(map) },
+        ],
+    });
+    let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+    {
+        let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
+        pass.set_pipeline(&pipeline);
+        pass.set_bind_group(0, &group, &[]);
+        pass.dispatch_workgroups(items.div_ceil(64) as u32, 1, 1);
+    }
+    gpu.queue.submit([encoder.finish()]);
+}
+
+/// The largest difference, relative to values above 1; at least one pair must be there and all must be finite.
+fn apart(on_gpu: &[Vec3], on_cpu: &[Vec3]) -> f32 {
+    assert!(!on_cpu.is_empty() && on_gpu.len() == on_cpu.len());
+    on_gpu.iter().zip(on_cpu).fold(0.0, |worst, (gpu, cpu)| {
+        assert!(gpu.is_finite(), "{gpu} where {cpu} was expected");
+        let relative = (gpu - cpu).abs() / cpu.abs().max(Vec3::ONE);
+        relative.max_element().max(worst)
+    })
+}
+
+type Model = fn(Vec3, Vec3, Vec3, Vec3, f32, f32, Vec3) -> Vec3;
+
+const MODELS: [(&str, Model); 3] = [
+    ("phong", shading::phong),
+    ("blinn_phong", shading::blinn_phong),
+    ("three_blinn_phong", shading::three_blinn_phong),
+];
+
+fn shading_body(name: &str) -> String {
+    format!(
+        "return {name}(vec(at), vec(at + 3u), vec(at + 6u), vec(at + 9u), numbers[at + 12u], numbers[at + 13u], vec(at + 14u));"
+    )
+}
+
+#[test]
+fn illumination_models_agree() {
+    let mut random = Random(1);
+    let mut input = Vec::new();
+    for _ in 0..ITEMS {
+        for direction in [random.direction(), random.direction(), random.direction()] {
+            input.extend(direction.to_array());
+        }
+        input.extend([random.unit(), random.unit(), random.unit(), random.unit(), random.between(0.0, 128.0)]);
+        input.extend([random.between(0.0, 2.0), random.between(0.0, 2.0), random.between(0.0, 2.0)]);
+    }
+    for (name, model) in MODELS {
+        let on_gpu = run("lib/shading.wgsl", &shading_body(name), 17, &input, &[1.0]);
+        let at = |x: &[f32], i: usize| Vec3::from_slice(&x[i..i + 3]);
+        let twin = |x: &[f32]| model(at(x, 0), at(x, 3), at(x, 6), at(x, 9), x[12], x[13], at(x, 14));
+        let on_cpu: Vec<_> = input.chunks_exact(17).map(twin).collect();
+        // pow may lose about one ulp per unit of its exponent's logarithm
+        let apart = apart(&on_gpu, &on_cpu);
+        assert!(apart < 2e-4, "{name}: {apart}");
+    }
+}
+
+#[test]
+fn phong_and_blinn_phong_have_their_closed_form_values() {
+    let (n, l) = (Vec3::Y, Vec3::new(1.0, 1.0, 0.0) / 2f32.sqrt());
+    let v = Vec3::new(-1.0, 2.0, 0.0) / 5f32.sqrt();
+    let input = [n, l, v, Vec3::splat(0.6)].map(|x| x.to_array()).concat();
+    let input = [input, vec![0.3, 32.0], vec![1.0; 3]].concat();
+    for ((name, model), expected) in MODELS.into_iter().zip([0.579_854_7, 0.722_189_5]) {
+        let ambient = 0.1;
+        let on_cpu = ambient + model(n, l, v, Vec3::splat(0.6), 0.3, 32.0, Vec3::ONE).y;
+        let on_gpu = ambient + run("lib/shading.wgsl", &shading_body(name), 17, &input, &[1.0])[0].y;
+        assert!((on_cpu - expected).abs() < 1e-4, "{name} on the CPU: {on_cpu}");
+        assert!((on_gpu - expected).abs() < 1e-4, "{name} on the GPU: {on_gpu}");
+    }
+}
+
+#[test]
+fn refraction_agrees_on_both_sides_of_the_critical_angle() {
+    let mut random = Random(2);
+    let (mut input, mut mirrored) = (Vec::new(), 0);
+    while input.len() < 7 * ITEMS {
+        let (n, ratio) = (random.direction(), random.between(0.4, 2.5));
+        let d = random.direction();
+        let d = if d.dot(n) < 0.0 { d } else { -d };
+        let k = 1.0 - ratio * ratio * (1.0 - d.dot(n) * d.dot(n));
+        // nearer to the critical angle than this the square root magnifies rounding
+        if k.abs() > 1e-3 {
+            mirrored += usize::from(k < 0.0);
+            input.extend([d.to_array(), n.to_array()].concat());
+            input.push(ratio);
+        }
+    }
+    assert!(mirrored > ITEMS / 10 && mirrored < ITEMS * 9 / 10);
+    let body = "return refract(vec(at), vec(at + 3u), numbers[at + 6u]);";
+    let on_gpu = run("lib/refraction.wgsl", body, 7, &input, &[1.0]);
+    let at = |x: &[f32], i: usize| Vec3::from_slice(&x[i..i + 3]);
+    let on_cpu: Vec<_> = input.chunks_exact(7).map(|x| shading::refract(at(x, 0), at(x, 3), x[6])).collect();
+    let apart = apart(&on_gpu, &on_cpu);
+    assert!(apart < 2e-5, "{apart}");
+}
+
+#[test]
+fn checkerboards_agree_away_from_their_edges() {
+    let board = Checkerboard {
+        even: Vec3::new(0.8, 0.8, 0.0),
+        odd: Vec3::new(0.8, 0.0, 0.1),
+        origin: Vec3::new(-23.0, 0.0, -7.5),
+        cell: Vec3::new(1.0, 0.0, 0.5),
+    };
+    let mut random = Random(3);
+    let mut inside = || random.between(-40.0, 40.0).floor() + random.between(0.01, 0.99);
+    let points: Vec<_> = (0..ITEMS).map(|_| Vec3::new(inside(), inside(), 0.5 * inside())).collect();
+    let input: Vec<f32> = points.iter().flat_map(|p| p.to_array()).collect();
+    let body = "let board = Checkerboard(vec3f(0.8, 0.8, 0.0), vec3f(0.8, 0.0, 0.1), vec3f(-23.0, 0.0, -7.5), vec3f(1.0, 0.0, 2.0));
+        return checkerboard(board, vec(at));";
+    let on_gpu = run("lib/checkerboard.wgsl", body, 3, &input, &[1.0]);
+    let on_cpu: Vec<_> = points.iter().map(|&p| shading::checkerboard(&board, p)).collect();
+    assert_eq!(apart(&on_gpu, &on_cpu), 0.0);
+    let even = on_cpu.iter().filter(|c| **c == board.even).count();
+    assert!(even > ITEMS / 3 && even < ITEMS * 2 / 3);
+}
+
+#[test]
+fn shadow_kernels_agree_inside_and_at_the_border() {
+    let mut random = Random(4);
+    let size = 16;
+    let map: Vec<f32> = (0..size * size).map(|_| random.unit()).collect();
+    let input: Vec<f32> =
+        (0..ITEMS).flat_map(|_| [random.between(-0.1, 1.1), random.between(-0.1, 1.1), random.unit()]).collect();
+    let body = "return vec3f(pcf_soft(map, 1u, vec2f(numbers[at], numbers[at + 1u]), numbers[at + 2u]));";
+    let on_gpu = run("lib/shadow.wgsl", body, 3, &input, &map);
+    let nearest = |x: u32, y: u32| map[(y * size + x) as usize];
+    let twin = |x: &[f32]| Vec3::splat(shading::pcf_soft(nearest, size, [x[0], x[1]], x[2]));
+    let on_cpu: Vec<_> = input.chunks_exact(3).map(twin).collect();
+    let apart = apart(&on_gpu, &on_cpu);
+    assert!(apart < 1e-5, "{apart}");
+}

@@ -1,0 +1,92 @@
+//! Every shader that ships is valid WGSL, and every struct that Rust and WGSL share has the same layout on both sides.
+
+use gpu::wgsl;
+use raster::gpu_data::{Lights, Object, View};
+use std::mem::offset_of;
+
+#[test]
+fn every_shader_composes_and_validates() {
+    for (name, _) in wgsl::FILES {
+        if let Err(fault) = wgsl::compose(name) {
+            panic!("{fault}");
+        }
+    }
+}
+
+#[test]
+fn every_shader_file_is_embedded() {
+    let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../shaders");
+    let mut found = Vec::new();
+    for part in std::fs::read_dir(&folder).unwrap() {
+        let part = part.unwrap().path();
+        for file in std::fs::read_dir(&part).unwrap() {
+            let path = file.unwrap().path();
+            found.push(path.strip_prefix(&folder).unwrap().to_string_lossy().replace('\\', "/"));
+        }
+    }
+    found.sort();
+    let mut embedded: Vec<_> = wgsl::FILES.iter().map(|(name, _)| *name).collect();
+    embedded.sort_unstable();
+    assert_eq!(found, embedded);
+}
+
+/// Size and named offsets of a struct as the shader compiler lays it out.
+fn layout_in_wgsl(module: &naga::Module, name: &str) -> (usize, Vec<(String, usize)>) {
+    let found = module.types.iter().find(|(_, ty)| ty.name.as_deref() == Some(name));
+    let (handle, ty) = found.unwrap_or_else(|| panic!("no struct is called {name}"));
+    let naga::TypeInner::Struct { members, .. } = &ty.inner else { panic!("{name} is no struct") };
+    let mut layouter = naga::proc::Layouter::default();
+    layouter.update(module.to_ctx()).unwrap();
+    let fields = members.iter().map(|m| (m.name.clone().unwrap_or_default(), m.offset as usize)).collect();
+    (layouter[handle].to_stride() as usize, fields)
+}
+
+macro_rules! assert_same_layout {
+    ($file:literal, $name:ident, [$($field:ident),* $(,)?]) => {{
+        let (size, fields) = layout_in_wgsl(&wgsl::compose($file).unwrap().module, stringify!($name));
+        let mirrored = vec![$((stringify!($field).to_owned(), offset_of!($name, $field))),*];
+        assert_eq!(fields, mirrored, "offsets of {}", stringify!($name));
+        assert_eq!(size, size_of::<$name>(), "size of {}", stringify!($name));
+    }};
+}
+
+#[test]
+fn mirrors_have_the_layout_of_their_structs() {
+    assert_same_layout!("raster/view.wgsl", View, [clip_from_world, depth_from_world, eye, sees_cube_maps, texel]);
+    assert_same_layout!(
+        "raster/forward.wgsl",
+        Lights,
+        [
+            sun_towards,
+            shading,
+            sun_incident,
+            refracts_per_vertex,
+            lamp_position,
+            lamp_pattern,
+            lamp_normal,
+            lamp_incident,
+            ambient,
+            sky,
+            shadow_views
+        ]
+    );
+    assert_same_layout!(
+        "raster/forward.wgsl",
+        Object,
+        [
+            even,
+            refraction_ratio,
+            odd,
+            reflectivity,
+            origin,
+            specular,
+            cells_per_unit,
+            shininess,
+            emission,
+            emitting_sides,
+            kind,
+            has_cube_map,
+            slack
+        ]
+    );
+}
