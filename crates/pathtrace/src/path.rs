@@ -187,12 +187,16 @@ fn scatter_dielectric(path: &mut PathState, at: &SurfacePoint, wo: Vec3, ior: f3
     path.leave(at, refracted.unwrap_or_else(|| reflect(wo, normal)).normalize());
 }
 
+/// Survival for each unit of throughput. Measured on both of the tutorial's scenes: relMSE times seconds is 1.26e-3 at 1,
+/// 1.02e-3 at 1.5, 0.86e-3 at 2, 0.92e-3 at 4 and 2.2e-3 at 16 for the Cornell box, and flat from 1 to 2 for the spheres.
+const ROULETTE_SLOPE: f32 = 2.0;
+
 /// Russian roulette; the survivor carries the light of those that did not.
 fn survives(throughput: &mut Vec3, roulette: Roulette, u: f32) -> bool {
     let probability = match roulette {
         Roulette::Off => 1.0,
         Roulette::Probability(p) => p,
-        Roulette::Throughput => throughput.max_element().min(1.0),
+        Roulette::Throughput => (ROULETTE_SLOPE * throughput.max_element()).min(1.0),
     };
     *throughput /= probability;
     u < probability

@@ -41,7 +41,7 @@ pub enum Roulette {
     Off,
     /// The tutorial's: every vertex is survived with this probability, in (0, 1].
     Probability(f32),
-    /// Survival with the path's largest throughput channel, at most 1: dark paths end, bright ones go on.
+    /// Survival with twice the path's largest throughput channel, at most 1: dark paths end, bright ones go on.
     #[default]
     Throughput,
 }

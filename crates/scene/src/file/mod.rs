@@ -1,4 +1,4 @@
-//! The scene file: TOML, described in `assets/README.md`. Text becomes [`raw::RawScene`] (shape and ranges of every
+//! The scene file: TOML, described in `assets/README.md`. Text becomes a `RawScene` (shape and ranges of every
 //! value), which becomes a [`Scene`] (what refers to what). Every fault is one line: `file:line:column: what`.
 
 mod number;
