@@ -89,9 +89,10 @@ impl ViewerWindow {
         self.next_frame
     }
 
-    /// Lets egui hear an event.
+    /// Lets egui hear an event. It answers a frame's own event with the wish for another, which would never end.
     pub fn hear(&mut self, event: &WindowEvent) {
-        if self.egui.on_window_event(&self.window, event).repaint {
+        let repaint = self.egui.on_window_event(&self.window, event).repaint;
+        if repaint && !matches!(event, WindowEvent::RedrawRequested) {
             self.request_frame();
         }
     }

@@ -38,8 +38,9 @@ pub struct TruthWorker {
 
 /// Time that a rough picture may take, so that it is on the screen within a tenth of a second.
 const ROUGH: Duration = Duration::from_millis(40);
-/// Time between two pictures once the resolution is full.
-const REFRESH: Duration = Duration::from_millis(200);
+/// Least and most time between two pictures once the resolution is full: an eighth of the time spent so far, because
+/// showing costs too, and a picture changes ever less.
+const REFRESH: [Duration; 2] = [Duration::from_millis(150), Duration::from_secs(1)];
 
 impl TruthWorker {
     /// Starts the thread and its pool, which leaves one core to the UI.
@@ -130,15 +131,16 @@ impl Painter {
         while done < job.settings.spp {
             let start = Instant::now();
             let per_pass = self.seconds_per_sample * film.pixels().len() as f64;
-            let samples =
-                ((REFRESH.as_secs_f64() / per_pass) as u32).clamp(1, done.max(1)).min(job.settings.spp - done);
+            let refresh = (spent / 8).clamp(REFRESH[0], REFRESH[1]);
+            let fitting = (refresh.as_secs_f64() / per_pass) as u32;
+            let samples = fitting.clamp(1, done.max(1)).min(job.settings.spp - done);
             self.expose(tracer, &mut film, job, samples, cancel);
             if cancel.load(Ordering::Relaxed) {
                 return;
             }
             done += samples;
             spent += start.elapsed();
-            if done == samples || done == job.settings.spp || shown.elapsed() >= REFRESH {
+            if done == samples || done == job.settings.spp || shown.elapsed() >= refresh {
                 self.deliver(&film, job, spent, false);
                 shown = Instant::now();
             }
