@@ -193,9 +193,10 @@ fn fair_lamp_is_the_one_sample_direct_light() {
 /// One matt sphere of radius 1 at the origin, lit from +x, seen along -z from far away.
 fn lit_from_the_side(segments: u32) -> Scene {
     let mut scene = builtin::named("whitted").unwrap();
-    scene.shapes.retain(|s| matches!(s.geometry, Geometry::Sphere { .. }));
-    scene.shapes.truncate(1);
-    scene.shapes[0].geometry = Geometry::Sphere { center: Vec3::ZERO, radius: 1.0 };
+    let mut spheres = scene.shapes.iter().filter(|s| matches!(s.geometry, Geometry::Sphere { .. })).cloned();
+    let mut sphere = spheres.next().expect("a sphere");
+    sphere.geometry = Geometry::Sphere { center: Vec3::ZERO, radius: 1.0 };
+    scene.shapes = [sphere].into();
     let material = &mut scene.materials[scene.shapes[0].material];
     material.bsdf = Bsdf::Diffuse { albedo: Texture::Constant(Vec3::splat(0.5)) };
     material.fake.specular = 0.0;

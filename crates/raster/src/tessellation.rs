@@ -48,7 +48,7 @@ impl World {
             return Err(GpuError::TooManyBytes { what: "the scene's triangles".to_owned(), bytes, limit });
         }
         let (mut vertices, mut indices, mut ranges) = (Vec::new(), Vec::new(), Vec::new());
-        for shape in &scene.shapes {
+        for shape in scene.shapes.iter() {
             let start = indices.len() as u32;
             match &shape.geometry {
                 Geometry::Sphere { center, radius } => {

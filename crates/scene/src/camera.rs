@@ -51,12 +51,16 @@ impl Camera {
 
     /// Why this camera sees nothing, if it does not: a line for the user.
     pub fn fault(&self) -> Option<&'static str> {
-        let sight = self.target - self.eye;
+        // in f64, where squares of large f32 still fit
+        let (sight, up) = (self.target.as_dvec3() - self.eye.as_dvec3(), self.up.as_dvec3());
+        let size = self.eye.as_dvec3().length().max(self.target.as_dvec3().length());
         if !(self.eye.is_finite() && self.target.is_finite() && self.up.is_finite()) {
             Some("its eye, target and up must be finite")
-        } else if sight.length_squared() <= 1e-12 * self.eye.length_squared().max(f32::MIN_POSITIVE) {
+        } else if size > 1e12 {
+            Some("its eye and target must lie within 1e12 of the origin")
+        } else if sight.length() <= 1e-6 * size {
             Some("its eye and target must differ")
-        } else if sight.normalize_or_zero().cross(self.up.normalize_or_zero()).length() < 1e-4 {
+        } else if sight.normalize_or_zero().cross(up.normalize_or_zero()).length() < 1e-4 {
             Some("its up must not be parallel to the line from eye to target")
         } else if !(self.fov_y > 0.0 && self.fov_y < 180.0) {
             Some("its field of view must lie between 0 and 180 degrees")

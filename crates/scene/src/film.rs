@@ -64,6 +64,15 @@ impl Film {
         Film { width, height, pixels: vec![Pixel::default(); width as usize * height as usize], nonfinite: 0 }
     }
 
+    /// As [`Film::new`], but `None` where the memory for it is not to be had.
+    pub fn try_new(width: u32, height: u32) -> Option<Self> {
+        let count = width as usize * height as usize;
+        let mut pixels = Vec::new();
+        pixels.try_reserve_exact(count).ok()?;
+        pixels.resize(count, Pixel::default());
+        Some(Film { width, height, pixels, nonfinite: 0 })
+    }
+
     /// A film of exact values, rows from the top; `None` if their number is not `width * height`. Values that are not
     /// finite are counted and stored as black.
     pub fn from_radiances(width: u32, height: u32, radiances: impl IntoIterator<Item = Vec3>) -> Option<Self> {

@@ -25,6 +25,7 @@ pub use needs::Needs;
 pub use shape::{Geometry, Shape};
 
 use fake::FakeNumbers;
+use std::sync::Arc;
 
 /// Everything a technique may look at. Written once, physically; the fake's and Whitted's views are derived from it.
 #[derive(Debug, Clone, PartialEq)]
@@ -35,8 +36,8 @@ pub struct Scene {
     pub camera: Camera,
     /// Materials; [`Shape::material`] indexes this list.
     pub materials: Vec<Material>,
-    /// Shapes in file order.
-    pub shapes: Vec<Shape>,
+    /// Shapes in file order; shared, because copies of a scene differ in settings and not in geometry.
+    pub shapes: Arc<[Shape]>,
     /// A distant disc of light, at most one.
     pub sun: Option<Sun>,
     /// Radiance that arrives from every direction in which nothing is hit; zero for black.

@@ -27,7 +27,7 @@ impl Scene {
     /// What this scene asks for; materials that no shape wears do not count.
     pub fn needs(&self) -> Needs {
         let mut needs = Needs { sun: self.sun.is_some(), sky: self.sky.max_element() > 0.0, ..Needs::default() };
-        for shape in &self.shapes {
+        for shape in self.shapes.iter() {
             let sphere = matches!(shape.geometry, Geometry::Sphere { .. });
             needs.spheres |= sphere;
             needs.triangles |= !sphere;

@@ -25,12 +25,12 @@ pub enum SceneError {
         known: String,
     },
     /// The file could not be read.
-    #[error("cannot read the scene file ({source}): {}", path.display())]
+    #[error("cannot read the scene file ({why}): {}", path.display())]
     Read {
         /// The file.
         path: PathBuf,
         /// What the system said.
-        source: std::io::Error,
+        why: std::io::Error,
     },
     /// The file does not hold a scene.
     #[error("{}:{line}:{column}: {message}", path.display())]
@@ -54,15 +54,23 @@ const LARGEST_FILE: u64 = 256 << 20;
 /// # Errors
 /// [`SceneError::Read`] if the file cannot be read, [`SceneError::Wrong`] if it does not hold a scene.
 pub fn load(path: &Path) -> Result<Scene, SceneError> {
-    let read = |source| SceneError::Read { path: path.to_owned(), source };
-    let size = std::fs::metadata(path).map_err(read)?.len();
-    if size > LARGEST_FILE {
-        let why = format!("it has {size} bytes, a scene file at most {LARGEST_FILE}");
-        return Err(read(std::io::Error::new(std::io::ErrorKind::FileTooLarge, why)));
-    }
-    let text = std::fs::read_to_string(path).map_err(read)?;
+    let text = read(path).map_err(|why| SceneError::Read { path: path.to_owned(), why })?;
     let name = path.file_stem().map(|s| s.to_string_lossy().into_owned()).unwrap_or_default();
     parse(&text, &name, path)
+}
+
+/// The text of a regular file. Anything else, such as a pipe or a device, might never end.
+fn read(path: &Path) -> std::io::Result<String> {
+    use std::io::{Error, ErrorKind, Read};
+    if !std::fs::metadata(path)?.is_file() {
+        return Err(Error::new(ErrorKind::InvalidInput, "this is not a file"));
+    }
+    let mut text = String::new();
+    std::fs::File::open(path)?.take(LARGEST_FILE + 1).read_to_string(&mut text)?;
+    if text.len() as u64 > LARGEST_FILE {
+        return Err(Error::new(ErrorKind::FileTooLarge, format!("it has more than {LARGEST_FILE} bytes")));
+    }
+    Ok(text)
 }
 
 /// Parses the text of a scene file; `path` is only named in errors.
@@ -144,7 +152,15 @@ fn build(raw: RawScene, name: &str) -> Result<Scene, Fault> {
         cube_map: raw.fake.cube_map.map_or(d.cube_map, |v| v.get()),
         segments: raw.fake.segments.map_or(d.segments, |v| v.get()),
     };
-    Ok(Scene { name: name.to_owned(), camera, materials, shapes, sun, sky: raw.sky.radiance.into(), fake })
+    Ok(Scene {
+        name: name.to_owned(),
+        camera,
+        materials,
+        shapes: shapes.into(),
+        sun,
+        sky: raw.sky.radiance.into(),
+        fake,
+    })
 }
 
 fn camera(raw: Spanned<raw::RawCamera>) -> Result<Camera, Fault> {
@@ -152,7 +168,7 @@ fn camera(raw: Spanned<raw::RawCamera>) -> Result<Camera, Fault> {
     let camera = Camera {
         eye: raw.eye.into(),
         target: raw.target.into(),
-        up: raw.up.map_or(Vec3::Y, Vec3::from),
+        up: raw.up.map_or(Vec3::Y, Vec3::from).as_dvec3().normalize_or_zero().as_vec3(),
         fov_y: raw.fov_y.get(),
         near: raw.near.map_or(0.1, |v| v.get()),
         far: raw.far.map_or(3000.0, |v| v.get()),

@@ -13,6 +13,9 @@ pub trait Range {
     fn holds(value: f32) -> bool;
 }
 
+/// Squares and volumes of larger numbers leave f32 behind.
+const LARGEST: f32 = 1e12;
+
 macro_rules! ranges {
     ($($name:ident, $expected:literal, $holds:expr;)*) => {$(
         #[derive(Debug, Clone, Copy)]
@@ -28,9 +31,9 @@ macro_rules! ranges {
 }
 
 ranges! {
-    Any, "a finite number", |_| true;
-    AboveZero, "a finite number above 0", |v| v > 0.0;
-    AtLeastZero, "a finite number of at least 0", |v| v >= 0.0;
+    Any, "a finite number within +-1e12", |v| v.abs() <= LARGEST;
+    AboveZero, "a finite number above 0 and at most 1e12", |v| v > 0.0 && v <= LARGEST;
+    AtLeastZero, "a finite number from 0 to 1e12", |v| (0.0..=LARGEST).contains(&v);
     ZeroToOne, "a number from 0 to 1", |v| (0.0..=1.0).contains(&v);
 }
 
