@@ -3,7 +3,6 @@
 use pathtrace::{Estimator, PathSettings, Roulette, Tracer};
 use scene::{Film, Scene};
 use std::path::Path;
-use std::sync::atomic::AtomicBool;
 
 fn scene(text: &str) -> Scene {
     scene::parse(text, "test", Path::new("test.toml")).expect("a scene")
@@ -11,7 +10,7 @@ fn scene(text: &str) -> Scene {
 
 fn render(scene: &Scene, size: u32, spp: u32, settings: &PathSettings) -> Film {
     let mut film = Film::new(size, size);
-    Tracer::new(scene).render(&mut film, &scene.camera, settings, spp, &AtomicBool::new(false));
+    Tracer::new(scene).render(&mut film, &scene.camera, settings, spp, &|| false);
     assert_eq!(film.nonfinite, 0);
     film
 }
@@ -185,6 +184,112 @@ material = "lamp"
             assert_mean(&film, expected, 0.01, &format!("({x}, {y}) {estimator:?}"));
         }
     }
+}
+
+/// The same rectangle as a mesh of two triangles: the triangles' areas and choice are right.
+#[test]
+fn a_mesh_lamp_follows_lamberts_formula_too() {
+    let lit = scene(
+        r#"
+[camera]
+eye = [1, 0, 0.5]
+target = [1, 0, 0]
+up = [0, 1, 0]
+fov_y = 0.01
+[material.floor]
+diffuse = { albedo = [0.5, 0.5, 0.5] }
+[material.lamp]
+emissive = { radiance = [10, 10, 10] }
+[[rectangle]]
+corner = [-20, -20, 0]
+edge_u = [40, 0, 0]
+edge_v = [0, 40, 0]
+material = "floor"
+[[mesh]]
+positions = [[-1, -0.5, 1.5], [1, -0.5, 1.5], [1, 0.5, 1.5], [-1, 0.5, 1.5]]
+triangles = [[0, 3, 2], [0, 2, 1]]
+material = "lamp"
+"#,
+    );
+    let film = render(&lit, 32, 256, &with(Estimator::Light, Some(0), Roulette::Off));
+    assert_mean(&film, 0.7052169, 0.005, "mesh");
+}
+
+/// Inside a sphere that shines on both sides every point receives pi L, and a white one sends back L: here half of it,
+/// beside a lamp that is much weaker and must not be forgotten.
+#[test]
+fn the_inside_of_a_shining_sphere_lights_and_weak_lamps_keep_their_share() {
+    let inside = |weak: f32| {
+        scene(&format!(
+            r#"
+[camera]
+eye = [0, 0, 1]
+target = [0, 0, 0]
+up = [0, 1, 0]
+fov_y = 0.01
+[material.floor]
+diffuse = {{ albedo = [0.5, 0.5, 0.5] }}
+[material.dome]
+emissive = {{ radiance = [1, 1, 1], two_sided = true }}
+[material.weak]
+emissive = {{ radiance = [{weak}, {weak}, {weak}] }}
+[[sphere]]
+center = [0, 0, 0]
+radius = 1000
+material = "dome"
+[[sphere]]
+center = [0, 0, 2]
+radius = 0.01
+material = "weak"
+[[rectangle]]
+corner = [-0.5, -0.5, 0]
+edge_u = [1, 0, 0]
+edge_v = [0, 1, 0]
+material = "floor"
+"#
+        ))
+    };
+    // the small sphere adds rho Le (r / d)^2, and hides as much of the dome
+    for weak in [0.0, 40_000.0] {
+        let expected = 0.5 + 0.5 * (f64::from(weak) - 1.0) * (0.01f64 / 2.0).powi(2);
+        let film = render(&inside(weak), 32, 1024, &with(Estimator::Light, Some(0), Roulette::Off));
+        assert_mean(&film, expected, 0.005, &format!("weak {weak}"));
+    }
+}
+
+/// A weak lamp under a sun whose power, over a wide scene, is a billion times its own.
+#[test]
+fn a_lamp_is_not_lost_beside_a_strong_sun() {
+    let lit = scene(
+        r#"
+[camera]
+eye = [0, 0, 1]
+target = [0, 0, 0]
+up = [0, 1, 0]
+fov_y = 0.01
+[sun]
+towards = [0, 0, 1]
+angular_radius = 0
+irradiance = [3.1415927, 3.1415927, 3.1415927]
+[material.floor]
+diffuse = { albedo = [0.5, 0.5, 0.5] }
+[material.lamp]
+emissive = { radiance = [10000, 10000, 10000] }
+[[rectangle]]
+corner = [-20000, -20000, 0]
+edge_u = [40000, 0, 0]
+edge_v = [0, 40000, 0]
+material = "floor"
+[[sphere]]
+center = [1, 0, 1]
+radius = 0.01
+material = "lamp"
+"#,
+    );
+    // 1/2 of the sun, and rho Le (r / d)^2 cos beta at d^2 = 2, beta = 45 degrees
+    let expected = 0.5 + 0.5 * 10_000.0 * 0.0001 / 2.0 * 0.5f64.sqrt();
+    let film = render(&lit, 32, 512, &with(Estimator::Light, Some(0), Roulette::Off));
+    assert_mean(&film, expected, 0.005, "lamp and sun");
 }
 
 /// The sun's irradiance does not depend on its radius, a white wall facing it has radiance 1, and a delta sun is found

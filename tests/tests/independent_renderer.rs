@@ -3,7 +3,6 @@
 use pathtrace::{Estimator, PathSettings, Roulette, Tracer};
 use scene::{Film, Scene, builtin};
 use serde_json::Value;
-use std::sync::atomic::AtomicBool;
 
 fn reference(text: &str) -> Value {
     serde_json::from_str(text).expect("reference values")
@@ -15,7 +14,7 @@ fn rgb(value: &Value) -> [f64; 3] {
 
 fn render(scene: &Scene, size: (u32, u32), spp: u32, settings: &PathSettings) -> Film {
     let mut film = Film::new(size.0, size.1);
-    Tracer::new(scene).render(&mut film, &scene.camera, settings, spp, &AtomicBool::new(false));
+    Tracer::new(scene).render(&mut film, &scene.camera, settings, spp, &|| false);
     assert_eq!(film.nonfinite, 0);
     film
 }

@@ -1,9 +1,9 @@
 //! What shines, as light sampling sees it: lamps (emissive shapes) and the sun. Task 2 c), "Sampling Area Light".
 
 use crate::geometry::SurfacePoint;
-use crate::geometry::accel::triangle_normal;
 use crate::geometry::sphere::Sphere;
 use crate::sampling;
+use scene::glam::DVec3;
 use scene::material::Emission;
 use scene::{Geometry, Scene, Shape, Sun, Vec3, colour};
 use std::f32::consts::PI;
@@ -21,7 +21,9 @@ enum Light {
 #[derive(Debug, Clone, Default)]
 pub struct Lights {
     lights: Vec<Light>,
-    /// Running sum of the probabilities, the last one 1.
+    /// The probability of choosing each.
+    probabilities: Vec<f32>,
+    /// Their running sum, the last one 1.
     cumulative: Vec<f32>,
 }
 
@@ -46,10 +48,11 @@ pub enum ShadowEnd {
 }
 
 impl Lights {
-    /// Collects the lights; each is chosen in proportion to its power.
+    /// Collects the lights. Half of the choices go by power and half to all alike, so that a small lamp beside a strong
+    /// sun still gets its samples.
     pub fn new(scene: &Scene) -> Self {
         let mut lights = Vec::new();
-        for shape in &scene.shapes {
+        for shape in scene.shapes.iter() {
             if let Some(emission) = scene.material_of(shape).emission.filter(|e| e.radiance.max_element() > 0.0) {
                 push_lamps(shape, emission, &mut lights);
             }
@@ -58,19 +61,17 @@ impl Lights {
         let (lo, hi) = scene.bounds();
         let scene_radius = 0.5 * (hi - lo).length();
         let powers: Vec<f64> = lights.iter().map(|light| f64::from(light.power(scene_radius))).collect();
-        let total: f64 = powers.iter().sum();
+        let probabilities = mixed_probabilities(&powers);
         let mut sum = 0.0;
-        let mut cumulative: Vec<f32> = powers
-            .iter()
-            .map(|power| {
-                sum += power;
-                (sum / total) as f32
-            })
-            .collect();
+        let running = probabilities.iter().map(|probability| {
+            sum += probability;
+            sum as f32
+        });
+        let mut cumulative: Vec<f32> = running.collect();
         if let Some(last) = cumulative.last_mut() {
             *last = 1.0;
         }
-        Lights { lights, cumulative }
+        Lights { lights, probabilities: probabilities.iter().map(|&p| p as f32).collect(), cumulative }
     }
 
     /// Whether there is nothing to sample.
@@ -82,12 +83,17 @@ impl Lights {
     /// it. `None` where the chosen light does not shine.
     pub fn sample(&self, x: Vec3, u_light: f32, u: [f32; 2]) -> Option<LightSample> {
         let index = self.cumulative.partition_point(|&c| c <= u_light).min(self.lights.len().checked_sub(1)?);
-        let below = if index == 0 { 0.0 } else { self.cumulative[index - 1] };
-        let probability = self.cumulative[index] - below;
         let mut sample = self.lights[index].sample(x, u)?;
-        sample.radiance_over_pdf /= probability;
+        sample.radiance_over_pdf /= self.probabilities[index];
         Some(sample)
     }
+}
+
+fn mixed_probabilities(powers: &[f64]) -> Vec<f64> {
+    let alike = 1.0 / powers.len() as f64;
+    let total: f64 = powers.iter().sum();
+    let by_power = |power: &f64| if total.is_finite() && total > 0.0 { power / total } else { alike };
+    powers.iter().map(|power| 0.5 * (alike + by_power(power))).collect()
 }
 
 fn push_lamps(shape: &Shape, emission: Emission, lights: &mut Vec<Light>) {
@@ -96,20 +102,26 @@ fn push_lamps(shape: &Shape, emission: Emission, lights: &mut Vec<Light>) {
             lights.push(Light::Sphere { sphere: Sphere { center, radius }, emission })
         }
         Geometry::Rectangle { corner, edge_u, edge_v } => {
-            let cross = edge_u.cross(edge_v);
-            let (normal, area) = (cross.normalize(), cross.length());
-            lights.push(Light::Parallelogram { corner, edge_u, edge_v, normal, area, emission });
+            if let Some((normal, area)) = normal_and_area(edge_u.as_dvec3(), edge_v.as_dvec3()) {
+                lights.push(Light::Parallelogram { corner, edge_u, edge_v, normal, area, emission });
+            }
         }
         Geometry::Box { .. } | Geometry::Mesh { .. } => {
             let (positions, triangles) = shape.geometry.flat_triangles();
             for corners in triangles.iter().map(|t| t.map(|i| positions[i as usize])) {
-                if let Some(normal) = triangle_normal(corners) {
-                    let area = 0.5 * (corners[1] - corners[0]).cross(corners[2] - corners[0]).length();
-                    lights.push(Light::Triangle { corners, normal, area, emission });
+                let [a, b, c] = corners.map(|corner| corner.as_dvec3());
+                if let Some((normal, doubled)) = normal_and_area(b - a, c - a) {
+                    lights.push(Light::Triangle { corners, normal, area: 0.5 * doubled, emission });
                 }
             }
         }
     }
+}
+
+/// Unit normal and area of a parallelogram, in f64 whose squares hold what f32's do not; `None` without area.
+fn normal_and_area(edge_u: DVec3, edge_v: DVec3) -> Option<(Vec3, f32)> {
+    let cross = edge_u.cross(edge_v);
+    cross.try_normalize().map(|normal| (normal.as_vec3(), cross.length() as f32))
 }
 
 impl Light {
@@ -159,13 +171,14 @@ fn sample_area(x: Vec3, point: SurfacePoint, area: f32, emission: Emission) -> O
     Some(LightSample { wi, radiance_over_pdf, end: ShadowEnd::At(point) })
 }
 
-/// Uniform in the cone that the sphere fills as seen from `x`; nothing from inside it, where a lamp does not shine.
+/// Uniform in the cone that the sphere fills as seen from `x`; from inside, where only a two-sided lamp shines, in all
+/// directions.
 fn sample_sphere(x: Vec3, sphere: Sphere, emission: Emission, u: [f32; 2]) -> Option<LightSample> {
     let to_center = sphere.center - x;
     let distance_squared = to_center.length_squared();
     let radius_squared = sphere.radius * sphere.radius;
     if distance_squared <= radius_squared {
-        return None;
+        return emission.two_sided.then(|| sample_sphere_from_inside(x, sphere, emission, u));
     }
     let sin2 = radius_squared / distance_squared;
     let one_minus_cos = sin2 / (1.0 + (1.0 - sin2).sqrt());
@@ -178,6 +191,21 @@ fn sample_sphere(x: Vec3, sphere: Sphere, emission: Emission, u: [f32; 2]) -> Op
     let point = SurfacePoint::on_sphere(sphere.center, sphere.radius, near);
     let radiance_over_pdf = emission.radiance / sampling::cone_pdf(one_minus_cos);
     Some(LightSample { wi, radiance_over_pdf, end: ShadowEnd::At(point) })
+}
+
+fn sample_sphere_from_inside(x: Vec3, sphere: Sphere, emission: Emission, u: [f32; 2]) -> LightSample {
+    const WHOLE_SPHERE: f32 = 2.0;
+    let wi = sampling::cone(WHOLE_SPHERE, u);
+    let to_center = sphere.center - x;
+    let along = to_center.dot(wi);
+    let off_axis = (to_center - wi * along).length_squared();
+    let far = x + wi * (along + (sphere.radius * sphere.radius - off_axis).max(0.0).sqrt());
+    let point = SurfacePoint::on_sphere(sphere.center, sphere.radius, far);
+    LightSample {
+        wi,
+        radiance_over_pdf: emission.radiance / sampling::cone_pdf(WHOLE_SPHERE),
+        end: ShadowEnd::At(point),
+    }
 }
 
 fn sample_sun(sun: Sun, u: [f32; 2]) -> LightSample {

@@ -199,5 +199,6 @@ fn survives(throughput: &mut Vec3, roulette: Roulette, u: f32) -> bool {
         Roulette::Throughput => (ROULETTE_SLOPE * throughput.max_element()).min(1.0),
     };
     *throughput /= probability;
-    u < probability
+    // nothing is left to carry: the product has underflowed, or the surface was black
+    u < probability && *throughput != Vec3::ZERO
 }

@@ -9,7 +9,6 @@ use rayon::prelude::*;
 use scene::film::Pixel;
 use scene::glam::Vec2;
 use scene::{Camera, Film, Material, Scene, Vec3};
-use std::sync::atomic::{AtomicBool, Ordering};
 
 /// A scene made ready for rays. Camera and settings come with each call, so that moving them costs no rebuild.
 pub struct Tracer {
@@ -31,8 +30,8 @@ pub struct Stats {
     pub cut_paths: u64,
 }
 
-/// Pixels between two looks at the cancel flag: about a millisecond of one core.
-const CHUNK: usize = 1024;
+/// Pixels that one thread takes at a time: few, so that small pictures keep all threads busy.
+const CHUNK: usize = 64;
 
 impl Tracer {
     /// Builds the acceleration structure and the list of lights.
@@ -52,15 +51,15 @@ impl Tracer {
     }
 
     /// Adds `samples` to every pixel of `film`, on the current rayon pool. Sample numbers go on from what each pixel
-    /// has, so that many small calls give the same picture as a large one. Returns early once `cancel` is true; pixels
-    /// then hold whole samples, but not all equally many.
+    /// has, so that many small calls give the same picture as a large one. `stop` is asked before every sample; once it
+    /// says so the call returns, and pixels hold whole samples, but not all equally many.
     pub fn render(
         &self,
         film: &mut Film,
         camera: &Camera,
         settings: &PathSettings,
         samples: u32,
-        cancel: &AtomicBool,
+        stop: &(impl Fn() -> bool + Sync),
     ) -> Stats {
         let (width, height) = (film.width(), film.height());
         let frame = camera.frame(width as f32 / height as f32);
@@ -76,13 +75,13 @@ impl Tracer {
         let (stats, nonfinite) = chunks
             .map(|(chunk, pixels)| {
                 let mut tally = (Stats::default(), 0);
-                if cancel.load(Ordering::Relaxed) {
-                    return tally;
-                }
                 for (offset, pixel) in pixels.iter_mut().enumerate() {
                     let index = (chunk * CHUNK + offset) as u32;
                     let corner = Vec2::new((index % width) as f32, (index / width) as f32);
                     for _ in 0..samples {
+                        if stop() {
+                            return tally;
+                        }
                         let sampler = Sampler { pixel: index, sample: pixel.samples, seed: settings.seed };
                         let [jitter_x, jitter_y, _, _] = sampler.unit4(0);
                         let ray = Ray::new(frame.eye, frame.direction((corner + Vec2::new(jitter_x, jitter_y)) / size));

@@ -10,7 +10,7 @@ use obvhs::bvh2::Bvh2;
 use obvhs::bvh2::builder::build_bvh2;
 use obvhs::ray::RayHit;
 use scene::glam::Vec3A;
-use scene::{Geometry, Scene, Vec3};
+use scene::{Geometry, Scene, Shape, Vec3};
 
 /// What a ray can hit.
 #[derive(Debug, Clone, Copy)]
@@ -32,7 +32,7 @@ pub struct Accel {
     bvh: Bvh2,
     /// In the order of the BVH's leaves.
     primitives: Vec<Primitive>,
-    /// Each primitive's place in the scene's order, which decides ties.
+    /// Each primitive's place in the scene's order, lamps first, which decides ties.
     ids: Vec<u32>,
     surfaces: Vec<Surface>,
 }
@@ -81,7 +81,8 @@ impl Accel {
         self.primitives.is_empty()
     }
 
-    /// The nearest hit before `ray.tmax`; of several at one distance the primitive that comes first in the scene.
+    /// The nearest hit before `ray.tmax`; of several at one distance a lamp, else the primitive that comes
+    /// first in the scene.
     pub fn closest(&self, ray: &Ray) -> Option<Hit> {
         let sheared = ShearedRay::new(ray);
         let mut nearest = Nearest { t: ray.tmax, index: usize::MAX, id: u32::MAX, barycentrics: [0.0; 3] };
@@ -158,7 +159,10 @@ impl Primitive {
 
 fn primitives(scene: &Scene) -> (Vec<Primitive>, Vec<Surface>) {
     let (mut primitives, mut surfaces) = (Vec::new(), Vec::new());
-    for shape in &scene.shapes {
+    // lamps first, so that a lamp in the plane of a wall wins the tie against the wall
+    let is_lamp = |shape: &&Shape| scene.material_of(shape).emission.is_some();
+    let (lamps, others): (Vec<_>, Vec<_>) = scene.shapes.iter().partition(is_lamp);
+    for shape in lamps.into_iter().chain(others) {
         let material = shape.material as u32;
         if let Geometry::Sphere { center, radius } = shape.geometry {
             primitives.push(Primitive::Sphere(Sphere { center, radius }));
@@ -177,7 +181,7 @@ fn primitives(scene: &Scene) -> (Vec<Primitive>, Vec<Surface>) {
 }
 
 /// Unit normal by winding, in f64 so that slivers have one too; `None` without area.
-pub(crate) fn triangle_normal([a, b, c]: [Vec3; 3]) -> Option<Vec3> {
+fn triangle_normal([a, b, c]: [Vec3; 3]) -> Option<Vec3> {
     let (a, b, c) = (a.as_dvec3(), b.as_dvec3(), c.as_dvec3());
     (b - a).cross(c - a).try_normalize().map(|n| n.as_vec3())
 }
