@@ -89,6 +89,16 @@ impl Screen {
         }
     }
 
+    /// The keysym of the Enter key.
+    pub const ENTER: u32 = 0xff0d;
+
+    /// Presses and releases the key of a keysym.
+    pub fn press(&self, keysym: u32) {
+        let code = self.keycode(keysym);
+        self.fake(xproto::KEY_PRESS_EVENT, code, 0.0, 0.0);
+        self.fake(xproto::KEY_RELEASE_EVENT, code, 0.0, 0.0);
+    }
+
     /// Gives the keyboard to the window of that title and returns it.
     ///
     /// # Panics

@@ -68,6 +68,21 @@ impl ViewerUnderTest {
         panic!("waited a minute for: {what}; last seen: {:?}", last.map(|f| f.0["state"].to_string()));
     }
 
+    /// Waits until a widget is on the screen and has stopped moving.
+    ///
+    /// # Panics
+    /// As [`ViewerUnderTest::wait_for`].
+    pub fn wait_for_widget(&mut self, name: &str) -> Frame {
+        loop {
+            let seen = self.wait_for(name, |frame| frame.shows(name));
+            std::thread::sleep(Duration::from_millis(200));
+            let again = self.wait_for(name, |frame| frame.shows(name));
+            if seen.rect(name) == again.rect(name) {
+                return again;
+            }
+        }
+    }
+
     /// Waits for the process to end by itself.
     ///
     /// # Panics

@@ -20,7 +20,7 @@ pub fn run(args: impl IntoIterator<Item = OsString>) -> ExitCode {
     match cli::Command::parse(args).and_then(cli::Command::execute) {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
-            eprintln!("visavis: {}", error.line());
+            cli::to_stderr(format_args!("visavis: {}\n", error.line()));
             ExitCode::from(error.exit_code())
         }
     }

@@ -37,10 +37,14 @@ pub type Settings = Vec<(&'static str, String)>;
 /// # Errors
 /// One line that says why and names the path.
 pub fn check_writable(path: &Path) -> anyhow::Result<()> {
-    let partial = partial_path(path);
-    if path.is_dir() {
+    let target = behind_links(path);
+    if target.is_dir() {
         bail!("cannot write the picture: this is a folder: {}", path.display());
     }
+    if target.exists() && !target.is_file() {
+        bail!("cannot write the picture: this is not a file: {}", path.display());
+    }
+    let partial = partial_path(&target);
     std::fs::File::create(&partial).with_context_path(path)?;
     std::fs::remove_file(&partial).with_context_path(path)
 }
@@ -83,10 +87,11 @@ pub fn load(path: &Path) -> anyhow::Result<Film> {
 /// # Errors
 /// As [`save`].
 pub fn write_whole(path: &Path, bytes: &[u8]) -> anyhow::Result<()> {
-    let partial = partial_path(path);
+    let target = behind_links(path);
+    let partial = partial_path(&target);
     let written = std::fs::File::create(&partial)
         .and_then(|mut file| file.write_all(bytes).and_then(|()| file.sync_all()))
-        .and_then(|()| std::fs::rename(&partial, path));
+        .and_then(|()| std::fs::rename(&partial, &target));
     if written.is_err() {
         // what is half written must not stay; that it cannot be removed adds nothing to the first error
         let _ = std::fs::remove_file(&partial);
@@ -115,6 +120,17 @@ pub fn free_name(folder: &Path, stem: &str) -> anyhow::Result<PathBuf> {
     let names = (1..10_000).map(|n| if n == 1 { format!("{stem}.png") } else { format!("{stem}-{n}.png") });
     let free = names.map(|name| folder.join(name)).find(|path| !path.exists());
     free.with_context(|| format!("too many pictures of one name in {}", folder.display()))
+}
+
+/// The file that a name stands for: links are written through, not replaced.
+fn behind_links(path: &Path) -> PathBuf {
+    let mut target = path.to_owned();
+    // as many links in a row as Linux follows
+    for _ in 0..40 {
+        let Ok(next) = std::fs::read_link(&target) else { break };
+        target = target.parent().map_or(next.clone(), |folder| folder.join(&next));
+    }
+    target
 }
 
 fn partial_path(path: &Path) -> PathBuf {

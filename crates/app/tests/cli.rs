@@ -60,7 +60,9 @@ fn bad_values_are_wrong_usage_and_write_nothing() {
     assert_refused(&["render", "whitted"], 2, &["-o"]);
     assert_refused(&["render", "whitted", "-o", out, "--denoise"], 2, &["--denoise"]);
     assert_refused(&["compare", "one.png"], 2, &["two pictures"]);
-    assert_refused(&["check"], 1, &["unknown scene 'check'"]);
+    assert_refused(&["render", "whitted", "-o", out, "--size", "1\n2"], 2, &["WIDTHxHEIGHT"]);
+    assert_refused(&["render", "whitted", "-o", out, "--time", "1e30"], 2, &["at most 1e9"]);
+    assert_refused(&["check"], 2, &["not built"]);
     assert_refused(&["bench", "-o", out], 2, &["--quick"]);
     assert_eq!(folder.names(), [""; 0]);
 }
@@ -86,6 +88,29 @@ fn bad_scenes_fail_with_the_place_and_write_nothing() {
         refused(broken.to_str().unwrap(), words);
     }
     assert_eq!(folder.names(), ["broken.toml"]);
+}
+
+#[test]
+fn what_is_not_a_file_is_no_scene_and_no_picture() {
+    assert_refused(&["render", "/dev/zero", "-o", "out.png"], 1, &["not a file", "/dev/zero"]);
+    let folder = TestFolder::new();
+    let socket = folder.file("socket.png");
+    let _socket = std::os::unix::net::UnixListener::bind(&socket).expect("a socket");
+    let out = socket.to_str().unwrap();
+    assert_refused(&["render", "cornell", "--size", "8x8", "--spp", "1", "-o", out], 1, &["not a file", "socket.png"]);
+}
+
+#[test]
+fn a_link_to_a_picture_stays_a_link() {
+    let folder = TestFolder::new();
+    let (real, link) = (folder.file("real.png"), folder.file("link.png"));
+    std::os::unix::fs::symlink(&real, &link).expect("a link");
+    for _ in 0..2 {
+        let render = ["render", "cornell", "--size", "8x8", "--spp", "1", "-o", link.to_str().unwrap()];
+        assert!(visavis(&render).status.success());
+        assert!(link.is_symlink() && real.is_file());
+    }
+    assert_eq!(folder.names(), ["link.png", "real.png"]);
 }
 
 #[test]
@@ -224,10 +249,10 @@ fn help_lists_every_option_and_exits_well() {
     let output = visavis(&["--help"]);
     let text = String::from_utf8_lossy(&output.stdout);
     assert!(output.status.success());
-    for option in
-        ["--technique", "--spp", "--bounces", "--roulette", "--estimator", "--refraction-ratio", "--fake", "--json"]
-    {
-        assert!(text.contains(option), "{option}");
+    let options = "technique device size seed spp bounces roulette estimator refraction-ratio sun-radius fake eye target fov \
+                   exposure time json quick help version";
+    for option in options.split_whitespace().map(|name| format!("--{name}")) {
+        assert!(text.contains(&option), "{option}");
     }
     assert!(visavis(&["--version"]).status.success());
     assert!(visavis(&["info"]).status.success());

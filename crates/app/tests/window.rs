@@ -80,10 +80,25 @@ fn scenes_change_controls_that_do_not_apply_go_and_the_window_may_be_resized() {
     screen.click(first.point("limit bounces", 0.05, 0.5));
     viewer.wait_for("the bounce slider", |f| f.shows("bounces"));
     screen.click(first.point("scene", 0.5, 0.5));
-    let menu = viewer.wait_for("the menu", |f| f.shows("scene whitted"));
+    let menu = viewer.wait_for_widget("scene whitted");
     screen.click(menu.point("scene whitted", 0.5, 0.5));
     viewer
         .wait_for("the other scene", |f| f.state("scene") == "whitted" && f.shows("refraction ratio") && both_ready(f));
+
+    // a file by its name, typed: letters must not act as shortcuts
+    screen.click(first.point("scene", 0.5, 0.5));
+    let menu = viewer.wait_for_widget("scene file");
+    screen.click(menu.point("scene file", 0.5, 0.5));
+    viewer.wait_for("the cursor in the field", |f| f.state("typing") == true);
+    for letter in "thc".chars() {
+        screen.key(letter, false);
+    }
+    let typed = viewer.wait_for("the typed name", |f| f.value("scene file") == "thc");
+    assert_eq!(typed.state("view"), "Wipe");
+    screen.press(Screen::ENTER);
+    let refused = viewer.wait_for("the refusal", |f| f.state("message").as_str().is_some_and(|m| m.contains("thc")));
+    assert!(refused.state("message").as_str().unwrap().contains("whitted, cornell"));
+    assert_eq!(refused.state("scene"), "whitted");
 
     for (width, height) in [(900, 500), (500, 330), (1100, 700)] {
         screen.resize(window, width, height);

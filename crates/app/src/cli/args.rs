@@ -72,6 +72,7 @@ impl Command {
                 Some("compare") => parse_compare(parser),
                 Some("bench") => parse_bench(parser),
                 Some("info") => nothing_more(parser, Command::Info),
+                Some("check") => usage("check is not built yet"),
                 _ => parse_view(parser, Some(word.string()?)),
             },
             Some(Long("ui-dump")) => {
@@ -193,7 +194,9 @@ fn parse_render(mut parser: lexopt::Parser) -> Result<Command, CliError> {
             }
             Long("time") => {
                 of_path.push("--time");
-                r.seconds = Some(f64::from(number(&mut parser, "--time", "seconds above 0", |v| v > 0.0)?));
+                r.seconds = Some(f64::from(number(&mut parser, "--time", "seconds above 0 and at most 1e9", |v| {
+                    v > 0.0 && v <= 1e9
+                })?));
             }
             Long("bounces") => {
                 of_path.push("--bounces");

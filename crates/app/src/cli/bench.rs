@@ -9,7 +9,6 @@ use pathtrace::{Estimator, PathSettings, Tracer};
 use raster::{Fake, Raster, RasterSettings, Shading};
 use scene::{Film, Scene, builtin};
 use std::path::Path;
-use std::sync::atomic::AtomicBool;
 use std::time::Instant;
 
 /// How much work goes into one scene.
@@ -39,14 +38,14 @@ pub fn run(folder: &Path) -> anyhow::Result<()> {
     }
     let table = csv(&rows);
     write_whole(&folder.join("bench.csv"), table.as_bytes())?;
-    eprintln!("wrote bench.csv and a plot for each scene: {}", folder.display());
+    note!("wrote bench.csv and a plot for each scene: {}", folder.display());
     super::print(&table)
 }
 
 fn measure(effort: &Effort) -> anyhow::Result<Vec<BenchRow>> {
     let scene = builtin::named(effort.scene)?;
     let tracer = Tracer::new(&scene);
-    eprintln!("{}: reference at {} spp", effort.scene, effort.reference_spp);
+    note!("{}: reference at {} spp", effort.scene, effort.reference_spp);
     let settings = PathSettings { seed: REFERENCE_SEED, ..PathSettings::default() };
     let (reference, _) = render(&tracer, &scene, effort, &settings, effort.reference_spp);
     let row = |technique: String, spp, seconds, film: &Film| -> anyhow::Result<BenchRow> {
@@ -85,7 +84,7 @@ fn measure(effort: &Effort) -> anyhow::Result<Vec<BenchRow>> {
 fn render(tracer: &Tracer, scene: &Scene, effort: &Effort, settings: &PathSettings, spp: u32) -> (Film, f64) {
     let start = Instant::now();
     let mut film = Film::new(effort.size.0, effort.size.1);
-    tracer.render(&mut film, &scene.camera, settings, spp, &AtomicBool::new(false));
+    tracer.render(&mut film, &scene.camera, settings, spp, &|| false);
     (film, start.elapsed().as_secs_f64())
 }
 

@@ -9,7 +9,7 @@ pub fn run(film: &Path, reference: &Path, json: bool) -> anyhow::Result<()> {
     let (a, b) = (picture_file::load(film)?, picture_file::load(reference)?);
     for (path, film) in [(film, &a), (reference, &b)] {
         if film.nonfinite > 0 {
-            eprintln!("note: {} pixels are not finite and count as black: {}", film.nonfinite, path.display());
+            note!("note: {} pixels are not finite and count as black: {}", film.nonfinite, path.display());
         }
     }
     let e = errors(&a, &b)?;

@@ -1,6 +1,13 @@
 //! The command line, a contract that scripts depend on. Words become a [`Command`] (in `args`); a command runs and either
 //! is done or fails with one line.
 
+/// A line on stderr, in the manner of `eprintln!` but without its panic where stderr is full or closed.
+macro_rules! note {
+    ($($text:tt)*) => {
+        $crate::cli::to_stderr(format_args!("{}\n", format_args!($($text)*)))
+    };
+}
+
 mod args;
 mod bench;
 mod compare;
@@ -52,8 +59,8 @@ impl CliError {
     /// What, where, and what to do, in one line.
     pub fn line(&self) -> String {
         match self {
-            CliError::Usage(line) => format!("{line} (visavis --help lists the options)"),
-            CliError::Failed(error) => format!("{error:#}").lines().collect::<Vec<_>>().join(", "),
+            CliError::Usage(line) => one_line(&format!("{line} (visavis --help lists the options)")),
+            CliError::Failed(error) => one_line(&format!("{error:#}")),
         }
     }
 
@@ -88,6 +95,16 @@ impl Command {
         }
         Ok(())
     }
+}
+
+fn one_line(text: &str) -> String {
+    text.lines().collect::<Vec<_>>().join(", ")
+}
+
+/// Writes to stderr; there is nobody to tell if that fails.
+pub(crate) fn to_stderr(text: std::fmt::Arguments) {
+    use std::io::Write;
+    let _ = std::io::stderr().lock().write_fmt(text);
 }
 
 /// Prints to stdout; that a pipe was closed early is not a failure.

@@ -10,8 +10,7 @@ use raster::Raster;
 use scene::display::DisplayTransform;
 use scene::{Camera, Film, Scene, builtin};
 use serde_json::json;
-use std::io::{IsTerminal, Write};
-use std::sync::atomic::AtomicBool;
+use std::io::IsTerminal;
 use std::time::{Duration, Instant};
 
 /// Samples per pixel where neither --spp nor --time says how many.
@@ -33,12 +32,12 @@ pub fn run(args: &RenderArgs) -> anyhow::Result<()> {
     picture_file::check_writable(&args.out)?;
     let rendered = match args.technique {
         Technique::Raster => raster(args, &scene)?,
-        Technique::Path => path(args, &scene),
+        Technique::Path => path(args, &scene)?,
     };
     let display = DisplayTransform { exposure: args.exposure };
     picture_file::save(&args.out, &rendered.film, &display, &settings(args, &scene, &rendered))?;
     if rendered.film.nonfinite > 0 {
-        eprintln!(
+        note!(
             "visavis: {} samples were not finite and are left out: please report this scene",
             rendered.film.nonfinite
         );
@@ -46,7 +45,7 @@ pub fn run(args: &RenderArgs) -> anyhow::Result<()> {
     if args.json {
         super::print(&format!("{}\n", report(args, &scene, &rendered)))?;
     } else {
-        eprintln!(
+        note!(
             "{} of {} at {}x{} in {:.2} s: {}",
             args.technique.name(),
             scene.name,
@@ -62,18 +61,18 @@ pub fn run(args: &RenderArgs) -> anyhow::Result<()> {
 /// Applies what the command line changes in the scene, and says what of it has no effect.
 fn apply(args: &RenderArgs, scene: &mut Scene) -> anyhow::Result<()> {
     for option in &args.without_effect {
-        eprintln!("note: {option} has no effect with --technique {}", args.technique.name());
+        note!("note: {option} has no effect with --technique {}", args.technique.name());
     }
     if let Some(ratio) = args.refraction_ratio {
         if scene.refraction_ratio().is_none() {
-            eprintln!("note: --refraction-ratio has no effect: {} has no glass", scene.name);
+            note!("note: --refraction-ratio has no effect: {} has no glass", scene.name);
         }
         scene.set_refraction_ratio(ratio);
     }
     if let Some(radius) = args.sun_radius {
         match &mut scene.sun {
             Some(sun) => sun.angular_radius = radius,
-            None => eprintln!("note: --sun-radius has no effect: {} has no sun", scene.name),
+            None => note!("note: --sun-radius has no effect: {} has no sun", scene.name),
         }
     }
     let camera = &mut scene.camera;
@@ -104,24 +103,25 @@ fn raster(args: &RenderArgs, scene: &Scene) -> anyhow::Result<Rendered> {
     })
 }
 
-fn path(args: &RenderArgs, scene: &Scene) -> Rendered {
+fn path(args: &RenderArgs, scene: &Scene) -> anyhow::Result<Rendered> {
     let spp = args.spp.unwrap_or(if args.seconds.is_some() { u32::MAX } else { DEFAULT_SPP });
     if let Some(blind) = (TruthSettings { path: args.path, spp }).blind_spot(scene) {
-        eprintln!("note: {blind}");
+        note!("note: {blind}");
     }
     let start = Instant::now();
     let tracer = Tracer::new(scene);
-    let mut film = Film::new(args.size.0, args.size.1);
+    let (width, height) = args.size;
+    let mut film = Film::try_new(width, height)
+        .with_context(|| format!("not enough memory for {width}x{height} pixels; ask for a smaller --size"))?;
     let mut stats = Stats::default();
     let limit = args.seconds.map(Duration::from_secs_f64);
     let progress = Progress::new(spp);
     let mut batch = 1;
-    let never = AtomicBool::new(false);
     let mut done = 0;
     while done < spp {
         let batch_start = Instant::now();
         let samples = batch.min(spp - done);
-        stats = stats.plus(tracer.render(&mut film, &scene.camera, &args.path, samples, &never));
+        stats = stats.plus(tracer.render(&mut film, &scene.camera, &args.path, samples, &|| false));
         done += samples;
         progress.show(done, start.elapsed());
         if limit.is_some_and(|limit| start.elapsed() >= limit) {
@@ -131,7 +131,7 @@ fn path(args: &RenderArgs, scene: &Scene) -> Rendered {
     }
     progress.finish();
     let adapter = format!("{} threads", rayon::current_num_threads());
-    Rendered { film, seconds: start.elapsed().as_secs_f64(), stats, adapter, device: "cpu" }
+    Ok(Rendered { film, seconds: start.elapsed().as_secs_f64(), stats, adapter, device: "cpu" })
 }
 
 /// How many samples fill a quarter of a second, or what is left of the time, at the speed of the last batch.
@@ -155,14 +155,13 @@ impl Progress {
     fn show(&self, done: u32, elapsed: Duration) {
         if self.shown {
             let of = if self.spp == u32::MAX { String::new() } else { format!(" of {}", self.spp) };
-            eprint!("\r{done}{of} spp, {:.1} s ", elapsed.as_secs_f64());
-            let _ = std::io::stderr().flush();
+            super::to_stderr(format_args!("\r{done}{of} spp, {:.1} s ", elapsed.as_secs_f64()));
         }
     }
 
     fn finish(&self) {
         if self.shown {
-            eprint!("\r\x1b[K");
+            super::to_stderr(format_args!("\r\x1b[K"));
         }
     }
 }

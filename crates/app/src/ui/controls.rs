@@ -33,7 +33,7 @@ pub fn show(viewer: &mut Viewer, ui: &mut Ui, dump: &mut Dump) {
         ui.horizontal(|ui| {
             let restart = ui.button("Restart").on_hover_text("Path trace again from the first sample (R)");
             if dump.note("restart", "", restart).clicked() {
-                viewer.changed(false, true);
+                viewer.revisions.truth += 1;
             }
             let reset = ui.button("Reset camera").on_hover_text("Back to the scene's own camera (C)");
             if dump.note("reset camera", "", reset).clicked() {
@@ -58,7 +58,7 @@ fn refraction_ratio(viewer: &mut Viewer, ui: &mut Ui, dump: &mut Dump) {
         .on_hover_text("Index of refraction outside over inside; 1 is no glass at all");
     if dump.note("refraction ratio", ratio, slider).changed() {
         viewer.scene.set_refraction_ratio(ratio);
-        viewer.changed(true, true);
+        viewer.revisions.shared += 1;
     }
 }
 
@@ -69,7 +69,7 @@ fn sun_radius(viewer: &mut Viewer, ui: &mut Ui, dump: &mut Dump) {
         .add(Slider::new(&mut sun.angular_radius, 0.0..=5.0).step_by(0.1).suffix("°"))
         .on_hover_text("0: hard shadows and no caustic. Larger: softer shadows");
     if dump.note("sun radius", sun.angular_radius, slider).changed() {
-        viewer.changed(false, true);
+        viewer.revisions.truth += 1;
     }
 }
 
@@ -100,7 +100,7 @@ fn fake(viewer: &mut Viewer, ui: &mut Ui, dump: &mut Dump) {
             .on_hover_text("Share of the refracted surroundings; the rest is white");
         if dump.note("reflectivity", reflectivity, slider).changed() {
             viewer.scene.set_reflectivity(reflectivity);
-            viewer.changed(true, false);
+            viewer.revisions.fake += 1;
         }
     }
 }

@@ -17,6 +17,8 @@ use compare::Errors;
 pub struct Pane {
     /// The picture, at the size of the picture area or smaller.
     pub texture: Option<egui::TextureId>,
+    /// Name of technique and settings of that picture.
+    pub label: String,
     /// Samples per pixel, where the technique samples.
     pub spp: Option<u32>,
     /// Seconds of rendering.

@@ -70,16 +70,18 @@ fn line(ui: &Ui, rect: Rect, x: f32) {
 
 /// Name, cost and error on the picture: A at the left edge, B at the right edge under the wipe.
 fn label(viewer: &Viewer, ui: &Ui, clip: Rect, side: Side, pane: &Pane) {
+    if pane.texture.is_none() {
+        return;
+    }
     let (name, colour) = match side {
-        Side::A => (format!("A: {}", viewer.fake.label()), Color32::from_rgb(120, 190, 255)),
-        Side::B => (format!("B: {}", viewer.truth.label()), Color32::from_rgb(255, 180, 90)),
+        Side::A => (format!("A: {}", pane.label), Color32::from_rgb(120, 190, 255)),
+        Side::B => (format!("B: {}", pane.label), Color32::from_rgb(255, 180, 90)),
     };
     let mut text = name;
     match pane.spp {
         Some(spp) if pane.rough => text += &format!("\n{spp} spp, rough"),
         Some(spp) => text += &format!("\n{spp} of {} spp, {:.1} s", viewer.truth.spp, pane.seconds),
-        None if pane.texture.is_some() => text += &format!("\n{:.0} ms", pane.seconds * 1000.0),
-        None => {}
+        None => text += &format!("\n{:.0} ms", pane.seconds * 1000.0),
     }
     if let Some(e) = pane.errors {
         let other = if side == Side::A { "A - B" } else { "B - A" };

@@ -1,7 +1,8 @@
 //! The bar above the picture: scene, view, saving.
 
 use super::{Dump, Request, View, Viewer};
-use egui::Ui;
+use egui::containers::menu::{MenuButton, MenuConfig};
+use egui::{PopupCloseBehavior, Ui};
 use scene::builtin;
 
 pub fn show(viewer: &mut Viewer, ui: &mut Ui, dump: &mut Dump, requests: &mut Vec<Request>) {
@@ -43,7 +44,9 @@ fn explain(view: View) -> &'static str {
 }
 
 fn scene_menu(viewer: &mut Viewer, ui: &mut Ui, dump: &mut Dump, requests: &mut Vec<Request>) {
-    let menu = ui.menu_button(format!("Scene: {}", viewer.scene.name), |ui| {
+    let stay = MenuConfig::new().close_behavior(PopupCloseBehavior::CloseOnClickOutside);
+    let title = format!("Scene: {}", viewer.scene.name);
+    let (response, _) = MenuButton::new(title).config(stay).ui(ui, |ui| {
         for name in builtin::names() {
             let item = ui.selectable_label(viewer.scene.name == name, name);
             if dump.note(&format!("scene {name}"), "", item).clicked() {
@@ -61,5 +64,5 @@ fn scene_menu(viewer: &mut Viewer, ui: &mut Ui, dump: &mut Dump, requests: &mut 
             ui.close();
         }
     });
-    dump.note("scene", &viewer.scene.name, menu.response);
+    dump.note("scene", &viewer.scene.name, response);
 }

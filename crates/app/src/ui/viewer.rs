@@ -36,16 +36,20 @@ impl View {
 pub enum Request {
     /// Save the picture as seen.
     Save,
-    /// Open a scene, by name or file.
+    /// Read and open a scene, by name or file.
     Open(String),
 }
 
 /// Counts changes, so that each technique renders again when what it reads has changed, and only then.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Revisions {
-    /// Of what the fake reads in the scene.
+    /// Of the scene as a whole: another one was opened.
+    pub opened: u64,
+    /// Of what both read in the scene.
+    pub shared: u64,
+    /// Of what the fake alone reads in the scene.
     pub fake: u64,
-    /// Of what the truth reads in the scene.
+    /// Of what the truth alone reads in the scene.
     pub truth: u64,
 }
 
@@ -115,13 +119,7 @@ impl Viewer {
     pub fn open(&mut self, scene: Scene) {
         self.camera = scene.camera;
         self.scene = scene;
-        self.changed(true, true);
-    }
-
-    /// Notes that the scene has changed for the fake, the truth or both.
-    pub(super) fn changed(&mut self, fake: bool, truth: bool) {
-        self.revisions.fake += u64::from(fake);
-        self.revisions.truth += u64::from(truth);
+        self.revisions.opened += 1;
     }
 
     /// Draws everything and returns what the user wants of the shell.
@@ -157,7 +155,7 @@ impl Viewer {
             }
         }
         if pressed(Key::R) {
-            self.changed(false, true);
+            self.revisions.truth += 1;
         }
         if pressed(Key::C) {
             self.camera = self.scene.camera;

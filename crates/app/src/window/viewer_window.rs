@@ -6,12 +6,12 @@ use super::textures::PaneTexture;
 use crate::picture_file;
 use crate::ui::{Dump, Pane, Request, Viewer};
 use crate::workers::crew::Crew;
-use crate::workers::darkroom::News;
+use crate::workers::darkroom::{News, Shelf};
 use crate::workers::{Side, Wake};
 use anyhow::Context;
 use egui_wgpu::ScreenDescriptor;
 use gpu::Gpu;
-use scene::{Scene, builtin};
+use scene::Scene;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -151,21 +151,35 @@ impl ViewerWindow {
         if let Some(fault) = self.gpu.fault() {
             self.viewer.message = Some((format!("The GPU failed: {fault}"), true));
         }
-        let Some(shelf) = self.crew.collect() else { return };
+        self.hang(self.crew.collect().unwrap_or_default());
+        if let Some(loaded) = self.crew.loaded() {
+            let opened = loaded.map(|scene| {
+                let message = format!("Opened {}", scene.name);
+                self.viewer.open(scene);
+                self.panes = Default::default();
+                message
+            });
+            self.say(opened);
+        }
+    }
+
+    /// Puts what is new on the panes.
+    fn hang(&mut self, shelf: Shelf) {
         if let Some(News::Picture(truth)) = &shelf[Side::B as usize] {
-            self.stopwatch.received(truth.picture.job);
+            self.stopwatch.received(truth.picture.order.job);
         }
         for ((news, pane), texture) in shelf.into_iter().zip(&mut self.panes).zip(&mut self.textures) {
             match news {
                 None => {}
-                Some(News::Fault(fault)) => pane.fault = Some(fault),
+                Some(News::Fault(fault)) => *pane = Pane { fault: Some(fault), ..Pane::default() },
                 Some(News::Picture(developed)) => {
                     let picture = &developed.picture;
                     if let Some(rgba) = &developed.rgba {
                         let renderer = &mut self.surface.renderer;
                         pane.texture = Some(texture.upload(&self.gpu, renderer, picture.width, picture.height, rgba));
+                        pane.fault = None;
+                        pane.label.clone_from(&picture.order.label);
                     }
-                    pane.fault = None;
                     (pane.spp, pane.seconds, pane.rough) = (picture.spp, picture.seconds, picture.rough);
                     pane.errors = developed.errors;
                 }
@@ -174,20 +188,19 @@ impl ViewerWindow {
     }
 
     fn grant(&mut self, request: Request, painting: &Painting) {
-        let done = match request {
-            Request::Save => self.save(painting).map(|path| format!("Saved {}", path.display())),
-            Request::Open(name) => builtin::named(&name).map_err(anyhow::Error::from).map(|scene| {
-                let message = format!("Opened {}", scene.name);
-                self.viewer.open(scene);
-                self.panes = Default::default();
-                message
-            }),
-        };
-        self.viewer.message = Some(match done {
-            Ok(message) => (message, false),
-            Err(error) => (format!("{error:#}"), true),
-        });
+        match request {
+            Request::Save => {
+                let saved = self.save(painting).map(|path| format!("Saved {}", path.display()));
+                self.say(saved.map_err(|error| format!("{error:#}")));
+            }
+            Request::Open(name) => self.crew.load(name),
+        }
         self.request_frame();
+    }
+
+    fn say(&mut self, outcome: Result<String, String>) {
+        let failed = outcome.is_err();
+        self.viewer.message = Some((outcome.unwrap_or_else(|fault| fault), failed));
     }
 
     /// Saves the picture area as it is on the screen, line and labels included.
@@ -218,6 +231,7 @@ impl ViewerWindow {
             "wipe": self.viewer.wipe,
             "eye": self.viewer.camera.eye.to_array(),
             "message": self.viewer.message.as_ref().map(|m| &m.0),
+            "typing": self.egui.egui_ctx().text_edit_focused(),
             "a_ready": a.texture.is_some(),
             "b_ready": b.texture.is_some(),
             "b_spp": b.spp,

@@ -1,7 +1,7 @@
 //! The thread that develops: radiance through the display transform into bytes, and the error of each side against the
 //! other. Moving the exposure develops again and renders nothing.
 
-use super::{Inbox, Picture, Side, Wake};
+use super::{Inbox, Order, Picture, Side, Wake};
 use compare::{Errors, errors_of_radiances};
 use scene::display::DisplayTransform;
 use std::sync::Arc;
@@ -37,10 +37,18 @@ pub struct Darkroom {
     shelf: Inbox<Shelf>,
 }
 
+/// What a worker brings.
+#[derive(Debug)]
+enum Delivery {
+    Picture(Picture),
+    Fault(Order, String),
+}
+
 #[derive(Debug, Default)]
 struct Tray {
-    pictures: [Option<Picture>; 2],
+    deliveries: [Option<Delivery>; 2],
     display: Option<DisplayTransform>,
+    oldest_view: Option<u64>,
 }
 
 impl Darkroom {
@@ -59,19 +67,22 @@ impl Darkroom {
 
     /// A new picture of one side.
     pub fn deliver(&self, side: Side, picture: Picture) {
-        self.inbox.post(|tray| tray.pictures[side as usize] = Some(picture));
+        self.inbox.post(|tray| tray.deliveries[side as usize] = Some(Delivery::Picture(picture)));
     }
 
     /// A side has no picture, for a reason to be shown.
-    pub fn report(&self, side: Side, fault: String) {
-        self.shelf.post(|shelf| shelf[side as usize] = Some(News::Fault(fault)));
-        // an empty delivery, so that the thread wakes the UI
-        self.inbox.post(|_| {});
+    pub fn report(&self, side: Side, order: Order, fault: String) {
+        self.inbox.post(|tray| tray.deliveries[side as usize] = Some(Delivery::Fault(order, fault)));
     }
 
     /// A new display transform for both.
     pub fn set_display(&self, display: DisplayTransform) {
         self.inbox.post(|tray| tray.display = Some(display));
+    }
+
+    /// Forgets every picture of a view before this one, whether it has come or is still on its way.
+    pub fn forget_before(&self, view: u64) {
+        self.inbox.post(|tray| tray.oldest_view = Some(view));
     }
 
     /// What is new since the last call.
@@ -86,21 +97,33 @@ impl Darkroom {
 
     fn work(&self, wake: &Wake) {
         let mut display = DisplayTransform::default();
+        let mut oldest_view = 0;
         let mut latest: [Option<Picture>; 2] = [None, None];
         while let Some(tray) = self.inbox.take() {
             let redevelop = tray.display.is_some();
             display = tray.display.unwrap_or(display);
-            let fresh = tray.pictures.each_ref().map(Option::is_some);
-            for (latest, new) in latest.iter_mut().zip(tray.pictures) {
-                *latest = new.or_else(|| latest.take());
+            oldest_view = tray.oldest_view.unwrap_or(oldest_view);
+            latest.iter_mut().for_each(|kept| drop(kept.take_if(|picture| picture.order.view < oldest_view)));
+            let mut fresh = [false; 2];
+            for (side, delivery) in tray.deliveries.into_iter().enumerate() {
+                match delivery {
+                    Some(Delivery::Picture(picture)) if picture.order.view >= oldest_view => {
+                        latest[side] = Some(picture);
+                        fresh[side] = true;
+                    }
+                    Some(Delivery::Fault(order, fault)) if order.view >= oldest_view => {
+                        latest[side] = None;
+                        self.shelf.post(|shelf| shelf[side] = Some(News::Fault(fault)));
+                    }
+                    _ => {}
+                }
             }
             let errors = mutual_errors(&latest);
-            for side in [Side::A, Side::B] {
-                let Some(picture) = latest[side as usize].clone() else { continue };
-                let develop = redevelop || fresh[side as usize];
-                let rgba = develop.then(|| display.to_rgba8(picture.radiances.iter().copied()));
-                let new = Developed { picture, rgba, errors: errors[side as usize] };
-                self.shelf.post(|shelf| shelve(&mut shelf[side as usize], new));
+            for side in 0..2 {
+                let Some(picture) = latest[side].clone() else { continue };
+                let rgba = (redevelop || fresh[side]).then(|| display.to_rgba8(picture.radiances.iter().copied()));
+                let new = Developed { picture, rgba, errors: errors[side] };
+                self.shelf.post(|shelf| shelve(&mut shelf[side], new));
             }
             wake();
         }
@@ -115,13 +138,65 @@ fn shelve(place: &mut Option<News>, mut new: Developed) {
     *place = Some(News::Picture(Box::new(new)));
 }
 
+/// Each side against the other, where both show one view at one size.
 fn mutual_errors(latest: &[Option<Picture>; 2]) -> [Option<Errors>; 2] {
     match latest {
-        [Some(a), Some(b)] if (a.width, a.height) == (b.width, b.height) => {
+        [Some(a), Some(b)] if (a.width, a.height, a.order.view) == (b.width, b.height, b.order.view) => {
             let of =
                 |film: &Picture, reference: &Picture| Some(errors_of_radiances(&film.radiances, &reference.radiances));
             [of(a, b), of(b, a)]
         }
         _ => [None, None],
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use scene::Vec3;
+
+    fn picture(view: u64) -> Picture {
+        let order = Order { job: view, view, label: String::new() };
+        let radiances = [Vec3::splat(view as f32)].into();
+        Picture { width: 1, height: 1, radiances, spp: None, seconds: 0.0, rough: false, order }
+    }
+
+    /// Runs a darkroom over what `post` posts, and returns all that it shelved.
+    fn developed(post: impl Fn(&Darkroom)) -> Shelf {
+        let (darkroom, thread) = Darkroom::start(Arc::new(|| {})).unwrap();
+        post(&darkroom);
+        let mut shelf = Shelf::default();
+        for _ in 0..200 {
+            for (place, news) in shelf.iter_mut().zip(darkroom.collect().unwrap_or_default()) {
+                *place = news.or_else(|| place.take());
+            }
+            std::thread::sleep(std::time::Duration::from_millis(1));
+        }
+        darkroom.close();
+        thread.join().unwrap();
+        shelf
+    }
+
+    #[test]
+    fn only_pictures_of_one_view_are_compared() {
+        for (view_of_b, comparable) in [(1, true), (2, false)] {
+            let shelf = developed(|darkroom| {
+                darkroom.deliver(Side::A, picture(1));
+                darkroom.deliver(Side::B, picture(view_of_b));
+            });
+            let [Some(News::Picture(a)), Some(News::Picture(b))] = shelf else { panic!("two pictures") };
+            assert_eq!((a.errors.is_some(), b.errors.is_some()), (comparable, comparable));
+        }
+    }
+
+    #[test]
+    fn a_fault_stays_and_forgotten_views_do_not_come_back() {
+        let shelf = developed(|darkroom| {
+            darkroom.forget_before(5);
+            darkroom.report(Side::A, picture(5).order, "no".into());
+            darkroom.deliver(Side::B, picture(4));
+        });
+        assert!(matches!(&shelf[0], Some(News::Fault(fault)) if fault == "no"));
+        assert!(shelf[1].is_none());
     }
 }

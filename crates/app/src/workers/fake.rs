@@ -1,7 +1,7 @@
 //! The thread that rasterises.
 
 use super::darkroom::Darkroom;
-use super::{Inbox, Picture, Side};
+use super::{Inbox, Order, Picture, Side};
 use crate::technique::FakeSettings;
 use gpu::Gpu;
 use raster::Raster;
@@ -21,8 +21,8 @@ pub struct FakeJob {
     pub settings: FakeSettings,
     /// Width and height in pixels.
     pub size: (u32, u32),
-    /// Counts the jobs.
-    pub job: u64,
+    /// What for.
+    pub order: Order,
 }
 
 /// The worker; dropping it ends its thread.
@@ -81,10 +81,10 @@ fn work(gpu: &Gpu, jobs: &Inbox<Option<FakeJob>>, darkroom: &Darkroom) {
                     spp: None,
                     seconds: start.elapsed().as_secs_f64(),
                     rough: false,
-                    job: job.job,
+                    order: job.order,
                 },
             ),
-            Err(fault) => darkroom.report(Side::A, fault),
+            Err(fault) => darkroom.report(Side::A, job.order, fault),
         }
     }
 }

@@ -5,6 +5,7 @@
 pub mod crew;
 pub mod darkroom;
 pub mod fake;
+pub mod loader;
 pub mod truth;
 
 use scene::Vec3;
@@ -34,8 +35,19 @@ pub struct Picture {
     pub seconds: f64,
     /// Whether this is a rough picture at a lower resolution.
     pub rough: bool,
-    /// Counts the jobs of its side.
+    /// What it was made for.
+    pub order: Order,
+}
+
+/// What a picture is made for.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Order {
+    /// Counts all jobs.
     pub job: u64,
+    /// Counts what both sides share: scene, camera and size. Only pictures of one view can be compared.
+    pub view: u64,
+    /// Name of technique and settings, to be shown with the picture.
+    pub label: String,
 }
 
 /// Wakes the UI thread when there is something to collect.
@@ -62,6 +74,11 @@ impl<T: Default> Inbox<T> {
         change(&mut state.content);
         state.fresh = true;
         self.arrived.notify_one();
+    }
+
+    /// Changes the content, wakes nobody and returns what `change` does.
+    pub fn change<R>(&self, change: impl FnOnce(&mut T) -> R) -> R {
+        change(&mut self.lock().content)
     }
 
     /// Waits for something fresh and takes it; `None` once closed.

@@ -1,7 +1,7 @@
 //! The thread that path traces: a rough picture at once, then ever more samples, until the wished number or a new job.
 
 use super::darkroom::Darkroom;
-use super::{Inbox, Picture, Side};
+use super::{Inbox, Order, Picture, Side};
 use crate::technique::TruthSettings;
 use pathtrace::Tracer;
 use scene::{Camera, Film, Scene};
@@ -21,8 +21,8 @@ pub struct TruthJob {
     pub settings: TruthSettings,
     /// Width and height in pixels.
     pub size: (u32, u32),
-    /// Counts the jobs.
-    pub job: u64,
+    /// What for.
+    pub order: Order,
 }
 
 /// A job, and the flag that stops it.
@@ -31,11 +31,14 @@ type Commission = (TruthJob, Arc<AtomicBool>);
 /// The worker; dropping it ends its thread.
 pub struct TruthWorker {
     inbox: Arc<Inbox<Option<Commission>>>,
-    /// The cancel flag of the job in hand.
+    /// Stops the job in hand.
     cancel: Arc<AtomicBool>,
     thread: Option<JoinHandle<()>>,
 }
 
+/// Time that a job may go on after a newer one came, if it has not shown anything yet: else a drag would never show
+/// anything.
+const GRACE: Duration = Duration::from_millis(80);
 /// Time that a rough picture may take, so that it is on the screen within a tenth of a second.
 const ROUGH: Duration = Duration::from_millis(40);
 /// Least and most time between two pictures once the resolution is full: an eighth of the time spent so far, because
@@ -56,7 +59,7 @@ impl TruthWorker {
         let inbox = Arc::new(Inbox::default());
         let commissions: Arc<Inbox<Option<Commission>>> = inbox.clone();
         let thread = std::thread::Builder::new().name("truth".into()).spawn(move || {
-            let mut painter = Painter { darkroom, tracer: None, seconds_per_sample: 1e-6 };
+            let mut painter = Painter { darkroom, tracer: None, seconds_per_sample: 1e-6, begun: Instant::now() };
             while let Some(commission) = commissions.take() {
                 if let Some((job, cancel)) = commission {
                     pool.install(|| painter.paint(&job, &cancel));
@@ -92,10 +95,13 @@ struct Painter {
     tracer: Option<(Arc<Scene>, Tracer)>,
     /// Measured on the last job: what one sample of one pixel costs on the whole pool.
     seconds_per_sample: f64,
+    /// When the job in hand was begun.
+    begun: Instant,
 }
 
 impl Painter {
     fn paint(&mut self, job: &TruthJob, cancel: &AtomicBool) {
+        self.begun = Instant::now();
         let tracer = match self.tracer.take() {
             Some((scene, tracer)) if Arc::ptr_eq(&scene, &job.scene) => tracer,
             _ => Tracer::new(&job.scene),
@@ -109,6 +115,7 @@ impl Painter {
     fn rough(&mut self, tracer: &Tracer, job: &TruthJob, cancel: &AtomicBool) {
         let pixels = f64::from(job.size.0) * f64::from(job.size.1);
         let budget = ROUGH.as_secs_f64() / self.seconds_per_sample;
+        let mut shown = false;
         for shrink in [8, 4, 2] {
             let (pixels, finer) = (pixels / f64::from(shrink * shrink), pixels / f64::from(shrink * shrink / 4));
             if finer <= budget {
@@ -117,11 +124,14 @@ impl Painter {
             let mut film = Film::new(job.size.0.div_ceil(shrink), job.size.1.div_ceil(shrink));
             let samples = ((budget / pixels) as u32).clamp(1, job.settings.spp.min(16));
             let start = Instant::now();
-            self.expose(tracer, &mut film, job, samples, cancel);
-            if cancel.load(Ordering::Relaxed) {
+            let (begun, first) = (self.begun, !shown);
+            let stop = || cancel.load(Ordering::Relaxed) && !(first && begun.elapsed() < GRACE);
+            self.expose(tracer, &mut film, job, samples, &stop);
+            if stop() {
                 return;
             }
             self.deliver(&film, job, start.elapsed(), true);
+            shown = true;
         }
     }
 
@@ -134,7 +144,7 @@ impl Painter {
             let refresh = (spent / 8).clamp(REFRESH[0], REFRESH[1]);
             let fitting = (refresh.as_secs_f64() / per_pass) as u32;
             let samples = fitting.clamp(1, done.max(1)).min(job.settings.spp - done);
-            self.expose(tracer, &mut film, job, samples, cancel);
+            self.expose(tracer, &mut film, job, samples, &|| cancel.load(Ordering::Relaxed));
             if cancel.load(Ordering::Relaxed) {
                 return;
             }
@@ -147,9 +157,16 @@ impl Painter {
         }
     }
 
-    fn expose(&mut self, tracer: &Tracer, film: &mut Film, job: &TruthJob, samples: u32, cancel: &AtomicBool) {
+    fn expose(
+        &mut self,
+        tracer: &Tracer,
+        film: &mut Film,
+        job: &TruthJob,
+        samples: u32,
+        stop: &(impl Fn() -> bool + Sync),
+    ) {
         let start = Instant::now();
-        let stats = tracer.render(film, &job.camera, &job.settings.path, samples, cancel);
+        let stats = tracer.render(film, &job.camera, &job.settings.path, samples, stop);
         if stats.samples > 1000 {
             self.seconds_per_sample = start.elapsed().as_secs_f64() / stats.samples as f64;
         }
@@ -165,7 +182,7 @@ impl Painter {
                 spp: Some(film.samples_per_pixel()),
                 seconds: spent.as_secs_f64(),
                 rough,
-                job: job.job,
+                order: job.order.clone(),
             },
         );
     }

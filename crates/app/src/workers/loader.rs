@@ -1,0 +1,53 @@
+//! Reading scenes beside the UI: a large file takes its time.
+
+use super::{Inbox, Wake};
+use scene::{Scene, builtin};
+use std::sync::Arc;
+
+/// Reads one scene after the other; the last one asked for wins.
+pub struct Loader {
+    shelf: Arc<Inbox<Shelf>>,
+    wake: Wake,
+}
+
+#[derive(Default)]
+struct Shelf {
+    wanted: u64,
+    loaded: Option<Result<Scene, String>>,
+}
+
+impl Loader {
+    /// Calls `wake` whenever [`Loader::loaded`] has something.
+    pub fn new(wake: Wake) -> Self {
+        Loader { shelf: Arc::default(), wake }
+    }
+
+    /// Reads a scene, by name or file, on a thread of its own.
+    pub fn load(&self, name: String) {
+        let (shelf, wake) = (self.shelf.clone(), self.wake.clone());
+        let number = shelf.change(|shelf| {
+            shelf.wanted += 1;
+            shelf.wanted
+        });
+        let started = std::thread::Builder::new().name("loader".into()).spawn({
+            let shelf = shelf.clone();
+            move || {
+                let loaded = builtin::named(&name).map_err(|e| e.to_string());
+                shelf.change(|shelf| {
+                    if shelf.wanted == number {
+                        shelf.loaded = Some(loaded);
+                    }
+                });
+                wake();
+            }
+        });
+        if let Err(e) = started {
+            shelf.change(|shelf| shelf.loaded = Some(Err(format!("no thread to read the scene ({e})"))));
+        }
+    }
+
+    /// The scene that was read since the last call, or why it was not.
+    pub fn loaded(&self) -> Option<Result<Scene, String>> {
+        self.shelf.change(|shelf| shelf.loaded.take())
+    }
+}
