@@ -31,6 +31,7 @@ library libxkbcommon-x11.so.0 libxkbcommon-x11-0
 library libwayland-client.so.0 libwayland-client0
 program Xvfb xvfb
 program cc gcc
+[ -e /usr/include/stdio.h ] || missing="$missing libc6-dev"
 found=""
 for folder in /usr/share/vulkan/icd.d /usr/local/share/vulkan/icd.d /etc/vulkan/icd.d; do
     ls "$folder"/*.json >/dev/null 2>&1 && found=yes
