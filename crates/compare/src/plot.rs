@@ -26,10 +26,10 @@ pub struct Series {
     pub level: bool,
 }
 
-const WIDTH: f64 = 760.0;
+const WIDTH: f64 = 790.0;
 const HEIGHT: f64 = 480.0;
 const LEFT: f64 = 80.0;
-const RIGHT: f64 = 180.0;
+const RIGHT: f64 = 210.0;
 const TOP: f64 = 50.0;
 const BOTTOM: f64 = 60.0;
 /// Okabe and Ito's colours, told apart by the colour-blind too.
@@ -92,7 +92,7 @@ impl LogLogPlot<'_> {
             0.5 * (TOP + bottom),
             escaped(self.y_label)
         );
-        let mut label_ys: Vec<f64> = Vec::new();
+        let mut labels: Vec<(f64, &str, &str)> = Vec::new();
         for ((series, points), colour) in series.iter().zip(COLOURS.iter().cycle()) {
             let Some(&last) = points.last() else { continue };
             if series.level {
@@ -119,16 +119,18 @@ impl LogLogPlot<'_> {
                     );
                 }
             }
-            let mut label = y(last.1) + 5.0;
-            while label_ys.iter().any(|taken| (taken - label).abs() < 16.0) {
-                label += 4.0;
-            }
-            label_ys.push(label);
+            labels.push((y(last.1) + 5.0, &series.name, colour));
+        }
+        labels.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let mut free = f64::NEG_INFINITY;
+        for (wish, name, colour) in labels {
+            let label = wish.max(free);
+            free = label + 17.0;
             let _ = writeln!(
                 svg,
                 "<text x=\"{}\" y=\"{label:.1}\" fill=\"{colour}\">{}</text>",
                 right + 10.0,
-                escaped(&series.name)
+                escaped(name)
             );
         }
         svg + "</svg>\n"

@@ -3,7 +3,7 @@
 
 use crate::picture_file::write_whole;
 use anyhow::Context;
-use compare::{BenchRow, LogLogPlot, Series, csv, errors};
+use compare::{BenchRow, Errors, LogLogPlot, Series, csv, errors};
 use gpu::Gpu;
 use pathtrace::{Estimator, PathSettings, Tracer};
 use raster::{Fake, Raster, RasterSettings, Shading};
@@ -25,6 +25,9 @@ const QUICK: [Effort; 2] = [
     Effort { scene: "cornell", size: (96, 96), most_spp: 256, reference_spp: 8192 },
     Effort { scene: "whitted", size: (128, 72), most_spp: 256, reference_spp: 16384 },
 ];
+
+/// Pictures of different seeds that a row's errors are the mean of, at most.
+const MOST_PICTURES: u32 = 64;
 
 const REFERENCE_SEED: u32 = 0x5eed;
 
@@ -60,11 +63,17 @@ fn measure(effort: &Effort) -> anyhow::Result<Vec<BenchRow>> {
     };
     let mut rows = Vec::new();
     for estimator in Estimator::ALL {
-        let settings = PathSettings { estimator, ..PathSettings::default() };
         let mut spp = 1;
         while spp <= effort.most_spp {
-            let (film, seconds) = render(&tracer, &scene, effort, &settings, spp);
-            rows.push(row(format!("path {}", estimator.name()), spp, seconds, &film)?);
+            // rare bright paths make one picture of few samples look better than it is: few samples, many pictures
+            let pictures = (effort.most_spp / spp).min(MOST_PICTURES);
+            let mut measured = Vec::new();
+            for seed in 1..=pictures {
+                let settings = PathSettings { estimator, seed, ..PathSettings::default() };
+                let (film, seconds) = render(&tracer, &scene, effort, &settings, spp);
+                measured.push(row(format!("path {}", estimator.name()), spp, seconds, &film)?);
+            }
+            rows.extend(mean_row(&measured));
             spp *= 2;
         }
     }
@@ -79,6 +88,19 @@ fn measure(effort: &Effort) -> anyhow::Result<Vec<BenchRow>> {
         rows.push(row(format!("raster {}", fake.name()), 0, start.elapsed().as_secs_f64(), &film)?);
     }
     Ok(rows)
+}
+
+/// Mean time and errors of several pictures; the root of the mean square for the RMSE.
+fn mean_row(rows: &[BenchRow]) -> Option<BenchRow> {
+    let mean = |of: fn(&BenchRow) -> f64| rows.iter().map(of).sum::<f64>() / rows.len() as f64;
+    let errors = Errors {
+        rmse: mean(|row| row.errors.rmse * row.errors.rmse).sqrt(),
+        rel_mse: mean(|row| row.errors.rel_mse),
+        mae: mean(|row| row.errors.mae),
+        bias: mean(|row| row.errors.bias),
+        relative_bias: mean(|row| row.errors.relative_bias),
+    };
+    rows.first().map(|first| BenchRow { seconds: mean(|row| row.seconds), errors, ..first.clone() })
 }
 
 fn render(tracer: &Tracer, scene: &Scene, effort: &Effort, settings: &PathSettings, spp: u32) -> (Film, f64) {
@@ -105,8 +127,14 @@ fn plot(effort: &Effort, rows: &[BenchRow]) -> String {
             _ => series.push(Series { name: row.technique.clone(), points: vec![point], level: row.spp == 0 }),
         }
     }
+    for line in series.iter_mut().filter(|line| line.level) {
+        if let Some((seconds, _)) = line.points.last() {
+            line.name += &format!(", {:.0} ms", seconds * 1000.0);
+        }
+    }
     let noise = rows.first().map_or(0.0, |row| row.reference_rel_mse);
     let title = format!("{}, {} x {}: error against time", effort.scene, effort.size.0, effort.size.1);
+    let x_label = format!("seconds (1 to {} spp, doubling)", effort.most_spp);
     let y_label = format!("relMSE (the reference's own: {noise:.0e})");
-    LogLogPlot { title: &title, x_label: "seconds (1 to most spp, doubling)", y_label: &y_label, series }.svg()
+    LogLogPlot { title: &title, x_label: &x_label, y_label: &y_label, series }.svg()
 }
