@@ -69,6 +69,20 @@ fn a_lecturer_toggles_slides_wipes_orbits_saves_and_closes() {
 }
 
 #[test]
+fn without_an_adapter_the_window_says_what_to_install() {
+    let _alone = alone();
+    let screen = Screen::start(640, 480);
+    let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_visavis"));
+    command.env("DISPLAY", &screen.display).env_remove("WAYLAND_DISPLAY").env_remove("WAYLAND_SOCKET");
+    // only an interface that this system does not have
+    let output = command.env("WGPU_BACKEND", "dx12").output().expect("the program");
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(1), "{said}");
+    assert_eq!(said.lines().count(), 1, "{said}");
+    assert!(said.contains("mesa-vulkan-drivers"), "{said}");
+}
+
+#[test]
 fn scenes_change_controls_that_do_not_apply_go_and_the_window_may_be_resized() {
     let _alone = alone();
     let screen = Screen::start(1280, 720);

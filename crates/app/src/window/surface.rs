@@ -2,7 +2,7 @@
 
 use anyhow::Context;
 use egui_wgpu::ScreenDescriptor;
-use gpu::Gpu;
+use gpu::{Gpu, GpuError};
 use std::sync::Arc;
 use winit::window::Window;
 
@@ -39,7 +39,8 @@ impl WindowSurface {
     /// If no adapter can draw to this window: one line that says what to install.
     pub fn new(window: Arc<Window>, display: winit::event_loop::OwnedDisplayHandle) -> anyhow::Result<(Self, Gpu)> {
         let instance = gpu::new_instance(Some(Box::new(display)));
-        let surface = instance.create_surface(window.clone()).context("the window has no surface to draw to")?;
+        // an interface that is not there makes no surface, so that no adapter can even be asked
+        let surface = instance.create_surface(window.clone()).map_err(|_| GpuError::NoAdapterForWindow)?;
         let gpu = Gpu::for_surface(instance, &surface)?;
         let size = window.inner_size();
         let mut config = surface
@@ -49,7 +50,10 @@ impl WindowSurface {
         let formats = surface.get_capabilities(&gpu.adapter).formats;
         let plain = [wgpu::TextureFormat::Rgba8Unorm, wgpu::TextureFormat::Bgra8Unorm];
         config.format = plain.into_iter().find(|f| formats.contains(f)).unwrap_or(config.format);
-        config.present_mode = wgpu::PresentMode::AutoVsync;
+        // where the processor draws, waiting for the screen as well would only add to it
+        let software = gpu.is_software();
+        config.present_mode = if software { wgpu::PresentMode::AutoNoVsync } else { wgpu::PresentMode::AutoVsync };
+        config.desired_maximum_frame_latency = 1;
         surface.configure(&gpu.device, &config);
         let renderer = egui_wgpu::Renderer::new(&gpu.device, config.format, egui_wgpu::RendererOptions::default());
         Ok((WindowSurface { window, surface, config, renderer }, gpu))
