@@ -132,9 +132,9 @@ impl Viewer {
                 egui::ScrollArea::vertical().show(ui, |ui| controls::show(self, ui, dump));
             });
         }
-        egui::CentralPanel::default()
-            .frame(egui::Frame::new().fill(egui::Color32::BLACK))
-            .show(ui, |ui| picture::show(self, ui, panes, dump));
+        // no ground under the pictures, which cover it: where the processor draws, every layer is paid for
+        let bare = egui::CentralPanel::default().frame(egui::Frame::NONE);
+        bare.show(ui, |ui| picture::show(self, ui, panes, dump));
         requests
     }
 

@@ -55,7 +55,9 @@ impl WindowSurface {
         config.present_mode = if software { wgpu::PresentMode::AutoNoVsync } else { wgpu::PresentMode::AutoVsync };
         config.desired_maximum_frame_latency = 1;
         surface.configure(&gpu.device, &config);
-        let renderer = egui_wgpu::Renderer::new(&gpu.device, config.format, egui_wgpu::RendererOptions::default());
+        // dithering would change the bytes of the panes
+        let options = egui_wgpu::RendererOptions { dithering: false, ..Default::default() };
+        let renderer = egui_wgpu::Renderer::new(&gpu.device, config.format, options);
         Ok((WindowSurface { window, surface, config, renderer }, gpu))
     }
 

@@ -39,8 +39,9 @@ pub struct TruthWorker {
 /// Time that a job may go on after a newer one came, if it has not shown anything yet: else a drag would never show
 /// anything.
 const GRACE: Duration = Duration::from_millis(80);
-/// Time that a rough picture may take, so that it is on the screen within a tenth of a second.
-const ROUGH: Duration = Duration::from_millis(40);
+/// Time that a rough picture may take: with the two frames of the window around it, it shall be on the screen within a
+/// tenth of a second.
+const ROUGH: Duration = Duration::from_millis(20);
 /// Least and most time between two pictures once the resolution is full: an eighth of the time spent so far, because
 /// showing costs too, and a picture changes ever less.
 const REFRESH: [Duration; 2] = [Duration::from_millis(150), Duration::from_secs(1)];
