@@ -114,6 +114,16 @@ fn scenes_change_controls_that_do_not_apply_go_and_the_window_may_be_resized() {
     assert!(refused.state("message").as_str().unwrap().contains("whitted, cornell"));
     assert_eq!(refused.state("scene"), "whitted");
 
+    let whole = viewer.wait_for("both pictures", both_ready).rect("picture");
+    screen.click(first.point("view Side by side", 0.5, 0.5));
+    let halved = viewer.wait_for("both pictures side by side", |f| {
+        f.state("view") == "Side by side"
+            && f.state("picture_size")[0].as_f64() < Some(0.5 * f64::from(whole[2] - whole[0]))
+    });
+    assert_eq!(halved.rect("picture"), whole, "the area stays, the pictures share it");
+    viewer.wait_for("an error between them", |f| f.state("rel_mse").is_number() && f.state("b_rough") == false);
+    screen.click(first.point("view Wipe", 0.5, 0.5));
+
     for (width, height) in [(900, 500), (500, 330), (1100, 700)] {
         screen.resize(window, width, height);
     }

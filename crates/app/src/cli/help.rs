@@ -34,7 +34,7 @@ visavis --help, --version
 
 Exit code: 0 done, 1 failed (one line on stderr), 2 wrong usage.
 In the window: drag the line to wipe, drag the picture to orbit (Shift: pan, wheel: zoom), T swaps A and B,
-1 2 3 show A, B, wipe, R restarts, C resets the camera, H hides the panel, Ctrl+S saves the picture as seen.
+1 2 3 4 show A, B, wipe, side by side, R restarts, C resets the camera, H hides the panel, Ctrl+S saves the picture as seen.
 ";
 
 /// What `visavis --version` prints.

@@ -1,4 +1,4 @@
-//! The picture area: one side or both under the wipe, what is known about each on top, and the mouse: the line, orbit,
+//! The picture area: one side, both under the wipe or both side by side, what is known about each on top, and the mouse: the line, orbit,
 //! pan and zoom.
 
 use super::{Dump, Pane, View, Viewer};
@@ -13,30 +13,35 @@ const WHOLE: Rect = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
 pub fn show(viewer: &mut Viewer, ui: &mut Ui, panes: &[Pane; 2], dump: &mut Dump) {
     let rect = whole_pixels(ui.max_rect(), ui.ctx().pixels_per_point());
     viewer.picture_rect = rect;
-    let pixels = rect.size() * ui.ctx().pixels_per_point();
+    let frame = if viewer.view == View::SideBySide { left_half(rect, ui.ctx().pixels_per_point()) } else { rect };
+    let pixels = frame.size() * ui.ctx().pixels_per_point();
     viewer.picture_size = (pixels.x.round().max(1.0) as u32, pixels.y.round().max(1.0) as u32);
 
     let response = ui.allocate_rect(rect, Sense::click_and_drag());
     mouse(viewer, ui, &response, rect);
     let line_x = rect.left() + viewer.wipe * rect.width();
     let (left, right) = rect.split_left_right_at_x(line_x);
+    let beside = frame.translate(vec2(rect.width() - frame.width(), 0.0));
+    // where each side's picture lies, and what of it is seen
     let shown = match viewer.view {
-        View::A => vec![(Side::A, rect)],
-        View::B => vec![(Side::B, rect)],
-        View::Wipe => vec![(Side::A, left), (Side::B, right)],
+        View::A => vec![(Side::A, rect, rect)],
+        View::B => vec![(Side::B, rect, rect)],
+        View::Wipe => vec![(Side::A, rect, left), (Side::B, rect, right)],
+        View::SideBySide => vec![(Side::A, frame, frame), (Side::B, beside, beside)],
     };
-    for &(side, clip) in &shown {
-        pane(ui, rect, clip, &panes[side as usize]);
+    for &(side, place, clip) in &shown {
+        pane(ui, place, clip, &panes[side as usize]);
     }
     if viewer.view == View::Wipe {
         line(ui, rect, line_x);
     }
-    for &(side, clip) in &shown {
+    for &(side, _, clip) in &shown {
         label(viewer, ui, clip, side, &panes[side as usize]);
     }
     if viewer.hint {
-        let text = "Drag the line. T swaps A and B. Drag the picture to orbit, Shift to pan, wheel to zoom.";
-        text_box(ui, rect, rect.center_bottom() - vec2(0.0, 12.0), Align2::CENTER_BOTTOM, text, Color32::WHITE);
+        let line = if viewer.view == View::Wipe { "Drag the line. " } else { "" };
+        let text = format!("{line}T swaps A and B. Drag the picture to orbit, Shift to pan, wheel to zoom.");
+        text_box(ui, rect, rect.center_bottom() - vec2(0.0, 12.0), Align2::CENTER_BOTTOM, &text, Color32::WHITE);
     }
     dump.note("picture", viewer.view.name(), response);
 }
@@ -45,6 +50,12 @@ pub fn show(viewer: &mut Viewer, ui: &mut Ui, panes: &[Pane; 2], dump: &mut Dump
 fn whole_pixels(rect: Rect, pixels_per_point: f32) -> Rect {
     let (min, max) = (rect.min.to_vec2() * pixels_per_point, rect.max.to_vec2() * pixels_per_point);
     Rect::from_min_max((min.ceil() / pixels_per_point).to_pos2(), (max.floor() / pixels_per_point).to_pos2())
+}
+
+/// The left half, of whole physical pixels and one short of the middle, so that a line stays between the halves.
+fn left_half(rect: Rect, pixels_per_point: f32) -> Rect {
+    let half = ((rect.width() * pixels_per_point - 1.0) / 2.0).floor().max(1.0) / pixels_per_point;
+    Rect::from_min_size(rect.min, vec2(half, rect.height()))
 }
 
 fn pane(ui: &Ui, rect: Rect, clip: Rect, pane: &Pane) {

@@ -40,6 +40,7 @@ fn explain(view: View) -> &'static str {
         View::A => "The fake alone (1, T swaps A and B)",
         View::B => "The truth alone (2, T swaps A and B)",
         View::Wipe => "A left and B right of a line to drag (3)",
+        View::SideBySide => "Both whole, each in half of the window (4)",
     }
 }
 

@@ -15,11 +15,13 @@ pub enum View {
     B,
     /// Both, under a line that the mouse drags.
     Wipe,
+    /// Both whole, A left and B right.
+    SideBySide,
 }
 
 impl View {
-    /// All, in the order of their keys 1, 2, 3.
-    pub const ALL: [View; 3] = [View::A, View::B, View::Wipe];
+    /// All, in the order of their keys 1 to 4.
+    pub const ALL: [View; 4] = [View::A, View::B, View::Wipe, View::SideBySide];
 
     /// The name on its button.
     pub fn name(self) -> &'static str {
@@ -27,6 +29,7 @@ impl View {
             View::A => "A",
             View::B => "B",
             View::Wipe => "Wipe",
+            View::SideBySide => "Side by side",
         }
     }
 }
@@ -77,7 +80,7 @@ pub struct Viewer {
     pub hint: bool,
     /// The last thing worth saying, and whether it is a failure.
     pub message: Option<(String, bool)>,
-    /// Width and height of the picture area in physical pixels, as last drawn.
+    /// Width and height of one picture in physical pixels, as last drawn.
     pub picture_size: (u32, u32),
     /// The picture area in points, as last drawn.
     pub picture_rect: egui::Rect,
@@ -149,7 +152,7 @@ impl Viewer {
         if pressed(Key::T) {
             self.toggle();
         }
-        for (key, view) in [Key::Num1, Key::Num2, Key::Num3].into_iter().zip(View::ALL) {
+        for (key, view) in [Key::Num1, Key::Num2, Key::Num3, Key::Num4].into_iter().zip(View::ALL) {
             if pressed(key) {
                 self.view = view;
             }
@@ -165,7 +168,7 @@ impl Viewer {
         }
     }
 
-    /// A becomes B and B becomes A; from the wipe it goes to A.
+    /// A becomes B and B becomes A; from a view of both it goes to A.
     fn toggle(&mut self) {
         self.hint = false;
         self.view = if self.view == View::A { View::B } else { View::A };

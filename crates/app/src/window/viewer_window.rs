@@ -213,7 +213,8 @@ impl ViewerWindow {
         let (top, bottom) = (pixel(rect.top(), height), pixel(rect.bottom(), height));
         let rows = bytes.chunks_exact(4 * width as usize).take(bottom).skip(top);
         let picture: Vec<u8> = rows.flat_map(|row| &row[4 * left..4 * right]).copied().collect();
-        let stem = format!("visavis-{}-{}", self.viewer.scene.name, self.viewer.view.name().to_lowercase());
+        let stem =
+            format!("visavis-{}-{}", self.viewer.scene.name, self.viewer.view.name().to_lowercase().replace(' ', "-"));
         let path = picture_file::free_name(&picture_file::default_folder()?, &stem)?;
         picture_file::save_rgba8(&path, (right - left) as u32, (bottom - top) as u32, &picture)?;
         Ok(path)
@@ -228,6 +229,7 @@ impl ViewerWindow {
         let state = serde_json::json!({
             "scene": self.viewer.scene.name,
             "view": self.viewer.view.name(),
+            "picture_size": self.viewer.picture_size,
             "wipe": self.viewer.wipe,
             "eye": self.viewer.camera.eye.to_array(),
             "message": self.viewer.message.as_ref().map(|m| &m.0),
