@@ -32,7 +32,18 @@ fn assert_mean(film: &Film, expected: f64, power: f64, what: &str) {
 
 /// The unit cube, open at the top (+z) or closed, its walls diffuse and perhaps emissive, seen from inside.
 fn cube(albedo: f32, emission: f32, open: bool, sky: f32) -> Scene {
-    let lid = "[[rectangle]]\ncorner = [0, 0, 1]\nedge_u = [0, 1, 0]\nedge_v = [1, 0, 0]\nmaterial = \"wall\"\n";
+    // corner, edge_u, edge_v, their product pointing inwards; the lid last
+    let faces = [
+        ("0, 0, 0", "1, 0, 0", "0, 1, 0"),
+        ("0, 0, 0", "0, 1, 0", "0, 0, 1"),
+        ("1, 0, 0", "0, 0, 1", "0, 1, 0"),
+        ("0, 0, 0", "0, 0, 1", "1, 0, 0"),
+        ("0, 1, 0", "1, 0, 0", "0, 0, 1"),
+        ("0, 0, 1", "0, 1, 0", "1, 0, 0"),
+    ];
+    let walls = faces.iter().take(if open { 5 } else { 6 }).map(|(corner, u, v)| {
+        format!("[[rectangle]]\ncorner = [{corner}]\nedge_u = [{u}]\nedge_v = [{v}]\nmaterial = \"wall\"\n")
+    });
     scene(&format!(
         r#"
 [camera]
@@ -44,33 +55,8 @@ radiance = [{sky}, {sky}, {sky}]
 [material.wall]
 diffuse = {{ albedo = [{albedo}, {albedo}, {albedo}] }}
 emissive = {{ radiance = [{emission}, {emission}, {emission}], two_sided = true }}
-[[rectangle]]
-corner = [0, 0, 0]
-edge_u = [1, 0, 0]
-edge_v = [0, 1, 0]
-material = "wall"
-[[rectangle]]
-corner = [0, 0, 0]
-edge_u = [0, 1, 0]
-edge_v = [0, 0, 1]
-material = "wall"
-[[rectangle]]
-corner = [1, 0, 0]
-edge_u = [0, 0, 1]
-edge_v = [0, 1, 0]
-material = "wall"
-[[rectangle]]
-corner = [0, 0, 0]
-edge_u = [0, 0, 1]
-edge_v = [1, 0, 0]
-material = "wall"
-[[rectangle]]
-corner = [0, 1, 0]
-edge_u = [1, 0, 0]
-edge_v = [0, 0, 1]
-material = "wall"
 {}"#,
-        if open { "" } else { lid }
+        walls.collect::<String>()
     ))
 }
 

@@ -62,25 +62,19 @@ impl Command {
     /// # Errors
     /// [`CliError::Usage`] names the word that is wrong and what was expected.
     pub fn parse(args: impl IntoIterator<Item = OsString>) -> Result<Self, CliError> {
-        let mut parser = lexopt::Parser::from_args(args);
-        match parser.next()? {
-            None => Ok(Command::View(ViewArgs { scene: "whitted".into(), ui_dump: None })),
-            Some(Long("help") | Short('h')) => Ok(Command::Print(help::HELP)),
-            Some(Long("version") | Short('V')) => Ok(Command::Print(help::VERSION)),
-            Some(Value(word)) => match word.to_str() {
-                Some("render") => parse_render(parser),
-                Some("compare") => parse_compare(parser),
-                Some("bench") => parse_bench(parser),
-                Some("info") => nothing_more(parser, Command::Info),
-                Some("check") => usage("check is not built yet"),
-                _ => parse_view(parser, Some(word.string()?)),
-            },
-            Some(Long("ui-dump")) => {
-                let file = parser.value()?.into();
-                parse_view_with(parser, None, Some(file))
-            }
-            Some(other) => Err(other.unexpected().into()),
-        }
+        let words: Vec<OsString> = args.into_iter().collect();
+        let command = words.first().and_then(|word| word.to_str()).unwrap_or_default().to_owned();
+        let mut parser = lexopt::Parser::from_args(words);
+        let named: fn(lexopt::Parser) -> Result<Self, CliError> = match command.as_str() {
+            "render" => parse_render,
+            "compare" => parse_compare,
+            "bench" => parse_bench,
+            "info" => |parser| nothing_more(parser, Command::Info),
+            "check" => |_| usage("check is not built yet"),
+            _ => return parse_view(parser),
+        };
+        parser.next()?;
+        named(parser)
     }
 }
 
@@ -92,20 +86,14 @@ fn nothing_more(mut parser: lexopt::Parser, command: Command) -> Result<Command,
     }
 }
 
-fn parse_view(parser: lexopt::Parser, scene: Option<String>) -> Result<Command, CliError> {
-    parse_view_with(parser, scene, None)
-}
-
-fn parse_view_with(
-    mut parser: lexopt::Parser,
-    mut scene: Option<String>,
-    mut ui_dump: Option<PathBuf>,
-) -> Result<Command, CliError> {
+fn parse_view(mut parser: lexopt::Parser) -> Result<Command, CliError> {
+    let (mut scene, mut ui_dump) = (None, None);
     while let Some(arg) = parser.next()? {
         match arg {
             Value(word) if scene.is_none() => scene = Some(word.string()?),
-            Long("ui-dump") => ui_dump = Some(parser.value()?.into()),
-            Long("help") => return Ok(Command::Print(help::HELP)),
+            Long("ui-dump") => ui_dump = Some(PathBuf::from(parser.value()?)),
+            Long("help") | Short('h') => return Ok(Command::Print(help::HELP)),
+            Long("version") | Short('V') => return Ok(Command::Print(help::VERSION)),
             other => return Err(other.unexpected().into()),
         }
     }

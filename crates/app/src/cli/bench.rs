@@ -79,7 +79,7 @@ fn measure(effort: &Effort) -> anyhow::Result<Vec<BenchRow>> {
     }
     let gpu = Gpu::headless().context("the fake's row of the bench needs a GPU")?;
     let mut raster = Raster::new(&gpu)?;
-    for fake in [Fake::Fair, Fake::AsTaught] {
+    for fake in Fake::ALL {
         let settings =
             RasterSettings { width: effort.size.0, height: effort.size.1, fake, shading: Shading::default() };
         raster.render(&scene, &scene.camera, &settings)?;

@@ -75,7 +75,7 @@ fn sun_radius(viewer: &mut Viewer, ui: &mut Ui, dump: &mut Dump) {
 
 fn fake(viewer: &mut Viewer, ui: &mut Ui, dump: &mut Dump) {
     ui.horizontal(|ui| {
-        for fake in [Fake::Fair, Fake::AsTaught] {
+        for fake in Fake::ALL {
             let chosen = viewer.fake.fake == fake;
             let hover = match fake {
                 Fake::Fair => "The same fake on the truth's light, linear",
@@ -88,7 +88,7 @@ fn fake(viewer: &mut Viewer, ui: &mut Ui, dump: &mut Dump) {
         }
     });
     let combo = egui::ComboBox::from_label("Highlight").selected_text(viewer.fake.shading.name()).show_ui(ui, |ui| {
-        for shading in [Shading::Three, Shading::Phong, Shading::BlinnPhong] {
+        for shading in Shading::ALL {
             ui.selectable_value(&mut viewer.fake.shading, shading, shading.name());
         }
     });
