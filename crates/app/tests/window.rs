@@ -43,6 +43,14 @@ fn a_lecturer_toggles_slides_wipes_orbits_saves_and_closes() {
     let slid = |f: &Frame| f.value("refraction ratio").parse::<f32>().is_ok_and(|r| r < 0.55);
     viewer.wait_for("the slider to stand at its new place", slid);
 
+    let settled = |f: &Frame| f.state("b_rough") == false && f.state("b_spp").as_u64() >= Some(4);
+    let mut from = left + 20.0;
+    for to in [left + 47.0, left + 83.0, left + 111.0] {
+        screen.drag([from, y], [to, y]);
+        viewer.wait_for("the truth to refine, the slider at rest", settled);
+        from = to;
+    }
+
     let middle = first.point("picture", 0.5, 0.5);
     screen.drag(middle, first.point("picture", 0.25, 0.6));
     let wiped = viewer.wait_for("the line to move", |f| f.state("wipe").as_f64().is_some_and(|w| w < 0.3));
@@ -131,6 +139,40 @@ fn scenes_change_controls_that_do_not_apply_go_and_the_window_may_be_resized() {
     assert!(resized.rect("controls")[2] <= 1100.0);
     screen.close(window);
     assert!(viewer.wait_for_end().success());
+}
+
+/// Numbers beyond a slider's range and between its steps stay as the file has them, and the truth comes to rest.
+#[test]
+fn showing_a_scene_does_not_change_it() {
+    let _alone = alone();
+    let screen = Screen::start(1280, 720);
+    let folder = visavis_tests::TestFolder::new();
+    let file = folder.file("odd.toml");
+    let text = r#"
+[camera]
+eye = [0, 0, 5]
+target = [0, 0, 0]
+fov_y = 45
+[sky]
+radiance = [0.3, 0.5, 0.9]
+[sun]
+towards = [0, 1, 0]
+angular_radius = 12.34
+irradiance = [1, 1, 1]
+[material.bubble]
+dielectric = { ior = 0.75 }
+[[sphere]]
+center = [0, 0, 0]
+radius = 1
+material = "bubble"
+"#;
+    std::fs::write(&file, text).expect("the scene file");
+    let mut viewer = viewer_on(&screen, &[file.to_str().expect("a plain path")]);
+    let settled = |f: &Frame| f.state("b_rough") == false && f.state("b_spp").as_u64() >= Some(4);
+    let frame = viewer.wait_for("the truth to refine", settled);
+    assert_eq!(frame.value("sun radius"), "12.34");
+    assert!(frame.value("refraction ratio").starts_with("1.333"), "{}", frame.value("refraction ratio"));
+    assert_eq!(frame.value("reflectivity"), "1");
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! The panel of controls, grouped by what they change. What the scene or the technique cannot use is absent.
 
 use super::{Dump, Viewer};
-use egui::{Slider, Ui};
+use egui::{Slider, SliderClamping, Ui};
 use pathtrace::{Estimator, Roulette};
 use raster::{Fake, Shading};
 
@@ -28,7 +28,7 @@ pub fn show(viewer: &mut Viewer, ui: &mut Ui, dump: &mut Dump) {
     });
     group(ui, "Display (both)", |ui| {
         ui.label("Exposure");
-        let slider = ui.add(Slider::new(&mut viewer.display.exposure, -5.0..=5.0).step_by(0.1).suffix(" EV"));
+        let slider = ui.add(stepped(&mut viewer.display.exposure, -5.0..=5.0, 0.1).suffix(" EV"));
         dump.note("exposure", viewer.display.exposure, slider);
         ui.horizontal(|ui| {
             let restart = ui.button("Restart").on_hover_text("Path trace again from the first sample (R)");
@@ -43,6 +43,13 @@ pub fn show(viewer: &mut Viewer, ui: &mut Ui, dump: &mut Dump) {
     });
 }
 
+/// A slider that changes its value only when the user does. egui's own default rounds and clamps whatever it is shown,
+/// in every frame: a scene's number between two steps would be altered by looking at it, and one that does not survive
+/// the way there and back, as 1 / (1 / ratio), would never come to rest.
+fn stepped(value: &mut f32, range: std::ops::RangeInclusive<f32>, step: f64) -> Slider<'_> {
+    Slider::new(value, range).step_by(step).clamping(SliderClamping::Edits)
+}
+
 fn group(ui: &mut Ui, title: &str, contents: impl FnOnce(&mut Ui)) {
     ui.add_space(6.0);
     ui.strong(title);
@@ -54,7 +61,7 @@ fn refraction_ratio(viewer: &mut Viewer, ui: &mut Ui, dump: &mut Dump) {
     let Some(mut ratio) = viewer.scene.refraction_ratio() else { return };
     ui.label(format!("Refraction ratio {ratio:.2} (n = {:.2})", 1.0 / ratio));
     let slider = ui
-        .add(Slider::new(&mut ratio, 0.4..=1.0).step_by(0.01))
+        .add(stepped(&mut ratio, 0.4..=1.0, 0.01))
         .on_hover_text("Index of refraction outside over inside; 1 is no glass at all");
     if dump.note("refraction ratio", ratio, slider).changed() {
         viewer.scene.set_refraction_ratio(ratio);
@@ -66,7 +73,7 @@ fn sun_radius(viewer: &mut Viewer, ui: &mut Ui, dump: &mut Dump) {
     let Some(sun) = &mut viewer.scene.sun else { return };
     ui.label("Sun radius (the fake's is always 0)");
     let slider = ui
-        .add(Slider::new(&mut sun.angular_radius, 0.0..=5.0).step_by(0.1).suffix("°"))
+        .add(stepped(&mut sun.angular_radius, 0.0..=5.0, 0.1).suffix("°"))
         .on_hover_text("0: hard shadows and no caustic. Larger: softer shadows");
     if dump.note("sun radius", sun.angular_radius, slider).changed() {
         viewer.revisions.truth += 1;
@@ -96,7 +103,7 @@ fn fake(viewer: &mut Viewer, ui: &mut Ui, dump: &mut Dump) {
     if let Some(mut reflectivity) = viewer.scene.reflectivity() {
         ui.label("Reflectivity of the fake glass");
         let slider = ui
-            .add(Slider::new(&mut reflectivity, 0.0..=1.0).step_by(0.01))
+            .add(stepped(&mut reflectivity, 0.0..=1.0, 0.01))
             .on_hover_text("Share of the refracted surroundings; the rest is white");
         if dump.note("reflectivity", reflectivity, slider).changed() {
             viewer.scene.set_reflectivity(reflectivity);
@@ -162,8 +169,7 @@ fn path_length(viewer: &mut Viewer, ui: &mut Ui, dump: &mut Dump) {
         }
     });
     if let Roulette::Probability(p) = &mut path.roulette {
-        let slider =
-            ui.add(Slider::new(p, 0.05..=1.0).step_by(0.01)).on_hover_text("Probability to survive each vertex");
+        let slider = ui.add(stepped(p, 0.05..=1.0, 0.01)).on_hover_text("Probability to survive each vertex");
         viewer.probability = *p;
         dump.note("roulette probability", *p, slider);
     }
