@@ -34,6 +34,9 @@ pub struct PictureFrame {
 }
 
 impl Camera {
+    /// Fields of view, in degrees, that zooming stays in.
+    pub const FIELD_OF_VIEW: std::ops::RangeInclusive<f32> = 1.0..=170.0;
+
     /// The frame of a picture of `aspect` = width / height.
     pub fn frame(&self, aspect: f32) -> PictureFrame {
         let forward = (self.target - self.eye).normalize();
@@ -91,6 +94,13 @@ impl Camera {
         Camera { eye: self.eye + by, target: self.target + by, ..*self }
     }
 
+    /// The camera with a longer lens: what is seen grows by `factor` (> 0), the eye stays.
+    pub fn zoomed(&self, factor: f32) -> Self {
+        let half = (0.5 * self.fov_y.to_radians()).tan() / factor;
+        let fov_y = (2.0 * half.atan().to_degrees()).clamp(*Self::FIELD_OF_VIEW.start(), *Self::FIELD_OF_VIEW.end());
+        Camera { fov_y, ..*self }
+    }
+
     /// The camera moved towards its target: the distance is divided by `factor` (> 0).
     pub fn dollied(&self, factor: f32) -> Self {
         Camera { eye: self.target + (self.eye - self.target) / factor, ..*self }
@@ -127,6 +137,14 @@ mod tests {
             let landed = Vec2::new(0.5 + 0.5 * clip.x, 0.5 - 0.5 * clip.y);
             assert!((landed - point).length() < 1e-5, "{point} landed at {landed}");
         }
+    }
+
+    #[test]
+    fn zooming_magnifies_by_its_factor_within_its_range() {
+        let half_height = |camera: &Camera| camera.frame(1.0).up.length();
+        let zoomed = CAMERA.zoomed(2.0);
+        assert!((half_height(&CAMERA) / half_height(&zoomed) - 2.0).abs() < 1e-5);
+        assert_eq!((CAMERA.zoomed(1e9).fov_y, CAMERA.zoomed(1e-9).fov_y), (1.0, 170.0));
     }
 
     #[test]
