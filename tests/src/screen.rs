@@ -56,6 +56,12 @@ impl Screen {
         self.fake(xproto::BUTTON_RELEASE_EVENT, 1, at[0], at[1]);
     }
 
+    /// Clicks twice with the left button.
+    pub fn double_click(&self, at: [f32; 2]) {
+        self.click(at);
+        self.click(at);
+    }
+
     /// Drags with the left button, in a few steps.
     pub fn drag(&self, from: [f32; 2], to: [f32; 2]) {
         self.move_to(from[0], from[1]);
@@ -78,25 +84,41 @@ impl Screen {
 
     /// Types the key of a Latin letter or digit, with Control held if asked.
     pub fn key(&self, character: char, control: bool) {
-        const CONTROL_L: u32 = 0xffe3;
-        let hold = control.then(|| self.keycode(CONTROL_L));
-        let key = self.keycode(u32::from(character));
-        for code in hold.into_iter().chain([key]) {
-            self.fake(xproto::KEY_PRESS_EVENT, code, 0.0, 0.0);
-        }
-        for code in [key].into_iter().chain(hold) {
-            self.fake(xproto::KEY_RELEASE_EVENT, code, 0.0, 0.0);
-        }
+        let hold = control.then_some(Screen::CONTROL);
+        self.chord(&hold.into_iter().chain([u32::from(character)]).collect::<Vec<_>>());
     }
 
     /// The keysym of the Enter key.
     pub const ENTER: u32 = 0xff0d;
+    /// The keysym of the Tab key.
+    pub const TAB: u32 = 0xff09;
+    /// The keysym of the Escape key.
+    pub const ESCAPE: u32 = 0xff1b;
+    /// The keysym of the right arrow key.
+    pub const RIGHT: u32 = 0xff53;
+    /// The keysym of the left Control key.
+    pub const CONTROL: u32 = 0xffe3;
+    /// The keysym of the left Shift key.
+    pub const SHIFT: u32 = 0xffe1;
 
     /// Presses and releases the key of a keysym.
     pub fn press(&self, keysym: u32) {
-        let code = self.keycode(keysym);
-        self.fake(xproto::KEY_PRESS_EVENT, code, 0.0, 0.0);
-        self.fake(xproto::KEY_RELEASE_EVENT, code, 0.0, 0.0);
+        self.chord(&[keysym]);
+    }
+
+    /// Presses keys in this order and releases them in the other one.
+    pub fn chord(&self, keysyms: &[u32]) {
+        let codes: Vec<u8> = keysyms.iter().map(|&keysym| self.keycode(keysym)).collect();
+        codes.iter().for_each(|&code| self.fake(xproto::KEY_PRESS_EVENT, code, 0.0, 0.0));
+        codes.iter().rev().for_each(|&code| self.fake(xproto::KEY_RELEASE_EVENT, code, 0.0, 0.0));
+    }
+
+    /// Turns the wheel by one notch, away from the user, with Control held.
+    pub fn wheel_up_with_control(&self, at: [f32; 2]) {
+        let control = self.keycode(Screen::CONTROL);
+        self.fake(xproto::KEY_PRESS_EVENT, control, 0.0, 0.0);
+        self.wheel_up(at);
+        self.fake(xproto::KEY_RELEASE_EVENT, control, 0.0, 0.0);
     }
 
     /// Gives the keyboard to the window of that title and returns it.
@@ -133,6 +155,17 @@ impl Screen {
         self.connection.sync().expect("the server");
     }
 
+    /// Hides a window as minimising does, or shows it again.
+    ///
+    /// # Panics
+    /// If the server does not answer.
+    pub fn show(&self, window: xproto::Window, shown: bool) {
+        let connection = &self.connection;
+        let asked = if shown { connection.map_window(window) } else { connection.unmap_window(window) };
+        asked.expect("the request");
+        self.connection.sync().expect("the server");
+    }
+
     /// Colours of a rectangle of the screen, RGB, rows from the top.
     ///
     /// # Panics
@@ -143,6 +176,37 @@ impl Screen {
             self.connection.get_image(plane, self.root, x as i16, y as i16, width as u16, height as u16, u32::MAX);
         let image = request.expect("the request").reply().expect("the picture");
         image.data.chunks_exact(4).map(|p| [p[2], p[1], p[0]]).collect()
+    }
+
+    /// What the clipboard holds as `target`, "UTF8_STRING" or a MIME type; empty if it holds no such thing.
+    ///
+    /// # Panics
+    /// If its owner does not answer within some seconds.
+    pub fn clipboard(&self, target: &str) -> Vec<u8> {
+        let connection = &self.connection;
+        let atom = |name: &str| {
+            connection.intern_atom(false, name.as_bytes()).expect("an atom").reply().expect("an atom").atom
+        };
+        let window = connection.generate_id().expect("an id");
+        let (class, aux) = (xproto::WindowClass::INPUT_ONLY, xproto::CreateWindowAux::new());
+        connection.create_window(0, window, self.root, 0, 0, 1, 1, 0, class, 0, &aux).expect("a window");
+        let property = atom("VISAVIS_TEST");
+        let now = x11rb::CURRENT_TIME;
+        connection.convert_selection(window, atom("CLIPBOARD"), atom(target), property, now).expect("the request");
+        connection.sync().expect("the server");
+        for _ in 0..300 {
+            while let Some(event) = connection.poll_for_event().expect("an event") {
+                let x11rb::protocol::Event::SelectionNotify(answer) = event else { continue };
+                if answer.property == 0 {
+                    return Vec::new();
+                }
+                let all = u32::MAX / 4;
+                let read = connection.get_property(true, window, property, xproto::AtomEnum::ANY, 0, all);
+                return read.expect("the request").reply().expect("the clipboard").value;
+            }
+            std::thread::sleep(STEP);
+        }
+        panic!("the clipboard's owner does not answer");
     }
 
     fn fake(&self, event: u8, detail: u8, x: f32, y: f32) {

@@ -22,6 +22,14 @@ impl ViewerUnderTest {
     /// # Panics
     /// If it does not start.
     pub fn start(binary: &Path, screen: &Screen, arguments: &[&str]) -> Self {
+        Self::start_scaled(binary, screen, 1.0, arguments)
+    }
+
+    /// The same with everything `scale` times as large.
+    ///
+    /// # Panics
+    /// If it does not start.
+    pub fn start_scaled(binary: &Path, screen: &Screen, scale: f32, arguments: &[&str]) -> Self {
         let folder = TestFolder::new();
         let home = folder.file("home");
         std::fs::create_dir(&home).expect("a home folder");
@@ -32,6 +40,7 @@ impl ViewerUnderTest {
             .env("DISPLAY", &screen.display)
             .env_remove("WAYLAND_DISPLAY")
             .env_remove("WAYLAND_SOCKET")
+            .env("WINIT_X11_SCALE_FACTOR", scale.to_string())
             .env("HOME", &home)
             .stderr(Stdio::inherit())
             .spawn()
@@ -108,6 +117,24 @@ impl Drop for ViewerUnderTest {
 }
 
 impl Frame {
+    /// The name of the widget that has the keyboard; empty if none has.
+    pub fn focus(&self) -> &str {
+        self.0["focus"].as_str().unwrap_or_default()
+    }
+
+    /// Names of all widgets on the screen, in drawing order.
+    pub fn names(&self) -> Vec<&str> {
+        self.0["widgets"].as_array().into_iter().flatten().filter_map(|w| w["name"].as_str()).collect()
+    }
+
+    /// What of a widget's rectangle is not clipped away, in pixels.
+    ///
+    /// # Panics
+    /// If it is not on the screen.
+    pub fn visible(&self, name: &str) -> [f32; 4] {
+        self.corners(name, "visible")
+    }
+
     /// A value of the viewer's state.
     pub fn state(&self, name: &str) -> &Value {
         &self.0["state"][name]
@@ -118,7 +145,11 @@ impl Frame {
     /// # Panics
     /// If it is not on the screen.
     pub fn rect(&self, name: &str) -> [f32; 4] {
-        let rect = &self.widget(name).unwrap_or_else(|| panic!("no widget '{name}' on the screen"))["rect"];
+        self.corners(name, "rect")
+    }
+
+    fn corners(&self, name: &str, of: &str) -> [f32; 4] {
+        let rect = &self.widget(name).unwrap_or_else(|| panic!("no widget '{name}' on the screen"))[of];
         std::array::from_fn(|i| rect[i].as_f64().expect("a number") as f32)
     }
 

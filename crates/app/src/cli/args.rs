@@ -2,10 +2,11 @@
 
 use super::{CliError, Command, help};
 use crate::picture_file::Kind;
-use crate::technique::Technique;
+use crate::technique::{PaneSettings, SceneChanges, Technique};
+use crate::ui::Theme;
 use lexopt::prelude::*;
-use pathtrace::{Estimator, PathSettings, Roulette};
-use raster::Fake;
+use pathtrace::{Estimator, Roulette};
+use raster::{Fake, Shading};
 use scene::Vec3;
 use std::ffi::OsString;
 use std::path::PathBuf;
@@ -18,6 +19,10 @@ pub struct ViewArgs {
     pub scene: String,
     /// Where to write the names, rectangles and states of the widgets, each frame, for tests.
     pub ui_dump: Option<PathBuf>,
+    /// How the window looks at first.
+    pub theme: Theme,
+    /// Whether to print at the end what frames cost the UI thread.
+    pub frame_stats: bool,
 }
 
 /// `visavis render SCENE -o OUT ...`; `None` leaves a value to the scene.
@@ -26,14 +31,12 @@ pub struct ViewArgs {
 pub struct RenderArgs {
     pub scene: String,
     pub out: PathBuf,
-    pub technique: Technique,
+    /// Technique and settings; their spp is not read here, but [`RenderArgs::spp`].
+    pub pane: PaneSettings,
+    pub changes: SceneChanges,
     pub size: (u32, u32),
     pub spp: Option<u32>,
     pub seconds: Option<f64>,
-    pub path: PathSettings,
-    pub refraction_ratio: Option<f32>,
-    pub sun_radius: Option<f32>,
-    pub fake: Fake,
     pub eye: Option<Vec3>,
     pub target: Option<Vec3>,
     pub fov: Option<f32>,
@@ -87,17 +90,20 @@ fn nothing_more(mut parser: lexopt::Parser, command: Command) -> Result<Command,
 }
 
 fn parse_view(mut parser: lexopt::Parser) -> Result<Command, CliError> {
-    let (mut scene, mut ui_dump) = (None, None);
+    let (mut scene, mut ui_dump, mut theme, mut frame_stats) = (None, None, Theme::default(), false);
     while let Some(arg) = parser.next()? {
         match arg {
             Value(word) if scene.is_none() => scene = Some(word.string()?),
             Long("ui-dump") => ui_dump = Some(PathBuf::from(parser.value()?)),
+            Long("theme") => theme = choice(&mut parser, "--theme", Theme::named, "dark or projector")?,
+            Long("frame-stats") => frame_stats = true,
             Long("help") | Short('h') => return Ok(Command::Print(help::HELP)),
             Long("version") | Short('V') => return Ok(Command::Print(help::VERSION)),
             other => return Err(other.unexpected().into()),
         }
     }
-    Ok(Command::View(ViewArgs { scene: scene.unwrap_or_else(|| "whitted".into()), ui_dump }))
+    let scene = scene.unwrap_or_else(|| "whitted".into());
+    Ok(Command::View(ViewArgs { scene, ui_dump, theme, frame_stats }))
 }
 
 fn parse_compare(mut parser: lexopt::Parser) -> Result<Command, CliError> {
@@ -142,14 +148,11 @@ fn parse_render(mut parser: lexopt::Parser) -> Result<Command, CliError> {
     let mut r = RenderArgs {
         scene: String::new(),
         out: PathBuf::new(),
-        technique: Technique::Path,
+        pane: PaneSettings::of(Technique::Path),
+        changes: SceneChanges::default(),
         size: (1280, 720),
         spp: None,
         seconds: None,
-        path: PathSettings::default(),
-        refraction_ratio: None,
-        sun_radius: None,
-        fake: Fake::Fair,
         eye: None,
         target: None,
         fov: None,
@@ -161,7 +164,9 @@ fn parse_render(mut parser: lexopt::Parser) -> Result<Command, CliError> {
         match arg {
             Value(word) if scene.is_none() => scene = Some(word.string()?),
             Short('o') => out = Some(PathBuf::from(parser.value()?)),
-            Long("technique") => r.technique = choice(&mut parser, "--technique", Technique::named, "raster or path")?,
+            Long("technique") => {
+                r.pane.technique = choice(&mut parser, "--technique", Technique::named, "raster or path")?
+            }
             Long("device") => device = choice(&mut parser, "--device", Device::named, "auto, cpu or gpu")?,
             Long("size") => r.size = size(&text(&mut parser)?)?,
             Long("eye") => r.eye = Some(point(&mut parser, "--eye")?),
@@ -170,7 +175,8 @@ fn parse_render(mut parser: lexopt::Parser) -> Result<Command, CliError> {
                 r.fov = Some(number(&mut parser, "--fov", "degrees between 0 and 180", |v| v > 0.0 && v < 180.0)?)
             }
             Long("refraction-ratio") => {
-                r.refraction_ratio = Some(number(&mut parser, "--refraction-ratio", "a number above 0", |v| v > 0.0)?);
+                r.changes.refraction_ratio =
+                    Some(number(&mut parser, "--refraction-ratio", "a number above 0", |v| v > 0.0)?);
             }
             Long("exposure") => {
                 r.exposure = number(&mut parser, "--exposure", "stops from -30 to 30", |v| v.abs() <= 30.0)?
@@ -189,30 +195,40 @@ fn parse_render(mut parser: lexopt::Parser) -> Result<Command, CliError> {
             Long("bounces") => {
                 of_path.push("--bounces");
                 let word = text(&mut parser)?;
-                r.path.bounces =
+                r.pane.truth.path.bounces =
                     if word == "inf" { None } else { Some(parse_whole(&word, "--bounces", 0, " or inf")?) };
             }
             Long("roulette") => {
                 of_path.push("--roulette");
-                r.path.roulette = roulette(&text(&mut parser)?)?;
+                r.pane.truth.path.roulette = roulette(&text(&mut parser)?)?;
             }
             Long("estimator") => {
                 of_path.push("--estimator");
-                r.path.estimator = choice(&mut parser, "--estimator", Estimator::named, "uniform, cosine or light")?;
+                r.pane.truth.path.estimator =
+                    choice(&mut parser, "--estimator", Estimator::named, "uniform, cosine or light")?;
             }
             Long("sun-radius") => {
                 of_path.push("--sun-radius");
                 let radius =
                     number(&mut parser, "--sun-radius", "degrees from 0 to below 90", |v| (0.0..90.0).contains(&v))?;
-                r.sun_radius = Some(radius);
+                r.changes.sun_radius = Some(radius);
             }
             Long("seed") => {
                 of_path.push("--seed");
-                r.path.seed = whole(&mut parser, "--seed", 0)?;
+                r.pane.truth.path.seed = whole(&mut parser, "--seed", 0)?;
             }
             Long("fake") => {
                 of_raster.push("--fake");
-                r.fake = choice(&mut parser, "--fake", Fake::named, "fair or as-taught")?;
+                r.pane.fake.fake = choice(&mut parser, "--fake", Fake::named, "fair or as-taught")?;
+            }
+            Long("shading") => {
+                of_raster.push("--shading");
+                r.pane.fake.shading = choice(&mut parser, "--shading", Shading::named, "three, phong or blinn-phong")?;
+            }
+            Long("reflectivity") => {
+                of_raster.push("--reflectivity");
+                let share = number(&mut parser, "--reflectivity", "a share from 0 to 1", |v| (0.0..=1.0).contains(&v))?;
+                r.pane.fake.reflectivity = Some(share);
             }
             Long("help") => return Ok(Command::Print(help::HELP)),
             other => return Err(other.unexpected().into()),
@@ -223,13 +239,13 @@ fn parse_render(mut parser: lexopt::Parser) -> Result<Command, CliError> {
     if Kind::of(&out).is_none() {
         return usage(format!("-o must end in .png or .exr: {}", out.display()));
     }
-    match (r.technique, device) {
+    match (r.pane.technique, device) {
         (Technique::Raster, Device::Cpu) => return usage("--technique raster runs on the gpu only"),
         (Technique::Path, Device::Gpu) => return usage("--technique path runs on the cpu only"),
         _ => {}
     }
     (r.scene, r.out) = (scene, out);
-    r.without_effect = if r.technique == Technique::Path { of_raster } else { of_path };
+    r.without_effect = if r.pane.technique == Technique::Path { of_raster } else { of_path };
     Ok(Command::Render(Box::new(r)))
 }
 

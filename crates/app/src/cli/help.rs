@@ -5,6 +5,8 @@ pub const HELP: &str = "\
 Visavis: the rasterised fake of a scene face to face with its path-traced truth.
 
 visavis [SCENE]                  open the viewer; SCENE is whitted, cornell or a .toml file (default whitted)
+    --theme dark|projector       projector: black on white, large type (default dark)
+    --frame-stats                print at the end what a frame cost the window's thread: egui, tessellation, uploads
 visavis render SCENE -o OUT      render to OUT, .png (display-transformed) or .exr (linear, settings in the header)
     --technique raster|path      the fake or the truth (default path)
     --device auto|cpu|gpu        where: the fake needs the gpu, the truth the cpu (default auto)
@@ -26,6 +28,9 @@ visavis render SCENE -o OUT      render to OUT, .png (display-transformed) or .e
     --seed N                     selects one of 2^32 independent pictures (default 1)
   the fake:
     --fake fair|as-taught        on the truth's data, linear; or as the tutorial's viewer drew it (default fair)
+    --shading three|phong|blinn-phong
+                                 whose highlight (default three)
+    --reflectivity R             share of the surroundings in fake glass, 0 to 1 (default the scene's)
 visavis compare A B              how far picture A is from reference B (.exr or .png): RMSE, relMSE, MAE, bias
     --json                       as one JSON object
 visavis bench -o DIR --quick     speed against error on both scenes: CSV and SVG plots
@@ -33,8 +38,9 @@ visavis info                     adapters, limits, what would be used and why
 visavis --help, --version
 
 Exit code: 0 done, 1 failed (one line on stderr), 2 wrong usage.
-In the window: drag the line to wipe, drag the picture to orbit (Shift: pan, wheel: zoom), T swaps A and B,
-1 2 3 4 show A, B, wipe, side by side, R restarts, C resets the camera, H hides the panel, Ctrl+S saves the picture as seen.
+In the window: drag the line to wipe, drag the picture to orbit (Shift: pan, wheel: dolly, Ctrl+wheel: zoom), T swaps A and
+B, 1 2 3 4 show A, B, wipe, side by side, P pauses, R restarts, C resets the camera, H hides the panel, Ctrl+Z undoes,
+Ctrl+S saves and Ctrl+C copies the picture as seen, Ctrl+Q quits, ? shows all keys.
 ";
 
 /// What `visavis --version` prints.

@@ -1,14 +1,14 @@
 //! `visavis render`: a picture to a file, without a window.
 
 use super::RenderArgs;
-use crate::picture_file::{self, Settings};
-use crate::technique::{FakeSettings, Technique, TruthSettings, bounces_name, roulette_name};
+use crate::picture_file::{self, Kind, Linear};
+use crate::technique::{FakeSettings, Provenance, Recipe, Technique, TruthSettings, bounces_name, roulette_name};
 use anyhow::Context;
 use gpu::Gpu;
 use pathtrace::{Stats, Tracer};
 use raster::Raster;
 use scene::display::DisplayTransform;
-use scene::{Camera, Film, Scene, builtin};
+use scene::{Camera, Film, Scene, Vec3, builtin};
 use serde_json::json;
 use std::io::IsTerminal;
 use std::time::{Duration, Instant};
@@ -23,19 +23,19 @@ struct Rendered {
     stats: Stats,
     /// Name of the GPU, or of the CPU renderer's threads.
     adapter: String,
-    device: &'static str,
 }
 
 pub fn run(args: &RenderArgs) -> anyhow::Result<()> {
-    let mut scene = builtin::named(&args.scene)?;
-    apply(args, &mut scene)?;
+    let opened = builtin::named(&args.scene)?;
+    tell_what_has_no_effect(args, &opened);
+    let mut scene = args.changes.applied_to(&opened);
+    scene.camera = camera(args, &scene)?;
     picture_file::check_writable(&args.out)?;
-    let rendered = match args.technique {
-        Technique::Raster => raster(args, &scene)?,
-        Technique::Path => path(args, &scene)?,
+    let rendered = match args.pane.recipe() {
+        Recipe::Fake(fake) => raster(args, &fake.applied_to(&scene), fake)?,
+        Recipe::Truth(truth) => path(args, &scene, truth)?,
     };
-    let display = DisplayTransform { exposure: args.exposure };
-    picture_file::save(&args.out, &rendered.film, &display, &settings(args, &scene, &rendered))?;
+    save(args, &scene, &rendered)?;
     if rendered.film.nonfinite > 0 {
         note!(
             "visavis: {} samples were not finite and are left out: please report this scene",
@@ -47,7 +47,7 @@ pub fn run(args: &RenderArgs) -> anyhow::Result<()> {
     } else {
         note!(
             "{} of {} at {}x{} in {:.2} s: {}",
-            args.technique.name(),
+            args.pane.technique.name(),
             scene.name,
             args.size.0,
             args.size.1,
@@ -58,54 +58,66 @@ pub fn run(args: &RenderArgs) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// Applies what the command line changes in the scene, and says what of it has no effect.
-fn apply(args: &RenderArgs, scene: &mut Scene) -> anyhow::Result<()> {
+fn save(args: &RenderArgs, scene: &Scene, rendered: &Rendered) -> anyhow::Result<()> {
+    let provenance = Provenance {
+        source: args.scene.clone(),
+        changes: args.changes,
+        camera: scene.camera,
+        recipe: args.pane.recipe(),
+        size: args.size,
+    };
+    let spp = rendered.film.samples_per_pixel();
+    let records = provenance.records(scene, spp, rendered.seconds, &rendered.adapter);
+    let radiances: Vec<Vec3> = rendered.film.radiances().collect();
+    let picture = Linear { width: args.size.0, height: args.size.1, radiances: &radiances };
+    let kind = Kind::of(&args.out).context("a picture's name must end in .png or .exr")?;
+    let bytes = picture_file::encode(kind, picture, &DisplayTransform { exposure: args.exposure }, &records)?;
+    picture_file::write_whole(&args.out, &bytes)
+}
+
+fn tell_what_has_no_effect(args: &RenderArgs, scene: &Scene) {
     for option in &args.without_effect {
-        note!("note: {option} has no effect with --technique {}", args.technique.name());
+        note!("note: {option} has no effect with --technique {}", args.pane.technique.name());
     }
-    if let Some(ratio) = args.refraction_ratio {
-        if scene.refraction_ratio().is_none() {
+    let fake = args.pane.recipe().technique() == Technique::Raster;
+    if scene.refraction_ratio().is_none() {
+        if args.changes.refraction_ratio.is_some() {
             note!("note: --refraction-ratio has no effect: {} has no glass", scene.name);
         }
-        scene.set_refraction_ratio(ratio);
-    }
-    if let Some(radius) = args.sun_radius {
-        match &mut scene.sun {
-            Some(sun) => sun.angular_radius = radius,
-            None => note!("note: --sun-radius has no effect: {} has no sun", scene.name),
+        if fake && args.pane.fake.reflectivity.is_some() {
+            note!("note: --reflectivity has no effect: {} has no glass", scene.name);
         }
     }
-    let camera = &mut scene.camera;
-    *camera = Camera {
-        eye: args.eye.unwrap_or(camera.eye),
-        target: args.target.unwrap_or(camera.target),
-        fov_y: args.fov.unwrap_or(camera.fov_y),
-        ..*camera
+    if scene.sun.is_none() && args.changes.sun_radius.is_some() {
+        note!("note: --sun-radius has no effect: {} has no sun", scene.name);
+    }
+}
+
+/// The scene's camera with what the command line changes in it.
+fn camera(args: &RenderArgs, scene: &Scene) -> anyhow::Result<Camera> {
+    let camera = Camera {
+        eye: args.eye.unwrap_or(scene.camera.eye),
+        target: args.target.unwrap_or(scene.camera.target),
+        fov_y: args.fov.unwrap_or(scene.camera.fov_y),
+        ..scene.camera
     };
     match camera.fault() {
         Some(fault) => anyhow::bail!("this camera sees nothing: {fault}; change --eye, --target or --fov"),
-        None => Ok(()),
+        None => Ok(camera),
     }
 }
 
-fn raster(args: &RenderArgs, scene: &Scene) -> anyhow::Result<Rendered> {
+fn raster(args: &RenderArgs, scene: &Scene, fake: FakeSettings) -> anyhow::Result<Rendered> {
     let gpu = Gpu::headless().context("the raster technique needs a GPU")?;
     let mut raster = Raster::new(&gpu)?;
-    let settings = FakeSettings { fake: args.fake, ..FakeSettings::default() }.sized(args.size.0, args.size.1);
     let start = Instant::now();
-    let film = raster.render(scene, &scene.camera, &settings)?;
-    Ok(Rendered {
-        film,
-        seconds: start.elapsed().as_secs_f64(),
-        stats: Stats::default(),
-        adapter: gpu.describe(),
-        device: "gpu",
-    })
+    let film = raster.render(scene, &scene.camera, &fake.sized(args.size.0, args.size.1))?;
+    Ok(Rendered { film, seconds: start.elapsed().as_secs_f64(), stats: Stats::default(), adapter: gpu.describe() })
 }
 
-fn path(args: &RenderArgs, scene: &Scene) -> anyhow::Result<Rendered> {
+fn path(args: &RenderArgs, scene: &Scene, truth: TruthSettings) -> anyhow::Result<Rendered> {
     let spp = args.spp.unwrap_or(if args.seconds.is_some() { u32::MAX } else { DEFAULT_SPP });
-    if let Some(blind) = (TruthSettings { path: args.path, spp }).blind_spot(scene) {
+    if let Some(blind) = truth.blind_spot(scene) {
         note!("note: {blind}");
     }
     let start = Instant::now();
@@ -121,7 +133,7 @@ fn path(args: &RenderArgs, scene: &Scene) -> anyhow::Result<Rendered> {
     while done < spp {
         let batch_start = Instant::now();
         let samples = batch.min(spp - done);
-        stats = stats.plus(tracer.render(&mut film, &scene.camera, &args.path, samples, &|| false));
+        stats = stats.plus(tracer.render(&mut film, &scene.camera, &truth.path, samples, &|| false));
         done += samples;
         progress.show(done, start.elapsed());
         if limit.is_some_and(|limit| start.elapsed() >= limit) {
@@ -131,7 +143,7 @@ fn path(args: &RenderArgs, scene: &Scene) -> anyhow::Result<Rendered> {
     }
     progress.finish();
     let adapter = format!("{} threads", rayon::current_num_threads());
-    Ok(Rendered { film, seconds: start.elapsed().as_secs_f64(), stats, adapter, device: "cpu" })
+    Ok(Rendered { film, seconds: start.elapsed().as_secs_f64(), stats, adapter })
 }
 
 /// How many samples fill a quarter of a second, or what is left of the time, at the speed of the last batch.
@@ -166,40 +178,13 @@ impl Progress {
     }
 }
 
-fn settings(args: &RenderArgs, scene: &Scene, rendered: &Rendered) -> Settings {
-    let mut settings = vec![
-        ("scene", scene.name.clone()),
-        ("technique", args.technique.name().into()),
-        ("device", rendered.device.into()),
-        ("adapter", rendered.adapter.clone()),
-        ("seconds", rendered.seconds.to_string()),
-        ("eye", scene.camera.eye.to_string()),
-        ("target", scene.camera.target.to_string()),
-        ("fov", scene.camera.fov_y.to_string()),
-    ];
-    settings.extend(scene.refraction_ratio().map(|ratio| ("refraction_ratio", ratio.to_string())));
-    match args.technique {
-        Technique::Raster => settings.push(("fake", args.fake.name().into())),
-        Technique::Path => settings.extend([
-            ("spp", rendered.film.samples_per_pixel().to_string()),
-            ("bounces", bounces_name(args.path.bounces)),
-            ("roulette", roulette_name(args.path.roulette)),
-            ("estimator", args.path.estimator.name().into()),
-            ("seed", args.path.seed.to_string()),
-        ]),
-    }
-    if let (Technique::Path, Some(sun)) = (args.technique, scene.sun) {
-        settings.push(("sun_radius", sun.angular_radius.to_string()));
-    }
-    settings
-}
-
 fn report(args: &RenderArgs, scene: &Scene, rendered: &Rendered) -> serde_json::Value {
+    let technique = args.pane.technique;
     let per_second = |count: u64| count as f64 / rendered.seconds;
     let mut report = json!({
         "scene": scene.name,
-        "technique": args.technique.name(),
-        "device": rendered.device,
+        "technique": technique.name(),
+        "device": technique.device(),
         "adapter": rendered.adapter,
         "width": args.size.0,
         "height": args.size.1,
@@ -210,14 +195,14 @@ fn report(args: &RenderArgs, scene: &Scene, rendered: &Rendered) -> serde_json::
         "mean": rendered.film.mean(),
         "nonfinite": rendered.film.nonfinite,
     });
-    match args.technique {
-        Technique::Raster => report["fake"] = json!(args.fake.name()),
-        Technique::Path => {
+    match args.pane.recipe() {
+        Recipe::Fake(fake) => report["fake"] = json!(fake.fake.name()),
+        Recipe::Truth(truth) => {
             report["standard_error"] = json!(rendered.film.standard_error());
-            report["estimator"] = json!(args.path.estimator.name());
-            report["bounces"] = json!(bounces_name(args.path.bounces));
-            report["roulette"] = json!(roulette_name(args.path.roulette));
-            report["seed"] = json!(args.path.seed);
+            report["estimator"] = json!(truth.path.estimator.name());
+            report["bounces"] = json!(bounces_name(truth.path.bounces));
+            report["roulette"] = json!(roulette_name(truth.path.roulette));
+            report["seed"] = json!(truth.path.seed);
             report["cut_paths"] = json!(rendered.stats.cut_paths);
         }
     }

@@ -1,7 +1,13 @@
 //! A technique with its settings: what a pane of the viewer or one call of `visavis render` makes of a scene.
 
-use pathtrace::{PathSettings, Roulette};
-use raster::{Fake, RasterSettings, Shading};
+mod fake;
+mod provenance;
+mod truth;
+
+pub use fake::FakeSettings;
+pub use provenance::{Provenance, Records};
+pub use truth::{TruthSettings, bounces_name, roulette_name};
+
 use scene::Scene;
 
 /// A way to turn a scene into a film.
@@ -25,78 +31,108 @@ impl Technique {
         }
     }
 
+    /// Where it runs.
+    pub fn device(self) -> &'static str {
+        match self {
+            Technique::Raster => "gpu",
+            Technique::Path => "cpu",
+        }
+    }
+
+    /// What a lecture calls it.
+    pub fn title(self) -> &'static str {
+        match self {
+            Technique::Raster => "Fake",
+            Technique::Path => "Truth",
+        }
+    }
+
     /// The technique of that name.
     pub fn named(name: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|t| t.name() == name)
     }
 }
 
-/// The settings of the fake.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct FakeSettings {
-    /// Fair or as taught.
-    pub fake: Fake,
-    /// Whose highlight.
-    pub shading: Shading,
-}
-
-impl FakeSettings {
-    /// With a size, as the raster wants them.
-    pub fn sized(&self, width: u32, height: u32) -> RasterSettings {
-        RasterSettings { width, height, fake: self.fake, shading: self.shading }
-    }
-
-    /// For a pane's label: "fake (raster, fair)".
-    pub fn label(&self) -> String {
-        format!("fake (raster, {})", self.fake.name())
-    }
-}
-
-/// The settings of the truth.
+/// What a pane is set to: a technique, and the settings of each so that coming back to one finds them again.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct TruthSettings {
-    /// How paths walk.
-    pub path: PathSettings,
-    /// Samples per pixel at which rendering stops.
-    pub spp: u32,
+pub struct PaneSettings {
+    /// The technique that is used.
+    pub technique: Technique,
+    /// The settings of the fake.
+    pub fake: FakeSettings,
+    /// The settings of the truth.
+    pub truth: TruthSettings,
 }
 
-impl Default for TruthSettings {
-    fn default() -> Self {
-        TruthSettings { path: PathSettings::default(), spp: 256 }
-    }
-}
-
-impl TruthSettings {
-    /// For a pane's label: "truth (path, light)".
-    pub fn label(&self) -> String {
-        format!("truth (path, {})", self.path.estimator.name())
+impl PaneSettings {
+    /// A pane of this technique with its default settings.
+    pub fn of(technique: Technique) -> Self {
+        PaneSettings { technique, fake: FakeSettings::default(), truth: TruthSettings::default() }
     }
 
-    /// What these settings cannot see in this scene, to be said rather than hidden.
-    pub fn blind_spot(&self, scene: &Scene) -> Option<&'static str> {
-        let delta_sun = scene.sun.is_some_and(|sun| sun.angular_radius == 0.0);
-        let by_chance = self.path.estimator != pathtrace::Estimator::Light;
-        match (delta_sun, by_chance) {
-            (true, true) => Some("a sun of radius 0 cannot be hit by chance: its light is missing"),
-            (true, false) if scene.needs().dielectric || scene.needs().mirror => {
-                Some("a sun of radius 0 casts no caustic: no path can find it behind glass or mirror")
-            }
-            _ => None,
+    /// The technique in use with its settings.
+    pub fn recipe(&self) -> Recipe {
+        match self.technique {
+            Technique::Raster => Recipe::Fake(self.fake),
+            Technique::Path => Recipe::Truth(self.truth),
         }
     }
 }
 
-/// "off", "throughput" or the probability.
-pub fn roulette_name(roulette: Roulette) -> String {
-    match roulette {
-        Roulette::Off => "off".into(),
-        Roulette::Throughput => "throughput".into(),
-        Roulette::Probability(p) => p.to_string(),
+/// A technique with its settings: all that a picture depends on beside scene, camera and size.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Recipe {
+    /// Rasterised.
+    Fake(FakeSettings),
+    /// Path traced.
+    Truth(TruthSettings),
+}
+
+impl Recipe {
+    /// Its technique.
+    pub fn technique(&self) -> Technique {
+        match self {
+            Recipe::Fake(_) => Technique::Raster,
+            Recipe::Truth(_) => Technique::Path,
+        }
+    }
+
+    /// For a pane's label: "fake (raster, fair)".
+    pub fn label(&self) -> String {
+        match self {
+            Recipe::Fake(fake) => fake.label(),
+            Recipe::Truth(truth) => truth.label(),
+        }
+    }
+
+    /// Whether it shows the scene, so that its error means something; a shadow map does not.
+    pub fn shows_the_scene(&self) -> bool {
+        match self {
+            Recipe::Fake(fake) => fake.shows_the_scene(),
+            Recipe::Truth(_) => true,
+        }
     }
 }
 
-/// "inf" or the number.
-pub fn bounces_name(bounces: Option<u32>) -> String {
-    bounces.map_or("inf".into(), |n| n.to_string())
+/// What sliders and options change in a scene for all techniques at once; `None` leaves it as the scene has it.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct SceneChanges {
+    /// Index of refraction outside over inside of all glass, above 0.
+    pub refraction_ratio: Option<f32>,
+    /// Angular radius of the sun in degrees, from 0 to below 90.
+    pub sun_radius: Option<f32>,
+}
+
+impl SceneChanges {
+    /// The scene with these changes; its shapes stay shared.
+    pub fn applied_to(&self, scene: &Scene) -> Scene {
+        let mut scene = scene.clone();
+        if let Some(ratio) = self.refraction_ratio {
+            scene.set_refraction_ratio(ratio);
+        }
+        if let (Some(radius), Some(sun)) = (self.sun_radius, &mut scene.sun) {
+            sun.angular_radius = radius;
+        }
+        scene
+    }
 }

@@ -9,6 +9,8 @@ pub struct Widget {
     pub name: String,
     /// Where it is, in points.
     pub rect: Rect,
+    /// What of it is not clipped away, in points.
+    pub visible: Rect,
     /// Its state as text.
     pub value: String,
 }
@@ -17,13 +19,28 @@ pub struct Widget {
 #[derive(Debug, Default)]
 pub struct Dump {
     widgets: Vec<Widget>,
+    focused: Option<String>,
 }
 
 impl Dump {
     /// Notes a widget and hands its response on.
     pub fn note(&mut self, name: &str, value: impl ToString, response: Response) -> Response {
-        self.widgets.push(Widget { name: name.to_owned(), rect: response.rect, value: value.to_string() });
+        if response.has_focus() {
+            self.focused = Some(name.to_owned());
+        }
+        self.widgets.push(Widget {
+            name: name.to_owned(),
+            rect: response.rect,
+            visible: response.interact_rect,
+            value: value.to_string(),
+        });
         response
+    }
+
+    /// Notes a text that is painted without being a widget.
+    pub fn note_text(&mut self, name: &str, text: &str, rect: Rect, clip: Rect) {
+        let visible = rect.intersect(clip);
+        self.widgets.push(Widget { name: name.to_owned(), rect, visible, value: text.to_owned() });
     }
 
     /// The widgets noted so far, in drawing order.
@@ -33,15 +50,16 @@ impl Dump {
 
     /// One JSON object; rectangles `[left, top, right, bottom]` in physical pixels. `state` adds to it.
     pub fn json(&self, pixels_per_point: f32, state: serde_json::Value) -> String {
+        let corners =
+            |r: &Rect| [r.left(), r.top(), r.right(), r.bottom()].map(|points| f64::from(points * pixels_per_point));
         let widgets: Vec<_> = self
             .widgets
             .iter()
             .map(|w| {
-                let corners =
-                    [w.rect.left(), w.rect.top(), w.rect.right(), w.rect.bottom()].map(|v| v * pixels_per_point);
-                serde_json::json!({ "name": w.name, "rect": corners, "value": w.value })
+                let (rect, visible) = (corners(&w.rect), corners(&w.visible));
+                serde_json::json!({ "name": w.name, "rect": rect, "visible": visible, "value": w.value })
             })
             .collect();
-        serde_json::json!({ "widgets": widgets, "state": state }).to_string()
+        serde_json::json!({ "widgets": widgets, "focus": self.focused, "state": state }).to_string()
     }
 }

@@ -1,53 +1,71 @@
-//! The bar above the picture: scene, view, saving.
+//! The bar above the picture: scene, view, export, look. It wraps where the window is narrow.
 
-use super::{Dump, Request, View, Viewer};
+use super::{Dump, Pane, Request, Theme, View, Viewer, export_menu};
 use egui::containers::menu::{MenuButton, MenuConfig};
 use egui::{PopupCloseBehavior, Ui};
 use scene::builtin;
 
-pub fn show(viewer: &mut Viewer, ui: &mut Ui, dump: &mut Dump, requests: &mut Vec<Request>) {
-    ui.horizontal(|ui| {
+/// The most letters of a scene's name that the bar shows.
+const MOST_LETTERS: usize = 18;
+
+pub fn show(viewer: &mut Viewer, ui: &mut Ui, panes: &[Pane; 2], dump: &mut Dump, requests: &mut Vec<Request>) {
+    ui.horizontal_wrapped(|ui| {
         scene_menu(viewer, ui, dump, requests);
         ui.separator();
         for view in View::ALL {
             let chosen = viewer.view == view;
             let button = ui.selectable_label(chosen, view.name()).on_hover_text(explain(view));
             if dump.note(&format!("view {}", view.name()), chosen, button).clicked() {
-                viewer.view = view;
+                viewer.choose(view);
             }
         }
         ui.separator();
-        let save = ui.button("Save picture").on_hover_text("Save what is shown as PNG (Ctrl+S)");
-        if dump.note("save", "", save).clicked() {
-            requests.push(Request::Save);
+        export_menu::show(viewer, ui, panes, dump, requests);
+        look_menu(viewer, ui, dump);
+        steps(viewer, ui, dump);
+        let panel = ui.selectable_label(viewer.panel, "Controls").on_hover_text("Show or hide the controls (H)");
+        if dump.note("controls", viewer.panel, panel).clicked() {
+            viewer.panel = !viewer.panel;
         }
-        ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
-            let panel = ui.selectable_label(viewer.panel, "Controls").on_hover_text("Show or hide the controls (H)");
-            if dump.note("controls", viewer.panel, panel).clicked() {
-                viewer.panel = !viewer.panel;
-            }
-            if let Some((message, failed)) = &viewer.message {
-                let colour = if *failed { ui.visuals().error_fg_color } else { ui.visuals().text_color() };
-                let label = ui.add(egui::Label::new(egui::RichText::new(message).color(colour)).truncate());
-                dump.note("message", message, label);
-            }
-        });
+        let help = ui.selectable_label(viewer.help, " ? ").on_hover_text("Mouse and keys (?)").accessible_name("Help");
+        if dump.note("help button", viewer.help, help).clicked() {
+            viewer.help = !viewer.help;
+        }
     });
+}
+
+fn steps(viewer: &mut Viewer, ui: &mut Ui, dump: &mut Dump) {
+    let [can_undo, can_redo] = [viewer.history.can_undo(), viewer.history.can_redo()];
+    let undo = ui.add_enabled(can_undo, egui::Button::new("Undo"));
+    if dump.note("undo", can_undo, undo.on_hover_text("Take back the last change of a setting (Ctrl+Z)")).clicked() {
+        viewer.undo();
+    }
+    let redo = ui.add_enabled(can_redo, egui::Button::new("Redo"));
+    if dump.note("redo", can_redo, redo.on_hover_text("Change it again (Ctrl+Shift+Z)")).clicked() {
+        viewer.redo();
+    }
 }
 
 fn explain(view: View) -> &'static str {
     match view {
-        View::A => "The fake alone (1, T swaps A and B)",
-        View::B => "The truth alone (2, T swaps A and B)",
-        View::Wipe => "A left and B right of a line to drag (3)",
+        View::A => "Pane A alone (1, T swaps A and B)",
+        View::B => "Pane B alone (2, T swaps A and B)",
+        View::Wipe => "Both, with a line to drag (3; again: turn the line)",
         View::SideBySide => "Both whole, each in half of the window (4)",
     }
 }
 
-fn scene_menu(viewer: &mut Viewer, ui: &mut Ui, dump: &mut Dump, requests: &mut Vec<Request>) {
+/// A menu that stays open while one uses what is in it.
+pub fn menu(title: impl Into<String>) -> MenuButton<'static> {
     let stay = MenuConfig::new().close_behavior(PopupCloseBehavior::CloseOnClickOutside);
-    let title = format!("Scene: {}", viewer.scene.name);
-    let (response, _) = MenuButton::new(title).config(stay).ui(ui, |ui| {
+    MenuButton::new(title.into()).config(stay)
+}
+
+fn scene_menu(viewer: &mut Viewer, ui: &mut Ui, dump: &mut Dump, requests: &mut Vec<Request>) {
+    let name = &viewer.scene.name;
+    let short: String = name.chars().take(MOST_LETTERS).collect();
+    let title = if short == *name { format!("Scene: {name}") } else { format!("Scene: {short}…") };
+    let (response, _) = menu(title).ui(ui, |ui| {
         for name in builtin::names() {
             let item = ui.selectable_label(viewer.scene.name == name, name);
             if dump.note(&format!("scene {name}"), "", item).clicked() {
@@ -56,14 +74,40 @@ fn scene_menu(viewer: &mut Viewer, ui: &mut Ui, dump: &mut Dump, requests: &mut 
             }
         }
         ui.separator();
-        ui.label("A scene file (.toml):");
-        let line = ui.add(egui::TextEdit::singleline(&mut viewer.file_name).hint_text("folder/scene.toml"));
+        let label = ui.label("A scene file (.toml):");
+        let edit = egui::TextEdit::singleline(&mut viewer.memory.file_name).hint_text("folder/scene.toml");
+        let line = ui.add(edit).labelled_by(label.id);
         let entered = line.lost_focus() && ui.input(|i| i.key_pressed(egui::Key::Enter));
-        dump.note("scene file", &viewer.file_name, line);
-        if (ui.button("Open").clicked() || entered) && !viewer.file_name.is_empty() {
-            requests.push(Request::Open(viewer.file_name.clone()));
+        dump.note("scene file", &viewer.memory.file_name, line);
+        let open = dump.note("open", "", ui.button("Open"));
+        if (open.clicked() || entered) && !viewer.memory.file_name.is_empty() {
+            requests.push(Request::Open(viewer.memory.file_name.clone()));
             ui.close();
         }
     });
     dump.note("scene", &viewer.scene.name, response);
+}
+
+fn look_menu(viewer: &mut Viewer, ui: &mut Ui, dump: &mut Dump) {
+    let (response, _) = menu("Look").ui(ui, |ui| {
+        ui.label("Theme");
+        for theme in Theme::ALL {
+            let item = ui.radio_value(&mut viewer.theme, theme, theme.name());
+            dump.note(&format!("theme {}", theme.name()), viewer.theme == theme, item);
+        }
+        ui.separator();
+        let zoom = ui.ctx().zoom_factor();
+        ui.label(format!("Text at {:.0} %", 100.0 * zoom));
+        ui.horizontal(|ui| {
+            for (text, name, factor) in
+                [("−", "smaller text", zoom - 0.1), ("100 %", "usual text", 1.0), ("+", "larger text", zoom + 0.1)]
+            {
+                let button = ui.button(text).on_hover_text("Ctrl - 0 +").accessible_name(name);
+                if dump.note(name, "", button).clicked() {
+                    ui.ctx().set_zoom_factor(factor.clamp(0.5, 3.0));
+                }
+            }
+        });
+    });
+    dump.note("look", viewer.theme.name(), response);
 }

@@ -1,5 +1,7 @@
 //! The shell around the viewer: one winit window, one egui context, one wgpu device that the window and the fake share.
 
+mod exhibit;
+mod frame_stats;
 mod shell;
 mod stopwatch;
 mod surface;
@@ -8,12 +10,24 @@ mod viewer_window;
 
 use crate::cli::ViewArgs;
 use anyhow::Context;
+use egui_winit::accesskit_winit;
 use scene::builtin;
 use winit::event_loop::EventLoop;
 
 /// Something happened beside the UI thread that it should look at.
-#[derive(Debug, Clone, Copy)]
-pub struct WokenUp;
+#[derive(Debug)]
+pub enum Happened {
+    /// A worker has something.
+    News,
+    /// A screen reader wants something.
+    Accessibility(accesskit_winit::Event),
+}
+
+impl From<accesskit_winit::Event> for Happened {
+    fn from(event: accesskit_winit::Event) -> Self {
+        Happened::Accessibility(event)
+    }
+}
 
 /// Opens the viewer and returns when it is closed.
 ///
@@ -22,13 +36,13 @@ pub struct WokenUp;
 pub fn open(args: &ViewArgs) -> anyhow::Result<()> {
     let started = std::time::Instant::now();
     let scene = builtin::named(&args.scene)?;
-    let events = EventLoop::<WokenUp>::with_user_event().build().map_err(|e| {
+    let events = EventLoop::<Happened>::with_user_event().build().map_err(|e| {
         anyhow::anyhow!(
             "no window can be opened here ({e}); without a display, use: visavis render {} -o out.png",
             args.scene
         )
     })?;
-    let mut shell = shell::Shell::new(scene, args.ui_dump.clone(), events.create_proxy(), started);
+    let mut shell = shell::Shell::new(scene, args.clone(), events.create_proxy(), started);
     events.run_app(&mut shell).context("the window stopped")?;
     shell.outcome()
 }

@@ -1,9 +1,9 @@
 //! The application as winit sees it: events in, frames out.
 
-use super::WokenUp;
+use super::Happened;
 use super::viewer_window::ViewerWindow;
+use crate::cli::ViewArgs;
 use scene::Scene;
-use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Instant;
 use winit::application::ApplicationHandler;
@@ -15,16 +15,16 @@ use winit::window::WindowId;
 pub struct Shell {
     /// Taken when the window opens.
     scene: Option<Scene>,
-    ui_dump: Option<PathBuf>,
-    proxy: EventLoopProxy<WokenUp>,
+    args: ViewArgs,
+    proxy: EventLoopProxy<Happened>,
     started: Instant,
     window: Option<ViewerWindow>,
     failure: Option<anyhow::Error>,
 }
 
 impl Shell {
-    pub fn new(scene: Scene, ui_dump: Option<PathBuf>, proxy: EventLoopProxy<WokenUp>, started: Instant) -> Self {
-        Shell { scene: Some(scene), ui_dump, proxy, started, window: None, failure: None }
+    pub fn new(scene: Scene, args: ViewArgs, proxy: EventLoopProxy<Happened>, started: Instant) -> Self {
+        Shell { scene: Some(scene), args, proxy, started, window: None, failure: None }
     }
 
     /// How it ended.
@@ -34,28 +34,32 @@ impl Shell {
 
     fn finish(&mut self, events: &ActiveEventLoop, outcome: anyhow::Result<()>) {
         self.failure = outcome.err();
-        self.window = None;
+        if let Some(stats) = self.window.take().filter(|_| self.args.frame_stats).map(|w| w.frame_stats()) {
+            crate::cli::to_stderr(format_args!("{stats}"));
+        }
         events.exit();
     }
 }
 
-impl ApplicationHandler<WokenUp> for Shell {
+impl ApplicationHandler<Happened> for Shell {
     fn resumed(&mut self, events: &ActiveEventLoop) {
         let Some(scene) = self.scene.take() else { return };
         let proxy = self.proxy.clone();
         let wake = Arc::new(move || {
             // a closed event loop has nobody left to wake
-            let _ = proxy.send_event(WokenUp);
+            let _ = proxy.send_event(Happened::News);
         });
-        match ViewerWindow::open(events, scene, self.started, wake) {
+        match ViewerWindow::open(events, scene, &self.args, self.proxy.clone(), self.started, wake) {
             Ok(window) => self.window = Some(window),
             Err(error) => self.finish(events, Err(error)),
         }
     }
 
-    fn user_event(&mut self, _: &ActiveEventLoop, _: WokenUp) {
-        if let Some(window) = &self.window {
-            window.request_frame();
+    fn user_event(&mut self, _: &ActiveEventLoop, event: Happened) {
+        let Some(window) = &mut self.window else { return };
+        match event {
+            Happened::News => window.request_frame(),
+            Happened::Accessibility(event) => window.hear_screen_reader(event),
         }
     }
 
@@ -77,11 +81,10 @@ impl ApplicationHandler<WokenUp> for Shell {
             WindowEvent::CloseRequested => self.finish(events, Ok(())),
             WindowEvent::Resized(size) => window.resize(size.width, size.height),
             WindowEvent::RedrawRequested => {
-                window.frame();
-                if let Some(file) = &self.ui_dump
-                    && let Err(error) = window.write_dump(file)
-                {
-                    self.finish(events, Err(error));
+                let asked_to_quit = window.frame();
+                let dumped = self.args.ui_dump.as_ref().map_or(Ok(()), |file| window.write_dump(file));
+                if asked_to_quit || dumped.is_err() {
+                    self.finish(events, dumped);
                 }
             }
             _ => {}

@@ -105,11 +105,8 @@ impl WindowSurface {
         Presented::Shown
     }
 
-    /// The same frame once more, read back: opaque RGBA bytes of the whole window, rows from the top.
-    ///
-    /// # Errors
-    /// If the device cannot make or read the texture.
-    pub fn capture(&mut self, gpu: &Gpu, painting: &Painting) -> anyhow::Result<Vec<u8>> {
+    /// The same frame once more, into a texture of the window's size that can be read back.
+    pub fn capture(&mut self, gpu: &Gpu, painting: &Painting) -> wgpu::Texture {
         let texture = gpu.device.create_texture(&wgpu::TextureDescriptor {
             label: Some("picture as seen"),
             size: wgpu::Extent3d { width: self.config.width, height: self.config.height, depth_or_array_layers: 1 },
@@ -121,11 +118,7 @@ impl WindowSurface {
             view_formats: &[],
         });
         self.draw(gpu, painting, &texture.create_view(&wgpu::TextureViewDescriptor::default()));
-        let mut bytes = gpu.read_texture("picture as seen", &texture)?;
-        if self.config.format.remove_srgb_suffix() == wgpu::TextureFormat::Bgra8Unorm {
-            bytes.chunks_exact_mut(4).for_each(|pixel| pixel.swap(0, 2));
-        }
-        Ok(bytes)
+        texture
     }
 
     fn draw(&mut self, gpu: &Gpu, painting: &Painting, view: &wgpu::TextureView) {

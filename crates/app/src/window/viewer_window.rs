@@ -1,37 +1,45 @@
 //! The viewer's window: one frame after the other from what egui, the viewer and the workers have.
 
+use super::Happened;
+use super::exhibit::Exhibit;
+use super::frame_stats::{Clock, FrameStats};
 use super::stopwatch::Stopwatch;
 use super::surface::{Painting, Presented, WindowSurface};
-use super::textures::PaneTexture;
+use crate::cli::ViewArgs;
 use crate::picture_file;
-use crate::ui::{Dump, Pane, Request, Viewer};
+use crate::ui::{Dump, Request, Viewer, What};
+use crate::workers::capture::Capture;
 use crate::workers::crew::Crew;
-use crate::workers::darkroom::{News, Shelf};
+use crate::workers::darkroom::News;
+use crate::workers::exporter::{Content, Destination, Export};
 use crate::workers::{Side, Wake};
 use anyhow::Context;
 use egui_wgpu::ScreenDescriptor;
+use egui_winit::accesskit_winit;
 use gpu::Gpu;
 use scene::Scene;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 use winit::dpi::LogicalSize;
 use winit::event::WindowEvent;
-use winit::event_loop::ActiveEventLoop;
+use winit::event_loop::{ActiveEventLoop, EventLoopProxy};
 use winit::window::Window;
 
 /// Everything that lives as long as the window.
 pub struct ViewerWindow {
     crew: Crew,
     viewer: Viewer,
-    panes: [Pane; 2],
-    textures: [PaneTexture; 2],
+    exhibit: Exhibit,
     egui: egui_winit::State,
     surface: WindowSurface,
     gpu: Gpu,
     window: Arc<Window>,
     next_frame: Option<Instant>,
+    /// Where the next frame's picture goes, beside the screen.
+    pose: Option<Destination>,
     stopwatch: Stopwatch,
+    stats: FrameStats,
     /// The last frame's widgets, and physical pixels per point.
     dump: Dump,
     scale: f32,
@@ -40,40 +48,58 @@ pub struct ViewerWindow {
 /// How soon a frame is tried again that had no surface to go to.
 const RETRY: Duration = Duration::from_millis(100);
 
+/// The window's size to begin with, as far as the screen has room for it.
+fn first_size(events: &ActiveEventLoop) -> LogicalSize<f64> {
+    let wished = LogicalSize::new(1280.0, 720.0);
+    let Some(monitor) = events.primary_monitor().or_else(|| events.available_monitors().next()) else { return wished };
+    let room: LogicalSize<f64> = monitor.size().to_logical(monitor.scale_factor());
+    LogicalSize::new(wished.width.min(room.width), wished.height.min(room.height))
+}
+
 impl ViewerWindow {
     /// Opens the window on a scene.
     ///
     /// # Errors
     /// If there is no window, no adapter for it, or no threads.
-    pub fn open(events: &ActiveEventLoop, scene: Scene, started: Instant, wake: Wake) -> anyhow::Result<Self> {
+    pub fn open(
+        events: &ActiveEventLoop,
+        scene: Scene,
+        args: &ViewArgs,
+        proxy: EventLoopProxy<Happened>,
+        started: Instant,
+        wake: Wake,
+    ) -> anyhow::Result<Self> {
         let attributes = Window::default_attributes()
             .with_title("Visavis")
-            .with_inner_size(LogicalSize::new(1280.0, 720.0))
-            .with_min_inner_size(LogicalSize::new(480.0, 320.0));
+            .with_inner_size(first_size(events))
+            .with_min_inner_size(LogicalSize::new(480.0, 320.0))
+            // shown once screen readers know it
+            .with_visible(false);
         let window = Arc::new(events.create_window(attributes).context("no window can be opened here")?);
         let (surface, gpu) = WindowSurface::new(window.clone(), events.owned_display_handle())?;
-        let context = egui::Context::default();
-        context.set_theme(egui::Theme::Dark);
-        let egui = egui_winit::State::new(
-            context,
+        let mut egui = egui_winit::State::new(
+            egui::Context::default(),
             egui::ViewportId::ROOT,
             &events.owned_display_handle(),
             Some(window.scale_factor() as f32),
             window.theme(),
             Some(gpu.device.limits().max_texture_dimension_2d as usize),
         );
+        egui.init_accesskit(events, &window, proxy);
+        window.set_visible(true);
         window.request_redraw();
         Ok(ViewerWindow {
             crew: Crew::start(&gpu, wake)?,
-            viewer: Viewer::new(scene),
-            panes: Default::default(),
-            textures: Default::default(),
+            viewer: Viewer::new(scene, args.scene.clone(), args.theme),
+            exhibit: Exhibit::default(),
             egui,
             surface,
             gpu,
             window,
             next_frame: None,
+            pose: None,
             stopwatch: Stopwatch::new(started),
+            stats: FrameStats::default(),
             dump: Dump::default(),
             scale: 1.0,
         })
@@ -89,6 +115,11 @@ impl ViewerWindow {
         self.next_frame
     }
 
+    /// What frames have cost so far.
+    pub fn frame_stats(self) -> FrameStats {
+        self.stats
+    }
+
     /// Lets egui hear an event. It answers a frame's own event with the wish for another, which would never end.
     pub fn hear(&mut self, event: &WindowEvent) {
         let repaint = self.egui.on_window_event(&self.window, event).repaint;
@@ -97,21 +128,36 @@ impl ViewerWindow {
         }
     }
 
+    /// Does what a screen reader asks for.
+    pub fn hear_screen_reader(&mut self, event: accesskit_winit::Event) {
+        use accesskit_winit::WindowEvent as Wish;
+        let context = self.egui.egui_ctx();
+        match event.window_event {
+            Wish::InitialTreeRequested => context.enable_accesskit(),
+            Wish::ActionRequested(request) => self.egui.on_accesskit_action_request(request),
+            Wish::AccessibilityDeactivated => context.disable_accesskit(),
+        }
+        self.request_frame();
+    }
+
     /// Follows the window's size.
     pub fn resize(&mut self, width: u32, height: u32) {
         self.surface.resize(&self.gpu, width, height);
         self.request_frame();
     }
 
-    /// One frame: collect, draw, ask for what has changed, present.
-    pub fn frame(&mut self) {
+    /// One frame: collect, draw, ask for what has changed, present. Returns whether the user wants to quit.
+    pub fn frame(&mut self) -> bool {
+        let clock = Clock::start();
         self.collect();
+        let pose = self.pose.take();
+        self.viewer.posing = pose.is_some();
         let input = self.egui.take_egui_input(&self.window);
         let context = self.egui.egui_ctx().clone();
         let mut requests = Vec::new();
         let output = context.run_ui(input, |ui| {
             self.dump = Dump::default();
-            requests.extend(self.viewer.ui(ui, &self.panes, &mut self.dump));
+            requests.extend(self.viewer.ui(ui, &self.exhibit.panes, &mut self.dump));
         });
         self.scale = output.pixels_per_point;
         self.egui.handle_platform_output(&self.window, output.platform_output);
@@ -124,11 +170,13 @@ impl ViewerWindow {
         let jobs = context.tessellate(output.shapes, self.scale);
         let screen = ScreenDescriptor { size_in_pixels: self.surface.size(), pixels_per_point: self.scale };
         let painting = Painting { jobs: &jobs, screen };
-        for request in requests {
-            self.grant(request, &painting);
-        }
-        if let Some(job) = self.crew.ask(&self.viewer) {
-            self.stopwatch.asked(job);
+        let quit = requests.contains(&Request::Quit);
+        requests.into_iter().for_each(|request| self.grant(request));
+        let asked = self.crew.ask(&self.viewer);
+        asked.into_iter().flatten().for_each(|job| self.stopwatch.asked(job));
+        self.stats.note(self.viewer.view, clock.elapsed());
+        if let Some(to) = pose {
+            self.capture(&painting, to);
         }
         let shown = self.surface.present(&self.gpu, &painting);
         for id in &textures.free {
@@ -138,86 +186,72 @@ impl ViewerWindow {
         let wish = output.viewport_output.get(&egui::ViewportId::ROOT).map_or(Duration::MAX, |v| v.repaint_delay);
         let delay = match shown {
             Presented::Shown => {
-                self.stopwatch.shown(self.panes.iter().all(|pane| pane.texture.is_some()));
+                self.stopwatch.shown(self.exhibit.panes.iter().all(|pane| pane.texture.is_some()));
                 wish
             }
             Presented::Skipped => wish.min(RETRY),
         };
         self.next_frame = Instant::now().checked_add(delay);
+        quit
     }
 
     /// Takes what the workers have finished.
     fn collect(&mut self) {
         if let Some(fault) = self.gpu.fault() {
-            self.viewer.message = Some((format!("The GPU failed: {fault}"), true));
+            self.viewer.say(Err(format!("The GPU failed: {fault}")));
         }
-        self.hang(self.crew.collect().unwrap_or_default());
-        if let Some(loaded) = self.crew.loaded() {
-            let opened = loaded.map(|scene| {
-                let message = format!("Opened {}", scene.name);
-                self.viewer.open(scene);
-                self.panes = Default::default();
-                message
-            });
-            self.say(opened);
-        }
-    }
-
-    /// Puts what is new on the panes.
-    fn hang(&mut self, shelf: Shelf) {
-        if let Some(News::Picture(truth)) = &shelf[Side::B as usize] {
-            self.stopwatch.received(truth.picture.order.job);
-        }
-        for ((news, pane), texture) in shelf.into_iter().zip(&mut self.panes).zip(&mut self.textures) {
-            match news {
-                None => {}
-                Some(News::Fault(fault)) => *pane = Pane { fault: Some(fault), ..Pane::default() },
-                Some(News::Picture(developed)) => {
-                    let picture = &developed.picture;
-                    if let Some(rgba) = &developed.rgba {
-                        let renderer = &mut self.surface.renderer;
-                        pane.texture = Some(texture.upload(&self.gpu, renderer, picture.width, picture.height, rgba));
-                        pane.fault = None;
-                        pane.label.clone_from(&picture.order.label);
-                    }
-                    (pane.spp, pane.seconds, pane.rough) = (picture.spp, picture.seconds, picture.rough);
-                    pane.errors = developed.errors;
-                }
+        let shelf = self.crew.collect().unwrap_or_default();
+        for news in shelf.iter().flatten() {
+            if let News::Picture(developed) = news {
+                self.stopwatch.received(developed.picture.order.job);
             }
         }
+        self.exhibit.hang(shelf, &self.gpu, &mut self.surface.renderer);
+        match self.crew.loaded() {
+            Some(Ok(opened)) => {
+                self.viewer.say(Ok(format!("Opened {}", opened.scene.name)));
+                self.viewer.open(opened.scene, opened.source);
+                self.exhibit.clear();
+            }
+            Some(Err(fault)) => self.viewer.say(Err(fault)),
+            None => {}
+        }
+        self.crew.exported().into_iter().for_each(|outcome| self.viewer.say(outcome));
     }
 
-    fn grant(&mut self, request: Request, painting: &Painting) {
+    fn grant(&mut self, request: Request) {
         match request {
-            Request::Save => {
-                let saved = self.save(painting).map(|path| format!("Saved {}", path.display()));
-                self.say(saved.map_err(|error| format!("{error:#}")));
-            }
+            Request::Export { what: What::Seen, to } => self.pose = Some(to),
+            Request::Export { what: What::Pane(side), to } => self.export_pane(side, to),
             Request::Open(name) => self.crew.load(name),
+            Request::Quit => {}
         }
         self.request_frame();
     }
 
-    fn say(&mut self, outcome: Result<String, String>) {
-        let failed = outcome.is_err();
-        self.viewer.message = Some((outcome.unwrap_or_else(|fault| fault), failed));
+    fn export_pane(&mut self, side: Side, to: Destination) {
+        match self.exhibit.pane(side, self.viewer.settings.display) {
+            Some((content, records)) => self.crew.export(Export { content, records, to }),
+            None => self.viewer.say(Err(format!("{side:?} has no whole picture yet; try again in a moment"))),
+        }
     }
 
-    /// Saves the picture area as it is on the screen, line and labels included.
-    fn save(&mut self, painting: &Painting) -> anyhow::Result<PathBuf> {
+    /// Exports the picture area of a frame as it is on the screen, line and labels included.
+    fn capture(&mut self, painting: &Painting, to: Destination) {
         let [width, height] = self.surface.size();
-        let bytes = self.surface.capture(&self.gpu, painting)?;
         let rect = self.viewer.picture_rect;
-        let pixel = |v: f32, most: u32| ((v * self.scale).round().max(0.0) as u32).min(most) as usize;
-        let (left, right) = (pixel(rect.left(), width), pixel(rect.right(), width));
-        let (top, bottom) = (pixel(rect.top(), height), pixel(rect.bottom(), height));
-        let rows = bytes.chunks_exact(4 * width as usize).take(bottom).skip(top);
-        let picture: Vec<u8> = rows.flat_map(|row| &row[4 * left..4 * right]).copied().collect();
-        let stem =
-            format!("visavis-{}-{}", self.viewer.scene.name, self.viewer.view.name().to_lowercase().replace(' ', "-"));
-        let path = picture_file::free_name(&picture_file::default_folder()?, &stem)?;
-        picture_file::save_rgba8(&path, (right - left) as u32, (bottom - top) as u32, &picture)?;
-        Ok(path)
+        let pixel = |points: f32, most: u32| ((points * self.scale).round().max(0.0) as u32).min(most);
+        let part = [
+            pixel(rect.left(), width),
+            pixel(rect.top(), height),
+            pixel(rect.right(), width),
+            pixel(rect.bottom(), height),
+        ];
+        let texture = self.surface.capture(&self.gpu, painting);
+        let content = Content::Seen(Capture { gpu: self.gpu.clone(), texture, part });
+        self.crew.export(Export { content, records: self.exhibit.records_of_both(&self.viewer), to });
+        // the next frame has hint and message again
+        self.request_frame();
     }
 
     /// Writes the last frame's widgets and the state behind them, whole or not at all.
@@ -225,21 +259,37 @@ impl ViewerWindow {
     /// # Errors
     /// If the file cannot be written.
     pub fn write_dump(&self, file: &Path) -> anyhow::Result<()> {
-        let [a, b] = &self.panes;
+        let panes: Vec<_> = self
+            .exhibit
+            .panes
+            .iter()
+            .map(|pane| {
+                serde_json::json!({
+                    "ready": pane.texture.is_some(),
+                    "label": pane.provenance.as_ref().map(|p| p.recipe.label()),
+                    "spp": pane.spp,
+                    "rough": pane.rough,
+                    "unfinished": pane.unfinished,
+                    "nonfinite": pane.nonfinite,
+                    "rel_mse": pane.errors.map(|e| e.rel_mse),
+                    "fault": pane.fault,
+                })
+            })
+            .collect();
         let state = serde_json::json!({
             "scene": self.viewer.scene.name,
             "view": self.viewer.view.name(),
-            "picture_size": self.viewer.picture_size,
+            "line": self.viewer.line.name(),
             "wipe": self.viewer.wipe,
+            "paused": self.viewer.paused,
+            "theme": self.viewer.theme.name(),
+            "picture_size": self.viewer.picture_size,
             "eye": self.viewer.camera.eye.to_array(),
-            "message": self.viewer.message.as_ref().map(|m| &m.0),
+            "fov": self.viewer.camera.fov_y,
+            "message": self.viewer.message.as_ref().map(|m| &m.text),
             "typing": self.egui.egui_ctx().text_edit_focused(),
-            "a_ready": a.texture.is_some(),
-            "b_ready": b.texture.is_some(),
-            "b_spp": b.spp,
-            "b_rough": b.rough,
-            "rel_mse": a.errors.map(|e| e.rel_mse),
-            "faults": [a.fault.as_ref(), b.fault.as_ref()],
+            "a": panes[0],
+            "b": panes[1],
             "frames": self.stopwatch.frames(),
             "latency_ms": self.stopwatch.latency().map(|t| t.as_millis() as u64),
             "first_pictures_ms": self.stopwatch.first_pictures().map(|t| t.as_millis() as u64),

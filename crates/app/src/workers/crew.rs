@@ -1,12 +1,12 @@
 //! The threads beside the UI as one: asks them for whatever no longer fits what the viewer shows, and ends them.
 
 use super::darkroom::{Darkroom, News, Shelf};
-use super::fake::{FakeJob, FakeWorker};
-use super::loader::Loader;
-use super::truth::{TruthJob, TruthWorker};
-use super::{Order, Wake};
-use crate::technique::{FakeSettings, TruthSettings};
-use crate::ui::{Revisions, Viewer};
+use super::exporter::{Export, Exporter, Outcome};
+use super::loader::{Loader, Opened};
+use super::studio::Studio;
+use super::{Order, Side, Wake};
+use crate::technique::{Provenance, Recipe, SceneChanges};
+use crate::ui::Viewer;
 use anyhow::Context;
 use gpu::Gpu;
 use scene::display::DisplayTransform;
@@ -16,10 +16,10 @@ use std::thread::JoinHandle;
 
 /// The workers; dropping it ends their threads.
 pub struct Crew {
-    fake: FakeWorker,
-    truth: TruthWorker,
+    studios: [Studio; 2],
     darkroom: Arc<Darkroom>,
     darkroom_thread: Option<JoinHandle<()>>,
+    exporter: Exporter,
     loader: Loader,
     asked: Asked,
 }
@@ -27,11 +27,12 @@ pub struct Crew {
 /// What each worker was last asked for.
 #[derive(Default)]
 struct Asked {
-    scene: Option<(Revisions, Arc<Scene>)>,
+    scene: Option<(u64, SceneChanges, Arc<Scene>)>,
     view: Option<View>,
-    fake: Option<(u64, u64, FakeSettings)>,
-    truth: Option<(u64, u64, TruthSettings)>,
+    /// For each pane.
+    made: [Option<(u64, u64, Recipe)>; 2],
     display: Option<DisplayTransform>,
+    paused: bool,
     /// The first view of the scene that is open.
     oldest_view: u64,
     /// Counts views and jobs.
@@ -43,23 +44,23 @@ struct Asked {
 #[derive(PartialEq)]
 struct View {
     opened: u64,
-    shared: u64,
+    changes: SceneChanges,
     camera: Camera,
     size: (u32, u32),
 }
 
 impl Crew {
-    /// Starts the threads; `wake` is called whenever [`Crew::collect`] has something.
+    /// Starts the threads; `wake` is called whenever there is something to collect.
     ///
     /// # Errors
-    /// If the system gives no threads, or no device for the fake.
+    /// If the system gives no threads.
     pub fn start(window: &Gpu, wake: Wake) -> anyhow::Result<Self> {
         let (darkroom, thread) = Darkroom::start(wake.clone()).context("no thread for the darkroom")?;
         Ok(Crew {
-            fake: FakeWorker::start(fake_gpu(window)?, darkroom.clone()).context("no thread for the fake")?,
-            truth: TruthWorker::start(darkroom.clone()).context("no threads for the truth")?,
+            studios: [Side::A, Side::B].map(|side| Studio::new(side, window.clone(), darkroom.clone())),
             darkroom,
             darkroom_thread: Some(thread),
+            exporter: Exporter::start(wake.clone()).context("no thread for exports")?,
             loader: Loader::new(wake),
             asked: Asked::default(),
         })
@@ -74,41 +75,33 @@ impl Crew {
         Some(shelf)
     }
 
-    /// Asks for what has changed in the viewer; returns the number of a new job of the truth, if there is one.
-    pub fn ask(&mut self, viewer: &Viewer) -> Option<u64> {
+    /// Asks for what has changed in the viewer; returns for each pane the number of its new job, if there is one.
+    pub fn ask(&mut self, viewer: &Viewer) -> [Option<u64>; 2] {
+        let scene = self.asked.scene_of(viewer);
         let asked = &mut self.asked;
-        let scene = match &asked.scene {
-            Some((revisions, scene)) if *revisions == viewer.revisions => scene.clone(),
-            _ => Arc::new(viewer.scene.clone()),
-        };
-        asked.scene = Some((viewer.revisions, scene.clone()));
-        if asked.display != Some(viewer.display) {
-            asked.display = Some(viewer.display);
-            self.darkroom.set_display(viewer.display);
+        if asked.display != Some(viewer.settings.display) {
+            asked.display = Some(viewer.settings.display);
+            self.darkroom.set_display(viewer.settings.display);
         }
-        let Revisions { opened, shared, fake, truth } = viewer.revisions;
-        let (camera, size) = (viewer.camera, viewer.picture_size);
-        let view = View { opened, shared, camera, size };
-        if asked.view.as_ref() != Some(&view) {
-            asked.views += 1;
-            if asked.view.as_ref().is_some_and(|old| old.opened != opened) {
-                asked.oldest_view = asked.views;
-                self.darkroom.forget_before(asked.views);
+        if asked.paused != viewer.paused {
+            asked.paused = viewer.paused;
+            self.studios.iter_mut().for_each(|studio| studio.hold(viewer.paused));
+        }
+        if asked.follow(viewer) {
+            self.darkroom.forget_before(asked.oldest_view);
+        }
+        let mut jobs = [None; 2];
+        for (side, studio) in self.studios.iter_mut().enumerate() {
+            let recipe = viewer.settings.panes[side].recipe();
+            let wish = Some((asked.views, viewer.restarts, recipe));
+            if asked.made[side] == wish {
+                continue;
             }
-            asked.view = Some(view);
+            asked.made[side] = wish;
+            studio.submit(recipe, asked.order(viewer, scene.clone(), recipe));
+            jobs[side] = Some(asked.jobs);
         }
-        if asked.fake != Some((asked.views, fake, viewer.fake)) {
-            asked.fake = Some((asked.views, fake, viewer.fake));
-            let order = asked.order(viewer.fake.label());
-            self.fake.submit(FakeJob { scene: scene.clone(), camera, settings: viewer.fake, size, order });
-        }
-        if asked.truth == Some((asked.views, truth, viewer.truth)) {
-            return None;
-        }
-        asked.truth = Some((asked.views, truth, viewer.truth));
-        let order = asked.order(viewer.truth.label());
-        self.truth.submit(TruthJob { scene, camera, settings: viewer.truth, size, order });
-        Some(asked.jobs)
+        jobs
     }
 
     /// Reads a scene beside the UI.
@@ -117,22 +110,64 @@ impl Crew {
     }
 
     /// The scene that was read since the last call, or why it was not.
-    pub fn loaded(&self) -> Option<Result<Scene, String>> {
+    pub fn loaded(&self) -> Option<Result<Opened, String>> {
         self.loader.loaded()
+    }
+
+    /// Writes a picture to a file or the clipboard.
+    pub fn export(&self, export: Export) {
+        self.exporter.submit(export);
+    }
+
+    /// What has become of exports since the last call.
+    pub fn exported(&self) -> Vec<Outcome> {
+        self.exporter.outcomes()
     }
 }
 
 impl Asked {
-    fn order(&mut self, label: String) -> Order {
-        self.jobs += 1;
-        Order { job: self.jobs, view: self.views, label }
+    /// The scene with the viewer's changes, the same one as long as they stay.
+    fn scene_of(&mut self, viewer: &Viewer) -> Arc<Scene> {
+        let (opened, changes) = (viewer.opened, viewer.settings.changes);
+        let scene = match &self.scene {
+            Some((of, with, scene)) if (*of, *with) == (opened, changes) => scene.clone(),
+            _ => Arc::new(changes.applied_to(&viewer.scene)),
+        };
+        self.scene = Some((opened, changes, scene.clone()));
+        scene
     }
-}
 
-/// The device of the fake: the window's own, but where the processor plays the graphics device another one, because there
-/// a frame of the window would wait in one queue behind the whole of the fake.
-fn fake_gpu(window: &Gpu) -> anyhow::Result<Gpu> {
-    if window.is_software() { Ok(Gpu::headless()?) } else { Ok(window.clone()) }
+    /// Takes a new number where the view has changed; returns whether older ones show another scene.
+    fn follow(&mut self, viewer: &Viewer) -> bool {
+        let view = View {
+            opened: viewer.opened,
+            changes: viewer.settings.changes,
+            camera: viewer.camera,
+            size: viewer.picture_size,
+        };
+        if self.view.as_ref() == Some(&view) {
+            return false;
+        }
+        self.views += 1;
+        let other_scene = self.view.as_ref().is_some_and(|old| old.opened != view.opened);
+        if other_scene {
+            self.oldest_view = self.views;
+        }
+        self.view = Some(view);
+        other_scene
+    }
+
+    fn order(&mut self, viewer: &Viewer, scene: Arc<Scene>, recipe: Recipe) -> Order {
+        self.jobs += 1;
+        let provenance = Arc::new(Provenance {
+            source: viewer.source.clone(),
+            changes: viewer.settings.changes,
+            camera: viewer.camera,
+            recipe,
+            size: viewer.picture_size,
+        });
+        Order { job: self.jobs, view: self.views, restarts: viewer.restarts, scene, provenance }
+    }
 }
 
 impl Drop for Crew {

@@ -99,6 +99,7 @@ impl Darkroom {
         let mut display = DisplayTransform::default();
         let mut oldest_view = 0;
         let mut latest: [Option<Picture>; 2] = [None, None];
+        let mut newest = [0; 2];
         while let Some(tray) = self.inbox.take() {
             let redevelop = tray.display.is_some();
             display = tray.display.unwrap_or(display);
@@ -107,11 +108,13 @@ impl Darkroom {
             let mut fresh = [false; 2];
             for (side, delivery) in tray.deliveries.into_iter().enumerate() {
                 match delivery {
-                    Some(Delivery::Picture(picture)) if picture.order.view >= oldest_view => {
+                    Some(Delivery::Picture(picture)) if still_wanted(&picture.order, oldest_view, newest[side]) => {
+                        newest[side] = picture.order.job;
                         latest[side] = Some(picture);
                         fresh[side] = true;
                     }
-                    Some(Delivery::Fault(order, fault)) if order.view >= oldest_view => {
+                    Some(Delivery::Fault(order, fault)) if still_wanted(&order, oldest_view, newest[side]) => {
+                        newest[side] = order.job;
                         latest[side] = None;
                         self.shelf.post(|shelf| shelf[side] = Some(News::Fault(fault)));
                     }
@@ -130,6 +133,11 @@ impl Darkroom {
     }
 }
 
+/// A pane may change its technique while the other one still delivers: what comes from an older job is too late.
+fn still_wanted(order: &Order, oldest_view: u64, newest_job: u64) -> bool {
+    order.view >= oldest_view && order.job >= newest_job
+}
+
 /// Bytes that were not collected yet stay if what is newer brings none of its own.
 fn shelve(place: &mut Option<News>, mut new: Developed) {
     if let (None, Some(News::Picture(old))) = (&new.rgba, place.as_mut()) {
@@ -141,7 +149,7 @@ fn shelve(place: &mut Option<News>, mut new: Developed) {
 /// Each side against the other, where both show one view at one size.
 fn mutual_errors(latest: &[Option<Picture>; 2]) -> [Option<Errors>; 2] {
     match latest {
-        [Some(a), Some(b)] if (a.width, a.height, a.order.view) == (b.width, b.height, b.order.view) => {
+        [Some(a), Some(b)] if comparable(a, b) => {
             let of =
                 |film: &Picture, reference: &Picture| Some(errors_of_radiances(&film.radiances, &reference.radiances));
             [of(a, b), of(b, a)]
@@ -150,15 +158,44 @@ fn mutual_errors(latest: &[Option<Picture>; 2]) -> [Option<Errors>; 2] {
     }
 }
 
+fn comparable(a: &Picture, b: &Picture) -> bool {
+    let shows_the_scene = |picture: &Picture| picture.order.provenance.recipe.shows_the_scene();
+    (a.width, a.height, a.order.view) == (b.width, b.height, b.order.view) && shows_the_scene(a) && shows_the_scene(b)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::technique::{PaneSettings, Provenance, SceneChanges, Technique};
     use scene::Vec3;
 
+    fn order(job: u64, view: u64) -> Order {
+        let scene = Arc::new(scene::builtin::named("cornell").unwrap());
+        let provenance = Arc::new(Provenance {
+            source: "cornell".into(),
+            changes: SceneChanges::default(),
+            camera: scene.camera,
+            recipe: PaneSettings::of(Technique::Path).recipe(),
+            size: (1, 1),
+        });
+        Order { job, view, restarts: 0, scene, provenance }
+    }
+
     fn picture(view: u64) -> Picture {
-        let order = Order { job: view, view, label: String::new() };
+        let order = order(view, view);
         let radiances = [Vec3::splat(view as f32)].into();
-        Picture { width: 1, height: 1, radiances, spp: None, seconds: 0.0, rough: false, order }
+        Picture {
+            width: 1,
+            height: 1,
+            radiances,
+            spp: None,
+            seconds: 0.0,
+            nonfinite: 0,
+            adapter: "none".into(),
+            rough: false,
+            unfinished: false,
+            order,
+        }
     }
 
     /// Runs a darkroom over what `post` posts, and returns all that it shelved.
@@ -187,6 +224,16 @@ mod tests {
             let [Some(News::Picture(a)), Some(News::Picture(b))] = shelf else { panic!("two pictures") };
             assert_eq!((a.errors.is_some(), b.errors.is_some()), (comparable, comparable));
         }
+    }
+
+    #[test]
+    fn a_picture_of_an_older_job_does_not_replace_a_newer_one() {
+        let shelf = developed(|darkroom| {
+            darkroom.deliver(Side::A, Picture { order: order(8, 1), ..picture(1) });
+            std::thread::sleep(std::time::Duration::from_millis(20));
+            darkroom.deliver(Side::A, Picture { order: order(7, 1), ..picture(1) });
+        });
+        assert!(matches!(&shelf[0], Some(News::Picture(developed)) if developed.picture.order.job == 8));
     }
 
     #[test]

@@ -1,29 +1,20 @@
-//! The thread that rasterises.
+//! The thread that rasterises. Where a picture takes long, a rough one comes first, so that the fake follows the mouse too.
 
 use super::darkroom::Darkroom;
-use super::{Inbox, Order, Picture, Side};
+use super::{Inbox, Job, Picture, Side};
 use crate::technique::FakeSettings;
 use gpu::Gpu;
-use raster::Raster;
-use scene::{Camera, Scene};
+use raster::{Raster, RasterError};
+use scene::Film;
 use std::sync::Arc;
 use std::thread::JoinHandle;
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 /// A picture to make.
-#[derive(Debug, Clone)]
-pub struct FakeJob {
-    /// What is seen.
-    pub scene: Arc<Scene>,
-    /// From where.
-    pub camera: Camera,
-    /// How.
-    pub settings: FakeSettings,
-    /// Width and height in pixels.
-    pub size: (u32, u32),
-    /// What for.
-    pub order: Order,
-}
+pub type FakeJob = Job<FakeSettings>;
+
+/// A picture that takes longer than this is preceded by a rough one.
+const PATIENCE: Duration = Duration::from_millis(30);
 
 /// The worker; dropping it ends its thread.
 pub struct FakeWorker {
@@ -36,16 +27,23 @@ impl FakeWorker {
     ///
     /// # Errors
     /// If the system gives no thread.
-    pub fn start(gpu: Gpu, darkroom: Arc<Darkroom>) -> std::io::Result<Self> {
+    pub fn start(side: Side, gpu: Gpu, darkroom: Arc<Darkroom>) -> std::io::Result<Self> {
         let inbox = Arc::new(Inbox::default());
         let jobs = inbox.clone();
-        let thread = std::thread::Builder::new().name("fake".into()).spawn(move || work(&gpu, &jobs, &darkroom))?;
+        let thread = std::thread::Builder::new()
+            .name(format!("fake {side:?}"))
+            .spawn(move || work(side, &gpu, &jobs, &darkroom))?;
         Ok(FakeWorker { inbox, thread: Some(thread) })
     }
 
     /// Asks for a picture; one that was not begun yet is dropped.
     pub fn submit(&self, job: FakeJob) {
         self.inbox.post(|slot| *slot = Some(job));
+    }
+
+    /// Drops what was not begun yet.
+    pub fn cancel(&self) {
+        self.inbox.post(|slot| *slot = None);
     }
 }
 
@@ -59,32 +57,60 @@ impl Drop for FakeWorker {
     }
 }
 
-fn work(gpu: &Gpu, jobs: &Inbox<Option<FakeJob>>, darkroom: &Darkroom) {
+fn work(side: Side, gpu: &Gpu, jobs: &Inbox<Option<FakeJob>>, darkroom: &Darkroom) {
     let mut raster = Raster::new(gpu);
+    let adapter = Arc::from(gpu.describe());
+    let mut seconds_per_pixel = 0.0;
     while let Some(job) = jobs.take() {
         let Some(job) = job else { continue };
-        let start = Instant::now();
-        let made = match &mut raster {
-            Ok(raster) => {
-                let settings = job.settings.sized(job.size.0, job.size.1);
-                raster.render(&job.scene, &job.camera, &settings).map_err(|e| e.to_string())
+        let raster = match &mut raster {
+            Ok(raster) => raster,
+            Err(e) => {
+                darkroom.report(side, job.order, e.to_string());
+                continue;
             }
-            Err(e) => Err(e.to_string()),
         };
-        match made {
-            Ok(film) => darkroom.deliver(
-                Side::A,
-                Picture {
-                    width: film.width(),
-                    height: film.height(),
-                    radiances: film.radiances().collect(),
-                    spp: None,
-                    seconds: start.elapsed().as_secs_f64(),
-                    rough: false,
-                    order: job.order,
-                },
-            ),
-            Err(fault) => darkroom.report(Side::A, job.order, fault),
+        let (width, height) = job.order.size();
+        let expected = seconds_per_pixel * f64::from(width) * f64::from(height);
+        let shrink = if expected > 4.0 * PATIENCE.as_secs_f64() { 4 } else { 2 };
+        let rough = expected > PATIENCE.as_secs_f64();
+        if rough {
+            paint(side, raster, darkroom, &job, shrink, &adapter);
+        }
+        // a newer job makes the fine picture of this one superfluous
+        if !rough || !jobs.has_fresh() {
+            let start = Instant::now();
+            paint(side, raster, darkroom, &job, 1, &adapter);
+            seconds_per_pixel = start.elapsed().as_secs_f64() / (f64::from(width) * f64::from(height));
         }
     }
+}
+
+/// Makes one picture at `1 / shrink` of the size and delivers it, or why there is none.
+fn paint(side: Side, raster: &mut Raster, darkroom: &Darkroom, job: &FakeJob, shrink: u32, adapter: &Arc<str>) {
+    let start = Instant::now();
+    match render(raster, job, shrink) {
+        Ok(film) => darkroom.deliver(
+            side,
+            Picture {
+                width: film.width(),
+                height: film.height(),
+                radiances: film.radiances().collect(),
+                spp: None,
+                seconds: start.elapsed().as_secs_f64(),
+                nonfinite: film.nonfinite,
+                adapter: adapter.clone(),
+                rough: shrink > 1,
+                unfinished: shrink > 1,
+                order: job.order.clone(),
+            },
+        ),
+        Err(fault) => darkroom.report(side, job.order.clone(), fault.to_string()),
+    }
+}
+
+fn render(raster: &mut Raster, job: &FakeJob, shrink: u32) -> Result<Film, RasterError> {
+    let (width, height) = job.order.size();
+    let settings = job.settings.sized(width.div_ceil(shrink), height.div_ceil(shrink));
+    raster.render(&job.settings.applied_to(&job.order.scene), job.order.camera(), &settings)
 }

@@ -10,10 +10,19 @@ pub struct Loader {
     wake: Wake,
 }
 
+/// A scene that was read.
+#[derive(Debug)]
+pub struct Opened {
+    /// What was asked for: a built-in name or a file.
+    pub source: String,
+    /// What it holds.
+    pub scene: Scene,
+}
+
 #[derive(Default)]
 struct Shelf {
     wanted: u64,
-    loaded: Option<Result<Scene, String>>,
+    loaded: Option<Result<Opened, String>>,
 }
 
 impl Loader {
@@ -32,7 +41,8 @@ impl Loader {
         let started = std::thread::Builder::new().name("loader".into()).spawn({
             let shelf = shelf.clone();
             move || {
-                let loaded = builtin::named(&name).map_err(|e| e.to_string());
+                let read = builtin::named(&name).map_err(|e| e.to_string());
+                let loaded = read.map(|scene| Opened { source: name, scene });
                 shelf.change(|shelf| {
                     if shelf.wanted == number {
                         shelf.loaded = Some(loaded);
@@ -47,7 +57,7 @@ impl Loader {
     }
 
     /// The scene that was read since the last call, or why it was not.
-    pub fn loaded(&self) -> Option<Result<Scene, String>> {
+    pub fn loaded(&self) -> Option<Result<Opened, String>> {
         self.shelf.change(|shelf| shelf.loaded.take())
     }
 }

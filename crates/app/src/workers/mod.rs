@@ -1,14 +1,19 @@
-//! Rendering beside the UI. Three threads, each fed through an [`Inbox`] in which newer wishes replace older ones:
-//! [`fake`] and [`truth`] turn jobs into [`Picture`]s, the [`darkroom`] develops pictures into bytes for the screen and
-//! measures how far apart they are. The UI thread only posts and collects.
+//! Rendering beside the UI. Each pane has a [`studio`] with a thread for each technique it has used ([`fake`], [`truth`]);
+//! they turn jobs into [`Picture`]s. The [`darkroom`] develops pictures into bytes for the screen and measures how far apart
+//! they are; the [`exporter`] writes files and fills the clipboard. Every thread is fed through an [`Inbox`] in which newer
+//! wishes replace older ones. The UI thread only posts and collects.
 
+pub mod capture;
 pub mod crew;
 pub mod darkroom;
+pub mod exporter;
 pub mod fake;
 pub mod loader;
+pub mod studio;
 pub mod truth;
 
-use scene::Vec3;
+use crate::technique::Provenance;
+use scene::{Camera, Scene, Vec3};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 
 /// A side of the comparison.
@@ -33,21 +38,52 @@ pub struct Picture {
     pub spp: Option<u32>,
     /// Seconds of rendering.
     pub seconds: f64,
+    /// Samples that were not finite and are left out.
+    pub nonfinite: u64,
+    /// What made it: a GPU's name, or a number of threads.
+    pub adapter: Arc<str>,
     /// Whether this is a rough picture at a lower resolution.
     pub rough: bool,
+    /// Whether more of this job will come.
+    pub unfinished: bool,
     /// What it was made for.
     pub order: Order,
 }
 
+/// A picture to make: how, and all the rest.
+#[derive(Debug, Clone)]
+pub struct Job<S> {
+    /// The settings of one technique.
+    pub settings: S,
+    /// What for.
+    pub order: Order,
+}
+
 /// What a picture is made for.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone)]
 pub struct Order {
     /// Counts all jobs.
     pub job: u64,
     /// Counts what both sides share: scene, camera and size. Only pictures of one view can be compared.
     pub view: u64,
-    /// Name of technique and settings, to be shown with the picture.
-    pub label: String,
+    /// How often the user began the truth anew.
+    pub restarts: u64,
+    /// The scene that is seen.
+    pub scene: Arc<Scene>,
+    /// All that the picture depends on.
+    pub provenance: Arc<Provenance>,
+}
+
+impl Order {
+    /// From where.
+    pub fn camera(&self) -> &Camera {
+        &self.provenance.camera
+    }
+
+    /// Width and height in pixels.
+    pub fn size(&self) -> (u32, u32) {
+        self.provenance.size
+    }
 }
 
 /// Wakes the UI thread when there is something to collect.
@@ -65,6 +101,8 @@ struct State<T> {
     content: T,
     fresh: bool,
     closed: bool,
+    /// Whether what is fresh is still taken after closing.
+    finish: bool,
 }
 
 impl<T: Default> Inbox<T> {
@@ -81,13 +119,13 @@ impl<T: Default> Inbox<T> {
         change(&mut self.lock().content)
     }
 
-    /// Waits for something fresh and takes it; `None` once closed.
+    /// Waits for something fresh and takes it; `None` once closed, or once closed and empty.
     pub fn take(&self) -> Option<T> {
         let mut state = self.lock();
         while !state.fresh && !state.closed {
             state = self.arrived.wait(state).unwrap_or_else(PoisonError::into_inner);
         }
-        if state.closed {
+        if state.closed && !(state.finish && state.fresh) {
             return None;
         }
         state.fresh = false;
@@ -100,10 +138,22 @@ impl<T: Default> Inbox<T> {
         std::mem::take(&mut state.fresh).then(|| std::mem::take(&mut state.content))
     }
 
+    /// Whether something waits to be taken, or the end.
+    pub fn has_fresh(&self) -> bool {
+        let state = self.lock();
+        state.fresh || state.closed
+    }
+
     /// Ends the taker's loop.
     pub fn close(&self) {
         self.lock().closed = true;
         self.arrived.notify_all();
+    }
+
+    /// Ends the taker's loop once it has taken what is there.
+    pub fn close_when_empty(&self) {
+        self.lock().finish = true;
+        self.close();
     }
 
     /// A thread that panicked while it held the lock left whole content behind: posting and taking do not stop midway.
@@ -122,6 +172,14 @@ mod tests {
         inbox.post(|v| *v = 1);
         inbox.post(|v| *v = 2);
         assert_eq!((inbox.take(), inbox.take_now()), (Some(2), None));
+    }
+
+    #[test]
+    fn closing_when_empty_hands_out_the_rest() {
+        let inbox = Inbox::<u32>::default();
+        inbox.post(|v| *v = 3);
+        inbox.close_when_empty();
+        assert_eq!((inbox.take(), inbox.take()), (Some(3), None));
     }
 
     #[test]

@@ -1,29 +1,18 @@
-//! The thread that path traces: a rough picture at once, then ever more samples, until the wished number or a new job.
+//! The thread that path traces: a rough picture at once, then ever more samples, until the wished number or a new job. A
+//! job that differs only in the wished number goes on where the last one stopped.
 
 use super::darkroom::Darkroom;
-use super::{Inbox, Order, Picture, Side};
+use super::{Inbox, Job, Picture, Side};
 use crate::technique::TruthSettings;
 use pathtrace::Tracer;
-use scene::{Camera, Film, Scene};
-use std::sync::Arc;
+use scene::{Film, Scene};
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Condvar, Mutex, PoisonError};
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
 /// A picture to make.
-#[derive(Debug, Clone)]
-pub struct TruthJob {
-    /// What is seen.
-    pub scene: Arc<Scene>,
-    /// From where.
-    pub camera: Camera,
-    /// How, and how long.
-    pub settings: TruthSettings,
-    /// Width and height in pixels.
-    pub size: (u32, u32),
-    /// What for.
-    pub order: Order,
-}
+pub type TruthJob = Job<TruthSettings>;
 
 /// A job, and the flag that stops it.
 type Commission = (TruthJob, Arc<AtomicBool>);
@@ -33,6 +22,7 @@ pub struct TruthWorker {
     inbox: Arc<Inbox<Option<Commission>>>,
     /// Stops the job in hand.
     cancel: Arc<AtomicBool>,
+    gate: Arc<Gate>,
     thread: Option<JoinHandle<()>>,
 }
 
@@ -51,37 +41,62 @@ impl TruthWorker {
     ///
     /// # Errors
     /// If the system gives no threads.
-    pub fn start(darkroom: Arc<Darkroom>) -> anyhow::Result<Self> {
+    pub fn start(side: Side, darkroom: Arc<Darkroom>) -> anyhow::Result<Self> {
         let cores = std::thread::available_parallelism().map_or(1, usize::from);
         let pool = rayon::ThreadPoolBuilder::new()
             .num_threads(cores.saturating_sub(1).max(1))
-            .thread_name(|i| format!("truth {i}"))
+            .thread_name(move |i| format!("truth {side:?} {i}"))
             .build()?;
         let inbox = Arc::new(Inbox::default());
-        let commissions: Arc<Inbox<Option<Commission>>> = inbox.clone();
-        let thread = std::thread::Builder::new().name("truth".into()).spawn(move || {
-            let mut painter = Painter { darkroom, tracer: None, seconds_per_sample: 1e-6, begun: Instant::now() };
-            while let Some(commission) = commissions.take() {
-                if let Some((job, cancel)) = commission {
-                    pool.install(|| painter.paint(&job, &cancel));
+        let gate = Arc::new(Gate::default());
+        let thread = std::thread::Builder::new().name(format!("truth {side:?}")).spawn({
+            let commissions: Arc<Inbox<Option<Commission>>> = inbox.clone();
+            let gate = gate.clone();
+            move || {
+                let mut painter = Painter {
+                    side,
+                    darkroom,
+                    gate,
+                    adapter: format!("{} threads", pool.current_num_threads()).into(),
+                    tracer: None,
+                    exposed: None,
+                    seconds_per_sample: 1e-6,
+                    begun: Instant::now(),
+                };
+                while let Some(commission) = commissions.take() {
+                    if let Some((job, cancel)) = commission {
+                        pool.install(|| painter.paint(&job, &cancel));
+                    }
                 }
             }
         })?;
-        Ok(TruthWorker { inbox, cancel: Arc::default(), thread: Some(thread) })
+        Ok(TruthWorker { inbox, cancel: Arc::default(), gate, thread: Some(thread) })
     }
 
     /// Asks for a picture; the one in hand stops at once.
     pub fn submit(&mut self, job: TruthJob) {
-        self.cancel.store(true, Ordering::Relaxed);
-        self.cancel = Arc::default();
+        self.cancel();
         let cancel = self.cancel.clone();
         self.inbox.post(|slot| *slot = Some((job, cancel)));
+    }
+
+    /// Stops the picture in hand.
+    pub fn cancel(&mut self) {
+        self.cancel.store(true, Ordering::Relaxed);
+        self.cancel = Arc::default();
+        self.inbox.post(|slot| *slot = None);
+        self.gate.look_again();
+    }
+
+    /// Holds the picture where it is, or lets it go on. While held, a new job still shows its first full picture.
+    pub fn hold(&self, held: bool) {
+        self.gate.hold(held);
     }
 }
 
 impl Drop for TruthWorker {
     fn drop(&mut self) {
-        self.cancel.store(true, Ordering::Relaxed);
+        self.cancel();
         self.inbox.close();
         if let Some(thread) = self.thread.take() {
             // a panic there has been printed already, and the window is closing
@@ -90,10 +105,58 @@ impl Drop for TruthWorker {
     }
 }
 
+/// Where a worker waits while it is held.
+#[derive(Default)]
+struct Gate {
+    held: Mutex<bool>,
+    changed: Condvar,
+}
+
+impl Gate {
+    fn hold(&self, held: bool) {
+        *self.held.lock().unwrap_or_else(PoisonError::into_inner) = held;
+        self.changed.notify_all();
+    }
+
+    fn look_again(&self) {
+        // under the lock, so that nobody is between looking and waiting
+        let _held = self.held.lock().unwrap_or_else(PoisonError::into_inner);
+        self.changed.notify_all();
+    }
+
+    /// Waits until the gate is open or the job is cancelled; `before` runs once if there is anything to wait for.
+    fn pass(&self, cancel: &AtomicBool, before: impl FnOnce()) {
+        let mut before = Some(before);
+        let mut held = self.held.lock().unwrap_or_else(PoisonError::into_inner);
+        while *held && !cancel.load(Ordering::Relaxed) {
+            if let Some(before) = before.take() {
+                before();
+            }
+            held = self.changed.wait(held).unwrap_or_else(PoisonError::into_inner);
+        }
+    }
+}
+
+/// A film and what has gone into it.
+struct Exposed {
+    film: Film,
+    /// Samples that every pixel has.
+    spp: u32,
+    spent: Duration,
+    /// The job it belongs to; its wished number of samples may grow.
+    job: TruthJob,
+}
+
 struct Painter {
+    side: Side,
     darkroom: Arc<Darkroom>,
+    gate: Arc<Gate>,
+    /// How many threads there are, in words.
+    adapter: Arc<str>,
     /// The scene of the last job, ready for rays.
     tracer: Option<(Arc<Scene>, Tracer)>,
+    /// The film of the last job.
+    exposed: Option<Exposed>,
     /// Measured on the last job: what one sample of one pixel costs on the whole pool.
     seconds_per_sample: f64,
     /// When the job in hand was begun.
@@ -104,17 +167,35 @@ impl Painter {
     fn paint(&mut self, job: &TruthJob, cancel: &AtomicBool) {
         self.begun = Instant::now();
         let tracer = match self.tracer.take() {
-            Some((scene, tracer)) if Arc::ptr_eq(&scene, &job.scene) => tracer,
-            _ => Tracer::new(&job.scene),
+            Some((scene, tracer)) if Arc::ptr_eq(&scene, &job.order.scene) => tracer,
+            _ => Tracer::new(&job.order.scene),
         };
-        self.rough(&tracer, job, cancel);
-        self.refine(&tracer, job, cancel);
-        self.tracer = Some((job.scene.clone(), tracer));
+        let exposed = match self.exposed.take().filter(|exposed| exposed.serves(job)) {
+            Some(exposed) => Some(Exposed { job: job.clone(), ..exposed }),
+            None => {
+                self.rough(&tracer, job, cancel);
+                self.blank(job)
+            }
+        };
+        self.exposed = exposed.and_then(|exposed| self.refine(&tracer, exposed, cancel));
+        self.tracer = Some((job.order.scene.clone(), tracer));
+    }
+
+    /// A film without light, or a word that there is no memory for it.
+    fn blank(&self, job: &TruthJob) -> Option<Exposed> {
+        let (width, height) = job.order.size();
+        let film = Film::try_new(width, height);
+        if film.is_none() {
+            let fault = format!("not enough memory for {width} x {height} pixels; make the window smaller");
+            self.darkroom.report(self.side, job.order.clone(), fault);
+        }
+        film.map(|film| Exposed { film, spp: 0, spent: Duration::ZERO, job: job.clone() })
     }
 
     /// Pictures of an eighth, a quarter and half the resolution, beginning with the finest that is ready in time.
     fn rough(&mut self, tracer: &Tracer, job: &TruthJob, cancel: &AtomicBool) {
-        let pixels = f64::from(job.size.0) * f64::from(job.size.1);
+        let (width, height) = job.order.size();
+        let pixels = f64::from(width) * f64::from(height);
         let budget = ROUGH.as_secs_f64() / self.seconds_per_sample;
         let mut shown = false;
         for shrink in [8, 4, 2] {
@@ -122,7 +203,7 @@ impl Painter {
             if finer <= budget {
                 continue;
             }
-            let mut film = Film::new(job.size.0.div_ceil(shrink), job.size.1.div_ceil(shrink));
+            let mut film = Film::new(width.div_ceil(shrink), height.div_ceil(shrink));
             let samples = ((budget / pixels) as u32).clamp(1, job.settings.spp.min(16));
             let start = Instant::now();
             let (begun, first) = (self.begun, !shown);
@@ -131,31 +212,44 @@ impl Painter {
             if stop() {
                 return;
             }
-            self.deliver(&film, job, start.elapsed(), true);
+            self.deliver(&film, job, start.elapsed(), [true, true]);
             shown = true;
         }
     }
 
-    fn refine(&mut self, tracer: &Tracer, job: &TruthJob, cancel: &AtomicBool) {
-        let mut film = Film::new(job.size.0, job.size.1);
-        let (mut done, mut spent, mut shown) = (0, Duration::ZERO, Instant::now());
-        while done < job.settings.spp {
+    /// Adds samples up to the wished number; `None` if it was stopped halfway through a sample.
+    fn refine(&mut self, tracer: &Tracer, mut exposed: Exposed, cancel: &AtomicBool) -> Option<Exposed> {
+        let wished = exposed.job.settings.spp;
+        let mut shown = Instant::now();
+        // a film that goes on is shown at once, for the label says how far it shall go
+        if exposed.spp > 0 {
+            self.show(&exposed);
+        }
+        while exposed.spp < wished {
             let start = Instant::now();
-            let per_pass = self.seconds_per_sample * film.pixels().len() as f64;
-            let refresh = (spent / 8).clamp(REFRESH[0], REFRESH[1]);
+            let per_pass = self.seconds_per_sample * exposed.film.pixels().len() as f64;
+            let refresh = (exposed.spent / 8).clamp(REFRESH[0], REFRESH[1]);
             let fitting = (refresh.as_secs_f64() / per_pass) as u32;
-            let samples = fitting.clamp(1, done.max(1)).min(job.settings.spp - done);
-            self.expose(tracer, &mut film, job, samples, &|| cancel.load(Ordering::Relaxed));
+            let samples = fitting.clamp(1, exposed.spp.max(1)).min(wished - exposed.spp);
+            let Exposed { film, job, .. } = &mut exposed;
+            self.expose(tracer, film, job, samples, &|| cancel.load(Ordering::Relaxed));
             if cancel.load(Ordering::Relaxed) {
-                return;
+                return None;
             }
-            done += samples;
-            spent += start.elapsed();
-            if done == samples || done == job.settings.spp || shown.elapsed() >= refresh {
-                self.deliver(&film, job, spent, false);
+            exposed.spp += samples;
+            exposed.spent += start.elapsed();
+            if exposed.spp == samples || exposed.spp == wished || shown.elapsed() >= refresh {
+                self.show(&exposed);
                 shown = Instant::now();
             }
+            if exposed.spp < wished {
+                self.gate.pass(cancel, || self.show(&exposed));
+            }
+            if cancel.load(Ordering::Relaxed) {
+                break;
+            }
         }
+        Some(exposed)
     }
 
     fn expose(
@@ -167,24 +261,42 @@ impl Painter {
         stop: &(impl Fn() -> bool + Sync),
     ) {
         let start = Instant::now();
-        let stats = tracer.render(film, &job.camera, &job.settings.path, samples, stop);
+        let stats = tracer.render(film, job.order.camera(), &job.settings.path, samples, stop);
         if stats.samples > 1000 {
             self.seconds_per_sample = start.elapsed().as_secs_f64() / stats.samples as f64;
         }
     }
 
-    fn deliver(&self, film: &Film, job: &TruthJob, spent: Duration, rough: bool) {
+    fn show(&self, exposed: &Exposed) {
+        let unfinished = exposed.spp < exposed.job.settings.spp;
+        self.deliver(&exposed.film, &exposed.job, exposed.spent, [false, unfinished]);
+    }
+
+    fn deliver(&self, film: &Film, job: &TruthJob, spent: Duration, [rough, unfinished]: [bool; 2]) {
         self.darkroom.deliver(
-            Side::B,
+            self.side,
             Picture {
                 width: film.width(),
                 height: film.height(),
                 radiances: film.radiances().collect(),
                 spp: Some(film.samples_per_pixel()),
                 seconds: spent.as_secs_f64(),
+                nonfinite: film.nonfinite,
+                adapter: self.adapter.clone(),
                 rough,
+                unfinished,
                 order: job.order.clone(),
             },
         );
+    }
+}
+
+impl Exposed {
+    /// Whether going on with this film gives what `job` asks for.
+    fn serves(&self, job: &TruthJob) -> bool {
+        let (old, new) = (&self.job, job);
+        self.spp <= new.settings.spp
+            && old.settings.path == new.settings.path
+            && (old.order.view, old.order.restarts) == (new.order.view, new.order.restarts)
     }
 }

@@ -1,49 +1,70 @@
-//! The picture area: one side, both under the wipe or both side by side, what is known about each on top, and the mouse: the line, orbit,
-//! pan and zoom.
+//! The picture area: one pane, both under the wipe or both side by side, and what is known about each on top.
 
-use super::{Dump, Pane, View, Viewer};
+mod label;
+mod mouse;
+
+use super::{Dump, Line, Message, Pane, View, Viewer};
 use crate::workers::Side;
-use egui::{Align2, Color32, CursorIcon, FontId, Pos2, Rect, Sense, Stroke, Ui, Vec2, pos2, vec2};
-use scene::glam;
+use egui::{Align2, Color32, FontId, Pos2, Rect, Sense, Stroke, Ui, pos2, vec2};
 
-/// How far from the line a drag still takes it, in points.
-const GRAB: f32 = 14.0;
 const WHOLE: Rect = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
 
+/// One side in the picture area.
+struct Shown {
+    side: Side,
+    /// Where its picture lies.
+    place: Rect,
+    /// What of it is seen.
+    clip: Rect,
+}
+
 pub fn show(viewer: &mut Viewer, ui: &mut Ui, panes: &[Pane; 2], dump: &mut Dump) {
-    let rect = whole_pixels(ui.max_rect(), ui.ctx().pixels_per_point());
+    let scale = ui.ctx().pixels_per_point();
+    let rect = whole_pixels(ui.max_rect(), scale);
     viewer.picture_rect = rect;
-    let frame = if viewer.view == View::SideBySide { left_half(rect, ui.ctx().pixels_per_point()) } else { rect };
-    let pixels = frame.size() * ui.ctx().pixels_per_point();
+    let frame = if viewer.view == View::SideBySide { left_half(rect, scale) } else { rect };
+    let pixels = frame.size() * scale;
     viewer.picture_size = (pixels.x.round().max(1.0) as u32, pixels.y.round().max(1.0) as u32);
 
     let response = ui.allocate_rect(rect, Sense::click_and_drag());
-    mouse(viewer, ui, &response, rect);
-    let line_x = rect.left() + viewer.wipe * rect.width();
-    let (left, right) = rect.split_left_right_at_x(line_x);
-    let beside = frame.translate(vec2(rect.width() - frame.width(), 0.0));
-    // where each side's picture lies, and what of it is seen
-    let shown = match viewer.view {
-        View::A => vec![(Side::A, rect, rect)],
-        View::B => vec![(Side::B, rect, rect)],
-        View::Wipe => vec![(Side::A, rect, left), (Side::B, rect, right)],
-        View::SideBySide => vec![(Side::A, frame, frame), (Side::B, beside, beside)],
-    };
-    for &(side, place, clip) in &shown {
-        pane(ui, place, clip, &panes[side as usize]);
+    mouse::listen(viewer, ui, &response, rect);
+    let shown = arranged(viewer, rect, frame);
+    for Shown { side, place, clip } in &shown {
+        pane(viewer, ui, *place, *clip, &panes[*side as usize]);
     }
     if viewer.view == View::Wipe {
-        line(ui, rect, line_x);
+        line(ui, rect, viewer.line, viewer.wipe);
     }
-    for &(side, _, clip) in &shown {
-        label(viewer, ui, clip, side, &panes[side as usize]);
+    for Shown { side, clip, .. } in &shown {
+        label::show(viewer, ui, *clip, *side, &panes[*side as usize], dump);
     }
-    if viewer.hint {
-        let line = if viewer.view == View::Wipe { "Drag the line. " } else { "" };
-        let text = format!("{line}T swaps A and B. Drag the picture to orbit, Shift to pan, wheel to zoom.");
-        text_box(ui, rect, rect.center_bottom() - vec2(0.0, 12.0), Align2::CENTER_BOTTOM, &text, Color32::WHITE);
+    if !viewer.posing {
+        say(viewer, ui, rect, dump);
+    }
+    let response = response.accessible_name(format!("Picture: {}", viewer.view.name()));
+    if response.has_focus() {
+        ui.painter().rect_stroke(rect, 0.0, Stroke::new(2.0, Color32::YELLOW), egui::StrokeKind::Inside);
     }
     dump.note("picture", viewer.view.name(), response);
+}
+
+fn arranged(viewer: &Viewer, rect: Rect, frame: Rect) -> Vec<Shown> {
+    let shown = |side, place, clip| Shown { side, place, clip };
+    match viewer.view {
+        View::A => vec![shown(Side::A, rect, rect)],
+        View::B => vec![shown(Side::B, rect, rect)],
+        View::Wipe => {
+            let (of_a, of_b) = match viewer.line {
+                Line::Vertical => rect.split_left_right_at_fraction(viewer.wipe),
+                Line::Horizontal => rect.split_top_bottom_at_fraction(viewer.wipe),
+            };
+            vec![shown(Side::A, rect, of_a), shown(Side::B, rect, of_b)]
+        }
+        View::SideBySide => {
+            let beside = frame.translate(vec2(rect.width() - frame.width(), 0.0));
+            vec![shown(Side::A, frame, frame), shown(Side::B, beside, beside)]
+        }
+    }
 }
 
 /// The largest rectangle on whole physical pixels inside: a pane is shown 1:1.
@@ -58,111 +79,66 @@ fn left_half(rect: Rect, pixels_per_point: f32) -> Rect {
     Rect::from_min_size(rect.min, vec2(half, rect.height()))
 }
 
-fn pane(ui: &Ui, rect: Rect, clip: Rect, pane: &Pane) {
+fn pane(viewer: &Viewer, ui: &Ui, rect: Rect, clip: Rect, pane: &Pane) {
     let painter = ui.painter().with_clip_rect(clip);
+    let in_the_middle = |text: &str, colour| {
+        text_box(viewer, ui, clip, clip.center(), Align2::CENTER_CENTER, text, colour);
+    };
     match (&pane.fault, pane.texture) {
-        (Some(fault), _) => {
-            text_box(ui, clip, clip.center(), Align2::CENTER_CENTER, fault, ui.visuals().error_fg_color)
-        }
+        (Some(fault), _) => in_the_middle(fault, Color32::from_rgb(255, 150, 150)),
         (None, Some(texture)) => {
             painter.image(texture, rect, WHOLE, Color32::WHITE);
         }
-        (None, None) => text_box(ui, clip, clip.center(), Align2::CENTER_CENTER, "rendering ...", Color32::WHITE),
+        (None, None) => in_the_middle("rendering ...", Color32::WHITE),
     }
 }
 
-fn line(ui: &Ui, rect: Rect, x: f32) {
+fn line(ui: &Ui, rect: Rect, line: Line, wipe: f32) {
     let painter = ui.painter();
-    painter.vline(x, rect.y_range(), Stroke::new(4.0, Color32::from_black_alpha(140)));
-    painter.vline(x, rect.y_range(), Stroke::new(2.0, Color32::WHITE));
-    let handle = Rect::from_center_size(pos2(x, rect.center().y), vec2(12.0, 44.0));
-    painter.rect(handle, 6.0, Color32::WHITE, Stroke::new(1.0, Color32::BLACK), egui::StrokeKind::Outside);
-}
-
-/// Name, cost and error on the picture: A at the left edge, B at the right edge under the wipe.
-fn label(viewer: &Viewer, ui: &Ui, clip: Rect, side: Side, pane: &Pane) {
-    if pane.texture.is_none() {
-        return;
-    }
-    let (name, colour) = match side {
-        Side::A => (format!("A: {}", pane.label), Color32::from_rgb(120, 190, 255)),
-        Side::B => (format!("B: {}", pane.label), Color32::from_rgb(255, 180, 90)),
+    let ends = |width, colour| Stroke::new(width, colour);
+    let at = mouse::line_at(rect, line, wipe);
+    let (middle, handle) = match line {
+        Line::Vertical => (pos2(at, rect.center().y), vec2(12.0, 44.0)),
+        Line::Horizontal => (pos2(rect.center().x, at), vec2(44.0, 12.0)),
     };
-    let mut text = name;
-    match pane.spp {
-        Some(spp) if pane.rough => text += &format!("\n{spp} spp, rough"),
-        Some(spp) => text += &format!("\n{spp} of {} spp, {:.1} s", viewer.truth.spp, pane.seconds),
-        None => text += &format!("\n{:.0} ms", pane.seconds * 1000.0),
+    for stroke in [ends(4.0, Color32::from_black_alpha(140)), ends(2.0, Color32::WHITE)] {
+        match line {
+            Line::Vertical => painter.vline(at, rect.y_range(), stroke),
+            Line::Horizontal => painter.hline(rect.x_range(), at, stroke),
+        };
     }
-    if let Some(e) = pane.errors {
-        let other = if side == Side::A { "A - B" } else { "B - A" };
-        text +=
-            &format!("\n{other}: relMSE {:.3}, RMSE {:.3}\nbias {:+.1} %", e.rel_mse, e.rmse, 100.0 * e.relative_bias);
-    }
-    let (corner, align) = match (viewer.view, side) {
-        (View::Wipe, Side::B) => (clip.right_top() + vec2(-10.0, 10.0), Align2::RIGHT_TOP),
-        _ => (clip.left_top() + vec2(10.0, 10.0), Align2::LEFT_TOP),
-    };
-    text_box(ui, clip, corner, align, &text, colour);
+    let handle = Rect::from_center_size(middle, handle);
+    painter.rect(handle, 6.0, Color32::WHITE, ends(1.0, Color32::BLACK), egui::StrokeKind::Outside);
 }
 
-/// Text on a dark ground that keeps it readable over any picture.
-fn text_box(ui: &Ui, clip: Rect, at: Pos2, align: Align2, text: &str, colour: Color32) {
-    let painter = ui.painter().with_clip_rect(clip);
-    let width = (clip.width() - 20.0).max(40.0);
-    let galley = painter.layout(text.to_owned(), FontId::proportional(15.0), colour, width);
-    let place = align.anchor_size(at, galley.size());
-    painter.rect_filled(place.expand2(vec2(6.0, 3.0)), 4.0, Color32::from_black_alpha(200));
-    painter.galley(place.min, galley, colour);
-}
-
-fn mouse(viewer: &mut Viewer, ui: &Ui, response: &egui::Response, rect: Rect) {
-    let line_x = rect.left() + viewer.wipe * rect.width();
-    let near_line = |p: Pos2| viewer.view == View::Wipe && (p.x - line_x).abs() < GRAB;
-    if response.drag_started() {
-        let from = ui.input(|i| i.pointer.press_origin());
-        viewer.dragging_line = from.is_some_and(near_line);
-    }
-    if viewer.dragging_line || response.hover_pos().is_some_and(near_line) {
-        ui.ctx().set_cursor_icon(CursorIcon::ResizeHorizontal);
-    }
-    if response.double_clicked() && response.interact_pointer_pos().is_some_and(near_line) {
-        viewer.wipe = 0.5;
-    }
-    if response.dragged() && viewer.dragging_line {
-        viewer.hint = false;
-        if let Some(p) = response.interact_pointer_pos() {
-            viewer.wipe = ((p.x - rect.left()) / rect.width()).clamp(0.0, 1.0);
+/// The hint for a newcomer, or the last thing worth saying.
+fn say(viewer: &mut Viewer, ui: &Ui, rect: Rect, dump: &mut Dump) {
+    let expired = |message: &Message| message.remaining().is_some_and(|left| left.is_zero());
+    viewer.message.take_if(|message| expired(message));
+    let (name, text, colour) = match &viewer.message {
+        Some(message) => {
+            ui.ctx().request_repaint_after(message.remaining().unwrap_or(std::time::Duration::MAX));
+            let colour = if message.failed { Color32::from_rgb(255, 150, 150) } else { Color32::WHITE };
+            ("message", message.text.clone(), colour)
         }
-    } else if response.dragged() {
-        move_camera(viewer, ui, response, rect);
-    }
-    if response.drag_stopped() {
-        viewer.dragging_line = false;
-    }
-    let scroll = ui.input(|i| i.smooth_scroll_delta().y);
-    if response.hovered() && scroll != 0.0 {
-        viewer.hint = false;
-        viewer.camera = keep_if_sane(viewer.camera, viewer.camera.dollied((scroll * 0.002).exp()));
-    }
-}
-
-fn move_camera(viewer: &mut Viewer, ui: &Ui, response: &egui::Response, rect: Rect) {
-    let drag: Vec2 = response.drag_delta() / rect.height();
-    if drag == Vec2::ZERO {
-        return;
-    }
-    viewer.hint = false;
-    let pan = ui.input(|i| i.modifiers.shift) || response.dragged_by(egui::PointerButton::Secondary);
-    let moved = if pan || response.dragged_by(egui::PointerButton::Middle) {
-        viewer.camera.panned(glam::Vec2::new(drag.x, drag.y))
-    } else {
-        viewer.camera.orbited(-drag.x * std::f32::consts::PI, drag.y * std::f32::consts::PI)
+        None if viewer.hint => {
+            let line = if viewer.view == View::Wipe { "Drag the line. " } else { "" };
+            ("hint", format!("{line}T swaps A and B. Drag the picture to orbit. ? shows all keys."), Color32::WHITE)
+        }
+        None => return,
     };
-    viewer.camera = keep_if_sane(viewer.camera, moved);
+    let at = rect.center_bottom() - vec2(0.0, 12.0);
+    let place = text_box(viewer, ui, rect, at, Align2::CENTER_BOTTOM, &text, colour);
+    dump.note_text(name, &text, place, rect);
 }
 
-/// A step that would leave the camera seeing nothing is not taken.
-fn keep_if_sane(old: scene::Camera, new: scene::Camera) -> scene::Camera {
-    if new.fault().is_none() { new } else { old }
+/// Text on a dark ground that keeps it readable over any picture; returns where it is.
+fn text_box(viewer: &Viewer, ui: &Ui, clip: Rect, at: Pos2, align: Align2, text: &str, colour: Color32) -> Rect {
+    let painter = ui.painter().with_clip_rect(clip);
+    let width = (clip.width() - 32.0).max(40.0);
+    let galley = painter.layout(text.to_owned(), FontId::proportional(viewer.theme.label_size()), colour, width);
+    let place = align.anchor_size(at, galley.size());
+    painter.rect_filled(place.expand2(vec2(6.0, 3.0)), 4.0, Color32::from_black_alpha(215));
+    painter.galley(place.min, galley, colour);
+    place
 }

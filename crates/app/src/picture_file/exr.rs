@@ -1,0 +1,45 @@
+//! EXR: linear radiance, and records as text attributes `visavis.name`.
+
+use super::{Linear, cannot_read};
+use crate::technique::Records;
+use anyhow::Context;
+use exr::prelude as exr;
+use scene::{Film, Vec3};
+use std::path::Path;
+
+/// One layer of 32-bit floats, red, green and blue.
+pub fn bytes(picture: Linear, records: &Records) -> anyhow::Result<Vec<u8>> {
+    use exr::WritableImage as _;
+    let (width, height) = (picture.width as usize, picture.height as usize);
+    let channels = exr::SpecificChannels::rgb(|at: exr::Vec2<usize>| {
+        let radiance = picture.radiances[at.y() * width + at.x()];
+        (radiance.x, radiance.y, radiance.z)
+    });
+    let mut attributes = exr::LayerAttributes::named("radiance");
+    attributes.software_name = exr::Text::new_or_none(concat!("Visavis ", env!("CARGO_PKG_VERSION")));
+    for (name, value) in records {
+        let name = exr::Text::new_or_none(format!("visavis.{name}"));
+        let value = exr::Text::new_or_none(value).map(exr::AttributeValue::Text);
+        if let (Some(name), Some(value)) = (name, value) {
+            attributes.other.insert(name, value);
+        }
+    }
+    let layer = exr::Layer::new((width, height), attributes, exr::Encoding::FAST_LOSSLESS, channels);
+    let mut bytes = std::io::Cursor::new(Vec::new());
+    exr::Image::from_layer(layer).write().to_buffered(&mut bytes).context("cannot encode the picture as EXR")?;
+    Ok(bytes.into_inner())
+}
+
+/// The first layer with red, green and blue.
+pub fn load(path: &Path) -> anyhow::Result<Film> {
+    let picture = exr::read_first_rgba_layer_from_file(
+        path,
+        |size, _| (size, vec![Vec3::ZERO; size.width() * size.height()]),
+        |(size, pixels): &mut (exr::Vec2<usize>, Vec<Vec3>), at, (r, g, b, _): (f32, f32, f32, f32)| {
+            pixels[at.y() * size.width() + at.x()] = Vec3::new(r, g, b);
+        },
+    )
+    .map_err(|e| cannot_read(path, &e))?;
+    let (size, pixels) = picture.layer_data.channel_data.pixels;
+    Film::from_radiances(size.width() as u32, size.height() as u32, pixels).context("the picture is empty")
+}

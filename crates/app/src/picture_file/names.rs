@@ -1,0 +1,29 @@
+//! Names for pictures that nobody has named.
+
+use anyhow::Context;
+use std::path::{Path, PathBuf};
+
+/// Where pictures go unless the user says otherwise: the pictures folder of the home folder if there is one, else the
+/// home folder, else the current one.
+///
+/// # Errors
+/// If there is no current folder either.
+pub fn default_folder() -> anyhow::Result<PathBuf> {
+    let home = ["HOME", "USERPROFILE"].iter().find_map(std::env::var_os).map(PathBuf::from).filter(|p| p.is_dir());
+    match home {
+        Some(home) => Ok(Some(home.join("Pictures")).filter(|p| p.is_dir()).unwrap_or(home)),
+        None => std::env::current_dir().context("there is no home folder and no current folder to save to"),
+    }
+}
+
+/// `path` itself, or the first of `stem-2.png`, `stem-3.png`, ... beside it that does not exist yet.
+///
+/// # Errors
+/// If all of ten thousand do.
+pub fn free_name(path: &Path) -> anyhow::Result<PathBuf> {
+    let stem = path.file_stem().unwrap_or_default().to_string_lossy();
+    let extension = path.extension().unwrap_or_default().to_string_lossy();
+    let numbered = (2..10_000).map(|n| path.with_file_name(format!("{stem}-{n}.{extension}")));
+    let free = std::iter::once(path.to_owned()).chain(numbered).find(|path| !path.exists());
+    free.with_context(|| format!("too many pictures of this name: {}", path.display()))
+}

@@ -1,0 +1,40 @@
+//! PNG: sRGB bytes, and records in text chunks as `visavis.name`.
+
+use super::cannot_read;
+use crate::technique::Records;
+use anyhow::Context;
+use scene::{Film, Vec3, colour};
+use std::path::Path;
+
+/// Opaque RGBA bytes as a PNG without alpha.
+pub fn bytes(width: u32, height: u32, rgba: &[u8], records: &Records) -> anyhow::Result<Vec<u8>> {
+    encode(width, height, rgba, records).context("cannot encode the picture as PNG")
+}
+
+fn encode(width: u32, height: u32, rgba: &[u8], records: &Records) -> Result<Vec<u8>, png::EncodingError> {
+    let rgb: Vec<u8> = rgba.chunks_exact(4).flat_map(|p| [p[0], p[1], p[2]]).collect();
+    let mut bytes = Vec::new();
+    let mut encoder = png::Encoder::new(&mut bytes, width, height);
+    encoder.set_color(png::ColorType::Rgb);
+    encoder.set_depth(png::BitDepth::Eight);
+    encoder.set_source_srgb(png::SrgbRenderingIntent::RelativeColorimetric);
+    encoder.add_itxt_chunk("Software".into(), concat!("Visavis ", env!("CARGO_PKG_VERSION")).into())?;
+    for (name, value) in records {
+        encoder.add_itxt_chunk(format!("visavis.{name}"), value.clone())?;
+    }
+    let mut writer = encoder.write_header()?;
+    writer.write_image_data(&rgb)?;
+    writer.finish()?;
+    Ok(bytes)
+}
+
+/// A PNG with its sRGB encoding undone.
+pub fn load(path: &Path) -> anyhow::Result<Film> {
+    let picture = image::ImageReader::open(path)
+        .map_err(image::ImageError::from)
+        .and_then(image::ImageReader::decode)
+        .map_err(|e| cannot_read(path, &e))?
+        .into_rgb32f();
+    let linear = picture.pixels().map(|p| Vec3::from_array(p.0.map(colour::srgb_decode)));
+    Film::from_radiances(picture.width(), picture.height(), linear).context("the picture is empty")
+}

@@ -1,0 +1,110 @@
+//! Where a picture comes from: everything that makes it again, as records to keep in its file and as a command to type.
+
+use super::{Recipe, SceneChanges, bounces_name, roulette_name};
+use scene::{Camera, Scene, Vec3};
+
+/// All that a picture depends on.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Provenance {
+    /// The scene as the user asked for it: a built-in name or a file.
+    pub source: String,
+    /// What was changed in it.
+    pub changes: SceneChanges,
+    /// From where.
+    pub camera: Camera,
+    /// How.
+    pub recipe: Recipe,
+    /// Width and height in pixels.
+    pub size: (u32, u32),
+}
+
+/// Names and values, in the order in which they are written.
+pub type Records = Vec<(&'static str, String)>;
+
+impl Provenance {
+    /// What a file keeps of it; `scene` is the one that was rendered, its changes applied. `spp` and `seconds` are what
+    /// the picture took, `adapter` names what made it.
+    pub fn records(&self, scene: &Scene, spp: u32, seconds: f64, adapter: &str) -> Records {
+        let mut records = vec![
+            ("version", env!("CARGO_PKG_VERSION").into()),
+            ("scene", self.source.clone()),
+            ("technique", self.recipe.technique().name().into()),
+            ("device", self.recipe.technique().device().into()),
+            ("adapter", adapter.into()),
+            ("size", format!("{}x{}", self.size.0, self.size.1)),
+            ("seconds", seconds.to_string()),
+            ("eye", point(self.camera.eye)),
+            ("target", point(self.camera.target)),
+            ("fov", self.camera.fov_y.to_string()),
+        ];
+        records.extend(scene.refraction_ratio().map(|ratio| ("refraction-ratio", ratio.to_string())));
+        records.extend(scene.sun.map(|sun| ("sun-radius", sun.angular_radius.to_string())));
+        records.extend(self.recipe.options(spp));
+        records.push(("command", self.command(spp, 0.0, "picture.exr")));
+        records
+    }
+
+    /// The `visavis render` line that makes the same picture with `spp` samples per pixel, for a shell of the POSIX kind.
+    pub fn command(&self, spp: u32, exposure: f32, out: &str) -> String {
+        let mut words = vec!["visavis".into(), "render".into(), quoted(&self.source), "-o".into(), quoted(out)];
+        let mut option = |name: &str, value: String| words.extend([format!("--{name}"), value]);
+        option("technique", self.recipe.technique().name().into());
+        option("size", format!("{}x{}", self.size.0, self.size.1));
+        option("eye", point(self.camera.eye));
+        option("target", point(self.camera.target));
+        option("fov", self.camera.fov_y.to_string());
+        if let Some(ratio) = self.changes.refraction_ratio {
+            option("refraction-ratio", ratio.to_string());
+        }
+        if let (Some(radius), Recipe::Truth(_)) = (self.changes.sun_radius, self.recipe) {
+            option("sun-radius", radius.to_string());
+        }
+        if exposure != 0.0 {
+            option("exposure", exposure.to_string());
+        }
+        for (name, value) in self.recipe.options(spp) {
+            option(name, value);
+        }
+        words.join(" ")
+    }
+}
+
+impl Recipe {
+    /// The options of `visavis render` that say how, by their names without dashes.
+    pub fn options(&self, spp: u32) -> Records {
+        match self {
+            Recipe::Fake(fake) => fake.options(),
+            Recipe::Truth(truth) => vec![
+                ("spp", spp.to_string()),
+                ("bounces", bounces_name(truth.path.bounces)),
+                ("roulette", roulette_name(truth.path.roulette)),
+                ("estimator", truth.path.estimator.name().into()),
+                ("seed", truth.path.seed.to_string()),
+            ],
+        }
+    }
+}
+
+/// Three numbers that are read back as the same ones.
+fn point(p: Vec3) -> String {
+    format!("{},{},{}", p.x, p.y, p.z)
+}
+
+/// A word as a shell takes it whole.
+fn quoted(word: &str) -> String {
+    let plain = |c: char| c.is_alphanumeric() || "/._-+:,=@%".contains(c);
+    if !word.is_empty() && word.chars().all(plain) { word.into() } else { format!("'{}'", word.replace('\'', r"'\''")) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn words_with_blanks_and_quotes_stay_one_word() {
+        assert_eq!(quoted("whitted"), "whitted");
+        assert_eq!(quoted("my scene.toml"), "'my scene.toml'");
+        assert_eq!(quoted("it's"), r"'it'\''s'");
+        assert_eq!(quoted(""), "''");
+    }
+}

@@ -1,0 +1,53 @@
+//! The settings of the truth.
+
+use pathtrace::{Estimator, PathSettings, Roulette};
+use scene::Scene;
+
+/// The settings of the truth.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TruthSettings {
+    /// How paths walk.
+    pub path: PathSettings,
+    /// Samples per pixel at which rendering stops.
+    pub spp: u32,
+}
+
+impl Default for TruthSettings {
+    fn default() -> Self {
+        TruthSettings { path: PathSettings::default(), spp: 256 }
+    }
+}
+
+impl TruthSettings {
+    /// For a pane's label: "truth (path, light)".
+    pub fn label(&self) -> String {
+        format!("truth (path, {})", self.path.estimator.name())
+    }
+
+    /// What these settings cannot see in this scene, to be said rather than hidden.
+    pub fn blind_spot(&self, scene: &Scene) -> Option<&'static str> {
+        let delta_sun = scene.sun.is_some_and(|sun| sun.angular_radius == 0.0);
+        let by_chance = self.path.estimator != Estimator::Light;
+        match (delta_sun, by_chance) {
+            (true, true) => Some("a sun of radius 0 cannot be hit by chance: its light is missing"),
+            (true, false) if scene.needs().dielectric || scene.needs().mirror => {
+                Some("a sun of radius 0 casts no caustic: no path can find it behind glass or mirror")
+            }
+            _ => None,
+        }
+    }
+}
+
+/// "off", "throughput" or the probability.
+pub fn roulette_name(roulette: Roulette) -> String {
+    match roulette {
+        Roulette::Off => "off".into(),
+        Roulette::Throughput => "throughput".into(),
+        Roulette::Probability(p) => p.to_string(),
+    }
+}
+
+/// "inf" or the number.
+pub fn bounces_name(bounces: Option<u32>) -> String {
+    bounces.map_or("inf".into(), |n| n.to_string())
+}

@@ -1,0 +1,37 @@
+//! What is changed in the scene, for both panes at once.
+
+use super::widgets::Stepped;
+use crate::ui::{Dump, Viewer};
+use egui::Ui;
+
+pub fn show(viewer: &mut Viewer, ui: &mut Ui, dump: &mut Dump) {
+    let changes = &mut viewer.settings.changes;
+    if let Some(own) = viewer.scene.refraction_ratio() {
+        let mut ratio = changes.refraction_ratio.unwrap_or(own);
+        let slider = Stepped {
+            name: "refraction ratio",
+            label: &format!("Refraction ratio (n = {:.2})", 1.0 / ratio),
+            hover: "Index of refraction outside over inside; 1 is no glass at all",
+            range: 0.4..=1.0,
+            step: 0.01,
+            suffix: "",
+        };
+        if slider.show(&mut ratio, ui, dump) {
+            changes.refraction_ratio = Some(ratio);
+        }
+    }
+    if let Some(sun) = viewer.scene.sun {
+        let mut radius = changes.sun_radius.unwrap_or(sun.angular_radius);
+        let slider = Stepped {
+            name: "sun radius",
+            label: "Sun radius (the fake's is 0)",
+            hover: "0: hard shadows and no caustic. Larger: softer shadows",
+            range: 0.0..=5.0,
+            step: 0.1,
+            suffix: "°",
+        };
+        if slider.show(&mut radius, ui, dump) {
+            changes.sun_radius = Some(radius);
+        }
+    }
+}

@@ -1,0 +1,89 @@
+//! The settings of a truth.
+
+use super::widgets::{Stepped, choice, doubling, fit};
+use crate::ui::{Dump, Viewer};
+use crate::workers::Side;
+use egui::{DragValue, Slider, SliderClamping, Ui};
+use pathtrace::{Estimator, Roulette};
+
+/// The most samples that the slider offers: 2^16.
+const MOST_SPP_EXPONENT: u32 = 16;
+/// The most bounces that the slider offers, as in the tutorial.
+const MOST_BOUNCES: u32 = 20;
+
+pub fn show(viewer: &mut Viewer, side: Side, ui: &mut Ui, dump: &mut Dump) {
+    let truth = &mut viewer.settings.panes[side as usize].truth;
+    let estimators = Estimator::ALL.map(|e| (e.name().to_owned(), explain(e), truth.path.estimator == e));
+    if let Some(index) = choice(&format!("{side:?} estimator"), estimators, ui, dump) {
+        truth.path.estimator = Estimator::ALL[index];
+    }
+    let name = format!("{side:?} spp");
+    doubling([&name, "Samples per pixel (spp)"], &mut truth.spp, 0..=MOST_SPP_EXPONENT, ui, dump);
+    bounces(viewer, side, ui, dump);
+    roulette(viewer, side, ui, dump);
+    let truth = &mut viewer.settings.panes[side as usize].truth;
+    ui.horizontal(|ui| {
+        let label = ui.label("Seed");
+        let seed = ui.add(DragValue::new(&mut truth.path.seed)).labelled_by(label.id);
+        dump.note(&format!("{side:?} seed"), truth.path.seed, seed.on_hover_text("One of 2^32 independent pictures"));
+    });
+    if let Some(blind) = truth.blind_spot(&viewer.settings.changes.applied_to(&viewer.scene)) {
+        ui.label(blind);
+    }
+}
+
+fn explain(estimator: Estimator) -> &'static str {
+    match estimator {
+        Estimator::Uniform => "Directions uniform on the hemisphere, light found by chance",
+        Estimator::Cosine => "Directions cosine-weighted, light found by chance",
+        Estimator::Light => "Light sampled at every vertex, indirect light cosine-weighted",
+    }
+}
+
+/// With roulette below, the one control for how long paths may be.
+fn bounces(viewer: &mut Viewer, side: Side, ui: &mut Ui, dump: &mut Dump) {
+    let path = &mut viewer.settings.panes[side as usize].truth.path;
+    let kept = &mut viewer.memory.bounce_limits[side as usize];
+    let mut limited = path.bounces.is_some();
+    let name = if limited { "Limit bounces (biased)" } else { "Limit bounces" };
+    let check = ui.checkbox(&mut limited, name).on_hover_text("Longer paths are lost: the picture gets too dark");
+    if dump.note(&format!("{side:?} limit bounces"), limited, check).changed() {
+        path.bounces = limited.then_some(*kept);
+    }
+    if let Some(bounces) = &mut path.bounces {
+        fit(ui);
+        let slider = Slider::new(bounces, 0..=MOST_BOUNCES).clamping(SliderClamping::Edits);
+        let slider = ui.add(slider).accessible_name("Bounces").on_hover_text("0 is direct light only");
+        *kept = *bounces;
+        dump.note(&format!("{side:?} bounces"), *bounces, slider);
+    }
+}
+
+fn roulette(viewer: &mut Viewer, side: Side, ui: &mut Ui, dump: &mut Dump) {
+    let roulette = &mut viewer.settings.panes[side as usize].truth.path.roulette;
+    let kept = &mut viewer.memory.probabilities[side as usize];
+    ui.label("Roulette");
+    let probability = Roulette::Probability(*kept);
+    let ends = [
+        ("off", "Paths end by the number of bounces alone", Roulette::Off),
+        ("P", "Each vertex is survived with probability P", probability),
+        ("throughput", "Dark paths end sooner than bright ones", Roulette::Throughput),
+    ];
+    let alike = |a: &Roulette, b: &Roulette| std::mem::discriminant(a) == std::mem::discriminant(b);
+    let words = ends.map(|(name, hover, end)| (name.to_owned(), hover, alike(roulette, &end)));
+    if let Some(index) = choice(&format!("{side:?} roulette"), words, ui, dump) {
+        *roulette = ends[index].2;
+    }
+    if let Roulette::Probability(p) = roulette {
+        let slider = Stepped {
+            name: &format!("{side:?} roulette probability"),
+            label: "Probability P to survive a vertex",
+            hover: "What survives is divided by P, so that the mean stays",
+            range: 0.05..=1.0,
+            step: 0.01,
+            suffix: "",
+        };
+        slider.show(p, ui, dump);
+        *kept = *p;
+    }
+}

@@ -1,0 +1,30 @@
+//! The help: mouse and keys on one card.
+
+use super::{Dump, Viewer, keys};
+use egui::Ui;
+
+const MOUSE: [(&str, &str); 5] = [
+    ("drag the line", "wipe; double click: back to the middle"),
+    ("drag the picture", "orbit about the target"),
+    ("Shift or right drag", "pan"),
+    ("wheel", "dolly: move nearer or farther"),
+    ("Ctrl+wheel, pinch", "zoom: narrow or widen the view"),
+];
+
+pub fn show(viewer: &mut Viewer, ui: &mut Ui, dump: &mut Dump) {
+    let mut open = viewer.help;
+    let window = egui::Window::new("Mouse and keys").open(&mut open).collapsible(false).resizable(false);
+    let shown = window.anchor(egui::Align2::CENTER_CENTER, egui::Vec2::ZERO).vscroll(true).show(ui.ctx(), |ui| {
+        egui::Grid::new("keys").num_columns(2).spacing([16.0, 4.0]).show(ui, |ui| {
+            for (what, does) in MOUSE.iter().chain(&keys::KEYS) {
+                ui.strong(*what);
+                ui.label(*does);
+                ui.end_row();
+            }
+        });
+    });
+    if let Some(shown) = shown {
+        dump.note("help", "", shown.response);
+    }
+    viewer.help = open;
+}

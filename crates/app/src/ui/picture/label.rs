@@ -1,0 +1,50 @@
+//! Name, cost and error of a pane, on the picture: A at the left or top edge, B at the right or bottom edge of the wipe.
+
+use super::{Dump, Pane, View, Viewer, text_box};
+use crate::ui::Line;
+use crate::workers::Side;
+use egui::{Align2, Color32, Rect, Ui, vec2};
+
+pub fn show(viewer: &Viewer, ui: &Ui, clip: Rect, side: Side, pane: &Pane, dump: &mut Dump) {
+    if pane.texture.is_none() {
+        return;
+    }
+    let colour = match side {
+        Side::A => Color32::from_rgb(140, 200, 255),
+        Side::B => Color32::from_rgb(255, 185, 100),
+    };
+    let text = text(viewer, side, pane);
+    let inset = vec2(12.0, 10.0);
+    let (corner, align) = match (viewer.view, viewer.line, side) {
+        (View::Wipe, Line::Vertical, Side::B) => (clip.right_top() + vec2(-inset.x, inset.y), Align2::RIGHT_TOP),
+        (View::Wipe, Line::Horizontal, Side::B) => (clip.left_bottom() + vec2(inset.x, -inset.y), Align2::LEFT_BOTTOM),
+        _ => (clip.left_top() + inset, Align2::LEFT_TOP),
+    };
+    let place = text_box(viewer, ui, clip, corner, align, &text, colour);
+    dump.note_text(&format!("label {side:?}"), &text, place, clip);
+}
+
+fn text(viewer: &Viewer, side: Side, pane: &Pane) -> String {
+    let name = pane.provenance.as_ref().map_or(String::new(), |p| p.recipe.label());
+    let mut text = format!("{side:?}: {name}\n{}", progress(viewer, side, pane));
+    if pane.nonfinite > 0 {
+        text += &format!("\n{} samples were not finite and are left out", pane.nonfinite);
+    }
+    if let Some(e) = pane.errors {
+        let other = if side == Side::A { "A - B" } else { "B - A" };
+        text +=
+            &format!("\n{other}: relMSE {:.3}\nRMSE {:.3}, bias {:+.1} %", e.rel_mse, e.rmse, 100.0 * e.relative_bias);
+    }
+    text
+}
+
+fn progress(viewer: &Viewer, side: Side, pane: &Pane) -> String {
+    let wished = viewer.settings.panes[side as usize].truth.spp;
+    let paused = if viewer.paused && pane.unfinished { ", paused" } else { "" };
+    match pane.spp {
+        Some(spp) if pane.rough => format!("{spp} spp, rough"),
+        Some(spp) => format!("{spp} of {wished} spp, {:.1} s{paused}", pane.seconds),
+        None if pane.rough => "rough".into(),
+        None => format!("{:.0} ms", pane.seconds * 1000.0),
+    }
+}

@@ -1,0 +1,110 @@
+//! What undo gives back: the settings of both panes, the scene's sliders and the display.
+
+use crate::technique::{PaneSettings, SceneChanges, Technique};
+use scene::display::DisplayTransform;
+
+/// Everything that a slider or a choice changes. Camera, view and line are not part of it: moving them loses nothing.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Settings {
+    /// What is changed in the scene, for both panes.
+    pub changes: SceneChanges,
+    /// How A and B are made.
+    pub panes: [PaneSettings; 2],
+    /// How both are shown.
+    pub display: DisplayTransform,
+}
+
+impl Default for Settings {
+    /// The fake against the truth.
+    fn default() -> Self {
+        Settings {
+            changes: SceneChanges::default(),
+            panes: [PaneSettings::of(Technique::Raster), PaneSettings::of(Technique::Path)],
+            display: DisplayTransform::default(),
+        }
+    }
+}
+
+/// Earlier settings, and those that were undone. A drag is one step however far it goes.
+#[derive(Debug)]
+pub struct History {
+    settled: Settings,
+    earlier: Vec<Settings>,
+    undone: Vec<Settings>,
+}
+
+/// Steps that are kept.
+const MOST_STEPS: usize = 200;
+
+impl History {
+    /// A history that begins here.
+    pub fn new(settings: Settings) -> Self {
+        History { settled: settings, earlier: Vec::new(), undone: Vec::new() }
+    }
+
+    /// Keeps the settings of before if they have changed; while the user is `busy` the change is not over yet.
+    pub fn note(&mut self, settings: &Settings, busy: bool) {
+        if busy || *settings == self.settled {
+            return;
+        }
+        self.earlier.push(std::mem::replace(&mut self.settled, *settings));
+        self.undone.clear();
+        if self.earlier.len() > MOST_STEPS {
+            self.earlier.remove(0);
+        }
+    }
+
+    /// Whether there is something to undo.
+    pub fn can_undo(&self) -> bool {
+        !self.earlier.is_empty()
+    }
+
+    /// Whether there is something to do again.
+    pub fn can_redo(&self) -> bool {
+        !self.undone.is_empty()
+    }
+
+    /// The settings before the last change.
+    pub fn undo(&mut self) -> Option<Settings> {
+        let earlier = self.earlier.pop()?;
+        self.undone.push(std::mem::replace(&mut self.settled, earlier));
+        Some(earlier)
+    }
+
+    /// The settings that the last undo took away.
+    pub fn redo(&mut self) -> Option<Settings> {
+        let later = self.undone.pop()?;
+        self.earlier.push(std::mem::replace(&mut self.settled, later));
+        Some(later)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn exposed(exposure: f32) -> Settings {
+        Settings { display: DisplayTransform { exposure }, ..Settings::default() }
+    }
+
+    #[test]
+    fn a_drag_is_one_step_and_comes_back_by_redo() {
+        let mut history = History::new(exposed(0.0));
+        for (exposure, busy) in [(0.5, true), (1.0, true), (2.0, false)] {
+            history.note(&exposed(exposure), busy);
+        }
+        assert_eq!(history.undo(), Some(exposed(0.0)));
+        assert_eq!(history.undo(), None);
+        assert_eq!(history.redo(), Some(exposed(2.0)));
+        assert!(!history.can_redo() && history.can_undo());
+    }
+
+    #[test]
+    fn a_new_change_forgets_what_was_undone() {
+        let mut history = History::new(exposed(0.0));
+        history.note(&exposed(1.0), false);
+        history.undo();
+        history.note(&exposed(3.0), false);
+        assert_eq!((history.redo(), history.undo()), (None, Some(exposed(0.0))));
+    }
+}

@@ -1,0 +1,56 @@
+//! Which picture is shown, and how two share the window.
+
+/// Which picture is shown.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum View {
+    /// Pane A alone.
+    A,
+    /// Pane B alone.
+    B,
+    /// Both, under a line that the mouse drags.
+    Wipe,
+    /// Both whole, A left and B right.
+    SideBySide,
+}
+
+/// How the wipe's line stands.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Line {
+    /// A left, B right.
+    Vertical,
+    /// A above, B below.
+    Horizontal,
+}
+
+impl View {
+    /// All, in the order of their keys 1 to 4.
+    pub const ALL: [View; 4] = [View::A, View::B, View::Wipe, View::SideBySide];
+
+    /// The name on its button.
+    pub fn name(self) -> &'static str {
+        match self {
+            View::A => "A",
+            View::B => "B",
+            View::Wipe => "Wipe",
+            View::SideBySide => "Side by side",
+        }
+    }
+}
+
+impl Line {
+    /// Turned by a right angle.
+    pub fn turned(self) -> Self {
+        match self {
+            Line::Vertical => Line::Horizontal,
+            Line::Horizontal => Line::Vertical,
+        }
+    }
+
+    /// The name in words.
+    pub fn name(self) -> &'static str {
+        match self {
+            Line::Vertical => "vertical",
+            Line::Horizontal => "horizontal",
+        }
+    }
+}

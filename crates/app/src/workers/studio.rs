@@ -1,0 +1,74 @@
+//! The workers of one pane, made when the pane first asks for their technique.
+
+use super::darkroom::Darkroom;
+use super::fake::FakeWorker;
+use super::truth::TruthWorker;
+use super::{Job, Order, Side};
+use crate::technique::Recipe;
+use anyhow::Context;
+use gpu::Gpu;
+use std::sync::Arc;
+
+/// One pane's workers; dropping it ends their threads.
+pub struct Studio {
+    side: Side,
+    gpu: Gpu,
+    darkroom: Arc<Darkroom>,
+    fake: Option<FakeWorker>,
+    truth: Option<TruthWorker>,
+    held: bool,
+}
+
+impl Studio {
+    /// A studio without workers yet. `gpu` is the window's.
+    pub fn new(side: Side, gpu: Gpu, darkroom: Arc<Darkroom>) -> Self {
+        Studio { side, gpu, darkroom, fake: None, truth: None, held: false }
+    }
+
+    /// Asks for a picture; whatever this pane was making stops.
+    pub fn submit(&mut self, recipe: Recipe, order: Order) {
+        let begun = match recipe {
+            Recipe::Fake(settings) => {
+                self.truth.iter_mut().for_each(TruthWorker::cancel);
+                self.fake().map(|worker| worker.submit(Job { settings, order: order.clone() }))
+            }
+            Recipe::Truth(settings) => {
+                self.fake.iter().for_each(FakeWorker::cancel);
+                self.truth().map(|worker| worker.submit(Job { settings, order: order.clone() }))
+            }
+        };
+        if let Err(fault) = begun {
+            self.darkroom.report(self.side, order, format!("{fault:#}"));
+        }
+    }
+
+    /// Holds the truth where it is, or lets it go on.
+    pub fn hold(&mut self, held: bool) {
+        self.held = held;
+        self.truth.iter().for_each(|worker| worker.hold(held));
+    }
+
+    fn fake(&mut self) -> anyhow::Result<&FakeWorker> {
+        if self.fake.is_none() {
+            let gpu = fake_gpu(&self.gpu)?;
+            let worker = FakeWorker::start(self.side, gpu, self.darkroom.clone()).context("no thread for the fake")?;
+            self.fake = Some(worker);
+        }
+        self.fake.as_ref().context("no thread for the fake")
+    }
+
+    fn truth(&mut self) -> anyhow::Result<&mut TruthWorker> {
+        if self.truth.is_none() {
+            let worker = TruthWorker::start(self.side, self.darkroom.clone()).context("no threads for the truth")?;
+            worker.hold(self.held);
+            self.truth = Some(worker);
+        }
+        self.truth.as_mut().context("no threads for the truth")
+    }
+}
+
+/// The device of the fake: the window's own, but where the processor plays the graphics device another one, because there
+/// a frame of the window would wait in one queue behind the whole of the fake.
+fn fake_gpu(window: &Gpu) -> anyhow::Result<Gpu> {
+    if window.is_software() { Ok(Gpu::headless()?) } else { Ok(window.clone()) }
+}
