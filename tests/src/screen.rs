@@ -113,6 +113,25 @@ impl Screen {
         codes.iter().rev().for_each(|&code| self.fake(xproto::KEY_RELEASE_EVENT, code, 0.0, 0.0));
     }
 
+    /// Turns the wheel by one notch, towards the user.
+    pub fn wheel_down(&self, at: [f32; 2]) {
+        self.move_to(at[0], at[1]);
+        self.fake(xproto::BUTTON_PRESS_EVENT, 5, at[0], at[1]);
+        self.fake(xproto::BUTTON_RELEASE_EVENT, 5, at[0], at[1]);
+    }
+
+    /// Types a text of ASCII characters.
+    pub fn type_text(&self, text: &str) {
+        text.chars().for_each(|character| self.chord(&self.keys_of(u32::from(character))));
+    }
+
+    /// The keys for a keysym: with Shift where it is on a key's upper half.
+    fn keys_of(&self, keysym: u32) -> Vec<u32> {
+        let upper = "~!@#$%^&*()_+{}|:\"<>?".contains(char::from_u32(keysym).unwrap_or(' '))
+            || (u32::from('A')..=u32::from('Z')).contains(&keysym);
+        if upper { vec![Screen::SHIFT, keysym] } else { vec![keysym] }
+    }
+
     /// Turns the wheel by one notch, away from the user, with Control held.
     pub fn wheel_up_with_control(&self, at: [f32; 2]) {
         let control = self.keycode(Screen::CONTROL);

@@ -48,8 +48,11 @@ pub fn listen(viewer: &mut Viewer, ctx: &egui::Context, requests: &mut Vec<Reque
 }
 
 fn letters(viewer: &mut Viewer, ctx: &egui::Context) {
-    let pressed = |key| ctx.input(|i| i.key_pressed(key) && i.modifiers.is_none());
-    if pressed(Key::T) {
+    // every press counts, also two within one slow frame
+    let presses = |key| if ctx.input(|i| i.modifiers.is_none()) { ctx.input(|i| i.num_presses(key)) } else { 0 };
+    let pressed = |key| presses(key) > 0;
+    let turned_over = |key| presses(key) % 2 == 1;
+    for _ in 0..presses(Key::T) {
         viewer.toggle();
     }
     for (key, view) in [Key::Num1, Key::Num2, Key::Num3, Key::Num4].into_iter().zip(View::ALL) {
@@ -57,17 +60,11 @@ fn letters(viewer: &mut Viewer, ctx: &egui::Context) {
             viewer.choose(view);
         }
     }
-    if pressed(Key::P) {
-        viewer.paused = !viewer.paused;
-    }
-    if pressed(Key::R) {
-        viewer.restarts += 1;
-    }
+    viewer.paused ^= turned_over(Key::P);
+    viewer.panel ^= turned_over(Key::H);
+    viewer.restarts += presses(Key::R) as u64;
     if pressed(Key::C) {
         viewer.camera = viewer.scene.camera;
-    }
-    if pressed(Key::H) {
-        viewer.panel = !viewer.panel;
     }
     if ctx.input(|i| i.key_pressed(Key::Questionmark)) {
         viewer.help = !viewer.help;

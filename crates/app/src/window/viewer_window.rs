@@ -287,6 +287,7 @@ impl ViewerWindow {
             "eye": self.viewer.camera.eye.to_array(),
             "fov": self.viewer.camera.fov_y,
             "message": self.viewer.message.as_ref().map(|m| &m.text),
+            "focus_id": self.egui.egui_ctx().memory(|m| m.focused()).map(|id| id.value()),
             "typing": self.egui.egui_ctx().text_edit_focused(),
             "a": panes[0],
             "b": panes[1],

@@ -1,0 +1,110 @@
+//! The panels without a window: what is there, what it changes, and that everything has a name.
+
+#![expect(clippy::expect_used, reason = "a test stops at the first thing that is not as it must be")]
+
+use egui_kittest::Harness;
+use egui_kittest::kittest::{NodeT, Queryable};
+use std::cell::RefCell;
+use std::rc::Rc;
+use visavis::technique::Technique;
+use visavis::ui::{Dump, Pane, Request, Theme, Viewer};
+
+/// A viewer on a scene, its panels drawn at 1280 x 720.
+struct Panels {
+    harness: Harness<'static>,
+    viewer: Rc<RefCell<Viewer>>,
+    requests: Rc<RefCell<Vec<Request>>>,
+}
+
+impl Panels {
+    fn of(scene: &str) -> Self {
+        let opened = scene::builtin::named(scene).expect("a built-in scene");
+        let viewer = Rc::new(RefCell::new(Viewer::new(opened, scene.into(), Theme::Dark)));
+        let requests = Rc::new(RefCell::new(Vec::new()));
+        let (shared, asked) = (viewer.clone(), requests.clone());
+        let harness = Harness::builder().with_size([1280.0, 720.0]).build_ui(move |ui| {
+            asked.borrow_mut().extend(shared.borrow_mut().ui(
+                ui,
+                &[Pane::default(), Pane::default()],
+                &mut Dump::default(),
+            ));
+        });
+        Panels { harness, viewer, requests }
+    }
+
+    fn shows(&self, label: &str) -> bool {
+        self.harness.query_all_by_label_contains(label).next().is_some()
+    }
+
+    /// Clicks the `nth` widget of that label, from the top.
+    fn click(&mut self, label: &str, nth: usize) {
+        self.harness.get_all_by_label(label).nth(nth).expect("the widget").click();
+        self.harness.run_steps(3);
+    }
+}
+
+#[test]
+fn settings_that_cannot_apply_are_absent() {
+    let (whitted, cornell) = (Panels::of("whitted"), Panels::of("cornell"));
+    for of_glass_and_sun in ["Refraction ratio", "Sun radius", "Reflectivity"] {
+        assert!(whitted.shows(of_glass_and_sun) && !cornell.shows(of_glass_and_sun), "{of_glass_and_sun}");
+    }
+    let mut two_fakes = Panels::of("cornell");
+    assert!(two_fakes.shows("Samples per pixel"));
+    two_fakes.click("Fake", 1);
+    assert_eq!(two_fakes.viewer.borrow().settings.panes[1].technique, Technique::Raster);
+    assert!(!two_fakes.shows("Samples per pixel") && !two_fakes.shows("throughput"));
+}
+
+#[test]
+fn every_widget_has_a_name_and_a_slider_the_one_above_it() {
+    let mut panels = Panels::of("whitted");
+    panels.click("Limit bounces", 0);
+    panels.click("P", 0);
+    panels.click("Camera (both)", 0);
+    let root = panels.harness.root();
+    let mut nameless = Vec::new();
+    let mut named = 0;
+    for node in root.children_recursive() {
+        let node = node.accesskit_node();
+        use egui::accesskit::Role;
+        let widgets =
+            [Role::Button, Role::CheckBox, Role::RadioButton, Role::Slider, Role::SpinButton, Role::TextInput];
+        if widgets.contains(&node.role()) {
+            match node.label() {
+                Some(label) if !label.trim().is_empty() => named += 1,
+                _ => nameless.push(format!("{:?} {:?}", node.role(), node.bounding_box())),
+            }
+        }
+    }
+    assert!(nameless.is_empty(), "{named} named, without a name: {nameless:#?}");
+    assert!(named > 30, "{named}");
+    assert!(panels.harness.query_by_role_and_label(egui::accesskit::Role::Slider, "Exposure").is_some());
+}
+
+#[test]
+fn choices_change_their_pane_and_undo_takes_them_back() {
+    let mut panels = Panels::of("whitted");
+    let before = panels.viewer.borrow().settings;
+    panels.click("as-taught", 0);
+    panels.click("cosine", 0);
+    let after = panels.viewer.borrow().settings;
+    assert_eq!(after.panes[0].fake.fake, raster::Fake::AsTaught);
+    assert_eq!(after.panes[1].truth.path.estimator, pathtrace::Estimator::Cosine);
+    panels.click("Undo", 0);
+    panels.click("Undo", 0);
+    assert_eq!(panels.viewer.borrow().settings, before);
+    panels.click("Redo", 0);
+    panels.click("Redo", 0);
+    assert_eq!(panels.viewer.borrow().settings, after);
+}
+
+#[test]
+fn keys_and_menus_ask_the_shell() {
+    let mut panels = Panels::of("whitted");
+    panels.harness.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::S);
+    panels.harness.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::Q);
+    panels.harness.run_steps(2);
+    let asked = panels.requests.borrow().clone();
+    assert!(matches!(asked[..], [Request::Export { .. }, Request::Quit]), "{asked:?}");
+}

@@ -1,0 +1,136 @@
+//! Nothing is clipped, nothing overlaps, the picture is large, and every text can be read.
+
+use super::{alone, both_whole, scaled_viewer_on};
+use visavis_tests::{Frame, Screen, ViewerUnderTest};
+
+/// The screens that a lecture meets: width, height, scale, theme, the least contrast of text (WCAG AA and AAA).
+const SCREENS: [(u32, u32, f32, &str, f64); 3] =
+    [(1280, 720, 1.0, "dark", 4.5), (1280, 720, 1.0, "projector", 7.0), (1024, 768, 1.5, "dark", 4.5)];
+
+#[test]
+fn everything_fits_and_can_be_read_on_a_laptop_and_on_a_projector() {
+    let _alone = alone();
+    for (width, height, scale, theme, contrast) in SCREENS {
+        for scene in ["whitted", "cornell"] {
+            let screen = Screen::start(width, height);
+            let mut viewer = scaled_viewer_on(&screen, scale, &[scene, "--theme", theme]);
+            let first = viewer.wait_for("both pictures", both_whole);
+            screen.focus("Visavis");
+            // away from everything, so that nothing is lit up by the mouse
+            screen.move_to(0.5 * first.rect("picture")[2], 0.5 * height as f32);
+            let here = format!("{scene} at {width} x {height}, scale {scale}, {theme}");
+            for (key, view) in [('3', "Wipe"), ('4', "Side by side"), ('1', "A")] {
+                screen.key(key, false);
+                let frame = viewer.wait_for(view, |f| f.state("view") == view && both_whole(f));
+                let [left, top, right, bottom] = frame.rect("picture");
+                let share = (right - left) * (bottom - top) / (width * height) as f32;
+                assert!(share >= 0.65, "{here}: the picture has {share} of the window");
+                assert_nothing_clipped_or_overlapping(&frame, &here);
+                assert_texts_are_readable(&screen, &frame, contrast, &here);
+            }
+        }
+    }
+}
+
+/// The most controls that can be there at once, on the smallest screen: what does not fit is reached by scrolling, and
+/// still nothing overlaps or sticks out at the side.
+#[test]
+fn all_controls_at_once_still_do_not_overlap() {
+    let _alone = alone();
+    let screen = Screen::start(1024, 768);
+    let mut viewer = scaled_viewer_on(&screen, 1.5, &["whitted"]);
+    viewer.wait_for("both pictures", both_whole);
+    screen.focus("Visavis");
+    let opened = [
+        ("group Camera (both)", "field of view"),
+        ("B roulette P", "B roulette probability"),
+        ("B limit bounces", "B bounces"),
+    ];
+    for (widget, brings) in opened {
+        let frame = viewer.wait_for_widget(widget);
+        screen.click(frame.point(widget, 0.4, 0.5));
+        viewer.wait_for_widget(brings);
+    }
+    let frame = viewer.wait_for_widget("B bounces");
+    assert_no_overlap(&frame, "all controls");
+    let [_, bar, edge, _] = frame.rect("picture");
+    for name in controls(&frame) {
+        let [left, top, right, _] = frame.rect(name);
+        let inside = right <= 1024.0 && (top < bar || left >= edge);
+        assert!(inside, "{name} sticks out: {:?}", frame.rect(name));
+    }
+    scrolled_to(&screen, &mut viewer, "field of view");
+}
+
+fn scrolled_to(screen: &Screen, viewer: &mut ViewerUnderTest, name: &str) {
+    let frame = viewer.wait_for_widget(name);
+    let at = frame.point("exposure", 0.3, 0.5);
+    for _ in 0..30 {
+        screen.wheel_down([at[0], 400.0]);
+    }
+    viewer.wait_for("the last control to come into view", |f| f.shows(name) && f.rect(name) == f.visible(name));
+}
+
+/// Widgets that are not the picture and not on it.
+fn controls(frame: &Frame) -> Vec<&str> {
+    let on_the_picture = ["picture", "label A", "label B", "hint", "message"];
+    frame.names().into_iter().filter(|name| !on_the_picture.contains(name)).collect()
+}
+
+fn assert_nothing_clipped_or_overlapping(frame: &Frame, here: &str) {
+    for name in frame.names() {
+        let (rect, visible) = (frame.rect(name), frame.visible(name));
+        let clipped = rect.iter().zip(visible).any(|(whole, seen)| (whole - seen).abs() > 1.0);
+        assert!(!clipped, "{here}: '{name}' is {rect:?}, but only {visible:?} is seen");
+    }
+    assert_no_overlap(frame, here);
+}
+
+fn assert_no_overlap(frame: &Frame, here: &str) {
+    let controls = controls(frame);
+    for (index, a) in controls.iter().enumerate() {
+        for b in &controls[index + 1..] {
+            let ([al, at, ar, ab], [bl, bt, br, bb]) = (frame.rect(a), frame.rect(b));
+            let overlap = ar.min(br) - al.max(bl) > 0.5 && ab.min(bb) - at.max(bt) > 0.5;
+            assert!(!overlap, "{here}: '{a}' {:?} overlaps '{b}' {:?}", frame.rect(a), frame.rect(b));
+        }
+    }
+}
+
+/// Contrast between the most frequent colour in a text's rectangle and the one that differs most from it.
+fn assert_texts_are_readable(screen: &Screen, frame: &Frame, least: f64, here: &str) {
+    let texts = frame.names().into_iter().filter(|name| {
+        let switched_off = ["undo", "redo"].contains(name) && frame.value(name) == "false";
+        let is_text = ["text ", "label ", "hint", "message", "scene", "view ", "group ", "A ", "B ", "export", "look"];
+        !switched_off && is_text.iter().any(|start| name.starts_with(start))
+    });
+    let mut seen = 0;
+    for name in texts {
+        let [left, top, right, bottom] = frame.rect(name).map(|v| v.round() as u32);
+        let pixels = screen.pixels(left, top, right - left, bottom - top);
+        let ratio = contrast(&pixels);
+        assert!(ratio >= least, "{here}: the contrast of '{name}' is {ratio:.2}");
+        seen += 1;
+    }
+    assert!(seen > 15, "{here}: only {seen} texts were looked at");
+}
+
+fn contrast(pixels: &[[u8; 3]]) -> f64 {
+    let mut counts = std::collections::HashMap::new();
+    pixels.iter().for_each(|p| *counts.entry(*p).or_insert(0) += 1);
+    let (ground, _) = counts.iter().max_by_key(|(_, count)| **count).expect("a pixel");
+    let ratio = |a: [u8; 3], b: [u8; 3]| {
+        let (a, b) = (luminance(a), luminance(b));
+        (a.max(b) + 0.05) / (a.min(b) + 0.05)
+    };
+    counts.keys().map(|&colour| ratio(colour, *ground)).fold(1.0, f64::max)
+}
+
+/// Relative luminance of an sRGB colour, as WCAG 2.2 defines it.
+fn luminance(colour: [u8; 3]) -> f64 {
+    let [r, g, b] = colour.map(|byte| {
+        let v = f64::from(byte) / 255.0;
+        if v <= 0.04045 { v / 12.92 } else { ((v + 0.055) / 1.055).powf(2.4) }
+    });
+    0.2126 * r + 0.7152 * g + 0.0722 * b
+}
