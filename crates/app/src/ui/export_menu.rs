@@ -1,6 +1,7 @@
 //! The export menu: the picture as seen or one pane, to a file or the clipboard, or as a command to type.
 
-use super::{Dump, Pane, Request, View, Viewer, top_bar};
+use super::top_bar::{self, framed};
+use super::{Dump, Pane, Request, View, Viewer};
 use crate::picture_file::{self, Kind};
 use crate::workers::Side;
 use crate::workers::exporter::Destination;
@@ -73,7 +74,7 @@ pub fn show(viewer: &mut Viewer, ui: &mut Ui, panes: &[Pane; 2], dump: &mut Dump
         for (side, pane) in [Side::A, Side::B].into_iter().zip(panes) {
             let Some(command) = command(viewer, side, pane) else { continue };
             let text = format!("Copy {side:?} as command");
-            let button = ui.button(text).on_hover_text(&command);
+            let button = ui.add(framed(&text, ui)).on_hover_text(&command);
             if dump.note(&format!("command {side:?}"), &command, button).clicked() {
                 ui.ctx().copy_text(command);
                 viewer.say(Ok(format!("Copied the command that makes {side:?}")));
@@ -114,13 +115,13 @@ fn file(viewer: &mut Viewer, ui: &mut Ui, dump: &mut Dump, requests: &mut Vec<Re
     let entered = line.lost_focus() && ui.input(|i| i.key_pressed(egui::Key::Enter));
     dump.note("export file", &viewer.export.file, line);
     ui.horizontal(|ui| {
-        let save = dump.note("save", "", ui.button("Save").on_hover_text("Ctrl+S saves as seen"));
+        let save = dump.note("save", "", ui.add(framed("Save", ui)).on_hover_text("Ctrl+S saves as seen"));
         if save.clicked() || entered {
             let to = Destination::File(typed_file(&viewer.export.file, proposal));
             requests.push(Request::Export { what, to });
             ui.close();
         }
-        let copy = dump.note("copy picture", "", ui.button("Copy picture").on_hover_text("Ctrl+C copies as seen"));
+        let copy = dump.note("copy picture", "", ui.add(framed("Copy picture", ui)).on_hover_text("Ctrl+C copies as seen"));
         if copy.clicked() {
             requests.push(Request::Export { what, to: Destination::Clipboard });
             ui.close();

@@ -2,7 +2,7 @@
 
 use super::{Dump, Pane, Request, Theme, View, Viewer, export_menu};
 use egui::containers::menu::{MenuButton, MenuConfig};
-use egui::{PopupCloseBehavior, Ui};
+use egui::{Button, PopupCloseBehavior, Ui};
 use scene::builtin;
 
 /// The most letters of a scene's name that the bar shows.
@@ -36,11 +36,11 @@ pub fn show(viewer: &mut Viewer, ui: &mut Ui, panes: &[Pane; 2], dump: &mut Dump
 
 fn steps(viewer: &mut Viewer, ui: &mut Ui, dump: &mut Dump) {
     let [can_undo, can_redo] = [viewer.history.can_undo(), viewer.history.can_redo()];
-    let undo = ui.add_enabled(can_undo, egui::Button::new("Undo"));
+    let undo = ui.add_enabled(can_undo, Button::new("Undo"));
     if dump.note("undo", can_undo, undo.on_hover_text("Take back the last change of a setting (Ctrl+Z)")).clicked() {
         viewer.undo();
     }
-    let redo = ui.add_enabled(can_redo, egui::Button::new("Redo"));
+    let redo = ui.add_enabled(can_redo, Button::new("Redo"));
     if dump.note("redo", can_redo, redo.on_hover_text("Change it again (Ctrl+Shift+Z)")).clicked() {
         viewer.redo();
     }
@@ -61,6 +61,12 @@ pub fn menu(title: impl Into<String>) -> MenuButton<'static> {
     MenuButton::new(title.into()).config(stay)
 }
 
+/// A button with a ground, which menus leave out: it does something, and what has none is a choice.
+pub fn framed<'a>(text: &'a str, ui: &Ui) -> Button<'a> {
+    let inside_menus_too = ui.ctx().global_style().visuals.widgets.inactive.weak_bg_fill;
+    Button::new(text).fill(inside_menus_too)
+}
+
 fn scene_menu(viewer: &mut Viewer, ui: &mut Ui, dump: &mut Dump, requests: &mut Vec<Request>) {
     let name = &viewer.scene.name;
     let short: String = name.chars().take(MOST_LETTERS).collect();
@@ -79,7 +85,7 @@ fn scene_menu(viewer: &mut Viewer, ui: &mut Ui, dump: &mut Dump, requests: &mut 
         let line = ui.add(edit).labelled_by(label.id);
         let entered = line.lost_focus() && ui.input(|i| i.key_pressed(egui::Key::Enter));
         dump.note("scene file", &viewer.memory.file_name, line);
-        let open = dump.note("open", "", ui.button("Open"));
+        let open = dump.note("open", "", ui.add(framed("Open", ui)));
         if (open.clicked() || entered) && !viewer.memory.file_name.is_empty() {
             requests.push(Request::Open(viewer.memory.file_name.clone()));
             ui.close();
@@ -102,7 +108,7 @@ fn look_menu(viewer: &mut Viewer, ui: &mut Ui, dump: &mut Dump) {
             for (text, name, factor) in
                 [("−", "smaller text", zoom - 0.1), ("100 %", "usual text", 1.0), ("+", "larger text", zoom + 0.1)]
             {
-                let button = ui.button(text).on_hover_text("Ctrl - 0 +").accessible_name(name);
+                let button = ui.add(framed(text, ui)).on_hover_text("Ctrl - 0 +").accessible_name(name);
                 if dump.note(name, "", button).clicked() {
                     ui.ctx().set_zoom_factor(factor.clamp(0.5, 3.0));
                 }

@@ -1,4 +1,4 @@
-//! Name, cost and error of a pane, on the picture: A at the left or top edge, B at the right or bottom edge of the wipe.
+//! Name, cost and error of a pane, on the picture: in a corner of what is seen of it.
 
 use super::{Dump, Pane, View, Viewer, text_box};
 use crate::ui::Line;
@@ -17,7 +17,6 @@ pub fn show(viewer: &Viewer, ui: &Ui, clip: Rect, side: Side, pane: &Pane, dump:
     let inset = vec2(12.0, 10.0);
     let (corner, align) = match (viewer.view, viewer.line, side) {
         (View::Wipe, Line::Vertical, Side::B) => (clip.right_top() + vec2(-inset.x, inset.y), Align2::RIGHT_TOP),
-        (View::Wipe, Line::Horizontal, Side::B) => (clip.left_bottom() + vec2(inset.x, -inset.y), Align2::LEFT_BOTTOM),
         _ => (clip.left_top() + inset, Align2::LEFT_TOP),
     };
     let place = text_box(viewer, ui, clip, corner, align, &text, colour);
