@@ -24,7 +24,10 @@ struct Lights {
     lamp_position: vec3f,
     lamp_pattern: u32,
     lamp_normal: vec3f,
+    shadow_filter: u32,
     lamp_incident: vec3f,
+    // added to depths before they are compared
+    shadow_bias: f32,
     ambient: vec3f,
     sky: vec3f,
     // 0: the sun's; 1 to 6: the lamp's, +x, -x, +y, -y, +z, -z
@@ -68,9 +71,12 @@ fn vertex(@location(0) position: vec3f, @location(1) normal: vec3f) -> Varying {
     return Varying(clip, position, normal, refracted(position, normal));
 }
 
+// What a half float holds: beyond it lies infinity, which filtering turns into NaN.
+const LARGEST_HALF: f32 = 65504.0;
+
 @fragment
 fn fragment(in: Varying, @builtin(front_facing) front: bool) -> @location(0) vec4f {
-    return vec4f(radiance(in, front), 1.0);
+    return vec4f(min(radiance(in, front), vec3f(LARGEST_HALF)), 1.0);
 }
 
 // Into a target of f32 bits, which every backend can draw.
@@ -147,10 +153,11 @@ fn lamp_incident(to_lamp: vec3f, l: vec3f) -> vec3f {
 fn shadow(index: u32, p: vec3f, n_dot_l: f32) -> f32 {
     let clip = lights.shadow_views[index].clip_from_world * vec4f(p, 1.0);
     let uv = vec2f(0.5, -0.5) * clip.xy / clip.w + 0.5;
-    let depth = dot(lights.shadow_views[index].depth_from_world, vec4f(p, 1.0));
+    let depth = dot(lights.shadow_views[index].depth_from_world, vec4f(p, 1.0)) + lights.shadow_bias;
     if any(uv < vec2f(0.0)) || any(uv > vec2f(1.0)) || depth > 1.0 {
         return 1.0;
     }
     let texel = lights.shadow_views[index].texel.x + lights.shadow_views[index].texel.y * depth;
-    return pcf_soft(shadow_map, index, uv, depth - object.slack * texel / max(n_dot_l, 0.05));
+    let slack = object.slack * texel / max(n_dot_l, 0.05);
+    return lit_share(lights.shadow_filter, shadow_map, index, uv, depth - slack);
 }

@@ -263,11 +263,18 @@ fn shadow_kernels_agree_inside_and_at_the_border() {
     let map: Vec<f32> = (0..size * size).map(|_| random.unit()).collect();
     let input: Vec<f32> =
         (0..ITEMS).flat_map(|_| [random.between(-0.1, 1.1), random.between(-0.1, 1.1), random.unit()]).collect();
-    let body = "return vec3f(pcf_soft(map, 1u, vec2f(numbers[at], numbers[at + 1u]), numbers[at + 2u]));";
-    let on_gpu = run("lib/shadow.wgsl", body, 3, &input, &map);
     let nearest = |x: u32, y: u32| map[(y * size + x) as usize];
-    let twin = |x: &[f32]| Vec3::splat(shading::pcf_soft(nearest, size, [x[0], x[1]], x[2]));
-    let on_cpu: Vec<_> = input.chunks_exact(3).map(twin).collect();
-    let apart = apart(&on_gpu, &on_cpu);
-    assert!(apart < 1e-5, "{apart}");
+    let twins: [&dyn Fn(&[f32]) -> f32; 3] = [
+        &|x| shading::hard(nearest, size, [x[0], x[1]], x[2]),
+        &|x| shading::pcf(nearest, size, [x[0], x[1]], x[2]),
+        &|x| shading::pcf_soft(nearest, size, [x[0], x[1]], x[2]),
+    ];
+    for (code, twin) in twins.into_iter().enumerate() {
+        let at = "vec2f(numbers[at], numbers[at + 1u]), numbers[at + 2u]";
+        let on_gpu =
+            run("lib/shadow.wgsl", &format!("return vec3f(lit_share({code}u, map, 1u, {at}));"), 3, &input, &map);
+        let on_cpu: Vec<_> = input.chunks_exact(3).map(|x| Vec3::splat(twin(x))).collect();
+        let apart = apart(&on_gpu, &on_cpu);
+        assert!(apart < 1e-5, "filter {code}: {apart}");
+    }
 }

@@ -17,7 +17,9 @@
 pub mod cube;
 mod error;
 pub mod gpu_data;
+mod knobs;
 pub mod lights;
+pub mod maps;
 mod passes;
 mod pipelines;
 mod plan;
@@ -27,15 +29,17 @@ mod targets;
 mod tessellation;
 
 pub use error::RasterError;
+pub use knobs::{FakeKnobs, ShadowFilter};
 pub use plan::MOST_CUBE_MAPS;
-pub use settings::{Fake, RasterSettings, Shading};
+pub use settings::{Fake, RasterSettings, Shading, Show};
 
-use gpu::Gpu;
+use gpu::{Gpu, GpuError};
 use passes::Uniforms;
 use pipelines::Pipelines;
 use plan::Plan;
+use scene::film::Pixel;
 use scene::{Camera, Film, Scene, Vec3, colour};
-use targets::Targets;
+use targets::{Colours, Kept};
 use tessellation::World;
 
 /// The rasteriser. It keeps pipelines, targets and geometry from frame to frame, and rebuilds only what changed.
@@ -45,7 +49,7 @@ pub struct Raster {
     pipelines: Pipelines,
     uniforms: Uniforms,
     world: Option<World>,
-    targets: Option<Targets>,
+    targets: Kept,
 }
 
 impl Raster {
@@ -56,42 +60,73 @@ impl Raster {
     pub fn new(gpu: &Gpu) -> Result<Raster, RasterError> {
         let pipelines = Pipelines::new(gpu)?;
         let uniforms = Uniforms::new(gpu)?;
-        Ok(Raster { gpu: gpu.clone(), pipelines, uniforms, world: None, targets: None })
+        Ok(Raster { gpu: gpu.clone(), pipelines, uniforms, world: None, targets: Kept::default() })
     }
 
     /// One frame of `scene` from `camera`: linear radiance, one sample a pixel. Waits until it is there.
     ///
     /// # Errors
-    /// [`RasterError::Camera`] for a camera that sees nothing; [`RasterError::Gpu`] if picture, maps or geometry are too
-    /// large for the device, or if it fails.
+    /// [`RasterError::Camera`] for a camera that sees nothing; [`RasterError::Knob`] for a number out of range;
+    /// [`RasterError::NothingToShow`] for a map that the scene does not have; [`RasterError::Gpu`] if picture, maps or
+    /// geometry are too large for the device, or if it fails; [`RasterError::Memory`] if the film is too large for this
+    /// computer.
     pub fn render(&mut self, scene: &Scene, camera: &Camera, settings: &RasterSettings) -> Result<Film, RasterError> {
         if let Some(why) = camera.fault() {
             return Err(RasterError::Camera(why));
         }
+        if let Some(why) = settings.knobs.fault() {
+            return Err(RasterError::Knob(why));
+        }
+        self.check_size(settings)?;
+        let scene = &settings.knobs.applied(scene);
         let plan = Plan::new(scene, camera, settings);
+        maps::check(settings.show, &plan)?;
         let world = World::current(&mut self.world, &self.gpu, scene)?;
-        let targets = Targets::current(&mut self.targets, &self.gpu, &plan.target_plan(scene, settings))?;
+        let targets = self.targets.current(&self.gpu, &plan.target_plan(scene, settings))?;
         self.uniforms.write(&self.gpu, &plan)?;
         self.gpu.checked("the picture", || {
             passes::draw(&self.gpu, &self.pipelines, &self.uniforms, world, targets, &plan)
         })?;
-        let bytes = self.gpu.read_texture("the picture", targets.picture())?;
+        if settings.show != Show::Picture {
+            return maps::film(&self.gpu, targets, &plan, settings);
+        }
+        let bytes = self.gpu.read_texture("the picture", targets.picture.resolved.texture())?;
         develop(&bytes, settings)
+    }
+
+    /// Refuses a picture that could be drawn but not read back, before its memory is taken.
+    fn check_size(&self, settings: &RasterSettings) -> Result<(), GpuError> {
+        let what = "a picture";
+        self.gpu.check_size(what, settings.width, settings.height)?;
+        let texel = Colours::of(settings.fake, &self.gpu).picture.block_copy_size(None).unwrap_or(16);
+        let row = (settings.width * texel).next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
+        let bytes = u64::from(row) * u64::from(settings.height);
+        let limit = self.gpu.device.limits().max_buffer_size;
+        if bytes > limit { Err(GpuError::TooManyBytes { what: what.to_owned(), bytes, limit }) } else { Ok(()) }
     }
 }
 
 fn develop(bytes: &[u8], settings: &RasterSettings) -> Result<Film, RasterError> {
-    let film = match settings.fake {
-        Fake::AsTaught => {
-            Film::from_radiances(settings.width, settings.height, bytes.chunks_exact(4).map(emitted_light))
-        }
-        Fake::Fair => {
-            let channel = |at: &[u8]| f32::from_le_bytes([at[0], at[1], at[2], at[3]]);
-            let radiance = |texel: &[u8]| Vec3::new(channel(texel), channel(&texel[4..]), channel(&texel[8..]));
-            Film::from_radiances(settings.width, settings.height, bytes.chunks_exact(16).map(radiance))
-        }
+    let &RasterSettings { width, height, fake, .. } = settings;
+    let (texel, radiance): (usize, fn(&[u8]) -> Vec3) = match fake {
+        Fake::AsTaught => (4, emitted_light),
+        Fake::Fair => (16, |texel| {
+            let channel = |at: usize| f32::from_le_bytes([texel[at], texel[at + 1], texel[at + 2], texel[at + 3]]);
+            Vec3::new(channel(0), channel(4), channel(8))
+        }),
     };
-    film.ok_or(RasterError::Incomplete)
+    let mut film = Film::try_new(width, height).ok_or(RasterError::Memory { width, height })?;
+    if bytes.len() != texel * film.pixels().len() {
+        return Err(RasterError::Incomplete);
+    }
+    let mut nonfinite = 0;
+    for (pixel, texel) in film.pixels_mut().iter_mut().zip(bytes.chunks_exact(texel)) {
+        let radiance = radiance(texel);
+        nonfinite += u64::from(!radiance.is_finite());
+        *pixel = Pixel::exact(if radiance.is_finite() { radiance } else { Vec3::ZERO });
+    }
+    film.nonfinite = nonfinite;
+    Ok(film)
 }
 
 /// What an sRGB display emits for a texel's bytes.

@@ -15,10 +15,6 @@ use std::f32::consts::{FRAC_1_PI, PI};
 /// Texels that the shadow kernel reaches from its middle, along an axis.
 const KERNEL_REACH: f32 = 2.0;
 
-/// How many texels across the kernel's diagonal, rounded up: what [`crate::gpu_data::Object::slack`] is, for shapes that
-/// cast their own lit side.
-pub const SLACK: f32 = 3.0;
-
 /// The lamp that sheds light.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Lamp {
@@ -89,14 +85,16 @@ pub fn lights(scene: &Scene, settings: &RasterSettings, casts: impl Fn(usize) ->
             Shading::BlinnPhong => 2,
         },
         refracts_per_vertex: u32::from(as_taught),
-        ambient: if as_taught { Vec3::splat(scene.fake.ambient) } else { scene.sky },
+        ambient: if as_taught { settings.knobs.grey(scene) } else { settings.knobs.sky_light(scene) },
+        shadow_filter: settings.knobs.filter.code(),
+        shadow_bias: settings.knobs.bias,
         sky: scene.sky,
         ..Lights::zeroed()
     };
     if let Some(sun) = sun {
         lights.sun_towards = sun_towards(scene, &sun, settings.fake);
         lights.sun_incident = if as_taught { intensity } else { sun.irradiance * FRAC_1_PI };
-        lights.shadow_views[0] = sun_view(scene, lights.sun_towards, casts);
+        lights.shadow_views[0] = sun_view(scene, settings.fake, lights.sun_towards, casts);
     }
     if let Some(lamp) = lamp {
         lights.lamp_position = lamp.position;
@@ -117,21 +115,23 @@ fn sun_towards(scene: &Scene, sun: &Sun, fake: Fake) -> Vec3 {
 }
 
 /// The sun's view: three.js' DirectionalLight, near .5, far 500, from its position; without one, from twice the scene's
-/// radius. It covers what casts across, and what there is along the light.
-fn sun_view(scene: &Scene, towards: Vec3, casts: impl Fn(usize) -> bool) -> View {
-    let fake = &scene.fake;
+/// radius. It covers what casts across and, fair, what there is
+/// along the light.
+fn sun_view(scene: &Scene, fake: Fake, towards: Vec3, casts: impl Fn(usize) -> bool) -> View {
+    let numbers = &scene.fake;
     let (low, high) = scene.bounds();
     let radius = (0.5 * (high - low).length()).max(f32::MIN_POSITIVE);
-    let position = fake.light_position.unwrap_or(0.5 * (low + high) + towards * (2.0 * radius));
+    let position = numbers.light_position.unwrap_or(0.5 * (low + high) + towards * (2.0 * radius));
     let up = if towards.y.abs() > 0.999 { Vec3::Z } else { Vec3::Y };
     let view_from_world = rh::view::look_to_mat4(position, -towards, up);
     let in_view = |bounds: (Vec3, Vec3)| corners(bounds).map(|corner| view_from_world.transform_point3(corner));
     let across = |p: Vec3| p.x.abs().max(p.y.abs());
     let casters = scene.shapes.iter().enumerate().filter(|(index, _)| casts(*index));
     let covering = casters.flat_map(|(_, s)| in_view(s.geometry.bounds())).map(across).fold(0.0, f32::max);
-    let half_width = fake.shadow_half_width.unwrap_or(covering).max(1e-6 * radius);
+    let half_width = numbers.shadow_half_width.unwrap_or(covering).max(1e-6 * radius);
     let farthest = in_view((low, high)).map(|p| -p.z).into_iter().fold(0.0, f32::max);
-    let (near, far) = match fake.light_position {
+    let (near, far) = match numbers.light_position {
+        Some(_) if fake == Fake::AsTaught => (0.5, 500.0),
         Some(_) => (0.5, farthest.max(500.0)),
         None => (0.9 * radius, 3.1 * radius),
     };
@@ -141,16 +141,22 @@ fn sun_view(scene: &Scene, towards: Vec3, casts: impl Fn(usize) -> bool) -> View
         clip_from_world,
         depth_from_world: clip_from_world.row(2),
         eye: position,
-        texel: Vec2::new(2.0 * half_width / (fake.shadow_map as f32 * (far - near)), 0.0),
+        texel: Vec2::new(2.0 * half_width / (numbers.shadow_map as f32 * (far - near)), 0.0),
         ..View::zeroed()
     }
+}
+
+/// Tangent of half the field of view of a lamp's view of `size` texels a side.
+pub fn lamp_reach(size: u32) -> f32 {
+    let size = size as f32;
+    size / (size - 2.0 * KERNEL_REACH).max(1.0)
 }
 
 /// A lamp's view along an axis: wider than a cube's face by the kernel's reach, so that no lookup leaves its face. The depth
 /// that it keeps is linear, because the kernel compares depths of neighbouring texels.
 fn lamp_view(scene: &Scene, position: Vec3, axis: usize) -> View {
     let size = scene.fake.shadow_map as f32;
-    let reach = size / (size - 2.0 * KERNEL_REACH).max(1.0);
+    let reach = lamp_reach(scene.fake.shadow_map);
     let distances = corners(scene.bounds()).map(|corner| (corner - position).length());
     let far = (1.001 * distances.into_iter().fold(0.0, f32::max)).max(f32::MIN_POSITIVE);
     let plane = cube::forward(axis) / far;

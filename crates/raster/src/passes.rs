@@ -5,7 +5,7 @@
 use crate::error::RasterError;
 use crate::pipelines::{Forward, Pipelines};
 use crate::plan::Plan;
-use crate::settings::Fake;
+use crate::settings::{Fake, Show};
 use crate::targets::Targets;
 use crate::tessellation::World;
 use bytemuck::Pod;
@@ -62,17 +62,26 @@ fn spaced<T: Pod>(items: &[T]) -> Vec<u8> {
 }
 
 /// Submits a frame.
-pub fn draw(gpu: &Gpu, pipelines: &Pipelines, uniforms: &Uniforms, world: &World, targets: &Targets, plan: &Plan) {
+pub fn draw(gpu: &Gpu, pipelines: &Pipelines, uniforms: &Uniforms, world: &World, targets: Targets<'_>, plan: &Plan) {
     let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("the fake") });
     let frame = Frame { pipelines, world, targets, plan, groups: Groups::new(gpu, pipelines, uniforms, targets) };
-    for (index, &glass) in plan.cube_maps.iter().enumerate() {
+    let cube_maps = match plan.show {
+        Show::Picture => plan.cube_maps.len(),
+        Show::CubeFaces => 1,
+        Show::ShadowMap => 0,
+    };
+    for (index, &glass) in plan.cube_maps.iter().enumerate().take(cube_maps) {
         frame.shadow_map(&mut encoder, Some(glass));
         frame.cube_map(&mut encoder, index, glass);
     }
-    frame.shadow_map(&mut encoder, None);
-    frame.picture(&mut encoder);
-    if plan.fake == Fake::Fair {
-        frame.resolve(gpu, &mut encoder);
+    if plan.show != Show::CubeFaces {
+        frame.shadow_map(&mut encoder, None);
+    }
+    if plan.show == Show::Picture {
+        frame.picture(&mut encoder);
+        if plan.fake == Fake::Fair {
+            frame.resolve(gpu, &mut encoder);
+        }
     }
     gpu.queue.submit([encoder.finish()]);
 }
@@ -86,9 +95,9 @@ struct Groups {
 }
 
 impl Groups {
-    fn new(gpu: &Gpu, pipelines: &Pipelines, uniforms: &Uniforms, targets: &Targets) -> Groups {
+    fn new(gpu: &Gpu, pipelines: &Pipelines, uniforms: &Uniforms, targets: Targets<'_>) -> Groups {
         let view = || sized::<crate::gpu_data::View>(&uniforms.views);
-        let shadow_map = BindingResource::TextureView(&targets.shadow_map.all);
+        let shadow_map = BindingResource::TextureView(&targets.shadow.map.all);
         let object = |cube: &TextureView| {
             let sampler = BindingResource::Sampler(&pipelines.sampler);
             let object = sized::<crate::gpu_data::Object>(&uniforms.objects);
@@ -101,8 +110,8 @@ impl Groups {
                 &pipelines.frame_layout,
                 &[view(), sized::<crate::gpu_data::Lights>(&uniforms.lights), shadow_map],
             ),
-            without_cube_map: object(&targets.no_cube_map),
-            with_cube_map: targets.cube_maps.iter().map(|cube| object(&cube.all)).collect(),
+            without_cube_map: object(&targets.cubes.none),
+            with_cube_map: targets.cubes.each.iter().map(|cube| object(&cube.all)).collect(),
         }
     }
 }
@@ -122,7 +131,7 @@ fn bind(gpu: &Gpu, layout: &BindGroupLayout, resources: &[BindingResource<'_>]) 
 struct Frame<'a> {
     pipelines: &'a Pipelines,
     world: &'a World,
-    targets: &'a Targets,
+    targets: Targets<'a>,
     plan: &'a Plan,
     groups: Groups,
 }
@@ -131,9 +140,9 @@ impl Frame<'_> {
     fn shadow_map(&self, encoder: &mut CommandEncoder, without: Option<usize>) {
         for layer in self.plan.shadow_layers.clone() {
             let target = Target {
-                colour: &self.targets.shadow_map.each[layer],
+                colour: &self.targets.shadow.map.each[layer],
                 resolved: None,
-                depth: Some(&self.targets.shadow_depth),
+                depth: Some(&self.targets.shadow.depth),
                 // nothing is farther
                 clear: bits(Vec3::ONE),
             };
@@ -152,9 +161,9 @@ impl Frame<'_> {
     fn cube_map(&self, encoder: &mut CommandEncoder, index: usize, glass: usize) {
         for layer in 0..6 {
             let target = Target {
-                colour: &self.targets.cube_maps[index].each[layer],
+                colour: &self.targets.cubes.each[index].each[layer],
                 resolved: None,
-                depth: Some(&self.targets.cube_depth),
+                depth: Some(&self.targets.cubes.depth),
                 clear: self.sky(),
             };
             let forward = &self.pipelines.of(self.plan.fake).cube_map;
@@ -166,9 +175,9 @@ impl Frame<'_> {
         let multisampled = self.plan.fake == Fake::AsTaught;
         for (pass, view) in self.plan.picture_views.clone().enumerate() {
             let target = Target {
-                colour: &self.targets.passes.each[pass],
-                resolved: multisampled.then_some(&self.targets.resolved),
-                depth: Some(&self.targets.depth),
+                colour: &self.targets.picture.passes.each[pass],
+                resolved: multisampled.then_some(&self.targets.picture.resolved),
+                depth: Some(&self.targets.picture.depth),
                 clear: self.sky_of_picture(),
             };
             self.forward(&mut target.begin(encoder), &self.pipelines.of(self.plan.fake).picture, view, None);
@@ -176,8 +185,8 @@ impl Frame<'_> {
     }
 
     fn resolve(&self, gpu: &Gpu, encoder: &mut CommandEncoder) {
-        let target = Target { colour: &self.targets.resolved, resolved: None, depth: None, clear: wgpu::Color::BLACK };
-        let passes = BindingResource::TextureView(&self.targets.passes.all);
+        let target = Target { colour: &self.targets.picture.resolved, resolved: None, depth: None, clear: wgpu::Color::BLACK };
+        let passes = BindingResource::TextureView(&self.targets.picture.passes.all);
         let group = bind(gpu, &self.pipelines.resolve_layout, &[passes]);
         let mut pass = target.begin(encoder);
         pass.set_pipeline(&self.pipelines.resolve);

@@ -2,9 +2,9 @@
 
 use crate::cube;
 use crate::gpu_data::{Lights, Object, View};
-use crate::lights::{self, SLACK};
-use crate::settings::{Fake, RasterSettings};
-use crate::targets::TargetPlan;
+use crate::lights;
+use crate::settings::{Fake, RasterSettings, Show};
+use crate::targets::{CubePlan, PicturePlan, ShadowPlan, TargetPlan};
 use bytemuck::Zeroable;
 use scene::glam::Vec2;
 use scene::{Bsdf, Camera, Geometry, Scene, Texture, Vec3};
@@ -46,12 +46,16 @@ pub struct Plan {
     pub casting: Vec<Casting>,
     /// Which shadow views are drawn.
     pub shadow_layers: Range<usize>,
+    /// Texels along a side of the shadow map.
+    pub shadow_size: u32,
     /// The shapes that have cube maps.
     pub cube_maps: Vec<usize>,
     /// Which views are the picture's.
     pub picture_views: Range<usize>,
     /// Which fake.
     pub fake: Fake,
+    /// Which of the passes is the last.
+    pub show: Show,
     /// Background.
     pub sky: Vec3,
 }
@@ -65,7 +69,7 @@ impl Plan {
         let glass = |shape: &usize| matches!(scene.material_of(&scene.shapes[*shape]).bsdf, Bsdf::Dielectric { .. });
         let cube_maps: Vec<_> = (0..scene.shapes.len()).filter(glass).take(MOST_CUBE_MAPS).collect();
         let mut objects: Vec<_> =
-            (0..scene.shapes.len()).map(|shape| object(scene, shape, casting[shape], fake)).collect();
+            (0..scene.shapes.len()).map(|shape| object(scene, shape, casting[shape], settings)).collect();
         let mut views = lights.shadow_views.to_vec();
         for &shape in &cube_maps {
             objects[shape].has_cube_map = 1;
@@ -73,8 +77,10 @@ impl Plan {
         }
         let first = views.len();
         views.extend(picture_views(camera, settings));
+        let shadow_layers = shadow_layers(scene, fake);
         Plan {
-            shadow_layers: shadow_layers(scene, fake),
+            shadow_size: if shadow_layers.is_empty() { 1 } else { scene.fake.shadow_map },
+            shadow_layers,
             picture_views: first..views.len(),
             views,
             lights,
@@ -82,21 +88,18 @@ impl Plan {
             casting,
             cube_maps,
             fake,
+            show: settings.show,
             sky: scene.sky,
         }
     }
 
     /// The targets that this frame needs.
     pub fn target_plan(&self, scene: &Scene, settings: &RasterSettings) -> TargetPlan {
-        let with_shadows = !self.shadow_layers.is_empty();
+        let &RasterSettings { width, height, fake, .. } = settings;
         TargetPlan {
-            width: settings.width,
-            height: settings.height,
-            fake: settings.fake,
-            shadow_size: if with_shadows { scene.fake.shadow_map } else { 1 },
-            with_lamp: self.shadow_layers.end > 1,
-            cube_size: scene.fake.cube_map,
-            cube_maps: self.cube_maps.len(),
+            shadow: ShadowPlan { size: self.shadow_size, with_lamp: self.shadow_layers.end > 1 },
+            cubes: CubePlan { size: scene.fake.cube_map, count: self.cube_maps.len(), fake },
+            picture: PicturePlan { width, height, fake },
         }
     }
 
@@ -181,15 +184,15 @@ fn hides_something(scene: &Scene, index: usize, corner: Vec3, normal: Vec3) -> b
     })
 }
 
-fn object(scene: &Scene, index: usize, casting: Casting, fake: Fake) -> Object {
+fn object(scene: &Scene, index: usize, casting: Casting, settings: &RasterSettings) -> Object {
     let shape = &scene.shapes[index];
     let material = scene.material_of(shape);
-    let own_lit_side = fake == Fake::Fair && casting == Casting::BothSides;
+    let own_lit_side = settings.fake == Fake::Fair && casting == Casting::BothSides;
     let mut object = Object {
         reflectivity: material.fake.reflectivity,
         specular: material.fake.specular,
         shininess: material.fake.shininess,
-        slack: if own_lit_side { SLACK } else { 0.0 },
+        slack: if own_lit_side { settings.knobs.filter.reach() } else { 0.0 },
         ..Object::zeroed()
     };
     match material.bsdf {

@@ -1,7 +1,11 @@
 //! What a user may choose about the fake.
 
+use crate::knobs::FakeKnobs;
+use crate::lights;
+use scene::Scene;
+
 /// Size and manner of a picture.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RasterSettings {
     /// Width in pixels.
     pub width: u32,
@@ -11,12 +15,67 @@ pub struct RasterSettings {
     pub fake: Fake,
     /// Which local illumination model.
     pub shading: Shading,
+    /// Numbers in place of the scene's.
+    pub knobs: FakeKnobs,
+    /// What is shown: the picture, or a map that it is made from.
+    pub show: Show,
 }
 
 impl RasterSettings {
-    /// A picture of this size by the default fake and shading.
+    /// A picture of this size by the default fake and shading, with the scene's numbers.
     pub fn new(width: u32, height: u32) -> Self {
-        RasterSettings { width, height, fake: Fake::default(), shading: Shading::default() }
+        RasterSettings {
+            width,
+            height,
+            fake: Fake::default(),
+            shading: Shading::default(),
+            knobs: FakeKnobs::default(),
+            show: Show::default(),
+        }
+    }
+}
+
+/// What a film of the fake holds.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+pub enum Show {
+    /// The scene.
+    #[default]
+    Picture,
+    /// The cube map of the scene's first glass, unfolded to a cross that is seen from inside: -z in the middle, -x, +x and +z
+    /// beside it, +y above and -y below. What the texels hold, each as a square: radiance; as taught, the light of its bytes.
+    CubeFaces,
+    /// What the shadow map keeps, of the sun or else of the lamp as a cross: grey from white (nearest to the light) to
+    /// [`crate::maps::DARKEST`] (farthest), even steps of display brightness; black where nothing was drawn.
+    ShadowMap,
+}
+
+impl Show {
+    /// All of them, the default first.
+    pub const ALL: [Show; 3] = [Show::Picture, Show::CubeFaces, Show::ShadowMap];
+
+    /// The name on the command line.
+    pub fn name(self) -> &'static str {
+        match self {
+            Show::Picture => "picture",
+            Show::CubeFaces => "cube-faces",
+            Show::ShadowMap => "shadow-map",
+        }
+    }
+
+    /// What is shown under that name.
+    pub fn named(name: &str) -> Option<Show> {
+        Show::ALL.into_iter().find(|show| show.name() == name)
+    }
+
+    /// Whether `scene` has it: there are no cube maps without glass and no shadow map without sun and lamp.
+    pub fn available(self, scene: &Scene) -> bool {
+        match self {
+            Show::Picture => true,
+            Show::CubeFaces => {
+                scene.shapes.iter().any(|s| matches!(scene.material_of(s).bsdf, scene::Bsdf::Dielectric { .. }))
+            }
+            Show::ShadowMap => scene.sun.is_some() || lights::Lamp::brightest(scene).is_some(),
+        }
     }
 }
 
@@ -87,6 +146,7 @@ mod tests {
     fn names_are_read_back() {
         assert!(Fake::ALL.iter().all(|&fake| Fake::named(fake.name()) == Some(fake)));
         assert!(Shading::ALL.iter().all(|&shading| Shading::named(shading.name()) == Some(shading)));
+        assert!(Show::ALL.iter().all(|&show| Show::named(show.name()) == Some(show)));
         assert_eq!(Fake::named("Fair"), None);
     }
 }

@@ -65,6 +65,24 @@ pub fn checkerboard(board: &Checkerboard, p: Vec3) -> Vec3 {
     board.at(p)
 }
 
+/// Whether the texel of a square shadow map of `size` texels a side that holds `uv` in `[0, 1]^2` is lit, as 0 or 1;
+/// `nearest(x, y)` is its depth there. three.js' BasicShadowMap.
+pub fn hard(nearest: impl Fn(u32, u32) -> f32, size: u32, uv: [f32; 2], depth: f32) -> f32 {
+    let [x, y] = uv.map(|x| ((x * size as f32).floor() as i32).clamp(0, size as i32 - 1) as u32);
+    if nearest(x, y) >= depth { 1.0 } else { 0.0 }
+}
+
+/// The lit share of 17 texels about `uv`, half a texel and a whole one away. three.js' PCFShadowMap.
+pub fn pcf(nearest: impl Fn(u32, u32) -> f32, size: u32, uv: [f32; 2], depth: f32) -> f32 {
+    let texel = |x: f32| (x.floor() as i32).clamp(0, size as i32 - 1) as u32;
+    let at = uv.map(|x| x * size as f32);
+    let lit = |dx: f32, dy: f32| if nearest(texel(at[0] + dx), texel(at[1] + dy)) >= depth { 1.0 } else { 0.0 };
+    let ring = |r: f32| {
+        lit(-r, -r) + lit(0.0, -r) + lit(r, -r) + lit(-r, 0.0) + lit(r, 0.0) + lit(-r, r) + lit(0.0, r) + lit(r, r)
+    };
+    (lit(0.0, 0.0) + ring(0.5) + ring(1.0)) / 17.0
+}
+
 /// The lit share of 3 x 3 texels about `uv` in `[0, 1]^2` of a square shadow map of `size` texels a side; `nearest(x, y)` is
 /// its depth there. The kernel of three.js' PCFSoftShadowMap.
 pub fn pcf_soft(nearest: impl Fn(u32, u32) -> f32, size: u32, uv: [f32; 2], depth: f32) -> f32 {

@@ -1,15 +1,18 @@
-//! What is drawn into: shadow map, cube maps, picture. Kept as long as sizes stay.
+//! What is drawn into: shadow map, cube maps, picture. Each is kept as long as what it depends on stays.
 
 use crate::settings::Fake;
 use gpu::upload::TexturePlan;
 use gpu::{Gpu, GpuError};
-use wgpu::{TextureFormat, TextureUsages, TextureView};
+use wgpu::{TextureFormat, TextureUsages, TextureView, TextureViewDimension};
 
 /// Depths in passes are f32: the shadow map compares depths of neighbouring texels.
 pub const DEPTH: TextureFormat = TextureFormat::Depth32Float;
 
 /// The shadow map's texels: bits of f32, because integers can be drawn by every backend, floats not through OpenGL.
 pub const SHADOW: TextureFormat = TextureFormat::R32Uint;
+
+/// What is drawn and then looked up.
+const LOOKED_UP: TextureUsages = TextureUsages::RENDER_ATTACHMENT.union(TextureUsages::TEXTURE_BINDING);
 
 /// Formats and samples of a fake's colours.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -49,23 +52,46 @@ fn draws_half_floats(gpu: &Gpu) -> bool {
     usages.contains(TextureUsages::RENDER_ATTACHMENT)
 }
 
-/// What targets depend on.
+/// What the targets of a frame depend on, part by part.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct TargetPlan {
-    /// Width of the picture.
+    /// Of the shadow map.
+    pub shadow: ShadowPlan,
+    /// Of the cube maps.
+    pub cubes: CubePlan,
+    /// Of the picture.
+    pub picture: PicturePlan,
+}
+
+/// What the shadow map depends on.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct ShadowPlan {
+    /// Texels along a side.
+    pub size: u32,
+    /// Whether it has the lamp's six layers.
+    pub with_lamp: bool,
+}
+
+/// What the cube maps depend on.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct CubePlan {
+    /// Texels along a side of a face.
+    pub size: u32,
+    /// How many.
+    pub count: usize,
+    /// Which fake's format.
+    pub fake: Fake,
+}
+
+/// What the picture depends on.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct PicturePlan {
+    /// Width in pixels.
     pub width: u32,
-    /// Height of the picture.
+    /// Height in pixels.
     pub height: u32,
     /// Which fake's formats.
     pub fake: Fake,
-    /// Texels along a side of the shadow map.
-    pub shadow_size: u32,
-    /// Whether the shadow map has the lamp's six layers.
-    pub with_lamp: bool,
-    /// Texels along a side of a cube map's face.
-    pub cube_size: u32,
-    /// How many cube maps.
-    pub cube_maps: usize,
 }
 
 /// Views of a shadow map or cube map.
@@ -77,96 +103,129 @@ pub struct Layers {
     pub each: Vec<TextureView>,
 }
 
-/// The targets of a frame.
+/// The shadow map.
 #[derive(Debug)]
-pub struct Targets {
-    plan: TargetPlan,
+pub struct ShadowTargets {
     /// Nearest depths: the sun's layer, then the lamp's.
-    pub shadow_map: Layers,
+    pub map: Layers,
     /// Depth buffer beside it.
-    pub shadow_depth: TextureView,
-    /// One for each glass.
-    pub cube_maps: Vec<Layers>,
-    /// Stands in where a shape has none.
-    pub no_cube_map: TextureView,
-    /// Depth buffer of a face.
-    pub cube_depth: TextureView,
-    /// The picture's passes, or its samples.
-    pub passes: Layers,
-    /// Depth buffer of the picture.
     pub depth: TextureView,
-    picture: wgpu::Texture,
-    /// The finished picture.
+}
+
+/// The cube maps.
+#[derive(Debug)]
+pub struct CubeTargets {
+    /// One for each glass.
+    pub each: Vec<Layers>,
+    /// Stands in where a shape has none.
+    pub none: TextureView,
+    /// Depth buffer of a face.
+    pub depth: TextureView,
+}
+
+/// The picture.
+#[derive(Debug)]
+pub struct PictureTargets {
+    /// Its passes, or its samples.
+    pub passes: Layers,
+    /// Its depth buffer.
+    pub depth: TextureView,
+    /// It when finished.
     pub resolved: TextureView,
 }
 
-impl Targets {
-    /// The targets of `plan`: the `kept` ones if they fit.
-    pub fn current<'a>(kept: &'a mut Option<Targets>, gpu: &Gpu, plan: &TargetPlan) -> Result<&'a Targets, GpuError> {
-        match kept.take().filter(|targets| targets.plan == *plan) {
-            Some(targets) => Ok(kept.insert(targets)),
-            None => Ok(kept.insert(Targets::new(gpu, *plan)?)),
-        }
-    }
+/// The parts that the last frame had.
+#[derive(Debug, Default)]
+pub struct Kept {
+    shadow: Option<(ShadowPlan, ShadowTargets)>,
+    cubes: Option<(CubePlan, CubeTargets)>,
+    picture: Option<(PicturePlan, PictureTargets)>,
+}
 
-    /// The finished picture, to read back.
-    pub fn picture(&self) -> &wgpu::Texture {
-        &self.picture
-    }
+/// The targets of a frame.
+#[derive(Debug, Clone, Copy)]
+pub struct Targets<'a> {
+    /// Nearest depths.
+    pub shadow: &'a ShadowTargets,
+    /// What surrounds the glass.
+    pub cubes: &'a CubeTargets,
+    /// What is seen.
+    pub picture: &'a PictureTargets,
+}
 
-    fn new(gpu: &Gpu, plan: TargetPlan) -> Result<Targets, GpuError> {
-        let colours = Colours::of(plan.fake, gpu);
-        let looked_up = TextureUsages::RENDER_ATTACHMENT | TextureUsages::TEXTURE_BINDING;
-        let square = |size: u32, layers: u32, format| TexturePlan {
-            width: size,
-            height: size,
-            layers,
-            samples: 1,
-            format,
-            usage: looked_up,
-        };
-        // GL takes an array of one layer for a plain texture and one of six for a cube: neither 1 nor 6
-        let shadow_layers = if plan.with_lamp { 7 } else { 2 };
-        let shadow_map = gpu.texture("a shadow map", &square(plan.shadow_size, shadow_layers, SHADOW))?;
-        let shadow_depth = gpu.texture("a shadow map", &square(plan.shadow_size, 1, DEPTH))?;
-        let cube_plan = square(plan.cube_size, 6, colours.cube_map);
-        let cubes =
-            (0..plan.cube_maps).map(|_| gpu.texture("a cube map", &cube_plan)).collect::<Result<Vec<_>, _>>()?;
-        let no_cube = gpu.texture("a cube map", &square(1, 6, colours.cube_map))?;
-        let cube_depth =
-            gpu.texture("a cube map", &square(if cubes.is_empty() { 1 } else { plan.cube_size }, 1, DEPTH))?;
-        let picture_plan = TexturePlan { width: plan.width, height: plan.height, ..square(1, 1, colours.picture) };
-        let resolved_usage = TextureUsages::RENDER_ATTACHMENT | TextureUsages::COPY_SRC;
-        let picture = gpu.texture("a picture", &TexturePlan { usage: resolved_usage, ..picture_plan })?;
-        let usage = if colours.samples > 1 { TextureUsages::RENDER_ATTACHMENT } else { looked_up };
-        let passes_plan = TexturePlan { layers: colours.passes, samples: colours.samples, usage, ..picture_plan };
-        let passes = gpu.texture("a picture", &passes_plan)?;
-        let depth_plan =
-            TexturePlan { format: DEPTH, layers: 1, usage: TextureUsages::RENDER_ATTACHMENT, ..passes_plan };
-        let depth = gpu.texture("a picture", &depth_plan)?;
+impl Kept {
+    /// The targets of `plan`: of the kept ones those that fit.
+    pub fn current(&mut self, gpu: &Gpu, plan: &TargetPlan) -> Result<Targets<'_>, GpuError> {
         Ok(Targets {
-            plan,
-            shadow_map: layers(&shadow_map, wgpu::TextureViewDimension::D2Array),
-            shadow_depth: whole(&shadow_depth),
-            cube_maps: cubes.iter().map(|cube| layers(cube, wgpu::TextureViewDimension::Cube)).collect(),
-            no_cube_map: layers(&no_cube, wgpu::TextureViewDimension::Cube).all,
-            cube_depth: whole(&cube_depth),
-            passes: layers(
-                &passes,
-                if colours.passes > 1 { wgpu::TextureViewDimension::D2Array } else { wgpu::TextureViewDimension::D2 },
-            ),
-            depth: whole(&depth),
-            resolved: whole(&picture),
-            picture,
+            shadow: fitting(&mut self.shadow, plan.shadow, |plan| shadow_targets(gpu, plan))?,
+            cubes: fitting(&mut self.cubes, plan.cubes, |plan| cube_targets(gpu, plan))?,
+            picture: fitting(&mut self.picture, plan.picture, |plan| picture_targets(gpu, plan))?,
         })
     }
+}
+
+/// What does not fit is let go before its successor takes memory.
+fn fitting<P: Copy + PartialEq, T>(
+    kept: &mut Option<(P, T)>,
+    plan: P,
+    make: impl FnOnce(P) -> Result<T, GpuError>,
+) -> Result<&T, GpuError> {
+    let made = match kept.take().filter(|(made_for, _)| *made_for == plan) {
+        Some(made) => made,
+        None => (plan, make(plan)?),
+    };
+    Ok(&kept.insert(made).1)
+}
+
+fn square(size: u32, layers: u32, format: TextureFormat) -> TexturePlan {
+    // read back to be looked at
+    let usage = LOOKED_UP | if format == DEPTH { TextureUsages::empty() } else { TextureUsages::COPY_SRC };
+    TexturePlan { width: size, height: size, layers, samples: 1, format, usage }
+}
+
+fn shadow_targets(gpu: &Gpu, plan: ShadowPlan) -> Result<ShadowTargets, GpuError> {
+    // GL takes an array of one layer for a plain texture and one of six for a cube: neither 1 nor 6
+    let map = gpu.texture("a shadow map", &square(plan.size, if plan.with_lamp { 7 } else { 2 }, SHADOW))?;
+    let depth = gpu.texture("a shadow map", &square(plan.size, 1, DEPTH))?;
+    Ok(ShadowTargets { map: layers(&map, TextureViewDimension::D2Array), depth: whole(&depth) })
+}
+
+fn cube_targets(gpu: &Gpu, plan: CubePlan) -> Result<CubeTargets, GpuError> {
+    let format = Colours::of(plan.fake, gpu).cube_map;
+    let cube_map = |size| Ok(layers(&gpu.texture("a cube map", &square(size, 6, format))?, TextureViewDimension::Cube));
+    let depth_size = if plan.count == 0 { 1 } else { plan.size };
+    Ok(CubeTargets {
+        each: (0..plan.count).map(|_| cube_map(plan.size)).collect::<Result<_, GpuError>>()?,
+        none: cube_map(1)?.all,
+        depth: whole(&gpu.texture("a cube map", &square(depth_size, 1, DEPTH))?),
+    })
+}
+
+fn picture_targets(gpu: &Gpu, plan: PicturePlan) -> Result<PictureTargets, GpuError> {
+    let colours = Colours::of(plan.fake, gpu);
+    let one = TexturePlan {
+        width: plan.width,
+        height: plan.height,
+        layers: 1,
+        samples: 1,
+        format: colours.picture,
+        usage: TextureUsages::RENDER_ATTACHMENT | TextureUsages::COPY_SRC,
+    };
+    let resolved = gpu.texture("a picture", &one)?;
+    let usage = if colours.samples > 1 { TextureUsages::RENDER_ATTACHMENT } else { LOOKED_UP };
+    let all = TexturePlan { layers: colours.passes, samples: colours.samples, usage, ..one };
+    let passes = gpu.texture("a picture", &all)?;
+    let depth = TexturePlan { format: DEPTH, layers: 1, usage: TextureUsages::RENDER_ATTACHMENT, ..all };
+    let depth = gpu.texture("a picture", &depth)?;
+    let dimension = if colours.passes > 1 { TextureViewDimension::D2Array } else { TextureViewDimension::D2 };
+    Ok(PictureTargets { passes: layers(&passes, dimension), depth: whole(&depth), resolved: whole(&resolved) })
 }
 
 fn whole(texture: &wgpu::Texture) -> TextureView {
     texture.create_view(&wgpu::TextureViewDescriptor::default())
 }
 
-fn layers(texture: &wgpu::Texture, dimension: wgpu::TextureViewDimension) -> Layers {
+fn layers(texture: &wgpu::Texture, dimension: TextureViewDimension) -> Layers {
     let view = |dimension, base_array_layer, array_layer_count| {
         texture.create_view(&wgpu::TextureViewDescriptor {
             dimension: Some(dimension),
@@ -178,6 +237,6 @@ fn layers(texture: &wgpu::Texture, dimension: wgpu::TextureViewDimension) -> Lay
     let count = texture.depth_or_array_layers();
     Layers {
         all: view(dimension, 0, Some(count)),
-        each: (0..count).map(|layer| view(wgpu::TextureViewDimension::D2, layer, Some(1))).collect(),
+        each: (0..count).map(|layer| view(TextureViewDimension::D2, layer, Some(1))).collect(),
     }
 }

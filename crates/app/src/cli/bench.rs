@@ -6,7 +6,7 @@ use anyhow::Context;
 use compare::{BenchRow, Errors, LogLogPlot, Series, csv, errors};
 use gpu::Gpu;
 use pathtrace::{Estimator, PathSettings, Tracer};
-use raster::{Fake, Raster, RasterSettings, Shading};
+use raster::{Fake, Raster, RasterSettings};
 use scene::{Film, Scene, builtin};
 use std::path::Path;
 use std::time::Instant;
@@ -80,8 +80,7 @@ fn measure(effort: &Effort) -> anyhow::Result<Vec<BenchRow>> {
     let gpu = Gpu::headless().context("the fake's row of the bench needs a GPU")?;
     let mut raster = Raster::new(&gpu)?;
     for fake in Fake::ALL {
-        let settings =
-            RasterSettings { width: effort.size.0, height: effort.size.1, fake, shading: Shading::default() };
+        let settings = RasterSettings { fake, ..RasterSettings::new(effort.size.0, effort.size.1) };
         raster.render(&scene, &scene.camera, &settings)?;
         let start = Instant::now();
         let film = raster.render(&scene, &scene.camera, &settings)?;

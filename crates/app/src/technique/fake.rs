@@ -27,7 +27,7 @@ impl FakeSettings {
 
     /// With a size, as the raster wants them.
     pub fn sized(&self, width: u32, height: u32) -> RasterSettings {
-        RasterSettings { width, height, fake: self.fake, shading: self.shading }
+        RasterSettings { fake: self.fake, shading: self.shading, ..RasterSettings::new(width, height) }
     }
 
     /// For a pane's label: "fake (raster, fair)".
