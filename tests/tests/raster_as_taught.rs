@@ -34,9 +34,10 @@ impl Body {
         let (kd, glass) = match material.bsdf {
             Bsdf::Diffuse { albedo } => (albedo, None),
             Bsdf::Mirror { reflectance } => (Texture::Constant(reflectance), None),
-            Bsdf::Dielectric { .. } => {
-                (Texture::Constant(Vec3::ONE), Some((material.fake.refraction_ratio.unwrap(), material.fake.reflectivity)))
-            }
+            Bsdf::Dielectric { .. } => (
+                Texture::Constant(Vec3::ONE),
+                Some((material.fake.refraction_ratio.unwrap(), material.fake.reflectivity)),
+            ),
         };
         let (triangles, bounds) = match shape.geometry {
             Geometry::Sphere { center, radius } => (sphere(center, radius, segments), Some((center, radius))),
@@ -191,7 +192,8 @@ impl Twin {
     fn cube_map(&self, glass: usize, d: Vec3) -> Option<Vec3> {
         let eye = self.bodies[glass].bounds.unwrap().0;
         let size = self.cube_size as f32;
-        let forward = Vec3::AXES.into_iter().flat_map(|a| [a, -a]).max_by(|a, b| a.dot(d).total_cmp(&b.dot(d))).unwrap();
+        let forward =
+            Vec3::AXES.into_iter().flat_map(|a| [a, -a]).max_by(|a, b| a.dot(d).total_cmp(&b.dot(d))).unwrap();
         let up = if forward.y == 0.0 { Vec3::Y } else { Vec3::Z };
         let right = forward.cross(up);
         let at = Vec2::new(d.dot(right), d.dot(up)) / d.dot(forward) * (0.5 * size) + 0.5 * size - 0.5;
@@ -269,7 +271,12 @@ fn compare(name: &str, scene: &Scene, knobs: FakeKnobs) {
     }
     let all: usize = compared.iter().sum();
     println!("{name}: compared {compared:?}, {} apart", apart.len());
-    assert!(apart.len() * 1000 <= all, "{name}: {} of {all} are apart, such as {:?}", apart.len(), &apart[..9.min(apart.len())]);
+    assert!(
+        apart.len() * 1000 <= all,
+        "{name}: {} of {all} are apart, such as {:?}",
+        apart.len(),
+        &apart[..9.min(apart.len())]
+    );
     assert!(compared.iter().take(3).all(|count| *count > 300), "{name}: {compared:?}");
 }
 
@@ -334,7 +341,9 @@ fn the_rim_of_the_glass_is_sampled_four_times() {
     for (x, y) in (0..55).flat_map(|y| (100..300).map(move |x| (x, y))) {
         let corner = Vec2::new(x as f32, y as f32);
         let covered = SAMPLES.into_iter().filter(|s| twin.seen_at(corner + *s).0.is_some()).count();
-        let only_glass = SAMPLES.into_iter().all(|s| twin.seen_at(corner + s).0.is_none_or(|hit| twin.bodies[hit.body].glass.is_some()));
+        let only_glass = SAMPLES
+            .into_iter()
+            .all(|s| twin.seen_at(corner + s).0.is_none_or(|hit| twin.bodies[hit.body].glass.is_some()));
         if only_glass {
             rim[covered] += 1;
             let expected = sky.lerp(through, covered as f32 / 4.0);

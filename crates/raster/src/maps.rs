@@ -142,7 +142,8 @@ fn unfolded(
 ) -> Result<Film, RasterError> {
     let (width, height) = (settings.width, settings.height);
     let side = (width as f32 / columns).min(height as f32 / rows);
-    let in_faces = |pixel: u32, pixels: u32, count: f32| (pixel as f32 + 0.5 - 0.5 * pixels as f32) / side + 0.5 * count;
+    let in_faces =
+        |pixel: u32, pixels: u32, count: f32| (pixel as f32 + 0.5 - 0.5 * pixels as f32) / side + 0.5 * count;
     let mut film = Film::try_new(width, height).ok_or(RasterError::Memory { width, height })?;
     let coordinates = (0..height).flat_map(|y| (0..width).map(move |x| (x, y)));
     for (pixel, (x, y)) in film.pixels_mut().iter_mut().zip(coordinates) {
@@ -207,7 +208,9 @@ mod tests {
 
     #[test]
     fn half_floats_are_read() {
-        for (bits, value) in [(0x3c00, 1.0), (0xc000, -2.0), (0x7bff, 65504.0), (0x0001, 2f32.powi(-24)), (0x3555, 0.333_251_95)] {
+        for (bits, value) in
+            [(0x3c00, 1.0), (0xc000, -2.0), (0x7bff, 65504.0), (0x0001, 2f32.powi(-24)), (0x3555, 0.333_251_95)]
+        {
             assert_eq!(half(bits), value);
         }
     }

@@ -185,7 +185,8 @@ impl Frame<'_> {
     }
 
     fn resolve(&self, gpu: &Gpu, encoder: &mut CommandEncoder) {
-        let target = Target { colour: &self.targets.picture.resolved, resolved: None, depth: None, clear: wgpu::Color::BLACK };
+        let target =
+            Target { colour: &self.targets.picture.resolved, resolved: None, depth: None, clear: wgpu::Color::BLACK };
         let passes = BindingResource::TextureView(&self.targets.picture.passes.all);
         let group = bind(gpu, &self.pipelines.resolve_layout, &[passes]);
         let mut pass = target.begin(encoder);
