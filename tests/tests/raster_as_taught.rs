@@ -236,7 +236,7 @@ fn intersect(ray: &Ray, [a, b, c]: &[Corner; 3]) -> Option<(f32, [f32; 3], bool)
     let q = from.cross(u);
     let (x, y) = (from.dot(p) / determinant, ray.d.dot(q) / determinant);
     let t = v.dot(q) / determinant;
-    (x >= 0.0 && y >= 0.0 && x + y <= 1.0 && t > 0.0).then(|| (t, [1.0 - x - y, x, y], determinant > 0.0))
+    (x >= 0.0 && y >= 0.0 && x + y <= 1.0 && t > 0.0).then_some((t, [1.0 - x - y, x, y], determinant > 0.0))
 }
 
 fn rendered(scene: &Scene, knobs: FakeKnobs) -> Film {

@@ -256,6 +256,8 @@ fn checkerboards_agree_away_from_their_edges() {
     assert!(even > ITEMS / 3 && even < ITEMS * 2 / 3);
 }
 
+type Twin<'a> = &'a dyn Fn(&[f32]) -> f32;
+
 #[test]
 fn shadow_kernels_agree_inside_and_at_the_border() {
     let mut random = Random(4);
@@ -264,7 +266,7 @@ fn shadow_kernels_agree_inside_and_at_the_border() {
     let input: Vec<f32> =
         (0..ITEMS).flat_map(|_| [random.between(-0.1, 1.1), random.between(-0.1, 1.1), random.unit()]).collect();
     let nearest = |x: u32, y: u32| map[(y * size + x) as usize];
-    let twins: [&dyn Fn(&[f32]) -> f32; 3] = [
+    let twins: [Twin<'_>; 3] = [
         &|x| shading::hard(nearest, size, [x[0], x[1]], x[2]),
         &|x| shading::pcf(nearest, size, [x[0], x[1]], x[2]),
         &|x| shading::pcf_soft(nearest, size, [x[0], x[1]], x[2]),

@@ -10,6 +10,9 @@
 //! [`Fake::Fair`] is the same fake on the truth's data: linear, unclamped `f32`, sun, lamp and ambient light in the truth's
 //! units, the mean of 4 passes a pixel.
 //!
+//! A picture may take its own numbers instead of the scene's ([`FakeKnobs`]), and the maps of passes 1 and 2 can be looked at
+//! in place of the picture ([`Show`]).
+//!
 //! What it can't do is said, not hidden: at most [`MOST_CUBE_MAPS`] pieces of glass have a cube map, others show the plain
 //! sky, as does glass seen in a cube map; of several lamps only the one of greatest power sheds light; as taught, a sun puts
 //! out all lamps.

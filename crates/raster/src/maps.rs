@@ -34,7 +34,7 @@ const CROSS: [[Option<usize>; 4]; 3] =
 const CROSS_SHAPE: (f32, f32) = (4.0, 3.0);
 
 /// Refuses to show what this frame does not have.
-pub fn check(show: Show, plan: &Plan) -> Result<(), RasterError> {
+pub(crate) fn check(show: Show, plan: &Plan) -> Result<(), RasterError> {
     match show {
         Show::CubeFaces if plan.cube_maps.is_empty() => {
             Err(RasterError::NothingToShow { map: "cube map", missing: "glass" })
@@ -47,7 +47,12 @@ pub fn check(show: Show, plan: &Plan) -> Result<(), RasterError> {
 }
 
 /// The film of a frame's map; [`check`] has let it through, and it has been drawn.
-pub fn film(gpu: &Gpu, targets: Targets<'_>, plan: &Plan, settings: &RasterSettings) -> Result<Film, RasterError> {
+pub(crate) fn film(
+    gpu: &Gpu,
+    targets: Targets<'_>,
+    plan: &Plan,
+    settings: &RasterSettings,
+) -> Result<Film, RasterError> {
     if settings.show == Show::CubeFaces {
         let cube = targets.cubes.each.first().ok_or(RasterError::Incomplete)?;
         let faces = faces(gpu, cube, 0..6)?;
