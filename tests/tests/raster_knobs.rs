@@ -1,7 +1,7 @@
 //! The knobs of the fake, the maps that can be looked at in place of the picture, and what must not make it stumble.
 
 use gpu::Gpu;
-use raster::{Fake, FakeKnobs, MOST_CUBE_MAPS, Raster, RasterError, RasterSettings, ShadowFilter, Show, maps};
+use raster::{Fake, FakeKnobs, MOST_CUBE_MAPS, Raster, RasterError, RasterSettings, Shading, ShadowFilter, Show, maps};
 use scene::display::DisplayTransform;
 use scene::{Bsdf, Camera, Film, Geometry, Scene, Shape, Vec3, builtin, colour};
 
@@ -313,6 +313,22 @@ fn odd_scenes_and_sizes_give_finite_films() {
     for (scene, (width, height)) in odd_scenes().into_iter().map(|scene| (scene, (64, 36))).chain(odd_sizes) {
         for fake in Fake::ALL {
             studio.film(&scene, RasterSettings { fake, knobs, ..RasterSettings::new(width, height) });
+        }
+    }
+}
+
+#[test]
+fn knobs_at_their_ends_give_finite_films_in_every_model() {
+    let mut studio = Studio::new();
+    let coarsest = FakeKnobs { segments: Some(3), cube_map: Some(4), shadow_map: Some(16), ..FakeKnobs::default() };
+    let low = FakeKnobs { shininess: Some(0.0), ambient: Some(0.0), bias: -0.1, ..coarsest };
+    let high = FakeKnobs { shininess: Some(1000.0), ambient: Some(1.0), bias: 0.1, ..coarsest };
+    for scene in [whitted(), builtin::named("cornell").unwrap()] {
+        for (fake, shading) in Fake::ALL.into_iter().flat_map(|fake| Shading::ALL.map(|shading| (fake, shading))) {
+            for (knobs, filter) in [(low, ShadowFilter::Hard), (high, ShadowFilter::Pcf)] {
+                let knobs = FakeKnobs { filter, ..knobs };
+                studio.film(&scene, RasterSettings { fake, shading, knobs, ..RasterSettings::new(64, 36) });
+            }
         }
     }
 }
