@@ -219,11 +219,13 @@ impl Twin {
         Ray { origin: frame.eye, d: frame.direction(at / size), forward: frame.forward, range }
     }
 
-    /// Which triangle, and which cell of a checkerboard, is seen there.
+    /// Which body, which triangle of glass, and which cell of a checkerboard is seen there.
     fn seen_at(&self, at: Vec2) -> (Option<Hit>, Option<(usize, usize, Vec3)>) {
         let ray = self.ray(at);
         let hit = self.seen(&ray, None);
-        (hit, hit.map(|h| (h.body, h.triangle, self.bodies[h.body].kd.at(ray.origin + ray.d * h.t))))
+        // what is interpolated over glass is far from linear, so that a pixel on two of its triangles is a mixture
+        let triangle = |h: &Hit| if self.bodies[h.body].glass.is_some() { h.triangle } else { 0 };
+        (hit, hit.map(|h| (h.body, triangle(&h), self.bodies[h.body].kd.at(ray.origin + ray.d * h.t))))
     }
 }
 
@@ -250,7 +252,7 @@ fn bytes(film: &Film, x: u32, y: u32) -> Vec3 {
     Vec3::new(r, g, b)
 }
 
-/// Compares every pixel that lies in one triangle and one cell. A byte may be rounded either way, twice through a cube map;
+/// Compares every pixel that lies in one body and one cell. A byte may be rounded either way, twice through a cube map;
 /// of four thousand pixels one may lie so near to the border of a texel or a cell that the last bit decides.
 fn compare(name: &str, scene: &Scene, knobs: FakeKnobs) {
     let (film, twin) = (rendered(scene, knobs), Twin::new(scene, &knobs));
@@ -265,7 +267,9 @@ fn compare(name: &str, scene: &Scene, knobs: FakeKnobs) {
         let Some(expected) = twin.colour(&twin.ray(middle), hit, None) else { continue };
         compared[hit.map_or(scene.shapes.len(), |hit| hit.body)] += 1;
         let found = bytes(&film, x, y);
-        if (found - expected * 255.0).abs().max_element() > 1.6 {
+        // beyond a triangle's edge its normal goes on straight: a small ball's facets show that
+        let facets = hit.is_some_and(|h| twin.bodies[h.body].bounds.is_some() && twin.bodies[h.body].glass.is_none());
+        if (found - expected * 255.0).abs().max_element() > if facets { 3.1 } else { 1.6 } {
             apart.push(((x, y), found, expected * 255.0, hit.map(|hit| hit.body)));
         }
     }
@@ -293,7 +297,8 @@ fn every_texel_of_coarse_maps_is_the_twins() {
     compare("coarse maps", &scene, knobs);
 }
 
-/// Balls that cross the shadow map's border, sink into the floor and hide within the cube camera's near distance; walls
+/// Balls that cross the shadow map's border, sink into the floor, hide within the cube camera's near distance
+/// and stand in the glass, in its shadow; walls
 /// before and behind its far distance.
 fn at_the_limits() -> Scene {
     let mut scene = builtin::named("whitted").unwrap();
@@ -314,9 +319,10 @@ fn at_the_limits() -> Scene {
     };
     let glass = Vec3::new(4.2, 2.6, -4.2);
     let added = [
-        ball(Vec3::new(-3.5, 0.3, -5.0), 0.5),
-        ball(Vec3::new(3.0, 0.15, -6.2), 0.3),
+        ball(Vec3::new(1.0, 0.4, -5.3), 0.5),
+        ball(Vec3::new(3.0, 0.15, -5.2), 0.4),
         ball(glass + Vec3::new(-0.03, 0.0, 0.0), 0.05),
+        ball(glass + Vec3::new(0.2, 0.35, 0.3), 0.25),
         wall(glass.x - 4500.0, glass.z),
         wall(glass.x - 5500.0, glass.z - 3000.0),
     ];
@@ -329,6 +335,17 @@ fn at_the_limits() -> Scene {
 #[test]
 fn maps_end_where_the_twins_do() {
     compare("at the limits", &at_the_limits(), FakeKnobs { segments: Some(24), ..FakeKnobs::default() });
+}
+
+#[test]
+fn the_suns_view_reaches_from_half_a_unit_to_500() {
+    let scene = builtin::named("whitted").unwrap();
+    let settings = RasterSettings { fake: Fake::AsTaught, ..RasterSettings::new(1, 1) };
+    let view = raster::lights::lights(&at_the_limits(), &settings, |_| true).shadow_views[0];
+    let (position, l) = (scene.fake.light_position.unwrap(), Vec3::new(10.0, 13.0, -2.0).normalize());
+    for (distance, depth) in [(0.5, 0.0), (500.0, 1.0)] {
+        assert!((view.depth_from_world.dot((position - l * distance).extend(1.0)) - depth).abs() < 1e-5);
+    }
 }
 
 #[test]
