@@ -31,6 +31,16 @@ visavis render SCENE -o OUT      render to OUT, .png (display-transformed) or .e
     --shading three|phong|blinn-phong
                                  whose highlight (default three)
     --reflectivity R             share of the surroundings in fake glass, 0 to 1 (default the scene's)
+    --shininess S                exponent of every highlight, 0 to 1000 (default the scene's)
+    --ambient A                  ambient light, 0 to 1; fair scales the sky's by it (default the scene's)
+    --cube-map N                 texels along a side of a cube map's face, 4 to 2048 (default the scene's)
+    --shadow-map N               texels along a side of the shadow map, 16 to 4096 (default the scene's)
+    --shadow-filter hard|pcf|pcf-soft
+                                 how the shadow map is looked up (default pcf-soft)
+    --shadow-bias B              added to depths before they are compared, -0.1 to 0.1 (default 0)
+    --segments N                 segments of a sphere, 3 to 512 (default the scene's)
+    --show picture|cube-faces|shadow-map
+                                 the picture, or a map that it is made from (default picture)
 visavis compare A B              how far picture A is from reference B (.exr or .png): RMSE, relMSE, MAE, bias
     --json                       as one JSON object
 visavis bench -o DIR --quick     speed against error on both scenes: CSV and SVG plots

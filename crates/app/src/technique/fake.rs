@@ -1,7 +1,7 @@
 //! The settings of the fake.
 
 use super::Records;
-use raster::{Fake, RasterSettings, Shading};
+use raster::{Fake, FakeKnobs, RasterSettings, Shading, ShadowFilter, Show};
 use scene::Scene;
 
 /// The settings of the fake.
@@ -13,6 +13,10 @@ pub struct FakeSettings {
     pub shading: Shading,
     /// Share of the surroundings in fake glass, in [0, 1]; the rest is white. `None`: the scene's.
     pub reflectivity: Option<f32>,
+    /// The other numbers that may be turned.
+    pub knobs: FakeKnobs,
+    /// The picture, or one of the maps that it is made from.
+    pub show: Show,
 }
 
 impl FakeSettings {
@@ -27,23 +31,41 @@ impl FakeSettings {
 
     /// With a size, as the raster wants them.
     pub fn sized(&self, width: u32, height: u32) -> RasterSettings {
-        RasterSettings { fake: self.fake, shading: self.shading, ..RasterSettings::new(width, height) }
+        RasterSettings { width, height, fake: self.fake, shading: self.shading, knobs: self.knobs, show: self.show }
     }
 
     /// For a pane's label: "fake (raster, fair)".
     pub fn label(&self) -> String {
-        format!("fake (raster, {})", self.fake.name())
+        match self.show {
+            Show::Picture => format!("fake (raster, {})", self.fake.name()),
+            map => format!("{} of the fake ({})", map.name().replace('-', " "), self.fake.name()),
+        }
     }
 
     /// The options of `visavis render` that say the same; what is left to the scene is left out.
     pub fn options(&self) -> Records {
         let mut options = vec![("fake", self.fake.name().into()), ("shading", self.shading.name().into())];
         options.extend(self.reflectivity.map(|share| ("reflectivity", share.to_string())));
+        let FakeKnobs { shininess, ambient, cube_map, shadow_map, filter, bias, segments } = self.knobs;
+        options.extend(shininess.map(|exponent| ("shininess", exponent.to_string())));
+        options.extend(ambient.map(|light| ("ambient", light.to_string())));
+        options.extend(cube_map.map(|texels| ("cube-map", texels.to_string())));
+        options.extend(shadow_map.map(|texels| ("shadow-map", texels.to_string())));
+        if filter != ShadowFilter::default() {
+            options.push(("shadow-filter", filter.name().into()));
+        }
+        if bias != 0.0 {
+            options.push(("shadow-bias", bias.to_string()));
+        }
+        options.extend(segments.map(|number| ("segments", number.to_string())));
+        if self.show != Show::Picture {
+            options.push(("show", self.show.name().into()));
+        }
         options
     }
 
     /// Whether it shows the scene rather than one of its maps.
     pub fn shows_the_scene(&self) -> bool {
-        true
+        self.show == Show::Picture
     }
 }

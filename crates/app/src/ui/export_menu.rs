@@ -121,7 +121,8 @@ fn file(viewer: &mut Viewer, ui: &mut Ui, dump: &mut Dump, requests: &mut Vec<Re
             requests.push(Request::Export { what, to });
             ui.close();
         }
-        let copy = dump.note("copy picture", "", ui.add(framed("Copy picture", ui)).on_hover_text("Ctrl+C copies as seen"));
+        let copy =
+            dump.note("copy picture", "", ui.add(framed("Copy picture", ui)).on_hover_text("Ctrl+C copies as seen"));
         if copy.clicked() {
             requests.push(Request::Export { what, to: Destination::Clipboard });
             ui.close();

@@ -15,15 +15,19 @@ pub fn show(viewer: &mut Viewer, ui: &mut Ui, dump: &mut Dump) {
     let mut open = viewer.help;
     let tallest = ui.ctx().content_rect().height() - 80.0;
     let window = egui::Window::new("Mouse and keys").open(&mut open).collapsible(false).resizable(false);
-    let shown = window.anchor(egui::Align2::CENTER_CENTER, egui::Vec2::ZERO).default_height(tallest).vscroll(true).show(ui.ctx(), |ui| {
-        egui::Grid::new("keys").num_columns(2).spacing([16.0, 4.0]).show(ui, |ui| {
-            for (what, does) in MOUSE.iter().chain(&keys::KEYS) {
-                ui.strong(*what);
-                ui.label(*does);
-                ui.end_row();
-            }
+    let shown = window
+        .anchor(egui::Align2::CENTER_CENTER, egui::Vec2::ZERO)
+        .default_height(tallest)
+        .vscroll(true)
+        .show(ui.ctx(), |ui| {
+            egui::Grid::new("keys").num_columns(2).spacing([16.0, 4.0]).show(ui, |ui| {
+                for (what, does) in MOUSE.iter().chain(&keys::KEYS) {
+                    ui.strong(*what);
+                    ui.label(*does);
+                    ui.end_row();
+                }
+            });
         });
-    });
     if let Some(shown) = shown {
         dump.note("help", "", shown.response);
     }

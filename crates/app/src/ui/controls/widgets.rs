@@ -39,9 +39,11 @@ impl Stepped<'_> {
 
 /// A number with as many decimals as its step has, and up to three where it stands between two steps.
 fn digits(value: f64, step: f64) -> String {
-    let least = usize::from(step < 1.0) + usize::from(step < 0.1) + usize::from(step < 0.01);
-    let on_a_step = |decimals: &usize| format!("{value:.decimals$}").parse() == Ok((value * 1e3).round() / 1e3);
-    let decimals = (least..3).find(on_a_step).unwrap_or(3);
+    let least = [1.0, 0.1, 0.01, 0.001].iter().filter(|&&power| step < power).count();
+    let most = least.max(3);
+    let shift = 10f64.powi(most as i32);
+    let on_a_step = |decimals: &usize| format!("{value:.decimals$}").parse() == Ok((value * shift).round() / shift);
+    let decimals = (least..most).find(on_a_step).unwrap_or(most);
     format!("{value:.decimals$}")
 }
 
@@ -68,6 +70,20 @@ pub fn doubling(
         dump.note(&format!("{name} value"), before, typed);
     });
     *value != before
+}
+
+/// A slider over whole numbers. Returns whether the user has changed `value`.
+pub fn whole(
+    [name, label]: [&str; 2],
+    value: &mut u32,
+    range: RangeInclusive<u32>,
+    ui: &mut Ui,
+    dump: &mut Dump,
+) -> bool {
+    let label = dump.note(&format!("text {name}"), label, ui.label(label));
+    fit(ui);
+    let response = ui.add(Slider::new(value, range).clamping(SliderClamping::Edits)).labelled_by(label.id);
+    dump.note(name, *value, response).changed()
 }
 
 /// A number to drag or type.

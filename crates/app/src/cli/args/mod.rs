@@ -1,0 +1,116 @@
+//! From words to commands.
+
+mod render;
+mod values;
+
+pub use render::RenderArgs;
+
+use super::{CliError, Command, help};
+use crate::ui::Theme;
+use lexopt::prelude::*;
+use std::ffi::OsString;
+use std::path::PathBuf;
+use values::choice;
+
+/// `visavis [SCENE]`.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ViewArgs {
+    /// A built-in name or a file.
+    pub scene: String,
+    /// Where to write the names, rectangles and states of the widgets, each frame, for tests.
+    pub ui_dump: Option<PathBuf>,
+    /// How the window looks at first.
+    pub theme: Theme,
+    /// Whether to print at the end what frames cost the UI thread.
+    pub frame_stats: bool,
+}
+
+fn usage<T>(line: impl Into<String>) -> Result<T, CliError> {
+    Err(CliError::Usage(line.into()))
+}
+
+impl From<lexopt::Error> for CliError {
+    fn from(error: lexopt::Error) -> Self {
+        CliError::Usage(error.to_string())
+    }
+}
+
+impl Command {
+    /// Reads the arguments (without the program's name).
+    ///
+    /// # Errors
+    /// [`CliError::Usage`] names the word that is wrong and what was expected.
+    pub fn parse(args: impl IntoIterator<Item = OsString>) -> Result<Self, CliError> {
+        let words: Vec<OsString> = args.into_iter().collect();
+        let command = words.first().and_then(|word| word.to_str()).unwrap_or_default().to_owned();
+        let mut parser = lexopt::Parser::from_args(words);
+        let named: fn(lexopt::Parser) -> Result<Self, CliError> = match command.as_str() {
+            "render" => render::parse,
+            "compare" => parse_compare,
+            "bench" => parse_bench,
+            "info" => |parser| nothing_more(parser, Command::Info),
+            "check" => |_| usage("check is not built yet"),
+            _ => return parse_view(parser),
+        };
+        parser.next()?;
+        named(parser)
+    }
+}
+
+fn nothing_more(mut parser: lexopt::Parser, command: Command) -> Result<Command, CliError> {
+    match parser.next()? {
+        None => Ok(command),
+        Some(Long("help")) => Ok(Command::Print(help::HELP)),
+        Some(other) => Err(other.unexpected().into()),
+    }
+}
+
+fn parse_view(mut parser: lexopt::Parser) -> Result<Command, CliError> {
+    let (mut scene, mut ui_dump, mut theme, mut frame_stats) = (None, None, Theme::default(), false);
+    while let Some(arg) = parser.next()? {
+        match arg {
+            Value(word) if scene.is_none() => scene = Some(word.string()?),
+            Long("ui-dump") => ui_dump = Some(PathBuf::from(parser.value()?)),
+            Long("theme") => theme = choice(&mut parser, "--theme", Theme::named, "dark or projector")?,
+            Long("frame-stats") => frame_stats = true,
+            Long("help") | Short('h') => return Ok(Command::Print(help::HELP)),
+            Long("version") | Short('V') => return Ok(Command::Print(help::VERSION)),
+            other => return Err(other.unexpected().into()),
+        }
+    }
+    let scene = scene.unwrap_or_else(|| "whitted".into());
+    Ok(Command::View(ViewArgs { scene, ui_dump, theme, frame_stats }))
+}
+
+fn parse_compare(mut parser: lexopt::Parser) -> Result<Command, CliError> {
+    let (mut files, mut json) = (Vec::<PathBuf>::new(), false);
+    while let Some(arg) = parser.next()? {
+        match arg {
+            Value(file) if files.len() < 2 => files.push(file.into()),
+            Long("json") => json = true,
+            Long("help") => return Ok(Command::Print(help::HELP)),
+            other => return Err(other.unexpected().into()),
+        }
+    }
+    let Ok([film, reference]) = <[PathBuf; 2]>::try_from(files) else {
+        return usage("compare takes two pictures: visavis compare A B");
+    };
+    Ok(Command::Compare { film, reference, json })
+}
+
+fn parse_bench(mut parser: lexopt::Parser) -> Result<Command, CliError> {
+    let (mut folder, mut quick) = (None, false);
+    while let Some(arg) = parser.next()? {
+        match arg {
+            Short('o') => folder = Some(PathBuf::from(parser.value()?)),
+            Long("quick") => quick = true,
+            Long("help") => return Ok(Command::Print(help::HELP)),
+            other => return Err(other.unexpected().into()),
+        }
+    }
+    match folder {
+        Some(folder) if quick => Ok(Command::Bench { folder }),
+        Some(_) => usage("only the quick bench is built so far: visavis bench --quick -o DIR"),
+        None => usage("bench needs a folder for its results: visavis bench --quick -o DIR"),
+    }
+}

@@ -1,0 +1,86 @@
+//! Values of options: read, checked, or refused with what was expected.
+
+use super::usage;
+use crate::cli::CliError;
+use lexopt::ValueExt;
+use scene::Vec3;
+use std::ops::RangeInclusive;
+use std::str::FromStr;
+
+/// Pixels that a picture may have at most: a film of them takes 8 GiB.
+const MOST_PIXELS: u64 = 1 << 27;
+
+pub fn text(parser: &mut lexopt::Parser) -> Result<String, CliError> {
+    Ok(parser.value()?.string()?)
+}
+
+pub fn choice<T>(
+    parser: &mut lexopt::Parser,
+    option: &str,
+    named: impl Fn(&str) -> Option<T>,
+    expected: &str,
+) -> Result<T, CliError> {
+    let word = text(parser)?;
+    named(&word).map_or_else(|| usage(format!("{option} {word}: expected {expected}")), Ok)
+}
+
+pub fn number(
+    parser: &mut lexopt::Parser,
+    option: &str,
+    expected: &str,
+    holds: impl Fn(f32) -> bool,
+) -> Result<f32, CliError> {
+    let word = text(parser)?;
+    parse_finite(&word).filter(|v| holds(*v)).map_or_else(|| usage(format!("{option} {word}: expected {expected}")), Ok)
+}
+
+pub fn parse_finite(word: &str) -> Option<f32> {
+    f32::from_str(word.trim()).ok().filter(|v| v.is_finite())
+}
+
+pub fn whole(parser: &mut lexopt::Parser, option: &str, least: u32) -> Result<u32, CliError> {
+    parse_whole(&text(parser)?, option, least, "")
+}
+
+pub fn parse_whole(word: &str, option: &str, least: u32, or: &str) -> Result<u32, CliError> {
+    let value = word.parse().ok().filter(|v| *v >= least);
+    value
+        .map_or_else(|| usage(format!("{option} {word}: expected a whole number from {least} to {}{or}", u32::MAX)), Ok)
+}
+
+pub fn size(word: &str) -> Result<(u32, u32), CliError> {
+    let sides = word.split_once('x').and_then(|(w, h)| Some((w.parse::<u32>().ok()?, h.parse::<u32>().ok()?)));
+    match sides {
+        Some((width, height)) if width > 0 && height > 0 => {
+            let pixels = u64::from(width) * u64::from(height);
+            if pixels > MOST_PIXELS {
+                return usage(format!("--size {word}: {pixels} pixels, but a picture has at most {MOST_PIXELS}"));
+            }
+            Ok((width, height))
+        }
+        _ => usage(format!("--size {word}: expected WIDTHxHEIGHT in pixels, both at least 1, like 1280x720")),
+    }
+}
+
+pub fn point(parser: &mut lexopt::Parser, option: &str) -> Result<Vec3, CliError> {
+    let word = text(parser)?;
+    let numbers: Option<Vec<f32>> = word.split(',').map(parse_finite).collect();
+    match numbers.as_deref() {
+        Some(&[x, y, z]) => Ok(Vec3::new(x, y, z)),
+        _ => usage(format!("{option} {word}: expected three finite numbers, like 7.5,2.3,-4.2")),
+    }
+}
+
+/// A number within a range, as the fake's knobs have them.
+pub fn within<T: FromStr + PartialOrd + std::fmt::Display>(
+    parser: &mut lexopt::Parser,
+    option: &str,
+    range: &RangeInclusive<T>,
+) -> Result<T, CliError> {
+    let word = text(parser)?;
+    let value = T::from_str(word.trim()).ok().filter(|value| range.contains(value));
+    value.map_or_else(
+        || usage(format!("{option} {word}: expected a number from {} to {}", range.start(), range.end())),
+        Ok,
+    )
+}
