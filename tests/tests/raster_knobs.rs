@@ -62,6 +62,35 @@ fn every_knob_changes_both_fakes_and_leaves_no_trace() {
     }
 }
 
+/// Shadow map and cube maps are kept while only the camera moves, and drawn again when anything that they show changes.
+#[test]
+fn a_picture_after_others_is_the_one_of_a_fresh_start() {
+    let mut kept = Studio::new();
+    let moved = |scene: &Scene| Scene { camera: scene.camera.orbited(0.7, 0.2).dollied(1.3), ..scene.clone() };
+    let mut other_sun = whitted();
+    other_sun.sun.as_mut().unwrap().towards = Vec3::new(-0.3, 0.8, 0.5).normalize();
+    let other_sky = Scene { sky: Vec3::new(0.9, 0.2, 0.1), ..whitted() };
+    let mut other_metal = whitted();
+    let metal = other_metal.materials.iter_mut().find(|m| matches!(m.bsdf, Bsdf::Mirror { .. })).unwrap();
+    metal.bsdf = Bsdf::Diffuse { albedo: scene::Texture::Constant(Vec3::new(0.1, 0.8, 0.1)) };
+    let mut smaller_ball = whitted();
+    let mut shapes = smaller_ball.shapes.to_vec();
+    shapes.iter_mut().for_each(|s| {
+        if let Geometry::Sphere { radius, .. } = &mut s.geometry {
+            *radius *= 0.8
+        }
+    });
+    smaller_ball.shapes = shapes.into();
+    for fake in Fake::ALL {
+        for scene in [whitted(), other_sun.clone(), other_sky.clone(), other_metal.clone(), smaller_ball.clone()] {
+            let settings = with(fake, FakeKnobs::default());
+            let films = [&scene, &moved(&scene)].map(|scene| kept.film(scene, settings));
+            assert_ne!(films[0], films[1]);
+            assert_eq!(films[1], Studio::new().film(&moved(&scene), settings));
+        }
+    }
+}
+
 #[test]
 fn knobs_at_the_scenes_numbers_change_nothing() {
     let (mut studio, scene) = (Studio::new(), whitted());

@@ -37,7 +37,7 @@ pub use plan::MOST_CUBE_MAPS;
 pub use settings::{Fake, RasterSettings, Shading, Show};
 
 use gpu::{Gpu, GpuError};
-use passes::Uniforms;
+use passes::{Maps, Uniforms};
 use pipelines::Pipelines;
 use plan::Plan;
 use scene::film::Pixel;
@@ -53,6 +53,8 @@ pub struct Raster {
     uniforms: Uniforms,
     world: Option<World>,
     targets: Kept,
+    /// The maps that are drawn.
+    maps: Option<Maps>,
 }
 
 impl Raster {
@@ -63,7 +65,7 @@ impl Raster {
     pub fn new(gpu: &Gpu) -> Result<Raster, RasterError> {
         let pipelines = Pipelines::new(gpu)?;
         let uniforms = Uniforms::new(gpu)?;
-        Ok(Raster { gpu: gpu.clone(), pipelines, uniforms, world: None, targets: Kept::default() })
+        Ok(Raster { gpu: gpu.clone(), pipelines, uniforms, world: None, targets: Kept::default(), maps: None })
     }
 
     /// One frame of `scene` from `camera`: linear radiance, one sample a pixel. Waits until it is there.
@@ -87,9 +89,13 @@ impl Raster {
         let world = World::current(&mut self.world, &self.gpu, scene)?;
         let targets = self.targets.current(&self.gpu, &plan.target_plan(scene, settings))?;
         self.uniforms.write(&self.gpu, &plan)?;
+        // kept from frame to frame while only the camera moves; a frame that fails has drawn nothing for certain
+        let maps = Maps::of(&plan, world, targets);
+        let maps_stay = maps.is_some() && self.maps.take() == maps;
         self.gpu.checked("the picture", || {
-            passes::draw(&self.gpu, &self.pipelines, &self.uniforms, world, targets, &plan)
+            passes::draw(&self.gpu, &self.pipelines, &self.uniforms, world, targets, &plan, maps_stay)
         })?;
+        self.maps = maps;
         if settings.show != Show::Picture {
             return maps::film(&self.gpu, targets, &plan, settings);
         }

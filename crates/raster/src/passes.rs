@@ -4,7 +4,7 @@
 
 use crate::error::RasterError;
 use crate::pipelines::{Forward, Pipelines};
-use crate::plan::Plan;
+use crate::plan::{Casting, Plan};
 use crate::settings::{Fake, Show};
 use crate::targets::Targets;
 use crate::tessellation::World;
@@ -61,8 +61,48 @@ fn spaced<T: Pod>(items: &[T]) -> Vec<u8> {
     bytes
 }
 
-/// Submits a frame.
-pub fn draw(gpu: &Gpu, pipelines: &Pipelines, uniforms: &Uniforms, world: &World, targets: Targets<'_>, plan: &Plan) {
+/// All that shadow map and cube maps depend on, and where they are drawn: the camera is not part of it.
+#[derive(Debug, PartialEq)]
+pub struct Maps {
+    numbers: Vec<u8>,
+    casting: Vec<Casting>,
+    cube_maps: Vec<usize>,
+    sky: Vec3,
+    fake: Fake,
+    vertices: wgpu::Buffer,
+    shadow_map: TextureView,
+    cubes: Vec<TextureView>,
+}
+
+impl Maps {
+    /// The maps of a picture; `None` if the frame does not draw them all.
+    pub fn of(plan: &Plan, world: &World, targets: Targets<'_>) -> Option<Maps> {
+        let views = &plan.views[..plan.picture_views.start];
+        let numbers =
+            [bytemuck::cast_slice(views), bytemuck::bytes_of(&plan.lights), bytemuck::cast_slice(&plan.objects)];
+        (plan.show == Show::Picture).then(|| Maps {
+            numbers: numbers.concat(),
+            casting: plan.casting.clone(),
+            cube_maps: plan.cube_maps.clone(),
+            sky: plan.sky,
+            fake: plan.fake,
+            vertices: world.vertices.clone(),
+            shadow_map: targets.shadow.map.all.clone(),
+            cubes: targets.cubes.each.iter().map(|cube| cube.all.clone()).collect(),
+        })
+    }
+}
+
+/// Submits a frame. `maps_stay` says that shadow map and cube maps are still those of the last one.
+pub fn draw(
+    gpu: &Gpu,
+    pipelines: &Pipelines,
+    uniforms: &Uniforms,
+    world: &World,
+    targets: Targets<'_>,
+    plan: &Plan,
+    maps_stay: bool,
+) {
     let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("the fake") });
     let frame = Frame { pipelines, world, targets, plan, groups: Groups::new(gpu, pipelines, uniforms, targets) };
     let cube_maps = match plan.show {
@@ -70,12 +110,14 @@ pub fn draw(gpu: &Gpu, pipelines: &Pipelines, uniforms: &Uniforms, world: &World
         Show::CubeFaces => 1,
         Show::ShadowMap => 0,
     };
-    for (index, &glass) in plan.cube_maps.iter().enumerate().take(cube_maps) {
-        frame.shadow_map(&mut encoder, Some(glass));
-        frame.cube_map(&mut encoder, index, glass);
-    }
-    if plan.show != Show::CubeFaces {
-        frame.shadow_map(&mut encoder, None);
+    if !maps_stay {
+        for (index, &glass) in plan.cube_maps.iter().enumerate().take(cube_maps) {
+            frame.shadow_map(&mut encoder, Some(glass));
+            frame.cube_map(&mut encoder, index, glass);
+        }
+        if plan.show != Show::CubeFaces {
+            frame.shadow_map(&mut encoder, None);
+        }
     }
     if plan.show == Show::Picture {
         frame.picture(&mut encoder);
