@@ -16,6 +16,9 @@ const LAMP_ONE_SIDED: u32 = 3u;
 
 const KIND_GLASS: u32 = 1u;
 
+// 0 hard, 1 PCF, 2 PCF soft
+override SHADOW_FILTER: u32 = 2u;
+
 struct Lights {
     sun_towards: vec3f,
     shading: u32,
@@ -24,7 +27,6 @@ struct Lights {
     lamp_position: vec3f,
     lamp_pattern: u32,
     lamp_normal: vec3f,
-    shadow_filter: u32,
     lamp_incident: vec3f,
     // added to depths before they are compared
     shadow_bias: f32,
@@ -159,5 +161,5 @@ fn shadow(index: u32, p: vec3f, n_dot_l: f32) -> f32 {
     }
     let texel = lights.shadow_views[index].texel.x + lights.shadow_views[index].texel.y * depth;
     let slack = object.slack * texel / max(n_dot_l, 0.05);
-    return lit_share(lights.shadow_filter, shadow_map, index, uv, depth - slack);
+    return lit_share(SHADOW_FILTER, shadow_map, index, uv, depth - slack);
 }

@@ -64,7 +64,6 @@ fn mirrors_have_the_layout_of_their_structs() {
             lamp_position,
             lamp_pattern,
             lamp_normal,
-            shadow_filter,
             lamp_incident,
             shadow_bias,
             ambient,

@@ -41,8 +41,8 @@ pub struct Lights {
     pub lamp_pattern: u32,
     /// Unit normal of a flat lamp.
     pub lamp_normal: Vec3,
-    /// 0 hard, 1 PCF, 2 PCF soft.
-    pub shadow_filter: u32,
+    /// Padding.
+    pub unused0: u32,
     /// What a white Lambert surface facing the lamp sends back, at distance 1 if it decays.
     pub lamp_incident: Vec3,
     /// Added to depths before they are compared with the shadow map's.
@@ -50,11 +50,11 @@ pub struct Lights {
     /// Light from everywhere.
     pub ambient: Vec3,
     /// Padding.
-    pub unused0: u32,
+    pub unused1: u32,
     /// Radiance of the sky.
     pub sky: Vec3,
     /// Padding.
-    pub unused1: u32,
+    pub unused2: u32,
     /// The shadow map's layers: the sun's, then six of the lamp.
     pub shadow_views: [View; 7],
 }

@@ -86,7 +86,6 @@ pub fn lights(scene: &Scene, settings: &RasterSettings, casts: impl Fn(usize) ->
         },
         refracts_per_vertex: u32::from(as_taught),
         ambient: if as_taught { settings.knobs.grey(scene) } else { settings.knobs.sky_light(scene) },
-        shadow_filter: settings.knobs.filter.code(),
         shadow_bias: settings.knobs.bias,
         sky: scene.sky,
         ..Lights::zeroed()

@@ -3,7 +3,8 @@
 //! same texture.
 
 use crate::error::RasterError;
-use crate::pipelines::{Forward, Pipelines};
+use crate::knobs::ShadowFilter;
+use crate::pipelines::{FilterPipelines, Forward, Pipelines};
 use crate::plan::{Casting, Plan};
 use crate::settings::{Fake, Show};
 use crate::targets::Targets;
@@ -69,6 +70,7 @@ pub struct Maps {
     cube_maps: Vec<usize>,
     sky: Vec3,
     fake: Fake,
+    filter: ShadowFilter,
     vertices: wgpu::Buffer,
     shadow_map: TextureView,
     cubes: Vec<TextureView>,
@@ -86,6 +88,7 @@ impl Maps {
             cube_maps: plan.cube_maps.clone(),
             sky: plan.sky,
             fake: plan.fake,
+            filter: plan.filter,
             vertices: world.vertices.clone(),
             shadow_map: targets.shadow.map.all.clone(),
             cubes: targets.cubes.each.iter().map(|cube| cube.all.clone()).collect(),
@@ -93,7 +96,7 @@ impl Maps {
     }
 }
 
-/// Submits a frame. `maps_stay` says that shadow map and cube maps are still those of the last one.
+/// Submits a frame, or nothing before its pipelines are prepared. `maps_stay` says that shadow map and cube maps are still those of the last one.
 pub fn draw(
     gpu: &Gpu,
     pipelines: &Pipelines,
@@ -103,8 +106,10 @@ pub fn draw(
     plan: &Plan,
     maps_stay: bool,
 ) {
+    let Some(forward) = pipelines.of(plan.filter) else { return };
     let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("the fake") });
-    let frame = Frame { pipelines, world, targets, plan, groups: Groups::new(gpu, pipelines, uniforms, targets) };
+    let frame =
+        Frame { pipelines, forward, world, targets, plan, groups: Groups::new(gpu, pipelines, uniforms, targets) };
     let cube_maps = match plan.show {
         Show::Picture => plan.cube_maps.len(),
         Show::CubeFaces => 1,
@@ -172,6 +177,7 @@ fn bind(gpu: &Gpu, layout: &BindGroupLayout, resources: &[BindingResource<'_>]) 
 
 struct Frame<'a> {
     pipelines: &'a Pipelines,
+    forward: &'a FilterPipelines,
     world: &'a World,
     targets: Targets<'a>,
     plan: &'a Plan,
@@ -208,8 +214,8 @@ impl Frame<'_> {
                 depth: Some(&self.targets.cubes.depth),
                 clear: self.sky(),
             };
-            let forward = &self.pipelines.of(self.plan.fake).cube_map;
-            self.forward(&mut target.begin(encoder), forward, self.plan.cube_view(index, layer), Some(glass));
+            let forward = &self.forward.of(self.plan.fake).cube_map;
+            self.shapes(&mut target.begin(encoder), forward, self.plan.cube_view(index, layer), Some(glass));
         }
     }
 
@@ -222,7 +228,7 @@ impl Frame<'_> {
                 depth: Some(&self.targets.picture.depth),
                 clear: self.sky_of_picture(),
             };
-            self.forward(&mut target.begin(encoder), &self.pipelines.of(self.plan.fake).picture, view, None);
+            self.shapes(&mut target.begin(encoder), &self.forward.of(self.plan.fake).picture, view, None);
         }
     }
 
@@ -239,7 +245,7 @@ impl Frame<'_> {
 
     /// Every shape but `without`, as `view` sees it. In a cube map no glass has a cube map of its own, least of all the
     /// one that is being drawn.
-    fn forward(&self, pass: &mut RenderPass<'_>, forward: &Forward, view: usize, without: Option<usize>) {
+    fn shapes(&self, pass: &mut RenderPass<'_>, forward: &Forward, view: usize, without: Option<usize>) {
         self.bind_world(pass);
         pass.set_bind_group(0, &self.groups.frame, &[offset(view)]);
         for (shape, object) in self.plan.objects.iter().enumerate().filter(|(shape, _)| without != Some(*shape)) {

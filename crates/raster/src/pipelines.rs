@@ -1,11 +1,12 @@
 //! Pipelines and the layouts of what is bound to them.
 
 use crate::error::RasterError;
+use crate::knobs::ShadowFilter;
 use crate::plan::Casting;
 use crate::settings::Fake;
 use crate::targets::{Colours, DEPTH, SHADOW};
 use crate::tessellation::Vertex;
-use gpu::{Gpu, wgsl};
+use gpu::{Gpu, GpuError, wgsl};
 use std::num::NonZeroU64;
 use wgpu::{BindGroupLayout, BindingType, Face, RenderPipeline, ShaderStages, TextureFormat, TextureViewDimension};
 
@@ -27,6 +28,23 @@ pub struct FakePipelines {
     pub picture: Forward,
 }
 
+/// The forward passes with one shadow filter compiled in: a software device would run the others too.
+#[derive(Debug)]
+pub struct FilterPipelines {
+    fair: FakePipelines,
+    as_taught: FakePipelines,
+}
+
+impl FilterPipelines {
+    /// The forward passes of a fake.
+    pub fn of(&self, fake: Fake) -> &FakePipelines {
+        match fake {
+            Fake::Fair => &self.fair,
+            Fake::AsTaught => &self.as_taught,
+        }
+    }
+}
+
 /// All pipelines.
 #[derive(Debug)]
 pub struct Pipelines {
@@ -42,8 +60,9 @@ pub struct Pipelines {
     pub sampler: wgpu::Sampler,
     /// Mean of the picture's passes.
     pub resolve: RenderPipeline,
-    fair: FakePipelines,
-    as_taught: FakePipelines,
+    forward_module: wgpu::ShaderModule,
+    /// Of each filter that was asked for, by its code.
+    forward: [Option<FilterPipelines>; ShadowFilter::ALL.len()],
     both_sides: RenderPipeline,
     back_faces: RenderPipeline,
     front_faces: RenderPipeline,
@@ -55,15 +74,40 @@ impl Pipelines {
         let shadow = wgsl::compose("raster/shadow_map.wgsl")?.create(gpu)?;
         let forward = wgsl::compose("raster/forward.wgsl")?.create(gpu)?;
         let resolve = wgsl::compose("film/resolve.wgsl")?.create(gpu)?;
-        Ok(gpu.checked("the fake's pipelines", || compile(gpu, &shadow, &forward, &resolve))?)
+        Ok(gpu.checked("the fake's pipelines", || compile(gpu, &shadow, forward, &resolve))?)
     }
 
-    /// The forward passes of a fake.
-    pub fn of(&self, fake: Fake) -> &FakePipelines {
-        match fake {
-            Fake::Fair => &self.fair,
-            Fake::AsTaught => &self.as_taught,
+    /// Sees to it that the forward passes with a filter are compiled.
+    ///
+    /// # Errors
+    /// [`GpuError::Refused`] if the device can't take them.
+    pub fn prepare(&mut self, gpu: &Gpu, filter: ShadowFilter) -> Result<(), GpuError> {
+        if self.of(filter).is_none() {
+            let compiled = gpu.checked("the fake's pipelines", || self.compile_forward(gpu, filter))?;
+            self.forward[filter.code() as usize] = Some(compiled);
         }
+        Ok(())
+    }
+
+    /// The forward passes with a filter, once [`Pipelines::prepare`] has compiled them.
+    pub fn of(&self, filter: ShadowFilter) -> Option<&FilterPipelines> {
+        self.forward[filter.code() as usize].as_ref()
+    }
+
+    fn compile_forward(&self, gpu: &Gpu, filter: ShadowFilter) -> FilterPipelines {
+        let groups: &[_] = &[&self.frame_layout, &self.object_layout];
+        let constants: &[_] = &[("SHADOW_FILTER", f64::from(filter.code()))];
+        let into = |format, samples| {
+            let module = &self.forward_module;
+            let surface = Build { groups, module, format, samples, cull_mode: None, full_screen: false, constants };
+            let glass = Build { cull_mode: Some(Face::Front), ..surface };
+            Forward { surface: surface.pipeline(gpu), glass: glass.pipeline(gpu) }
+        };
+        let fake = |fake| {
+            let colours = Colours::of(fake, gpu);
+            FakePipelines { cube_map: into(colours.cube_map, 1), picture: into(colours.picture, colours.samples) }
+        };
+        FilterPipelines { fair: fake(Fake::Fair), as_taught: fake(Fake::AsTaught) }
     }
 
     /// The shadow pass of a shape.
@@ -80,7 +124,7 @@ impl Pipelines {
 fn compile(
     gpu: &Gpu,
     shadow: &wgpu::ShaderModule,
-    forward: &wgpu::ShaderModule,
+    forward: wgpu::ShaderModule,
     resolve: &wgpu::ShaderModule,
 ) -> Pipelines {
     let texture =
@@ -97,21 +141,13 @@ fn compile(
 
     let casting = |cull_mode| {
         let groups: &[_] = &[&shadow_layout];
-        Build { groups, module: shadow, format: SHADOW, samples: 1, cull_mode, full_screen: false }.pipeline(gpu)
-    };
-    let into = |format, samples| {
-        let groups: &[_] = &[&frame_layout, &object_layout];
-        let surface = Build { groups, module: forward, format, samples, cull_mode: None, full_screen: false };
-        let glass = Build { cull_mode: Some(Face::Front), ..surface };
-        Forward { surface: surface.pipeline(gpu), glass: glass.pipeline(gpu) }
-    };
-    let fake = |fake| {
-        let colours = Colours::of(fake, gpu);
-        FakePipelines { cube_map: into(colours.cube_map, 1), picture: into(colours.picture, colours.samples) }
+        Build { groups, module: shadow, format: SHADOW, samples: 1, cull_mode, full_screen: false, constants: &[] }
+            .pipeline(gpu)
     };
     let format = Colours::of(Fake::Fair, gpu).picture;
     let groups: &[_] = &[&resolve_layout];
-    let resolve = Build { groups, module: resolve, format, samples: 1, cull_mode: None, full_screen: true };
+    let resolve =
+        Build { groups, module: resolve, format, samples: 1, cull_mode: None, full_screen: true, constants: &[] };
     Pipelines {
         sampler: gpu.device.create_sampler(&wgpu::SamplerDescriptor {
             mag_filter: wgpu::FilterMode::Linear,
@@ -119,8 +155,8 @@ fn compile(
             ..wgpu::SamplerDescriptor::default()
         }),
         resolve: resolve.pipeline(gpu),
-        fair: fake(Fake::Fair),
-        as_taught: fake(Fake::AsTaught),
+        forward_module: forward,
+        forward: [const { None }; ShadowFilter::ALL.len()],
         both_sides: casting(None),
         back_faces: casting(Some(Face::Front)),
         front_faces: casting(Some(Face::Back)),
@@ -161,6 +197,8 @@ struct Build<'a> {
     cull_mode: Option<Face>,
     /// One triangle without corners and depth.
     full_screen: bool,
+    /// Values of the module's overrides.
+    constants: &'a [(&'a str, f64)],
 }
 
 impl Build<'_> {
@@ -176,6 +214,10 @@ impl Build<'_> {
             bind_group_layouts: &groups,
             immediate_size: 0,
         });
+        let options = || wgpu::PipelineCompilationOptions {
+            constants: self.constants,
+            ..wgpu::PipelineCompilationOptions::default()
+        };
         let corners = [Some(wgpu::VertexBufferLayout {
             array_stride: size_of::<Vertex>() as u64,
             step_mode: wgpu::VertexStepMode::Vertex,
@@ -194,7 +236,7 @@ impl Build<'_> {
             vertex: wgpu::VertexState {
                 module: self.module,
                 entry_point: Some("vertex"),
-                compilation_options: wgpu::PipelineCompilationOptions::default(),
+                compilation_options: options(),
                 buffers: if self.full_screen { &[] } else { &corners },
             },
             primitive: wgpu::PrimitiveState { cull_mode: self.cull_mode, ..wgpu::PrimitiveState::default() },
@@ -203,7 +245,7 @@ impl Build<'_> {
             fragment: Some(wgpu::FragmentState {
                 module: self.module,
                 entry_point: Some(self.fragment()),
-                compilation_options: wgpu::PipelineCompilationOptions::default(),
+                compilation_options: options(),
                 targets: &[Some(self.format.into())],
             }),
             multiview_mask: None,

@@ -2,6 +2,7 @@
 
 use crate::cube;
 use crate::gpu_data::{Lights, Object, View};
+use crate::knobs::ShadowFilter;
 use crate::lights;
 use crate::settings::{Fake, RasterSettings, Show};
 use crate::targets::{CubePlan, PicturePlan, ShadowPlan, TargetPlan};
@@ -54,6 +55,8 @@ pub struct Plan {
     pub picture_views: Range<usize>,
     /// Which fake.
     pub fake: Fake,
+    /// How shadow maps are looked up.
+    pub filter: ShadowFilter,
     /// Which of the passes is the last.
     pub show: Show,
     /// Background.
@@ -88,6 +91,7 @@ impl Plan {
             casting,
             cube_maps,
             fake,
+            filter: settings.knobs.filter,
             show: settings.show,
             sky: scene.sky,
         }
