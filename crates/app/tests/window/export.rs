@@ -1,6 +1,6 @@
 //! What is exported is what is shown, is never lost and can be made again.
 
-use super::{alone, both_whole, says, viewer_on};
+use super::{alone, both_whole, ready, says};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use visavis_tests::{Frame, Screen, ViewerUnderTest};
@@ -56,9 +56,7 @@ fn run(command: &str, out: &Path) {
 fn a_pane_its_film_and_its_command_are_one_picture() {
     let _alone = alone();
     let screen = Screen::start(1280, 720);
-    let mut viewer = viewer_on(&screen, &[]);
-    viewer.wait_for("both pictures", both_whole);
-    screen.focus("Visavis");
+    let (mut viewer, _) = ready(&screen, &[]);
     hold(&screen, &mut viewer);
     let folder = viewer.home();
     for (side, choice) in [("A", "export A alone"), ("B", "export B alone")] {
@@ -91,9 +89,7 @@ fn a_pane_its_film_and_its_command_are_one_picture() {
 fn the_picture_as_seen_goes_to_file_and_clipboard_with_its_records() {
     let _alone = alone();
     let screen = Screen::start(1280, 720);
-    let mut viewer = viewer_on(&screen, &["cornell"]);
-    viewer.wait_for("both pictures", both_whole);
-    screen.focus("Visavis");
+    let (mut viewer, _) = ready(&screen, &["cornell"]);
     screen.key('4', false);
     viewer.wait_for("both side by side", |f| f.state("view") == "Side by side" && both_whole(f));
     hold(&screen, &mut viewer);
@@ -136,9 +132,7 @@ fn text_chunks(file: &Path) -> Vec<(String, String)> {
 fn no_file_is_overwritten_and_a_bad_place_is_told() {
     let _alone = alone();
     let screen = Screen::start(1280, 720);
-    let mut viewer = viewer_on(&screen, &["cornell"]);
-    viewer.wait_for("both pictures", both_whole);
-    screen.focus("Visavis");
+    let (mut viewer, _) = ready(&screen, &["cornell"]);
     let file = viewer.home().join("kept.png");
     std::fs::write(&file, "mine").expect("a file");
     let saved = export(&screen, &mut viewer, &[], &file);

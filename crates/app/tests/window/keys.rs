@@ -1,6 +1,6 @@
 //! Keys alone do everything; what is paused stays as it is; what was changed can be taken back.
 
-use super::{alone, both_whole, says, viewer_on};
+use super::{alone, both_whole, ready, says};
 use visavis_tests::{Frame, Screen, ViewerUnderTest};
 
 /// Presses Tab until a widget has the keyboard.
@@ -20,9 +20,7 @@ fn tab_to(screen: &Screen, viewer: &mut ViewerUnderTest, name: &str) {
 fn keys_alone_change_scene_bounces_view_export_and_quit() {
     let _alone = alone();
     let screen = Screen::start(1280, 720);
-    let mut viewer = viewer_on(&screen, &[]);
-    viewer.wait_for("both pictures", both_whole);
-    screen.focus("Visavis");
+    let (mut viewer, _) = ready(&screen, &[]);
 
     tab_to(&screen, &mut viewer, "scene");
     screen.press(Screen::ENTER);
@@ -70,9 +68,7 @@ fn keys_alone_change_scene_bounces_view_export_and_quit() {
 fn a_presenters_remote_and_typed_letters_do_nothing_by_themselves() {
     let _alone = alone();
     let screen = Screen::start(1280, 720);
-    let mut viewer = viewer_on(&screen, &["cornell"]);
-    let first = viewer.wait_for("both pictures", both_whole);
-    screen.focus("Visavis");
+    let (mut viewer, first) = ready(&screen, &["cornell"]);
     // page up, page down, F5, full stop, escape
     for key in [0xff55, 0xff56, 0xffc2, u32::from('.'), Screen::ESCAPE] {
         screen.press(key);
@@ -88,9 +84,7 @@ fn a_presenters_remote_and_typed_letters_do_nothing_by_themselves() {
 fn paused_toggling_twice_is_identical_to_the_last_pixel() {
     let _alone = alone();
     let screen = Screen::start(1280, 720);
-    let mut viewer = viewer_on(&screen, &["cornell"]);
-    let first = viewer.wait_for("both pictures", both_whole);
-    screen.focus("Visavis");
+    let (mut viewer, first) = ready(&screen, &["cornell"]);
     screen.move_to(1270.0, 700.0);
     screen.key('p', false);
     viewer.wait_for("the pause", |f| f.state("paused") == true);
@@ -133,9 +127,7 @@ fn paused_toggling_twice_is_identical_to_the_last_pixel() {
 fn a_change_of_a_setting_can_be_taken_back_and_done_again() {
     let _alone = alone();
     let screen = Screen::start(1280, 720);
-    let mut viewer = viewer_on(&screen, &[]);
-    let first = viewer.wait_for("both pictures", both_whole);
-    screen.focus("Visavis");
+    let (mut viewer, first) = ready(&screen, &[]);
     let [left, top, _, bottom] = first.rect("refraction ratio");
     let y = 0.5 * (top + bottom);
     screen.drag([left + 80.0, y], [left + 30.0, y]);

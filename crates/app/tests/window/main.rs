@@ -26,6 +26,14 @@ fn scaled_viewer_on(screen: &Screen, scale: f32, arguments: &[&str]) -> ViewerUn
     ViewerUnderTest::start_scaled(Path::new(env!("CARGO_BIN_EXE_visavis")), screen, scale, arguments)
 }
 
+/// A viewer that has the keyboard and shows both pictures whole, and its frame.
+fn ready(screen: &Screen, arguments: &[&str]) -> (ViewerUnderTest, Frame) {
+    let mut viewer = viewer_on(screen, arguments);
+    let first = viewer.wait_for("both pictures", both_whole);
+    screen.focus("Visavis");
+    (viewer, first)
+}
+
 fn both_ready(frame: &Frame) -> bool {
     frame.state("a")["ready"] == true && frame.state("b")["ready"] == true
 }

@@ -1,6 +1,6 @@
 //! What windows suffer: storms of sizes, being hidden, camera and wheel, slow software drawing. And how fast they answer.
 
-use super::{alone, both_ready, both_whole, viewer_on};
+use super::{alone, both_ready, both_whole, ready};
 use std::time::Duration;
 use visavis_tests::Screen;
 
@@ -8,8 +8,7 @@ use visavis_tests::Screen;
 fn resize_storms_and_minimising_are_survived() {
     let _alone = alone();
     let screen = Screen::start(1280, 720);
-    let mut viewer = viewer_on(&screen, &["cornell"]);
-    viewer.wait_for("both pictures", both_whole);
+    let (mut viewer, _) = ready(&screen, &["cornell"]);
     let window = screen.focus("Visavis");
     let mut size = 12345u32;
     for _ in 0..60 {
@@ -38,9 +37,7 @@ fn resize_storms_and_minimising_are_survived() {
 fn the_camera_dollies_zooms_is_typed_kept_and_reset() {
     let _alone = alone();
     let screen = Screen::start(1280, 720);
-    let mut viewer = viewer_on(&screen, &["cornell"]);
-    let first = viewer.wait_for("both pictures", both_whole);
-    screen.focus("Visavis");
+    let (mut viewer, first) = ready(&screen, &["cornell"]);
     let middle = first.point("picture", 0.3, 0.5);
     screen.wheel_up(middle);
     let nearer = viewer.wait_for("the dolly", |f| f.state("eye") != first.state("eye"));
@@ -71,9 +68,7 @@ fn the_camera_dollies_zooms_is_typed_kept_and_reset() {
 fn either_pane_holds_any_technique() {
     let _alone = alone();
     let screen = Screen::start(1280, 720);
-    let mut viewer = viewer_on(&screen, &["cornell"]);
-    let first = viewer.wait_for("both pictures", both_whole);
-    screen.focus("Visavis");
+    let (mut viewer, first) = ready(&screen, &["cornell"]);
     screen.click(first.point("A path", 0.5, 0.5));
     let two = viewer.wait_for_widget("A estimator cosine");
     screen.click(two.point("A estimator cosine", 0.5, 0.5));
@@ -93,9 +88,7 @@ fn either_pane_holds_any_technique() {
 fn a_slider_brings_a_new_picture_at_once() {
     let _alone = alone();
     let screen = Screen::start(1280, 720);
-    let mut viewer = viewer_on(&screen, &[]);
-    let first = viewer.wait_for("both pictures", both_whole);
-    screen.focus("Visavis");
+    let (mut viewer, first) = ready(&screen, &[]);
     let [left, top, _, bottom] = first.rect("refraction ratio");
     let mut times = Vec::new();
     for step in 0..8 {
