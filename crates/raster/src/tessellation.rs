@@ -72,6 +72,7 @@ fn index_bytes(scene: &Scene, segments: u32) -> u64 {
     let triangles = |geometry: &Geometry| match geometry {
         Geometry::Sphere { .. } => 2 * u64::from(segments) * u64::from(segments),
         Geometry::Rectangle { .. } => 2,
+        Geometry::Disk { .. } => u64::from(scene::shape::DISK_SEGMENTS),
         Geometry::Box { .. } => 12,
         Geometry::Mesh { triangles, .. } => triangles.len() as u64,
     };

@@ -13,6 +13,8 @@ pub struct Pixel {
     pub sum_of_squares: [f64; 3],
     /// How many samples there are.
     pub samples: u32,
+    /// The largest channel of any sample.
+    pub largest: f32,
 }
 
 impl Pixel {
@@ -31,6 +33,7 @@ impl Pixel {
             self.sum_of_squares[channel] += value * value;
         }
         self.samples += 1;
+        self.largest = self.largest.max(radiance.max_element());
     }
 
     /// The mean of the samples; zero before the first.
@@ -47,6 +50,9 @@ impl Pixel {
         })
     }
 }
+
+/// Largest [`Film::tail_weight`] at which a standard error is believed.
+const MOST_TAIL_WEIGHT: f64 = 0.01;
 
 /// A picture in linear radiance.
 #[derive(Debug, Clone, PartialEq)]
@@ -127,8 +133,23 @@ impl Film {
         self.averaged(Pixel::mean)
     }
 
+    /// Share of the brightest single sample in the picture's sum of squares, in [0, 1]: with a finite variance it falls
+    /// like 1 / samples; under a heavy tail, such as a caustic's, it stays, and a standard error means little.
+    pub fn tail_weight(&self) -> f64 {
+        let largest = self.pixels.iter().fold(0f32, |most, pixel| most.max(pixel.largest));
+        let channel = |c: usize| self.pixels.iter().map(|pixel| pixel.sum_of_squares[c]).sum::<f64>();
+        let squares = (0..3).map(channel).fold(0.0, f64::max);
+        if squares > 0.0 { (f64::from(largest).powi(2) / squares).min(1.0) } else { 0.0 }
+    }
+
+    /// Whether [`Film::standard_error`] can be trusted: no single sample holds more than 1 % of the sum of squares.
+    pub fn standard_error_is_reliable(&self) -> bool {
+        self.tail_weight() <= MOST_TAIL_WEIGHT
+    }
+
     /// Standard error of [`Film::mean`], from the spread of the samples inside each pixel. Meaningless below two samples
-    /// a pixel, and too small where rare bright samples have not been met yet.
+    /// a pixel, where samples are not independent (a low-discrepancy sampler), and too small where rare bright samples
+    /// have not been met yet, see [`Film::standard_error_is_reliable`].
     pub fn standard_error(&self) -> [f64; 3] {
         let pixels = self.pixels.len().max(1) as f64;
         self.averaged(Pixel::variance_of_mean).map(|variance| (variance / pixels).sqrt())

@@ -10,6 +10,7 @@ pub mod display;
 pub mod fake;
 pub mod file;
 pub mod film;
+pub mod glass;
 pub mod light;
 pub mod material;
 mod needs;
@@ -19,7 +20,7 @@ pub use camera::Camera;
 pub use file::{SceneError, load, parse};
 pub use film::Film;
 pub use glam::{self, Vec3};
-pub use light::Sun;
+pub use light::{PointLight, Sun};
 pub use material::{Bsdf, Material, Texture};
 pub use needs::Needs;
 pub use shape::{Geometry, Shape};
@@ -40,6 +41,8 @@ pub struct Scene {
     pub shapes: Arc<[Shape]>,
     /// A distant disc of light, at most one.
     pub sun: Option<Sun>,
+    /// Points that shine.
+    pub point_lights: Vec<PointLight>,
     /// Radiance that arrives from every direction in which nothing is hit; zero for black.
     pub sky: Vec3,
     /// Numbers that only the rasterised fake reads.

@@ -1,4 +1,4 @@
-//! Lights that are not shapes: the sun. Emissive shapes are lights through their material, the sky is a number.
+//! Lights that are not shapes: the sun and point lights. Emissive shapes are lights through their material, the sky is a number.
 
 use glam::Vec3;
 
@@ -12,6 +12,15 @@ pub struct Sun {
     pub angular_radius: f32,
     /// Irradiance on a surface that faces the sun, RGB. Kept when the radius changes.
     pub irradiance: Vec3,
+}
+
+/// A point that shines alike in all directions. No ray can hit it: only techniques that look for lights find it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PointLight {
+    /// World space.
+    pub position: Vec3,
+    /// Radiant intensity, power per solid angle, RGB: the irradiance on a surface that faces it at distance 1.
+    pub intensity: Vec3,
 }
 
 impl Sun {

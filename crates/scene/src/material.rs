@@ -31,7 +31,9 @@ pub enum Bsdf {
     },
     /// Smooth clear glass inside a closed shape.
     Dielectric {
-        /// Index of refraction of the inside over the outside, > 0.
+        /// Index of refraction of the inside over what is around the shape, > 0: 1.5 for glass in air, 1 / 1.5 for a
+        /// bubble of air inside that glass. Stated per surface, so that no technique needs to know what medium a ray is in,
+        /// and a camera inside glass sees rightly; see [`crate::glass`] for what that asks of the shapes.
         ior: f32,
     },
 }

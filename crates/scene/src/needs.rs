@@ -7,6 +7,8 @@ use crate::{Bsdf, Geometry, Scene, Texture};
 pub struct Needs {
     /// Analytic spheres.
     pub spheres: bool,
+    /// Disks.
+    pub disks: bool,
     /// Rectangles, boxes or meshes.
     pub triangles: bool,
     /// A checkerboard.
@@ -17,6 +19,8 @@ pub struct Needs {
     pub dielectric: bool,
     /// A shape that shines.
     pub lamps: bool,
+    /// A point light.
+    pub point_lights: bool,
     /// A sun.
     pub sun: bool,
     /// A sky that is not black.
@@ -26,11 +30,18 @@ pub struct Needs {
 impl Scene {
     /// What this scene asks for; materials that no shape wears do not count.
     pub fn needs(&self) -> Needs {
-        let mut needs = Needs { sun: self.sun.is_some(), sky: self.sky.max_element() > 0.0, ..Needs::default() };
+        let mut needs = Needs {
+            sun: self.sun.is_some(),
+            sky: self.sky.max_element() > 0.0,
+            point_lights: !self.point_lights.is_empty(),
+            ..Needs::default()
+        };
         for shape in self.shapes.iter() {
             let sphere = matches!(shape.geometry, Geometry::Sphere { .. });
+            let disk = matches!(shape.geometry, Geometry::Disk { .. });
             needs.spheres |= sphere;
-            needs.triangles |= !sphere;
+            needs.disks |= disk;
+            needs.triangles |= !sphere && !disk;
             let material = self.material_of(shape);
             needs.lamps |= material.emission.is_some();
             match material.bsdf {

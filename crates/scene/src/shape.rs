@@ -1,4 +1,5 @@
-//! Shapes and what a material sits on. Flat shapes become triangles for whoever wants triangles; spheres stay analytic.
+//! Shapes and what a material sits on. Flat shapes become triangles for whoever wants triangles; spheres, and disks for
+//! rays, stay analytic.
 
 use glam::Vec3;
 
@@ -30,6 +31,15 @@ pub enum Geometry {
         /// From that corner to the other next.
         edge_v: Vec3,
     },
+    /// A flat disk.
+    Disk {
+        /// Centre.
+        center: Vec3,
+        /// Unit normal.
+        normal: Vec3,
+        /// Radius, > 0.
+        radius: f32,
+    },
     /// A box turned about the vertical; its normals point outwards.
     Box {
         /// The corner of the unturned box with the smallest coordinates; the box turns about it.
@@ -51,8 +61,13 @@ pub enum Geometry {
 impl Geometry {
     /// Smallest axis-parallel box: (lower corner, upper corner).
     pub fn bounds(&self) -> (Vec3, Vec3) {
-        if let Geometry::Sphere { center, radius } = self {
-            return (*center - Vec3::splat(*radius), *center + Vec3::splat(*radius));
+        match self {
+            Geometry::Sphere { center, radius } => return (center - radius, center + radius),
+            Geometry::Disk { center, normal, radius } => {
+                let reach = *radius * (Vec3::ONE - normal * normal).max(Vec3::ZERO).map(f32::sqrt);
+                return (center - reach, center + reach);
+            }
+            _ => {}
         }
         let (positions, _) = self.flat_triangles();
         positions.iter().fold((Vec3::INFINITY, Vec3::NEG_INFINITY), |(lo, hi), p| (lo.min(*p), hi.max(*p)))
@@ -64,7 +79,8 @@ impl Geometry {
         0.5 * (lo + hi)
     }
 
-    /// Corners and triangles of a flat shape, wound so that `(b - a) x (c - a)` is its normal; nothing for a sphere.
+    /// Corners and triangles of a flat shape, wound so that `(b - a) x (c - a)` is its normal; nothing for a sphere,
+    /// and for a disk the fan of [`DISK_SEGMENTS`] triangles that stands for it where there are only triangles.
     pub fn flat_triangles(&self) -> (Vec<Vec3>, Vec<[u32; 3]>) {
         match self {
             Geometry::Sphere { .. } => (Vec::new(), Vec::new()),
@@ -72,10 +88,24 @@ impl Geometry {
                 let p = [*corner, corner + edge_u, corner + edge_u + edge_v, corner + edge_v];
                 (p.to_vec(), vec![[0, 1, 2], [0, 2, 3]])
             }
+            Geometry::Disk { center, normal, radius } => disk_triangles(*center, *normal, *radius),
             Geometry::Box { corner, size, turn_y } => box_triangles(*corner, *size, *turn_y),
             Geometry::Mesh { positions, triangles } => (positions.clone(), triangles.clone()),
         }
     }
+}
+
+/// Triangles of the fan that stands for a disk.
+pub const DISK_SEGMENTS: u32 = 64;
+
+fn disk_triangles(center: Vec3, normal: Vec3, radius: f32) -> (Vec<Vec3>, Vec<[u32; 3]>) {
+    let (u, v) = normal.any_orthonormal_pair();
+    let rim = (0..DISK_SEGMENTS).map(|i| {
+        let (sin, cos) = (std::f32::consts::TAU * i as f32 / DISK_SEGMENTS as f32).sin_cos();
+        center + radius * (u * cos + v * sin)
+    });
+    let triangles = (0..DISK_SEGMENTS).map(|i| [0, 1 + i, 1 + (i + 1) % DISK_SEGMENTS]);
+    (std::iter::once(center).chain(rim).collect(), triangles.collect())
 }
 
 fn box_triangles(corner: Vec3, size: Vec3, turn_y: f32) -> (Vec<Vec3>, Vec<[u32; 3]>) {
@@ -106,6 +136,18 @@ mod tests {
             assert!(normal.dot(a - middle) > 0.0);
         }
         assert!((area - 52.0).abs() < 1e-4);
+    }
+
+    #[test]
+    fn a_disk_is_flat_round_and_wound_like_its_normal() {
+        let normal = Vec3::new(1.0, -2.0, 2.0) / 3.0;
+        let disk = Geometry::Disk { center: Vec3::new(1.0, 2.0, 3.0), normal, radius: 2.0 };
+        let (p, triangles) = disk.flat_triangles();
+        let area: f32 = triangles.map_corners(&p).iter().map(|[a, b, c]| 0.5 * (b - a).cross(c - a).dot(normal)).sum();
+        assert!((area / (4.0 * std::f32::consts::PI) - 1.0).abs() < 2e-3, "{area}");
+        let (lo, hi) = disk.bounds();
+        assert!(p.iter().all(|p| (p + 1e-5).cmpge(lo).all() && (p - 1e-5).cmple(hi).all()));
+        assert!((hi.x - 1.0 - 2.0 * (8f32 / 9.0).sqrt()).abs() < 1e-6);
     }
 
     trait Corners {

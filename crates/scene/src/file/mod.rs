@@ -6,7 +6,7 @@ mod raw;
 
 use crate::fake::{FakeMaterial, FakeNumbers};
 use crate::material::{Checkerboard, Emission};
-use crate::{Bsdf, Camera, Geometry, Material, Scene, Shape, Sun, Texture};
+use crate::{Bsdf, Camera, Geometry, Material, PointLight, Scene, Shape, Sun, Texture, glass};
 use glam::Vec3;
 use raw::{RawMaterial, RawScene, RawTexture};
 use std::ops::Range;
@@ -108,7 +108,7 @@ fn line_and_column(text: &str, at: usize) -> (usize, usize) {
 fn build(raw: RawScene, name: &str) -> Result<Scene, Fault> {
     let camera = camera(raw.camera)?;
     let materials = raw.material.into_iter().map(|(name, m)| material(name, m)).collect::<Result<Vec<_>, _>>()?;
-    let mut shapes = Vec::new();
+    let (mut shapes, mut places) = (Vec::new(), Vec::new());
     let mut add = |geometry, wears: Spanned<String>| {
         let found = materials.iter().position(|m| m.name == *wears.get_ref());
         let Some(material) = found else {
@@ -117,6 +117,7 @@ fn build(raw: RawScene, name: &str) -> Result<Scene, Fault> {
             return fault(wears.span(), message);
         };
         shapes.push(Shape { geometry, material });
+        places.push(wears.span());
         Ok(())
     };
     for s in raw.sphere {
@@ -128,6 +129,13 @@ fn build(raw: RawScene, name: &str) -> Result<Scene, Fault> {
             return fault(at, "edge_u and edge_v must span an area");
         }
         add(Geometry::Rectangle { corner: r.corner.into(), edge_u, edge_v }, r.material)?;
+    }
+    for d in raw.disk {
+        let (at, normal) = (d.normal.span(), Vec3::from(d.normal.into_inner()));
+        let Some(normal) = normal.as_dvec3().try_normalize().map(|n| n.as_vec3()) else {
+            return fault(at, "the normal of a disk must not be zero");
+        };
+        add(Geometry::Disk { center: d.center.into(), normal, radius: d.radius.get() }, d.material)?;
     }
     for b in raw.boxes {
         let size = Vec3::from_array(b.size.map(|side| side.get()));
@@ -141,7 +149,19 @@ fn build(raw: RawScene, name: &str) -> Result<Scene, Fault> {
         let positions = m.positions.into_iter().map(Vec3::from).collect();
         add(Geometry::Mesh { positions, triangles: m.triangles.into_inner() }, m.material)?;
     }
+    if let Some((first, second)) = glass::overlap(&shapes, &materials) {
+        let other = shapes[first].geometry.center();
+        return fault(
+            places[second].clone(),
+            format!(
+                "this glass overlaps the glass around {other}: glass shapes must lie apart, or one wholly inside the \
+                 other, and their flat faces must not touch"
+            ),
+        );
+    }
     let sun = raw.sun.map(sun).transpose()?;
+    let points = raw.point_light.into_iter();
+    let point_lights = points.map(|p| PointLight { position: p.position.into(), intensity: p.intensity.into() });
     let d = FakeNumbers::default();
     let fake = FakeNumbers {
         ambient: raw.fake.ambient.map_or(d.ambient, |v| v.get()),
@@ -158,6 +178,7 @@ fn build(raw: RawScene, name: &str) -> Result<Scene, Fault> {
         materials,
         shapes: shapes.into(),
         sun,
+        point_lights: point_lights.collect(),
         sky: raw.sky.radiance.into(),
         fake,
     })
@@ -208,8 +229,8 @@ fn material(name: String, raw: Spanned<RawMaterial>) -> Result<Material, Fault> 
     } else {
         return fault(at, format!("material '{name}' is empty: expected diffuse, mirror, dielectric or emissive"));
     };
-    if raw.emissive.is_some() && matches!(bsdf, Bsdf::Mirror { .. } | Bsdf::Dielectric { .. }) {
-        return fault(at, format!("material '{name}': expected emissive alone or with diffuse"));
+    if raw.emissive.is_some() && matches!(bsdf, Bsdf::Dielectric { .. }) {
+        return fault(at, format!("material '{name}': expected emissive alone, with diffuse or with mirror"));
     }
     let emission = raw.emissive.map(|e| Emission { radiance: e.radiance.into(), two_sided: e.two_sided });
     let d = FakeMaterial::default();

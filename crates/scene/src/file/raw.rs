@@ -15,11 +15,15 @@ pub struct RawScene {
     pub sphere: Vec<RawSphere>,
     #[serde(default)]
     pub rectangle: Vec<RawRectangle>,
+    #[serde(default)]
+    pub disk: Vec<RawDisk>,
     #[serde(default, rename = "box")]
     pub boxes: Vec<RawBox>,
     #[serde(default)]
     pub mesh: Vec<RawMesh>,
     pub sun: Option<RawSun>,
+    #[serde(default)]
+    pub point_light: Vec<RawPointLight>,
     #[serde(default)]
     pub sky: RawSky,
     #[serde(default)]
@@ -140,6 +144,15 @@ pub struct RawRectangle {
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
+pub struct RawDisk {
+    pub center: Triple<Any>,
+    pub normal: Spanned<Triple<Any>>,
+    pub radius: Number<AboveZero>,
+    pub material: Spanned<String>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct RawBox {
     pub corner: Triple<Any>,
     pub size: [Number<AboveZero>; 3],
@@ -166,6 +179,13 @@ pub struct RawSun {
     pub towards: Spanned<Triple<Any>>,
     pub angular_radius: Spanned<Number<AtLeastZero>>,
     pub irradiance: Triple<AtLeastZero>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct RawPointLight {
+    pub position: Triple<Any>,
+    pub intensity: Triple<AtLeastZero>,
 }
 
 #[derive(Deserialize, Default)]

@@ -87,3 +87,26 @@ fn mesh_corners_out_of_range_are_refused() {
     let said = fault_of(&format!("{SMALL}{mesh}"));
     assert!(said.contains("corner 3 is named, but positions has 3"), "{said}");
 }
+
+#[test]
+fn disks_and_point_lights_are_read() {
+    let more = "[[disk]]\ncenter = [0, 2, 0]\nnormal = [0, -2, 0]\nradius = 3\nmaterial = \"white\"\n\
+                [[point_light]]\nposition = [1, 2, 3]\nintensity = [4, 5, 6]\n";
+    let scene = parse(&format!("{SMALL}{more}"), "more", Path::new("more.toml")).unwrap();
+    let disk = Geometry::Disk { center: Vec3::Y * 2.0, normal: -Vec3::Y, radius: 3.0 };
+    assert_eq!(scene.shapes[1].geometry, disk);
+    let light = PointLight { position: Vec3::new(1.0, 2.0, 3.0), intensity: Vec3::new(4.0, 5.0, 6.0) };
+    assert_eq!(scene.point_lights, [light]);
+    assert!(scene.needs().disks && scene.needs().point_lights);
+    let said = fault_of(&format!("{SMALL}{}", more.replace("[0, -2, 0]", "[0, 0, 0]")));
+    assert!(said.contains("the normal of a disk must not be zero"), "{said}");
+}
+
+#[test]
+fn overlapping_glass_is_refused_at_the_later_shape() {
+    let glass = SMALL.replace("diffuse = { albedo = [0.5, 0.5, 0.5] }", "dielectric = { ior = 1.5 }");
+    let second = |x: f32| format!("[[sphere]]\ncenter = [{x}, 0, 0]\nradius = 1\nmaterial = \"white\"\n");
+    assert!(parse(&format!("{glass}{}", second(2.0)), "apart", Path::new("apart.toml")).is_ok());
+    let said = fault_of(&format!("{glass}{}", second(1.5)));
+    assert!(said.starts_with("test.toml:17:12: this glass overlaps the glass around [0, 0, 0]"), "{said}");
+}
