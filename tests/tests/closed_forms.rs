@@ -16,7 +16,7 @@ fn render(scene: &Scene, size: u32, spp: u32, settings: &PathSettings) -> Film {
 }
 
 fn with(estimator: Estimator, bounces: Option<u32>, roulette: Roulette) -> PathSettings {
-    PathSettings { estimator, bounces, roulette, seed: 3 }
+    PathSettings { estimator, bounces, roulette, seed: 3, ..PathSettings::default() }
 }
 
 /// The mean is within four standard errors of `expected`, and these are small enough to notice `power` of it.
@@ -63,7 +63,7 @@ emissive = {{ radiance = [{emission}, {emission}, {emission}], two_sided = true 
 #[test]
 fn white_furnace_every_cosine_sample_is_one() {
     let furnace = cube(1.0, 0.0, true, 1.0);
-    let film = render(&furnace, 16, 16, &with(Estimator::Cosine, None, Roulette::Throughput));
+    let film = render(&furnace, 16, 16, &with(Estimator::COSINE, None, Roulette::THROUGHPUT));
     for pixel in film.radiances() {
         assert!((pixel - scene::Vec3::ONE).abs().max_element() < 1e-5, "{pixel}");
     }
@@ -73,7 +73,7 @@ fn white_furnace_every_cosine_sample_is_one() {
 #[test]
 fn white_furnace_is_one_on_average_for_uniform_directions() {
     let furnace = cube(0.5, 0.5, false, 0.0);
-    let film = render(&furnace, 32, 2048, &with(Estimator::Uniform, None, Roulette::Throughput));
+    let film = render(&furnace, 32, 2048, &with(Estimator::UNIFORM, None, Roulette::THROUGHPUT));
     assert_mean(&film, 1.0, 0.002, "uniform");
 }
 
@@ -82,9 +82,9 @@ fn closed_emissive_box_has_radiance_emission_over_one_minus_albedo() {
     for (albedo, emission) in [(0.5, 0.5), (0.8, 0.2)] {
         let closed = cube(albedo, emission, false, 0.0);
         for estimator in Estimator::ALL {
-            for roulette in [Roulette::Throughput, Roulette::Probability(0.9)] {
+            for roulette in [Roulette::THROUGHPUT, Roulette::constant(0.9)] {
                 // uniform directions at albedo .8 need more samples than a test may take
-                if estimator == Estimator::Uniform && albedo > 0.5 {
+                if estimator == Estimator::UNIFORM && albedo > 0.5 {
                     continue;
                 }
                 let film = render(&closed, 24, 1024, &with(estimator, None, roulette));
@@ -105,7 +105,7 @@ fn a_limit_of_bounces_loses_exactly_the_longer_paths() {
     for (albedo, emission, rows) in table {
         let closed = cube(albedo, emission, false, 0.0);
         for (scatterings, expected) in rows {
-            let settings = with(Estimator::Cosine, Some(scatterings - 1), Roulette::Off);
+            let settings = with(Estimator::COSINE, Some(scatterings - 1), Roulette::OFF);
             let mean = render(&closed, 8, 4, &settings).mean()[0];
             assert!((mean - expected).abs() < 1e-5, "{albedo} {scatterings}: {mean} against {expected}");
         }
@@ -131,7 +131,7 @@ radius = 1
 material = "glass"
 "#
         ));
-        let film = render(&ball, 32, 16, &with(Estimator::Light, None, Roulette::Off));
+        let film = render(&ball, 32, 16, &with(Estimator::LIGHT, None, Roulette::OFF));
         for pixel in film.radiances() {
             assert!((pixel - scene::Vec3::ONE).abs().max_element() < 1e-5, "{ior}: {pixel}");
         }
@@ -165,8 +165,8 @@ edge_v = [2, 0, 0]
 material = "lamp"
 "#
         ));
-        for (estimator, spp) in [(Estimator::Light, 256), (Estimator::Cosine, 2048), (Estimator::Uniform, 2048)] {
-            let film = render(&lit, 32, spp, &with(estimator, Some(0), Roulette::Off));
+        for (estimator, spp) in [(Estimator::LIGHT, 256), (Estimator::COSINE, 2048), (Estimator::UNIFORM, 2048)] {
+            let film = render(&lit, 32, spp, &with(estimator, Some(0), Roulette::OFF));
             assert_mean(&film, expected, 0.01, &format!("({x}, {y}) {estimator:?}"));
         }
     }
@@ -197,7 +197,7 @@ triangles = [[0, 3, 2], [0, 2, 1]]
 material = "lamp"
 "#,
     );
-    let film = render(&lit, 32, 256, &with(Estimator::Light, Some(0), Roulette::Off));
+    let film = render(&lit, 32, 256, &with(Estimator::LIGHT, Some(0), Roulette::OFF));
     assert_mean(&film, 0.7052169, 0.005, "mesh");
 }
 
@@ -238,7 +238,7 @@ material = "floor"
     // the small sphere adds rho Le (r / d)^2, and hides as much of the dome
     for weak in [0.0, 40_000.0] {
         let expected = 0.5 + 0.5 * (f64::from(weak) - 1.0) * (0.01f64 / 2.0).powi(2);
-        let film = render(&inside(weak), 32, 1024, &with(Estimator::Light, Some(0), Roulette::Off));
+        let film = render(&inside(weak), 32, 1024, &with(Estimator::LIGHT, Some(0), Roulette::OFF));
         assert_mean(&film, expected, 0.005, &format!("weak {weak}"));
     }
 }
@@ -274,7 +274,7 @@ material = "lamp"
     );
     // 1/2 of the sun, and rho Le (r / d)^2 cos beta at d^2 = 2, beta = 45 degrees
     let expected = 0.5 + 0.5 * 10_000.0 * 0.0001 / 2.0 * 0.5f64.sqrt();
-    let film = render(&lit, 32, 512, &with(Estimator::Light, Some(0), Roulette::Off));
+    let film = render(&lit, 32, 512, &with(Estimator::LIGHT, Some(0), Roulette::OFF));
     assert_mean(&film, expected, 0.005, "lamp and sun");
 }
 
@@ -304,12 +304,12 @@ material = "wall"
         ))
     };
     for radius in [0.0, 0.1, 2.5, 30.0] {
-        let film = render(&wall(radius), 16, 256, &with(Estimator::Light, None, Roulette::Throughput));
+        let film = render(&wall(radius), 16, 256, &with(Estimator::LIGHT, None, Roulette::THROUGHPUT));
         assert_mean(&film, 1.0, 0.001, &format!("radius {radius}"));
     }
-    let film = render(&wall(30.0), 32, 512, &with(Estimator::Cosine, None, Roulette::Throughput));
+    let film = render(&wall(30.0), 32, 512, &with(Estimator::COSINE, None, Roulette::THROUGHPUT));
     assert_mean(&film, 1.0, 0.005, "by chance");
-    let blind = render(&wall(0.0), 8, 16, &with(Estimator::Cosine, None, Roulette::Throughput));
+    let blind = render(&wall(0.0), 8, 16, &with(Estimator::COSINE, None, Roulette::THROUGHPUT));
     assert_eq!(blind.mean(), [0.0; 3]);
 }
 
@@ -340,7 +340,7 @@ edge_v = [40, 0, 0]
 material = "floor"
 "#
         ));
-        let film = render(&lit, 16, 4096, &with(Estimator::Light, Some(0), Roulette::Off));
+        let film = render(&lit, 16, 4096, &with(Estimator::LIGHT, Some(0), Roulette::OFF));
         assert_mean(&film, expected, 0.001, &format!("distance {distance}"));
     }
 }

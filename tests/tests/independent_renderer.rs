@@ -65,10 +65,10 @@ fn assert_blocks_agree(film: &Film, reference: &Value, block: u32) {
 fn cornell_agrees_block_by_block_and_outside_the_lamp() {
     let scene = builtin::named("cornell").expect("built in");
     for (text, bounces, roulette) in [
-        (include_str!("../data/cornell.json"), None, Roulette::Throughput),
-        (include_str!("../data/cornell-2-bounces.json"), Some(2), Roulette::Off),
+        (include_str!("../data/cornell.json"), None, Roulette::THROUGHPUT),
+        (include_str!("../data/cornell-2-bounces.json"), Some(2), Roulette::OFF),
     ] {
-        let settings = PathSettings { estimator: Estimator::Light, bounces, roulette, seed: 1 };
+        let settings = PathSettings { bounces, roulette, ..PathSettings::default() };
         let film = render(&scene, (128, 128), 512, &settings);
         let expected = reference(text);
         for (mean, theirs) in film.mean().into_iter().zip(rgb(&expected["mean"])) {

@@ -47,7 +47,7 @@ fn bad_values_are_wrong_usage_and_write_nothing() {
         (&["--size", "big"], "WIDTHxHEIGHT"),
         (&["--size", "100000x100000"], "at most"),
         (&["--bounces", "-1"], "or inf"),
-        (&["--estimator", "mis"], "uniform, cosine or light"),
+        (&["--estimator", "best"], "uniform, cosine, light"),
         (&["--technique", "whitted"], "raster or path"),
         (&["--eye", "1,2"], "three finite numbers"),
         (&["--sun-radius", "90"], "from 0 to below 90"),

@@ -90,7 +90,7 @@ fn choices_change_their_pane_and_undo_takes_them_back() {
     panels.click("cosine", 0);
     let after = panels.viewer.borrow().settings;
     assert_eq!(after.panes[0].fake.fake, raster::Fake::AsTaught);
-    assert_eq!(after.panes[1].truth.path.estimator, pathtrace::Estimator::Cosine);
+    assert_eq!(after.panes[1].truth.path.estimator, pathtrace::Estimator::COSINE);
     panels.click("Undo", 0);
     panels.click("Undo", 0);
     assert_eq!(panels.viewer.borrow().settings, before);

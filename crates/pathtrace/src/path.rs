@@ -3,178 +3,320 @@
 //! Each iteration is one segment: meet a surface, take its emission, sample a light, draw a direction, play roulette. The
 //! state is all there is: no recursion, no allocation. A bounce limit of N lets N + 1 vertices scatter; what is found by
 //! chance is found one segment later, by the last one.
+//!
+//! With more than one branch ("When N>1: Distributed ray tracing") a diffuse vertex is kept on a small stack, and the path
+//! comes back to it until it has left in N directions; each sees the lights anew and counts 1 / N.
 
 use crate::bsdf::{Interface, reflect};
-use crate::geometry::{Accel, Hit, Ray, SurfacePoint};
-use crate::light::{Lights, ShadowEnd, SunDisc, environment};
-use crate::rng::Sampler;
+use crate::geometry::{Hit, NO_LIGHT, Ray, SurfacePoint};
+use crate::light::environment;
+use crate::sampler::Sampler;
 use crate::sampling::{UNIFORM_HEMISPHERE_PDF, cosine_hemisphere, to_world, uniform_hemisphere};
-use crate::settings::{Estimator, PathSettings, Roulette};
-use scene::{Bsdf, Material, Vec3};
+use crate::settings::{Directions, LightSearch, PathSettings, Roulette};
+use crate::world::{Outcome, World, emitted, facing};
+use scene::{Bsdf, Vec3};
 use std::f32::consts::FRAC_1_PI;
 
-/// What a path walks through.
-pub struct World<'a> {
-    /// The shapes.
-    pub accel: &'a Accel,
-    /// What they are made of.
-    pub materials: &'a [Material],
-    /// What shines and is sampled.
-    pub lights: &'a Lights,
-    /// Radiance where nothing is hit.
-    pub sky: Vec3,
-    /// The sun that a ray can hit.
-    pub sun_disc: Option<SunDisc>,
-}
+/// Paths that one sample may branch into.
+pub const MOST_BRANCHES: u32 = 65_536;
 
-/// What a path brought home.
-#[derive(Debug, Clone, Copy, Default)]
-pub struct Outcome {
-    /// Radiance along the camera ray.
-    pub radiance: Vec3,
-    /// Rays traced, shadow rays included.
-    pub rays: u32,
-    /// Whether the path met [`PathSettings::HARD_CAP`] without a bounce limit asking for it.
-    pub cut: bool,
-}
+/// Vertices that can wait for more branches at a time: two to this power is [`MOST_BRANCHES`].
+const MOST_FORKS: usize = 16;
 
 /// A path on its way.
+#[derive(Clone, Copy)]
 struct PathState {
     ray: Ray,
     /// Product of BSDF, cosine and inverse density so far: what radiance met now is worth at the camera.
     throughput: Vec3,
     /// Vertices at which the path has scattered.
     vertices: u32,
-    /// Whether lamps and sun were sampled at the last vertex, so that meeting them now would count them twice.
-    lights_counted: bool,
+    /// Diffuse ones among them, as far as they branched.
+    forked: u32,
+    /// Tells the branches of a sample apart: the path's number in their tree, 0 if nothing branches.
+    branch: u32,
+    /// The last vertex.
+    from: Vec3,
+    /// Density per solid angle of the direction taken there, as far as the light met now needs it: [`MET_BY_CHANCE`] if
+    /// it all counts, [`ALREADY_COUNTED`] if it does not, else weighted against light sampling.
+    direction_pdf: f32,
 }
 
-/// Dimensions of randomness: the camera takes block 0, each vertex two blocks.
-fn direction_dimension(vertex: u32) -> u32 {
-    1 + 2 * vertex
+/// No light was sampled at the last vertex, or none could be: the camera, a mirror, glass.
+const MET_BY_CHANCE: f32 = f32::INFINITY;
+/// Light was sampled at the last vertex: meeting it now would count it twice.
+const ALREADY_COUNTED: f32 = 0.0;
+
+/// A diffuse vertex, and what brought the path there.
+#[derive(Clone, Copy)]
+struct DiffuseVertex {
+    point: SurfacePoint,
+    /// On the side that the path came from.
+    normal: Vec3,
+    albedo: Vec3,
+    /// As the path arrives, its direction not yet drawn.
+    path: PathState,
 }
 
-fn light_dimension(vertex: u32) -> u32 {
-    2 + 2 * vertex
+/// Vertices that wait for their other branches, deepest last. Kept from sample to sample.
+pub struct Forks {
+    waiting: [Option<(DiffuseVertex, u32)>; MOST_FORKS],
+    count: usize,
 }
 
-/// Follows a camera ray to its end.
-pub fn trace(world: &World, ray: Ray, settings: &PathSettings, sampler: &Sampler) -> Outcome {
-    let mut path = PathState { ray, throughput: Vec3::ONE, vertices: 0, lights_counted: false };
-    let mut outcome = Outcome::default();
-    let limit = settings.scattering_vertices();
-    loop {
-        outcome.rays += 1;
-        let Some(hit) = world.accel.closest(&path.ray) else {
-            outcome.radiance += path.throughput * world.background(&path);
-            return outcome;
-        };
-        let material = &world.materials[hit.material as usize];
-        outcome.radiance += path.throughput * emitted(material, &hit, &path);
-        if path.vertices == limit {
-            outcome.cut = settings.bounces.is_none();
-            return outcome;
+impl Default for Forks {
+    fn default() -> Self {
+        Forks { waiting: [None; MOST_FORKS], count: 0 }
+    }
+}
+
+impl Forks {
+    /// Keeps a vertex until `branches` - 1 more paths have left it.
+    fn push(&mut self, vertex: &DiffuseVertex, branches: u32) {
+        self.waiting[self.count] = Some((*vertex, branches - 1));
+        self.count += 1;
+    }
+
+    /// The deepest vertex that waits, as the next branch leaves it.
+    fn next(&mut self, branches: u32) -> Option<DiffuseVertex> {
+        let (mut vertex, left) = self.waiting[self.count.checked_sub(1)?]?;
+        vertex.path.branch = child(vertex.path.branch, branches, branches - left);
+        if left > 1 {
+            self.waiting[self.count - 1].as_mut()?.1 = left - 1;
+        } else {
+            self.count -= 1;
         }
-        let [u0, u1, u_roulette, u_fresnel] = sampler.unit4(direction_dimension(path.vertices));
+        Some(vertex)
+    }
+}
+
+/// Number of a path's branch `index` in a tree where each has `branches`.
+fn child(parent: u32, branches: u32, index: u32) -> u32 {
+    parent.wrapping_mul(branches).wrapping_add(index + 1)
+}
+
+/// Settings as the walk reads them.
+pub struct Plan {
+    directions: Directions,
+    light: LightSearch,
+    roulette: Roulette,
+    /// Vertices at which a path may scatter.
+    limit: u32,
+    /// Whether that is the hard cap rather than the user's wish.
+    capped: bool,
+    branches: u32,
+    /// Diffuse vertices of a path that may branch.
+    branching_vertices: u32,
+}
+
+impl Plan {
+    /// Reads the settings.
+    pub fn new(settings: &PathSettings) -> Self {
+        Plan {
+            directions: settings.estimator.directions,
+            light: settings.estimator.light,
+            roulette: settings.roulette,
+            limit: settings.scattering_vertices(),
+            capped: settings.bounces.is_none(),
+            branches: settings.branches.max(1),
+            branching_vertices: settings.branching_vertices().min(MOST_FORKS as u32),
+        }
+    }
+}
+
+/// Blocks of random numbers: the camera takes block 0, each vertex two; branches keep apart by the bits above these.
+fn direction_dimension(path: &PathState) -> u32 {
+    1 + 2 * path.vertices + (path.branch << 11)
+}
+
+fn light_dimension(path: &PathState) -> u32 {
+    direction_dimension(path) + 1
+}
+
+/// Follows a camera ray, and all its branches, to their ends.
+#[inline]
+pub fn trace(world: &World, ray: Ray, plan: &Plan, sampler: &Sampler, forks: &mut Forks) -> Outcome {
+    let path = PathState {
+        ray,
+        throughput: Vec3::ONE,
+        vertices: 0,
+        forked: 0,
+        branch: 0,
+        from: ray.origin,
+        direction_pdf: MET_BY_CHANCE,
+    };
+    let mut walk = Walk { world, plan, sampler, path, outcome: Outcome::default() };
+    forks.count = 0;
+    loop {
+        let mut alive = walk.segment(forks);
+        while !alive {
+            let Some(vertex) = forks.next(plan.branches) else { return walk.outcome };
+            alive = walk.leave_diffuse(&vertex);
+        }
+    }
+}
+
+/// A path, where it walks and what it brings.
+struct Walk<'a> {
+    world: &'a World<'a>,
+    plan: &'a Plan,
+    sampler: &'a Sampler,
+    path: PathState,
+    outcome: Outcome,
+}
+
+impl Walk<'_> {
+    /// One segment; false where the path ends.
+    #[inline]
+    fn segment(&mut self, forks: &mut Forks) -> bool {
+        self.outcome.rays += 1;
+        let path = &mut self.path;
+        let Some(hit) = self.world.accel.closest(&path.ray) else {
+            let weight = path.weight_of_meeting(|| self.world.sun_pdf);
+            let disc = self.world.sun_disc.as_ref();
+            self.outcome.radiance += path.throughput * environment(self.world.sky, disc, weight, path.ray.direction);
+            return false;
+        };
+        let material = &self.world.materials[hit.material as usize];
+        if material.emission.is_some() {
+            let weight = path.weight_of_meeting(|| self.world.light_pdf(path, &hit));
+            self.outcome.radiance += path.throughput * emitted(material, hit.point.normal, path.ray.direction) * weight;
+        }
+        if path.vertices == self.plan.limit {
+            self.outcome.cut |= self.plan.capped;
+            return false;
+        }
         let wo = -path.ray.direction;
         match material.bsdf {
             Bsdf::Diffuse { albedo } => {
                 let albedo = albedo.at(hit.point.position);
                 if albedo == Vec3::ZERO {
-                    return outcome;
+                    return false;
                 }
                 let normal = facing(hit.point.normal, wo);
-                path.lights_counted = settings.estimator == Estimator::Light;
-                if path.lights_counted && !world.lights.is_empty() {
-                    let u = sampler.unit4(light_dimension(path.vertices));
-                    let direct = sample_lights(world, &hit.point, normal, u, &mut outcome.rays);
-                    outcome.radiance += path.throughput * albedo * FRAC_1_PI * direct;
+                let mut vertex = DiffuseVertex { point: hit.point, normal, albedo, path: *path };
+                if vertex.path.forked < self.plan.branching_vertices {
+                    vertex.path.forked += 1;
+                    vertex.path.throughput /= self.plan.branches as f32;
+                    forks.push(&vertex, self.plan.branches);
+                    vertex.path.branch = child(vertex.path.branch, self.plan.branches, 0);
                 }
-                scatter_diffuse(&mut path, &hit.point, normal, albedo, settings.estimator, [u0, u1]);
+                self.leave_diffuse(&vertex)
             }
             Bsdf::Mirror { reflectance } => {
                 path.throughput *= reflectance;
                 path.leave(&hit.point, reflect(wo, facing(hit.point.normal, wo)));
+                let [.., u_roulette, _] = self.sampler.unit4(direction_dimension(path));
+                self.goes_on(u_roulette)
             }
-            Bsdf::Dielectric { ior } => scatter_dielectric(&mut path, &hit.point, wo, ior, u_fresnel),
+            Bsdf::Dielectric { ior } => {
+                let [.., u_roulette, u_fresnel] = self.sampler.unit4(direction_dimension(path));
+                scatter_dielectric(path, &hit.point, wo, ior, u_fresnel);
+                self.goes_on(u_roulette)
+            }
         }
+    }
+
+    /// Samples a light and draws the direction in which the path leaves a diffuse vertex; false where it ends.
+    #[inline]
+    fn leave_diffuse(&mut self, vertex: &DiffuseVertex) -> bool {
+        self.path = vertex.path;
+        if self.plan.light != LightSearch::Chance && !self.world.lights.is_empty() {
+            let u = self.sampler.unit4(light_dimension(&self.path));
+            let direct = self.sample_lights(&vertex.point, vertex.normal, u);
+            self.outcome.radiance += self.path.throughput * vertex.albedo * FRAC_1_PI * direct;
+        }
+        let [u0, u1, u_roulette, _] = self.sampler.unit4(direction_dimension(&self.path));
+        let path = &mut self.path;
+        path.throughput *= vertex.albedo;
+        // Lambert: `f cos / pdf` is the albedo for cosine-weighted directions and `2 albedo cos` for uniform ones
+        let (local, pdf) = match self.plan.directions {
+            Directions::Uniform => {
+                let local = uniform_hemisphere([u0, u1]);
+                path.throughput *= FRAC_1_PI * local.z / UNIFORM_HEMISPHERE_PDF;
+                (local, UNIFORM_HEMISPHERE_PDF)
+            }
+            Directions::Cosine => {
+                let local = cosine_hemisphere([u0, u1]);
+                (local, local.z * FRAC_1_PI)
+            }
+        };
+        path.direction_pdf = match self.plan.light {
+            LightSearch::Chance => MET_BY_CHANCE,
+            LightSearch::Sampling => ALREADY_COUNTED,
+            LightSearch::Mis => pdf,
+        };
+        path.from = vertex.point.position;
+        let wi = to_world(local, vertex.normal);
+        path.ray = Ray::new(vertex.point.leaving_towards(wi), wi);
+        self.goes_on(u_roulette)
+    }
+
+    /// Counts the vertex and plays roulette.
+    #[inline]
+    fn goes_on(&mut self, u_roulette: f32) -> bool {
+        let path = &mut self.path;
         path.vertices += 1;
-        let nothing_left_to_find = path.vertices == limit && path.lights_counted && world.sky == Vec3::ZERO;
-        if nothing_left_to_find || !survives(&mut path.throughput, settings.roulette, u_roulette) {
-            outcome.cut = nothing_left_to_find && settings.bounces.is_none();
-            return outcome;
+        let all_counted = path.direction_pdf == ALREADY_COUNTED && self.world.sky == Vec3::ZERO;
+        if path.vertices == self.plan.limit && all_counted {
+            self.outcome.cut |= self.plan.capped;
+            return false;
         }
+        survives(&mut path.throughput, self.plan.roulette, u_roulette)
+    }
+
+    /// Incoming radiance times cosine over density, from one sample of the lights; zero in shadow. Under MIS weighted
+    /// against meeting the same light by chance.
+    #[inline]
+    fn sample_lights(&mut self, at: &SurfacePoint, normal: Vec3, u: [f32; 4]) -> Vec3 {
+        let Some(sample) = self.world.lights.sample(at.position, u[2], [u[0], u[1]]) else { return Vec3::ZERO };
+        let cosine = normal.dot(sample.wi);
+        if cosine <= 0.0 {
+            return Vec3::ZERO;
+        }
+        self.outcome.rays += 1;
+        if self.world.in_shadow(at, &sample) {
+            return Vec3::ZERO;
+        }
+        let weight = match (self.plan.light, self.plan.directions) {
+            (LightSearch::Mis, Directions::Cosine) => balance(sample.pdf, cosine * FRAC_1_PI),
+            (LightSearch::Mis, Directions::Uniform) => balance(sample.pdf, UNIFORM_HEMISPHERE_PDF),
+            _ => 1.0,
+        };
+        sample.radiance_over_pdf * (cosine * weight)
     }
 }
 
 impl World<'_> {
-    fn background(&self, path: &PathState) -> Vec3 {
-        let sun = if path.lights_counted { None } else { self.sun_disc.as_ref() };
-        environment(self.sky, sun, path.ray.direction)
+    /// Density with which light sampling at the path's last vertex draws the direction to this hit.
+    fn light_pdf(&self, path: &PathState, hit: &Hit) -> f32 {
+        if hit.light == NO_LIGHT { 0.0 } else { self.lights.pdf(hit.light, path.from, &hit.point) }
     }
 }
 
 impl PathState {
     /// Goes on in the unit direction `wi`, of which a specular surface left no choice.
     fn leave(&mut self, from: &SurfacePoint, wi: Vec3) {
-        self.lights_counted = false;
+        self.direction_pdf = MET_BY_CHANCE;
         self.ray = Ray::new(from.leaving_towards(wi), wi);
     }
-}
 
-/// The normal on the side of `wo`.
-fn facing(normal: Vec3, wo: Vec3) -> Vec3 {
-    if normal.dot(wo) < 0.0 { -normal } else { normal }
-}
-
-/// Emission towards the path, unless light sampling has counted it already.
-fn emitted(material: &Material, hit: &Hit, path: &PathState) -> Vec3 {
-    match material.emission {
-        Some(e) if !path.lights_counted && (e.two_sided || hit.point.normal.dot(path.ray.direction) < 0.0) => {
-            e.radiance
+    /// How much light that was met counts beside the same light sampled at the last vertex with density `light_pdf`.
+    #[inline]
+    fn weight_of_meeting(&self, light_pdf: impl FnOnce() -> f32) -> f32 {
+        if self.direction_pdf == MET_BY_CHANCE {
+            1.0
+        } else if self.direction_pdf == ALREADY_COUNTED {
+            0.0
+        } else {
+            balance(self.direction_pdf, light_pdf())
         }
-        _ => Vec3::ZERO,
     }
 }
 
-/// Incoming radiance times cosine over density, from one sample of the lights; zero in shadow.
-fn sample_lights(world: &World, at: &SurfacePoint, normal: Vec3, u: [f32; 4], rays: &mut u32) -> Vec3 {
-    let Some(sample) = world.lights.sample(at.position, u[0], [u[1], u[2]]) else { return Vec3::ZERO };
-    let cosine = normal.dot(sample.wi);
-    if cosine <= 0.0 {
-        return Vec3::ZERO;
-    }
-    let from = at.leaving_towards(sample.wi);
-    let shadow_ray = match sample.end {
-        ShadowEnd::At(lamp) => Ray::between(from, lamp.leaving_towards(-sample.wi)),
-        ShadowEnd::Infinity => Ray::new(from, sample.wi),
-    };
-    *rays += 1;
-    if world.accel.occluded(&shadow_ray) { Vec3::ZERO } else { sample.radiance_over_pdf * cosine }
-}
-
-/// Lambert: `f cos / pdf` is the albedo for cosine-weighted directions and `2 albedo cos` for uniform ones.
-fn scatter_diffuse(
-    path: &mut PathState,
-    at: &SurfacePoint,
-    normal: Vec3,
-    albedo: Vec3,
-    estimator: Estimator,
-    u: [f32; 2],
-) {
-    let local = match estimator {
-        Estimator::Uniform => {
-            let local = uniform_hemisphere(u);
-            path.throughput *= albedo * (FRAC_1_PI * local.z / UNIFORM_HEMISPHERE_PDF);
-            local
-        }
-        Estimator::Cosine | Estimator::Light => {
-            path.throughput *= albedo;
-            cosine_hemisphere(u)
-        }
-    };
-    let wi = to_world(local, normal);
-    path.ray = Ray::new(at.leaving_towards(wi), wi);
+/// The balance heuristic: the weight of a sample of density `own`, which may be infinite, against one of density `other`.
+fn balance(own: f32, other: f32) -> f32 {
+    1.0 / (1.0 + other / own)
 }
 
 /// Reflects with the probability that Fresnel gives, else refracts; the weights cancel. No scaling of radiance by the
@@ -193,11 +335,10 @@ const ROULETTE_SLOPE: f32 = 2.0;
 
 /// Russian roulette; the survivor carries the light of those that did not.
 fn survives(throughput: &mut Vec3, roulette: Roulette, u: f32) -> bool {
-    let probability = match roulette {
-        Roulette::Off => 1.0,
-        Roulette::Probability(p) => p,
-        Roulette::Throughput => (ROULETTE_SLOPE * throughput.max_element()).min(1.0),
-    };
+    let mut probability = roulette.probability.unwrap_or(1.0);
+    if roulette.throughput {
+        probability *= (ROULETTE_SLOPE * throughput.max_element()).min(1.0);
+    }
     *throughput /= probability;
     // nothing is left to carry: the product has underflowed, or the surface was black
     u < probability && *throughput != Vec3::ZERO

@@ -54,6 +54,13 @@ pub fn cosine_hemisphere(u: [f32; 2]) -> Vec3 {
     around_z((1.0 - u[0]).sqrt(), u[0].sqrt(), u[1])
 }
 
+/// Uniform on the unit disk in the plane z = 0; density `1 / pi`.
+pub fn disk(u: [f32; 2]) -> Vec3 {
+    let (sin_phi, cos_phi) = sin_cos_2pi(u[1]);
+    let radius = u[0].sqrt();
+    Vec3::new(radius * cos_phi, radius * sin_phi, 0.0)
+}
+
 /// Uniform in the cone around z whose half angle has `1 - cos` = `one_minus_cos`; density [`cone_pdf`].
 pub fn cone(one_minus_cos: f32, u: [f32; 2]) -> Vec3 {
     let height = u[0] * one_minus_cos;
@@ -74,7 +81,7 @@ pub fn triangle(u: [f32; 2]) -> [f32; 3] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::rng::Sampler;
+    use crate::sampler::Sampler;
 
     #[test]
     fn sine_and_cosine_are_right_to_single_precision() {
@@ -107,7 +114,7 @@ mod tests {
         let mut bins = [0u32; 8 * 16];
         let n = 400_000;
         for i in 0..n {
-            let u = Sampler { pixel: 0, sample: i, seed: 5 }.unit4(0);
+            let u = Sampler::independent(0, i, 5).unit4(0);
             let w = warp([u[0], u[1]]);
             let ring = (cumulative_of_z(w.z) * 8.0).clamp(0.0, 7.0) as usize;
             let azimuth = (w.y.atan2(w.x) / std::f32::consts::TAU).rem_euclid(1.0) * 16.0;

@@ -1,6 +1,6 @@
 //! The settings of the truth.
 
-use pathtrace::{Estimator, PathSettings, Roulette};
+use pathtrace::{PathSettings, Roulette};
 use scene::Scene;
 
 /// The settings of the truth.
@@ -27,7 +27,7 @@ impl TruthSettings {
     /// What these settings cannot see in this scene, to be said rather than hidden.
     pub fn blind_spot(&self, scene: &Scene) -> Option<&'static str> {
         let delta_sun = scene.sun.is_some_and(|sun| sun.angular_radius == 0.0);
-        let by_chance = self.path.estimator != Estimator::Light;
+        let by_chance = !self.path.estimator.samples_lights();
         match (delta_sun, by_chance) {
             (true, true) => Some("a sun of radius 0 cannot be hit by chance: its light is missing"),
             (true, false) if scene.needs().dielectric || scene.needs().mirror => {
@@ -38,12 +38,13 @@ impl TruthSettings {
     }
 }
 
-/// "off", "throughput" or the probability.
+/// "off", "throughput", the probability, or "0.8+throughput".
 pub fn roulette_name(roulette: Roulette) -> String {
-    match roulette {
-        Roulette::Off => "off".into(),
-        Roulette::Throughput => "throughput".into(),
-        Roulette::Probability(p) => p.to_string(),
+    match (roulette.probability, roulette.throughput) {
+        (None, false) => "off".into(),
+        (None, true) => "throughput".into(),
+        (Some(p), false) => p.to_string(),
+        (Some(p), true) => format!("{p}+throughput"),
     }
 }
 

@@ -1,9 +1,11 @@
-//! The acceleration structure: obvhs' BVH2 over triangles and spheres.
+//! The acceleration structure: obvhs' BVH2 over triangles, spheres and disks.
 
+use super::disk::Disk;
 use super::sphere::Sphere;
 use super::surface_point::SurfacePoint;
-use super::triangle::{ShearedRay, Triangle};
+use super::triangle::{ShearedRay, Triangle, triangle_normal};
 use super::{Ray, gamma};
+use crate::light::Lights;
 use obvhs::BvhBuildParams;
 use obvhs::aabb::Aabb;
 use obvhs::bvh2::Bvh2;
@@ -17,14 +19,17 @@ use scene::{Geometry, Scene, Shape, Vec3};
 enum Primitive {
     Triangle(Triangle),
     Sphere(Sphere),
+    Disk(Disk),
 }
 
 /// A primitive and what shading needs of it, beside the part that intersection reads.
 #[derive(Debug, Clone, Copy)]
 struct Surface {
-    /// Unit normal of a triangle; a sphere has its own.
+    /// Unit normal of a triangle; others have their own.
     normal: Vec3,
     material: u32,
+    /// See [`Hit::light`].
+    light: u32,
 }
 
 /// All shapes of a scene, ready for rays.
@@ -44,7 +49,12 @@ pub struct Hit {
     pub point: SurfacePoint,
     /// Index into the scene's materials.
     pub material: u32,
+    /// Index into the list of lights, or [`NO_LIGHT`].
+    pub light: u32,
 }
+
+/// What stands for the light of a surface that is not one.
+pub const NO_LIGHT: u32 = u32::MAX;
 
 /// The nearest candidate so far, as little as can be carried through the traversal.
 #[derive(Clone, Copy)]
@@ -56,9 +66,9 @@ struct Nearest {
 }
 
 impl Accel {
-    /// Builds the structure. Triangles without area, which no ray can meet, are left out.
-    pub fn new(scene: &Scene) -> Self {
-        let (primitives, surfaces) = primitives(scene);
+    /// Builds the structure. Triangles without area, which no ray can meet, are left out. `lights` are the scene's.
+    pub fn new(scene: &Scene, lights: &Lights) -> Self {
+        let (primitives, surfaces) = primitives(scene, lights);
         let boxes = padded_boxes(&primitives);
         let mut build_time = std::time::Duration::ZERO;
         let bvh = build_bvh2(&boxes, BvhBuildParams::medium_build(), &mut build_time);
@@ -71,7 +81,7 @@ impl Accel {
         }
     }
 
-    /// Number of triangles and spheres.
+    /// Number of triangles, spheres and disks.
     pub fn len(&self) -> usize {
         self.primitives.len()
     }
@@ -100,16 +110,25 @@ impl Accel {
         let point = match self.primitives[nearest.index] {
             Primitive::Triangle(t) => SurfacePoint::on_triangle(t.corners, nearest.barycentrics, surface.normal),
             Primitive::Sphere(s) => SurfacePoint::on_sphere(s.center, s.radius, ray.origin + ray.direction * nearest.t),
+            Primitive::Disk(d) => SurfacePoint::on_disk(d.center, ray.origin + ray.direction * nearest.t, d.normal),
         };
-        Some(Hit { point, material: surface.material })
+        Some(Hit { point, material: surface.material, light: surface.light })
     }
 
     /// Whether anything lies on the ray before `ray.tmax`.
+    #[inline]
     pub fn occluded(&self, ray: &Ray) -> bool {
+        self.occluded_by(ray, |_| true)
+    }
+
+    /// Whether anything of a material that `blocks` lies on the ray before `ray.tmax`.
+    #[inline]
+    pub fn occluded_by(&self, ray: &Ray, blocks: impl Fn(u32) -> bool) -> bool {
         let sheared = ShearedRay::new(ray);
         let mut occluded = false;
         self.traverse(ray, |index, tmax| {
-            occluded = self.primitives[index].intersect(ray, &sheared, tmax).is_some();
+            occluded = self.primitives[index].intersect(ray, &sheared, tmax).is_some()
+                && blocks(self.surfaces[index].material);
             if occluded { Visit::Stop } else { Visit::Before(tmax) }
         });
         occluded
@@ -146,6 +165,7 @@ impl Primitive {
         match self {
             Primitive::Triangle(triangle) => triangle.intersect(sheared, tmax).map(|hit| (hit.t, hit.barycentrics)),
             Primitive::Sphere(sphere) => sphere.intersect(ray, tmax).map(|t| (t, [0.0; 3])),
+            Primitive::Disk(disk) => disk.intersect(ray, tmax).map(|t| (t, [0.0; 3])),
         }
     }
 
@@ -153,37 +173,45 @@ impl Primitive {
         match self {
             Primitive::Triangle(Triangle { corners: [a, b, c], .. }) => (a.min(*b).min(*c), a.max(*b).max(*c)),
             Primitive::Sphere(s) => (s.center - Vec3::splat(s.radius), s.center + Vec3::splat(s.radius)),
+            Primitive::Disk(Disk { center, normal, radius }) => {
+                Geometry::Disk { center: *center, normal: *normal, radius: *radius }.bounds()
+            }
         }
     }
 }
 
-fn primitives(scene: &Scene) -> (Vec<Primitive>, Vec<Surface>) {
+fn primitives(scene: &Scene, lights: &Lights) -> (Vec<Primitive>, Vec<Surface>) {
     let (mut primitives, mut surfaces) = (Vec::new(), Vec::new());
     // lamps first, so that a lamp in the plane of a wall wins the tie against the wall
-    let is_lamp = |shape: &&Shape| scene.material_of(shape).emission.is_some();
-    let (lamps, others): (Vec<_>, Vec<_>) = scene.shapes.iter().partition(is_lamp);
-    for shape in lamps.into_iter().chain(others) {
+    let is_lamp = |(_, shape): &(usize, &Shape)| scene.material_of(shape).emission.is_some();
+    let (lamps, others): (Vec<_>, Vec<_>) = scene.shapes.iter().enumerate().partition(is_lamp);
+    for (index, shape) in lamps.into_iter().chain(others) {
         let material = shape.material as u32;
-        if let Geometry::Sphere { center, radius } = shape.geometry {
-            primitives.push(Primitive::Sphere(Sphere { center, radius }));
-            surfaces.push(Surface { normal: Vec3::ZERO, material });
-        }
-        let (positions, triangles) = shape.geometry.flat_triangles();
-        for triangle in triangles {
-            let corners = triangle.map(|i| positions[i as usize]);
-            if let Some(normal) = triangle_normal(corners) {
-                primitives.push(Primitive::Triangle(Triangle::new(corners)));
-                surfaces.push(Surface { normal, material });
+        let first_light = lights.first_of_shape(index);
+        let mut light = first_light.unwrap_or(NO_LIGHT);
+        let mut add = |primitive, normal, light| {
+            primitives.push(primitive);
+            surfaces.push(Surface { normal, material, light });
+        };
+        match shape.geometry {
+            Geometry::Sphere { center, radius } => add(Primitive::Sphere(Sphere { center, radius }), Vec3::ZERO, light),
+            Geometry::Disk { center, normal, radius } => {
+                add(Primitive::Disk(Disk { center, normal, radius }), normal, light);
+            }
+            Geometry::Rectangle { .. } | Geometry::Box { .. } | Geometry::Mesh { .. } => {
+                let (positions, triangles) = shape.geometry.flat_triangles();
+                // the two halves of a rectangle are one light, other triangles are each their own
+                let step = u32::from(first_light.is_some() && !matches!(shape.geometry, Geometry::Rectangle { .. }));
+                for corners in triangles.iter().map(|t| t.map(|i| positions[i as usize])) {
+                    if let Some(normal) = triangle_normal(corners) {
+                        add(Primitive::Triangle(Triangle::new(corners)), normal, light);
+                        light += step;
+                    }
+                }
             }
         }
     }
     (primitives, surfaces)
-}
-
-/// Unit normal by winding, in f64 so that slivers have one too; `None` without area.
-fn triangle_normal([a, b, c]: [Vec3; 3]) -> Option<Vec3> {
-    let (a, b, c) = (a.as_dvec3(), b.as_dvec3(), c.as_dvec3());
-    (b - a).cross(c - a).try_normalize().map(|n| n.as_vec3())
 }
 
 /// Boxes grown by 2^-20 of (largest coordinate + extent): the box test rounds, and treats directions below 1.2e-7 as if

@@ -1,15 +1,17 @@
 //! Where rays meet shapes, in f32 and without a single absolute epsilon.
 //!
-//! [`triangle`] is watertight, [`sphere`] holds far away and huge, [`accel`] puts both into a BVH whose boxes are padded
+//! [`triangle`] is watertight, [`sphere`] holds far away and huge, [`disk`] is flat; [`accel`] puts them into a BVH whose boxes are padded
 //! against the rounding of its box test, and [`surface_point`] says where a hit lies and how far to step off it.
 
 pub mod accel;
+pub mod disk;
 pub mod sphere;
 pub mod surface_point;
 pub mod triangle;
 
-pub use accel::{Accel, Hit};
+pub use accel::{Accel, Hit, NO_LIGHT};
 pub use surface_point::SurfacePoint;
+pub use triangle::triangle_normal;
 
 use scene::Vec3;
 

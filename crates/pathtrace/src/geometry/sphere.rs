@@ -39,7 +39,7 @@ impl Sphere {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::rng::Sampler;
+    use crate::sampler::Sampler;
     use crate::sampling::{to_world, uniform_hemisphere};
 
     /// Distance, radius and largest error of t, as measured for this test in f32 with a margin; the reference is f64 on
@@ -51,7 +51,7 @@ mod tests {
         {
             let sphere = Sphere { center: Vec3::ZERO, radius };
             for sample in 0..20_000 {
-                let u = Sampler { pixel: 1, sample, seed: 2 }.unit4(0);
+                let u = Sampler::independent(1, sample, 2).unit4(0);
                 let from = uniform_hemisphere([u[0], u[1]]);
                 let origin = from * (radius + distance);
                 let impact = 0.99 * radius * u[2].sqrt();

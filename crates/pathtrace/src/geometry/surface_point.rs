@@ -29,6 +29,15 @@ impl SurfacePoint {
         SurfacePoint { position: center + out, error: gamma(5) * (center.abs() + out.abs()), normal }
     }
 
+    /// The point of the plane through `center` that is nearest to `near`.
+    pub fn on_disk(center: Vec3, near: Vec3, normal: Vec3) -> Self {
+        let from_center = near - center;
+        let out = from_center - normal * normal.dot(from_center);
+        // what is left of the normal in `out` is a rounding error of its length, along all axes
+        let error = gamma(8) * (center.abs() + Vec3::splat(out.length()));
+        SurfacePoint { position: center + out, error, normal }
+    }
+
     /// The start of a ray that leaves on the side of `direction`.
     pub fn leaving_towards(&self, direction: Vec3) -> Vec3 {
         let along = self.normal.abs().dot(self.error);

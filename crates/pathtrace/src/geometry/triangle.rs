@@ -10,7 +10,9 @@ pub struct ShearedRay {
     origin: Vec3,
     direction: Vec3,
     axes: [usize; 3],
-    shear: Vec3,
+    shear: [f32; 2],
+    /// Along the largest axis.
+    depth: f32,
 }
 
 impl ShearedRay {
@@ -26,15 +28,15 @@ impl ShearedRay {
             2
         };
         let (kx, ky) = ((kz + 1) % 3, (kz + 2) % 3);
-        let shear = Vec3::new(d[kx] / d[kz], d[ky] / d[kz], 1.0 / d[kz]);
-        ShearedRay { origin: ray.origin, direction: ray.direction, axes: [kx, ky, kz], shear }
+        let shear = [d[kx] / d[kz], d[ky] / d[kz]];
+        ShearedRay { origin: ray.origin, direction: ray.direction, axes: [kx, ky, kz], shear, depth: d[kz] }
     }
 
-    /// The point in the ray's frame: the ray is the z axis, z is t.
+    /// The point in the ray's frame: the ray is the z axis, z is t times the ray's depth.
     fn apply(&self, point: Vec3) -> Vec3 {
         let p = (point - self.origin).to_array();
         let z = p[self.axes[2]];
-        Vec3::new(p[self.axes[0]] - self.shear.x * z, p[self.axes[1]] - self.shear.y * z, self.shear.z * z)
+        Vec3::new(p[self.axes[0]] - self.shear[0] * z, p[self.axes[1]] - self.shear[1] * z, z)
     }
 }
 
@@ -82,7 +84,9 @@ impl Triangle {
             return None;
         }
         // u, v, w of one sign make the hit a mean of the corners: nearly edge-on, where the plane says little, it still is
-        let t = t.clamp(a.z.min(b.z).min(c.z), a.z.max(b.z).max(c.z));
+        // (divided, not multiplied by an inverse: rounding then keeps the order, and a lamp does not shadow itself)
+        let [near, far] = [a.z.min(b.z).min(c.z) / ray.depth, a.z.max(b.z).max(c.z) / ray.depth];
+        let t = t.clamp(near.min(far), near.max(far));
         (t > 0.0 && t < tmax).then(|| TriangleHit { t, barycentrics: [u, v, w].map(|area| area / determinant) })
     }
 
@@ -92,6 +96,12 @@ impl Triangle {
         let to_plane = self.corners[0].as_dvec3() - ray.origin.as_dvec3();
         (self.normal.dot(to_plane) / self.normal.dot(ray.direction.as_dvec3())) as f32
     }
+}
+
+/// Unit normal by winding, in f64 so that slivers have one too; `None` without area.
+pub fn triangle_normal([a, b, c]: [Vec3; 3]) -> Option<Vec3> {
+    let (a, b, c) = (a.as_dvec3(), b.as_dvec3(), c.as_dvec3());
+    (b - a).cross(c - a).try_normalize().map(|n| n.as_vec3())
 }
 
 /// Twice the signed area of (z axis, p, q). Rounding is monotone, so without fusing its sign is right or it is 0.

@@ -32,6 +32,9 @@ pub struct RenderArgs {
     pub without_effect: Vec<&'static str>,
 }
 
+/// What `--estimator` may be.
+const ESTIMATORS: &str = "uniform, cosine, light, mis, uniform-light or uniform-mis";
+
 pub fn parse(mut parser: lexopt::Parser) -> Result<Command, CliError> {
     let mut scene = None;
     let mut out = None;
@@ -132,7 +135,7 @@ fn of_the_truth(
             "--roulette"
         }
         "estimator" => {
-            path.estimator = choice(parser, "--estimator", Estimator::named, "uniform, cosine or light")?;
+            path.estimator = choice(parser, "--estimator", Estimator::named, ESTIMATORS)?;
             "--estimator"
         }
         "sun-radius" => {
@@ -206,16 +209,17 @@ fn of_the_fake(
     Ok(Some(name))
 }
 
+/// "off", "throughput", a probability, or both as "0.8+throughput".
 fn roulette(word: &str) -> Result<Roulette, CliError> {
-    match word {
-        "off" => Ok(Roulette::Off),
-        "throughput" => Ok(Roulette::Throughput),
-        _ => match parse_finite(word).filter(|p| *p > 0.0 && *p <= 1.0) {
-            Some(probability) => Ok(Roulette::Probability(probability)),
-            None => {
-                usage(format!("--roulette {word}: expected a probability above 0 and at most 1, throughput or off"))
-            }
-        },
+    let probability = |word: &str| parse_finite(word).filter(|p| *p > 0.0 && *p <= 1.0);
+    let (first, both) = word.strip_suffix("+throughput").map_or((word, false), |first| (first, true));
+    match (word, probability(first)) {
+        ("off", _) => Ok(Roulette::OFF),
+        ("throughput", _) => Ok(Roulette::THROUGHPUT),
+        (_, Some(p)) => Ok(Roulette { probability: Some(p), throughput: both }),
+        _ => usage(format!(
+            "--roulette {word}: expected a probability above 0 and at most 1, throughput, both as P+throughput, or off"
+        )),
     }
 }
 

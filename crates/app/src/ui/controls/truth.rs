@@ -4,7 +4,7 @@ use super::widgets::{Stepped, choice, doubling, fit};
 use crate::ui::{Dump, Viewer};
 use crate::workers::Side;
 use egui::{DragValue, Slider, SliderClamping, Ui};
-use pathtrace::{Estimator, Roulette};
+use pathtrace::{Directions, Estimator, LightSearch, Roulette};
 
 /// The most samples that the slider offers: 2^16.
 const MOST_SPP_EXPONENT: u32 = 16;
@@ -33,10 +33,15 @@ pub fn show(viewer: &mut Viewer, side: Side, ui: &mut Ui, dump: &mut Dump) {
 }
 
 fn explain(estimator: Estimator) -> &'static str {
-    match estimator {
-        Estimator::Uniform => "Directions uniform on the hemisphere, light found by chance",
-        Estimator::Cosine => "Directions cosine-weighted, light found by chance",
-        Estimator::Light => "Light sampled at every vertex, indirect light cosine-weighted",
+    match (estimator.directions, estimator.light) {
+        (Directions::Uniform, LightSearch::Chance) => "Directions uniform on the hemisphere, light found by chance",
+        (Directions::Cosine, LightSearch::Chance) => "Directions cosine-weighted, light found by chance",
+        (Directions::Cosine, LightSearch::Sampling) => "Light sampled at every vertex, indirect light cosine-weighted",
+        (Directions::Cosine, LightSearch::Mis) => {
+            "Light sampled and met by chance, weighted; cosine-weighted directions"
+        }
+        (Directions::Uniform, LightSearch::Sampling) => "Light sampled at every vertex, indirect light uniform",
+        (Directions::Uniform, LightSearch::Mis) => "Light sampled and met by chance, weighted; uniform directions",
     }
 }
 
@@ -63,18 +68,19 @@ fn roulette(viewer: &mut Viewer, side: Side, ui: &mut Ui, dump: &mut Dump) {
     let roulette = &mut viewer.settings.panes[side as usize].truth.path.roulette;
     let kept = &mut viewer.memory.probabilities[side as usize];
     ui.label("Roulette");
-    let probability = Roulette::Probability(*kept);
-    let ends = [
-        ("off", "Paths end by the number of bounces alone", Roulette::Off),
-        ("P", "Each vertex is survived with probability P", probability),
-        ("throughput", "Dark paths end sooner than bright ones", Roulette::Throughput),
+    let off = *roulette == Roulette::OFF;
+    let words = [
+        ("off".to_owned(), "Paths end by the number of bounces alone", off),
+        ("P".to_owned(), "Each vertex is survived with probability P", roulette.probability.is_some()),
+        ("throughput".to_owned(), "Dark paths end sooner than bright ones", roulette.throughput),
     ];
-    let alike = |a: &Roulette, b: &Roulette| std::mem::discriminant(a) == std::mem::discriminant(b);
-    let words = ends.map(|(name, hover, end)| (name.to_owned(), hover, alike(roulette, &end)));
-    if let Some(index) = choice(&format!("{side:?} roulette"), words, ui, dump) {
-        *roulette = ends[index].2;
+    match choice(&format!("{side:?} roulette"), words, ui, dump) {
+        Some(0) => *roulette = Roulette::OFF,
+        Some(1) => roulette.probability = if roulette.probability.is_some() { None } else { Some(*kept) },
+        Some(_) => roulette.throughput = !roulette.throughput,
+        None => {}
     }
-    if let Roulette::Probability(p) = roulette {
+    if let Some(p) = &mut roulette.probability {
         let slider = Stepped {
             name: &format!("{side:?} roulette probability"),
             label: "Probability P to survive a vertex",

@@ -1,0 +1,226 @@
+//! What shines, as light sampling sees it: lamps (emissive shapes), point lights and the sun. Task 2 c), "Sampling Area
+//! Light". One light is chosen, then a direction to it; [`Lights::pdf`] is the density of doing so, as MIS needs it.
+
+mod ball;
+mod flat;
+mod spherical_rectangle;
+mod sun;
+
+pub use flat::{Flat, Outline};
+pub use spherical_rectangle::SphericalRectangle;
+pub use sun::{SunDisc, environment};
+
+use crate::geometry::sphere::Sphere;
+use crate::geometry::{SurfacePoint, triangle_normal};
+use scene::material::Emission;
+use scene::{Geometry, PointLight, Scene, Shape, Sun, Vec3, colour};
+use std::f32::consts::PI;
+
+/// A light that can be sampled from a point.
+#[derive(Debug, Clone, Copy)]
+enum Light {
+    Flat(Flat, Emission),
+    Sphere(Sphere, Emission),
+    Point(PointLight),
+    Sun(Sun),
+}
+
+/// All lights of a scene that are sampled, with the probabilities of choosing each.
+#[derive(Debug, Clone, Default)]
+pub struct Lights {
+    lights: Vec<Light>,
+    /// The probability of choosing each.
+    probabilities: Vec<f32>,
+    /// Their running sum, the last one 1.
+    cumulative: Vec<f32>,
+    /// Index of each shape's first light.
+    first_of_shape: Vec<Option<u32>>,
+    /// Index of the sun.
+    sun: Option<usize>,
+}
+
+/// Light that arrives at a point from one sampled direction, if nothing stands between.
+#[derive(Debug, Clone, Copy)]
+pub struct LightSample {
+    /// Unit direction towards the light.
+    pub wi: Vec3,
+    /// Radiance divided by `pdf`; for a point or a delta sun its irradiance.
+    pub radiance_over_pdf: Vec3,
+    /// Density per solid angle; infinite for a point and a delta sun.
+    pub pdf: f32,
+    /// Where the shadow ray ends.
+    pub end: ShadowEnd,
+}
+
+/// The far end of a shadow ray.
+#[derive(Debug, Clone, Copy)]
+pub enum ShadowEnd {
+    /// A point on a lamp.
+    Lamp(SurfacePoint),
+    /// A point in the air.
+    Point(Vec3),
+    /// The sun.
+    Infinity,
+}
+
+impl Lights {
+    /// Collects the lights. Half of the choices go by power and half to all alike, so that a small lamp beside a strong
+    /// sun still gets its samples.
+    pub fn new(scene: &Scene) -> Self {
+        let mut lights = Vec::new();
+        let mut first_of_shape = Vec::new();
+        for shape in scene.shapes.iter() {
+            let emission = scene.material_of(shape).emission.filter(|e| e.radiance.max_element() > 0.0);
+            let first = lights.len();
+            emission.into_iter().for_each(|emission| push_lamps(shape, emission, &mut lights));
+            first_of_shape.push((lights.len() > first).then_some(first as u32));
+        }
+        let shines = |point: &&PointLight| point.intensity.max_element() > 0.0;
+        lights.extend(scene.point_lights.iter().filter(shines).copied().map(Light::Point));
+        let sun = scene.sun.filter(|sun| sun.irradiance.max_element() > 0.0);
+        let sun = sun.map(|sun| (lights.push(Light::Sun(sun)), lights.len() - 1).1);
+        let (lo, hi) = scene.bounds();
+        let scene_radius = 0.5 * (hi - lo).length();
+        let powers: Vec<f64> = lights.iter().map(|light| f64::from(light.power(scene_radius))).collect();
+        let probabilities = mixed_probabilities(&powers);
+        let mut sum = 0.0;
+        let running = probabilities.iter().map(|probability| {
+            sum += probability;
+            sum as f32
+        });
+        let mut cumulative: Vec<f32> = running.collect();
+        if let Some(last) = cumulative.last_mut() {
+            *last = 1.0;
+        }
+        let probabilities = probabilities.iter().map(|&p| p as f32).collect();
+        Lights { lights, probabilities, cumulative, first_of_shape, sun }
+    }
+
+    /// Number of lights; each triangle of a mesh that shines is one.
+    pub fn len(&self) -> usize {
+        self.lights.len()
+    }
+
+    /// Whether there is nothing to sample.
+    pub fn is_empty(&self) -> bool {
+        self.lights.is_empty()
+    }
+
+    /// Index of the first light of a shape: its triangles with area are lights in their order, other shapes are one light.
+    pub fn first_of_shape(&self, shape: usize) -> Option<u32> {
+        self.first_of_shape[shape]
+    }
+
+    /// The light that `u` in [0, 1) chooses; there must be one.
+    pub fn choose(&self, u: f32) -> usize {
+        self.cumulative.partition_point(|&c| c <= u).min(self.lights.len() - 1)
+    }
+
+    /// The probability that [`Lights::choose`] gives this light.
+    pub fn probability(&self, light: usize) -> f32 {
+        self.probabilities[light]
+    }
+
+    /// Samples the light that reaches the point `x`: one number in [0, 1) to choose a light, two to choose a point on
+    /// it. `None` where the chosen light does not shine.
+    pub fn sample(&self, x: Vec3, u_light: f32, u: [f32; 2]) -> Option<LightSample> {
+        if self.lights.is_empty() {
+            return None;
+        }
+        let light = self.choose(u_light);
+        let mut sample = self.sample_one(light, x, u)?;
+        sample.radiance_over_pdf /= self.probabilities[light];
+        sample.pdf *= self.probabilities[light];
+        Some(sample)
+    }
+
+    /// As [`Lights::sample`], but of one light of the caller's choice, whose probability is not in the densities.
+    pub fn sample_one(&self, light: usize, x: Vec3, u: [f32; 2]) -> Option<LightSample> {
+        match self.lights[light] {
+            Light::Flat(flat, emission) => flat.sample(x, emission, u),
+            Light::Sphere(sphere, emission) => ball::sample(x, sphere, emission, u),
+            Light::Point(point) => sample_point(x, point),
+            Light::Sun(sun) => Some(sun::sample(sun, u)),
+        }
+    }
+
+    /// Density per solid angle with which [`Lights::sample`] at `x` draws the direction that met `light` at `hit`.
+    pub fn pdf(&self, light: u32, x: Vec3, hit: &SurfacePoint) -> f32 {
+        let light = light as usize;
+        let density = match &self.lights[light] {
+            Light::Flat(flat, emission) => flat.pdf(x, hit, emission.two_sided),
+            Light::Sphere(sphere, _) => ball::pdf(x, *sphere),
+            Light::Point(_) | Light::Sun(_) => 0.0,
+        };
+        density * self.probabilities[light]
+    }
+
+    /// Density per solid angle with which [`Lights::sample`] draws a direction in the sun's disc.
+    pub fn sun_pdf(&self) -> f32 {
+        self.sun.map_or(0.0, |index| match self.lights[index] {
+            Light::Sun(sun) => sun::pdf(sun) * self.probabilities[index],
+            _ => 0.0,
+        })
+    }
+
+    /// Whether one sample of this light is exact: it shines from one direction.
+    pub fn is_delta(&self, light: usize) -> bool {
+        match self.lights[light] {
+            Light::Point(_) => true,
+            Light::Sun(sun) => sun.one_minus_cos() == 0.0,
+            Light::Flat(..) | Light::Sphere(..) => false,
+        }
+    }
+}
+
+fn mixed_probabilities(powers: &[f64]) -> Vec<f64> {
+    let alike = 1.0 / powers.len() as f64;
+    let total: f64 = powers.iter().sum();
+    let by_power = |power: &f64| if total.is_finite() && total > 0.0 { power / total } else { alike };
+    powers.iter().map(|power| 0.5 * (alike + by_power(power))).collect()
+}
+
+fn push_lamps(shape: &Shape, emission: Emission, lights: &mut Vec<Light>) {
+    let mut push = |flat: Option<Flat>| lights.extend(flat.map(|flat| Light::Flat(flat, emission)));
+    match shape.geometry {
+        Geometry::Sphere { center, radius } => lights.push(Light::Sphere(Sphere { center, radius }, emission)),
+        Geometry::Rectangle { corner, edge_u, edge_v } => push(Flat::parallelogram(corner, edge_u, edge_v)),
+        Geometry::Disk { center, normal, radius } => push(Some(Flat::disk(center, normal, radius))),
+        Geometry::Box { .. } | Geometry::Mesh { .. } => {
+            let (positions, triangles) = shape.geometry.flat_triangles();
+            for corners in triangles.iter().map(|t| t.map(|i| positions[i as usize])) {
+                push(triangle_normal(corners).map(|normal| Flat::triangle(corners, normal)));
+            }
+        }
+    }
+}
+
+/// Intensity over squared distance: the irradiance on a surface that faces the point.
+fn sample_point(x: Vec3, point: PointLight) -> Option<LightSample> {
+    let to_light = point.position - x;
+    let distance_squared = to_light.length_squared();
+    if !(distance_squared > 0.0) {
+        return None;
+    }
+    Some(LightSample {
+        wi: to_light / distance_squared.sqrt(),
+        radiance_over_pdf: point.intensity / distance_squared,
+        pdf: f32::INFINITY,
+        end: ShadowEnd::Point(point.position),
+    })
+}
+
+impl Light {
+    /// Emitted power, as far as choosing needs it; the sun's is what falls on the scene's disc.
+    fn power(&self, scene_radius: f32) -> f32 {
+        let of = |emission: &Emission, area: f32| {
+            colour::luminance(emission.radiance) * area * PI * if emission.two_sided { 2.0 } else { 1.0 }
+        };
+        match self {
+            Light::Flat(flat, emission) => of(emission, flat.area()),
+            Light::Sphere(sphere, emission) => of(emission, 4.0 * PI * sphere.radius * sphere.radius),
+            Light::Point(point) => colour::luminance(point.intensity) * 4.0 * PI,
+            Light::Sun(sun) => colour::luminance(sun.irradiance) * PI * scene_radius * scene_radius,
+        }
+    }
+}
