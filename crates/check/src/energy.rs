@@ -1,0 +1,112 @@
+//! Closed scenes that keep all their light.
+
+use crate::hard::{known, spot, with_geometry};
+use crate::measure::{Trial, farthest, paths};
+use pathtrace::{Estimator, PathSettings, Roulette, Tracer, WhittedSettings};
+use scene::{Bsdf, Geometry, Scene, Texture, Vec3};
+use std::f32::consts::PI;
+
+fn with(estimator: Estimator, bounces: Option<u32>, roulette: Roulette) -> PathSettings {
+    PathSettings { estimator, bounces, roulette, ..PathSettings::default() }
+}
+
+/// Light that paths have lost at the middle of the floor when they stop after so many scatterings: a random walk in f64,
+/// known to .001.
+const LOST: [(u32, f64); 5] = [(1, 0.759), (2, 0.621), (4, 0.408), (8, 0.185), (16, 0.038)];
+
+pub fn white_furnace(trial: &mut Trial) {
+    let scene = known("white-furnace");
+    let seen = (&Tracer::new(&scene), &scene.camera);
+    for estimator in [Estimator::COSINE, Estimator::LIGHT, Estimator::MIS] {
+        let film = trial.path_film(seen, &with(estimator, None, Roulette::THROUGHPUT), 32, 16);
+        let subject = format!("path {}", estimator.name());
+        trial.equal(&subject, "every pixel, no variance at all", 1.0, farthest(&film, 1.0), 1e-5);
+    }
+    trial.path("mean, roulette .9", 1.0, seen, &with(Estimator::COSINE, None, Roulette::constant(0.9)));
+    let both = Roulette { probability: Some(0.9), throughput: true };
+    trial.path("mean, roulette .9 and throughput", 1.0, seen, &with(Estimator::COSINE, None, both));
+    let branching = PathSettings { branches: 3, ..with(Estimator::COSINE, Some(9), Roulette::OFF) };
+    let one = with(Estimator::COSINE, Some(9), Roulette::OFF);
+    let straight = trial.mean_of(1.0, 0.002, 10_000, paths(seen.0, seen.1, &one));
+    trial.path("3 branches against 1, 9 bounces", straight.mean, seen, &branching);
+    let floor = spot(Vec3::new(0.5, 0.5, 0.5), Vec3::new(0.5, 0.5, 0.0));
+    for (scatterings, lost) in LOST {
+        let settings = with(Estimator::COSINE, Some(scatterings - 1), Roulette::OFF);
+        let power = 0.0003 / (1.0 - lost);
+        let found = trial.mean_of(1.0 - lost, power, 20_000, paths(seen.0, &floor, &settings));
+        let quantity = format!("floor centre after {scatterings} scatterings");
+        trial.equal("path cosine", &quantity, 1.0 - lost, found.mean, 0.001 + 4.0 * found.standard_error);
+    }
+}
+
+/// The box with another albedo (or reflectance) and emission.
+fn shining(mut scene: Scene, share: f32, emission: f32) -> Scene {
+    for material in &mut scene.materials {
+        material.bsdf = match material.bsdf {
+            Bsdf::Mirror { .. } => Bsdf::Mirror { reflectance: Vec3::splat(share) },
+            _ => Bsdf::Diffuse { albedo: Texture::Constant(Vec3::splat(share)) },
+        };
+        if let Some(emits) = &mut material.emission {
+            emits.radiance = Vec3::splat(emission);
+        }
+    }
+    scene
+}
+
+pub fn closed_box(trial: &mut Trial) {
+    for (share, emission) in [(0.5f32, 0.5f32), (0.8, 0.2), (0.99, 0.01)] {
+        let diffuse = shining(known("closed-box"), share, emission);
+        let seen = (&Tracer::new(&diffuse), &diffuse.camera);
+        for estimator in Estimator::EVERY {
+            // uniform directions' weights have a finite variance only while albedo^2 4/3 < 1
+            let uniform = estimator.directions == Estimator::UNIFORM.directions;
+            if uniform && (share > 0.9 || !trial.full() && share > 0.5) {
+                continue;
+            }
+            let roulettes = [(Roulette::THROUGHPUT, "throughput"), (Roulette::constant(0.9), "constant .9")];
+            for (roulette, name) in roulettes.into_iter().take(if share > 0.5 { 1 } else { 2 }) {
+                let quantity = format!("mean, albedo {share}, roulette {name}");
+                trial.path(&quantity, 1.0, seen, &with(estimator, None, roulette));
+            }
+        }
+        let mirrors = shining(known("mirror-box"), share, emission);
+        let reflected = (&Tracer::new(&mirrors), &mirrors.camera);
+        let quantity = format!("mean, mirrors of {share}");
+        trial.path(&quantity, 1.0, reflected, &with(Estimator::LIGHT, None, Roulette::THROUGHPUT));
+        for scatterings in [1u32, 4, 8, 16, 64] {
+            let (rho, le) = (f64::from(share), f64::from(emission));
+            let expected = le * (1.0 - rho.powi(scatterings as i32 + 1)) / (1.0 - rho);
+            let quantity = format!("every pixel, {share}, {scatterings} scatterings");
+            let settings = with(Estimator::COSINE, Some(scatterings - 1), Roulette::OFF);
+            let film = trial.path_film(seen, &settings, 8, 4);
+            trial.equal("path cosine", &quantity, expected, farthest(&film, expected), 1e-5);
+            let settings = WhittedSettings { depth: scatterings, ambient: false, ..WhittedSettings::default() };
+            let film = trial.whitted_film(reflected, &settings, 8, 4);
+            trial.equal("whitted", &format!("{quantity}, mirrors"), expected, farthest(&film, expected), 1e-5);
+        }
+    }
+}
+
+pub fn point_light(trial: &mut Trial) {
+    for (radius, albedo, intensity) in [(1.0, 0.5, PI), (2.0, 0.5, 4.0 * PI), (1.0, 0.9, PI / 9.0)] {
+        let mut scene = with_geometry(known("point-light-in-sphere"), |_, geometry| {
+            *geometry = Geometry::Sphere { center: Vec3::ZERO, radius };
+        });
+        scene.materials[0].bsdf = Bsdf::Diffuse { albedo: Texture::Constant(Vec3::splat(albedo)) };
+        scene.point_lights[0].intensity = Vec3::splat(intensity);
+        let seen = (&Tracer::new(&scene), &scene.camera);
+        for estimator in [Estimator::LIGHT, Estimator::MIS, Estimator::UNIFORM_LIGHT] {
+            let uniform = estimator == Estimator::UNIFORM_LIGHT;
+            if uniform && albedo > 0.5 {
+                continue;
+            }
+            let quantity = format!("mean, radius {radius}, albedo {albedo}");
+            trial.path(&quantity, 1.0, seen, &with(estimator, None, Roulette::THROUGHPUT));
+        }
+        let direct = f64::from(albedo * intensity / (PI * radius * radius));
+        let settings = WhittedSettings { ambient: false, ..WhittedSettings::default() };
+        let film = trial.whitted_film(seen, &settings, 16, 4);
+        let quantity = format!("every pixel, direct, radius {radius}, albedo {albedo}");
+        trial.equal("whitted", &quantity, direct, farthest(&film, direct), 1e-5);
+    }
+}

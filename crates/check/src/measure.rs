@@ -1,0 +1,256 @@
+//! Measuring: exact comparisons, bounds, and means of independently seeded pictures.
+
+use crate::row::{Device, Relation, Row, Verdict};
+use pathtrace::{PathSettings, Tracer, WhittedSettings};
+use rayon::prelude::*;
+use scene::{Camera, Film};
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// How thoroughly to look.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Effort {
+    /// Within a minute: faults of half a percent are noticed; the costliest estimators are left out.
+    Quick,
+    /// Within ten minutes: faults of a tenth of a percent.
+    Full,
+}
+
+/// Independently seeded pictures of a Monte Carlo row.
+pub const PICTURES: u32 = 32;
+
+/// Side of those pictures in pixels.
+const SIDE: u32 = 4;
+
+/// What a renderer's single precision may be off by beside chance, relative.
+const ROUNDING: f64 = 2e-6;
+
+/// One case on its way.
+pub struct Trial<'a> {
+    case: u32,
+    effort: Effort,
+    stop: &'a AtomicBool,
+    rows: Vec<Row>,
+    nonfinite: u64,
+}
+
+/// Mean of many pictures and what is known about it.
+#[derive(Debug, Clone, Copy)]
+pub struct Mean {
+    /// Of all pictures.
+    pub mean: f64,
+    /// Standard error of the mean, from the pictures' spread.
+    pub standard_error: f64,
+    /// Samples in all pictures together.
+    pub samples: f64,
+}
+
+impl Mean {
+    /// Variance of a single sample over the squared mean.
+    pub fn relative_variance(&self) -> f64 {
+        (self.standard_error / self.mean).powi(2) * self.samples
+    }
+}
+
+impl<'a> Trial<'a> {
+    /// Begins case number `case`.
+    pub fn new(case: u32, effort: Effort, stop: &'a AtomicBool) -> Self {
+        Trial { case, effort, stop, rows: Vec::new(), nonfinite: 0 }
+    }
+
+    /// Whether everything is run.
+    pub fn full(&self) -> bool {
+        self.effort == Effort::Full
+    }
+
+    /// One of two numbers, by effort.
+    pub fn pick<T>(&self, quick: T, full: T) -> T {
+        if self.full() { full } else { quick }
+    }
+
+    /// Whether the user has had enough.
+    pub fn stopped(&self) -> bool {
+        self.stop.load(Ordering::Relaxed)
+    }
+
+    /// The rows, and one that says that no sample was dropped for not being finite.
+    pub fn into_rows(mut self) -> Vec<Row> {
+        let nonfinite = self.nonfinite as f64;
+        self.at_most("all", "samples that were not finite", 0.0, nonfinite);
+        self.rows
+    }
+
+    /// Largest relative standard error with power.
+    fn power(&self) -> f64 {
+        self.pick(0.005, 0.001)
+    }
+
+    fn push(&mut self, subject: &str, quantity: &str, numbers: (f64, f64, f64), relation: Relation, verdict: Verdict) {
+        let (expected, measured, tolerance) = numbers;
+        self.rows.push(Row {
+            case: self.case,
+            device: Device::Cpu,
+            subject: subject.to_owned(),
+            quantity: quantity.to_owned(),
+            expected,
+            measured,
+            relation,
+            tolerance,
+            power: None,
+            verdict,
+        });
+    }
+
+    /// Measured must be within `tolerance` of expected.
+    pub fn equal(&mut self, subject: &str, quantity: &str, expected: f64, measured: f64, tolerance: f64) {
+        let verdict = verdict((measured - expected).abs() <= tolerance);
+        self.push(subject, quantity, (expected, measured, tolerance), Relation::Equal, verdict);
+    }
+
+    /// Measured must not exceed the bound.
+    pub fn at_most(&mut self, subject: &str, quantity: &str, bound: f64, measured: f64) {
+        self.push(subject, quantity, (bound, measured, 0.0), Relation::AtMost, verdict(measured <= bound));
+    }
+
+    /// Measured is only told.
+    pub fn information(&mut self, subject: &str, quantity: &str, expected: f64, measured: f64) {
+        let numbers = (expected, measured, (measured - expected).abs());
+        self.push(subject, quantity, numbers, Relation::Equal, Verdict::Information);
+    }
+
+    /// The mean of [`PICTURES`] pictures that `render` adds samples to, given a seed; as many as it takes for a relative
+    /// standard error of `power`, but at most `most` a picture's pixel.
+    pub fn mean_of(
+        &mut self,
+        expected: f64,
+        power: f64,
+        most: u32,
+        render: impl Fn(&mut Film, u32, u32) + Sync,
+    ) -> Mean {
+        let mut films: Vec<Film> = (0..PICTURES).map(|_| Film::new(SIDE, SIDE)).collect();
+        let mut more = 16;
+        loop {
+            films.par_iter_mut().enumerate().for_each(|(i, film)| render(film, i as u32 + 1, more));
+            let spp = films[0].samples_per_pixel();
+            let means: Vec<f64> = films.iter().map(|film| film.mean()[0]).collect();
+            let n = f64::from(PICTURES);
+            let mean = means.iter().sum::<f64>() / n;
+            let variance = means.iter().map(|m| (m - mean).powi(2)).sum::<f64>() / (n - 1.0);
+            let standard_error = (variance / n).sqrt();
+            if standard_error <= power * expected.abs() || spp >= most || self.stopped() {
+                self.nonfinite += films.iter().map(|film| film.nonfinite).sum::<u64>();
+                return Mean { mean, standard_error, samples: n * f64::from(SIDE * SIDE) * f64::from(spp) };
+            }
+            // a spread of 32 is itself known to an eighth: a little more than it asks for, and not too much at once
+            let wanted = (standard_error / (power * expected.abs())).powi(2).clamp(1.2, 8.0) * 1.2;
+            more = ((f64::from(spp) * (wanted - 1.0)).ceil() as u32).clamp(1, most - spp);
+        }
+    }
+
+    /// A Monte Carlo row with a power of its own.
+    pub fn monte_carlo_to(
+        &mut self,
+        power: f64,
+        subject: &str,
+        quantity: &str,
+        expected: f64,
+        render: impl Fn(&mut Film, u32, u32) + Sync,
+    ) -> Mean {
+        let found = self.mean_of(expected, power, self.pick(20_000, 400_000), render);
+        let tolerance = 4.0 * found.standard_error + ROUNDING * expected;
+        let reached = found.standard_error / expected;
+        let passed = (found.mean - expected).abs() <= tolerance && reached <= power;
+        self.push(subject, quantity, (expected, found.mean, tolerance), Relation::Equal, verdict(passed));
+        if let Some(row) = self.rows.last_mut() {
+            row.power = Some((reached, power));
+        }
+        found
+    }
+
+    /// A Monte Carlo row of a path traced picture.
+    pub fn path(
+        &mut self,
+        quantity: &str,
+        expected: f64,
+        (tracer, camera): (&Tracer, &Camera),
+        settings: &PathSettings,
+    ) -> Mean {
+        let subject = format!("path {}", settings.estimator.name());
+        self.monte_carlo_to(self.power(), &subject, quantity, expected, paths(tracer, camera, settings))
+    }
+
+    /// A Monte Carlo row of a picture by Whitted's method.
+    pub fn whitted(
+        &mut self,
+        quantity: &str,
+        expected: f64,
+        (tracer, camera): (&Tracer, &Camera),
+        settings: &WhittedSettings,
+    ) {
+        self.monte_carlo_to(self.power(), "whitted", quantity, expected, whitted_trees(tracer, camera, settings));
+    }
+
+    /// Counts samples that were not finite.
+    pub fn count_nonfinite(&mut self, film: &Film) {
+        self.nonfinite += film.nonfinite;
+    }
+
+    /// A path traced picture of `size` pixels a side, its dropped samples counted.
+    pub fn path_film(
+        &mut self,
+        (tracer, camera): (&Tracer, &Camera),
+        settings: &PathSettings,
+        size: u32,
+        samples: u32,
+    ) -> Film {
+        let mut film = Film::new(size, size);
+        tracer.render(&mut film, camera, settings, samples, &|| self.stopped());
+        self.count_nonfinite(&film);
+        film
+    }
+
+    /// As [`Trial::path_film`], by Whitted's method.
+    pub fn whitted_film(
+        &mut self,
+        (tracer, camera): (&Tracer, &Camera),
+        settings: &WhittedSettings,
+        size: u32,
+        samples: u32,
+    ) -> Film {
+        let mut film = Film::new(size, size);
+        tracer.render_whitted(&mut film, camera, settings, samples, &|| self.stopped());
+        self.count_nonfinite(&film);
+        film
+    }
+}
+
+/// What adds path traced samples to a film.
+pub fn paths<'a>(
+    tracer: &'a Tracer,
+    camera: &'a Camera,
+    settings: &'a PathSettings,
+) -> impl Fn(&mut Film, u32, u32) + Sync + 'a {
+    |film, seed, samples| {
+        tracer.render(film, camera, &PathSettings { seed, ..*settings }, samples, &|| false);
+    }
+}
+
+/// What adds samples by Whitted's method to a film.
+pub fn whitted_trees<'a>(
+    tracer: &'a Tracer,
+    camera: &'a Camera,
+    settings: &'a WhittedSettings,
+) -> impl Fn(&mut Film, u32, u32) + Sync + 'a {
+    |film, seed, samples| {
+        tracer.render_whitted(film, camera, &WhittedSettings { seed, ..*settings }, samples, &|| false);
+    }
+}
+
+/// The pixel farthest from `expected`, by its first channel.
+pub fn farthest(film: &Film, expected: f64) -> f64 {
+    let off = |value: &f64| (value - expected).abs();
+    film.pixels().iter().map(|pixel| pixel.mean()[0]).max_by(|a, b| off(a).total_cmp(&off(b))).unwrap_or(expected)
+}
+
+fn verdict(passed: bool) -> Verdict {
+    if passed { Verdict::Pass } else { Verdict::Fail }
+}

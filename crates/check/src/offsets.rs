@@ -1,0 +1,97 @@
+//! Rays that leave a surface, and rays at spheres far away.
+
+use crate::measure::Trial;
+use crate::meshes::{Mesh, any_direction};
+use pathtrace::geometry::Ray;
+use pathtrace::geometry::sphere::Sphere;
+use pathtrace::sampler::Sampler;
+use pathtrace::sampling;
+use scene::Vec3;
+
+/// Translation, size and distance of the camera in sizes.
+const PLACES: [(f32, f32, f32); 8] = [
+    (0.0, 1.0, 4.0),
+    (0.0, 1.0, 1000.0),
+    (1e3, 1.0, 4.0),
+    (1e4, 1.0, 4.0),
+    (1e6, 1e3, 4.0),
+    (0.0, 1e-3, 4.0),
+    (0.0, 1e-4, 4.0),
+    (0.0, 1e4, 4.0),
+];
+
+pub fn self_intersection(trial: &mut Trial) {
+    for (shift, size, distance) in PLACES {
+        let tracer = Mesh::sphere(48, 96, 0.0).placed(size, shift).tracer();
+        let center = Vec3::splat(shift);
+        let (mut hits, mut met_again, mut lost, mut own, mut moved) = (0u32, 0u32, 0u32, 0u32, 0f64);
+        for i in 0..trial.pick(20_000, 100_000) {
+            if trial.stopped() {
+                return;
+            }
+            let sampler = Sampler::independent(18, i, 1);
+            let [u, v, w, x] = sampler.unit4(0);
+            let from = any_direction([u, v]);
+            let origin = center + from * (size * distance);
+            let aim = center + sampling::to_world(sampling::disk([w, x]) * (0.95 * size), from);
+            let Some(hit) = tracer.accel().closest(&Ray::new(origin, (aim - origin).normalize())) else { continue };
+            hits += 1;
+            let [u, v, w, x] = sampler.unit4(1);
+            // outwards: a convex shape is met by no such ray (its facets are flat: stay off the horizon)
+            let normal = hit.point.normal;
+            let out = sampling::to_world(sampling::cosine_hemisphere([u, v]), normal);
+            let start = hit.point.leaving_towards(out);
+            met_again += u32::from(tracer.accel().occluded(&Ray::new(start, out)));
+            let largest = f64::from(hit.point.position.abs().max_element());
+            moved = moved.max(f64::from((start - hit.point.position).length()) / largest);
+            let inside = -sampling::to_world(sampling::cosine_hemisphere([w, x]), normal);
+            let ray = Ray::new(hit.point.leaving_towards(inside), inside);
+            match tracer.accel().closest(&ray) {
+                None => lost += 1,
+                Some(far) => {
+                    let same_plane = far.point.normal == normal;
+                    own += u32::from(same_plane);
+                }
+            }
+        }
+        let place = format!("at {shift}, size {size}, from {distance}");
+        trial.equal("offset", &format!("outgoing rays that hit, {place}"), 0.0, f64::from(met_again), 0.0);
+        trial.at_most(
+            "offset",
+            &format!("share of inward rays lost, {place}"),
+            1e-5,
+            f64::from(lost) / f64::from(hits),
+        );
+        trial.equal("offset", &format!("inward rays that hit their triangle, {place}"), 0.0, f64::from(own), 0.0);
+        trial.at_most("offset", &format!("start moved, of the coordinate, {place}"), 1e-6, moved);
+    }
+}
+
+pub fn far_spheres(trial: &mut Trial) {
+    for (distance, radius, tolerance) in
+        [(10.0f32, 1.0f32, 1e-5), (1e3, 1.0, 1e-3), (1e4, 1.0, 1e-2), (100.0, 1e3, 3e-4), (10.0, 1e5, 3e-2)]
+    {
+        let sphere = Sphere { center: Vec3::ZERO, radius };
+        let (mut missed, mut off) = (0u32, 0f64);
+        for i in 0..trial.pick(50_000, 200_000) {
+            let [u, v, w, x] = Sampler::independent(19, i, 1).unit4(0);
+            let from = any_direction([u, v]);
+            let origin = from * (radius + distance);
+            let aim = sampling::to_world(sampling::disk([w, x]) * (0.99 * radius), from);
+            let ray = Ray::new(origin, (aim - origin).normalize());
+            let Some(t) = sphere.intersect(&ray, f32::INFINITY) else {
+                missed += 1;
+                continue;
+            };
+            let (o, d) = (ray.origin.as_dvec3(), ray.direction.as_dvec3());
+            let (a, b, c) = (d.length_squared(), o.dot(d), o.length_squared() - f64::from(radius).powi(2));
+            off = off.max((f64::from(t) - (-b - (b * b - a * c).sqrt()) / a).abs());
+        }
+        let quantity = format!("rays that miss, distance {distance}, radius {radius}");
+        trial.equal("sphere", &quantity, 0.0, f64::from(missed), 0.0);
+        trial.at_most("sphere", &format!("largest error of t, distance {distance}, radius {radius}"), tolerance, off);
+    }
+    let central = Ray::new(Vec3::new(0.0, 0.0, 1e4), -Vec3::Z);
+    let t = Sphere { center: Vec3::ZERO, radius: 1.0 }.intersect(&central, f32::INFINITY).unwrap_or(f32::NAN);
+    trial.equal("sphere", "central ray from 10000", 9999.0, f64::from(t), 0.0);
+}
