@@ -25,10 +25,10 @@ pub fn white_furnace(trial: &mut Trial) {
     trial.path("mean, roulette .9", 1.0, seen, &with(Estimator::COSINE, None, Roulette::constant(0.9)));
     let both = Roulette { probability: Some(0.9), throughput: true };
     trial.path("mean, roulette .9 and throughput", 1.0, seen, &with(Estimator::COSINE, None, both));
-    let branching = PathSettings { branches: 3, ..with(Estimator::COSINE, Some(9), Roulette::OFF) };
-    let one = with(Estimator::COSINE, Some(9), Roulette::OFF);
+    let branching = PathSettings { branches: 3, ..with(Estimator::COSINE, Some(3), Roulette::OFF) };
+    let one = with(Estimator::COSINE, Some(3), Roulette::OFF);
     let straight = trial.mean_of(1.0, 0.002, 10_000, paths(seen.0, seen.1, &one));
-    trial.path("3 branches against 1, 9 bounces", straight.mean, seen, &branching);
+    trial.path("3 branches against 1, 3 bounces", straight.mean, seen, &branching);
     let floor = spot(Vec3::new(0.5, 0.5, 0.5), Vec3::new(0.5, 0.5, 0.0));
     for (scatterings, lost) in LOST {
         let settings = with(Estimator::COSINE, Some(scatterings - 1), Roulette::OFF);

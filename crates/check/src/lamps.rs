@@ -59,18 +59,23 @@ fn mesh_lamp(scene: Scene) -> Scene {
 
 pub fn edge_on(trial: &mut Trial) {
     for (d, expected) in [(0.0f32, 0.0), (1e-6, 1.680221139e-8), (1e-3, 1.680219843e-5), (0.1, 1.667345199e-3)] {
-        // a floor no larger than needed, whose points are known to a fraction of d
+        // a floor no larger than needed, whose points are known to a fraction of d; in the plane itself, its very edge
         let half = (10.0 * d).max(1e-5);
+        let first = if d == 0.0 { 0.0 } else { -half };
         let scene = with_geometry(known("edge-on-light"), |index, geometry| {
             if index == 0 {
                 *geometry = Geometry::Rectangle {
-                    corner: Vec3::new(-half, -half, 0.0),
+                    corner: Vec3::new(-half, first, 0.0),
                     edge_u: Vec3::X * (2.0 * half),
                     edge_v: Vec3::Y * (2.0 * half),
                 };
             }
         });
-        let (tracer, camera) = (Tracer::new(&scene), from_above(0.0, d, 0.25));
+        let mut camera = from_above(0.0, d, 0.25);
+        if d == 0.0 {
+            camera.fov_y = 0.0;
+        }
+        let tracer = Tracer::new(&scene);
         let quantity = format!("{d} beside the lamp's plane");
         for estimator in [Estimator::LIGHT, Estimator::MIS, Estimator::UNIFORM_LIGHT, Estimator::UNIFORM_MIS] {
             if d == 0.0 {

@@ -42,8 +42,12 @@ fn escaped(trial: &Trial, mesh: &Mesh, tracer: &Tracer, aim: Aim, rays: u32, (sc
             Aim::Axis => {
                 let axis = pick[1] as usize % 3;
                 let mut p = corner(pick[0]);
-                // from the middle plane; both zeros of the other axes
+                // from the middle plane, inside; both zeros of the other axes
                 p[axis] = shift;
+                let off_axis = (p - Vec3::splat(shift)) / scale;
+                if off_axis.length() > 0.97 {
+                    return;
+                }
                 let other = if pick[2] & 1 == 0 { 0.0 } else { -0.0 };
                 let mut d = Vec3::splat(other);
                 d[axis] = if pick[2] & 2 == 0 { 1.0 } else { -1.0 };

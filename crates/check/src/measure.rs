@@ -135,10 +135,12 @@ impl<'a> Trial<'a> {
             let n = f64::from(PICTURES);
             let mean = means.iter().sum::<f64>() / n;
             let variance = means.iter().map(|m| (m - mean).powi(2)).sum::<f64>() / (n - 1.0);
-            let standard_error = (variance / n).sqrt();
+            let samples = n * f64::from(SIDE * SIDE) * f64::from(spp);
+            // where all samples agree, one as large as the mean may still have been missed
+            let standard_error = (variance / n).sqrt().hypot(expected / samples);
             if standard_error <= power * expected.abs() || spp >= most || self.stopped() {
                 self.nonfinite += films.iter().map(|film| film.nonfinite).sum::<u64>();
-                return Mean { mean, standard_error, samples: n * f64::from(SIDE * SIDE) * f64::from(spp) };
+                return Mean { mean, standard_error, samples };
             }
             // a spread of 32 is itself known to an eighth: a little more than it asks for, and not too much at once
             let wanted = (standard_error / (power * expected.abs())).powi(2).clamp(1.2, 8.0) * 1.2;

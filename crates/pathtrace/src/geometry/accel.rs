@@ -109,7 +109,7 @@ impl Accel {
         let surface = self.surfaces.get(nearest.index)?;
         let point = match self.primitives[nearest.index] {
             Primitive::Triangle(t) => SurfacePoint::on_triangle(t.corners, nearest.barycentrics, surface.normal),
-            Primitive::Sphere(s) => SurfacePoint::on_sphere(s.center, s.radius, ray.origin + ray.direction * nearest.t),
+            Primitive::Sphere(s) => SurfacePoint::on_sphere(s.center, s.radius, s.meeting(ray, nearest.t)),
             Primitive::Disk(d) => SurfacePoint::on_disk(d.center, ray.origin + ray.direction * nearest.t, d.normal),
         };
         Some(Hit { point, material: surface.material, light: surface.light })

@@ -34,6 +34,18 @@ impl Sphere {
         let t = if near > 0.0 { near } else { far };
         (t > 0.0 && t < tmax).then_some(t)
     }
+
+    /// The point at the distance `t` of [`Sphere::intersect`], relative to the centre. From the point of the ray nearest to
+    /// the centre, not along the ray: what a long `t` rounds does not turn the normal.
+    pub fn meeting(&self, ray: &Ray, t: f32) -> Vec3 {
+        let f = ray.origin - self.center;
+        let d = ray.direction;
+        let a = d.length_squared();
+        let middle = -f.dot(d) / a;
+        let off_axis = f + d * middle;
+        let half_chord = ((self.radius * self.radius - off_axis.length_squared()).max(0.0) / a).sqrt();
+        off_axis + d * half_chord.copysign(t - middle)
+    }
 }
 
 #[cfg(test)]

@@ -22,9 +22,9 @@ impl SurfacePoint {
         SurfacePoint { position: a + b + c, error: gamma(7) * (a.abs() + b.abs() + c.abs()), normal }
     }
 
-    /// The point of a sphere nearest to `near`, which may be off by the rounding of a long ray.
-    pub fn on_sphere(center: Vec3, radius: f32, near: Vec3) -> Self {
-        let normal = (near - center).normalize();
+    /// The point of a sphere in a direction from its centre, of any length but 0.
+    pub fn on_sphere(center: Vec3, radius: f32, from_center: Vec3) -> Self {
+        let normal = from_center.normalize();
         let out = normal * radius;
         SurfacePoint { position: center + out, error: gamma(5) * (center.abs() + out.abs()), normal }
     }

@@ -43,7 +43,7 @@ pub fn sample(x: Vec3, sphere: Sphere, emission: Emission, u: [f32; 2]) -> Optio
     let along = to_center.dot(wi);
     let off_axis = (to_center - wi * along).length_squared();
     let half_chord = (sphere.radius * sphere.radius - off_axis).max(0.0).sqrt();
-    let met = x + wi * if outside.is_some() { along - half_chord } else { along + half_chord };
+    let met = wi * if outside.is_some() { along - half_chord } else { along + half_chord } - to_center;
     let point = SurfacePoint::on_sphere(sphere.center, sphere.radius, met);
     Some(LightSample { wi, radiance_over_pdf: emission.radiance / pdf, pdf, end: ShadowEnd::Lamp(point) })
 }
