@@ -32,7 +32,7 @@ pub fn white_furnace(trial: &mut Trial) {
     let floor = spot(Vec3::new(0.5, 0.5, 0.5), Vec3::new(0.5, 0.5, 0.0));
     for (scatterings, lost) in LOST {
         let settings = with(Estimator::COSINE, Some(scatterings - 1), Roulette::OFF);
-        let power = 0.0003 / (1.0 - lost);
+        let power = trial.pick(0.001, 0.0003) / (1.0 - lost);
         let found = trial.mean_of(1.0 - lost, power, 20_000, paths(seen.0, &floor, &settings));
         let quantity = format!("floor centre after {scatterings} scatterings");
         trial.equal("path cosine", &quantity, 1.0 - lost, found.mean, 0.001 + 4.0 * found.standard_error);

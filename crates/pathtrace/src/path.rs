@@ -47,20 +47,28 @@ const MET_BY_CHANCE: f32 = f32::INFINITY;
 /// Light was sampled at the last vertex: meeting it now would count it twice.
 const ALREADY_COUNTED: f32 = 0.0;
 
-/// A diffuse vertex, and what brought the path there.
+/// A point of a diffuse surface.
 #[derive(Clone, Copy)]
 struct DiffuseVertex {
     point: SurfacePoint,
     /// On the side that the path came from.
     normal: Vec3,
     albedo: Vec3,
-    /// As the path arrives, its direction not yet drawn.
+}
+
+/// A vertex that more branches will leave.
+#[derive(Clone, Copy)]
+struct Fork {
+    vertex: DiffuseVertex,
+    /// As it arrived.
     path: PathState,
+    /// Branches to come.
+    left: u32,
 }
 
 /// Vertices that wait for their other branches, deepest last. Kept from sample to sample.
 pub struct Forks {
-    waiting: [Option<(DiffuseVertex, u32)>; MOST_FORKS],
+    waiting: [Option<Fork>; MOST_FORKS],
     count: usize,
 }
 
@@ -71,22 +79,21 @@ impl Default for Forks {
 }
 
 impl Forks {
-    /// Keeps a vertex until `branches` - 1 more paths have left it.
-    fn push(&mut self, vertex: &DiffuseVertex, branches: u32) {
-        self.waiting[self.count] = Some((*vertex, branches - 1));
+    fn push(&mut self, fork: Fork) {
+        self.waiting[self.count] = Some(fork);
         self.count += 1;
     }
 
-    /// The deepest vertex that waits, as the next branch leaves it.
-    fn next(&mut self, branches: u32) -> Option<DiffuseVertex> {
-        let (mut vertex, left) = self.waiting[self.count.checked_sub(1)?]?;
-        vertex.path.branch = child(vertex.path.branch, branches, branches - left);
+    /// The deepest vertex that waits, and the path as its next branch begins.
+    fn next(&mut self, branches: u32) -> Option<(DiffuseVertex, PathState)> {
+        let Fork { vertex, mut path, left } = self.waiting[self.count.checked_sub(1)?]?;
+        path.branch = child(path.branch, branches, branches - left);
         if left > 1 {
-            self.waiting[self.count - 1].as_mut()?.1 = left - 1;
+            self.waiting[self.count - 1].as_mut()?.left -= 1;
         } else {
             self.count -= 1;
         }
-        Some(vertex)
+        Some((vertex, path))
     }
 }
 
@@ -150,7 +157,8 @@ pub fn trace(world: &World, ray: Ray, plan: &Plan, sampler: &Sampler, forks: &mu
     loop {
         let mut alive = walk.segment(forks);
         while !alive {
-            let Some(vertex) = forks.next(plan.branches) else { return walk.outcome };
+            let Some((vertex, path)) = forks.next(plan.branches) else { return walk.outcome };
+            walk.path = path;
             alive = walk.leave_diffuse(&vertex);
         }
     }
@@ -194,12 +202,12 @@ impl Walk<'_> {
                     return false;
                 }
                 let normal = facing(hit.point.normal, wo);
-                let mut vertex = DiffuseVertex { point: hit.point, normal, albedo, path: *path };
-                if vertex.path.forked < self.plan.branching_vertices {
-                    vertex.path.forked += 1;
-                    vertex.path.throughput /= self.plan.branches as f32;
-                    forks.push(&vertex, self.plan.branches);
-                    vertex.path.branch = child(vertex.path.branch, self.plan.branches, 0);
+                let vertex = DiffuseVertex { point: hit.point, normal, albedo };
+                if path.forked < self.plan.branching_vertices {
+                    path.forked += 1;
+                    path.throughput /= self.plan.branches as f32;
+                    forks.push(Fork { vertex, path: *path, left: self.plan.branches - 1 });
+                    path.branch = child(path.branch, self.plan.branches, 0);
                 }
                 self.leave_diffuse(&vertex)
             }
@@ -220,7 +228,6 @@ impl Walk<'_> {
     /// Samples a light and draws the direction in which the path leaves a diffuse vertex; false where it ends.
     #[inline]
     fn leave_diffuse(&mut self, vertex: &DiffuseVertex) -> bool {
-        self.path = vertex.path;
         if self.plan.light != LightSearch::Chance && !self.world.lights.is_empty() {
             let u = self.sampler.unit4(light_dimension(&self.path));
             let direct = self.sample_lights(&vertex.point, vertex.normal, u);

@@ -74,7 +74,7 @@ fn reversed_point(index: u32, dimension: usize) -> u32 {
 
 /// Four coordinates of point `sample` of the sequence whose order and digits are scrambled by `seeds`, as 32-bit
 /// fractions.
-#[inline]
+#[inline(never)]
 pub fn shuffled_scrambled(sample: u32, seeds: [u32; 4]) -> [u32; 4] {
     let index = permute_reversed(sample.reverse_bits(), seeds[0]).reverse_bits();
     [

@@ -16,6 +16,7 @@ pub struct Sphere {
 
 impl Sphere {
     /// Distance to the nearest meeting with `0 < t < tmax`, in lengths of the ray's direction.
+    #[inline]
     pub fn intersect(&self, ray: &Ray, tmax: f32) -> Option<f32> {
         let f = ray.origin - self.center;
         let d = ray.direction;

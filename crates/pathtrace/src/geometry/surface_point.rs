@@ -39,6 +39,7 @@ impl SurfacePoint {
     }
 
     /// The start of a ray that leaves on the side of `direction`.
+    #[inline]
     pub fn leaving_towards(&self, direction: Vec3) -> Vec3 {
         let along = self.normal.abs().dot(self.error);
         let outwards = if direction.dot(self.normal) < 0.0 { -self.normal } else { self.normal };

@@ -9,7 +9,8 @@ use scene::glam::DVec3;
 pub struct ShearedRay {
     origin: Vec3,
     direction: Vec3,
-    axes: [usize; 3],
+    /// The axis along which it goes farthest: 0, 1 or 2.
+    main_axis: usize,
     shear: [f32; 2],
     /// Along the largest axis.
     depth: f32,
@@ -29,14 +30,19 @@ impl ShearedRay {
         };
         let (kx, ky) = ((kz + 1) % 3, (kz + 2) % 3);
         let shear = [d[kx] / d[kz], d[ky] / d[kz]];
-        ShearedRay { origin: ray.origin, direction: ray.direction, axes: [kx, ky, kz], shear, depth: d[kz] }
+        ShearedRay { origin: ray.origin, direction: ray.direction, main_axis: kz, shear, depth: d[kz] }
     }
 
     /// The point in the ray's frame: the ray is the z axis, z is t times the ray's depth.
+    #[inline(always)]
     fn apply(&self, point: Vec3) -> Vec3 {
-        let p = (point - self.origin).to_array();
-        let z = p[self.axes[2]];
-        Vec3::new(p[self.axes[0]] - self.shear[0] * z, p[self.axes[1]] - self.shear[1] * z, z)
+        let p = point - self.origin;
+        let (x, y, z) = match self.main_axis {
+            0 => (p.y, p.z, p.x),
+            1 => (p.z, p.x, p.y),
+            _ => (p.x, p.y, p.z),
+        };
+        Vec3::new(x - self.shear[0] * z, y - self.shear[1] * z, z)
     }
 }
 
@@ -92,6 +98,7 @@ impl Triangle {
 
     /// Distance to the triangle's plane, in f64 so that its sign is right: from a point just above a wall 500 units wide
     /// f32 cannot tell above from below, and the wall would shadow itself.
+    #[inline(always)]
     fn plane_distance(&self, ray: &ShearedRay) -> f32 {
         let to_plane = self.corners[0].as_dvec3() - ray.origin.as_dvec3();
         (self.normal.dot(to_plane) / self.normal.dot(ray.direction.as_dvec3())) as f32
@@ -105,6 +112,7 @@ pub fn triangle_normal([a, b, c]: [Vec3; 3]) -> Option<Vec3> {
 }
 
 /// Twice the signed area of (z axis, p, q). Rounding is monotone, so without fusing its sign is right or it is 0.
+#[inline(always)]
 fn edge(p: Vec3, q: Vec3) -> f32 {
     p.x * q.y - p.y * q.x
 }

@@ -104,8 +104,9 @@ impl Flat {
         if !(cos_light > 0.0) {
             return None;
         }
-        let pdf = near.map_or(distance_squared / (cos_light * self.area), |seen| 1.0 / seen.solid_angle());
-        Some(LightSample { wi, radiance_over_pdf: emission.radiance / pdf, pdf, end: ShadowEnd::Lamp(point) })
+        let inverse_pdf = near.map_or(cos_light * self.area / distance_squared, |seen| seen.solid_angle());
+        let radiance_over_pdf = emission.radiance * inverse_pdf;
+        Some(LightSample { wi, radiance_over_pdf, pdf: 1.0 / inverse_pdf, end: ShadowEnd::Lamp(point) })
     }
 
     /// Density per solid angle of the direction from `x` to `hit` on the lamp; infinite for an edge that no sample sees.
@@ -129,15 +130,18 @@ impl Flat {
         match self.outline {
             Outline::Parallelogram { corner, edge_u, edge_v, square: true } => {
                 let to_middle = corner + 0.5 * (edge_u + edge_v) - x;
-                if to_middle.length_squared() > self.area {
-                    return None;
-                }
-                let seen = SphericalRectangle::new(x, corner, edge_u, edge_v);
-                (seen.solid_angle() > SMALLEST_SOLID_ANGLE).then_some(seen)
+                if to_middle.length_squared() > self.area { None } else { solid_angle_of(x, corner, edge_u, edge_v) }
             }
             _ => None,
         }
     }
+}
+
+/// Kept out of the way of lamps farther off.
+#[inline(never)]
+fn solid_angle_of(x: Vec3, corner: Vec3, edge_u: Vec3, edge_v: Vec3) -> Option<SphericalRectangle> {
+    let seen = SphericalRectangle::new(x, corner, edge_u, edge_v);
+    (seen.solid_angle() > SMALLEST_SOLID_ANGLE).then_some(seen)
 }
 
 fn on_parallelogram(corner: Vec3, along_u: Vec3, along_v: Vec3, normal: Vec3) -> SurfacePoint {

@@ -56,6 +56,7 @@ impl SphericalRectangle {
     }
 
     /// The place on the rectangle, in [0, 1]^2 along its edges, of a direction uniform in its solid angle.
+    #[inline(never)]
     pub fn sample(&self, u: [f32; 2]) -> [f32; 2] {
         let (sin, cos) = (u[0] * self.solid_angle + self.k).sin_cos();
         let fu = (cos * self.b0 - self.b1) / sin;
