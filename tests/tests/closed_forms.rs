@@ -156,7 +156,7 @@ fn whitted_without_ambient_light_is_direct_light() {
     let scene = scene::builtin::named("cornell").expect("built in");
     let tracer = Tracer::new(&scene);
     let mut whitted = Film::new(48, 48);
-    let settings = WhittedSettings { ambient: false, shadow_rays: 4, ..WhittedSettings::default() };
+    let settings = WhittedSettings { ambient: Some(0.0), shadow_rays: 4, ..WhittedSettings::default() };
     tracer.render_whitted(&mut whitted, &scene.camera, &settings, 64, &|| false);
     let direct = render(&scene, 48, 256, &with(Estimator::MIS, Some(0), Roulette::OFF));
     for c in 0..3 {
@@ -194,7 +194,7 @@ material = "floor"
     let glass = "[[sphere]]\ncenter = [0, 0, 2]\nradius = 1\nmaterial = \"glass\"\n";
     let seen = |scene: &Scene, glass_shadows| {
         let mut film = Film::new(2, 2);
-        let settings = WhittedSettings { glass_shadows, ambient: false, ..WhittedSettings::default() };
+        let settings = WhittedSettings { glass_shadows, ambient: Some(0.0), ..WhittedSettings::default() };
         Tracer::new(scene).render_whitted(&mut film, &scene.camera, &settings, 1, &|| false);
         film.mean()[0]
     };

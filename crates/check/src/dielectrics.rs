@@ -15,7 +15,7 @@ fn without_roulette() -> PathSettings {
 }
 
 fn to_depth(depth: u32) -> WhittedSettings {
-    WhittedSettings { depth, ambient: false, ..WhittedSettings::default() }
+    WhittedSettings { depth, ambient: Some(0.0), ..WhittedSettings::default() }
 }
 
 pub fn fresnel(trial: &mut Trial) {

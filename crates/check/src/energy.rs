@@ -80,7 +80,7 @@ pub fn closed_box(trial: &mut Trial) {
             let settings = with(Estimator::COSINE, Some(scatterings - 1), Roulette::OFF);
             let film = trial.path_film(seen, &settings, 8, 4);
             trial.equal("path cosine", &quantity, expected, farthest(&film, expected), 1e-5);
-            let settings = WhittedSettings { depth: scatterings, ambient: false, ..WhittedSettings::default() };
+            let settings = WhittedSettings { depth: scatterings, ambient: Some(0.0), ..WhittedSettings::default() };
             let film = trial.whitted_film(reflected, &settings, 8, 4);
             trial.equal("whitted", &format!("{quantity}, mirrors"), expected, farthest(&film, expected), 1e-5);
         }
@@ -104,7 +104,7 @@ pub fn point_light(trial: &mut Trial) {
             trial.path(&quantity, 1.0, seen, &with(estimator, None, Roulette::THROUGHPUT));
         }
         let direct = f64::from(albedo * intensity / (PI * radius * radius));
-        let settings = WhittedSettings { ambient: false, ..WhittedSettings::default() };
+        let settings = WhittedSettings { ambient: Some(0.0), ..WhittedSettings::default() };
         let film = trial.whitted_film(seen, &settings, 16, 4);
         let quantity = format!("every pixel, direct, radius {radius}, albedo {albedo}");
         trial.equal("whitted", &quantity, direct, farthest(&film, direct), 1e-5);

@@ -11,7 +11,7 @@ fn direct(estimator: Estimator) -> PathSettings {
 }
 
 fn shadow_rays(shadow_rays: u32) -> WhittedSettings {
-    WhittedSettings { shadow_rays, ambient: false, ..WhittedSettings::default() }
+    WhittedSettings { shadow_rays, ambient: Some(0.0), ..WhittedSettings::default() }
 }
 
 /// Looked at from a height above the floor's point (x, y, 0).

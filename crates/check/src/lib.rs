@@ -13,7 +13,7 @@ mod dielectrics;
 mod energy;
 mod estimators;
 mod fake;
-pub mod hard;
+mod hard;
 mod lamps;
 mod leaks;
 mod measure;

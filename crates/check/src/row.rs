@@ -27,6 +27,16 @@ pub enum Relation {
     AtMost,
 }
 
+impl Relation {
+    /// "expected" or "at most".
+    pub fn name(self) -> &'static str {
+        match self {
+            Relation::Equal => "expected",
+            Relation::AtMost => "at most",
+        }
+    }
+}
+
 /// What came of a comparison.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Verdict {
@@ -77,17 +87,14 @@ pub struct Row {
 impl fmt::Display for Row {
     /// One line: what, measured, expected, allowed, verdict.
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        let relation = match self.relation {
-            Relation::Equal => "expected",
-            Relation::AtMost => "at most",
-        };
         write!(
             f,
-            "{:>2} {:<12} {:<44} {:<15.9} {relation} {:<15.9} +- {:<9.2e} {}",
+            "{:>2} {:<12} {:<44} {:<15.9} {} {:<15.9} +- {:<9.2e} {}",
             self.case,
             self.subject,
             self.quantity,
             self.measured,
+            self.relation.name(),
             self.expected,
             self.tolerance,
             self.verdict.name()

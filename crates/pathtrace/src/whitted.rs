@@ -55,8 +55,9 @@ pub struct WhittedSettings {
     pub glass_shadows: GlassShadows,
     /// Shadow rays to each lamp and to a sun with a disc, at least 1; a point or a delta sun needs one.
     pub shadow_rays: u32,
-    /// Whether diffuse surfaces send back ambient light of radiance [`scene::fake::FakeNumbers::ambient`].
-    pub ambient: bool,
+    /// Radiance of the ambient light that diffuse surfaces send back, at least 0, grey; `None` is the scene's
+    /// [`scene::fake::FakeNumbers::ambient`].
+    pub ambient: Option<f32>,
     /// Where random numbers come from.
     pub sampler: SamplerKind,
     /// Selects one of 2^32 independent pictures.
@@ -74,7 +75,7 @@ impl Default for WhittedSettings {
             depth: 8,
             glass_shadows: GlassShadows::Opaque,
             shadow_rays: 1,
-            ambient: true,
+            ambient: None,
             sampler: SamplerKind::Independent,
             seed: 1,
         }
@@ -134,15 +135,16 @@ struct Tree<'a> {
     outcome: Outcome,
 }
 
-/// Follows a camera ray through all its branches. `ambient`: radiance of the ambient light, 0 for none.
+/// Follows a camera ray through all its branches. `scene_ambient`: radiance of the scene's ambient light.
 pub fn trace(
     world: &World,
     ray: Ray,
-    ambient: f32,
+    scene_ambient: f32,
     settings: &WhittedSettings,
     sampler: &Sampler,
     waiting: &mut Waiting,
 ) -> Outcome {
+    let ambient = settings.ambient.unwrap_or(scene_ambient);
     let mut tree = Tree { world, settings, sampler, ambient, dimension: 1, outcome: Outcome::default() };
     waiting.count = 0;
     let mut next = Some(Branch { ray, weight: Vec3::ONE, depth: 0 });
@@ -179,9 +181,8 @@ impl Tree<'_> {
         match material.bsdf {
             Bsdf::Diffuse { albedo } => {
                 let albedo = albedo.at(hit.point.position);
-                let ambient = if self.settings.ambient { self.ambient } else { 0.0 };
                 let direct = if albedo == Vec3::ZERO { Vec3::ZERO } else { self.irradiance(&hit.point, normal) };
-                self.outcome.radiance += weight * albedo * (direct * FRAC_1_PI + ambient);
+                self.outcome.radiance += weight * albedo * (direct * FRAC_1_PI + self.ambient);
                 None
             }
             Bsdf::Mirror { reflectance } => {

@@ -8,9 +8,38 @@ const FILES: [(&str, &str); 2] = [
     ("cornell", include_str!("../../../assets/scenes/cornell.toml")),
 ];
 
+/// Scenes with known answers, which hard cases are made of: `hard/NAME`.
+const HARD: [(&str, &str); 15] = [
+    ("hard/camera-inside-glass", include_str!("../../../assets/scenes/hard/camera-inside-glass.toml")),
+    ("hard/closed-box", include_str!("../../../assets/scenes/hard/closed-box.toml")),
+    ("hard/disk-touching", include_str!("../../../assets/scenes/hard/disk-touching.toml")),
+    ("hard/edge-on-light", include_str!("../../../assets/scenes/hard/edge-on-light.toml")),
+    ("hard/glass-sphere-in-furnace", include_str!("../../../assets/scenes/hard/glass-sphere-in-furnace.toml")),
+    ("hard/index-one", include_str!("../../../assets/scenes/hard/index-one.toml")),
+    ("hard/light-tight-box", include_str!("../../../assets/scenes/hard/light-tight-box.toml")),
+    ("hard/light-touching-wall", include_str!("../../../assets/scenes/hard/light-touching-wall.toml")),
+    ("hard/mirror-box", include_str!("../../../assets/scenes/hard/mirror-box.toml")),
+    ("hard/nested-glass", include_str!("../../../assets/scenes/hard/nested-glass.toml")),
+    ("hard/point-light-in-sphere", include_str!("../../../assets/scenes/hard/point-light-in-sphere.toml")),
+    ("hard/rectangle-light", include_str!("../../../assets/scenes/hard/rectangle-light.toml")),
+    ("hard/slab", include_str!("../../../assets/scenes/hard/slab.toml")),
+    ("hard/sphere-light", include_str!("../../../assets/scenes/hard/sphere-light.toml")),
+    ("hard/white-furnace", include_str!("../../../assets/scenes/hard/white-furnace.toml")),
+];
+
+/// Names of the hard scenes, as [`named`] takes them.
+pub fn hard_names() -> impl Iterator<Item = &'static str> {
+    HARD.iter().map(|(name, _)| *name)
+}
+
 /// Names of the built-in scenes, the viewer's first one first.
 pub fn names() -> impl Iterator<Item = &'static str> {
     FILES.iter().map(|(name, _)| *name)
+}
+
+/// The file of a built-in scene.
+pub fn text(name: &str) -> Option<&'static str> {
+    FILES.iter().chain(&HARD).find(|(known, _)| *known == name).map(|(_, text)| *text)
 }
 
 /// A scene by built-in name, or from a file if `name` ends in `.toml` or has a folder in it.
@@ -18,13 +47,32 @@ pub fn names() -> impl Iterator<Item = &'static str> {
 /// # Errors
 /// [`SceneError::Unknown`] lists the known names; the others say which file, line and column is wrong.
 pub fn named(name: &str) -> Result<Scene, SceneError> {
-    if let Some((name, text)) = FILES.iter().find(|(known, _)| *known == name) {
+    if let Some(text) = text(name) {
         return file::parse(text, name, Path::new(name));
     }
     let path = Path::new(name);
+    if name.starts_with("hard/") && !path.is_file() {
+        let known = hard_names().collect::<Vec<_>>().join(", ");
+        return Err(SceneError::Unknown { name: name.to_owned(), known });
+    }
     let like_a_file = path.extension().is_some_and(|e| e.eq_ignore_ascii_case("toml")) || path.components().count() > 1;
     if like_a_file || path.is_file() {
         return file::load(path);
     }
     Err(SceneError::Unknown { name: name.to_owned(), known: names().collect::<Vec<_>>().join(", ") })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_scene_loads_and_every_hard_file_is_listed() {
+        for name in names().chain(hard_names()) {
+            assert!(!named(name).unwrap().shapes.is_empty(), "{name}");
+        }
+        assert!(named("hard/?").unwrap_err().to_string().contains("hard/slab"));
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../assets/scenes/hard");
+        assert_eq!(std::fs::read_dir(folder).unwrap().count(), HARD.len());
+    }
 }

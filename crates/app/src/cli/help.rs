@@ -4,28 +4,39 @@
 pub const HELP: &str = "\
 Visavis: the rasterised fake of a scene face to face with its path-traced truth.
 
-visavis [SCENE]                  open the viewer; SCENE is whitted, cornell or a .toml file (default whitted)
+visavis [SCENE]                  open the viewer; SCENE is whitted, cornell, hard/NAME or a .toml file (default
+                                 whitted); hard/? lists the hard ones
     --theme dark|projector       projector: black on white, large type (default dark)
     --frame-stats                print at the end what a frame cost the window's thread: egui, tessellation, uploads
 visavis render SCENE -o OUT      render to OUT, .png (display-transformed) or .exr (linear, settings in the header)
-    --technique raster|path      the fake or the truth (default path)
-    --device auto|cpu|gpu        where: the fake needs the gpu, the truth the cpu (default auto)
+    --technique raster|whitted|path
+                                 the fake, Whitted's trees of rays or the truth (default path)
+    --device auto|cpu|gpu        where: the fake needs the gpu, rays the cpu (default auto)
     --size WxH                   pixels (default 1280x720)
     --eye X,Y,Z --target X,Y,Z --fov DEG
                                  camera (default the scene's)
     --refraction-ratio R         index outside over inside of all glass, above 0 (default the scene's)
     --exposure EV                stops added before display, PNG only (default 0)
     --json                       print one JSON object about the result on stdout
-  the truth:
+  whitted and path:
     --spp N                      samples per pixel (default 64)
     --time SECONDS               stop after this long, or at --spp if that is given and comes first
-    --bounces N|inf              scattering vertices after the first; 0 is direct light (default inf)
-    --roulette P|throughput|off  probability to survive a vertex, in (0, 1] (default throughput)
-    --estimator uniform|cosine|light
-                                 directions uniform or cosine-weighted with light by chance, or light sampled
-                                 (default light)
+    --sampler independent|sobol  where random numbers come from (default independent)
     --sun-radius DEG             angular radius of the sun, 0 is a delta light (default the scene's)
     --seed N                     selects one of 2^32 independent pictures (default 1)
+  path:
+    --bounces N|inf              scattering vertices after the first; 0 is direct light (default inf)
+    --roulette P|throughput|P+throughput|off
+                                 probability to survive a vertex, P in (0, 1] (default throughput)
+    --estimator uniform|cosine|light|mis|uniform-light|uniform-mis
+                                 directions uniform or cosine-weighted, light found by chance, by sampling or by both,
+                                 weighted (default light)
+    --branches N                 directions at each diffuse vertex, with a limit of bounces (default 1)
+  whitted:
+    --depth N                    specular scatterings along a branch, 0 to 64 (default 8)
+    --glass-shadows opaque|clear whether glass stops light (default opaque)
+    --shadow-rays N              to each lamp, 1 to 1024 (default 1)
+    --ambient A                  ambient light, 0 to 1; also the fake's (default the scene's)
   the fake:
     --fake fair|as-taught        on the truth's data, linear; or as the tutorial's viewer drew it (default fair)
     --shading three|phong|blinn-phong
@@ -44,6 +55,10 @@ visavis render SCENE -o OUT      render to OUT, .png (display-transformed) or .e
 visavis compare A B              how far picture A is from reference B (.exr or .png): RMSE, relMSE, MAE, bias
     --json                       as one JSON object
 visavis bench -o DIR --quick     speed against error on both scenes: CSV and SVG plots
+visavis check                    every hard case: expected, measured, tolerance, verdict; exit code 1 if one fails
+    --quick                      coarser, within a minute
+    --case N,N,...               these cases alone
+    --json                       one JSON object on stdout
 visavis info                     adapters, limits, what would be used and why
 visavis --help, --version
 

@@ -10,12 +10,13 @@ macro_rules! note {
 
 mod args;
 mod bench;
+mod check;
 mod compare;
 mod help;
 mod info;
 mod render;
 
-pub use args::{RenderArgs, ViewArgs};
+pub use args::{CheckArgs, RenderArgs, ViewArgs};
 
 use std::path::PathBuf;
 
@@ -40,6 +41,8 @@ pub enum Command {
         /// Folder for table and plots.
         folder: PathBuf,
     },
+    /// Every hard case.
+    Check(CheckArgs),
     /// Adapters, limits, and what would be used.
     Info,
     /// A text to print.
@@ -90,6 +93,7 @@ impl Command {
             Command::Render(args) => render::run(&args)?,
             Command::Compare { film, reference, json } => compare::run(&film, &reference, json)?,
             Command::Bench { folder } => bench::run(&folder)?,
+            Command::Check(args) => check::run(&args)?,
             Command::Info => info::run()?,
             Command::Print(text) => print(text)?,
         }

@@ -2,10 +2,10 @@
 
 use super::RenderArgs;
 use crate::picture_file::{self, Kind, Linear};
-use crate::technique::{FakeSettings, Provenance, Recipe, Technique, TruthSettings, bounces_name, roulette_name};
+use crate::technique::{FakeSettings, Provenance, RaySettings, Recipe, Technique};
 use anyhow::Context;
 use gpu::Gpu;
-use pathtrace::{Stats, Tracer};
+use pathtrace::{SamplerKind, Stats, Tracer};
 use raster::Raster;
 use scene::display::DisplayTransform;
 use scene::{Camera, Film, Scene, Vec3, builtin};
@@ -33,7 +33,7 @@ pub fn run(args: &RenderArgs) -> anyhow::Result<()> {
     picture_file::check_writable(&args.out)?;
     let rendered = match args.pane.recipe() {
         Recipe::Fake(fake) => raster(args, &fake.applied_to(&scene), fake)?,
-        Recipe::Truth(truth) => path(args, &scene, truth)?,
+        Recipe::Rays(rays) => trace(args, &scene, rays)?,
     };
     save(args, &scene, &rendered)?;
     if rendered.film.nonfinite > 0 {
@@ -115,9 +115,9 @@ fn raster(args: &RenderArgs, scene: &Scene, fake: FakeSettings) -> anyhow::Resul
     Ok(Rendered { film, seconds: start.elapsed().as_secs_f64(), stats: Stats::default(), adapter: gpu.describe() })
 }
 
-fn path(args: &RenderArgs, scene: &Scene, truth: TruthSettings) -> anyhow::Result<Rendered> {
+fn trace(args: &RenderArgs, scene: &Scene, rays: RaySettings) -> anyhow::Result<Rendered> {
     let spp = args.spp.unwrap_or(if args.seconds.is_some() { u32::MAX } else { DEFAULT_SPP });
-    if let Some(blind) = truth.blind_spot(scene) {
+    if let Some(blind) = rays.blind_spot(scene) {
         note!("note: {blind}");
     }
     let start = Instant::now();
@@ -133,7 +133,7 @@ fn path(args: &RenderArgs, scene: &Scene, truth: TruthSettings) -> anyhow::Resul
     while done < spp {
         let batch_start = Instant::now();
         let samples = batch.min(spp - done);
-        stats = stats.plus(tracer.render(&mut film, &scene.camera, &truth.path, samples, &|| false));
+        stats = stats.plus(rays.render(&tracer, &mut film, &scene.camera, samples, &|| false));
         done += samples;
         progress.show(done, start.elapsed());
         if limit.is_some_and(|limit| start.elapsed() >= limit) {
@@ -197,13 +197,15 @@ fn report(args: &RenderArgs, scene: &Scene, rendered: &Rendered) -> serde_json::
     });
     match args.pane.recipe() {
         Recipe::Fake(fake) => report["fake"] = json!(fake.fake.name()),
-        Recipe::Truth(truth) => {
-            report["standard_error"] = json!(rendered.film.standard_error());
-            report["estimator"] = json!(truth.path.estimator.name());
-            report["bounces"] = json!(bounces_name(truth.path.bounces));
-            report["roulette"] = json!(roulette_name(truth.path.roulette));
-            report["seed"] = json!(truth.path.seed);
+        Recipe::Rays(rays) => {
+            for (name, value) in rays.options(rendered.film.samples_per_pixel()).into_iter().skip(1) {
+                report[name.replace('-', "_")] = json!(value);
+            }
             report["cut_paths"] = json!(rendered.stats.cut_paths);
+            report["standard_error"] = json!(rendered.film.standard_error());
+            let independent = rays.sampler() == SamplerKind::Independent;
+            let reliable = independent && rendered.film.standard_error_is_reliable();
+            report["standard_error_reliable"] = json!(reliable);
         }
     }
     report

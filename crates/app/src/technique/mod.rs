@@ -2,11 +2,11 @@
 
 mod fake;
 mod provenance;
-mod truth;
+mod rays;
 
 pub use fake::FakeSettings;
 pub use provenance::{Provenance, Records};
-pub use truth::{TruthSettings, bounces_name, roulette_name};
+pub use rays::{Method, RaySettings, TreeSettings, TruthSettings, bounces_name, roulette_name};
 
 use scene::Scene;
 
@@ -15,18 +15,21 @@ use scene::Scene;
 pub enum Technique {
     /// The fake: rasterised on the GPU.
     Raster,
+    /// Whitted's trees of rays, on the CPU.
+    Whitted,
     /// The truth: path traced on the CPU.
     Path,
 }
 
 impl Technique {
-    /// All, by name.
-    pub const ALL: [Technique; 2] = [Technique::Raster, Technique::Path];
+    /// All, in the order of the lecture.
+    pub const ALL: [Technique; 3] = [Technique::Raster, Technique::Whitted, Technique::Path];
 
     /// The name on the command line.
     pub fn name(self) -> &'static str {
         match self {
             Technique::Raster => "raster",
+            Technique::Whitted => "whitted",
             Technique::Path => "path",
         }
     }
@@ -35,7 +38,7 @@ impl Technique {
     pub fn device(self) -> &'static str {
         match self {
             Technique::Raster => "gpu",
-            Technique::Path => "cpu",
+            Technique::Whitted | Technique::Path => "cpu",
         }
     }
 
@@ -43,6 +46,7 @@ impl Technique {
     pub fn title(self) -> &'static str {
         match self {
             Technique::Raster => "Fake",
+            Technique::Whitted => "Whitted",
             Technique::Path => "Truth",
         }
     }
@@ -60,6 +64,8 @@ pub struct PaneSettings {
     pub technique: Technique,
     /// The settings of the fake.
     pub fake: FakeSettings,
+    /// The settings of Whitted's method.
+    pub whitted: TreeSettings,
     /// The settings of the truth.
     pub truth: TruthSettings,
 }
@@ -67,14 +73,28 @@ pub struct PaneSettings {
 impl PaneSettings {
     /// A pane of this technique with its default settings.
     pub fn of(technique: Technique) -> Self {
-        PaneSettings { technique, fake: FakeSettings::default(), truth: TruthSettings::default() }
+        PaneSettings {
+            technique,
+            fake: FakeSettings::default(),
+            whitted: TreeSettings::default(),
+            truth: TruthSettings::default(),
+        }
     }
 
     /// The technique in use with its settings.
     pub fn recipe(&self) -> Recipe {
         match self.technique {
             Technique::Raster => Recipe::Fake(self.fake),
-            Technique::Path => Recipe::Truth(self.truth),
+            Technique::Whitted => Recipe::Rays(self.whitted.into()),
+            Technique::Path => Recipe::Rays(self.truth.into()),
+        }
+    }
+
+    /// Samples per pixel at which rendering stops; `None` for a technique that does not sample.
+    pub fn wished_spp(&self) -> Option<u32> {
+        match self.recipe() {
+            Recipe::Fake(_) => None,
+            Recipe::Rays(rays) => Some(rays.spp),
         }
     }
 }
@@ -84,8 +104,8 @@ impl PaneSettings {
 pub enum Recipe {
     /// Rasterised.
     Fake(FakeSettings),
-    /// Path traced.
-    Truth(TruthSettings),
+    /// Traced, along paths or in trees.
+    Rays(RaySettings),
 }
 
 impl Recipe {
@@ -93,7 +113,8 @@ impl Recipe {
     pub fn technique(&self) -> Technique {
         match self {
             Recipe::Fake(_) => Technique::Raster,
-            Recipe::Truth(_) => Technique::Path,
+            Recipe::Rays(RaySettings { method: Method::Whitted(_), .. }) => Technique::Whitted,
+            Recipe::Rays(RaySettings { method: Method::Path(_), .. }) => Technique::Path,
         }
     }
 
@@ -101,7 +122,7 @@ impl Recipe {
     pub fn label(&self) -> String {
         match self {
             Recipe::Fake(fake) => fake.label(),
-            Recipe::Truth(truth) => truth.label(),
+            Recipe::Rays(rays) => rays.label(),
         }
     }
 
@@ -109,7 +130,7 @@ impl Recipe {
     pub fn shows_the_scene(&self) -> bool {
         match self {
             Recipe::Fake(fake) => fake.shows_the_scene(),
-            Recipe::Truth(_) => true,
+            Recipe::Rays(_) => true,
         }
     }
 }

@@ -1,6 +1,6 @@
 //! Where a picture comes from: everything that makes it again, as records to keep in its file and as a command to type.
 
-use super::{Recipe, SceneChanges, bounces_name, roulette_name};
+use super::{Recipe, SceneChanges};
 use scene::{Camera, Scene, Vec3};
 
 /// All that a picture depends on.
@@ -56,7 +56,7 @@ impl Provenance {
         if let Some(ratio) = self.changes.refraction_ratio {
             option("refraction-ratio", ratio.to_string());
         }
-        if let (Some(radius), Recipe::Truth(_)) = (self.changes.sun_radius, self.recipe) {
+        if let (Some(radius), Recipe::Rays(_)) = (self.changes.sun_radius, self.recipe) {
             option("sun-radius", radius.to_string());
         }
         if exposure != 0.0 {
@@ -74,13 +74,7 @@ impl Recipe {
     pub fn options(&self, spp: u32) -> Records {
         match self {
             Recipe::Fake(fake) => fake.options(),
-            Recipe::Truth(truth) => vec![
-                ("spp", spp.to_string()),
-                ("bounces", bounces_name(truth.path.bounces)),
-                ("roulette", roulette_name(truth.path.roulette)),
-                ("estimator", truth.path.estimator.name().into()),
-                ("seed", truth.path.seed.to_string()),
-            ],
+            Recipe::Rays(rays) => rays.options(spp),
         }
     }
 }

@@ -152,7 +152,7 @@ fn typed_file(typed: &str, proposal: PathBuf) -> PathBuf {
 /// The line that makes the pane's picture again, as far as it has come.
 fn command(viewer: &Viewer, side: Side, pane: &Pane) -> Option<String> {
     let provenance = pane.provenance.as_ref()?;
-    let wished = viewer.settings.panes[side as usize].truth.spp;
+    let wished = viewer.settings.panes[side as usize].wished_spp().unwrap_or(1);
     let spp = pane.spp.filter(|_| !pane.rough).unwrap_or(wished);
     let out = format!("{}.png", stem(viewer, What::Pane(side)));
     Some(provenance.command(spp, viewer.settings.display.exposure, &out))

@@ -79,6 +79,15 @@ fn scene_menu(viewer: &mut Viewer, ui: &mut Ui, dump: &mut Dump, requests: &mut 
                 ui.close();
             }
         }
+        let hard = ui.menu_button("Hard cases", |ui| {
+            for name in builtin::hard_names() {
+                if dump.note(&format!("scene {name}"), "", ui.button(name)).clicked() {
+                    requests.push(Request::Open(name.into()));
+                    ui.close();
+                }
+            }
+        });
+        dump.note("hard cases", "", hard.response);
         ui.separator();
         let label = ui.label("A scene file (.toml):");
         let edit = egui::TextEdit::singleline(&mut viewer.memory.file_name).hint_text("folder/scene.toml");

@@ -1,4 +1,4 @@
-//! Rendering beside the UI. Each pane has a [`studio`] with a thread for each technique it has used ([`fake`], [`truth`]);
+//! Rendering beside the UI. Each pane has a [`studio`] with a thread for each technique it has used ([`fake`], [`rays`]);
 //! they turn jobs into [`Picture`]s. The [`darkroom`] develops pictures into bytes for the screen and measures how far apart
 //! they are; the [`exporter`] writes files and fills the clipboard. Every thread is fed through an [`Inbox`] in which newer
 //! wishes replace older ones. The UI thread only posts and collects.
@@ -9,8 +9,8 @@ pub mod darkroom;
 pub mod exporter;
 pub mod fake;
 pub mod loader;
+pub mod rays;
 pub mod studio;
-pub mod truth;
 
 use crate::technique::Provenance;
 use scene::{Camera, Scene, Vec3};

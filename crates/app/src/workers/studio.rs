@@ -2,7 +2,7 @@
 
 use super::darkroom::Darkroom;
 use super::fake::FakeWorker;
-use super::truth::TruthWorker;
+use super::rays::RayWorker;
 use super::{Job, Order, Side};
 use crate::technique::Recipe;
 use anyhow::Context;
@@ -15,26 +15,26 @@ pub struct Studio {
     gpu: Gpu,
     darkroom: Arc<Darkroom>,
     fake: Option<FakeWorker>,
-    truth: Option<TruthWorker>,
+    rays: Option<RayWorker>,
     held: bool,
 }
 
 impl Studio {
     /// A studio without workers yet. `gpu` is the window's.
     pub fn new(side: Side, gpu: Gpu, darkroom: Arc<Darkroom>) -> Self {
-        Studio { side, gpu, darkroom, fake: None, truth: None, held: false }
+        Studio { side, gpu, darkroom, fake: None, rays: None, held: false }
     }
 
     /// Asks for a picture; whatever this pane was making stops.
     pub fn submit(&mut self, recipe: Recipe, order: Order) {
         let begun = match recipe {
             Recipe::Fake(settings) => {
-                self.truth.iter_mut().for_each(TruthWorker::cancel);
+                self.rays.iter_mut().for_each(RayWorker::cancel);
                 self.fake().map(|worker| worker.submit(Job { settings, order: order.clone() }))
             }
-            Recipe::Truth(settings) => {
+            Recipe::Rays(settings) => {
                 self.fake.iter().for_each(FakeWorker::cancel);
-                self.truth().map(|worker| worker.submit(Job { settings, order: order.clone() }))
+                self.rays().map(|worker| worker.submit(Job { settings, order: order.clone() }))
             }
         };
         if let Err(fault) = begun {
@@ -42,10 +42,10 @@ impl Studio {
         }
     }
 
-    /// Holds the truth where it is, or lets it go on.
+    /// Holds the tracing of rays, or lets it go on.
     pub fn hold(&mut self, held: bool) {
         self.held = held;
-        self.truth.iter().for_each(|worker| worker.hold(held));
+        self.rays.iter().for_each(|worker| worker.hold(held));
     }
 
     fn fake(&mut self) -> anyhow::Result<&FakeWorker> {
@@ -57,13 +57,13 @@ impl Studio {
         self.fake.as_ref().context("no thread for the fake")
     }
 
-    fn truth(&mut self) -> anyhow::Result<&mut TruthWorker> {
-        if self.truth.is_none() {
-            let worker = TruthWorker::start(self.side, self.darkroom.clone()).context("no threads for the truth")?;
+    fn rays(&mut self) -> anyhow::Result<&mut RayWorker> {
+        if self.rays.is_none() {
+            let worker = RayWorker::start(self.side, self.darkroom.clone()).context("no threads for tracing rays")?;
             worker.hold(self.held);
-            self.truth = Some(worker);
+            self.rays = Some(worker);
         }
-        self.truth.as_mut().context("no threads for the truth")
+        self.rays.as_mut().context("no threads for tracing rays")
     }
 }
 

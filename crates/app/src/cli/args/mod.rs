@@ -49,7 +49,7 @@ impl Command {
             "compare" => parse_compare,
             "bench" => parse_bench,
             "info" => |parser| nothing_more(parser, Command::Info),
-            "check" => |_| usage("check is not built yet"),
+            "check" => parse_check,
             _ => return parse_view(parser),
         };
         parser.next()?;
@@ -96,6 +96,41 @@ fn parse_compare(mut parser: lexopt::Parser) -> Result<Command, CliError> {
         return usage("compare takes two pictures: visavis compare A B");
     };
     Ok(Command::Compare { film, reference, json })
+}
+
+/// `visavis check`.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct CheckArgs {
+    /// Whether to look coarsely.
+    pub quick: bool,
+    /// Numbers of the cases to run; empty for all.
+    pub cases: Vec<u32>,
+    /// One JSON object on stdout instead of a table.
+    pub json: bool,
+}
+
+fn parse_check(mut parser: lexopt::Parser) -> Result<Command, CliError> {
+    let mut args = CheckArgs { quick: false, cases: Vec::new(), json: false };
+    while let Some(arg) = parser.next()? {
+        match arg {
+            Long("quick") => args.quick = true,
+            Long("json") => args.json = true,
+            Long("device") => {
+                choice(&mut parser, "--device", |name| ["auto", "cpu"].contains(&name).then_some(()), "auto or cpu")?;
+            }
+            Long("case") => args.cases = cases(&parser.value()?.string()?)?,
+            Long("help") => return Ok(Command::Print(help::HELP)),
+            other => return Err(other.unexpected().into()),
+        }
+    }
+    Ok(Command::Check(args))
+}
+
+fn cases(word: &str) -> Result<Vec<u32>, CliError> {
+    let known = |number: &u32| check::CASES.iter().any(|case| case.number == *number);
+    let numbers: Option<Vec<u32>> = word.split(',').map(|n| n.trim().parse().ok().filter(known)).collect();
+    let most = check::CASES.len();
+    numbers.map_or_else(|| usage(format!("--case {word}: expected numbers from 1 to {most}, like 4 or 4,5")), Ok)
 }
 
 fn parse_bench(mut parser: lexopt::Parser) -> Result<Command, CliError> {

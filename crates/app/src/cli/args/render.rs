@@ -4,9 +4,9 @@ use super::usage;
 use super::values::{choice, number, parse_finite, parse_whole, point, size, text, whole, within};
 use crate::cli::{CliError, Command, help};
 use crate::picture_file::Kind;
-use crate::technique::{FakeSettings, PaneSettings, SceneChanges, Technique};
+use crate::technique::{PaneSettings, SceneChanges, Technique};
 use lexopt::prelude::*;
-use pathtrace::{Estimator, Roulette};
+use pathtrace::{Estimator, GlassShadows, Roulette, SamplerKind, WhittedSettings};
 use raster::{Fake, FakeKnobs, Shading, ShadowFilter, Show};
 use scene::Vec3;
 use std::path::PathBuf;
@@ -35,12 +35,20 @@ pub struct RenderArgs {
 /// What `--estimator` may be.
 const ESTIMATORS: &str = "uniform, cosine, light, mis, uniform-light or uniform-mis";
 
+/// The name of an option that was read, and the techniques that it changes.
+type Applies = (&'static str, &'static [Technique]);
+
+const RASTER: &[Technique] = &[Technique::Raster];
+const WHITTED: &[Technique] = &[Technique::Whitted];
+const PATH: &[Technique] = &[Technique::Path];
+const RAYS: &[Technique] = &[Technique::Whitted, Technique::Path];
+const LOCAL: &[Technique] = &[Technique::Raster, Technique::Whitted];
+
 pub fn parse(mut parser: lexopt::Parser) -> Result<Command, CliError> {
     let mut scene = None;
     let mut out = None;
     let mut device = Device::Auto;
-    let mut of_path: Vec<&'static str> = Vec::new();
-    let mut of_raster: Vec<&'static str> = Vec::new();
+    let mut read: Vec<Applies> = Vec::new();
     let mut r = RenderArgs {
         scene: String::new(),
         out: PathBuf::new(),
@@ -64,12 +72,12 @@ pub fn parse(mut parser: lexopt::Parser) -> Result<Command, CliError> {
             Long("device") => device = choice(&mut parser, "--device", Device::named, "auto, cpu or gpu")?,
             Long(option) => {
                 let option = option.to_owned();
-                if let Some(option) = of_the_truth(&option, &mut parser, &mut r)? {
-                    of_path.push(option);
-                } else if let Some(option) = of_the_fake(&option, &mut parser, &mut r.pane.fake)? {
-                    of_raster.push(option);
-                } else if !of_all(&option, &mut parser, &mut r)? {
-                    return Err(Long(&option).unexpected().into());
+                if !of_all(&option, &mut parser, &mut r)? {
+                    let of_some = match of_rays(&option, &mut parser, &mut r)? {
+                        None => of_the_fake(&option, &mut parser, &mut r.pane)?,
+                        of_rays => of_rays,
+                    };
+                    read.push(of_some.ok_or_else(|| Long(&option).unexpected())?);
                 }
             }
             other => return Err(other.unexpected().into()),
@@ -80,20 +88,25 @@ pub fn parse(mut parser: lexopt::Parser) -> Result<Command, CliError> {
     if Kind::of(&out).is_none() {
         return usage(format!("-o must end in .png or .exr: {}", out.display()));
     }
-    match (r.pane.technique, device) {
-        (Technique::Raster, Device::Cpu) => return usage("--technique raster runs on the gpu only"),
-        (Technique::Path, Device::Gpu) => return usage("--technique path runs on the cpu only"),
+    let technique = r.pane.technique;
+    match (technique.device(), device) {
+        ("gpu", Device::Cpu) | ("cpu", Device::Gpu) => {
+            return usage(format!("--technique {} runs on the {} only", technique.name(), technique.device()));
+        }
         _ => {}
     }
+    if let (Technique::Path, Err(fault)) = (technique, r.pane.truth.path.check()) {
+        return usage(fault.to_string());
+    }
     (r.scene, r.out) = (scene, out);
-    r.without_effect = if r.pane.technique == Technique::Path { of_raster } else { of_path };
+    r.without_effect = read.into_iter().filter(|(_, of)| !of.contains(&technique)).map(|(name, _)| name).collect();
     Ok(Command::Render(Box::new(r)))
 }
 
 /// Reads an option of every technique; `false` if it is none.
 fn of_all(option: &str, parser: &mut lexopt::Parser, r: &mut RenderArgs) -> Result<bool, CliError> {
     match option {
-        "technique" => r.pane.technique = choice(parser, "--technique", Technique::named, "raster or path")?,
+        "technique" => r.pane.technique = choice(parser, "--technique", Technique::named, "raster, whitted or path")?,
         "size" => r.size = size(&text(parser)?)?,
         "eye" => r.eye = Some(point(parser, "--eye")?),
         "target" => r.target = Some(point(parser, "--target")?),
@@ -108,58 +121,82 @@ fn of_all(option: &str, parser: &mut lexopt::Parser, r: &mut RenderArgs) -> Resu
     Ok(true)
 }
 
-/// Reads an option of the path tracer and returns its name; `None` if it is none.
-fn of_the_truth(
-    option: &str,
-    parser: &mut lexopt::Parser,
-    r: &mut RenderArgs,
-) -> Result<Option<&'static str>, CliError> {
-    let path = &mut r.pane.truth.path;
-    let name = match option {
+/// Reads an option of the path tracer or of Whitted's method; `None` if it is none.
+fn of_rays(option: &str, parser: &mut lexopt::Parser, r: &mut RenderArgs) -> Result<Option<Applies>, CliError> {
+    let (path, tree) = (&mut r.pane.truth.path, &mut r.pane.whitted.tree);
+    let applies: Applies = match option {
         "spp" => {
             r.spp = Some(whole(parser, "--spp", 1)?);
-            "--spp"
+            ("--spp", RAYS)
         }
         "time" => {
             let seconds = number(parser, "--time", "seconds above 0 and at most 1e9", |v| v > 0.0 && v <= 1e9)?;
             r.seconds = Some(f64::from(seconds));
-            "--time"
-        }
-        "bounces" => {
-            let word = text(parser)?;
-            path.bounces = if word == "inf" { None } else { Some(parse_whole(&word, "--bounces", 0, " or inf")?) };
-            "--bounces"
-        }
-        "roulette" => {
-            path.roulette = roulette(&text(parser)?)?;
-            "--roulette"
-        }
-        "estimator" => {
-            path.estimator = choice(parser, "--estimator", Estimator::named, ESTIMATORS)?;
-            "--estimator"
+            ("--time", RAYS)
         }
         "sun-radius" => {
             let below_90 = |v| (0.0..90.0).contains(&v);
             r.changes.sun_radius = Some(number(parser, "--sun-radius", "degrees from 0 to below 90", below_90)?);
-            "--sun-radius"
+            ("--sun-radius", RAYS)
         }
         "seed" => {
             path.seed = whole(parser, "--seed", 0)?;
-            "--seed"
+            tree.seed = path.seed;
+            ("--seed", RAYS)
+        }
+        "sampler" => {
+            path.sampler = choice(parser, "--sampler", SamplerKind::named, "independent or sobol")?;
+            tree.sampler = path.sampler;
+            ("--sampler", RAYS)
+        }
+        "bounces" => {
+            let word = text(parser)?;
+            path.bounces = if word == "inf" { None } else { Some(parse_whole(&word, "--bounces", 0, " or inf")?) };
+            ("--bounces", PATH)
+        }
+        "roulette" => {
+            path.roulette = roulette(&text(parser)?)?;
+            ("--roulette", PATH)
+        }
+        "estimator" => {
+            path.estimator = choice(parser, "--estimator", Estimator::named, ESTIMATORS)?;
+            ("--estimator", PATH)
+        }
+        "branches" => {
+            path.branches = whole(parser, "--branches", 1)?;
+            ("--branches", PATH)
+        }
+        "depth" => {
+            tree.depth = within(parser, "--depth", &(0..=WhittedSettings::MOST_DEPTH))?;
+            ("--depth", WHITTED)
+        }
+        "glass-shadows" => {
+            tree.glass_shadows = choice(parser, "--glass-shadows", GlassShadows::named, "opaque or clear")?;
+            ("--glass-shadows", WHITTED)
+        }
+        "shadow-rays" => {
+            tree.shadow_rays = within(parser, "--shadow-rays", &(1..=1024))?;
+            ("--shadow-rays", WHITTED)
         }
         _ => return Ok(None),
     };
-    Ok(Some(name))
+    Ok(Some(applies))
 }
 
-/// Reads an option of the fake and returns its name; `None` if it is none.
+/// Reads an option of the fake; `None` if it is none.
 fn of_the_fake(
     option: &str,
     parser: &mut lexopt::Parser,
-    fake: &mut FakeSettings,
-) -> Result<Option<&'static str>, CliError> {
+    pane: &mut PaneSettings,
+) -> Result<Option<Applies>, CliError> {
+    let fake = &mut pane.fake;
     let knobs = &mut fake.knobs;
     let name = match option {
+        "ambient" => {
+            knobs.ambient = Some(within(parser, "--ambient", &FakeKnobs::AMBIENT)?);
+            pane.whitted.tree.ambient = knobs.ambient;
+            return Ok(Some(("--ambient", LOCAL)));
+        }
         "fake" => {
             fake.fake = choice(parser, "--fake", Fake::named, "fair or as-taught")?;
             "--fake"
@@ -175,10 +212,6 @@ fn of_the_fake(
         "shininess" => {
             knobs.shininess = Some(within(parser, "--shininess", &FakeKnobs::SHININESS)?);
             "--shininess"
-        }
-        "ambient" => {
-            knobs.ambient = Some(within(parser, "--ambient", &FakeKnobs::AMBIENT)?);
-            "--ambient"
         }
         "cube-map" => {
             knobs.cube_map = Some(within(parser, "--cube-map", &FakeKnobs::CUBE_MAP)?);
@@ -206,7 +239,7 @@ fn of_the_fake(
         }
         _ => return Ok(None),
     };
-    Ok(Some(name))
+    Ok(Some((name, RASTER)))
 }
 
 /// "off", "throughput", a probability, or both as "0.8+throughput".

@@ -5,6 +5,7 @@ mod display;
 mod fake;
 mod scene;
 mod truth;
+mod whitted;
 mod widgets;
 
 use super::{Dump, Viewer};
@@ -50,6 +51,7 @@ fn pane(viewer: &mut Viewer, side: Side, open: bool, ui: &mut Ui, dump: &mut Dum
         })
         .body_unindented(|ui| match viewer.settings.panes[side as usize].technique {
             Technique::Raster => fake::show(viewer, side, ui, dump),
+            Technique::Whitted => whitted::show(viewer, side, ui, dump),
             Technique::Path => truth::show(viewer, side, ui, dump),
         });
     dump.note(&format!("group {side:?}"), "", toggle.accessible_name(format!("Settings of {side:?}")));
@@ -60,6 +62,7 @@ fn techniques(viewer: &mut Viewer, side: Side, ui: &mut Ui, dump: &mut Dump) {
         let chosen = viewer.settings.panes[side as usize].technique == technique;
         let hover = match technique {
             Technique::Raster => "Rasterised: shadow map, cube map, local shading",
+            Technique::Whitted => "Whitted: trees of rays at mirrors and glass, local light elsewhere",
             Technique::Path => "Path traced: light itself, by Monte Carlo",
         };
         let button = ui.selectable_label(chosen, technique.title()).on_hover_text(hover);

@@ -1,10 +1,11 @@
 //! The settings of a truth.
 
 use super::widgets::{Stepped, choice, doubling, fit};
+use crate::technique::Recipe;
 use crate::ui::{Dump, Viewer};
 use crate::workers::Side;
-use egui::{DragValue, Slider, SliderClamping, Ui};
-use pathtrace::{Directions, Estimator, LightSearch, Roulette};
+use egui::{CollapsingHeader, DragValue, Slider, SliderClamping, Ui};
+use pathtrace::{Directions, Estimator, LightSearch, PathSettings, Roulette, SamplerKind};
 
 /// The most samples that the slider offers: 2^16.
 const MOST_SPP_EXPONENT: u32 = 16;
@@ -21,13 +22,51 @@ pub fn show(viewer: &mut Viewer, side: Side, ui: &mut Ui, dump: &mut Dump) {
     doubling([&name, "Samples per pixel (spp)"], &mut truth.spp, 0..=MOST_SPP_EXPONENT, ui, dump);
     bounces(viewer, side, ui, dump);
     roulette(viewer, side, ui, dump);
-    let truth = &mut viewer.settings.panes[side as usize].truth;
+    let path = &mut viewer.settings.panes[side as usize].truth.path;
+    let more = CollapsingHeader::new("More").id_salt(("more", side as usize)).show_unindented(ui, |ui| {
+        branches(path, side, ui, dump);
+        sampling(&mut path.sampler, &mut path.seed, side, ui, dump);
+    });
+    dump.note(&format!("{side:?} more"), more.fully_open(), more.header_response);
+    if let Err(fault) = path.check() {
+        ui.label(fault.to_string());
+    }
+    blind_spot(viewer, side, ui);
+}
+
+/// The tutorial's N: directions at each diffuse vertex.
+fn branches(path: &mut PathSettings, side: Side, ui: &mut Ui, dump: &mut Dump) {
+    let name = format!("{side:?} branches");
+    doubling([&name, "Directions N at each vertex"], &mut path.branches, 0..=4, ui, dump);
+}
+
+/// Where random numbers come from.
+pub fn sampling(sampler: &mut SamplerKind, seed: &mut u32, side: Side, ui: &mut Ui, dump: &mut Dump) {
+    ui.label("Random numbers");
+    let words = SamplerKind::ALL.map(|kind| (kind.name().to_owned(), describe(kind), *sampler == kind));
+    if let Some(index) = choice(&format!("{side:?} sampler"), words, ui, dump) {
+        *sampler = SamplerKind::ALL[index];
+    }
     ui.horizontal(|ui| {
         let label = ui.label("Seed");
-        let seed = ui.add(DragValue::new(&mut truth.path.seed)).labelled_by(label.id);
-        dump.note(&format!("{side:?} seed"), truth.path.seed, seed.on_hover_text("One of 2^32 independent pictures"));
+        let value = ui.add(DragValue::new(seed)).labelled_by(label.id);
+        dump.note(&format!("{side:?} seed"), *seed, value.on_hover_text("One of 2^32 independent pictures"));
     });
-    if let Some(blind) = truth.blind_spot(&viewer.settings.changes.applied_to(&viewer.scene)) {
+}
+
+fn describe(kind: SamplerKind) -> &'static str {
+    match kind {
+        SamplerKind::Independent => "Each number independent of all others",
+        SamplerKind::Sobol => "Samples of a pixel keep apart from each other: errors fall faster",
+    }
+}
+
+/// Says what the pane's settings cannot see.
+pub fn blind_spot(viewer: &Viewer, side: Side, ui: &mut Ui) {
+    let scene = viewer.settings.changes.applied_to(&viewer.scene);
+    if let Recipe::Rays(rays) = viewer.settings.panes[side as usize].recipe()
+        && let Some(blind) = rays.blind_spot(&scene)
+    {
         ui.label(blind);
     }
 }

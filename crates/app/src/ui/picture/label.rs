@@ -38,7 +38,7 @@ fn text(viewer: &Viewer, side: Side, pane: &Pane) -> String {
 }
 
 fn progress(viewer: &Viewer, side: Side, pane: &Pane) -> String {
-    let wished = viewer.settings.panes[side as usize].truth.spp;
+    let wished = viewer.settings.panes[side as usize].wished_spp().unwrap_or(0);
     let paused = if viewer.paused && pane.unfinished { ", paused" } else { "" };
     match pane.spp {
         Some(spp) if pane.rough => format!("{spp} spp, rough"),

@@ -1,9 +1,9 @@
-//! The thread that path traces: a rough picture at once, then ever more samples, until the wished number or a new job. A
+//! The thread that traces rays: a rough picture at once, then ever more samples, until the wished number or a new job. A
 //! job that differs only in the wished number goes on where the last one stopped.
 
 use super::darkroom::Darkroom;
 use super::{Inbox, Job, Picture, Side};
-use crate::technique::TruthSettings;
+use crate::technique::RaySettings;
 use pathtrace::Tracer;
 use scene::{Film, Scene};
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -12,13 +12,13 @@ use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
 /// A picture to make.
-pub type TruthJob = Job<TruthSettings>;
+pub type RayJob = Job<RaySettings>;
 
 /// A job, and the flag that stops it.
-type Commission = (TruthJob, Arc<AtomicBool>);
+type Commission = (RayJob, Arc<AtomicBool>);
 
 /// The worker; dropping it ends its thread.
-pub struct TruthWorker {
+pub struct RayWorker {
     inbox: Arc<Inbox<Option<Commission>>>,
     /// Stops the job in hand.
     cancel: Arc<AtomicBool>,
@@ -36,7 +36,7 @@ const ROUGH: Duration = Duration::from_millis(20);
 /// showing costs too, and a picture changes ever less.
 const REFRESH: [Duration; 2] = [Duration::from_millis(150), Duration::from_secs(1)];
 
-impl TruthWorker {
+impl RayWorker {
     /// Starts the thread and its pool, which leaves one core to the UI.
     ///
     /// # Errors
@@ -45,11 +45,11 @@ impl TruthWorker {
         let cores = std::thread::available_parallelism().map_or(1, usize::from);
         let pool = rayon::ThreadPoolBuilder::new()
             .num_threads(cores.saturating_sub(1).max(1))
-            .thread_name(move |i| format!("truth {side:?} {i}"))
+            .thread_name(move |i| format!("rays {side:?} {i}"))
             .build()?;
         let inbox = Arc::new(Inbox::default());
         let gate = Arc::new(Gate::default());
-        let thread = std::thread::Builder::new().name(format!("truth {side:?}")).spawn({
+        let thread = std::thread::Builder::new().name(format!("rays {side:?}")).spawn({
             let commissions: Arc<Inbox<Option<Commission>>> = inbox.clone();
             let gate = gate.clone();
             move || {
@@ -70,11 +70,11 @@ impl TruthWorker {
                 }
             }
         })?;
-        Ok(TruthWorker { inbox, cancel: Arc::default(), gate, thread: Some(thread) })
+        Ok(RayWorker { inbox, cancel: Arc::default(), gate, thread: Some(thread) })
     }
 
     /// Asks for a picture; the one in hand stops at once.
-    pub fn submit(&mut self, job: TruthJob) {
+    pub fn submit(&mut self, job: RayJob) {
         self.cancel();
         let cancel = self.cancel.clone();
         self.inbox.post(|slot| *slot = Some((job, cancel)));
@@ -94,7 +94,7 @@ impl TruthWorker {
     }
 }
 
-impl Drop for TruthWorker {
+impl Drop for RayWorker {
     fn drop(&mut self) {
         self.cancel();
         self.inbox.close();
@@ -144,7 +144,7 @@ struct Exposed {
     spp: u32,
     spent: Duration,
     /// The job it belongs to; its wished number of samples may grow.
-    job: TruthJob,
+    job: RayJob,
 }
 
 struct Painter {
@@ -164,7 +164,7 @@ struct Painter {
 }
 
 impl Painter {
-    fn paint(&mut self, job: &TruthJob, cancel: &AtomicBool) {
+    fn paint(&mut self, job: &RayJob, cancel: &AtomicBool) {
         self.begun = Instant::now();
         let tracer = match self.tracer.take() {
             Some((scene, tracer)) if Arc::ptr_eq(&scene, &job.order.scene) => tracer,
@@ -182,7 +182,7 @@ impl Painter {
     }
 
     /// A film without light, or a word that there is no memory for it.
-    fn blank(&self, job: &TruthJob) -> Option<Exposed> {
+    fn blank(&self, job: &RayJob) -> Option<Exposed> {
         let (width, height) = job.order.size();
         let film = Film::try_new(width, height);
         if film.is_none() {
@@ -193,7 +193,7 @@ impl Painter {
     }
 
     /// Pictures of an eighth, a quarter and half the resolution, beginning with the finest that is ready in time.
-    fn rough(&mut self, tracer: &Tracer, job: &TruthJob, cancel: &AtomicBool) {
+    fn rough(&mut self, tracer: &Tracer, job: &RayJob, cancel: &AtomicBool) {
         let (width, height) = job.order.size();
         let pixels = f64::from(width) * f64::from(height);
         let budget = ROUGH.as_secs_f64() / self.seconds_per_sample;
@@ -256,12 +256,12 @@ impl Painter {
         &mut self,
         tracer: &Tracer,
         film: &mut Film,
-        job: &TruthJob,
+        job: &RayJob,
         samples: u32,
         stop: &(impl Fn() -> bool + Sync),
     ) {
         let start = Instant::now();
-        let stats = tracer.render(film, job.order.camera(), &job.settings.path, samples, stop);
+        let stats = job.settings.render(tracer, film, job.order.camera(), samples, stop);
         if stats.samples > 1000 {
             self.seconds_per_sample = start.elapsed().as_secs_f64() / stats.samples as f64;
         }
@@ -272,7 +272,7 @@ impl Painter {
         self.deliver(&exposed.film, &exposed.job, exposed.spent, [false, unfinished]);
     }
 
-    fn deliver(&self, film: &Film, job: &TruthJob, spent: Duration, [rough, unfinished]: [bool; 2]) {
+    fn deliver(&self, film: &Film, job: &RayJob, spent: Duration, [rough, unfinished]: [bool; 2]) {
         self.darkroom.deliver(
             self.side,
             Picture {
@@ -293,10 +293,10 @@ impl Painter {
 
 impl Exposed {
     /// Whether going on with this film gives what `job` asks for.
-    fn serves(&self, job: &TruthJob) -> bool {
+    fn serves(&self, job: &RayJob) -> bool {
         let (old, new) = (&self.job, job);
         self.spp <= new.settings.spp
-            && old.settings.path == new.settings.path
+            && old.settings.method == new.settings.method
             && (old.order.view, old.order.restarts) == (new.order.view, new.order.restarts)
     }
 }

@@ -1,0 +1,75 @@
+//! `visavis check`: every hard case, as a table or as JSON.
+
+use super::CheckArgs;
+use check::{CASES, Case, Effort, Row, Verdict};
+use serde_json::{Value, json};
+use std::sync::atomic::AtomicBool;
+use std::time::Instant;
+
+pub fn run(args: &CheckArgs) -> anyhow::Result<()> {
+    let chosen = |case: &&Case| args.cases.is_empty() || args.cases.contains(&case.number);
+    let cases: Vec<Case> = CASES.iter().filter(chosen).copied().collect();
+    let effort = if args.quick { Effort::Quick } else { Effort::Full };
+    let start = Instant::now();
+    let mut printed = Ok(());
+    let rows = check::run(&cases, effort, &AtomicBool::new(false), |case, rows| {
+        if !args.json {
+            printed = super::print(&table(case, rows));
+        }
+        printed.is_ok()
+    });
+    printed?;
+    let seconds = start.elapsed().as_secs_f64();
+    let count = |verdict| rows.iter().filter(|row| row.verdict == verdict).count();
+    let (passed, failed) = (count(Verdict::Pass), count(Verdict::Fail));
+    if args.json {
+        let rows: Vec<Value> = rows.iter().map(to_json).collect();
+        let report = json!({
+            "effort": if args.quick { "quick" } else { "full" },
+            "seconds": seconds,
+            "passed": passed,
+            "failed": failed,
+            "rows": rows,
+        });
+        super::print(&format!("{report}\n"))?;
+    } else {
+        super::print(&format!("{} cases, {passed} rows passed, {failed} failed, {seconds:.0} s\n", cases.len()))?;
+    }
+    let numbers = failed_cases(&rows);
+    anyhow::ensure!(
+        failed == 0,
+        "the check failed in {numbers}: see its rows; visavis check --case {numbers} runs them alone"
+    );
+    Ok(())
+}
+
+fn failed_cases(rows: &[Row]) -> String {
+    let mut numbers: Vec<u32> = rows.iter().filter(|r| r.verdict == Verdict::Fail).map(|r| r.case).collect();
+    numbers.dedup();
+    numbers.iter().map(u32::to_string).collect::<Vec<_>>().join(",")
+}
+
+/// A case with its rows.
+fn table(case: &Case, rows: &[Row]) -> String {
+    let mut text = format!("{}. {} (catches {})\n", case.number, case.title, case.catches);
+    rows.iter().for_each(|row| text += &format!("  {row}\n"));
+    text
+}
+
+fn to_json(row: &Row) -> Value {
+    let title = CASES.iter().find(|case| case.number == row.case).map(|case| case.title);
+    json!({
+        "case": row.case,
+        "title": title,
+        "device": row.device.name(),
+        "subject": row.subject,
+        "quantity": row.quantity,
+        "expected": row.expected,
+        "measured": row.measured,
+        "relation": row.relation.name(),
+        "tolerance": row.tolerance,
+        "relative_standard_error": row.power.map(|(reached, _)| reached),
+        "wanted_relative_standard_error": row.power.map(|(_, wanted)| wanted),
+        "verdict": row.verdict.name(),
+    })
+}
