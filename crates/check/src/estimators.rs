@@ -5,6 +5,7 @@ use crate::lamps::RECTANGLE;
 use crate::measure::{Trial, paths};
 use pathtrace::{Estimator, PathSettings, Roulette, SamplerKind, Tracer, estimate_with_replicates};
 use scene::{Camera, Film, Vec3};
+use std::sync::atomic::Ordering;
 
 /// Relative variance of one sample, from f64.
 const VARIANCES: [(Estimator, f64); 3] =
@@ -71,9 +72,10 @@ fn replicates(trial: &mut Trial, tracer: &Tracer, expected: f64) {
     let (x, y, _) = RECTANGLE[2];
     let camera = spot(Vec3::new(x, y, 0.5), Vec3::new(x, y, 0.0));
     let settings = PathSettings { bounces: Some(0), roulette: Roulette::OFF, ..PathSettings::default() };
+    let stop = trial.stop_flag();
     let independent = |seed: u32| {
         let mut film = Film::new(32, 32);
-        paths(tracer, &camera, &settings)(&mut film, seed + 1, 64);
+        paths(tracer, &camera, &settings)(&mut film, seed + 1, 64, stop);
         film
     };
     let ratio = told_and_true(independent, 32);
@@ -81,7 +83,7 @@ fn replicates(trial: &mut Trial, tracer: &Tracer, expected: f64) {
     let sobol = PathSettings { sampler: SamplerKind::Sobol, ..settings };
     let replicated = |seed: u32| {
         let settings = PathSettings { seed: seed * 100, ..sobol };
-        estimate_with_replicates(tracer, &camera, &settings, (16, 16), 16, 16, &|| false)
+        estimate_with_replicates(tracer, &camera, &settings, (16, 16), 16, 16, &|| stop.load(Ordering::Relaxed))
     };
     let ratio = told_and_true(replicated, 16);
     trial.equal("film", "standard error over spread, Sobol replicates", 1.0, ratio, 0.1);
@@ -89,7 +91,7 @@ fn replicates(trial: &mut Trial, tracer: &Tracer, expected: f64) {
     trial.equal("path light", "mean, Sobol replicates", expected, mean, 0.005 * expected);
     let alone = |seed: u32| {
         let mut film = Film::new(16, 16);
-        paths(tracer, &camera, &sobol)(&mut film, seed + 1, 64);
+        paths(tracer, &camera, &sobol)(&mut film, seed + 1, 64, stop);
         film
     };
     trial.information("film", "standard error over spread, Sobol without replicates", 1.0, told_and_true(alone, 16));

@@ -67,6 +67,11 @@ impl<'a> Trial<'a> {
         if self.full() { full } else { quick }
     }
 
+    /// What says so.
+    pub fn stop_flag(&self) -> &'a AtomicBool {
+        self.stop
+    }
+
     /// Whether the user has had enough.
     pub fn stopped(&self) -> bool {
         self.stop.load(Ordering::Relaxed)
@@ -117,19 +122,19 @@ impl<'a> Trial<'a> {
         self.push(subject, quantity, numbers, Relation::Equal, Verdict::Information);
     }
 
-    /// The mean of [`PICTURES`] pictures that `render` adds samples to, given a seed; as many as it takes for a relative
+    /// The mean of 32 pictures that `render` adds samples to, given a seed; as many as it takes for a relative
     /// standard error of `power`, but at most `most` a picture's pixel.
     pub fn mean_of(
         &mut self,
         expected: f64,
         power: f64,
         most: u32,
-        render: impl Fn(&mut Film, u32, u32) + Sync,
+        render: impl Fn(&mut Film, u32, u32, &AtomicBool) + Sync,
     ) -> Mean {
         let mut films: Vec<Film> = (0..PICTURES).map(|_| Film::new(SIDE, SIDE)).collect();
         let mut more = 16;
         loop {
-            films.par_iter_mut().enumerate().for_each(|(i, film)| render(film, i as u32 + 1, more));
+            films.par_iter_mut().enumerate().for_each(|(i, film)| render(film, i as u32 + 1, more, self.stop));
             let spp = films[0].samples_per_pixel();
             let means: Vec<f64> = films.iter().map(|film| film.mean()[0]).collect();
             let n = f64::from(PICTURES);
@@ -155,7 +160,7 @@ impl<'a> Trial<'a> {
         subject: &str,
         quantity: &str,
         expected: f64,
-        render: impl Fn(&mut Film, u32, u32) + Sync,
+        render: impl Fn(&mut Film, u32, u32, &AtomicBool) + Sync,
     ) -> Mean {
         let found = self.mean_of(expected, power, self.pick(20_000, 400_000), render);
         let tolerance = 4.0 * found.standard_error + ROUNDING * expected;
@@ -225,25 +230,27 @@ impl<'a> Trial<'a> {
     }
 }
 
-/// What adds path traced samples to a film.
+/// What adds path traced samples to a film, given a seed and their number; it can be stopped.
 pub fn paths<'a>(
     tracer: &'a Tracer,
     camera: &'a Camera,
     settings: &'a PathSettings,
-) -> impl Fn(&mut Film, u32, u32) + Sync + 'a {
-    |film, seed, samples| {
-        tracer.render(film, camera, &PathSettings { seed, ..*settings }, samples, &|| false);
+) -> impl Fn(&mut Film, u32, u32, &AtomicBool) + Sync + 'a {
+    |film, seed, samples, stop| {
+        let stop = || stop.load(Ordering::Relaxed);
+        tracer.render(film, camera, &PathSettings { seed, ..*settings }, samples, &stop);
     }
 }
 
-/// What adds samples by Whitted's method to a film.
+/// As [`paths`], by Whitted's method.
 pub fn whitted_trees<'a>(
     tracer: &'a Tracer,
     camera: &'a Camera,
     settings: &'a WhittedSettings,
-) -> impl Fn(&mut Film, u32, u32) + Sync + 'a {
-    |film, seed, samples| {
-        tracer.render_whitted(film, camera, &WhittedSettings { seed, ..*settings }, samples, &|| false);
+) -> impl Fn(&mut Film, u32, u32, &AtomicBool) + Sync + 'a {
+    |film, seed, samples, stop| {
+        let stop = || stop.load(Ordering::Relaxed);
+        tracer.render_whitted(film, camera, &WhittedSettings { seed, ..*settings }, samples, &stop);
     }
 }
 
