@@ -4,6 +4,11 @@ use pathtrace::{Estimator, PathSettings, Roulette, SamplerKind, Tracer};
 use scene::{Film, Scene, builtin};
 use serde_json::Value;
 
+/// The default settings, with samples whose spread tells their error.
+fn independent() -> PathSettings {
+    PathSettings { sampler: SamplerKind::Independent, ..PathSettings::default() }
+}
+
 fn reference(text: &str) -> Value {
     serde_json::from_str(text).expect("reference values")
 }
@@ -68,7 +73,7 @@ fn cornell_agrees_block_by_block_and_outside_the_lamp() {
         (include_str!("../data/cornell.json"), None, Roulette::THROUGHPUT),
         (include_str!("../data/cornell-2-bounces.json"), Some(2), Roulette::OFF),
     ] {
-        let settings = PathSettings { bounces, roulette, ..PathSettings::default() };
+        let settings = PathSettings { bounces, roulette, ..independent() };
         let film = render(&scene, (128, 128), 512, &settings);
         let expected = reference(text);
         for (mean, theirs) in film.mean().into_iter().zip(rgb(&expected["mean"])) {
@@ -88,7 +93,7 @@ fn cornell_agrees_block_by_block_and_outside_the_lamp() {
 fn every_estimator_and_sampler_agrees_on_cornell() {
     let scene = builtin::named("cornell").expect("built in");
     let film = |estimator, sampler| {
-        render(&scene, (96, 96), 192, &PathSettings { estimator, sampler, seed: 9, ..PathSettings::default() })
+        render(&scene, (96, 96), 192, &PathSettings { estimator, sampler, seed: 9, ..independent() })
     };
     let reference = film(Estimator::LIGHT, SamplerKind::Independent);
     let every = Estimator::EVERY.map(|estimator| (estimator, SamplerKind::Independent));
@@ -109,7 +114,7 @@ fn whitted_under_a_delta_sun_agrees_block_by_block() {
     if let Some(sun) = &mut scene.sun {
         sun.angular_radius = 0.0;
     }
-    let film = render(&scene, (192, 108), 512, &PathSettings::default());
+    let film = render(&scene, (192, 108), 512, &independent());
     assert_blocks_agree(&film, &reference(include_str!("../data/whitted-sun-0.json")), 12);
 }
 
@@ -118,7 +123,7 @@ fn whitted_under_a_delta_sun_agrees_block_by_block() {
 #[test]
 fn whitted_under_a_wide_sun_agrees_as_a_whole() {
     let scene = builtin::named("whitted").expect("built in");
-    let film = render(&scene, (192, 108), 2048, &PathSettings::default());
+    let film = render(&scene, (192, 108), 2048, &independent());
     let expected = reference(include_str!("../data/whitted-sun-2.5.json"));
     for (mean, theirs) in film.mean().into_iter().zip(rgb(&expected["mean"])) {
         assert!((mean / theirs - 1.0).abs() < 0.01, "{mean} against {theirs}");

@@ -1,7 +1,7 @@
 //! Glass.
 
 use crate::hard::{known, spot, with_geometry};
-use crate::measure::{Trial, farthest};
+use crate::measure::{Trial, farthest, independent};
 use pathtrace::bsdf::Interface;
 use pathtrace::geometry::{Accel, Ray};
 use pathtrace::{Estimator, PathSettings, Roulette, SamplerKind, Tracer, WhittedSettings};
@@ -11,7 +11,7 @@ const INTO_GLASS: Interface = Interface { ior: 1.5, entering: true };
 const OUT_OF_GLASS: Interface = Interface { ior: 1.5, entering: false };
 
 fn without_roulette() -> PathSettings {
-    PathSettings { roulette: Roulette::OFF, ..PathSettings::default() }
+    PathSettings { roulette: Roulette::OFF, ..independent() }
 }
 
 fn to_depth(depth: u32) -> WhittedSettings {
@@ -228,7 +228,7 @@ pub fn camera_inside(trial: &mut Trial) {
     let scene = known("camera-inside-glass");
     let seen = (&Tracer::new(&scene), &scene.camera);
     for roulette in [Roulette::OFF, Roulette::THROUGHPUT] {
-        let film = trial.path_film(seen, &PathSettings { roulette, ..PathSettings::default() }, 32, 16);
+        let film = trial.path_film(seen, &PathSettings { roulette, ..independent() }, 32, 16);
         trial.equal("path light", "every pixel", 1.0, farthest(&film, 1.0), 1e-5);
     }
     let film = trial.whitted_film(seen, &to_depth(64), 32, 1);

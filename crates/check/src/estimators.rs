@@ -2,7 +2,7 @@
 
 use crate::hard::{known, spot};
 use crate::lamps::RECTANGLE;
-use crate::measure::{Trial, paths};
+use crate::measure::{Trial, independent, paths};
 use pathtrace::{Estimator, PathSettings, Roulette, SamplerKind, Tracer, estimate_with_replicates};
 use scene::{Camera, Film, Vec3};
 use std::sync::atomic::Ordering;
@@ -18,7 +18,7 @@ pub fn three_of_one(trial: &mut Trial) {
     let tracer = Tracer::new(&scene);
     let seen = (&tracer, &camera);
     for (estimator, variance) in VARIANCES {
-        let settings = PathSettings { estimator, bounces: Some(0), roulette: Roulette::OFF, ..PathSettings::default() };
+        let settings = PathSettings { estimator, bounces: Some(0), roulette: Roulette::OFF, ..independent() };
         trial.path("mean", expected, seen, &settings);
         let mut film = Film::new(64, 64);
         tracer.render(&mut film, &camera, &settings, trial.pick(128, 1024), &|| trial.stopped());
@@ -71,7 +71,7 @@ fn fitted_slope(points: &[(f64, f64)]) -> f64 {
 fn replicates(trial: &mut Trial, tracer: &Tracer, expected: f64) {
     let (x, y, _) = RECTANGLE[2];
     let camera = spot(Vec3::new(x, y, 0.5), Vec3::new(x, y, 0.0));
-    let settings = PathSettings { bounces: Some(0), roulette: Roulette::OFF, ..PathSettings::default() };
+    let settings = PathSettings { bounces: Some(0), roulette: Roulette::OFF, ..independent() };
     let stop = trial.stop_flag();
     let independent = |seed: u32| {
         let mut film = Film::new(32, 32);

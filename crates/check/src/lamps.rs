@@ -1,13 +1,13 @@
 //! Direct light of lamps over a grey floor.
 
 use crate::hard::{known, spot, with_geometry};
-use crate::measure::Trial;
+use crate::measure::{Trial, independent};
 use pathtrace::{Estimator, PathSettings, Roulette, Tracer, WhittedSettings};
 use scene::{Camera, Geometry, Scene, Vec3};
 
 /// Direct light alone.
 fn direct(estimator: Estimator) -> PathSettings {
-    PathSettings { estimator, bounces: Some(0), roulette: Roulette::OFF, ..PathSettings::default() }
+    PathSettings { estimator, bounces: Some(0), roulette: Roulette::OFF, ..independent() }
 }
 
 fn shadow_rays(shadow_rays: u32) -> WhittedSettings {

@@ -1,7 +1,7 @@
 //! Closed meshes and rays that must not get out.
 
 use crate::hard::known;
-use crate::measure::Trial;
+use crate::measure::{Trial, independent};
 use crate::meshes::{Mesh, any_direction};
 use pathtrace::geometry::Ray;
 use pathtrace::sampler::Sampler;
@@ -87,7 +87,7 @@ pub fn light_tight_box(trial: &mut Trial) {
     let scene = known("light-tight-box");
     let rays = trial.pick(500_000, 10_000_000);
     let side = 64;
-    let settings = PathSettings { estimator: Estimator::COSINE, ..PathSettings::default() };
+    let settings = PathSettings { estimator: Estimator::COSINE, ..independent() };
     let camera = scene.camera;
     let film = trial.path_film((&Tracer::new(&scene), &camera), &settings, side, rays / (side * side));
     trial.equal("path cosine", "brightest pixel of the box", 0.0, brightest(&film), 0.0);

@@ -1,7 +1,7 @@
 //! Measuring: exact comparisons, bounds, and means of independently seeded pictures.
 
 use crate::row::{Device, Relation, Row, Verdict};
-use pathtrace::{PathSettings, Tracer, WhittedSettings};
+use pathtrace::{PathSettings, SamplerKind, Tracer, WhittedSettings};
 use rayon::prelude::*;
 use scene::{Camera, Film};
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -228,6 +228,11 @@ impl<'a> Trial<'a> {
         self.count_nonfinite(&film);
         film
     }
+}
+
+/// The default settings, with samples whose spread tells their error.
+pub fn independent() -> PathSettings {
+    PathSettings { sampler: SamplerKind::Independent, ..PathSettings::default() }
 }
 
 /// What adds path traced samples to a film, given a seed and their number; it can be stopped.

@@ -2,7 +2,7 @@
 
 use crate::hard::{known, spot};
 use crate::lamps::RECTANGLE;
-use crate::measure::Trial;
+use crate::measure::{Trial, independent};
 use pathtrace::geometry::Ray;
 use pathtrace::{Estimator, PathSettings, Roulette, Tracer, WhittedSettings};
 use scene::{Bsdf, Camera, Geometry, Scene, Shape, Texture, Vec3};
@@ -35,9 +35,9 @@ pub fn invariance(trial: &mut Trial) {
     let slanting = wide(spot(Vec3::new(3.0, 0.0, 3.0f32.sqrt()), Vec3::ZERO));
     let furnace = known("closed-box");
     let camera = furnace.camera;
-    let direct = PathSettings { bounces: Some(0), roulette: Roulette::OFF, ..PathSettings::default() };
+    let direct = PathSettings { bounces: Some(0), roulette: Roulette::OFF, ..independent() };
     let cases = [
-        ("closed box", furnace, camera, PathSettings::default(), 1.0),
+        ("closed box", furnace, camera, independent(), 1.0),
         ("rectangle light", known("rectangle-light"), over_floor, direct, lambert),
         (
             "rectangle light, mis",
@@ -151,7 +151,7 @@ fn slivers(trial: &mut Trial) {
     let camera = spot(Vec3::new(x + 0.3, y, 0.1), Vec3::new(x, y, 0.0));
     let tracer = Tracer::new(&scene);
     for estimator in [Estimator::LIGHT, Estimator::MIS] {
-        let settings = PathSettings { estimator, bounces: Some(0), roulette: Roulette::OFF, ..PathSettings::default() };
+        let settings = PathSettings { estimator, bounces: Some(0), roulette: Roulette::OFF, ..independent() };
         trial.path("under slivers 1e-6 wide", expected, (&tracer, &camera), &settings);
     }
 }

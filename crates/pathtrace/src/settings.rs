@@ -117,15 +117,16 @@ impl Default for Roulette {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum SamplerKind {
     /// Each number independent of all others. The spread inside a pixel tells the error.
-    #[default]
     Independent,
-    /// Owen-scrambled Sobol points: a pixel's samples keep apart from each other, so that errors fall faster. The spread
-    /// inside a pixel says nothing then: see [`crate::estimate_with_replicates`].
+    /// Owen-scrambled Sobol points: a pixel's samples keep apart from each other, so that errors fall faster. Measured, time
+    /// to a relMSE of .003: half of the independent sampler's for the Cornell box, a sixth for the spheres under a delta
+    /// sun. The spread inside a pixel overstates the error then: see [`crate::estimate_with_replicates`].
+    #[default]
     Sobol,
 }
 
 impl SamplerKind {
-    /// All, the default first.
+    /// All, the plainest first.
     pub const ALL: [Self; 2] = [Self::Independent, Self::Sobol];
 
     /// The name on the command line and in the window.
@@ -229,7 +230,7 @@ impl Default for PathSettings {
             bounces: None,
             roulette: Roulette::THROUGHPUT,
             branches: 1,
-            sampler: SamplerKind::Independent,
+            sampler: SamplerKind::default(),
             seed: 1,
         }
     }

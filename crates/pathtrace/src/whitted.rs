@@ -76,7 +76,7 @@ impl Default for WhittedSettings {
             glass_shadows: GlassShadows::Opaque,
             shadow_rays: 1,
             ambient: None,
-            sampler: SamplerKind::Independent,
+            sampler: SamplerKind::default(),
             seed: 1,
         }
     }
