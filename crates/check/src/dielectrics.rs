@@ -83,6 +83,16 @@ pub fn index_one(trial: &mut Trial) {
         let off = a.radiances().zip(b.radiances()).map(|(a, b)| (a - b).abs().max_element()).fold(0.0, f32::max);
         trial.at_most(&format!("path {}", estimator.name()), "largest difference", 1e-5, f64::from(off));
     }
+    let mut turned = 0f32;
+    for (i, entering) in (0..20_000).flat_map(|i| [(i, true), (i, false)]) {
+        // cosines down to grazing, where the textbook's form is off by 1.65e-4
+        let cosine = (i as f32 + 0.5) / 20_000.0;
+        let wo = Vec3::new((1.0 - cosine * cosine).sqrt(), 0.0, cosine);
+        let wi = Interface { ior: 1.0, entering }.refract(wo, Vec3::Z).unwrap_or(Vec3::INFINITY);
+        let change = (wi + wo).abs().max_element();
+        turned = turned.max(change);
+    }
+    trial.at_most("refraction", "largest change of direction at index 1", 1e-6, f64::from(turned));
     let [a, b] = [&with, &without].map(|tracer| trial.whitted_film((tracer, &camera), &to_depth(16), 128, 1));
     let off = a.radiances().zip(b.radiances()).map(|(a, b)| (a - b).abs().max_element()).fold(0.0, f32::max);
     trial.at_most("whitted", "largest difference", 1e-5, f64::from(off));

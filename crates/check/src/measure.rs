@@ -85,7 +85,7 @@ impl<'a> Trial<'a> {
     }
 
     /// Largest relative standard error with power.
-    fn power(&self) -> f64 {
+    pub fn power(&self) -> f64 {
         self.pick(0.005, 0.001)
     }
 
@@ -162,7 +162,7 @@ impl<'a> Trial<'a> {
         expected: f64,
         render: impl Fn(&mut Film, u32, u32, &AtomicBool) + Sync,
     ) -> Mean {
-        let found = self.mean_of(expected, power, self.pick(20_000, 400_000), render);
+        let found = self.mean_of(expected, power, self.pick(20_000, 100_000), render);
         let tolerance = 4.0 * found.standard_error + ROUNDING * expected;
         let reached = found.standard_error / expected;
         let passed = (found.mean - expected).abs() <= tolerance && reached <= power;
