@@ -21,7 +21,7 @@ visavis render SCENE -o OUT      render to OUT, .png (display-transformed) or .e
   whitted and path:
     --spp N                      samples per pixel (default 64)
     --time SECONDS               stop after this long, or at --spp if that is given and comes first
-    --sampler independent|sobol  where random numbers come from (default independent)
+    --sampler independent|sobol  where random numbers come from (default sobol)
     --sun-radius DEG             angular radius of the sun, 0 is a delta light (default the scene's)
     --seed N                     selects one of 2^32 independent pictures (default 1)
   path:
