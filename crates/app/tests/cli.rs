@@ -48,7 +48,7 @@ fn bad_values_are_wrong_usage_and_write_nothing() {
         (&["--size", "100000x100000"], "at most"),
         (&["--bounces", "-1"], "or inf"),
         (&["--estimator", "best"], "uniform, cosine, light"),
-        (&["--technique", "whitted"], "raster or path"),
+        (&["--technique", "phong"], "raster, whitted or path"),
         (&["--eye", "1,2"], "three finite numbers"),
         (&["--sun-radius", "90"], "from 0 to below 90"),
     ];
@@ -62,7 +62,14 @@ fn bad_values_are_wrong_usage_and_write_nothing() {
     assert_refused(&["compare", "one.png"], 2, &["two pictures"]);
     assert_refused(&["render", "whitted", "-o", out, "--size", "1\n2"], 2, &["WIDTHxHEIGHT"]);
     assert_refused(&["render", "whitted", "-o", out, "--time", "1e30"], 2, &["at most 1e9"]);
-    assert_refused(&["check"], 2, &["not built"]);
+    assert_refused(&["check", "--case", "99"], 2, &["--case 99", "from 1 to 24"]);
+    assert_refused(&["check", "--device", "gpu"], 2, &["auto or cpu"]);
+    let branches = ["render", "cornell", "-o", out, "--branches", "16", "--bounces", "9"];
+    assert_refused(&branches, 2, &["fewer directions or fewer bounces"]);
+    assert_refused(&["render", "cornell", "-o", out, "--branches", "2"], 2, &["limit of bounces"]);
+    assert_refused(&["render", "cornell", "-o", out, "--depth", "65"], 2, &["from 0 to 64"]);
+    assert_refused(&["render", "cornell", "-o", out, "--segments", "2"], 2, &["from 3 to 512"]);
+    assert_refused(&["render", "hard/none", "-o", out], 1, &["hard/slab"]);
     assert_refused(&["bench", "-o", out], 2, &["--quick"]);
     assert_eq!(folder.names(), [""; 0]);
 }
@@ -256,4 +263,51 @@ fn help_lists_every_option_and_exits_well() {
     }
     assert!(visavis(&["--version"]).status.success());
     assert!(visavis(&["info"]).status.success());
+}
+
+#[test]
+fn the_check_prints_a_table_or_rows_of_json() {
+    let table = visavis(&["check", "--quick", "--case", "10,23"]);
+    assert!(table.status.success());
+    let text = String::from_utf8_lossy(&table.stdout);
+    assert!(text.contains("10. Fresnel table") && text.contains("23. A million samples"), "{text}");
+    assert!(text.contains(" pass") && text.contains("0 failed"), "{text}");
+    let report = json(&visavis(&["check", "--quick", "--case", "10", "--json"]));
+    let rows = report["rows"].as_array().expect("rows");
+    assert!(rows.len() > 10 && rows.iter().all(|row| row["case"] == 10 && row["verdict"] == "pass"));
+    assert_eq!(report["failed"], 0);
+}
+
+#[test]
+fn every_technique_and_option_renders() {
+    let folder = TestFolder::new();
+    let out = folder.file("out.png");
+    let out = out.to_str().expect("a plain path");
+    let options: [&[&str]; 8] = [
+        &[
+            "--technique",
+            "whitted",
+            "--depth",
+            "3",
+            "--glass-shadows",
+            "clear",
+            "--shadow-rays",
+            "4",
+            "--ambient",
+            "0.1",
+        ],
+        &["--estimator", "mis", "--sampler", "independent"],
+        &["--estimator", "uniform-light", "--roulette", "0.9+throughput"],
+        &["--estimator", "uniform-mis", "--branches", "2", "--bounces", "2", "--roulette", "off"],
+        &["--technique", "raster", "--shading", "phong", "--shininess", "5", "--ambient", "0.5", "--segments", "12"],
+        &["--technique", "raster", "--shadow-filter", "hard", "--shadow-bias", "-0.001", "--shadow-map", "64"],
+        &["--technique", "raster", "--show", "cube-faces", "--cube-map", "16", "--reflectivity", "0.5"],
+        &["--technique", "raster", "--show", "shadow-map", "--fake", "as-taught"],
+    ];
+    for extra in options {
+        let common = ["render", "whitted", "-o", out, "--size", "48x27", "--json"];
+        let report = json(&visavis(&[&common, extra].concat()));
+        assert_eq!(report["nonfinite"], 0, "{extra:?}");
+        assert!(report["mean"][1].as_f64() > Some(0.01), "{extra:?}: {report}");
+    }
 }

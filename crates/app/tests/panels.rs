@@ -83,6 +83,36 @@ fn every_widget_has_a_name_and_a_slider_the_one_above_it() {
 }
 
 #[test]
+fn another_scene_takes_its_own_numbers_and_shows_its_picture() {
+    let mut panels = Panels::of("whitted");
+    panels.click("More", 0);
+    panels.click("cube faces", 0);
+    panels.viewer.borrow_mut().settings.panes[0].fake.knobs.segments = Some(7);
+    panels.harness.run_steps(2);
+    let cornell = scene::builtin::named("cornell").expect("a built-in scene");
+    panels.viewer.borrow_mut().open(cornell, "cornell".into());
+    panels.harness.run_steps(2);
+    let settings = panels.viewer.borrow().settings;
+    assert_eq!(settings.panes[0].fake.show, raster::Show::Picture);
+    assert_eq!(settings.panes[0].fake.knobs.segments, None);
+}
+
+#[test]
+fn keys_that_are_held_or_come_twice_in_a_frame_count_as_often_as_they_are_pressed() {
+    let mut panels = Panels::of("whitted");
+    let press = |repeat| egui::Event::Key {
+        key: egui::Key::T,
+        physical_key: None,
+        pressed: true,
+        repeat,
+        modifiers: egui::Modifiers::NONE,
+    };
+    [press(false), press(true), press(true), press(false)].into_iter().for_each(|event| panels.harness.event(event));
+    panels.harness.step();
+    assert_eq!(panels.viewer.borrow().view, visavis::ui::View::B, "from the wipe to A, and on to B");
+}
+
+#[test]
 fn choices_change_their_pane_and_undo_takes_them_back() {
     let mut panels = Panels::of("whitted");
     let before = panels.viewer.borrow().settings;

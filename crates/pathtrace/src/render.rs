@@ -67,7 +67,8 @@ impl Tracer {
 
     /// Path traces `samples` more into every pixel of `film`, on the current rayon pool. Sample numbers go on from what
     /// each pixel has, so that many small calls give the same picture as a large one. `stop` is asked before every sample;
-    /// once it says so the call returns, and pixels hold whole samples, but not all equally many.
+    /// once it says so the call returns, and pixels hold whole samples, but not all equally many: the next call brings
+    /// every pixel to `samples` more than the fewest.
     ///
     /// `settings` should pass [`PathSettings::check`], which says what becomes of them if they do not.
     pub fn render(
@@ -123,6 +124,7 @@ fn sample_film<Scratch: Default>(
     let (width, height) = (film.width(), film.height());
     let frame = camera.frame(width as f32 / height as f32);
     let size = Vec2::new(width as f32, height as f32);
+    let until = film.pixels().iter().map(|pixel| pixel.samples).min().unwrap_or(0).saturating_add(samples);
     let chunks = film.pixels_mut().par_chunks_mut(CHUNK).enumerate();
     let (stats, nonfinite) = chunks
         .map(|(chunk, pixels)| {
@@ -130,7 +132,7 @@ fn sample_film<Scratch: Default>(
             for (offset, pixel) in pixels.iter_mut().enumerate() {
                 let index = (chunk * CHUNK + offset) as u32;
                 let corner = Vec2::new((index % width) as f32, (index / width) as f32);
-                for _ in 0..samples {
+                while pixel.samples < until {
                     if stop() {
                         return tally;
                     }

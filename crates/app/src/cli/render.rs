@@ -2,7 +2,7 @@
 
 use super::RenderArgs;
 use crate::picture_file::{self, Kind, Linear};
-use crate::technique::{FakeSettings, Provenance, RaySettings, Recipe, Technique};
+use crate::technique::{FakeSettings, Made, Provenance, RaySettings, Recipe, Technique};
 use anyhow::Context;
 use gpu::Gpu;
 use pathtrace::{SamplerKind, Stats, Tracer};
@@ -66,8 +66,13 @@ fn save(args: &RenderArgs, scene: &Scene, rendered: &Rendered) -> anyhow::Result
         recipe: args.pane.recipe(),
         size: args.size,
     };
-    let spp = rendered.film.samples_per_pixel();
-    let records = provenance.records(scene, spp, rendered.seconds, &rendered.adapter);
+    let made = Made {
+        spp: rendered.film.samples_per_pixel(),
+        seconds: rendered.seconds,
+        adapter: &rendered.adapter,
+        exposure: args.exposure,
+    };
+    let records = provenance.records(scene, made);
     let radiances: Vec<Vec3> = rendered.film.radiances().collect();
     let picture = Linear { width: args.size.0, height: args.size.1, radiances: &radiances };
     let kind = Kind::of(&args.out).context("a picture's name must end in .png or .exr")?;
@@ -199,7 +204,9 @@ fn report(args: &RenderArgs, scene: &Scene, rendered: &Rendered) -> serde_json::
         Recipe::Fake(fake) => report["fake"] = json!(fake.fake.name()),
         Recipe::Rays(rays) => {
             for (name, value) in rays.options(rendered.film.samples_per_pixel()).into_iter().skip(1) {
-                report[name.replace('-', "_")] = json!(value);
+                let counts = ["seed", "branches", "depth", "shadow-rays"].contains(&name);
+                let number = value.parse::<u64>().ok().filter(|_| counts);
+                report[name.replace('-', "_")] = number.map_or_else(|| json!(value), |number| json!(number));
             }
             report["cut_paths"] = json!(rendered.stats.cut_paths);
             report["standard_error"] = json!(rendered.film.standard_error());

@@ -18,16 +18,17 @@ pub fn bytes(picture: Linear, records: &Records) -> anyhow::Result<Vec<u8>> {
     let mut attributes = exr::LayerAttributes::named("radiance");
     attributes.software_name = exr::Text::new_or_none(concat!("Visavis ", env!("CARGO_PKG_VERSION")));
     for (name, value) in records {
-        let name = exr::Text::new_or_none(format!("visavis.{name}"));
-        let value = exr::Text::new_or_none(value).map(exr::AttributeValue::Text);
-        if let (Some(name), Some(value)) = (name, value) {
-            attributes.other.insert(name, value);
-        }
+        attributes.other.insert(text(&format!("visavis.{name}")), exr::AttributeValue::Text(text(value)));
     }
     let layer = exr::Layer::new((width, height), attributes, exr::Encoding::FAST_LOSSLESS, channels);
     let mut bytes = std::io::Cursor::new(Vec::new());
     exr::Image::from_layer(layer).write().to_buffered(&mut bytes).context("cannot encode the picture as EXR")?;
     Ok(bytes.into_inner())
+}
+
+/// A text in UTF-8, which OpenEXR takes as it takes any bytes.
+fn text(words: &str) -> exr::Text {
+    exr::Text::from_slice_unchecked(words.as_bytes())
 }
 
 /// The first layer with red, green and blue.

@@ -5,7 +5,7 @@ mod exr;
 mod names;
 mod png;
 
-pub use names::{default_folder, free_name};
+pub use names::{default_folder, free_name, typed_path};
 
 use crate::technique::Records;
 use anyhow::bail;
@@ -114,24 +114,35 @@ pub fn write_whole(path: &Path, bytes: &[u8]) -> anyhow::Result<()> {
     written.with_context_path(path)
 }
 
-/// As [`write_whole`], but never over another file: if `path` was taken meanwhile, that is an error.
+/// As [`write_whole`], but never over another file: where there is one, a number is added to the name. Returns the name.
 ///
 /// # Errors
 /// As [`write_whole`].
-pub fn write_new(path: &Path, bytes: &[u8]) -> anyhow::Result<()> {
+pub fn write_new(path: &Path, bytes: &[u8]) -> anyhow::Result<PathBuf> {
     let partial = partial_path(path);
-    let written = std::fs::File::create(&partial)
-        .and_then(|mut file| file.write_all(bytes).and_then(|()| file.sync_all()))
-        .and_then(|()| move_to_new(&partial, path));
+    let written =
+        std::fs::File::create(&partial).and_then(|mut file| file.write_all(bytes).and_then(|()| file.sync_all()));
+    let moved = written.with_context_path(path).and_then(|()| {
+        loop {
+            let free = free_name(path)?;
+            match move_to_new(&partial, &free) {
+                // someone else was faster
+                Err(e) if e.kind() == std::io::ErrorKind::AlreadyExists => {}
+                moved => return moved.with_context_path(&free).map(|()| free),
+            }
+        }
+    });
     // it is the picture by another name now, or what is half written and must not stay
     let _ = std::fs::remove_file(&partial);
-    written.with_context_path(path)
+    moved
 }
 
 /// A second name fails where there is a file already, which moving does not; some file systems know no second names.
 fn move_to_new(partial: &Path, path: &Path) -> std::io::Result<()> {
     match std::fs::hard_link(partial, path) {
-        Err(e) if e.kind() != std::io::ErrorKind::AlreadyExists && !path.exists() => std::fs::rename(partial, path),
+        Err(e) if e.kind() != std::io::ErrorKind::AlreadyExists && path.symlink_metadata().is_err() => {
+            std::fs::rename(partial, path)
+        }
         outcome => outcome,
     }
 }

@@ -16,6 +16,18 @@ pub fn default_folder() -> anyhow::Result<PathBuf> {
     }
 }
 
+/// What a user has typed, as a path: blanks around it do not count, `~` is the home folder, and a name without a folder
+/// lies below `folder`.
+pub fn typed_path(typed: &str, folder: &Path) -> PathBuf {
+    let typed = typed.trim();
+    let home = || std::env::var_os("HOME").map(PathBuf::from);
+    match (typed.strip_prefix('~'), home()) {
+        (Some(""), Some(home)) => home,
+        (Some(rest), Some(home)) if rest.starts_with('/') => home.join(&rest[1..]),
+        _ => folder.join(typed),
+    }
+}
+
 /// `path` itself, or the first of `stem-2.png`, `stem-3.png`, ... beside it that does not exist yet.
 ///
 /// # Errors
@@ -24,6 +36,6 @@ pub fn free_name(path: &Path) -> anyhow::Result<PathBuf> {
     let stem = path.file_stem().unwrap_or_default().to_string_lossy();
     let extension = path.extension().unwrap_or_default().to_string_lossy();
     let numbered = (2..10_000).map(|n| path.with_file_name(format!("{stem}-{n}.{extension}")));
-    let free = std::iter::once(path.to_owned()).chain(numbered).find(|path| !path.exists());
+    let free = std::iter::once(path.to_owned()).chain(numbered).find(|path| path.symlink_metadata().is_err());
     free.with_context(|| format!("too many pictures of this name: {}", path.display()))
 }

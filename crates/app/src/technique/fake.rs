@@ -29,6 +29,15 @@ impl FakeSettings {
         scene
     }
 
+    /// Takes `scene`'s own numbers again, and looks at the picture where it has no such map.
+    pub fn forget_the_scene(&mut self, scene: &Scene) {
+        self.reflectivity = None;
+        self.knobs = FakeKnobs { filter: self.knobs.filter, bias: self.knobs.bias, ..FakeKnobs::default() };
+        if !self.show.available(scene) {
+            self.show = Show::Picture;
+        }
+    }
+
     /// With a size, as the raster wants them.
     pub fn sized(&self, width: u32, height: u32) -> RasterSettings {
         RasterSettings { width, height, fake: self.fake, shading: self.shading, knobs: self.knobs, show: self.show }

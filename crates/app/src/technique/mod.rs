@@ -5,7 +5,7 @@ mod provenance;
 mod rays;
 
 pub use fake::FakeSettings;
-pub use provenance::{Provenance, Records};
+pub use provenance::{Made, Provenance, Records};
 pub use rays::{Method, RaySettings, TreeSettings, TruthSettings, bounces_name, roulette_name};
 
 use scene::Scene;
@@ -88,6 +88,12 @@ impl PaneSettings {
             Technique::Whitted => Recipe::Rays(self.whitted.into()),
             Technique::Path => Recipe::Rays(self.truth.into()),
         }
+    }
+
+    /// Takes `scene`'s own numbers again, and looks at the picture where it has no such map.
+    pub fn forget_the_scene(&mut self, scene: &Scene) {
+        self.fake.forget_the_scene(scene);
+        self.whitted.tree.ambient = None;
     }
 
     /// Samples per pixel at which rendering stops; `None` for a technique that does not sample.

@@ -18,13 +18,27 @@ pub struct Provenance {
     pub size: (u32, u32),
 }
 
+/// What a picture took, and how it is shown.
+#[derive(Debug, Clone, Copy)]
+pub struct Made<'a> {
+    /// Samples per pixel; 1 for a technique that does not sample.
+    pub spp: u32,
+    /// Seconds of rendering.
+    pub seconds: f64,
+    /// What made it: a GPU's name, or a number of threads.
+    pub adapter: &'a str,
+    /// In stops.
+    pub exposure: f32,
+}
+
 /// Names and values, in the order in which they are written.
 pub type Records = Vec<(&'static str, String)>;
 
 impl Provenance {
-    /// What a file keeps of it; `scene` is the one that was rendered, its changes applied. `spp` and `seconds` are what
-    /// the picture took, `adapter` names what made it.
-    pub fn records(&self, scene: &Scene, spp: u32, seconds: f64, adapter: &str) -> Records {
+    /// What a file keeps of it, with the command that makes it as a PNG; `scene` is the one that was rendered, its changes
+    /// applied.
+    pub fn records(&self, scene: &Scene, made: Made) -> Records {
+        let Made { spp, seconds, adapter, exposure } = made;
         let mut records = vec![
             ("version", env!("CARGO_PKG_VERSION").into()),
             ("scene", self.source.clone()),
@@ -40,7 +54,8 @@ impl Provenance {
         records.extend(scene.refraction_ratio().map(|ratio| ("refraction-ratio", ratio.to_string())));
         records.extend(scene.sun.map(|sun| ("sun-radius", sun.angular_radius.to_string())));
         records.extend(self.recipe.options(spp));
-        records.push(("command", self.command(spp, 0.0, "picture.exr")));
+        records.push(("exposure", exposure.to_string()));
+        records.push(("command", self.command(spp, exposure, "picture.png")));
         records
     }
 

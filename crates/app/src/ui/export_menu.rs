@@ -40,10 +40,11 @@ impl What {
 }
 
 impl ExportMenu {
-    /// The file for the picture as seen: in the folder of what was typed, or the default one.
+    /// The file for the picture as seen: in the folder that was typed, or the default one.
     pub fn seen_file(&self, viewer: &Viewer) -> PathBuf {
-        let typed = Path::new(&self.file).parent().filter(|folder| folder.is_dir() && *folder != Path::new(""));
-        typed.map_or_else(default_folder, Path::to_owned).join(format!("{}.png", stem(viewer, What::Seen)))
+        let typed = picture_file::typed_path(&self.file, &default_folder());
+        let folder = if typed.is_dir() { typed } else { typed.parent().map_or_else(default_folder, Path::to_owned) };
+        folder.join(format!("{}.png", stem(viewer, What::Seen)))
     }
 }
 
@@ -97,7 +98,11 @@ fn choice(viewer: &mut Viewer, ui: &mut Ui, dump: &mut Dump) {
         ui.horizontal(|ui| {
             for (exr, text) in [(false, "PNG as shown"), (true, "EXR linear")] {
                 let item = ui.radio_value(&mut menu.exr, exr, text);
-                dump.note(&format!("format {text}"), menu.exr == exr, item);
+                let item = dump.note(&format!("format {text}"), menu.exr == exr, item);
+                if item.clicked() && Kind::of(Path::new(menu.file.trim())).is_some() {
+                    let named = Path::new(menu.file.trim()).with_extension(if exr { "exr" } else { "png" });
+                    menu.file = named.display().to_string();
+                }
             }
         });
     }
@@ -105,7 +110,10 @@ fn choice(viewer: &mut Viewer, ui: &mut Ui, dump: &mut Dump) {
 
 fn file(viewer: &mut Viewer, ui: &mut Ui, dump: &mut Dump, requests: &mut Vec<Request>) {
     let what = viewer.export.what;
-    let exr = viewer.export.exr && what != What::Seen;
+    let menu = &mut viewer.export;
+    // a name that says its kind has chosen it
+    menu.exr = Kind::of(Path::new(menu.file.trim())).map_or(menu.exr, |kind| kind == Kind::Exr);
+    let exr = menu.exr && what != What::Seen;
     let proposal = default_folder().join(format!("{}.{}", stem(viewer, what), if exr { "exr" } else { "png" }));
     let label = ui.label("File");
     let hint = proposal.display().to_string();
@@ -132,14 +140,10 @@ fn file(viewer: &mut Viewer, ui: &mut Ui, dump: &mut Dump, requests: &mut Vec<Re
 
 /// What was typed, as far as it goes: a folder takes the proposed name, a name without a kind takes the proposed one.
 fn typed_file(typed: &str, proposal: PathBuf) -> PathBuf {
-    let typed = typed.trim();
-    if typed.is_empty() {
+    if typed.trim().is_empty() {
         return proposal;
     }
-    let path = match (typed.strip_prefix("~/"), std::env::var_os("HOME")) {
-        (Some(rest), Some(home)) => PathBuf::from(home).join(rest),
-        _ => PathBuf::from(typed),
-    };
+    let path = picture_file::typed_path(typed, proposal.parent().unwrap_or(Path::new("")));
     if path.is_dir() {
         return path.join(proposal.file_name().unwrap_or_default());
     }
@@ -166,10 +170,10 @@ mod tests {
     fn a_typed_name_is_completed_from_the_proposal() {
         let proposal = PathBuf::from("/home/pictures/visavis.exr");
         assert_eq!(typed_file(" ", proposal.clone()), proposal);
-        assert_eq!(typed_file("a/b", proposal.clone()), Path::new("a/b.exr"));
-        assert_eq!(typed_file("b.png", proposal.clone()), Path::new("b.png"));
+        assert_eq!(typed_file("a/b", proposal.clone()), Path::new("/home/pictures/a/b.exr"));
+        assert_eq!(typed_file(" /b.png ", proposal.clone()), Path::new("/b.png"));
         // the exporter says what it thinks of that
-        assert_eq!(typed_file("b.gif", proposal.clone()), Path::new("b.gif"));
+        assert_eq!(typed_file("/b.gif", proposal.clone()), Path::new("/b.gif"));
         let folder = std::env::temp_dir();
         assert_eq!(typed_file(&folder.display().to_string(), proposal), folder.join("visavis.exr"));
     }

@@ -12,6 +12,12 @@ const MOUSE: [(&str, &str); 5] = [
 ];
 
 pub fn show(viewer: &mut Viewer, ui: &mut Ui, dump: &mut Dump) {
+    if viewer.help && !viewer.memory.help_was_open {
+        // egui lays a new window out twice: once to measure it
+        ui.ctx().request_discard("the help is new");
+        ui.ctx().request_repaint();
+    }
+    viewer.memory.help_was_open = viewer.help;
     let mut open = viewer.help;
     let tallest = ui.ctx().content_rect().height() - 80.0;
     let window = egui::Window::new("Mouse and keys").open(&mut open).collapsible(false).resizable(false);

@@ -24,7 +24,7 @@ pub const KEYS: [(&str, &str); 14] = [
 ];
 
 pub fn listen(viewer: &mut Viewer, ctx: &egui::Context, requests: &mut Vec<Request>) {
-    let command = |key| ctx.input_mut(|i| i.consume_key(Modifiers::COMMAND, key));
+    let command = |key| pressed(ctx, key, Modifiers::COMMAND) > 0;
     if command(Key::S) {
         let to = Destination::File(viewer.export.seen_file(viewer));
         requests.push(Request::Export { what: What::Seen, to });
@@ -38,32 +38,42 @@ pub fn listen(viewer: &mut Viewer, ctx: &egui::Context, requests: &mut Vec<Reque
     if ctx.input(|i| i.events.contains(&Event::Copy)) {
         requests.push(Request::Export { what: What::Seen, to: Destination::Clipboard });
     }
-    let shifted = Modifiers::COMMAND | Modifiers::SHIFT;
-    if ctx.input_mut(|i| i.consume_key(shifted, Key::Z)) || command(Key::Y) {
-        viewer.redo();
-    } else if command(Key::Z) {
+    for _ in 0..pressed(ctx, Key::Z, Modifiers::COMMAND) {
         viewer.undo();
+    }
+    for _ in 0..pressed(ctx, Key::Z, Modifiers::COMMAND | Modifiers::SHIFT) + pressed(ctx, Key::Y, Modifiers::COMMAND) {
+        viewer.redo();
     }
     letters(viewer, ctx);
 }
 
+/// How often a key went down with just these modifiers since the last frame. Two presses within one slow frame are two; a
+/// key that is held is one.
+fn pressed(ctx: &egui::Context, wanted: Key, with: Modifiers) -> usize {
+    let is_wanted = |event: &&Event| match event {
+        Event::Key { key, pressed: true, repeat: false, modifiers, .. } => {
+            *key == wanted && modifiers.matches_exact(with)
+        }
+        _ => false,
+    };
+    ctx.input(|i| i.events.iter().filter(is_wanted).count())
+}
+
 fn letters(viewer: &mut Viewer, ctx: &egui::Context) {
-    // every press counts, also two within one slow frame
-    let presses = |key| if ctx.input(|i| i.modifiers.is_none()) { ctx.input(|i| i.num_presses(key)) } else { 0 };
-    let pressed = |key| presses(key) > 0;
+    let presses = |key| pressed(ctx, key, Modifiers::NONE);
     let turned_over = |key| presses(key) % 2 == 1;
     for _ in 0..presses(Key::T) {
         viewer.toggle();
     }
     for (key, view) in [Key::Num1, Key::Num2, Key::Num3, Key::Num4].into_iter().zip(View::ALL) {
-        if pressed(key) {
+        for _ in 0..presses(key) {
             viewer.choose(view);
         }
     }
     viewer.paused ^= turned_over(Key::P);
     viewer.panel ^= turned_over(Key::H);
     viewer.restarts += presses(Key::R) as u64;
-    if pressed(Key::C) {
+    if presses(Key::C) > 0 {
         viewer.camera = viewer.scene.camera;
     }
     if ctx.input(|i| i.key_pressed(Key::Questionmark)) {

@@ -1,4 +1,4 @@
-//! The last thing worth saying: good news goes away by itself, bad news stays until the next.
+//! The last thing worth saying: good news goes away by itself, bad news at the next key or click.
 
 use std::time::{Duration, Instant};
 
@@ -12,6 +12,9 @@ pub struct Message {
     since: Instant,
 }
 
+/// How long a message is at least there, whatever the user does.
+const LEAST: Duration = Duration::from_secs(2);
+
 /// How long good news stays.
 const STAY: Duration = Duration::from_secs(6);
 
@@ -20,6 +23,11 @@ impl Message {
     pub fn new(outcome: Result<String, String>) -> Self {
         let failed = outcome.is_err();
         Message { text: outcome.unwrap_or_else(|fault| fault), failed, since: Instant::now() }
+    }
+
+    /// Whether it has been there long enough to have been read.
+    pub fn is_old(&self) -> bool {
+        self.since.elapsed() > LEAST
     }
 
     /// How long it still stays; `None` for a failure, which stays.

@@ -54,9 +54,9 @@ impl History {
         }
     }
 
-    /// Whether there is something to undo.
-    pub fn can_undo(&self) -> bool {
-        !self.earlier.is_empty()
+    /// Whether there is something to undo: a step, or a change that is not over yet.
+    pub fn can_undo(&self, settings: &Settings) -> bool {
+        !self.earlier.is_empty() || *settings != self.settled
     }
 
     /// Whether there is something to do again.
@@ -64,15 +64,17 @@ impl History {
         !self.undone.is_empty()
     }
 
-    /// The settings before the last change.
-    pub fn undo(&mut self) -> Option<Settings> {
+    /// The settings before the last change; one that is not over yet ends here.
+    pub fn undo(&mut self, settings: &Settings) -> Option<Settings> {
+        self.note(settings, false);
         let earlier = self.earlier.pop()?;
         self.undone.push(std::mem::replace(&mut self.settled, earlier));
         Some(earlier)
     }
 
     /// The settings that the last undo took away.
-    pub fn redo(&mut self) -> Option<Settings> {
+    pub fn redo(&mut self, settings: &Settings) -> Option<Settings> {
+        self.note(settings, false);
         let later = self.undone.pop()?;
         self.earlier.push(std::mem::replace(&mut self.settled, later));
         Some(later)
@@ -93,18 +95,29 @@ mod tests {
         for (exposure, busy) in [(0.5, true), (1.0, true), (2.0, false)] {
             history.note(&exposed(exposure), busy);
         }
-        assert_eq!(history.undo(), Some(exposed(0.0)));
-        assert_eq!(history.undo(), None);
-        assert_eq!(history.redo(), Some(exposed(2.0)));
-        assert!(!history.can_redo() && history.can_undo());
+        assert_eq!(history.undo(&exposed(2.0)), Some(exposed(0.0)));
+        assert_eq!(history.undo(&exposed(0.0)), None);
+        assert_eq!(history.redo(&exposed(0.0)), Some(exposed(2.0)));
+        assert!(!history.can_redo() && history.can_undo(&exposed(2.0)));
     }
 
     #[test]
     fn a_new_change_forgets_what_was_undone() {
         let mut history = History::new(exposed(0.0));
         history.note(&exposed(1.0), false);
-        history.undo();
+        history.undo(&exposed(1.0));
         history.note(&exposed(3.0), false);
-        assert_eq!((history.redo(), history.undo()), (None, Some(exposed(0.0))));
+        assert_eq!((history.redo(&exposed(3.0)), history.undo(&exposed(3.0))), (None, Some(exposed(0.0))));
+    }
+
+    /// A number that is still being typed is a step of its own when undo is asked for.
+    #[test]
+    fn undo_takes_back_a_change_that_is_not_over_and_nothing_else() {
+        let mut history = History::new(exposed(0.0));
+        history.note(&exposed(1.0), false);
+        history.note(&exposed(7.0), true);
+        assert!(history.can_undo(&exposed(7.0)));
+        assert_eq!(history.undo(&exposed(7.0)), Some(exposed(1.0)));
+        assert_eq!(history.redo(&exposed(1.0)), Some(exposed(7.0)));
     }
 }

@@ -1,9 +1,11 @@
 //! The bar above the picture: scene, view, export, look. It wraps where the window is narrow.
 
 use super::{Dump, Pane, Request, Theme, View, Viewer, export_menu};
+use crate::picture_file;
 use egui::containers::menu::{MenuButton, MenuConfig};
 use egui::{Button, PopupCloseBehavior, Ui};
 use scene::builtin;
+use std::path::Path;
 
 /// The most letters of a scene's name that the bar shows.
 const MOST_LETTERS: usize = 18;
@@ -35,7 +37,7 @@ pub fn show(viewer: &mut Viewer, ui: &mut Ui, panes: &[Pane; 2], dump: &mut Dump
 }
 
 fn steps(viewer: &mut Viewer, ui: &mut Ui, dump: &mut Dump) {
-    let [can_undo, can_redo] = [viewer.history.can_undo(), viewer.history.can_redo()];
+    let [can_undo, can_redo] = [viewer.history.can_undo(&viewer.settings), viewer.history.can_redo()];
     let undo = ui.add_enabled(can_undo, Button::new("Undo"));
     if dump.note("undo", can_undo, undo.on_hover_text("Take back the last change of a setting (Ctrl+Z)")).clicked() {
         viewer.undo();
@@ -95,8 +97,11 @@ fn scene_menu(viewer: &mut Viewer, ui: &mut Ui, dump: &mut Dump, requests: &mut 
         let entered = line.lost_focus() && ui.input(|i| i.key_pressed(egui::Key::Enter));
         dump.note("scene file", &viewer.memory.file_name, line);
         let open = dump.note("open", "", ui.add(framed("Open", ui)));
-        if (open.clicked() || entered) && !viewer.memory.file_name.is_empty() {
-            requests.push(Request::Open(viewer.memory.file_name.clone()));
+        let typed = viewer.memory.file_name.trim();
+        if (open.clicked() || entered) && !typed.is_empty() {
+            let built_in = builtin::text(typed).is_some();
+            let path = picture_file::typed_path(typed, Path::new(""));
+            requests.push(Request::Open(if built_in { typed.to_owned() } else { path.display().to_string() }));
             ui.close();
         }
     });

@@ -78,6 +78,8 @@ pub(super) struct Memory {
     pub probabilities: [f32; 2],
     /// Whether the drag in hand moves the line.
     pub dragging_line: bool,
+    /// Whether the help was there in the last frame.
+    pub help_was_open: bool,
 }
 
 impl Viewer {
@@ -111,18 +113,20 @@ impl Viewer {
                 bounce_limits: [2; 2],
                 probabilities: [0.8; 2],
                 dragging_line: false,
+                help_was_open: false,
             },
             dressed: None,
         }
     }
 
-    /// Shows another scene from its own camera; the settings of the panes stay.
+    /// Shows another scene from its own camera. What was set against the scene before goes; techniques and their ways stay.
     pub fn open(&mut self, scene: Scene, source: String) {
         self.camera = scene.camera;
         self.scene = Arc::new(scene);
         self.source = source;
         self.opened += 1;
         self.settings.changes = Default::default();
+        self.settings.panes.iter_mut().for_each(|pane| pane.forget_the_scene(&self.scene));
         self.history = History::new(self.settings);
         self.bookmarks.clear();
     }
@@ -158,11 +162,11 @@ impl Viewer {
     }
 
     pub(super) fn undo(&mut self) {
-        self.settings = self.history.undo().unwrap_or(self.settings);
+        self.settings = self.history.undo(&self.settings).unwrap_or(self.settings);
     }
 
     pub(super) fn redo(&mut self) {
-        self.settings = self.history.redo().unwrap_or(self.settings);
+        self.settings = self.history.redo(&self.settings).unwrap_or(self.settings);
     }
 
     /// A becomes B and B becomes A; from a view of both it goes to A.

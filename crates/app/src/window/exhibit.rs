@@ -1,7 +1,7 @@
 //! What hangs in the window: for each pane its texture, what the UI says about it, and the picture itself for export.
 
 use super::textures::PaneTexture;
-use crate::technique::Records;
+use crate::technique::{Made, Records};
 use crate::ui::{Pane, Viewer};
 use crate::workers::darkroom::{News, Shelf};
 use crate::workers::exporter::Content;
@@ -55,10 +55,13 @@ impl Exhibit {
     /// One pane for export; `None` while there is nothing but a rough picture.
     pub fn pane(&self, side: Side, display: DisplayTransform) -> Option<(Content, Records)> {
         let picture = self.pictures[side as usize].as_ref().filter(|picture| !picture.rough)?;
-        let order = &picture.order;
-        let mut records =
-            order.provenance.records(&order.scene, picture.spp.unwrap_or(1), picture.seconds, &picture.adapter);
-        records.push(("exposure", display.exposure.to_string()));
+        let made = Made {
+            spp: picture.spp.unwrap_or(1),
+            seconds: picture.seconds,
+            adapter: &picture.adapter,
+            exposure: display.exposure,
+        };
+        let records = picture.order.provenance.records(&picture.order.scene, made);
         Some((Content::Pane(picture.clone(), display), records))
     }
 
@@ -73,7 +76,7 @@ impl Exhibit {
         for ((name, out), picture) in [("A", "a.png"), ("B", "b.png")].into_iter().zip(&self.pictures) {
             if let Some(picture) = picture {
                 let command = picture.order.provenance.command(picture.spp.unwrap_or(1), exposure, out);
-                records.push((name, command));
+                records.push((name, if picture.rough { format!("rough, in full: {command}") } else { command }));
             }
         }
         records

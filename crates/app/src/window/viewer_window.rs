@@ -37,7 +37,9 @@ pub struct ViewerWindow {
     window: Arc<Window>,
     next_frame: Option<Instant>,
     /// Where the next frame's picture goes, beside the screen.
-    pose: Option<Destination>,
+    poses: Vec<Destination>,
+    /// Whether the window closes once those pictures are taken.
+    quitting: bool,
     stopwatch: Stopwatch,
     stats: FrameStats,
     /// The last frame's widgets, and physical pixels per point.
@@ -97,7 +99,8 @@ impl ViewerWindow {
             gpu,
             window,
             next_frame: None,
-            pose: None,
+            poses: Vec::new(),
+            quitting: false,
             stopwatch: Stopwatch::new(started),
             stats: FrameStats::default(),
             dump: Dump::default(),
@@ -150,8 +153,8 @@ impl ViewerWindow {
     pub fn frame(&mut self) -> bool {
         let clock = Clock::start();
         self.collect();
-        let pose = self.pose.take();
-        self.viewer.posing = pose.is_some();
+        let poses = std::mem::take(&mut self.poses);
+        self.viewer.posing = !poses.is_empty();
         let input = self.egui.take_egui_input(&self.window);
         let context = self.egui.egui_ctx().clone();
         let mut requests = Vec::new();
@@ -170,14 +173,11 @@ impl ViewerWindow {
         let jobs = context.tessellate(output.shapes, self.scale);
         let screen = ScreenDescriptor { size_in_pixels: self.surface.size(), pixels_per_point: self.scale };
         let painting = Painting { jobs: &jobs, screen };
-        let quit = requests.contains(&Request::Quit);
         requests.into_iter().for_each(|request| self.grant(request));
         let asked = self.crew.ask(&self.viewer);
         asked.into_iter().flatten().for_each(|job| self.stopwatch.asked(job));
         self.stats.note(self.viewer.view, clock.elapsed());
-        if let Some(to) = pose {
-            self.capture(&painting, to);
-        }
+        poses.into_iter().for_each(|to| self.capture(&painting, to));
         let shown = self.surface.present(&self.gpu, &painting);
         for id in &textures.free {
             self.surface.renderer.free_texture(id);
@@ -192,7 +192,7 @@ impl ViewerWindow {
             Presented::Skipped => wish.min(RETRY),
         };
         self.next_frame = Instant::now().checked_add(delay);
-        quit
+        self.quitting && self.poses.is_empty()
     }
 
     /// Takes what the workers have finished.
@@ -221,10 +221,10 @@ impl ViewerWindow {
 
     fn grant(&mut self, request: Request) {
         match request {
-            Request::Export { what: What::Seen, to } => self.pose = Some(to),
+            Request::Export { what: What::Seen, to } => self.poses.push(to),
             Request::Export { what: What::Pane(side), to } => self.export_pane(side, to),
             Request::Open(name) => self.crew.load(name),
-            Request::Quit => {}
+            Request::Quit => self.quitting = true,
         }
         self.request_frame();
     }
@@ -288,6 +288,7 @@ impl ViewerWindow {
             "fov": self.viewer.camera.fov_y,
             "message": self.viewer.message.as_ref().map(|m| &m.text),
             "focus_id": self.egui.egui_ctx().memory(|m| m.focused()).map(|id| id.value()),
+            "pressing": self.egui.egui_ctx().input(|i| i.pointer.any_down()),
             "typing": self.egui.egui_ctx().text_edit_focused(),
             "a": panes[0],
             "b": panes[1],

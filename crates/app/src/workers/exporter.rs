@@ -118,9 +118,7 @@ fn save(export: &Export, path: &Path) -> anyhow::Result<PathBuf> {
             picture_file::encode(kind, linear, display, &export.records)?
         }
     };
-    let path = picture_file::free_name(path)?;
-    picture_file::write_new(&path, &bytes)?;
-    Ok(path)
+    picture_file::write_new(path, &bytes)
 }
 
 fn copy(export: &Export, clipboard: &mut Option<arboard::Clipboard>) -> anyhow::Result<()> {

@@ -1,5 +1,6 @@
-//! The thread that traces rays: a rough picture at once, then ever more samples, until the wished number or a new job. A
-//! job that differs only in the wished number goes on where the last one stopped.
+//! The thread that traces rays: a rough picture at once, then ever more samples, until the wished number or a new job. The
+//! last films are kept: a job that differs only in the wished number goes on where one of them stopped, and a view that
+//! was left for a moment is there again.
 
 use super::darkroom::Darkroom;
 use super::{Inbox, Job, Picture, Side};
@@ -22,6 +23,8 @@ pub struct RayWorker {
     inbox: Arc<Inbox<Option<Commission>>>,
     /// Stops the job in hand.
     cancel: Arc<AtomicBool>,
+    /// The job in hand, or the last one.
+    last: Option<RayJob>,
     gate: Arc<Gate>,
     thread: Option<JoinHandle<()>>,
 }
@@ -35,6 +38,9 @@ const ROUGH: Duration = Duration::from_millis(20);
 /// Least and most time between two pictures once the resolution is full: an eighth of the time spent so far, because
 /// showing costs too, and a picture changes ever less.
 const REFRESH: [Duration; 2] = [Duration::from_millis(150), Duration::from_secs(1)];
+
+/// Films that are kept beside the one in hand: one to come back to.
+const MOST_KEPT: usize = 2;
 
 impl RayWorker {
     /// Starts the thread and its pool, which leaves one core to the UI.
@@ -59,31 +65,37 @@ impl RayWorker {
                     gate,
                     adapter: format!("{} threads", pool.current_num_threads()).into(),
                     tracer: None,
-                    exposed: None,
+                    kept: Vec::new(),
                     seconds_per_sample: 1e-6,
                     begun: Instant::now(),
                 };
                 while let Some(commission) = commissions.take() {
                     if let Some((job, cancel)) = commission {
-                        pool.install(|| painter.paint(&job, &cancel));
+                        let stop = Stop { cancel: &cancel, newer: &|| commissions.has_fresh() };
+                        pool.install(|| painter.paint(&job, &stop));
                     }
                 }
             }
         })?;
-        Ok(RayWorker { inbox, cancel: Arc::default(), gate, thread: Some(thread) })
+        Ok(RayWorker { inbox, cancel: Arc::default(), last: None, gate, thread: Some(thread) })
     }
 
-    /// Asks for a picture; the one in hand stops at once.
+    /// Asks for a picture. The one in hand stops at once, or after its pass if it only shall have more or fewer samples.
     pub fn submit(&mut self, job: RayJob) {
-        self.cancel();
+        if !self.last.as_ref().is_some_and(|last| same_picture(last, &job)) {
+            self.cancel();
+        }
+        self.last = Some(job.clone());
         let cancel = self.cancel.clone();
         self.inbox.post(|slot| *slot = Some((job, cancel)));
+        self.gate.look_again();
     }
 
     /// Stops the picture in hand.
     pub fn cancel(&mut self) {
         self.cancel.store(true, Ordering::Relaxed);
         self.cancel = Arc::default();
+        self.last = None;
         self.inbox.post(|slot| *slot = None);
         self.gate.look_again();
     }
@@ -124,16 +136,34 @@ impl Gate {
         self.changed.notify_all();
     }
 
-    /// Waits until the gate is open or the job is cancelled; `before` runs once if there is anything to wait for.
-    fn pass(&self, cancel: &AtomicBool, before: impl FnOnce()) {
+    /// Waits until the gate is open or the job shall stop; `before` runs once if there is anything to wait for.
+    fn pass(&self, stop: &Stop, before: impl FnOnce()) {
         let mut before = Some(before);
         let mut held = self.held.lock().unwrap_or_else(PoisonError::into_inner);
-        while *held && !cancel.load(Ordering::Relaxed) {
+        while *held && !stop.soon() {
             if let Some(before) = before.take() {
                 before();
             }
             held = self.changed.wait(held).unwrap_or_else(PoisonError::into_inner);
         }
+    }
+}
+
+/// When a job ends before it is done.
+struct Stop<'a> {
+    cancel: &'a AtomicBool,
+    newer: &'a (dyn Fn() -> bool + Sync),
+}
+
+impl Stop<'_> {
+    /// At once, in the middle of a sample's pass.
+    fn now(&self) -> bool {
+        self.cancel.load(Ordering::Relaxed)
+    }
+
+    /// After the pass in hand.
+    fn soon(&self) -> bool {
+        self.now() || (self.newer)()
     }
 }
 
@@ -155,8 +185,8 @@ struct Painter {
     adapter: Arc<str>,
     /// The scene of the last job, ready for rays.
     tracer: Option<(Arc<Scene>, Tracer)>,
-    /// The film of the last job.
-    exposed: Option<Exposed>,
+    /// The films of the last jobs, the latest last.
+    kept: Vec<Exposed>,
     /// Measured on the last job: what one sample of one pixel costs on the whole pool.
     seconds_per_sample: f64,
     /// When the job in hand was begun.
@@ -164,21 +194,36 @@ struct Painter {
 }
 
 impl Painter {
-    fn paint(&mut self, job: &RayJob, cancel: &AtomicBool) {
+    fn paint(&mut self, job: &RayJob, stop: &Stop) {
         self.begun = Instant::now();
         let tracer = match self.tracer.take() {
             Some((scene, tracer)) if Arc::ptr_eq(&scene, &job.order.scene) => tracer,
-            _ => Tracer::new(&job.order.scene),
-        };
-        let exposed = match self.exposed.take().filter(|exposed| exposed.serves(job)) {
-            Some(exposed) => Some(Exposed { job: job.clone(), ..exposed }),
-            None => {
-                self.rough(&tracer, job, cancel);
-                self.blank(job)
+            _ => {
+                self.kept.clear();
+                Tracer::new(&job.order.scene)
             }
         };
-        self.exposed = exposed.and_then(|exposed| self.refine(&tracer, exposed, cancel));
+        let exposed = match self.best_kept(job) {
+            Some(exposed) => Some(Exposed { job: job.clone(), ..exposed }),
+            None => {
+                self.rough(&tracer, job, stop);
+                if stop.now() { None } else { self.blank(job) }
+            }
+        };
+        let exposed = exposed.map(|exposed| self.refine(&tracer, exposed, stop));
+        self.kept.extend(exposed.filter(|exposed| exposed.spp > 0));
+        if self.kept.len() > MOST_KEPT {
+            self.kept.remove(0);
+        }
         self.tracer = Some((job.order.scene.clone(), tracer));
+    }
+
+    /// The kept film that is nearest to what `job` asks for, of the same picture.
+    fn best_kept(&mut self, job: &RayJob) -> Option<Exposed> {
+        let serves = |exposed: &Exposed| same_picture(&exposed.job, job) && exposed.spp <= job.settings.spp;
+        let serving = self.kept.iter().enumerate().filter(|(_, exposed)| serves(exposed));
+        let (index, _) = serving.max_by_key(|(_, exposed)| exposed.spp)?;
+        Some(self.kept.remove(index))
     }
 
     /// A film without light, or a word that there is no memory for it.
@@ -193,7 +238,7 @@ impl Painter {
     }
 
     /// Pictures of an eighth, a quarter and half the resolution, beginning with the finest that is ready in time.
-    fn rough(&mut self, tracer: &Tracer, job: &RayJob, cancel: &AtomicBool) {
+    fn rough(&mut self, tracer: &Tracer, job: &RayJob, stop: &Stop) {
         let (width, height) = job.order.size();
         let pixels = f64::from(width) * f64::from(height);
         let budget = ROUGH.as_secs_f64() / self.seconds_per_sample;
@@ -207,7 +252,7 @@ impl Painter {
             let samples = ((budget / pixels) as u32).clamp(1, job.settings.spp.min(16));
             let start = Instant::now();
             let (begun, first) = (self.begun, !shown);
-            let stop = || cancel.load(Ordering::Relaxed) && !(first && begun.elapsed() < GRACE);
+            let stop = || stop.now() && !(first && begun.elapsed() < GRACE);
             self.expose(tracer, &mut film, job, samples, &stop);
             if stop() {
                 return;
@@ -217,8 +262,9 @@ impl Painter {
         }
     }
 
-    /// Adds samples up to the wished number; `None` if it was stopped halfway through a sample.
-    fn refine(&mut self, tracer: &Tracer, mut exposed: Exposed, cancel: &AtomicBool) -> Option<Exposed> {
+    /// Adds samples up to the wished number, or as many as there is time for. A pass that was stopped in the middle is
+    /// completed by the next one.
+    fn refine(&mut self, tracer: &Tracer, mut exposed: Exposed, stop: &Stop) -> Exposed {
         let wished = exposed.job.settings.spp;
         let mut shown = Instant::now();
         // a film that goes on is shown at once, for the label says how far it shall go
@@ -226,15 +272,22 @@ impl Painter {
             self.show(&exposed);
         }
         while exposed.spp < wished {
+            // while held, a new picture still gets its first pass
+            if exposed.spp > 0 {
+                self.gate.pass(stop, || self.show(&exposed));
+            }
+            if stop.soon() {
+                break;
+            }
             let start = Instant::now();
             let per_pass = self.seconds_per_sample * exposed.film.pixels().len() as f64;
             let refresh = (exposed.spent / 8).clamp(REFRESH[0], REFRESH[1]);
             let fitting = (refresh.as_secs_f64() / per_pass) as u32;
             let samples = fitting.clamp(1, exposed.spp.max(1)).min(wished - exposed.spp);
             let Exposed { film, job, .. } = &mut exposed;
-            self.expose(tracer, film, job, samples, &|| cancel.load(Ordering::Relaxed));
-            if cancel.load(Ordering::Relaxed) {
-                return None;
+            self.expose(tracer, film, job, samples, &|| stop.now());
+            if stop.now() {
+                break;
             }
             exposed.spp += samples;
             exposed.spent += start.elapsed();
@@ -242,14 +295,8 @@ impl Painter {
                 self.show(&exposed);
                 shown = Instant::now();
             }
-            if exposed.spp < wished {
-                self.gate.pass(cancel, || self.show(&exposed));
-            }
-            if cancel.load(Ordering::Relaxed) {
-                break;
-            }
         }
-        Some(exposed)
+        exposed
     }
 
     fn expose(
@@ -291,12 +338,10 @@ impl Painter {
     }
 }
 
-impl Exposed {
-    /// Whether going on with this film gives what `job` asks for.
-    fn serves(&self, job: &RayJob) -> bool {
-        let (old, new) = (&self.job, job);
-        self.spp <= new.settings.spp
-            && old.settings.method == new.settings.method
-            && (old.order.view, old.order.restarts) == (new.order.view, new.order.restarts)
-    }
+/// Whether two jobs differ in the wished number of samples alone.
+fn same_picture(a: &RayJob, b: &RayJob) -> bool {
+    let ((of_a, a), (of_b, b)) = ((&a.settings.method, &a.order), (&b.settings.method, &b.order));
+    of_a == of_b
+        && Arc::ptr_eq(&a.scene, &b.scene)
+        && (a.camera(), a.size(), a.restarts) == (b.camera(), b.size(), b.restarts)
 }

@@ -60,8 +60,38 @@ fn keys_alone_change_scene_bounces_view_export_and_quit() {
 
     screen.key('s', true);
     viewer.wait_for("the message", |f| says(f, "Saved "));
+    // both at once: what was asked for is saved before the window goes
+    screen.key('s', true);
     screen.key('q', true);
     assert!(viewer.wait_for_end().success());
+    let saved = std::fs::read_dir(viewer.home()).expect("the folder").filter_map(Result::ok);
+    assert_eq!(saved.filter(|file| file.path().extension().is_some_and(|e| e == "png")).count(), 2);
+}
+
+#[test]
+fn asking_for_more_samples_keeps_those_that_are_there() {
+    let _alone = alone();
+    let screen = Screen::start(1280, 720);
+    let (mut viewer, first) = ready(&screen, &["cornell"]);
+    let spp = |f: &Frame| f.state("b")["spp"].as_u64();
+    let some = viewer.wait_for("some samples", |f| f.state("b")["rough"] == false && spp(f) >= Some(4));
+    let [left, top, right, bottom] = first.rect("B spp");
+    let y = 0.5 * (top + bottom);
+    screen.drag([left + 0.5 * (right - left), y], [left + 0.62 * (right - left), y]);
+    let more = viewer.wait_for("the larger wish", |f| f.value("B spp") != "256");
+    assert!(more.value("B spp").parse::<u64>().expect("a number") > 256);
+    for _ in 0..20 {
+        let later = viewer.wait_for("a frame", |_| true);
+        assert!(spp(&later) >= spp(&some) && later.state("b")["rough"] == false, "the samples are gone");
+        std::thread::sleep(std::time::Duration::from_millis(50));
+    }
+    // another view and back: the picture that was left is there again
+    screen.key('p', false);
+    let held = viewer.wait_for("the pause", |f| f.value("label B").contains("paused"));
+    screen.key('4', false);
+    viewer.wait_for("another size", |f| f.state("view") == "Side by side" && both_whole(f));
+    screen.key('3', false);
+    viewer.wait_for("the samples of before", |f| f.state("view") == "Wipe" && spp(f) >= spp(&held) && both_whole(f));
 }
 
 #[test]

@@ -50,12 +50,14 @@ fn bookmarks(viewer: &mut Viewer, ui: &mut Ui, dump: &mut Dump) {
         for (index, place) in viewer.bookmarks.iter().enumerate() {
             let here = viewer.camera == *place;
             let name = format!("Place {}", index + 1);
-            let button = ui.selectable_label(here, &name).on_hover_text("Click: go there. Right click: forget it");
+            let button =
+                ui.selectable_label(here, &name).on_hover_text("Click: go there. Right click or Delete: forget it");
             let button = dump.note(&format!("bookmark {}", index + 1), here, button);
             if button.clicked() {
                 viewer.camera = *place;
             }
-            if button.secondary_clicked() {
+            let deleted = button.has_focus() && ui.input(|i| i.key_pressed(egui::Key::Delete));
+            if button.secondary_clicked() || deleted {
                 dropped = Some(index);
             }
         }

@@ -49,15 +49,25 @@ fn pane(viewer: &mut Viewer, side: Side, open: bool, ui: &mut Ui, dump: &mut Dum
             ui.strong(format!("{side:?}:"));
             techniques(viewer, side, ui, dump);
         })
-        .body_unindented(|ui| match viewer.settings.panes[side as usize].technique {
-            Technique::Raster => fake::show(viewer, side, ui, dump),
-            Technique::Whitted => whitted::show(viewer, side, ui, dump),
-            Technique::Path => truth::show(viewer, side, ui, dump),
+        .body_unindented(|ui| {
+            // both panes have controls of one name
+            ui.ctx().accesskit_node_builder(ui.unique_id(), |node| {
+                node.set_role(egui::accesskit::Role::Group);
+                node.set_label(format!("Settings of {side:?}"));
+            });
+            match viewer.settings.panes[side as usize].technique {
+                Technique::Raster => fake::show(viewer, side, ui, dump),
+                Technique::Whitted => whitted::show(viewer, side, ui, dump),
+                Technique::Path => truth::show(viewer, side, ui, dump),
+            }
         });
     dump.note(&format!("group {side:?}"), "", toggle.accessible_name(format!("Settings of {side:?}")));
 }
 
 fn techniques(viewer: &mut Viewer, side: Side, ui: &mut Ui, dump: &mut Dump) {
+    // three words and the side in one row, also where the panel is narrow
+    ui.spacing_mut().item_spacing.x = 1.0;
+    ui.spacing_mut().button_padding.x = 3.0;
     for technique in Technique::ALL {
         let chosen = viewer.settings.panes[side as usize].technique == technique;
         let hover = match technique {

@@ -30,7 +30,8 @@ impl Stepped<'_> {
         let label = dump.note(&format!("text {}", self.name), self.label, ui.label(self.label));
         let slider = Slider::new(value, self.range).step_by(self.step).clamping(SliderClamping::Edits);
         let step = self.step;
-        let slider = slider.custom_formatter(move |value, _| digits(value, step));
+        let finite = |text: &str| text.trim().parse().ok().filter(|value: &f64| value.is_finite());
+        let slider = slider.custom_formatter(move |value, _| digits(value, step)).custom_parser(finite);
         fit(ui);
         let response = ui.add(slider.suffix(self.suffix)).labelled_by(label.id).on_hover_text(self.hover);
         dump.note(self.name, *value, response).changed()

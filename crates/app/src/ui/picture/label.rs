@@ -1,6 +1,6 @@
 //! Name, cost and error of a pane, on the picture: in a corner of what is seen of it.
 
-use super::{Dump, Pane, View, Viewer, text_box};
+use super::{Dump, Pane, View, Viewer, spoken, text_box};
 use crate::ui::Line;
 use crate::workers::Side;
 use egui::{Align2, Color32, Rect, Ui, vec2};
@@ -21,6 +21,7 @@ pub fn show(viewer: &Viewer, ui: &Ui, clip: Rect, side: Side, pane: &Pane, dump:
     };
     let place = text_box(viewer, ui, clip, corner, align, &text, colour);
     dump.note_text(&format!("label {side:?}"), &text, place, clip);
+    spoken(ui, &format!("label {side:?}"), &text, place, false);
 }
 
 fn text(viewer: &Viewer, side: Side, pane: &Pane) -> String {

@@ -5,6 +5,7 @@ mod mouse;
 
 use super::{Dump, Line, Message, Pane, View, Viewer};
 use crate::workers::Side;
+use egui::accesskit;
 use egui::{Align2, Color32, FontId, Pos2, Rect, Sense, Stroke, Ui, pos2, vec2};
 
 const WHOLE: Rect = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
@@ -114,7 +115,10 @@ fn line(ui: &Ui, rect: Rect, line: Line, wipe: f32) {
 /// The hint for a newcomer, or the last thing worth saying.
 fn say(viewer: &mut Viewer, ui: &Ui, rect: Rect, dump: &mut Dump) {
     let expired = |message: &Message| message.remaining().is_some_and(|left| left.is_zero());
-    viewer.message.take_if(|message| expired(message));
+    let dismissed = ui.input(|i| {
+        i.events.iter().any(|e| matches!(e, egui::Event::Key { pressed: true, .. })) || i.pointer.any_pressed()
+    });
+    viewer.message.take_if(|message| expired(message) || (dismissed && message.is_old()));
     let (name, text, colour) = match &viewer.message {
         Some(message) => {
             ui.ctx().request_repaint_after(message.remaining().unwrap_or(std::time::Duration::MAX));
@@ -130,6 +134,19 @@ fn say(viewer: &mut Viewer, ui: &Ui, rect: Rect, dump: &mut Dump) {
     let at = rect.center_bottom() - vec2(0.0, 12.0);
     let place = text_box(viewer, ui, rect, at, Align2::CENTER_BOTTOM, &text, colour);
     dump.note_text(name, &text, place, rect);
+    spoken(ui, name, &text, place, true);
+}
+
+/// Gives painted text to screen readers; `aloud` is read out as soon as it changes.
+fn spoken(ui: &Ui, name: &str, text: &str, place: Rect, aloud: bool) {
+    let response = ui.interact(place, ui.scope_id().with(name), Sense::hover());
+    ui.ctx().accesskit_node_builder(response.id, |node| {
+        node.set_role(accesskit::Role::Status);
+        node.set_label(text.to_owned());
+        if aloud {
+            node.set_live(accesskit::Live::Polite);
+        }
+    });
 }
 
 /// Text on a dark ground that keeps it readable over any picture; returns where it is.
