@@ -14,10 +14,18 @@ const LAMP_WITHOUT_DECAY: u32 = 1u;
 const LAMP_ALL_AROUND: u32 = 2u;
 const LAMP_ONE_SIDED: u32 = 3u;
 
-const KIND_GLASS: u32 = 1u;
+// What fragments branch on is compiled in. Uniforms must not decide it: Mesa's lavapipe 22.3 compiles a fragment shader that
+// branches on a uniform anew for every draw, and keeps all of them until the pipeline goes. So `select` and `&` stand below
+// where `if` and `&&` could.
 
 // 0 hard, 1 PCF, 2 PCF soft
 override SHADOW_FILTER: u32 = 2u;
+override GLASS: bool = false;
+override SUN: bool = true;
+// one of LAMP_*
+override LAMP: u32 = 0u;
+// 0 three, or one of SHADING_*
+override SHADING: u32 = 0u;
 
 struct Lights {
     sun_towards: vec3f,
@@ -88,11 +96,11 @@ fn fragment_bits(in: Varying, @builtin(front_facing) front: bool) -> @location(0
 }
 
 fn radiance(in: Varying, front: bool) -> vec3f {
-    if object.kind == KIND_GLASS {
+    if GLASS {
         return glass(in);
     }
     let n = normalize(in.normal) * select(-1.0, 1.0, front);
-    let shines = object.emitting_sides == 2u || (object.emitting_sides == 1u && front);
+    let shines = (object.emitting_sides == 2u) | ((object.emitting_sides == 1u) & front);
     return surface(in.position, n) + select(vec3f(0.0), object.emission, shines);
 }
 
@@ -102,26 +110,23 @@ fn refracted(position: vec3f, normal: vec3f) -> vec3f {
 }
 
 fn glass(in: Varying) -> vec3f {
-    var direction = in.refracted;
-    if lights.refracts_per_vertex == 0u {
-        direction = refracted(in.position, normalize(in.normal));
-    }
-    var environment = lights.sky;
-    if object.has_cube_map != 0u && view.sees_cube_maps != 0u {
-        environment = textureSampleLevel(cube_map, cube_sampler, cube_direction(direction), 0.0).rgb;
-    }
-    return mix(vec3f(1.0), environment, object.reflectivity);
+    let per_fragment = refracted(in.position, normalize(in.normal));
+    let direction = select(per_fragment, in.refracted, lights.refracts_per_vertex != 0u);
+    // where its own may not be seen another cube map is bound, and not looked at
+    let seen = textureSampleLevel(cube_map, cube_sampler, cube_direction(direction), 0.0).rgb;
+    let sees = (object.has_cube_map != 0u) & (view.sees_cube_maps != 0u);
+    return mix(vec3f(1.0), select(lights.sky, seen, sees), object.reflectivity);
 }
 
 fn surface(p: vec3f, n: vec3f) -> vec3f {
     let kd = checkerboard(Checkerboard(object.even, object.odd, object.origin, object.cells_per_unit), p);
     let v = normalize(view.eye - p);
     var sum = kd * lights.ambient;
-    if any(lights.sun_incident > vec3f(0.0)) {
+    if SUN {
         let l = lights.sun_towards;
         sum += shadow(0u, p, dot(n, l)) * shaded(n, l, v, kd, lights.sun_incident);
     }
-    if lights.lamp_pattern != LAMP_NONE {
+    if LAMP != LAMP_NONE {
         let to_lamp = lights.lamp_position - p;
         let l = normalize(to_lamp);
         let seen = shadow(1u + face_of(-to_lamp), p, dot(n, l));
@@ -131,7 +136,7 @@ fn surface(p: vec3f, n: vec3f) -> vec3f {
 }
 
 fn shaded(n: vec3f, l: vec3f, v: vec3f, kd: vec3f, incident: vec3f) -> vec3f {
-    switch lights.shading {
+    switch SHADING {
         case SHADING_PHONG: { return phong(n, l, v, kd, object.specular, object.shininess, incident); }
         case SHADING_BLINN_PHONG: { return blinn_phong(n, l, v, kd, object.specular, object.shininess, incident); }
         default: { return three_blinn_phong(n, l, v, kd, object.specular, object.shininess, incident); }
@@ -139,15 +144,15 @@ fn shaded(n: vec3f, l: vec3f, v: vec3f, kd: vec3f, incident: vec3f) -> vec3f {
 }
 
 fn lamp_incident(to_lamp: vec3f, l: vec3f) -> vec3f {
-    if lights.lamp_pattern == LAMP_WITHOUT_DECAY {
+    if LAMP == LAMP_WITHOUT_DECAY {
         return lights.lamp_incident;
     }
     let decayed = lights.lamp_incident / dot(to_lamp, to_lamp);
-    if lights.lamp_pattern == LAMP_ALL_AROUND {
+    if LAMP == LAMP_ALL_AROUND {
         return decayed;
     }
     let cosine = dot(lights.lamp_normal, -l);
-    return decayed * select(abs(cosine), max(cosine, 0.0), lights.lamp_pattern == LAMP_ONE_SIDED);
+    return decayed * select(abs(cosine), max(cosine, 0.0), LAMP == LAMP_ONE_SIDED);
 }
 
 // A plane's depth changes by at most 1 / (N.L) per unit across the light's view: that times the kernel's reach is what a

@@ -29,7 +29,7 @@ pub struct View {
 pub struct Lights {
     /// Unit direction.
     pub sun_towards: Vec3,
-    /// 0 three, 1 Phong, 2 Blinn-Phong.
+    /// 0 three, 1 Phong, 2 Blinn-Phong; shaders have it compiled in.
     pub shading: u32,
     /// What a white Lambert surface facing the sun sends back; zero for no sun.
     pub sun_incident: Vec3,
@@ -37,7 +37,7 @@ pub struct Lights {
     pub refracts_per_vertex: u32,
     /// Middle of the lamp.
     pub lamp_position: Vec3,
-    /// How the lamp's light spreads.
+    /// How the lamp's light spreads, 0 for no lamp; compiled in too.
     pub lamp_pattern: u32,
     /// Unit normal of a flat lamp.
     pub lamp_normal: Vec3,
@@ -83,7 +83,7 @@ pub struct Object {
     pub emission: Vec3,
     /// 0 none, 1 the one that the normal points away from, 2 both.
     pub emitting_sides: u32,
-    /// 0 surface, 1 glass.
+    /// 0 surface, 1 glass; compiled in too.
     pub kind: u32,
     /// 1 if a cube map is bound.
     pub has_cube_map: u32,

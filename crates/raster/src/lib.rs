@@ -88,7 +88,7 @@ impl Raster {
         maps::check(settings.show, &plan)?;
         let world = World::current(&mut self.world, &self.gpu, scene)?;
         let targets = self.targets.current(&self.gpu, &plan.target_plan(scene, settings))?;
-        self.pipelines.prepare(&self.gpu, plan.filter)?;
+        self.pipelines.prepare(&self.gpu, plan.choice())?;
         self.uniforms.write(&self.gpu, &plan)?;
         // kept from frame to frame while only the camera moves; a frame that fails has drawn nothing for certain
         let maps = Maps::of(&plan, world, targets);

@@ -4,7 +4,7 @@
 
 use crate::error::RasterError;
 use crate::knobs::ShadowFilter;
-use crate::pipelines::{FilterPipelines, Forward, Pipelines};
+use crate::pipelines::{Forward, ForwardPasses, Pipelines};
 use crate::plan::{Casting, Plan};
 use crate::settings::{Fake, Show};
 use crate::targets::Targets;
@@ -106,7 +106,7 @@ pub fn draw(
     plan: &Plan,
     maps_stay: bool,
 ) {
-    let Some(forward) = pipelines.of(plan.filter) else { return };
+    let Some(forward) = pipelines.of(plan.choice()) else { return };
     let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("the fake") });
     let frame =
         Frame { pipelines, forward, world, targets, plan, groups: Groups::new(gpu, pipelines, uniforms, targets) };
@@ -177,7 +177,7 @@ fn bind(gpu: &Gpu, layout: &BindGroupLayout, resources: &[BindingResource<'_>]) 
 
 struct Frame<'a> {
     pipelines: &'a Pipelines,
-    forward: &'a FilterPipelines,
+    forward: &'a ForwardPasses,
     world: &'a World,
     targets: Targets<'a>,
     plan: &'a Plan,
@@ -214,7 +214,7 @@ impl Frame<'_> {
                 depth: Some(&self.targets.cubes.depth),
                 clear: self.sky(),
             };
-            let forward = &self.forward.of(self.plan.fake).cube_map;
+            let forward = &self.forward.cube_map;
             self.shapes(&mut target.begin(encoder), forward, self.plan.cube_view(index, layer), Some(glass));
         }
     }
@@ -228,7 +228,7 @@ impl Frame<'_> {
                 depth: Some(&self.targets.picture.depth),
                 clear: self.sky_of_picture(),
             };
-            self.shapes(&mut target.begin(encoder), &self.forward.of(self.plan.fake).picture, view, None);
+            self.shapes(&mut target.begin(encoder), &self.forward.picture, view, None);
         }
     }
 

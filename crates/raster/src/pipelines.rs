@@ -1,12 +1,14 @@
 //! Pipelines and the layouts of what is bound to them.
 
 use crate::error::RasterError;
+use crate::gpu_data::Lights;
 use crate::knobs::ShadowFilter;
 use crate::plan::Casting;
 use crate::settings::Fake;
 use crate::targets::{Colours, DEPTH, SHADOW};
 use crate::tessellation::Vertex;
 use gpu::{Gpu, GpuError, wgsl};
+use scene::Vec3;
 use std::num::NonZeroU64;
 use wgpu::{BindGroupLayout, BindingType, Face, RenderPipeline, ShaderStages, TextureFormat, TextureViewDimension};
 
@@ -19,29 +21,36 @@ pub struct Forward {
     pub glass: RenderPipeline,
 }
 
-/// The forward passes of a fake.
+/// The forward passes of a [`Choice`].
 #[derive(Debug)]
-pub struct FakePipelines {
+pub struct ForwardPasses {
     /// Into a cube map's face.
     pub cube_map: Forward,
     /// Into the picture.
     pub picture: Forward,
 }
 
-/// The forward passes with one shadow filter compiled in: a software device would run the others too.
-#[derive(Debug)]
-pub struct FilterPipelines {
-    fair: FakePipelines,
-    as_taught: FakePipelines,
+/// What is compiled into the forward passes: a software device would run the branches that are not taken too, or compile
+/// them anew for every draw.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Choice {
+    /// Decides the targets' formats.
+    pub fake: Fake,
+    /// How shadow maps are looked up.
+    pub filter: ShadowFilter,
+    /// Whether a sun shines.
+    pub sun: bool,
+    /// As in [`Lights::lamp_pattern`].
+    pub lamp: u32,
+    /// As in [`Lights::shading`].
+    pub shading: u32,
 }
 
-impl FilterPipelines {
-    /// The forward passes of a fake.
-    pub fn of(&self, fake: Fake) -> &FakePipelines {
-        match fake {
-            Fake::Fair => &self.fair,
-            Fake::AsTaught => &self.as_taught,
-        }
+impl Choice {
+    /// What a picture under `lights` needs.
+    pub fn of(fake: Fake, filter: ShadowFilter, lights: &Lights) -> Choice {
+        let sun = lights.sun_incident.cmpgt(Vec3::ZERO).any();
+        Choice { fake, filter, sun, lamp: lights.lamp_pattern, shading: lights.shading }
     }
 }
 
@@ -61,8 +70,8 @@ pub struct Pipelines {
     /// Mean of the picture's passes.
     pub resolve: RenderPipeline,
     forward_module: wgpu::ShaderModule,
-    /// Of each filter that was asked for, by its code.
-    forward: [Option<FilterPipelines>; ShadowFilter::ALL.len()],
+    /// Of each choice that was asked for.
+    forward: Vec<(Choice, ForwardPasses)>,
     both_sides: RenderPipeline,
     back_faces: RenderPipeline,
     front_faces: RenderPipeline,
@@ -77,37 +86,43 @@ impl Pipelines {
         Ok(gpu.checked("the fake's pipelines", || compile(gpu, &shadow, forward, &resolve))?)
     }
 
-    /// Sees to it that the forward passes with a filter are compiled.
+    /// Sees to it that the forward passes of a choice are compiled.
     ///
     /// # Errors
     /// [`GpuError::Refused`] if the device can't take them.
-    pub fn prepare(&mut self, gpu: &Gpu, filter: ShadowFilter) -> Result<(), GpuError> {
-        if self.of(filter).is_none() {
-            let compiled = gpu.checked("the fake's pipelines", || self.compile_forward(gpu, filter))?;
-            self.forward[filter.code() as usize] = Some(compiled);
+    pub fn prepare(&mut self, gpu: &Gpu, choice: Choice) -> Result<(), GpuError> {
+        if self.of(choice).is_none() {
+            let compiled = gpu.checked("the fake's pipelines", || self.compile_forward(gpu, choice))?;
+            self.forward.push((choice, compiled));
         }
         Ok(())
     }
 
-    /// The forward passes with a filter, once [`Pipelines::prepare`] has compiled them.
-    pub fn of(&self, filter: ShadowFilter) -> Option<&FilterPipelines> {
-        self.forward[filter.code() as usize].as_ref()
+    /// The forward passes of a choice, once [`Pipelines::prepare`] has compiled them.
+    pub fn of(&self, choice: Choice) -> Option<&ForwardPasses> {
+        self.forward.iter().find(|(compiled, _)| *compiled == choice).map(|(_, passes)| passes)
     }
 
-    fn compile_forward(&self, gpu: &Gpu, filter: ShadowFilter) -> FilterPipelines {
+    fn compile_forward(&self, gpu: &Gpu, choice: Choice) -> ForwardPasses {
         let groups: &[_] = &[&self.frame_layout, &self.object_layout];
-        let constants: &[_] = &[("SHADOW_FILTER", f64::from(filter.code()))];
+        let constants = |glass| {
+            [
+                ("SHADOW_FILTER", f64::from(choice.filter.code())),
+                ("GLASS", f64::from(u8::from(glass))),
+                ("SUN", f64::from(u8::from(choice.sun))),
+                ("LAMP", f64::from(choice.lamp)),
+                ("SHADING", f64::from(choice.shading)),
+            ]
+        };
         let into = |format, samples| {
             let module = &self.forward_module;
-            let surface = Build { groups, module, format, samples, cull_mode: None, full_screen: false, constants };
-            let glass = Build { cull_mode: Some(Face::Front), ..surface };
-            Forward { surface: surface.pipeline(gpu), glass: glass.pipeline(gpu) }
+            let build = |cull_mode, constants: &[_]| {
+                Build { groups, module, format, samples, cull_mode, full_screen: false, constants }.pipeline(gpu)
+            };
+            Forward { surface: build(None, &constants(false)), glass: build(Some(Face::Front), &constants(true)) }
         };
-        let fake = |fake| {
-            let colours = Colours::of(fake, gpu);
-            FakePipelines { cube_map: into(colours.cube_map, 1), picture: into(colours.picture, colours.samples) }
-        };
-        FilterPipelines { fair: fake(Fake::Fair), as_taught: fake(Fake::AsTaught) }
+        let colours = Colours::of(choice.fake, gpu);
+        ForwardPasses { cube_map: into(colours.cube_map, 1), picture: into(colours.picture, colours.samples) }
     }
 
     /// The shadow pass of a shape.
@@ -156,7 +171,7 @@ fn compile(
         }),
         resolve: resolve.pipeline(gpu),
         forward_module: forward,
-        forward: [const { None }; ShadowFilter::ALL.len()],
+        forward: Vec::new(),
         both_sides: casting(None),
         back_faces: casting(Some(Face::Front)),
         front_faces: casting(Some(Face::Back)),

@@ -4,6 +4,7 @@ use crate::cube;
 use crate::gpu_data::{Lights, Object, View};
 use crate::knobs::ShadowFilter;
 use crate::lights;
+use crate::pipelines::Choice;
 use crate::settings::{Fake, RasterSettings, Show};
 use crate::targets::{CubePlan, PicturePlan, ShadowPlan, TargetPlan};
 use bytemuck::Zeroable;
@@ -95,6 +96,11 @@ impl Plan {
             show: settings.show,
             sky: scene.sky,
         }
+    }
+
+    /// What its forward passes have compiled in.
+    pub fn choice(&self) -> Choice {
+        Choice::of(self.fake, self.filter, &self.lights)
     }
 
     /// The targets that this frame needs.
