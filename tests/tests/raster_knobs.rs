@@ -78,6 +78,8 @@ fn a_picture_after_others_is_the_one_of_a_fresh_start() {
     let mut other_metal = whitted();
     let metal = other_metal.materials.iter_mut().find(|m| matches!(m.bsdf, Bsdf::Mirror { .. })).unwrap();
     metal.bsdf = Bsdf::Diffuse { albedo: scene::Texture::Constant(Vec3::new(0.1, 0.8, 0.1)) };
+    let mut other_glass = whitted();
+    other_glass.set_refraction_ratio(0.9);
     let mut smaller_ball = whitted();
     let mut shapes = smaller_ball.shapes.to_vec();
     shapes.iter_mut().for_each(|s| {
@@ -87,7 +89,14 @@ fn a_picture_after_others_is_the_one_of_a_fresh_start() {
     });
     smaller_ball.shapes = shapes.into();
     for fake in Fake::ALL {
-        for scene in [whitted(), other_sun.clone(), other_sky.clone(), other_metal.clone(), smaller_ball.clone()] {
+        for scene in [
+            whitted(),
+            other_sun.clone(),
+            other_sky.clone(),
+            other_metal.clone(),
+            smaller_ball.clone(),
+            other_glass.clone(),
+        ] {
             let settings = with(fake, FakeKnobs::default());
             let films = [&scene, &moved(&scene)].map(|scene| kept.film(scene, settings));
             assert_ne!(films[0], films[1]);

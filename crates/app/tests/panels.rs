@@ -100,15 +100,16 @@ fn another_scene_takes_its_own_numbers_and_shows_its_picture() {
 #[test]
 fn keys_that_are_held_or_come_twice_in_a_frame_count_as_often_as_they_are_pressed() {
     let mut panels = Panels::of("whitted");
-    let press = |repeat| egui::Event::Key {
+    let key = |pressed, repeat| egui::Event::Key {
         key: egui::Key::T,
         physical_key: None,
-        pressed: true,
+        pressed,
         repeat,
         modifiers: egui::Modifiers::NONE,
     };
-    [press(false), press(true), press(true), press(false)].into_iter().for_each(|event| panels.harness.event(event));
-    panels.harness.step();
+    let events = [key(true, false), key(true, true), key(true, true), key(false, false), key(true, false)];
+    events.into_iter().for_each(|event| panels.harness.event(event));
+    panels.harness.run_steps(6);
     assert_eq!(panels.viewer.borrow().view, visavis::ui::View::B, "from the wipe to A, and on to B");
 }
 

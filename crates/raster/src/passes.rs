@@ -3,6 +3,7 @@
 //! same texture.
 
 use crate::error::RasterError;
+use crate::gpu_data::Object;
 use crate::knobs::ShadowFilter;
 use crate::pipelines::{Forward, ForwardPasses, Pipelines};
 use crate::plan::{Casting, Plan};
@@ -80,8 +81,9 @@ impl Maps {
     /// The maps of a picture; `None` if the frame does not draw them all.
     pub fn of(plan: &Plan, world: &World, targets: Targets<'_>) -> Option<Maps> {
         let views = &plan.views[..plan.picture_views.start];
-        let numbers =
-            [bytemuck::cast_slice(views), bytemuck::bytes_of(&plan.lights), bytemuck::cast_slice(&plan.objects)];
+        // no map sees through glass, so how far that bends is not part of it
+        let unbent: Vec<Object> = plan.objects.iter().map(|o| Object { refraction_ratio: 0.0, ..*o }).collect();
+        let numbers = [bytemuck::cast_slice(views), bytemuck::bytes_of(&plan.lights), bytemuck::cast_slice(&unbent)];
         (plan.show == Show::Picture).then(|| Maps {
             numbers: numbers.concat(),
             casting: plan.casting.clone(),

@@ -162,7 +162,7 @@ fn a_change_of_a_setting_can_be_taken_back_and_done_again() {
     let y = 0.5 * (top + bottom);
     screen.drag([left + 80.0, y], [left + 30.0, y]);
     let slid =
-        viewer.wait_for("the slider to move", |f| f.value("refraction ratio") != "0.7" && f.value("undo") == "true");
+        viewer.wait_for("the slider to move", |f| f.value("refraction ratio") != "0.7" && f.state("pressing") == false);
     let moved = slid.value("refraction ratio").to_owned();
     screen.click(first.point("A path", 0.5, 0.5));
     viewer.wait_for("two truths", |f| f.state("a")["label"] == "truth (path, light)" && both_whole(f));
