@@ -311,3 +311,33 @@ fn every_technique_and_option_renders() {
         assert!(report["mean"][1].as_f64() > Some(0.01), "{extra:?}: {report}");
     }
 }
+
+#[test]
+fn a_picture_is_made_again_from_its_own_records() {
+    let folder = TestFolder::new();
+    let file = |name: &str| folder.file(name).to_str().expect("a plain path").to_owned();
+    let (first, again, other) = (file("first.exr"), file("again.exr"), file("other.png"));
+    let options: [&[&str]; 3] = [
+        &["--estimator", "mis", "--bounces", "3", "--roulette", "0.8+throughput", "--spp", "5", "--seed", "7"],
+        &["--technique", "whitted", "--depth", "4", "--glass-shadows", "clear", "--refraction-ratio", "0.8"],
+        &["--technique", "raster", "--fake", "as-taught", "--segments", "12", "--shadow-filter", "pcf", "--fov", "50"],
+    ];
+    for extra in options {
+        let common = ["render", "whitted", "-o", &first, "--size", "48x27", "--sun-radius", "1.5"];
+        assert!(visavis(&[&common, extra].concat()).status.success());
+        let made = visavis(&["render", "--from", &first, "-o", &again]);
+        assert!(made.status.success(), "{}", String::from_utf8_lossy(&made.stderr));
+        let film = |path: &str| visavis::picture_file::load(std::path::Path::new(path)).expect("an EXR");
+        assert!(film(&first).radiances().eq(film(&again).radiances()), "{extra:?}");
+        // a PNG keeps them as well, and other options change them
+        assert!(visavis(&["render", "--from", &first, "-o", &other, "--size", "24x14"]).status.success());
+        assert!(visavis(&["render", "-o", &again, "--from", &other]).status.success());
+        assert_eq!((film(&again).width(), film(&again).height()), (24, 14));
+    }
+    std::fs::write(folder.file("odd.png"), "no picture").expect("a file");
+    assert_refused(&["render", "--from", &file("odd.png"), "-o", &again], 1, &["cannot read the picture", "odd.png"]);
+    assert_refused(&["render", "--from", &file("none.exr"), "-o", &again], 1, &["none.exr"]);
+    assert_refused(&["render", "-o", &again, "--from"], 2, &["--from needs a picture"]);
+    image::RgbImage::new(2, 2).save(folder.file("plain.png")).expect("a file");
+    assert_refused(&["render", "--from", &file("plain.png"), "-o", &again], 1, &["does not say how it was made"]);
+}

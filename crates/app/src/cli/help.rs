@@ -9,6 +9,7 @@ visavis [SCENE]                  open the viewer; SCENE is whitted, cornell, har
     --theme dark|projector       projector: black on white, large type (default dark)
     --frame-stats                print at the end what a frame cost the window's thread: egui, tessellation, uploads
 visavis render SCENE -o OUT      render to OUT, .png (display-transformed) or .exr (linear, settings in the header)
+    --from FILE                  make the picture in FILE (.png or .exr of this program) again; other options change it
     --technique raster|whitted|path
                                  the fake, Whitted's trees of rays or the truth (default path)
     --device auto|cpu|gpu        where: the fake needs the gpu, rays the cpu (default auto)

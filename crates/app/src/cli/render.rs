@@ -208,6 +208,8 @@ fn report(args: &RenderArgs, scene: &Scene, rendered: &Rendered) -> serde_json::
                 let number = value.parse::<u64>().ok().filter(|_| counts);
                 report[name.replace('-', "_")] = number.map_or_else(|| json!(value), |number| json!(number));
             }
+            report["samples"] = json!(rendered.stats.samples);
+            report["rays"] = json!(rendered.stats.rays);
             report["cut_paths"] = json!(rendered.stats.cut_paths);
             report["standard_error"] = json!(rendered.film.standard_error());
             let independent = rays.sampler() == SamplerKind::Independent;

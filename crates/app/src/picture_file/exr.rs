@@ -31,6 +31,17 @@ fn text(words: &str) -> exr::Text {
     exr::Text::from_slice_unchecked(words.as_bytes())
 }
 
+/// The records of an EXR of this program; none in another's.
+pub fn records(path: &Path) -> anyhow::Result<Vec<(String, String)>> {
+    let meta = exr::MetaData::read_from_file(path, false).map_err(|e| cannot_read(path, &e))?;
+    let texts = meta.headers.iter().flat_map(|header| &header.own_attributes.other).filter_map(|(name, value)| {
+        let exr::AttributeValue::Text(value) = value else { return None };
+        let utf8 = |text: &exr::Text| String::from_utf8_lossy(text.as_slice()).into_owned();
+        Some((utf8(name).strip_prefix("visavis.")?.to_owned(), utf8(value)))
+    });
+    Ok(texts.collect())
+}
+
 /// The first layer with red, green and blue.
 pub fn load(path: &Path) -> anyhow::Result<Film> {
     let picture = exr::read_first_rgba_layer_from_file(

@@ -97,6 +97,18 @@ pub fn load(path: &Path) -> anyhow::Result<Film> {
     }
 }
 
+/// What a picture of this program keeps about how it was made, names and values; empty for other pictures.
+///
+/// # Errors
+/// One line that says why and names the path.
+pub fn records(path: &Path) -> anyhow::Result<Vec<(String, String)>> {
+    match Kind::of(path) {
+        Some(Kind::Png) => png::records(path),
+        Some(Kind::Exr) => exr::records(path),
+        None => bail!("cannot read the picture: its name must end in .png or .exr: {}", path.display()),
+    }
+}
+
 /// Writes `bytes` to a file beside `path`, then moves it there.
 ///
 /// # Errors

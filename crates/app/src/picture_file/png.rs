@@ -28,6 +28,16 @@ fn encode(width: u32, height: u32, rgba: &[u8], records: &Records) -> Result<Vec
     Ok(bytes)
 }
 
+/// The records of a PNG of this program; none in another's.
+pub fn records(path: &Path) -> anyhow::Result<Vec<(String, String)>> {
+    let file = std::fs::File::open(path).map_err(|e| cannot_read(path, &e))?;
+    let reader = png::Decoder::new(std::io::BufReader::new(file)).read_info().map_err(|e| cannot_read(path, &e))?;
+    let ours = |chunk: &png::text_metadata::ITXtChunk| {
+        Some((chunk.keyword.strip_prefix("visavis.")?.to_owned(), chunk.get_text().ok()?))
+    };
+    Ok(reader.info().utf8_text.iter().filter_map(ours).collect())
+}
+
 /// A PNG with its sRGB encoding undone.
 pub fn load(path: &Path) -> anyhow::Result<Film> {
     let picture = image::ImageReader::open(path)

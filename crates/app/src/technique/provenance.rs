@@ -31,6 +31,29 @@ pub struct Made<'a> {
     pub exposure: f32,
 }
 
+/// Version of the records; it grows when an older program would misread them.
+const RECORDS_VERSION: &str = "1";
+
+/// Records that say what a picture took, and are no options of `visavis render`.
+const NO_OPTIONS: [&str; 7] = ["records", "version", "scene", "device", "adapter", "seconds", "command"];
+
+/// The words of `visavis render` that make a picture with these records again, but for the output; `None` if they are not
+/// those of one pane's picture.
+///
+/// # Errors
+/// If the records are of a later version.
+pub fn words_of(records: &[(String, String)]) -> anyhow::Result<Option<Vec<String>>> {
+    let value = |name: &str| records.iter().find(|(known, _)| known == name).map(|(_, value)| value.as_str());
+    let (Some(version), Some(scene)) = (value("records"), value("scene")) else { return Ok(None) };
+    anyhow::ensure!(
+        version == RECORDS_VERSION,
+        "its records are of version {version}, and this program reads version {RECORDS_VERSION}: use a newer one"
+    );
+    let options = records.iter().filter(|(name, _)| !NO_OPTIONS.contains(&name.as_str()));
+    let words = options.flat_map(|(name, value)| [format!("--{name}"), value.clone()]);
+    Ok(Some(std::iter::once(scene.to_owned()).chain(words).collect()))
+}
+
 /// Names and values, in the order in which they are written.
 pub type Records = Vec<(&'static str, String)>;
 
@@ -40,6 +63,7 @@ impl Provenance {
     pub fn records(&self, scene: &Scene, made: Made) -> Records {
         let Made { spp, seconds, adapter, exposure } = made;
         let mut records = vec![
+            ("records", RECORDS_VERSION.into()),
             ("version", env!("CARGO_PKG_VERSION").into()),
             ("scene", self.source.clone()),
             ("technique", self.recipe.technique().name().into()),

@@ -3,12 +3,14 @@
 use super::usage;
 use super::values::{choice, number, parse_finite, parse_whole, point, size, text, whole, within};
 use crate::cli::{CliError, Command, help};
-use crate::picture_file::Kind;
-use crate::technique::{PaneSettings, SceneChanges, Technique};
+use crate::picture_file::{self, Kind};
+use crate::technique::{PaneSettings, SceneChanges, Technique, words_of};
+use anyhow::Context;
 use lexopt::prelude::*;
 use pathtrace::{Estimator, GlassShadows, Roulette, SamplerKind, WhittedSettings};
 use raster::{Fake, FakeKnobs, Shading, ShadowFilter, Show};
 use scene::Vec3;
+use std::ffi::OsString;
 use std::path::PathBuf;
 
 /// `visavis render SCENE -o OUT ...`; `None` leaves a value to the scene.
@@ -44,7 +46,25 @@ const PATH: &[Technique] = &[Technique::Path];
 const RAYS: &[Technique] = &[Technique::Whitted, Technique::Path];
 const LOCAL: &[Technique] = &[Technique::Raster, Technique::Whitted];
 
+/// Reads the words after `render`. A picture after `--from` comes first: what else is said changes what it says.
 pub fn parse(mut parser: lexopt::Parser) -> Result<Command, CliError> {
+    let mut words: Vec<OsString> = parser.raw_args()?.collect();
+    if let Some(place) = words.iter().position(|word| word == "--from") {
+        let Some(file) = words.get(place + 1).map(PathBuf::from) else {
+            return usage("--from needs a picture: visavis render --from FILE -o OUT");
+        };
+        let records = picture_file::records(&file)?;
+        let made = words_of(&records).with_context(|| format!("cannot make this picture again: {}", file.display()))?;
+        let Some(made) = made else {
+            return Err(anyhow::anyhow!("this picture does not say how it was made: {}", file.display()).into());
+        };
+        words.drain(place..place + 2);
+        words.splice(0..0, made.into_iter().map(OsString::from));
+    }
+    parse_words(lexopt::Parser::from_args(words))
+}
+
+fn parse_words(mut parser: lexopt::Parser) -> Result<Command, CliError> {
     let mut scene = None;
     let mut out = None;
     let mut device = Device::Auto;
