@@ -1,10 +1,12 @@
-//! The ruler: how far a film is from a reference, in linear radiance and never after the display transform; and what is
-//! made of such numbers, a table and a plot of speed against error.
+//! The ruler: how far a film is from a reference, in linear radiance and never after the display transform, but for
+//! FLIP, which asks what people see; per pixel as maps and in colour; and what is made of such numbers, fits, a table
+//! and a plot of speed against error.
 
+pub mod flip;
 mod metrics;
 mod plot;
 mod table;
 
-pub use metrics::{CompareError, Errors, errors, errors_of_radiances};
+pub use metrics::{CompareError, Errors, errors, errors_of_radiances, mean_squared_standard_error};
 pub use plot::{LogLogPlot, Series};
 pub use table::{BenchRow, csv};

@@ -1,0 +1,137 @@
+//! HDR-FLIP: the largest FLIP over a sweep of exposures, so that an error in a lamp counts as one in a shadow does.
+//! Andersson et al. 2021, sections 4 and 5, with the ACES curve as Narkowicz fitted it.
+
+use super::{Evaluator, finite_or_black, mark_nonfinite};
+use crate::{CompareError, metrics::same_pixels};
+use scene::Vec3;
+use scene::colour::{luminance, srgb_encode};
+
+/// What [`hdr_flip`] found.
+#[derive(Debug, Clone, PartialEq)]
+pub struct HdrFlip {
+    /// The largest FLIP over the exposures, in [0, 1], one a pixel; NaN where a picture is not finite.
+    pub values: Vec<f32>,
+    /// The exposure, in stops, at which each pixel's is largest; the first where all are 0.
+    pub worst_exposures: Vec<f32>,
+    /// The exposures of the sweep, in stops, ascending.
+    pub exposures: Vec<f32>,
+}
+
+/// The ACES curve `(a x^2 + b x) / (c x^2 + d x + e)`, with the fit's pre-exposure of 0.6 taken out.
+const ACES: [f32; 5] = [0.6 * 0.6 * 2.51, 0.6 * 0.03, 0.6 * 0.6 * 2.43, 0.6 * 0.59, 0.14];
+/// The sweep begins where the reference's brightest pixel is shown at this value, and ends where its median is.
+const ANCHOR: f32 = 0.85;
+/// Far beyond where the curve is white: squares of larger values would overflow.
+const WHITE: f32 = 1e6;
+
+/// HDR-FLIP of two pictures in linear radiance, rows of `width` from the top; the sweep of exposures follows from the
+/// reference. Otherwise as [`super::flip`].
+///
+/// # Errors
+/// [`CompareError::Pixels`] if the two do not have the same pixels in whole rows.
+pub fn hdr_flip(
+    picture: &[Vec3],
+    reference: &[Vec3],
+    width: u32,
+    pixels_per_degree: f32,
+) -> Result<HdrFlip, CompareError> {
+    same_pixels(picture, reference, width)?;
+    let exposures = exposures(reference);
+    let mut worst = HdrFlip {
+        values: vec![0.0; picture.len()],
+        worst_exposures: vec![exposures[0]; picture.len()],
+        exposures: exposures.clone(),
+    };
+    if picture.is_empty() {
+        return Ok(worst);
+    }
+    let evaluator = Evaluator::new(width as usize, pixels_per_degree);
+    let (a, b) = (finite_or_black(picture), finite_or_black(reference));
+    for exposure in exposures {
+        let values = evaluator.flip(&shown(&a, exposure), &shown(&b, exposure));
+        for ((most, at), value) in worst.values.iter_mut().zip(&mut worst.worst_exposures).zip(values) {
+            if value > *most {
+                (*most, *at) = (value, exposure);
+            }
+        }
+    }
+    mark_nonfinite(&mut worst.values, picture, reference);
+    Ok(worst)
+}
+
+/// sRGB code values of linear radiance under an exposure and the curve.
+fn shown(picture: &[Vec3], exposure: f32) -> Vec<Vec3> {
+    let [a, b, c, d, e] = ACES;
+    let curve = |x: f32| {
+        let x = x.clamp(-WHITE, WHITE);
+        srgb_encode((a * x * x + b * x) / (c * x * x + d * x + e))
+    };
+    let scale = exposure.exp2();
+    picture.iter().map(|p| Vec3::from_array((*p * scale).to_array().map(curve))).collect()
+}
+
+/// The sweep for a reference, at least one exposure: one a stop, evenly spread between its ends. A reference without
+/// light is shown as it is; where more than half of it is black the median is that of the rest.
+fn exposures(reference: &[Vec3]) -> Vec<f32> {
+    let mut luminances: Vec<f32> = reference.iter().filter(|p| p.is_finite()).map(|p| luminance(*p)).collect();
+    luminances.sort_by(f32::total_cmp);
+    let mut median = median_of_sorted(&luminances);
+    if !(median > 0.0) {
+        median = median_of_sorted(&luminances[luminances.partition_point(|l| *l <= 0.0)..]);
+    }
+    if !(median > 0.0) {
+        return vec![0.0];
+    }
+    let brightest = luminances.last().copied().unwrap_or(median);
+    let anchor = exposed_to(ANCHOR);
+    let (start, stop) = ((anchor / brightest).log2(), (anchor / median).log2());
+    let count = (stop - start).ceil().max(2.0) as usize;
+    (0..count).map(|i| start + i as f32 * (stop - start) / (count - 1) as f32).collect()
+}
+
+/// Mean of the middle two; for an odd number the middle one and the one before it, as the authors' evaluator has it.
+fn median_of_sorted(values: &[f32]) -> f32 {
+    let half = values.len() / 2;
+    match values.len() {
+        0 => 0.0,
+        1 => values[0],
+        _ => 0.5 * (values[half - 1] + values[half]),
+    }
+}
+
+/// The light that the curve shows at `value`, in (0, 1).
+fn exposed_to(value: f32) -> f32 {
+    let [a, b, c, d, e] = ACES;
+    let (a, b, c) = (a - value * c, b - value * d, -value * e);
+    let root = (b * b - 4.0 * a * c).sqrt();
+    ((-b + root) / (2.0 * a)).max((-b - root) / (2.0 * a))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::flip::PIXELS_PER_DEGREE;
+
+    #[test]
+    fn the_sweep_shows_the_brightest_first_and_the_median_last() {
+        let reference: Vec<Vec3> = (0..9).map(|i| Vec3::splat((i as f32 - 4.0).exp2())).collect();
+        let sweep = exposures(&reference);
+        let luminance_at = |exposure: f32| exposure.exp2();
+        assert!((luminance_at(sweep[0]) * 16.0 - exposed_to(ANCHOR)).abs() < 1e-4);
+        let median = 0.5 * (0.5 + 1.0);
+        assert!((luminance_at(sweep[sweep.len() - 1]) * median - exposed_to(ANCHOR)).abs() < 1e-4);
+        assert_eq!(sweep.len(), 5);
+        let [a, b, c, d, e] = ACES;
+        let x = exposed_to(ANCHOR);
+        assert!(((a * x * x + b * x) / (c * x * x + d * x + e) - ANCHOR).abs() < 1e-5);
+    }
+
+    #[test]
+    fn equal_pictures_do_not_differ_and_black_ones_can_be_measured() {
+        for value in [0.0, 1e-20, 3.0, 1e30] {
+            let same = vec![Vec3::splat(value); 48];
+            let found = hdr_flip(&same, &same, 8, PIXELS_PER_DEGREE).unwrap();
+            assert!(found.values.iter().all(|v| *v == 0.0) && found.exposures.iter().all(|e| e.is_finite()), "{value}");
+        }
+    }
+}
