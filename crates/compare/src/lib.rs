@@ -2,11 +2,15 @@
 //! FLIP, which asks what people see; per pixel as maps and in colour; and what is made of such numbers, fits, a table
 //! and a plot of speed against error.
 
+mod error_map;
+mod fits;
 pub mod flip;
 mod metrics;
 mod plot;
 mod table;
 
+pub use error_map::{ErrorMap, finite_mean};
+pub use fits::{ErrorSplit, Fit, efficiency, fit, split_error};
 pub use metrics::{CompareError, Errors, errors, errors_of_radiances, mean_squared_standard_error};
 pub use plot::{LogLogPlot, Series};
 pub use table::{BenchRow, csv};

@@ -71,32 +71,20 @@ fn shown(picture: &[Vec3], exposure: f32) -> Vec<Vec3> {
 }
 
 /// The sweep for a reference, at least one exposure: one a stop, evenly spread between its ends. A reference without
-/// light is shown as it is; where more than half of it is black the median is that of the rest.
+/// light is shown as it is.
 fn exposures(reference: &[Vec3]) -> Vec<f32> {
     let mut luminances: Vec<f32> = reference.iter().filter(|p| p.is_finite()).map(|p| luminance(*p)).collect();
     luminances.sort_by(f32::total_cmp);
-    let mut median = median_of_sorted(&luminances);
-    if !(median > 0.0) {
-        median = median_of_sorted(&luminances[luminances.partition_point(|l| *l <= 0.0)..]);
-    }
-    if !(median > 0.0) {
+    let brightest = luminances.last().copied().unwrap_or(0.0);
+    if !(brightest > 0.0) {
         return vec![0.0];
     }
-    let brightest = luminances.last().copied().unwrap_or(median);
+    // the floor is for a picture of which more than half is black
+    let median = luminances[luminances.len() / 2].max(f32::EPSILON.min(brightest));
     let anchor = exposed_to(ANCHOR);
     let (start, stop) = ((anchor / brightest).log2(), (anchor / median).log2());
     let count = (stop - start).ceil().max(2.0) as usize;
     (0..count).map(|i| start + i as f32 * (stop - start) / (count - 1) as f32).collect()
-}
-
-/// Mean of the middle two; for an odd number the middle one and the one before it, as the authors' evaluator has it.
-fn median_of_sorted(values: &[f32]) -> f32 {
-    let half = values.len() / 2;
-    match values.len() {
-        0 => 0.0,
-        1 => values[0],
-        _ => 0.5 * (values[half - 1] + values[half]),
-    }
 }
 
 /// The light that the curve shows at `value`, in (0, 1).
@@ -118,12 +106,21 @@ mod tests {
         let sweep = exposures(&reference);
         let luminance_at = |exposure: f32| exposure.exp2();
         assert!((luminance_at(sweep[0]) * 16.0 - exposed_to(ANCHOR)).abs() < 1e-4);
-        let median = 0.5 * (0.5 + 1.0);
-        assert!((luminance_at(sweep[sweep.len() - 1]) * median - exposed_to(ANCHOR)).abs() < 1e-4);
-        assert_eq!(sweep.len(), 5);
+        assert!((luminance_at(sweep[sweep.len() - 1]) - exposed_to(ANCHOR)).abs() < 1e-4);
+        assert_eq!(sweep.len(), 4);
         let [a, b, c, d, e] = ACES;
         let x = exposed_to(ANCHOR);
         assert!(((a * x * x + b * x) / (c * x * x + d * x + e) - ANCHOR).abs() < 1e-5);
+    }
+
+    #[test]
+    fn a_mostly_black_reference_is_swept_down_to_a_floor() {
+        let mut reference = vec![Vec3::ZERO; 8];
+        reference[3] = Vec3::ONE;
+        let sweep = exposures(&reference);
+        // from 1 down to 2^-23
+        assert_eq!(sweep.len(), 23);
+        assert!((sweep[22] - sweep[0] - 23.0).abs() < 1e-4);
     }
 
     #[test]
