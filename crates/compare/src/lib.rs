@@ -2,6 +2,8 @@
 //! FLIP, which asks what people see; per pixel as maps and in colour; and what is made of such numbers, fits, a table
 //! and a plot of speed against error.
 
+mod colour_map;
+mod colour_scale;
 mod error_map;
 mod fits;
 pub mod flip;
@@ -9,6 +11,8 @@ mod metrics;
 mod plot;
 mod table;
 
+pub use colour_map::{ColourMap, HATCH, hatched};
+pub use colour_scale::{ColourScale, Tick};
 pub use error_map::{ErrorMap, finite_mean};
 pub use fits::{ErrorSplit, Fit, efficiency, fit, split_error};
 pub use metrics::{CompareError, Errors, errors, errors_of_radiances, mean_squared_standard_error};
