@@ -70,7 +70,10 @@ fn tinted(x: i32, y: i32) -> Rgb {
     [r * 0.8, g, b * 1.25]
 }
 
-const PAIRS: [(&str, fn(i32, i32) -> Rgb); 5] = [
+/// Linear RGB of the pixel at a column and a row.
+type Formula = fn(i32, i32) -> Rgb;
+
+const PAIRS: [(&str, Formula); 5] = [
     ("noise", noisy),
     ("shift", |x, y| truth_at(x - 1, y)),
     ("blur", blurred),

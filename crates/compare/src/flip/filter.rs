@@ -150,10 +150,11 @@ mod tests {
 
     #[test]
     fn rows_and_columns_shift_alike_and_repeat_the_edge() {
-        // a kernel that reads the neighbour before
-        let before = [1.0, 0.0, 0.0];
-        let picture = [1.0, 2.0, 3.0, 4.0, 5.0, 6.0];
-        assert_eq!(along_rows(&picture, 3, &before), [1.0, 1.0, 2.0, 4.0, 4.0, 5.0]);
-        assert_eq!(along_columns(&picture, 3, &before), [1.0, 2.0, 3.0, 1.0, 2.0, 3.0]);
+        let (before, after) = ([1.0, 0.0, 0.0], [0.0, 0.0, 1.0]);
+        let picture = [1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0];
+        assert_eq!(along_rows(&picture, 3, &before), [1.0, 1.0, 2.0, 4.0, 4.0, 5.0, 7.0, 7.0, 8.0]);
+        assert_eq!(along_rows(&picture, 3, &after), [2.0, 3.0, 3.0, 5.0, 6.0, 6.0, 8.0, 9.0, 9.0]);
+        assert_eq!(along_columns(&picture, 3, &before), [1.0, 2.0, 3.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0]);
+        assert_eq!(along_columns(&picture, 3, &after), [4.0, 5.0, 6.0, 7.0, 8.0, 9.0, 7.0, 8.0, 9.0]);
     }
 }
