@@ -328,11 +328,11 @@ fn a_picture_is_made_again_from_its_own_records() {
         let made = visavis(&["render", "--from", &first, "-o", &again]);
         assert!(made.status.success(), "{}", String::from_utf8_lossy(&made.stderr));
         let film = |path: &str| visavis::picture_file::load(std::path::Path::new(path)).expect("an EXR");
-        assert!(film(&first).radiances().eq(film(&again).radiances()), "{extra:?}");
+        assert!(film(&first) == film(&again), "{extra:?}");
         // a PNG keeps them as well, and other options change them
         assert!(visavis(&["render", "--from", &first, "-o", &other, "--size", "24x14"]).status.success());
         assert!(visavis(&["render", "-o", &again, "--from", &other]).status.success());
-        assert_eq!((film(&again).width(), film(&again).height()), (24, 14));
+        assert_eq!((film(&again).width, film(&again).height), (24, 14));
     }
     std::fs::write(folder.file("odd.png"), "no picture").expect("a file");
     assert_refused(&["render", "--from", &file("odd.png"), "-o", &again], 1, &["cannot read the picture", "odd.png"]);
@@ -340,4 +340,34 @@ fn a_picture_is_made_again_from_its_own_records() {
     assert_refused(&["render", "-o", &again, "--from"], 2, &["--from needs a picture"]);
     image::RgbImage::new(2, 2).save(folder.file("plain.png")).expect("a file");
     assert_refused(&["render", "--from", &file("plain.png"), "-o", &again], 1, &["does not say how it was made"]);
+}
+
+#[test]
+fn two_pictures_are_compared_in_numbers_and_as_a_map() {
+    let folder = TestFolder::new();
+    let file = |name: &str| folder.file(name).to_str().expect("a plain path").to_owned();
+    let (fake, truth, map) = (file("fake.exr"), file("truth.exr"), file("map.png"));
+    let size = ["--size", "48x27"];
+    let render = |out: &str, extra: &[&str]| {
+        assert!(visavis(&[&["render", "cornell", "-o", out], &size[..], extra].concat()).status.success());
+    };
+    render(&truth, &["--spp", "64"]);
+    render(&fake, &["--technique", "raster"]);
+    for (name, colours) in [("signed", "blue-white-orange"), ("absolute", "viridis"), ("flip", "magma")] {
+        let report = json(&visavis(&["compare", &fake, &truth, "--json", "--heatmap", &map, "--map", name]));
+        assert_eq!(report["map"]["colours"], colours);
+        for number in ["rmse", "relmse", "mae", "flip", "hdr_flip"] {
+            assert!(report[number].as_f64() > Some(0.0), "{number}: {report}");
+        }
+        let picture = image::open(&map).expect("a PNG").to_rgb8();
+        assert_eq!(picture.dimensions(), (48, 27 + 12));
+    }
+    let itself = json(&visavis(&["compare", &truth, &truth, "--json"]));
+    for number in ["rmse", "relmse", "mae", "bias", "flip", "hdr_flip"] {
+        assert_eq!(itself[number], 0.0, "{number}");
+    }
+    render(&fake, &["--technique", "whitted", "--size", "20x20"]);
+    assert_refused(&["compare", &fake, &truth], 1, &["differ in size", "20x20"]);
+    assert_refused(&["compare", &truth, &truth, "--heatmap", "map.exr"], 2, &[".png"]);
+    assert_refused(&["compare", &truth, &truth, "--map", "pink"], 2, &["squared-relative"]);
 }

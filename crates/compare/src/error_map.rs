@@ -31,6 +31,22 @@ impl ErrorMap {
     pub const ALL: [ErrorMap; 5] =
         [ErrorMap::Signed, ErrorMap::Absolute, ErrorMap::Relative, ErrorMap::SquaredRelative, ErrorMap::Flip];
 
+    /// The name on the command line.
+    pub fn name(self) -> &'static str {
+        match self {
+            ErrorMap::Signed => "signed",
+            ErrorMap::Absolute => "absolute",
+            ErrorMap::Relative => "relative",
+            ErrorMap::SquaredRelative => "squared-relative",
+            ErrorMap::Flip => "flip",
+        }
+    }
+
+    /// The map of that name.
+    pub fn named(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|map| map.name() == name)
+    }
+
     /// What it shows, with its sign, for a label.
     pub fn label(self) -> &'static str {
         match self {

@@ -92,13 +92,7 @@ fn measure(effort: &Effort) -> anyhow::Result<Vec<BenchRow>> {
 /// Mean time and errors of several pictures; the root of the mean square for the RMSE.
 fn mean_row(rows: &[BenchRow]) -> Option<BenchRow> {
     let mean = |of: fn(&BenchRow) -> f64| rows.iter().map(of).sum::<f64>() / rows.len() as f64;
-    let errors = Errors {
-        rmse: mean(|row| row.errors.rmse * row.errors.rmse).sqrt(),
-        rel_mse: mean(|row| row.errors.rel_mse),
-        mae: mean(|row| row.errors.mae),
-        bias: mean(|row| row.errors.bias),
-        relative_bias: mean(|row| row.errors.relative_bias),
-    };
+    let errors = Errors::mean(&rows.iter().map(|row| row.errors).collect::<Vec<_>>())?;
     rows.first().map(|first| BenchRow { seconds: mean(|row| row.seconds), errors, ..first.clone() })
 }
 

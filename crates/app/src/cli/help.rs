@@ -53,7 +53,11 @@ visavis render SCENE -o OUT      render to OUT, .png (display-transformed) or .e
     --segments N                 segments of a sphere, 3 to 512 (default the scene's)
     --show picture|cube-faces|shadow-map
                                  the picture, or a map that it is made from (default picture)
-visavis compare A B              how far picture A is from reference B (.exr or .png): RMSE, relMSE, MAE, bias
+visavis compare A B              how far picture A is from reference B (.exr or .png): RMSE, relMSE, MAE, bias, FLIP, HDR-FLIP
+    --heatmap OUT                draw the errors to OUT (.png), with their colour bar below
+    --map signed|absolute|relative|squared-relative|flip
+                                 which errors the map shows (default absolute)
+    --exposure EV                stops added before FLIP looks (default 0)
     --json                       as one JSON object
 visavis bench -o DIR --quick     speed against error on both scenes: CSV and SVG plots
 visavis check                    every hard case: expected, measured, tolerance, verdict; exit code 1 if one fails

@@ -16,7 +16,7 @@ mod help;
 mod info;
 mod render;
 
-pub use args::{CheckArgs, RenderArgs, ViewArgs};
+pub use args::{CheckArgs, CompareArgs, RenderArgs, ViewArgs};
 
 use std::path::PathBuf;
 
@@ -28,14 +28,7 @@ pub enum Command {
     /// A picture to a file, without a window.
     Render(Box<RenderArgs>),
     /// The distance between two pictures.
-    Compare {
-        /// The picture to judge.
-        film: PathBuf,
-        /// The picture to judge it by.
-        reference: PathBuf,
-        /// One JSON object on stdout instead of a table.
-        json: bool,
-    },
+    Compare(CompareArgs),
     /// Speed against error of all techniques on the built-in scenes.
     Bench {
         /// Folder for table and plots.
@@ -91,7 +84,7 @@ impl Command {
         match self {
             Command::View(args) => crate::window::open(&args)?,
             Command::Render(args) => render::run(&args)?,
-            Command::Compare { film, reference, json } => compare::run(&film, &reference, json)?,
+            Command::Compare(args) => compare::run(&args)?,
             Command::Bench { folder } => bench::run(&folder)?,
             Command::Check(args) => check::run(&args)?,
             Command::Info => info::run()?,

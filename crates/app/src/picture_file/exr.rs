@@ -1,10 +1,10 @@
 //! EXR: linear radiance, and records as text attributes `visavis.name`.
 
-use super::{Linear, cannot_read};
+use super::{Linear, Radiances, cannot_read};
 use crate::technique::Records;
 use anyhow::Context;
 use exr::prelude as exr;
-use scene::{Film, Vec3};
+use scene::Vec3;
 use std::path::Path;
 
 /// One layer of 32-bit floats, red, green and blue.
@@ -43,7 +43,7 @@ pub fn records(path: &Path) -> anyhow::Result<Vec<(String, String)>> {
 }
 
 /// The first layer with red, green and blue.
-pub fn load(path: &Path) -> anyhow::Result<Film> {
+pub fn load(path: &Path) -> anyhow::Result<Radiances> {
     let picture = exr::read_first_rgba_layer_from_file(
         path,
         |size, _| (size, vec![Vec3::ZERO; size.width() * size.height()]),
@@ -53,5 +53,5 @@ pub fn load(path: &Path) -> anyhow::Result<Film> {
     )
     .map_err(|e| cannot_read(path, &e))?;
     let (size, pixels) = picture.layer_data.channel_data.pixels;
-    Film::from_radiances(size.width() as u32, size.height() as u32, pixels).context("the picture is empty")
+    Ok(Radiances { width: size.width() as u32, height: size.height() as u32, radiances: pixels })
 }

@@ -9,8 +9,8 @@ pub use names::{default_folder, free_name, typed_path};
 
 use crate::technique::Records;
 use anyhow::bail;
+use scene::Vec3;
 use scene::display::DisplayTransform;
-use scene::{Film, Vec3};
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
@@ -85,16 +85,31 @@ pub fn encode_rgba8(width: u32, height: u32, rgba: &[u8], records: &Records) -> 
     png::bytes(width, height, rgba, records)
 }
 
+/// A picture as it was read: linear radiance, whatever stands there, also what is not finite.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Radiances {
+    /// Width in pixels.
+    pub width: u32,
+    /// Height in pixels.
+    pub height: u32,
+    /// Rows from the top.
+    pub radiances: Vec<Vec3>,
+}
+
 /// Reads an .exr as it is, or a .png with its sRGB encoding undone.
 ///
 /// # Errors
 /// One line that says why and names the path.
-pub fn load(path: &Path) -> anyhow::Result<Film> {
-    match Kind::of(path) {
-        Some(Kind::Png) => png::load(path),
-        Some(Kind::Exr) => exr::load(path),
+pub fn load(path: &Path) -> anyhow::Result<Radiances> {
+    let picture = match Kind::of(path) {
+        Some(Kind::Png) => png::load(path)?,
+        Some(Kind::Exr) => exr::load(path)?,
         None => bail!("cannot read the picture: its name must end in .png or .exr: {}", path.display()),
+    };
+    if picture.radiances.is_empty() {
+        bail!("cannot read the picture: it is empty: {}", path.display());
     }
+    Ok(picture)
 }
 
 /// What a picture of this program keeps about how it was made, names and values; empty for other pictures.

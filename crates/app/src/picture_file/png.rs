@@ -1,9 +1,9 @@
 //! PNG: sRGB bytes, and records in text chunks as `visavis.name`.
 
-use super::cannot_read;
+use super::{Radiances, cannot_read};
 use crate::technique::Records;
 use anyhow::Context;
-use scene::{Film, Vec3, colour};
+use scene::{Vec3, colour};
 use std::path::Path;
 
 /// Opaque RGBA bytes as a PNG without alpha.
@@ -39,12 +39,12 @@ pub fn records(path: &Path) -> anyhow::Result<Vec<(String, String)>> {
 }
 
 /// A PNG with its sRGB encoding undone.
-pub fn load(path: &Path) -> anyhow::Result<Film> {
+pub fn load(path: &Path) -> anyhow::Result<Radiances> {
     let picture = image::ImageReader::open(path)
         .map_err(image::ImageError::from)
         .and_then(image::ImageReader::decode)
         .map_err(|e| cannot_read(path, &e))?
         .into_rgb32f();
-    let linear = picture.pixels().map(|p| Vec3::from_array(p.0.map(colour::srgb_decode)));
-    Film::from_radiances(picture.width(), picture.height(), linear).context("the picture is empty")
+    let radiances = picture.pixels().map(|p| Vec3::from_array(p.0.map(colour::srgb_decode))).collect();
+    Ok(Radiances { width: picture.width(), height: picture.height(), radiances })
 }

@@ -6,11 +6,13 @@ mod values;
 pub use render::RenderArgs;
 
 use super::{CliError, Command, help};
+use crate::picture_file::Kind;
 use crate::ui::Theme;
+use compare::ErrorMap;
 use lexopt::prelude::*;
 use std::ffi::OsString;
 use std::path::PathBuf;
-use values::choice;
+use values::{choice, number};
 
 /// `visavis [SCENE]`.
 #[derive(Debug, Clone, PartialEq)]
@@ -82,11 +84,37 @@ fn parse_view(mut parser: lexopt::Parser) -> Result<Command, CliError> {
     Ok(Command::View(ViewArgs { scene, ui_dump, theme, frame_stats }))
 }
 
+/// `visavis compare A B ...`.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CompareArgs {
+    /// The picture to judge.
+    pub film: PathBuf,
+    /// The picture to judge it by.
+    pub reference: PathBuf,
+    /// Where to draw a map of the errors.
+    pub heatmap: Option<PathBuf>,
+    /// Which errors it shows.
+    pub map: ErrorMap,
+    /// Stops added before FLIP looks.
+    pub exposure: f32,
+    /// One JSON object on stdout instead of a table.
+    pub json: bool,
+}
+
+/// What `--map` may be.
+const MAPS: &str = "signed, absolute, relative, squared-relative or flip";
+
 fn parse_compare(mut parser: lexopt::Parser) -> Result<Command, CliError> {
-    let (mut files, mut json) = (Vec::<PathBuf>::new(), false);
+    let mut files = Vec::<PathBuf>::new();
+    let (mut heatmap, mut map, mut exposure, mut json) = (None, ErrorMap::default(), 0.0, false);
     while let Some(arg) = parser.next()? {
         match arg {
             Value(file) if files.len() < 2 => files.push(file.into()),
+            Long("heatmap") => heatmap = Some(PathBuf::from(parser.value()?)),
+            Long("map") => map = choice(&mut parser, "--map", ErrorMap::named, MAPS)?,
+            Long("exposure") => {
+                exposure = number(&mut parser, "--exposure", "stops from -30 to 30", |v| v.abs() <= 30.0)?;
+            }
             Long("json") => json = true,
             Long("help") => return Ok(Command::Print(help::HELP)),
             other => return Err(other.unexpected().into()),
@@ -95,7 +123,10 @@ fn parse_compare(mut parser: lexopt::Parser) -> Result<Command, CliError> {
     let Ok([film, reference]) = <[PathBuf; 2]>::try_from(files) else {
         return usage("compare takes two pictures: visavis compare A B");
     };
-    Ok(Command::Compare { film, reference, json })
+    if let Some(out) = heatmap.as_ref().filter(|out| Kind::of(out) != Some(Kind::Png)) {
+        return usage(format!("--heatmap must end in .png: {}", out.display()));
+    }
+    Ok(Command::Compare(CompareArgs { film, reference, heatmap, map, exposure, json }))
 }
 
 /// `visavis check`.
