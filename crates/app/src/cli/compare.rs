@@ -1,7 +1,7 @@
 //! `visavis compare`: how far one picture is from another, in numbers and as a map.
 
 use super::CompareArgs;
-use crate::picture_file::{self, Radiances};
+use crate::picture_file::{self, Kind, Layer, LayerValues, Radiances};
 use anyhow::ensure;
 use compare::flip::{PIXELS_PER_DEGREE, hdr_flip};
 use compare::{ColourScale, ErrorMap, Errors, errors_of_radiances, finite_mean};
@@ -50,7 +50,8 @@ fn measure(a: &Radiances, b: &Radiances, display: &DisplayTransform) -> anyhow::
     })
 }
 
-/// Writes the map with its colour bar below, low at the left.
+/// Writes the map: a PNG in colour with its colour bar below, low at the left; or an EXR with both pictures and every map
+/// as layers of numbers.
 fn draw(
     map: ErrorMap,
     a: &Radiances,
@@ -58,17 +59,29 @@ fn draw(
     display: &DisplayTransform,
     out: &Path,
 ) -> anyhow::Result<ColourScale> {
-    let values = map.of_radiances(&a.radiances, &b.radiances, a.width, display)?;
+    let values_of = |map: ErrorMap| map.of_radiances(&a.radiances, &b.radiances, a.width, display);
+    let values = values_of(map)?;
     let scale = ColourScale::fitted(map, &values);
-    let mut rgba = scale.image(&values, a.width);
-    rgba.extend(scale.bar(a.width, BAR));
-    let records = vec![
-        ("map", scale.label.to_owned()),
-        ("colours", scale.map.name().to_owned()),
-        ("low", scale.low.to_string()),
-        ("high", scale.high.to_string()),
-    ];
-    let bytes = picture_file::encode_rgba8(a.width, a.height + BAR, &rgba, &records)?;
+    let bytes = if Kind::of(out) == Some(Kind::Exr) {
+        let mut layers = vec![
+            Layer { name: "A", values: LayerValues::Rgb(&a.radiances) },
+            Layer { name: "reference", values: LayerValues::Rgb(&b.radiances) },
+        ];
+        for map in ErrorMap::ALL {
+            layers.push(Layer { name: map.name(), values: LayerValues::Numbers(values_of(map)?) });
+        }
+        picture_file::encode_layers(a.width, a.height, &layers)?
+    } else {
+        let mut rgba = scale.image(&values, a.width);
+        rgba.extend(scale.bar(a.width, BAR));
+        let records = vec![
+            ("map", scale.label.to_owned()),
+            ("colours", scale.map.name().to_owned()),
+            ("low", scale.low.to_string()),
+            ("high", scale.high.to_string()),
+        ];
+        picture_file::encode_rgba8(a.width, a.height + BAR, &rgba, &records)?
+    };
     picture_file::write_whole(out, &bytes)?;
     Ok(scale)
 }

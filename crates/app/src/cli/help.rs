@@ -54,7 +54,8 @@ visavis render SCENE -o OUT      render to OUT, .png (display-transformed) or .e
     --show picture|cube-faces|shadow-map
                                  the picture, or a map that it is made from (default picture)
 visavis compare A B              how far picture A is from reference B (.exr or .png): RMSE, relMSE, MAE, bias, FLIP, HDR-FLIP
-    --heatmap OUT                draw the errors to OUT (.png), with their colour bar below
+    --heatmap OUT                draw the errors to OUT: .png in colour with a colour bar, or .exr with both pictures
+                                 and every map as layers
     --map signed|absolute|relative|squared-relative|flip
                                  which errors the map shows (default absolute)
     --exposure EV                stops added before FLIP looks (default 0)

@@ -1,6 +1,6 @@
 //! EXR: linear radiance, and records as text attributes `visavis.name`.
 
-use super::{Linear, Radiances, cannot_read};
+use super::{Layer, LayerValues, Linear, Radiances, cannot_read, check_pixels};
 use crate::technique::Records;
 use anyhow::Context;
 use exr::prelude as exr;
@@ -26,6 +26,30 @@ pub fn bytes(picture: Linear, records: &Records) -> anyhow::Result<Vec<u8>> {
     Ok(bytes.into_inner())
 }
 
+/// A file of several layers, each with its own channels.
+pub fn layers(width: u32, height: u32, layers: &[Layer]) -> anyhow::Result<Vec<u8>> {
+    use exr::WritableImage as _;
+    let size = exr::Vec2(width as usize, height as usize);
+    let channel = |name: &str, values: Vec<f32>| exr::AnyChannel::new(name, exr::FlatSamples::F32(values));
+    let layers = layers.iter().map(|layer| {
+        let channels = match &layer.values {
+            LayerValues::Rgb(pixels) => ["R", "G", "B"]
+                .into_iter()
+                .enumerate()
+                .map(|(axis, name)| channel(name, pixels.iter().map(|p| p[axis]).collect()))
+                .collect(),
+            LayerValues::Numbers(values) => std::iter::once(channel("Y", values.clone())).collect(),
+        };
+        let attributes = exr::LayerAttributes::named(layer.name);
+        exr::Layer::new(size, attributes, exr::Encoding::FAST_LOSSLESS, exr::AnyChannels::sort(channels))
+    });
+    let window = exr::IntegerBounds::new((0, 0), size);
+    let image = exr::Image::from_layers(exr::ImageAttributes::new(window), layers.collect::<exr::Layers<_>>());
+    let mut bytes = std::io::Cursor::new(Vec::new());
+    image.write().to_buffered(&mut bytes).context("cannot encode the layers as EXR")?;
+    Ok(bytes.into_inner())
+}
+
 /// A text in UTF-8, which OpenEXR takes as it takes any bytes.
 fn text(words: &str) -> exr::Text {
     exr::Text::from_slice_unchecked(words.as_bytes())
@@ -44,6 +68,10 @@ pub fn records(path: &Path) -> anyhow::Result<Vec<(String, String)>> {
 
 /// The first layer with red, green and blue.
 pub fn load(path: &Path) -> anyhow::Result<Radiances> {
+    let meta = exr::MetaData::read_from_file(path, false).map_err(|e| cannot_read(path, &e))?;
+    for header in &meta.headers {
+        check_pixels(header.layer_size.width(), header.layer_size.height(), path)?;
+    }
     let picture = exr::read_first_rgba_layer_from_file(
         path,
         |size, _| (size, vec![Vec3::ZERO; size.width() * size.height()]),

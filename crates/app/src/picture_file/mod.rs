@@ -35,6 +35,18 @@ impl Kind {
     }
 }
 
+/// Pixels that a picture may have at most, written or read: a film of them takes 8 GiB.
+pub const MOST_PIXELS: u64 = 1 << 27;
+
+/// Refuses a picture before memory is taken for it.
+fn check_pixels(width: usize, height: usize, path: &Path) -> anyhow::Result<()> {
+    let pixels = width as u64 * height as u64;
+    if pixels > MOST_PIXELS {
+        bail!("cannot read the picture: {width}x{height} pixels are more than {MOST_PIXELS}: {}", path.display());
+    }
+    Ok(())
+}
+
 /// Linear radiance, rows from the top.
 #[derive(Debug, Clone, Copy)]
 pub struct Linear<'a> {
@@ -94,6 +106,32 @@ pub struct Radiances {
     pub height: u32,
     /// Rows from the top.
     pub radiances: Vec<Vec3>,
+}
+
+/// A named picture of one or three channels in a file of several.
+#[derive(Debug)]
+pub struct Layer<'a> {
+    /// Its name in the file.
+    pub name: &'static str,
+    /// Its pixels.
+    pub values: LayerValues<'a>,
+}
+
+/// Rows from the top.
+#[derive(Debug)]
+pub enum LayerValues<'a> {
+    /// Red, green and blue.
+    Rgb(&'a [Vec3]),
+    /// One number a pixel.
+    Numbers(Vec<f32>),
+}
+
+/// The bytes of an EXR with these layers, all of one size.
+///
+/// # Errors
+/// If they cannot be encoded.
+pub fn encode_layers(width: u32, height: u32, layers: &[Layer]) -> anyhow::Result<Vec<u8>> {
+    exr::layers(width, height, layers)
 }
 
 /// Reads an .exr as it is, or a .png with its sRGB encoding undone.

@@ -1,6 +1,6 @@
 //! PNG: sRGB bytes, and records in text chunks as `visavis.name`.
 
-use super::{Radiances, cannot_read};
+use super::{Radiances, cannot_read, check_pixels};
 use crate::technique::Records;
 use anyhow::Context;
 use scene::{Vec3, colour};
@@ -40,6 +40,8 @@ pub fn records(path: &Path) -> anyhow::Result<Vec<(String, String)>> {
 
 /// A PNG with its sRGB encoding undone.
 pub fn load(path: &Path) -> anyhow::Result<Radiances> {
+    let (width, height) = image::image_dimensions(path).map_err(|e| cannot_read(path, &e))?;
+    check_pixels(width as usize, height as usize, path)?;
     let picture = image::ImageReader::open(path)
         .map_err(image::ImageError::from)
         .and_then(image::ImageReader::decode)

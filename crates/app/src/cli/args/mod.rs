@@ -123,8 +123,8 @@ fn parse_compare(mut parser: lexopt::Parser) -> Result<Command, CliError> {
     let Ok([film, reference]) = <[PathBuf; 2]>::try_from(files) else {
         return usage("compare takes two pictures: visavis compare A B");
     };
-    if let Some(out) = heatmap.as_ref().filter(|out| Kind::of(out) != Some(Kind::Png)) {
-        return usage(format!("--heatmap must end in .png: {}", out.display()));
+    if let Some(out) = heatmap.as_ref().filter(|out| Kind::of(out).is_none()) {
+        return usage(format!("--heatmap must end in .png or .exr: {}", out.display()));
     }
     Ok(Command::Compare(CompareArgs { film, reference, heatmap, map, exposure, json }))
 }

@@ -2,13 +2,11 @@
 
 use super::usage;
 use crate::cli::CliError;
+use crate::picture_file::MOST_PIXELS;
 use lexopt::ValueExt;
 use scene::Vec3;
 use std::ops::RangeInclusive;
 use std::str::FromStr;
-
-/// Pixels that a picture may have at most: a film of them takes 8 GiB.
-const MOST_PIXELS: u64 = 1 << 27;
 
 pub fn text(parser: &mut lexopt::Parser) -> Result<String, CliError> {
     Ok(parser.value()?.string()?)
