@@ -248,3 +248,69 @@ fn a_film_knows_when_its_standard_error_means_little() {
     assert!(calm.standard_error_is_reliable(), "{}", calm.tail_weight());
     assert!(!caustic.standard_error_is_reliable(), "{}", caustic.tail_weight());
 }
+
+/// A point of a lamp's own wall is neither in front of it nor behind it: rounding must not decide what it sees.
+#[test]
+fn a_scattering_shell_that_shines_inwards_has_radiance_one() {
+    for (center, radius) in [([0.3, 0.7, -0.2], 3.0), ([0.0, 0.0, 0.0], 1.0), ([10.0, 5.0, 7.0], 20.0)] {
+        let [x, y, z]: [f64; 3] = center;
+        let shell = scene(&format!(
+            r#"
+[camera]
+eye = [{x}, {y}, {z}]
+target = [{}, {y}, {z}]
+fov_y = 60
+[material.shell]
+diffuse = {{ albedo = [0.5, 0.5, 0.5] }}
+emissive = {{ radiance = [0.5, 0.5, 0.5], two_sided = true }}
+[[sphere]]
+center = [{x}, {y}, {z}]
+radius = {radius}
+material = "shell"
+"#,
+            x + 0.5 * radius
+        ));
+        for estimator in Estimator::EVERY {
+            let film = render(&shell, 16, 512, &with(estimator, None, Roulette::THROUGHPUT));
+            assert_mean(&film, 1.0, 0.003, &format!("{} in a shell of radius {radius}", estimator.name()));
+        }
+        let mut film = Film::new(16, 16);
+        let settings =
+            WhittedSettings { ambient: Some(0.0), sampler: SamplerKind::Independent, ..WhittedSettings::default() };
+        Tracer::new(&shell).render_whitted(&mut film, &shell.camera, &settings, 256, &|| false);
+        assert_mean(&film, 0.75, 0.003, &format!("whitted in a shell of radius {radius}"));
+    }
+}
+
+/// Roulette by throughput looks at what all branches of a path carry together: else it would undo the branching. And a
+/// probability of survival that no 24 bits can say is not rounded in favour of the survivors.
+#[test]
+fn roulette_leaves_branches_alone_and_rare_survivors_unbiased() {
+    let cornell = scene::builtin::named("cornell").expect("built in");
+    let rays = |branches, roulette| {
+        let settings = PathSettings { branches, ..with(Estimator::LIGHT, Some(2), roulette) };
+        let stats = Tracer::new(&cornell).render(&mut Film::new(32, 32), &cornell.camera, &settings, 4, &|| false);
+        stats.rays as f64 / stats.samples as f64
+    };
+    assert!(rays(4, Roulette::THROUGHPUT) > 0.4 * rays(4, Roulette::OFF));
+    let dark = scene(
+        r#"
+[camera]
+eye = [0, 0, 3]
+target = [0, 0, 0]
+fov_y = 20
+[sky]
+radiance = [1, 1, 1]
+[material.soot]
+diffuse = { albedo = [0.0005, 0.0005, 0.0005] }
+[[sphere]]
+center = [0, 0, 0]
+radius = 1
+material = "soot"
+"#,
+    );
+    for (branches, spp) in [(1, 65_536), (1024, 64)] {
+        let settings = PathSettings { branches, ..with(Estimator::COSINE, Some(0), Roulette::THROUGHPUT) };
+        assert_mean(&render(&dark, 8, spp, &settings), 0.0005, 0.05, &format!("{branches} branches"));
+    }
+}

@@ -35,10 +35,10 @@ fn bad_values_are_wrong_usage_and_write_nothing() {
     let out = folder.file("out.png");
     let out = out.to_str().unwrap();
     let cases: [(&[&str], &str); 16] = [
-        (&["--refraction-ratio", "0"], "a number above 0"),
-        (&["--refraction-ratio", "-1"], "a number above 0"),
-        (&["--refraction-ratio", "nan"], "a number above 0"),
-        (&["--refraction-ratio", "inf"], "a number above 0"),
+        (&["--refraction-ratio", "0"], "a number from 0.001 to 1000"),
+        (&["--refraction-ratio", "-1"], "a number from 0.001 to 1000"),
+        (&["--refraction-ratio", "nan"], "a number from 0.001 to 1000"),
+        (&["--refraction-ratio", "inf"], "a number from 0.001 to 1000"),
         (&["--spp", "0"], "whole number from 1"),
         (&["--roulette", "0"], "probability above 0 and at most 1"),
         (&["--roulette", "1.5"], "probability above 0 and at most 1"),
@@ -334,6 +334,30 @@ fn a_picture_is_made_again_from_its_own_records() {
         assert!(visavis(&["render", "-o", &again, "--from", &other]).status.success());
         assert_eq!((film(&again).width, film(&again).height), (24, 14));
     }
+    // two kinds of glass, neither of which was turned
+    let two = r#"
+camera = { eye = [0, 0, 6], target = [0, 0, 0], fov_y = 40 }
+sky = { radiance = [0.3, 0.5, 0.9] }
+[material.glass]
+dielectric = { ior = 1.5 }
+[material.diamond]
+dielectric = { ior = 2.4 }
+[[sphere]]
+center = [-1.1, 0, 0]
+radius = 1
+material = "glass"
+[[sphere]]
+center = [1.1, 0, 0]
+radius = 1
+material = "diamond"
+"#;
+    let scene = file("-two glasses.toml");
+    std::fs::write(&scene, two).expect("the scene");
+    assert!(visavis(&["render", &scene, "-o", &first, "--size", "48x27", "--spp", "4"]).status.success());
+    let from = format!("--from={first}");
+    assert!(visavis(&["render", &from, "-o", &again]).status.success());
+    let load = |path: &str| visavis::picture_file::load(std::path::Path::new(path)).expect("an EXR");
+    assert!(load(&first) == load(&again), "two kinds of glass");
     std::fs::write(folder.file("odd.png"), "no picture").expect("a file");
     assert_refused(&["render", "--from", &file("odd.png"), "-o", &again], 1, &["cannot read the picture", "odd.png"]);
     assert_refused(&["render", "--from", &file("none.exr"), "-o", &again], 1, &["none.exr"]);

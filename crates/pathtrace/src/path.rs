@@ -269,7 +269,8 @@ impl Walk<'_> {
             self.outcome.cut |= self.plan.capped;
             return false;
         }
-        survives(&mut path.throughput, self.plan.roulette, u_roulette)
+        let shared = if path.forked == 0 { 1.0 } else { (self.plan.branches as f32).powi(path.forked as i32) };
+        survives(&mut path.throughput, shared, self.plan.roulette, u_roulette)
     }
 
     /// Incoming radiance times cosine over density, from one sample of the lights; zero in shadow. Under MIS weighted
@@ -340,12 +341,16 @@ fn scatter_dielectric(path: &mut PathState, at: &SurfacePoint, wo: Vec3, ior: f3
 /// 1.02e-3 at 1.5, 0.86e-3 at 2, 0.92e-3 at 4 and 2.2e-3 at 16 for the Cornell box, and flat from 1 to 2 for the spheres.
 const ROULETTE_SLOPE: f32 = 2.0;
 
-/// Russian roulette; the survivor carries the light of those that did not.
-fn survives(throughput: &mut Vec3, roulette: Roulette, u: f32) -> bool {
+/// Random numbers are multiples of 2^-24: a probability is one as well, or the survivors would be too many by up to that.
+const STEPS: f32 = 16_777_216.0;
+
+/// Russian roulette; the survivor carries the light of those that did not. `branches` paths share what one would carry.
+fn survives(throughput: &mut Vec3, branches: f32, roulette: Roulette, u: f32) -> bool {
     let mut probability = roulette.probability.unwrap_or(1.0);
     if roulette.throughput {
-        probability *= (ROULETTE_SLOPE * throughput.max_element()).min(1.0);
+        probability *= (ROULETTE_SLOPE * branches * throughput.max_element()).min(1.0);
     }
+    probability = (probability * STEPS).ceil() / STEPS;
     *throughput /= probability;
     // nothing is left to carry: the product has underflowed, or the surface was black
     u < probability && *throughput != Vec3::ZERO

@@ -29,7 +29,7 @@ pub struct Stats {
     pub samples: u64,
     /// Rays traced, shadow rays included.
     pub rays: u64,
-    /// Samples that lost light to [`PathSettings::HARD_CAP`] or [`whitted::MOST_RAYS`].
+    /// Samples that lost light to [`PathSettings::HARD_CAP`] or [`whitted::MOST_BRANCHES`].
     pub cut_paths: u64,
 }
 

@@ -82,9 +82,9 @@ impl Default for WhittedSettings {
     }
 }
 
-/// Rays of one sample before its other branches are cut, and the sample counted in [`crate::Stats::cut_paths`]: between
+/// Branches of one sample before its other ones are cut, and the sample counted in [`crate::Stats::cut_paths`]: between
 /// facing pieces of glass each level doubles the rays.
-pub const MOST_RAYS: u32 = 65_536;
+pub const MOST_BRANCHES: u32 = 65_536;
 
 /// Lights up to which each is sampled; of more, this many are chosen by power.
 const MOST_LIGHTS: usize = 16;
@@ -132,6 +132,8 @@ struct Tree<'a> {
     ambient: f32,
     /// The next block of random numbers; the camera took block 0.
     dimension: u32,
+    /// Branches followed so far.
+    followed: u32,
     outcome: Outcome,
 }
 
@@ -145,11 +147,11 @@ pub fn trace(
     waiting: &mut Waiting,
 ) -> Outcome {
     let ambient = settings.ambient.unwrap_or(scene_ambient);
-    let mut tree = Tree { world, settings, sampler, ambient, dimension: 1, outcome: Outcome::default() };
+    let mut tree = Tree { world, settings, sampler, ambient, dimension: 1, followed: 0, outcome: Outcome::default() };
     waiting.count = 0;
     let mut next = Some(Branch { ray, weight: Vec3::ONE, depth: 0 });
     while let Some(branch) = next {
-        if tree.outcome.rays >= MOST_RAYS {
+        if tree.followed >= MOST_BRANCHES {
             tree.outcome.cut = true;
             break;
         }
@@ -162,6 +164,7 @@ impl Tree<'_> {
     /// Follows a ray to the next surface; the branch that goes on from there, if one does.
     fn follow(&mut self, branch: Branch, waiting: &mut Waiting) -> Option<Branch> {
         let Branch { ray, weight, depth } = branch;
+        self.followed += 1;
         self.outcome.rays += 1;
         let Some(hit) = self.world.accel.closest(&ray) else {
             let sun = self.world.sun_disc.as_ref();

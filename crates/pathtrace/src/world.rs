@@ -28,7 +28,7 @@ pub struct Outcome {
     /// Rays traced, shadow rays included.
     pub rays: u32,
     /// Whether rays were left out that no setting asked to leave out: beyond [`crate::PathSettings::HARD_CAP`], or
-    /// beyond [`crate::whitted::MOST_RAYS`].
+    /// beyond [`crate::whitted::MOST_BRANCHES`].
     pub cut: bool,
 }
 

@@ -4,7 +4,7 @@
 //!
 //! Allowed are shapes that lie apart, round ones that touch, and one wholly inside another. Flat faces must not touch: of
 //! two faces in one place a ray meets only one. Meshes are judged by their bounding box, but for lying inside another
-//! shape. Open shapes (rectangles, disks) and glass of index 1 are not looked at.
+//! shape. Open shapes (rectangles, disks) are not looked at; glass of index 1 is, for a slider may give it another.
 
 use crate::{Bsdf, Geometry, Material, Shape};
 use glam::{DVec2, DVec3};
@@ -36,7 +36,7 @@ struct Block {
 
 /// The first two shapes whose glass overlaps, by index: (earlier, later).
 pub fn overlap(shapes: &[Shape], materials: &[Material]) -> Option<(usize, usize)> {
-    let refracts = |s: &Shape| matches!(materials[s.material].bsdf, Bsdf::Dielectric { ior } if ior != 1.0);
+    let refracts = |s: &Shape| matches!(materials[s.material].bsdf, Bsdf::Dielectric { .. });
     let glass = shapes.iter().enumerate().filter(|(_, shape)| refracts(shape));
     let mut solids: Vec<Solid> = glass.filter_map(|(index, shape)| Solid::new(index, &shape.geometry)).collect();
     solids.sort_by(|a, b| a.lo.x.total_cmp(&b.lo.x));

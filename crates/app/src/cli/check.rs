@@ -36,9 +36,10 @@ pub fn run(args: &CheckArgs) -> anyhow::Result<()> {
         super::print(&format!("{} cases, {passed} rows passed, {failed} failed, {seconds:.0} s\n", cases.len()))?;
     }
     let numbers = failed_cases(&rows);
+    let effort = if args.quick { " --quick" } else { "" };
     anyhow::ensure!(
         failed == 0,
-        "the check failed in {numbers}: see its rows; visavis check --case {numbers} runs them alone"
+        "the check failed in {numbers}: see its rows; visavis check{effort} --case {numbers} runs them alone"
     );
     Ok(())
 }

@@ -27,6 +27,9 @@ pub fn run(args: &CompareArgs) -> anyhow::Result<()> {
         (a.width, a.height) == (b.width, b.height),
         compare::CompareError::Sizes(a.width, a.height, b.width, b.height)
     );
+    if let Some(out) = &args.heatmap {
+        picture_file::check_writable(out)?;
+    }
     let display = DisplayTransform { exposure: args.exposure };
     let found = measure(&a, &b, &display)?;
     if found.errors.nonfinite > 0 {

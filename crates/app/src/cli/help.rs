@@ -16,7 +16,7 @@ visavis render SCENE -o OUT      render to OUT, .png (display-transformed) or .e
     --size WxH                   pixels (default 1280x720)
     --eye X,Y,Z --target X,Y,Z --fov DEG
                                  camera (default the scene's)
-    --refraction-ratio R         index outside over inside of all glass, above 0 (default the scene's)
+    --refraction-ratio R         index outside over inside of all glass, 0.001 to 1000 (default the scene's)
     --exposure EV                stops added before display, PNG only (default 0)
     --json                       print one JSON object about the result on stdout
   whitted and path:
@@ -64,6 +64,7 @@ visavis bench -o DIR --quick     speed against error on both scenes: CSV and SVG
 visavis check                    every hard case: expected, measured, tolerance, verdict; exit code 1 if one fails
     --quick                      coarser, within a minute
     --case N,N,...               these cases alone
+    --device auto|cpu            where: the cpu is all there is so far
     --json                       one JSON object on stdout
 visavis info                     adapters, limits, what would be used and why
 visavis --help, --version

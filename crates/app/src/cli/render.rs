@@ -42,6 +42,9 @@ pub fn run(args: &RenderArgs) -> anyhow::Result<()> {
             rendered.film.nonfinite
         );
     }
+    if rendered.stats.cut_paths > 0 {
+        note!("note: {} samples were cut short and miss light: too many rays", rendered.stats.cut_paths);
+    }
     if args.json {
         super::print(&format!("{}\n", report(args, &scene, &rendered)))?;
     } else {
@@ -72,7 +75,7 @@ fn save(args: &RenderArgs, scene: &Scene, rendered: &Rendered) -> anyhow::Result
         adapter: &rendered.adapter,
         exposure: args.exposure,
     };
-    let records = provenance.records(scene, made);
+    let records = provenance.records(made);
     let radiances: Vec<Vec3> = rendered.film.radiances().collect();
     let picture = Linear { width: args.size.0, height: args.size.1, radiances: &radiances };
     let kind = Kind::of(&args.out).context("a picture's name must end in .png or .exr")?;

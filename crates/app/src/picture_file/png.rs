@@ -32,7 +32,11 @@ fn encode(width: u32, height: u32, rgba: &[u8], records: &Records) -> Result<Vec
 pub fn records(path: &Path) -> anyhow::Result<Vec<(String, String)>> {
     let file = std::fs::File::open(path).map_err(|e| cannot_read(path, &e))?;
     let reader = png::Decoder::new(std::io::BufReader::new(file)).read_info().map_err(|e| cannot_read(path, &e))?;
+    // this program does not compress them, and what others compress may be of any size
     let ours = |chunk: &png::text_metadata::ITXtChunk| {
+        if chunk.compressed {
+            return None;
+        }
         Some((chunk.keyword.strip_prefix("visavis.")?.to_owned(), chunk.get_text().ok()?))
     };
     Ok(reader.info().utf8_text.iter().filter_map(ours).collect())

@@ -5,7 +5,7 @@ mod provenance;
 mod rays;
 
 pub use fake::FakeSettings;
-pub use provenance::{Made, Provenance, Records, words_of};
+pub use provenance::{Made, Provenance, Records, made_from};
 pub use rays::{Method, RaySettings, TreeSettings, TruthSettings, bounces_name, roulette_name};
 
 use scene::Scene;

@@ -1,7 +1,7 @@
 //! Where a picture comes from: everything that makes it again, as records to keep in its file and as a command to type.
 
 use super::{Recipe, SceneChanges};
-use scene::{Camera, Scene, Vec3};
+use scene::{Camera, Vec3};
 
 /// All that a picture depends on.
 #[derive(Debug, Clone, PartialEq)]
@@ -37,12 +37,12 @@ const RECORDS_VERSION: &str = "1";
 /// Records that say what a picture took, and are no options of `visavis render`.
 const NO_OPTIONS: [&str; 7] = ["records", "version", "scene", "device", "adapter", "seconds", "command"];
 
-/// The words of `visavis render` that make a picture with these records again, but for the output; `None` if they are not
-/// those of one pane's picture.
+/// What makes a picture with these records again: the scene, and options of `visavis render`. `None` if they are not those
+/// of one pane's picture.
 ///
 /// # Errors
 /// If the records are of a later version.
-pub fn words_of(records: &[(String, String)]) -> anyhow::Result<Option<Vec<String>>> {
+pub fn made_from(records: &[(String, String)]) -> anyhow::Result<Option<(String, Vec<String>)>> {
     let value = |name: &str| records.iter().find(|(known, _)| known == name).map(|(_, value)| value.as_str());
     let (Some(version), Some(scene)) = (value("records"), value("scene")) else { return Ok(None) };
     anyhow::ensure!(
@@ -50,17 +50,16 @@ pub fn words_of(records: &[(String, String)]) -> anyhow::Result<Option<Vec<Strin
         "its records are of version {version}, and this program reads version {RECORDS_VERSION}: use a newer one"
     );
     let options = records.iter().filter(|(name, _)| !NO_OPTIONS.contains(&name.as_str()));
-    let words = options.flat_map(|(name, value)| [format!("--{name}"), value.clone()]);
-    Ok(Some(std::iter::once(scene.to_owned()).chain(words).collect()))
+    let words = options.map(|(name, value)| format!("--{name}={value}"));
+    Ok(Some((scene.to_owned(), words.collect())))
 }
 
 /// Names and values, in the order in which they are written.
 pub type Records = Vec<(&'static str, String)>;
 
 impl Provenance {
-    /// What a file keeps of it, with the command that makes it as a PNG; `scene` is the one that was rendered, its changes
-    /// applied.
-    pub fn records(&self, scene: &Scene, made: Made) -> Records {
+    /// What a file keeps of it, with the command that makes it as a PNG.
+    pub fn records(&self, made: Made) -> Records {
         let Made { spp, seconds, adapter, exposure } = made;
         let mut records = vec![
             ("records", RECORDS_VERSION.into()),
@@ -75,8 +74,10 @@ impl Provenance {
             ("target", point(self.camera.target)),
             ("fov", self.camera.fov_y.to_string()),
         ];
-        records.extend(scene.refraction_ratio().map(|ratio| ("refraction-ratio", ratio.to_string())));
-        records.extend(scene.sun.map(|sun| ("sun-radius", sun.angular_radius.to_string())));
+        // what was not changed is the scene's, and may differ from glass to glass
+        records.extend(self.changes.refraction_ratio.map(|ratio| ("refraction-ratio", ratio.to_string())));
+        let radius = self.changes.sun_radius.filter(|_| matches!(self.recipe, Recipe::Rays(_)));
+        records.extend(radius.map(|radius| ("sun-radius", radius.to_string())));
         records.extend(self.recipe.options(spp));
         records.push(("exposure", exposure.to_string()));
         records.push(("command", self.command(spp, exposure, "picture.png")));

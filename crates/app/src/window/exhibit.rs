@@ -61,7 +61,7 @@ impl Exhibit {
             adapter: &picture.adapter,
             exposure: display.exposure,
         };
-        let records = picture.order.provenance.records(&picture.order.scene, made);
+        let records = picture.order.provenance.records(made);
         Some((Content::Pane(picture.clone(), display), records))
     }
 

@@ -220,7 +220,9 @@ impl Painter {
 
     /// The kept film that is nearest to what `job` asks for, of the same picture.
     fn best_kept(&mut self, job: &RayJob) -> Option<Exposed> {
-        let serves = |exposed: &Exposed| same_picture(&exposed.job, job) && exposed.spp <= job.settings.spp;
+        // a pass that was stopped has left some pixels with more samples than others
+        let most = |exposed: &Exposed| exposed.film.pixels().iter().map(|pixel| pixel.samples).max().unwrap_or(0);
+        let serves = |exposed: &Exposed| same_picture(&exposed.job, job) && most(exposed) <= job.settings.spp;
         let serving = self.kept.iter().enumerate().filter(|(_, exposed)| serves(exposed));
         let (index, _) = serving.max_by_key(|(_, exposed)| exposed.spp)?;
         Some(self.kept.remove(index))

@@ -2,8 +2,8 @@
 //! lamp shines, uniform in all directions.
 
 use super::{LightSample, ShadowEnd};
-use crate::geometry::SurfacePoint;
 use crate::geometry::sphere::Sphere;
+use crate::geometry::{SurfacePoint, gamma};
 use crate::sampling;
 use scene::Vec3;
 use scene::material::Emission;
@@ -11,11 +11,15 @@ use scene::material::Emission;
 /// `1 - cos` of the cone of all directions.
 const ALL_DIRECTIONS: f32 = 2.0;
 
-/// `1 - cos` of the half angle of the cone that the sphere fills; `None` from inside. Exact for a sphere tiny or far away,
-/// and where the point almost touches it.
-fn one_minus_cos(to_center: Vec3, radius: f32) -> Option<f32> {
-    let distance = to_center.length();
-    if distance <= radius {
+/// `1 - cos` of the half angle of the cone that the sphere fills as seen from `x`; `None` from inside. Exact for a sphere
+/// tiny or far away, and where the point almost touches it.
+///
+/// A point on the sphere itself counts as inside: which side it was rounded to says nothing, from inside it sees the whole
+/// sphere, and outside nothing of it.
+fn one_minus_cos(x: Vec3, Sphere { center, radius }: Sphere) -> Option<f32> {
+    let distance = (center - x).length();
+    let rounding = gamma(8) * (center.abs().max_element() + radius);
+    if distance <= radius + rounding {
         return None;
     }
     let cos = ((distance - radius) * (distance + radius)).sqrt() / distance;
@@ -25,12 +29,12 @@ fn one_minus_cos(to_center: Vec3, radius: f32) -> Option<f32> {
 
 /// Density per solid angle of a direction from `x` that meets the sphere.
 pub fn pdf(x: Vec3, sphere: Sphere) -> f32 {
-    sampling::cone_pdf(one_minus_cos(sphere.center - x, sphere.radius).unwrap_or(ALL_DIRECTIONS))
+    sampling::cone_pdf(one_minus_cos(x, sphere).unwrap_or(ALL_DIRECTIONS))
 }
 
 pub fn sample(x: Vec3, sphere: Sphere, emission: Emission, u: [f32; 2]) -> Option<LightSample> {
     let to_center = sphere.center - x;
-    let outside = one_minus_cos(to_center, sphere.radius);
+    let outside = one_minus_cos(x, sphere);
     let (wi, pdf) = match outside {
         Some(cone) => {
             let axis = to_center / to_center.length();

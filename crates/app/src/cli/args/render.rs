@@ -4,14 +4,14 @@ use super::usage;
 use super::values::{choice, number, parse_finite, parse_whole, point, size, text, whole, within};
 use crate::cli::{CliError, Command, help};
 use crate::picture_file::{self, Kind};
-use crate::technique::{PaneSettings, SceneChanges, Technique, words_of};
+use crate::technique::{PaneSettings, SceneChanges, Technique, made_from};
 use anyhow::Context;
 use lexopt::prelude::*;
 use pathtrace::{Estimator, GlassShadows, Roulette, SamplerKind, WhittedSettings};
 use raster::{Fake, FakeKnobs, Shading, ShadowFilter, Show};
 use scene::Vec3;
 use std::ffi::OsString;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// `visavis render SCENE -o OUT ...`; `None` leaves a value to the scene.
 #[derive(Debug, Clone, PartialEq)]
@@ -49,23 +49,40 @@ const LOCAL: &[Technique] = &[Technique::Raster, Technique::Whitted];
 /// Reads the words after `render`. A picture after `--from` comes first: what else is said changes what it says.
 pub fn parse(mut parser: lexopt::Parser) -> Result<Command, CliError> {
     let mut words: Vec<OsString> = parser.raw_args()?.collect();
-    if let Some(place) = words.iter().position(|word| word == "--from") {
-        let Some(file) = words.get(place + 1).map(PathBuf::from) else {
-            return usage("--from needs a picture: visavis render --from FILE -o OUT");
-        };
-        let records = picture_file::records(&file)?;
-        let made = words_of(&records).with_context(|| format!("cannot make this picture again: {}", file.display()))?;
-        let Some(made) = made else {
-            return Err(anyhow::anyhow!("this picture does not say how it was made: {}", file.display()).into());
-        };
-        words.drain(place..place + 2);
-        words.splice(0..0, made.into_iter().map(OsString::from));
-    }
-    parse_words(lexopt::Parser::from_args(words))
+    let Some(place) = words.iter().position(|word| word.to_string_lossy().split('=').next() == Some("--from")) else {
+        return parse_words(words, None);
+    };
+    let (file, taken) = match (words[place].to_string_lossy().strip_prefix("--from="), words.get(place + 1)) {
+        (Some(file), _) => (PathBuf::from(file), 1),
+        (None, Some(file)) => (PathBuf::from(file), 2),
+        (None, None) => return usage("--from needs a picture: visavis render --from FILE -o OUT"),
+    };
+    words.drain(place..place + taken);
+    let (scene, made) = read_records(&file)?;
+    words.splice(0..0, made);
+    parse_words(words, Some(scene))
 }
 
-fn parse_words(mut parser: lexopt::Parser) -> Result<Command, CliError> {
-    let mut scene = None;
+/// The scene and the options that a picture was made with.
+fn read_records(file: &Path) -> anyhow::Result<(String, Vec<OsString>)> {
+    let records = picture_file::records(file)?;
+    let made = made_from(&records).with_context(|| format!("cannot make this picture again: {}", file.display()))?;
+    let Some((scene, words)) = made else {
+        anyhow::bail!("this picture does not say how it was made: {}", file.display());
+    };
+    let words: Vec<OsString> = words.into_iter().map(OsString::from).collect();
+    let alone = words.iter().cloned().chain(["-o".into(), "out.png".into()]).collect();
+    match parse_words(alone, Some(scene.clone())) {
+        Ok(Command::Render(_)) => Ok((scene, words)),
+        Ok(_) => anyhow::bail!("its records are no options of render: {}", file.display()),
+        Err(fault) => anyhow::bail!("its records make no picture ({}): {}", fault.line(), file.display()),
+    }
+}
+
+/// Reads words; `scene` is the one to render, if it is not among them.
+fn parse_words(words: Vec<OsString>, scene: Option<String>) -> Result<Command, CliError> {
+    let mut parser = lexopt::Parser::from_args(words);
+    let mut scene = scene;
     let mut out = None;
     let mut device = Device::Auto;
     let mut read: Vec<Applies> = Vec::new();
@@ -132,7 +149,10 @@ fn of_all(option: &str, parser: &mut lexopt::Parser, r: &mut RenderArgs) -> Resu
         "target" => r.target = Some(point(parser, "--target")?),
         "fov" => r.fov = Some(number(parser, "--fov", "degrees between 0 and 180", |v| v > 0.0 && v < 180.0)?),
         "refraction-ratio" => {
-            r.changes.refraction_ratio = Some(number(parser, "--refraction-ratio", "a number above 0", |v| v > 0.0)?);
+            r.changes.refraction_ratio =
+                Some(number(parser, "--refraction-ratio", "a number from 0.001 to 1000", |v| {
+                    (0.001..=1000.0).contains(&v)
+                })?);
         }
         "exposure" => r.exposure = number(parser, "--exposure", "stops from -30 to 30", |v| v.abs() <= 30.0)?,
         "json" => r.json = true,
