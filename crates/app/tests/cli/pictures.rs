@@ -1,0 +1,136 @@
+//! Pictures that are read: made again, compared, broken.
+
+use super::{assert_refused, json, visavis};
+use visavis_tests::TestFolder;
+
+#[test]
+fn a_picture_is_made_again_from_its_own_records() {
+    let folder = TestFolder::new();
+    let file = |name: &str| folder.file(name).to_str().expect("a plain path").to_owned();
+    let (first, again, other) = (file("first.exr"), file("again.exr"), file("other.png"));
+    let options: [&[&str]; 3] = [
+        &["--estimator", "mis", "--bounces", "3", "--roulette", "0.8+throughput", "--spp", "5", "--seed", "7"],
+        &["--technique", "whitted", "--depth", "4", "--glass-shadows", "clear", "--refraction-ratio", "0.8"],
+        &["--technique", "raster", "--fake", "as-taught", "--segments", "12", "--shadow-filter", "pcf", "--fov", "50"],
+    ];
+    for extra in options {
+        let common = ["render", "whitted", "-o", &first, "--size", "48x27", "--sun-radius", "1.5"];
+        assert!(visavis(&[&common, extra].concat()).status.success());
+        let made = visavis(&["render", "--from", &first, "-o", &again]);
+        assert!(made.status.success(), "{}", String::from_utf8_lossy(&made.stderr));
+        let film = |path: &str| visavis::picture_file::load(std::path::Path::new(path)).expect("an EXR");
+        assert!(film(&first) == film(&again), "{extra:?}");
+        // a PNG keeps them as well, and other options change them
+        assert!(visavis(&["render", "--from", &first, "-o", &other, "--size", "24x14"]).status.success());
+        assert!(visavis(&["render", "-o", &again, "--from", &other]).status.success());
+        assert_eq!((film(&again).width, film(&again).height), (24, 14));
+    }
+    // two kinds of glass, neither of which was turned
+    let two = r#"
+camera = { eye = [0, 0, 6], target = [0, 0, 0], fov_y = 40 }
+sky = { radiance = [0.3, 0.5, 0.9] }
+[material.glass]
+dielectric = { ior = 1.5 }
+[material.diamond]
+dielectric = { ior = 2.4 }
+[[sphere]]
+center = [-1.1, 0, 0]
+radius = 1
+material = "glass"
+[[sphere]]
+center = [1.1, 0, 0]
+radius = 1
+material = "diamond"
+"#;
+    let scene = file("-two glasses.toml");
+    std::fs::write(&scene, two).expect("the scene");
+    assert!(visavis(&["render", &scene, "-o", &first, "--size", "48x27", "--spp", "4"]).status.success());
+    let from = format!("--from={first}");
+    assert!(visavis(&["render", &from, "-o", &again]).status.success());
+    let load = |path: &str| visavis::picture_file::load(std::path::Path::new(path)).expect("an EXR");
+    assert!(load(&first) == load(&again), "two kinds of glass");
+    std::fs::write(folder.file("odd.png"), "no picture").expect("a file");
+    assert_refused(&["render", "--from", &file("odd.png"), "-o", &again], 1, &["cannot read the picture", "odd.png"]);
+    assert_refused(&["render", "--from", &file("none.exr"), "-o", &again], 1, &["none.exr"]);
+    assert_refused(&["render", "-o", &again, "--from"], 2, &["--from needs a picture"]);
+    image::RgbImage::new(2, 2).save(folder.file("plain.png")).expect("a file");
+    assert_refused(&["render", "--from", &file("plain.png"), "-o", &again], 1, &["does not say how it was made"]);
+}
+
+#[test]
+fn two_pictures_are_compared_in_numbers_and_as_a_map() {
+    let folder = TestFolder::new();
+    let file = |name: &str| folder.file(name).to_str().expect("a plain path").to_owned();
+    let (fake, truth, map) = (file("fake.exr"), file("truth.exr"), file("map.png"));
+    let size = ["--size", "48x27"];
+    let render = |out: &str, extra: &[&str]| {
+        assert!(visavis(&[&["render", "cornell", "-o", out], &size[..], extra].concat()).status.success());
+    };
+    render(&truth, &["--spp", "64"]);
+    render(&fake, &["--technique", "raster"]);
+    for (name, colours) in [("signed", "blue-white-orange"), ("absolute", "viridis"), ("flip", "magma")] {
+        let report = json(&visavis(&["compare", &fake, &truth, "--json", "--heatmap", &map, "--map", name]));
+        assert_eq!(report["map"]["colours"], colours);
+        for number in ["rmse", "relmse", "mae", "flip", "hdr_flip"] {
+            assert!(report[number].as_f64() > Some(0.0), "{number}: {report}");
+        }
+        let picture = image::open(&map).expect("a PNG").to_rgb8();
+        assert_eq!(picture.dimensions(), (48, 27 + 12));
+    }
+    let layers = file("layers.exr");
+    assert!(visavis(&["compare", &fake, &truth, "--heatmap", &layers]).status.success());
+    let image = exr::prelude::read_all_data_from_file(&layers).expect("an EXR");
+    let names: Vec<String> =
+        image.layer_data.iter().map(|l| l.attributes.layer_name.as_ref().expect("a name").to_string()).collect();
+    assert_eq!(names, ["A", "reference", "signed", "absolute", "relative", "squared-relative", "flip"]);
+    let itself = json(&visavis(&["compare", &truth, &truth, "--json"]));
+    for number in ["rmse", "relmse", "mae", "bias", "flip", "hdr_flip"] {
+        assert_eq!(itself[number], 0.0, "{number}");
+    }
+    render(&fake, &["--technique", "whitted", "--size", "20x20"]);
+    assert_refused(&["compare", &fake, &truth], 1, &["differ in size", "20x20"]);
+    assert_refused(&["compare", &truth, &truth, "--heatmap", "map.gif"], 2, &[".png or .exr"]);
+    assert_refused(&["compare", &truth, &truth, "--map", "pink"], 2, &["squared-relative"]);
+}
+
+#[test]
+fn broken_and_enormous_pictures_are_refused_without_taking_memory() {
+    let folder = TestFolder::new();
+    let file = |name: &str| folder.file(name).to_str().expect("a plain path").to_owned();
+    let good = file("good.exr");
+    assert!(visavis(&["render", "cornell", "-o", &good, "--size", "32x32", "--spp", "1"]).status.success());
+    let whole = std::fs::read(&good).expect("the file");
+    let refused = |name: &str, bytes: &[u8], words: &[&str]| {
+        std::fs::write(folder.file(name), bytes).expect("a file");
+        assert_refused(&["compare", &file(name), &good], 1, words);
+    };
+    for length in [0, 3, 40, 300, whole.len() / 2, whole.len() - 1] {
+        refused("cut.exr", &whole[..length], &["cannot read the picture", "cut.exr"]);
+    }
+    // the data window and the display window, the latter without an edge in common with what is there
+    let mut huge = whole.clone();
+    let at =
+        huge.windows(10).position(|w| w == b"dataWindow").expect("a data window") + "dataWindow\0box2i\0".len() + 4;
+    huge[at + 8..at + 16].copy_from_slice(&[0xff, 0xff, 0x01, 0, 0xff, 0xff, 0x01, 0]);
+    refused("huge.exr", &huge, &["cannot read the picture", "huge.exr"]);
+    let mut bomb = b"\x89PNG\r\n\x1a\n\0\0\0\rIHDR\0\x01\x86\xa0\0\x01\x86\xa0\x08\x02\0\0\0".to_vec();
+    bomb.extend(crc32(&bomb[12..]).to_be_bytes());
+    bomb.extend(b"\0\0\0\0IDAT\x35\xaf\x06\x1e\0\0\0\0IEND\xae\x42\x60\x82");
+    refused("bomb.png", &bomb, &["cannot read the picture", "bomb.png"]);
+    assert_refused(&["compare", folder.file("").to_str().expect("a plain path"), &good], 1, &["cannot read"]);
+    // records of a later version
+    let later: Vec<u8> = whole.clone();
+    let record = b"visavis.records\0string\0\x01\0\0\0";
+    let place = later.windows(record.len()).position(|w| w == record).expect("the record") + record.len();
+    let mut later = later;
+    later[place] = b'9';
+    std::fs::write(folder.file("later.exr"), &later).expect("a file");
+    assert_refused(&["render", "--from", &file("later.exr"), "-o", &file("out.png")], 1, &["version 9", "newer"]);
+}
+
+/// The checksum of a PNG's chunk.
+fn crc32(bytes: &[u8]) -> u32 {
+    !bytes.iter().fold(!0u32, |crc, &byte| {
+        (0..8).fold(crc ^ u32::from(byte), |c, _| if c & 1 == 1 { (c >> 1) ^ 0xedb8_8320 } else { c >> 1 })
+    })
+}
