@@ -16,7 +16,6 @@ pub fn show(viewer: &mut Viewer, side: Side, ui: &mut Ui, dump: &mut Dump) {
         fake.fake = Fake::ALL[index];
     }
     if let Some(own) = scene.reflectivity() {
-        let mut share = fake.reflectivity.unwrap_or(own);
         let slider = Stepped {
             name: &format!("{side:?} reflectivity"),
             label: "Reflectivity of the glass",
@@ -25,9 +24,7 @@ pub fn show(viewer: &mut Viewer, side: Side, ui: &mut Ui, dump: &mut Dump) {
             step: 0.01,
             suffix: "",
         };
-        if slider.show(&mut share, ui, dump) {
-            fake.reflectivity = Some(share);
-        }
+        slider.show_over(own, &mut fake.reflectivity, ui, dump);
     }
     let more = CollapsingHeader::new("More").id_salt(("more", side as usize)).show_unindented(ui, |ui| {
         shown(fake, &scene, side, ui, dump);
@@ -58,7 +55,6 @@ fn shading(fake: &mut FakeSettings, scene: &Scene, side: Side, ui: &mut Ui, dump
         fake.shading = Shading::ALL[index];
     }
     let own = scene.materials.first().map_or(30.0, |material| material.fake.shininess);
-    let mut shininess = fake.knobs.shininess.unwrap_or(own);
     let slider = Stepped {
         name: &format!("{side:?} shininess"),
         label: "Shininess",
@@ -67,10 +63,7 @@ fn shading(fake: &mut FakeSettings, scene: &Scene, side: Side, ui: &mut Ui, dump
         step: 1.0,
         suffix: "",
     };
-    if slider.show(&mut shininess, ui, dump) {
-        fake.knobs.shininess = Some(shininess);
-    }
-    let mut ambient = fake.knobs.ambient.unwrap_or(scene.fake.ambient);
+    slider.show_over(own, &mut fake.knobs.shininess, ui, dump);
     let slider = Stepped {
         name: &format!("{side:?} ambient"),
         label: "Ambient light",
@@ -79,9 +72,7 @@ fn shading(fake: &mut FakeSettings, scene: &Scene, side: Side, ui: &mut Ui, dump
         step: 0.01,
         suffix: "",
     };
-    if slider.show(&mut ambient, ui, dump) {
-        fake.knobs.ambient = Some(ambient);
-    }
+    slider.show_over(scene.fake.ambient, &mut fake.knobs.ambient, ui, dump);
 }
 
 fn shadows(knobs: &mut FakeKnobs, scene: &Scene, side: Side, ui: &mut Ui, dump: &mut Dump) {

@@ -7,7 +7,7 @@ use egui::Ui;
 pub fn show(viewer: &mut Viewer, ui: &mut Ui, dump: &mut Dump) {
     let changes = &mut viewer.settings.changes;
     if let Some(own) = viewer.scene.refraction_ratio() {
-        let mut ratio = changes.refraction_ratio.unwrap_or(own);
+        let ratio = changes.refraction_ratio.unwrap_or(own);
         let slider = Stepped {
             name: "refraction ratio",
             label: &format!("Refraction ratio (n = {:.2})", 1.0 / ratio),
@@ -16,12 +16,9 @@ pub fn show(viewer: &mut Viewer, ui: &mut Ui, dump: &mut Dump) {
             step: 0.01,
             suffix: "",
         };
-        if slider.show(&mut ratio, ui, dump) {
-            changes.refraction_ratio = Some(ratio);
-        }
+        slider.show_over(own, &mut changes.refraction_ratio, ui, dump);
     }
     if let Some(sun) = viewer.scene.sun {
-        let mut radius = changes.sun_radius.unwrap_or(sun.angular_radius);
         let slider = Stepped {
             name: "sun radius",
             label: "Sun radius (the fake's is 0)",
@@ -30,8 +27,6 @@ pub fn show(viewer: &mut Viewer, ui: &mut Ui, dump: &mut Dump) {
             step: 0.1,
             suffix: "°",
         };
-        if slider.show(&mut radius, ui, dump) {
-            changes.sun_radius = Some(radius);
-        }
+        slider.show_over(sun.angular_radius, &mut changes.sun_radius, ui, dump);
     }
 }

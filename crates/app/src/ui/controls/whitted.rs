@@ -27,7 +27,6 @@ pub fn show(viewer: &mut Viewer, side: Side, ui: &mut Ui, dump: &mut Dump) {
             tree.glass_shadows = GlassShadows::ALL[index];
         }
     }
-    let mut ambient = tree.ambient.unwrap_or(scene.fake.ambient);
     let slider = Stepped {
         name: &format!("{side:?} ambient"),
         label: "Ambient light",
@@ -36,9 +35,7 @@ pub fn show(viewer: &mut Viewer, side: Side, ui: &mut Ui, dump: &mut Dump) {
         step: 0.01,
         suffix: "",
     };
-    if slider.show(&mut ambient, ui, dump) {
-        tree.ambient = Some(ambient);
-    }
+    slider.show_over(scene.fake.ambient, &mut tree.ambient, ui, dump);
     let spp = format!("{side:?} spp");
     doubling([&spp, "Samples per pixel (spp)"], &mut whitted.spp, 0..=16, ui, dump);
     let more = CollapsingHeader::new("More").id_salt(("more", side as usize)).show_unindented(ui, |ui| {
