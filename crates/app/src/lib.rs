@@ -5,7 +5,6 @@
 //! both, the only place that knows winit.
 
 pub mod cli;
-pub mod picture_file;
 pub mod technique;
 pub mod ui;
 pub mod window;

@@ -1,11 +1,11 @@
 //! `visavis bench`: speed against error. Each technique renders each built-in scene at doubling sample counts, against a
 //! reference made here with another seed; table and plots go to a folder.
 
-use crate::picture_file::write_whole;
 use anyhow::Context;
 use compare::{BenchRow, Errors, LogLogPlot, Series, csv, errors};
 use gpu::Gpu;
 use pathtrace::{Estimator, PathSettings, Tracer};
+use picture_file::write_whole;
 use raster::{Fake, Raster, RasterSettings};
 use scene::{Film, Scene, builtin};
 use std::path::Path;

@@ -1,10 +1,10 @@
 //! `visavis compare`: how far one picture is from another, in numbers and as a map.
 
 use super::CompareArgs;
-use crate::picture_file::{self, Kind, Layer, LayerValues, Radiances};
 use anyhow::ensure;
 use compare::flip::{PIXELS_PER_DEGREE, hdr_flip};
 use compare::{ColourScale, ErrorMap, Errors, errors_of_radiances, finite_mean};
+use picture_file::{self, Kind, Layer, LayerValues, Radiances, Records};
 use scene::display::DisplayTransform;
 use serde_json::json;
 use std::path::Path;
@@ -73,7 +73,7 @@ fn draw(
         for map in ErrorMap::ALL {
             layers.push(Layer { name: map.name(), values: LayerValues::Numbers(values_of(map)?) });
         }
-        picture_file::encode_layers(a.width, a.height, &layers)?
+        picture_file::encode_layers(a.width, a.height, &layers, &Records::new())?
     } else {
         let mut rgba = scale.image(&values, a.width);
         rgba.extend(scale.bar(a.width, BAR));

@@ -1,11 +1,11 @@
 //! `visavis render`: a picture to a file, without a window.
 
 use super::RenderArgs;
-use crate::picture_file::{self, Kind, Linear};
 use crate::technique::{FakeSettings, Made, Provenance, RaySettings, Recipe, Technique};
 use anyhow::Context;
 use gpu::Gpu;
 use pathtrace::{SamplerKind, Stats, Tracer};
+use picture_file::{self, Kind, Linear};
 use raster::Raster;
 use scene::display::DisplayTransform;
 use scene::{Camera, Film, Scene, Vec3, builtin};
@@ -80,7 +80,7 @@ fn save(args: &RenderArgs, scene: &Scene, rendered: &Rendered) -> anyhow::Result
     let picture = Linear { width: args.size.0, height: args.size.1, radiances: &radiances };
     let kind = Kind::of(&args.out).context("a picture's name must end in .png or .exr")?;
     let bytes = picture_file::encode(kind, picture, &DisplayTransform { exposure: args.exposure }, &records)?;
-    picture_file::write_whole(&args.out, &bytes)
+    Ok(picture_file::write_whole(&args.out, &bytes)?)
 }
 
 fn tell_what_has_no_effect(args: &RenderArgs, scene: &Scene) {

@@ -1,6 +1,7 @@
 //! Where a picture comes from: everything that makes it again, as records to keep in its file and as a command to type.
 
 use super::{Recipe, SceneChanges};
+use picture_file::Records;
 use scene::{Camera, Vec3};
 
 /// All that a picture depends on.
@@ -53,9 +54,6 @@ pub fn made_from(records: &[(String, String)]) -> anyhow::Result<Option<(String,
     let words = options.map(|(name, value)| format!("--{name}={value}"));
     Ok(Some((scene.to_owned(), words.collect())))
 }
-
-/// Names and values, in the order in which they are written.
-pub type Records = Vec<(&'static str, String)>;
 
 impl Provenance {
     /// What a file keeps of it, with the command that makes it as a PNG.

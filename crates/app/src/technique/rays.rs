@@ -1,7 +1,7 @@
 //! The settings of what is traced by rays: the truth, and Whitted's step towards it.
 
-use super::Records;
 use pathtrace::{GlassShadows, LightSearch, PathSettings, Roulette, SamplerKind, Stats, Tracer, WhittedSettings};
+use picture_file::Records;
 use scene::{Camera, Film, Scene};
 
 /// How rays are followed.

@@ -2,10 +2,10 @@
 
 use super::top_bar::{self, framed};
 use super::{Dump, Pane, Request, View, Viewer};
-use crate::picture_file::{self, Kind};
 use crate::workers::Side;
 use crate::workers::exporter::Destination;
 use egui::Ui;
+use picture_file::{self, Kind};
 use std::path::{Path, PathBuf};
 
 /// What is exported.

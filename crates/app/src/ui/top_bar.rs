@@ -1,7 +1,6 @@
 //! The bar above the picture: scene, view, export, look. It wraps where the window is narrow.
 
 use super::{Dump, Pane, Request, Theme, View, Viewer, export_menu};
-use crate::picture_file;
 use egui::containers::menu::{MenuButton, MenuConfig};
 use egui::{Button, PopupCloseBehavior, Ui};
 use scene::builtin;

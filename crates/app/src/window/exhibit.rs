@@ -1,12 +1,13 @@
 //! What hangs in the window: for each pane its texture, what the UI says about it, and the picture itself for export.
 
 use super::textures::PaneTexture;
-use crate::technique::{Made, Records};
+use crate::technique::Made;
 use crate::ui::{Pane, Viewer};
 use crate::workers::darkroom::{News, Shelf};
 use crate::workers::exporter::Content;
 use crate::workers::{Picture, Side};
 use gpu::Gpu;
+use picture_file::Records;
 use scene::display::DisplayTransform;
 
 /// Both panes.

@@ -6,7 +6,6 @@ use super::frame_stats::{Clock, FrameStats};
 use super::stopwatch::Stopwatch;
 use super::surface::{Painting, Presented, WindowSurface};
 use crate::cli::ViewArgs;
-use crate::picture_file;
 use crate::ui::{Dump, Request, Viewer, What};
 use crate::workers::capture::Capture;
 use crate::workers::crew::Crew;
@@ -296,6 +295,6 @@ impl ViewerWindow {
             "latency_ms": self.stopwatch.latency().map(|t| t.as_millis() as u64),
             "first_pictures_ms": self.stopwatch.first_pictures().map(|t| t.as_millis() as u64),
         });
-        picture_file::write_whole(file, self.dump.json(self.scale, state).as_bytes())
+        Ok(picture_file::write_whole(file, self.dump.json(self.scale, state).as_bytes())?)
     }
 }

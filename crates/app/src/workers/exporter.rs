@@ -2,9 +2,9 @@
 
 use super::capture::{Capture, Pixels};
 use super::{Inbox, Picture, Wake};
-use crate::picture_file::{self, Kind, Linear};
-use crate::technique::Records;
 use anyhow::Context;
+use picture_file::Records;
+use picture_file::{self, Kind, Linear};
 use scene::display::DisplayTransform;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -118,7 +118,7 @@ fn save(export: &Export, path: &Path) -> anyhow::Result<PathBuf> {
             picture_file::encode(kind, linear, display, &export.records)?
         }
     };
-    picture_file::write_new(path, &bytes)
+    Ok(picture_file::write_new(path, &bytes)?)
 }
 
 fn copy(export: &Export, clipboard: &mut Option<arboard::Clipboard>) -> anyhow::Result<()> {

@@ -73,7 +73,7 @@ fn a_pane_its_film_and_its_command_are_one_picture() {
         run(&command, &file("-again.exr"));
         let pixels = |path: PathBuf| image::open(&path).expect("a picture").to_rgb8();
         assert!(pixels(file(".png")) == pixels(file("-again.png")), "{side}: {command}");
-        let film = |path: PathBuf| visavis::picture_file::load(&path).expect("an EXR");
+        let film = |path: PathBuf| picture_file::load(&path).expect("an EXR");
         let (once, again) = (film(file(".exr")), film(file("-again.exr")));
         assert!(once == again, "{side}: the films differ: {command}");
 

@@ -6,10 +6,10 @@ mod values;
 pub use render::RenderArgs;
 
 use super::{CliError, Command, help};
-use crate::picture_file::Kind;
 use crate::ui::Theme;
 use compare::ErrorMap;
 use lexopt::prelude::*;
+use picture_file::Kind;
 use std::ffi::OsString;
 use std::path::PathBuf;
 use values::{choice, number};

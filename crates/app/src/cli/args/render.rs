@@ -3,11 +3,11 @@
 use super::usage;
 use super::values::{choice, number, parse_finite, parse_whole, point, size, text, whole, within};
 use crate::cli::{CliError, Command, help};
-use crate::picture_file::{self, Kind};
 use crate::technique::{PaneSettings, SceneChanges, Technique, made_from};
 use anyhow::Context;
 use lexopt::prelude::*;
 use pathtrace::{Estimator, GlassShadows, Roulette, SamplerKind, WhittedSettings};
+use picture_file::{self, Kind};
 use raster::{Fake, FakeKnobs, Shading, ShadowFilter, Show};
 use scene::Vec3;
 use std::ffi::OsString;

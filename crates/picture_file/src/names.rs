@@ -1,6 +1,6 @@
 //! Names for pictures that nobody has named.
 
-use anyhow::Context;
+use crate::PictureError;
 use std::path::{Path, PathBuf};
 
 /// Where pictures go unless the user says otherwise: the pictures folder of the home folder if there is one, else the
@@ -8,11 +8,11 @@ use std::path::{Path, PathBuf};
 ///
 /// # Errors
 /// If there is no current folder either.
-pub fn default_folder() -> anyhow::Result<PathBuf> {
+pub fn default_folder() -> Result<PathBuf, PictureError> {
     let home = ["HOME", "USERPROFILE"].iter().find_map(std::env::var_os).map(PathBuf::from).filter(|p| p.is_dir());
     match home {
         Some(home) => Ok(Some(home.join("Pictures")).filter(|p| p.is_dir()).unwrap_or(home)),
-        None => std::env::current_dir().context("there is no home folder and no current folder to save to"),
+        None => std::env::current_dir().map_err(|e| PictureError::NoFolder(e.to_string())),
     }
 }
 
@@ -32,10 +32,10 @@ pub fn typed_path(typed: &str, folder: &Path) -> PathBuf {
 ///
 /// # Errors
 /// If all of ten thousand do.
-pub fn free_name(path: &Path) -> anyhow::Result<PathBuf> {
+pub fn free_name(path: &Path) -> Result<PathBuf, PictureError> {
     let stem = path.file_stem().unwrap_or_default().to_string_lossy();
     let extension = path.extension().unwrap_or_default().to_string_lossy();
     let numbered = (2..10_000).map(|n| path.with_file_name(format!("{stem}-{n}.{extension}")));
     let free = std::iter::once(path.to_owned()).chain(numbered).find(|path| path.symlink_metadata().is_err());
-    free.with_context(|| format!("too many pictures of this name: {}", path.display()))
+    free.ok_or_else(|| PictureError::Names(path.to_owned()))
 }

@@ -1,14 +1,12 @@
 //! PNG: sRGB bytes, and records in text chunks as `visavis.name`.
 
-use super::{Radiances, cannot_read, check_pixels};
-use crate::technique::Records;
-use anyhow::Context;
+use super::{PictureError, Radiances, Records, check_pixels};
 use scene::{Vec3, colour};
 use std::path::Path;
 
 /// Opaque RGBA bytes as a PNG without alpha.
-pub fn bytes(width: u32, height: u32, rgba: &[u8], records: &Records) -> anyhow::Result<Vec<u8>> {
-    encode(width, height, rgba, records).context("cannot encode the picture as PNG")
+pub fn bytes(width: u32, height: u32, rgba: &[u8], records: &Records) -> Result<Vec<u8>, PictureError> {
+    encode(width, height, rgba, records).map_err(|e| PictureError::Encode("PNG", e.to_string()))
 }
 
 fn encode(width: u32, height: u32, rgba: &[u8], records: &Records) -> Result<Vec<u8>, png::EncodingError> {
@@ -29,9 +27,10 @@ fn encode(width: u32, height: u32, rgba: &[u8], records: &Records) -> Result<Vec
 }
 
 /// The records of a PNG of this program; none in another's.
-pub fn records(path: &Path) -> anyhow::Result<Vec<(String, String)>> {
-    let file = std::fs::File::open(path).map_err(|e| cannot_read(path, &e))?;
-    let reader = png::Decoder::new(std::io::BufReader::new(file)).read_info().map_err(|e| cannot_read(path, &e))?;
+pub fn records(path: &Path) -> Result<Vec<(String, String)>, PictureError> {
+    let file = std::fs::File::open(path).map_err(|e| PictureError::read(path, e))?;
+    let reader =
+        png::Decoder::new(std::io::BufReader::new(file)).read_info().map_err(|e| PictureError::read(path, e))?;
     // this program does not compress them, and what others compress may be of any size
     let ours = |chunk: &png::text_metadata::ITXtChunk| {
         if chunk.compressed {
@@ -43,13 +42,13 @@ pub fn records(path: &Path) -> anyhow::Result<Vec<(String, String)>> {
 }
 
 /// A PNG with its sRGB encoding undone.
-pub fn load(path: &Path) -> anyhow::Result<Radiances> {
-    let (width, height) = image::image_dimensions(path).map_err(|e| cannot_read(path, &e))?;
+pub fn load(path: &Path) -> Result<Radiances, PictureError> {
+    let (width, height) = image::image_dimensions(path).map_err(|e| PictureError::read(path, e))?;
     check_pixels(width as usize, height as usize, path)?;
     let picture = image::ImageReader::open(path)
         .map_err(image::ImageError::from)
         .and_then(image::ImageReader::decode)
-        .map_err(|e| cannot_read(path, &e))?
+        .map_err(|e| PictureError::read(path, e))?
         .into_rgb32f();
     let radiances = picture.pixels().map(|p| Vec3::from_array(p.0.map(colour::srgb_decode))).collect();
     Ok(Radiances { width: picture.width(), height: picture.height(), radiances })
