@@ -23,6 +23,9 @@ pub enum CompareError {
     Films(usize),
 }
 
+/// What is added to the squared reference in [`Errors::rel_mse`], in radiance squared.
+pub const REL_MSE_FLOOR: f64 = 0.01;
+
 /// How far a film is from a reference; means over all pixels that are finite in both, and the three channels.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Errors {
@@ -123,7 +126,7 @@ fn errors_of(pairs: impl Iterator<Item = ([f64; 3], [f64; 3])>) -> Errors {
         for (value, reference) in pixel.into_iter().zip(reference) {
             let difference = value - reference;
             sum.rmse += difference * difference;
-            sum.rel_mse += difference * difference / (reference * reference + 0.01);
+            sum.rel_mse += difference * difference / (reference * reference + REL_MSE_FLOOR);
             sum.mae += difference.abs();
             sum.bias += difference;
             reference_sum += reference;

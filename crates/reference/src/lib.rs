@@ -1,0 +1,151 @@
+//! The reference: the truth of a scene as well as this program knows it, with an error bar of its own, to judge pictures by.
+//!
+//! A [`Maker`] averages independently scrambled pictures by the estimator that is bounded everywhere, with seeds that no
+//! other picture uses; their spread is the [`Reference`]'s standard error. A [`Store`] keeps references on disk by the
+//! [`Key`] of what they show, so that one that was made once is there at once, and can be made finer later.
+
+mod key;
+mod maker;
+mod store;
+
+pub use key::{Key, Subject};
+pub use maker::{Goal, Maker, SAMPLES_PER_REPLICATE};
+pub use store::{Store, StoreError, Usage};
+
+use compare::{Errors, errors_of_radiances};
+use picture_file::{Layer, LayerValues, PictureError, Radiances, Records};
+use scene::{Film, Vec3, film::Pixel};
+use std::path::Path;
+
+/// Layers of a reference's file beside the first, which holds the radiance.
+const STANDARD_ERROR: &str = "standard error";
+
+/// What pictures of a scene are judged by.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Reference {
+    /// Width in pixels.
+    pub width: u32,
+    /// Height in pixels.
+    pub height: u32,
+    /// Linear radiance, rows from the top.
+    pub radiances: Vec<Vec3>,
+    /// Standard error of each of them; `None` of a picture from elsewhere that does not tell.
+    pub standard_errors: Option<Vec<Vec3>>,
+    /// Independent pictures that it is the mean of; 0 if that is not known.
+    pub replicates: u32,
+    /// Seconds that it took.
+    pub seconds: f64,
+    /// Samples that were not finite and are left out.
+    pub nonfinite: u64,
+}
+
+impl Reference {
+    /// Reads an .exr: one of this program with its standard error, or any picture without. A .png is read as well.
+    ///
+    /// # Errors
+    /// [`PictureError`]: one line that says why and names the path.
+    pub fn load(path: &Path) -> Result<Self, PictureError> {
+        let Radiances { width, height, radiances } = picture_file::load(path)?;
+        let exr = picture_file::Kind::of(path) == Some(picture_file::Kind::Exr);
+        let errors = if exr { picture_file::load_layer(path, STANDARD_ERROR)? } else { None };
+        let records = picture_file::records(path)?;
+        let number = |name: &str| records.iter().find(|(known, _)| known == name).and_then(|(_, v)| v.parse().ok());
+        Ok(Reference {
+            width,
+            height,
+            standard_errors: errors.filter(|e| (e.width, e.height) == (width, height)).map(|e| e.radiances),
+            radiances,
+            replicates: number("replicates").unwrap_or(0.0) as u32,
+            seconds: number("seconds").unwrap_or(0.0),
+            nonfinite: number("nonfinite").unwrap_or(0.0) as u64,
+        })
+    }
+
+    /// The bytes of an EXR that [`Reference::load`] reads; `records` stand in its header too.
+    ///
+    /// # Errors
+    /// [`PictureError::Encode`].
+    pub fn encode(&self, mut records: Records) -> Result<Vec<u8>, PictureError> {
+        records.extend([
+            ("replicates", self.replicates.to_string()),
+            ("spp", (u64::from(self.replicates) * u64::from(SAMPLES_PER_REPLICATE)).to_string()),
+            ("seconds", self.seconds.to_string()),
+            ("nonfinite", self.nonfinite.to_string()),
+        ]);
+        let mut layers = vec![Layer { name: "radiance", values: LayerValues::Rgb(&self.radiances) }];
+        if let Some(errors) = &self.standard_errors {
+            layers.push(Layer { name: STANDARD_ERROR, values: LayerValues::Rgb(errors) });
+        }
+        picture_file::encode_layers(self.width, self.height, &layers, &records)
+    }
+
+    /// Its own mean squared error, in radiance squared, by its standard errors; `None` if they are not known.
+    pub fn mean_squared_error(&self) -> Option<f64> {
+        self.averaged(|_| 1.0)
+    }
+
+    /// Its own relMSE, by its standard errors.
+    pub fn rel_mse(&self) -> Option<f64> {
+        self.averaged(|radiance| radiance * radiance + compare::REL_MSE_FLOOR)
+    }
+
+    /// How far a picture of the same pixels is from it, with what its own noise adds.
+    ///
+    /// # Errors
+    /// [`compare::CompareError::Pixels`] if it does not have as many.
+    pub fn errors(&self, radiances: &[Vec3]) -> Result<Errors, compare::CompareError> {
+        if radiances.len() != self.radiances.len() {
+            return Err(compare::CompareError::Pixels {
+                film: radiances.len(),
+                reference: self.radiances.len(),
+                width: self.width,
+            });
+        }
+        let errors = errors_of_radiances(radiances, &self.radiances);
+        Ok(self.mean_squared_error().map_or(errors, |noise| errors.with_reference_noise(noise)))
+    }
+
+    /// As a film whose samples are the replicates' means, as far as f32 keeps them.
+    pub fn film(&self) -> Option<Film> {
+        let n = f64::from(self.replicates.max(1));
+        let mut film = Film::try_new(self.width, self.height)?;
+        for (i, pixel) in film.pixels_mut().iter_mut().enumerate() {
+            let mean = self.radiances[i].to_array().map(f64::from);
+            let error = self.standard_errors.as_ref().map_or([0.0; 3], |e| e[i].to_array().map(f64::from));
+            // the inverse of `Pixel::variance_of_mean`
+            let squares = |c: usize| n * (error[c] * error[c] * (n - 1.0) + mean[c] * mean[c]);
+            *pixel = Pixel {
+                sum: mean.map(|mean| mean * n),
+                sum_of_squares: [0, 1, 2].map(squares),
+                samples: self.replicates.max(1),
+                largest: self.radiances[i].max_element(),
+            };
+        }
+        film.nonfinite = self.nonfinite;
+        Some(film)
+    }
+
+    fn of_film(film: &Film, seconds: f64) -> Self {
+        let errors = film.pixels().iter().map(|p| Vec3::from_array(p.variance_of_mean().map(|v| v.sqrt() as f32)));
+        Reference {
+            width: film.width(),
+            height: film.height(),
+            radiances: film.radiances().collect(),
+            standard_errors: Some(errors.collect()),
+            replicates: film.samples_per_pixel(),
+            seconds,
+            nonfinite: film.nonfinite,
+        }
+    }
+
+    fn averaged(&self, weight: impl Fn(f64) -> f64) -> Option<f64> {
+        let errors = self.standard_errors.as_ref()?;
+        let channels = |v: &Vec3| v.to_array().map(f64::from);
+        let of_pixel = |(error, radiance): (&Vec3, &Vec3)| {
+            let (error, radiance) = (channels(error), channels(radiance));
+            (0..3).map(|c| error[c] * error[c] / weight(radiance[c])).sum::<f64>()
+        };
+        let sum: f64 = errors.iter().zip(&self.radiances).map(of_pixel).filter(|v| v.is_finite()).sum();
+        Some(sum / (3 * errors.len()).max(1) as f64)
+    }
+}

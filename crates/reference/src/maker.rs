@@ -1,0 +1,102 @@
+//! Making a reference, replicate by replicate, until it is good enough.
+
+use crate::{Reference, Subject};
+use pathtrace::{Estimator, FEWEST_REPLICATES, PathSettings, Tracer};
+use scene::{Camera, Film, Vec3};
+use std::time::Instant;
+
+/// Samples per pixel of each of a reference's independent pictures.
+pub const SAMPLES_PER_REPLICATE: u32 = 64;
+
+/// Replicate `i` has this seed plus `i`. Pictures that are compared must not share them: all else begins at 1.
+const FIRST_SEED: u32 = 0x5eed_0000;
+
+/// When a reference is good enough.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Goal {
+    /// Its own relMSE is this or less.
+    pub rel_mse: f64,
+    /// Or it took this long, in seconds.
+    pub seconds: f64,
+}
+
+impl Default for Goal {
+    /// Noise that no picture of a few thousand samples comes near, or two minutes.
+    fn default() -> Self {
+        Goal { rel_mse: 1e-5, seconds: 120.0 }
+    }
+}
+
+/// A reference in the making.
+pub struct Maker<'a> {
+    tracer: &'a Tracer,
+    camera: Camera,
+    film: Film,
+    seconds: f64,
+}
+
+impl<'a> Maker<'a> {
+    /// Begins one, or goes on with one that is there. `tracer` is that of the subject's scene. `None` if there is no memory
+    /// for it.
+    pub fn new(tracer: &'a Tracer, subject: &Subject, begun: Option<&Reference>) -> Option<Self> {
+        let begun = begun.filter(|r| (r.width, r.height) == subject.size && r.replicates > 0);
+        let film = match begun {
+            Some(reference) => reference.film()?,
+            None => Film::try_new(subject.size.0, subject.size.1)?,
+        };
+        let seconds = begun.map_or(0.0, |reference| reference.seconds);
+        Some(Maker { tracer, camera: *subject.camera, film, seconds })
+    }
+
+    /// How references are traced: both ways to find light, weighted, so that no sample is unbounded; no limit of bounces.
+    pub fn settings(seed: u32) -> PathSettings {
+        PathSettings { estimator: Estimator::MIS, seed, ..PathSettings::default() }
+    }
+
+    /// Adds one replicate. False if `stop` said so meanwhile: what was traced of it is dropped.
+    pub fn step(&mut self, stop: &(impl Fn() -> bool + Sync)) -> bool {
+        let start = Instant::now();
+        let settings = Self::settings(FIRST_SEED.wrapping_add(self.replicates()));
+        let mut picture = Film::new(self.film.width(), self.film.height());
+        self.tracer.render(&mut picture, &self.camera, &settings, SAMPLES_PER_REPLICATE, stop);
+        if picture.samples_per_pixel() < SAMPLES_PER_REPLICATE {
+            return false;
+        }
+        self.film.nonfinite += picture.nonfinite;
+        for (pixel, one) in self.film.pixels_mut().iter_mut().zip(picture.pixels()) {
+            pixel.add(Vec3::from_array(one.mean().map(|v| v as f32)));
+        }
+        self.seconds += start.elapsed().as_secs_f64();
+        true
+    }
+
+    /// Replicates so far. Below [`FEWEST_REPLICATES`] their spread says too little.
+    pub fn replicates(&self) -> u32 {
+        self.film.samples_per_pixel()
+    }
+
+    /// Seconds spent so far, those of a reference that was gone on with included.
+    pub fn seconds(&self) -> f64 {
+        self.seconds
+    }
+
+    /// Whether there are enough replicates, and the goal is met.
+    pub fn is_done(&self, goal: &Goal) -> bool {
+        let enough = self.replicates() >= FEWEST_REPLICATES;
+        enough && (self.seconds >= goal.seconds || self.reference().rel_mse().is_some_and(|own| own <= goal.rel_mse))
+    }
+
+    /// How far it is on its way to the goal, from 0 to 1, by what takes least time.
+    pub fn progress(&self, goal: &Goal) -> f64 {
+        let replicates = f64::from(self.replicates()) / f64::from(FEWEST_REPLICATES);
+        let own = if self.replicates() < 2 { None } else { self.reference().rel_mse() };
+        // noise falls like 1 / replicates
+        let by_noise = own.filter(|own| *own > 0.0).map_or(0.0, |own| goal.rel_mse / own);
+        replicates.min(by_noise.max(self.seconds / goal.seconds)).clamp(0.0, 1.0)
+    }
+
+    /// What there is so far.
+    pub fn reference(&self) -> Reference {
+        Reference::of_film(&self.film, self.seconds)
+    }
+}
