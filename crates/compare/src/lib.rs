@@ -1,6 +1,6 @@
 //! The ruler: how far a film is from a reference, in linear radiance and never after the display transform, but for
-//! FLIP, which asks what people see; per pixel as maps and in colour; and what is made of such numbers, fits, a table
-//! and a plot of speed against error.
+//! FLIP, which asks what people see; per pixel as maps and in colour; and what is made of such numbers, fits and plots
+//! of speed against error.
 
 mod colour_map;
 mod colour_scale;
@@ -9,12 +9,10 @@ mod fits;
 pub mod flip;
 mod metrics;
 mod plot;
-mod table;
 
 pub use colour_map::{ColourMap, HATCH, hatched};
 pub use colour_scale::{ColourScale, Tick};
 pub use error_map::{ErrorMap, finite_mean};
 pub use fits::{ErrorSplit, Fit, efficiency, fit, split_error};
 pub use metrics::{CompareError, Errors, REL_MSE_FLOOR, errors, errors_of_radiances, mean_squared_standard_error};
-pub use plot::{LogLogPlot, Series};
-pub use table::{BenchRow, csv};
+pub use plot::{COLOURS, LogLogPlot, PlotPoint, Range, Series, Stroke, escaped};

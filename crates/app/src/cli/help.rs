@@ -60,7 +60,13 @@ visavis compare A B              how far picture A is from reference B (.exr or 
                                  which errors the map shows (default absolute)
     --exposure EV                stops added before FLIP looks (default 0)
     --json                       as one JSON object
-visavis bench -o DIR --quick     speed against error on both scenes: CSV and SVG plots
+visavis bench -o DIR             speed against error of every technique: one HTML page, its SVG plots, CSV tables; run
+                                 again after an interruption, it goes on (docs/bench.md says what each number means)
+    --quick                      as small as fits into a minute on an idle machine; without: an hour or two on two cores
+    --time SECONDS               as small as fits into this long
+    --scene cornell,whitted      these scenes alone
+    --peer FILE.csv              further lines from another renderer, may be repeated; columns name,scene,spp,seconds,
+                                 relmse; scene is cornell, whitted-sun-0 or whitted-sun-2.5
 visavis check                    every hard case: expected, measured, tolerance, verdict; exit code 1 if one fails
     --quick                      coarser, within a minute
     --case N,N,...               these cases alone

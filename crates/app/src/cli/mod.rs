@@ -16,9 +16,7 @@ mod help;
 mod info;
 mod render;
 
-pub use args::{CheckArgs, CompareArgs, RenderArgs, ViewArgs};
-
-use std::path::PathBuf;
+pub use args::{BenchArgs, CheckArgs, CompareArgs, RenderArgs, ViewArgs};
 
 /// What the user asked for.
 #[derive(Debug)]
@@ -30,10 +28,7 @@ pub enum Command {
     /// The distance between two pictures.
     Compare(CompareArgs),
     /// Speed against error of all techniques on the built-in scenes.
-    Bench {
-        /// Folder for table and plots.
-        folder: PathBuf,
-    },
+    Bench(BenchArgs),
     /// Every hard case.
     Check(CheckArgs),
     /// Adapters, limits, and what would be used.
@@ -85,7 +80,7 @@ impl Command {
             Command::View(args) => crate::window::open(&args)?,
             Command::Render(args) => render::run(&args)?,
             Command::Compare(args) => compare::run(&args)?,
-            Command::Bench { folder } => bench::run(&folder)?,
+            Command::Bench(args) => bench::run(&args)?,
             Command::Check(args) => check::run(&args)?,
             Command::Info => info::run()?,
             Command::Print(text) => print(text)?,

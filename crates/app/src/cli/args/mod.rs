@@ -1,8 +1,10 @@
 //! From words to commands.
 
+mod bench;
 mod render;
 mod values;
 
+pub use bench::BenchArgs;
 pub use render::RenderArgs;
 
 use super::{CliError, Command, help};
@@ -49,7 +51,7 @@ impl Command {
         let named: fn(lexopt::Parser) -> Result<Self, CliError> = match command.as_str() {
             "render" => render::parse,
             "compare" => parse_compare,
-            "bench" => parse_bench,
+            "bench" => bench::parse,
             "info" => |parser| nothing_more(parser, Command::Info),
             "check" => parse_check,
             _ => return parse_view(parser),
@@ -162,21 +164,4 @@ fn cases(word: &str) -> Result<Vec<u32>, CliError> {
     let numbers: Option<Vec<u32>> = word.split(',').map(|n| n.trim().parse().ok().filter(known)).collect();
     let most = check::CASES.len();
     numbers.map_or_else(|| usage(format!("--case {word}: expected numbers from 1 to {most}, like 4 or 4,5")), Ok)
-}
-
-fn parse_bench(mut parser: lexopt::Parser) -> Result<Command, CliError> {
-    let (mut folder, mut quick) = (None, false);
-    while let Some(arg) = parser.next()? {
-        match arg {
-            Short('o') => folder = Some(PathBuf::from(parser.value()?)),
-            Long("quick") => quick = true,
-            Long("help") => return Ok(Command::Print(help::HELP)),
-            other => return Err(other.unexpected().into()),
-        }
-    }
-    match folder {
-        Some(folder) if quick => Ok(Command::Bench { folder }),
-        Some(_) => usage("only the quick bench is built so far: visavis bench --quick -o DIR"),
-        None => usage("bench needs a folder for its results: visavis bench --quick -o DIR"),
-    }
 }

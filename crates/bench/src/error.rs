@@ -1,0 +1,81 @@
+//! Why a bench cannot go on: one line each, the path last.
+
+use compare::CompareError;
+use picture_file::PictureError;
+use scene::SceneError;
+use std::path::{Path, PathBuf};
+
+/// Why a bench cannot go on. What was measured before stays in the journal.
+#[derive(Debug, thiserror::Error)]
+pub enum BenchError {
+    /// The folder for the results cannot be made.
+    #[error("cannot make the folder for the results ({why}): {}", folder.display())]
+    Folder {
+        /// What stands in the way.
+        why: std::io::Error,
+        /// The folder.
+        folder: PathBuf,
+    },
+    /// The disk is full, or the folder may not be written.
+    #[error(transparent)]
+    File(#[from] PictureError),
+    /// The journal cannot be read or written.
+    #[error("cannot {what} the journal ({why}); what was measured before stays in it: {}", path.display())]
+    Journal {
+        /// "read" or "write".
+        what: &'static str,
+        /// What stands in the way.
+        why: std::io::Error,
+        /// The file.
+        path: PathBuf,
+    },
+    /// A line of the journal is no measurement.
+    #[error("line {line} of the journal is damaged ({why}); remove the file to measure again: {}", path.display())]
+    Damaged {
+        /// From 1.
+        line: usize,
+        /// What is wrong with it.
+        why: String,
+        /// The file.
+        path: PathBuf,
+    },
+    /// The folder holds another run's results.
+    #[error("the folder holds a bench of {differs}; give another folder with -o, or remove the file to begin again: {}", path.display())]
+    OtherRun {
+        /// What differs, theirs and ours.
+        differs: String,
+        /// Their journal.
+        path: PathBuf,
+    },
+    /// A peer's table is not as it must be.
+    #[error("line {line} of a peer's table: {found}, expected {expected}: {}", path.display())]
+    Peer {
+        /// From 1; 0 if the file cannot be read at all.
+        line: usize,
+        /// What stands there.
+        found: String,
+        /// What should.
+        expected: String,
+        /// The file.
+        path: PathBuf,
+    },
+    /// No such part.
+    #[error("there is no bench of the scene {0}: expected {known}", known = crate::plan::SCENES.join(" or "))]
+    UnknownScene(String),
+    /// A scene does not load.
+    #[error(transparent)]
+    Scene(#[from] SceneError),
+    /// A film does not fit its reference.
+    #[error(transparent)]
+    Compare(#[from] CompareError),
+    /// There is no memory for a picture.
+    #[error("not enough memory for a picture of {0}x{1} pixels")]
+    Memory(u32, u32),
+}
+
+impl BenchError {
+    pub(crate) fn journal(what: &'static str, path: &Path) -> impl FnOnce(std::io::Error) -> Self {
+        let path = path.to_owned();
+        move |why| BenchError::Journal { what, why, path }
+    }
+}

@@ -1,0 +1,185 @@
+//! One measurement: pictures of independent seeds by one way at one number of samples, each timed and held against the
+//! reference, and all together asked for a bias.
+
+use crate::BenchError;
+use crate::plan::{Part, SEEDS};
+use crate::references::{Truth, Worth};
+use crate::way::{Line, Way};
+use compare::{ErrorMap, Errors, finite_mean, split_error};
+use pathtrace::{Stats, Tracer};
+use raster::{Fake, Raster, RasterSettings};
+use scene::display::DisplayTransform;
+use scene::{Film, Scene};
+use serde::{Deserialize, Serialize};
+use std::time::Instant;
+
+/// Standard errors beyond which a bias is believed.
+pub const SIGMAS: f64 = 4.0;
+
+/// One picture: what it cost and how far off it is.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Picture {
+    /// Its seed; 0 where nothing is random.
+    pub seed: u32,
+    /// Wall-clock seconds of tracing or drawing alone.
+    pub seconds: f64,
+    /// Samples taken, one camera ray each; 0 of the fake.
+    pub samples: u64,
+    /// Rays traced, shadow rays included; 0 of the fake.
+    pub rays: u64,
+    /// Samples that lost light to the hard cap of path lengths.
+    pub cut_paths: u64,
+    /// Samples that were not finite and are left out.
+    pub nonfinite: u64,
+    /// In radiance, noise of the reference included.
+    pub rmse: f64,
+    /// Mean of (a - r)^2 / (r^2 + 0.01), noise of the reference included.
+    pub rel_mse: f64,
+    /// Mean of |a - r|, in radiance.
+    pub mae: f64,
+    /// Mean of a - r, in radiance.
+    pub bias: f64,
+    /// Mean LDR-FLIP of the pictures as displayed.
+    pub flip: f64,
+    /// Share of its brightest sample in its sum of squares.
+    pub tail_weight: f64,
+}
+
+/// What all seeds of a measurement have in common against the truth.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct BiasTest {
+    /// Mean over pixels and channels, in radiance squared; below 0 by chance where there is no bias.
+    pub bias_squared: f64,
+    /// Its standard error.
+    pub standard_error: f64,
+}
+
+impl BiasTest {
+    /// Whether a bias is certain.
+    pub fn found(&self) -> bool {
+        self.bias_squared > SIGMAS * self.standard_error
+    }
+
+    /// The smallest bias (root of its mean square over pixels) that would have been noticed, as a share of `mean`.
+    pub fn power(&self, mean: f64) -> f64 {
+        (SIGMAS * self.standard_error).sqrt() / mean
+    }
+
+    /// The bias, as a share of `mean`; 0 where chance made it negative.
+    pub fn bias(&self, mean: f64) -> f64 {
+        self.bias_squared.max(0.0).sqrt() / mean
+    }
+}
+
+/// All pictures of one line at one number of samples.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Measurement {
+    /// Name of the part.
+    pub part: String,
+    /// Name of the line.
+    pub line: String,
+    /// Samples per pixel; 0 of the fake.
+    pub spp: u32,
+    /// One for each seed.
+    pub pictures: Vec<Picture>,
+    /// `None` where nothing is random.
+    pub bias: Option<BiasTest>,
+    /// What they were measured by.
+    pub reference: Worth,
+}
+
+/// Seed of picture `i` at rung `rung` of the ladder: no two rungs share one, so that their errors are independent.
+/// References have seeds of their own, from 0x5eed0000 on.
+fn seed(rung: usize, i: u32) -> u32 {
+    1 + rung as u32 * SEEDS + i
+}
+
+/// Measures a way that is traced, at rung number `rung` of its ladder.
+///
+/// # Errors
+/// [`BenchError::Memory`], [`BenchError::Compare`].
+pub fn traced(
+    part: &Part,
+    scene: &Scene,
+    tracer: &Tracer,
+    line: &Line,
+    rung: usize,
+    truth: &Truth,
+) -> Result<Measurement, BenchError> {
+    let spp = part.rungs(&line.way).get(rung).copied().unwrap_or(1);
+    let (mut pictures, mut films) = (Vec::new(), Vec::new());
+    for i in 0..SEEDS {
+        let seed = seed(rung, i);
+        let mut film = Film::try_new(part.width, part.height).ok_or(BenchError::Memory(part.width, part.height))?;
+        let start = Instant::now();
+        let stats = match line.way.path_settings(seed) {
+            Some(path) => tracer.render(&mut film, &scene.camera, &path, spp, &|| false),
+            None => tracer.render_whitted(&mut film, &scene.camera, &Way::whitted_settings(seed), spp, &|| false),
+        };
+        let seconds = start.elapsed().as_secs_f64();
+        pictures.push(judged(&film, seed, seconds, stats, truth)?);
+        films.push(film);
+    }
+    let split = split_error(&films.iter().collect::<Vec<_>>(), &truth.film, truth.worth.mse)?;
+    let bias = BiasTest { bias_squared: split.bias_squared, standard_error: split.bias_squared_error };
+    Ok(Measurement {
+        part: part.name.clone(),
+        line: line.name(),
+        spp,
+        pictures,
+        bias: Some(bias),
+        reference: truth.worth,
+    })
+}
+
+/// Measures a fake, once its pipelines are built: as many frames as others have seeds, all of one picture.
+///
+/// # Errors
+/// What the GPU says, as a line; [`BenchError::Compare`] within.
+pub fn drawn(
+    part: &Part,
+    scene: &Scene,
+    raster: &mut Raster,
+    fake: Fake,
+    truth: &Truth,
+) -> Result<Result<Measurement, BenchError>, String> {
+    let settings = RasterSettings { fake, ..RasterSettings::new(part.width, part.height) };
+    let mut draw = || raster.render(scene, &scene.camera, &settings).map_err(|e| e.to_string());
+    draw()?;
+    let mut frames = Vec::new();
+    for _ in 0..SEEDS {
+        let start = Instant::now();
+        let film = draw()?;
+        frames.push((film, start.elapsed().as_secs_f64()));
+    }
+    let judge = |(film, seconds): &(Film, f64)| judged(film, 0, *seconds, Stats::default(), truth);
+    let pictures: Result<Vec<Picture>, BenchError> = frames.iter().map(judge).collect();
+    Ok(pictures.map(|pictures| Measurement {
+        part: part.name.clone(),
+        line: Way::Raster(fake).name(),
+        spp: 0,
+        pictures,
+        bias: None,
+        reference: truth.worth,
+    }))
+}
+
+fn judged(film: &Film, seed: u32, seconds: f64, stats: Stats, truth: &Truth) -> Result<Picture, BenchError> {
+    let Errors { rmse, rel_mse, mae, bias, nonfinite, .. } = compare::errors(film, &truth.film)?;
+    let flip = ErrorMap::Flip.of(film, &truth.film, &DisplayTransform::default())?;
+    Ok(Picture {
+        seed,
+        seconds,
+        samples: stats.samples,
+        rays: stats.rays,
+        cut_paths: stats.cut_paths,
+        // those of the reference are told with it
+        nonfinite: nonfinite - truth.worth.nonfinite.min(nonfinite),
+        rmse,
+        rel_mse,
+        mae,
+        bias,
+        flip: finite_mean(&flip).0,
+        tail_weight: film.tail_weight(),
+    })
+}

@@ -1,0 +1,130 @@
+//! The page: everything in one HTML file that needs no other, to be read on a projector and printed.
+
+mod table;
+
+use crate::pictures::{Exhibit, data_uri};
+use crate::plots::{Plot, duration};
+use crate::summary::{PartSummary, bias_rule, slope_words};
+use compare::{Fit, escaped};
+
+/// What the page tells.
+pub struct Page<'a> {
+    /// All parts, each with its plots.
+    pub parts: Vec<(&'a PartSummary, Vec<Plot>)>,
+    /// The techniques' pictures, and of which part.
+    pub exhibits: Vec<(String, Vec<Exhibit>)>,
+    /// What is left out or went wrong, a sentence each.
+    pub notes: &'a [String],
+    /// How it was made: names and values.
+    pub made: Vec<(&'static str, String)>,
+}
+
+const STYLE: &str = include_str!("page/style.css");
+
+impl Page<'_> {
+    /// The page as a whole document.
+    pub fn html(&self) -> String {
+        let mut html = format!(
+            "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
+             <meta name=\"viewport\" content=\"width=device-width\">\n<title>Visavis: speed against error</title>\n\
+             <style>\n{STYLE}</style>\n</head>\n<body>\n<h1>Speed against error</h1>\n"
+        );
+        html += "<p>Every technique renders the same scene at the same size; every picture is held against a reference of \
+                 many more samples, in linear radiance. Five pictures of independent seeds make each number: its median, \
+                 and its range.</p>\n";
+        for note in self.notes {
+            html += &format!("<p class=\"note\">{}</p>\n", escaped(note));
+        }
+        html += &self.slopes();
+        for (part, plots) in &self.parts {
+            html += &section(part, plots);
+        }
+        for (part, exhibits) in self.exhibits.iter().filter(|(_, exhibits)| !exhibits.is_empty()) {
+            html += &format!("<h2>{}: where the techniques are wrong</h2>\n", escaped(part));
+            exhibits.iter().for_each(|exhibit| html += &figure(exhibit));
+        }
+        html += "<h2>How this page was made</h2>\n<table class=\"made\">\n";
+        for (name, value) in &self.made {
+            html += &format!("<tr><th>{}</th><td>{}</td></tr>\n", escaped(name), escaped(value));
+        }
+        html + "</table>\n</body>\n</html>\n"
+    }
+
+    /// The claim of Monte Carlo and what was measured of it, in one table.
+    fn slopes(&self) -> String {
+        let mut html = String::from(
+            "<h2>How fast errors fall</h2>\n<p>Slope ± standard error: errors fall like samples<sup>slope</sup>: \u{2212}0.50 is what independent \
+             numbers promise; well-spread points do better where the picture is smooth; a bias ends it.</p>\n\
+             <table>\n<tr><th>scene</th><th>line</th><th>RMSE</th><th>root of relMSE</th><th>between its last \
+             two</th></tr>\n",
+        );
+        for (part, _) in &self.parts {
+            for curve in part.curves.iter().filter(|curve| curve.line.way.converges()) {
+                let words =
+                    |fit: Option<Fit>| fit.map_or("within the reference's noise".into(), |fit| slope_words(&fit));
+                let (slope, relative) = (words(curve.slope), words(curve.relative_slope));
+                let tail = if part.worth.is_reliable() { "" } else { " (heavy tail)" };
+                let last = curve.last_slope.map_or("\u{2013}".into(), |s| format!("{s:.2}").replace('-', "\u{2212}"));
+                html += &format!(
+                    "<tr><td>{}{tail}</td><td>{}</td><td class=\"n\">{slope}</td><td \
+                     class=\"n\">{relative}</td><td class=\"n\">{last}</td></tr>\n",
+                    escaped(&part.part.title()),
+                    escaped(&curve.line.name())
+                );
+            }
+        }
+        html + "</table>\n"
+    }
+}
+
+fn section(summary: &PartSummary, plots: &[Plot]) -> String {
+    let (part, worth) = (&summary.part, &summary.worth);
+    let mut html = format!("<h2>{}, {} \u{d7} {} pixels</h2>\n", escaped(&part.title()), part.width, part.height);
+    html += &format!(
+        "<p>Reference: {} samples per pixel, {}; its own RMSE {:.1e}, its own relMSE {:.1e}, by the spread of its {} \
+         independent pictures.</p>\n",
+        worth.spp,
+        duration(worth.seconds),
+        worth.mse.sqrt(),
+        worth.rel_mse,
+        worth.spp / u64::from(reference::SAMPLES_PER_REPLICATE)
+    );
+    if !worth.is_reliable() {
+        html += &format!(
+            "<p class=\"note\">A heavy tail: {:.0} % of this reference's own squared error lie in pixels that owe their light to \
+             rare paths, such as a caustic's, too few to know how rare they are. Its standard error is not to be relied on, \
+             and with it slopes and bias tests; and a median of few samples looks better than it is, because most pictures \
+             have not met the rarest light yet.</p>\n",
+            100.0 * worth.tail_weight
+        );
+    }
+    for plot in plots {
+        html += &format!("<figure>\n{}<figcaption>{}</figcaption>\n</figure>\n", plot.svg, escaped(&plot.caption));
+    }
+    html += &table::of(summary);
+    html + &format!(
+        "<p class=\"small\">Medians over seeds, ranges in brackets. Efficiency: 1 / (MSE \u{d7} seconds). In {}. Grey: within \
+         the reference's own noise.</p>\n",
+        escaped(&bias_rule())
+    )
+}
+
+fn figure(exhibit: &Exhibit) -> String {
+    let (width, height) = exhibit.size;
+    let image = |png: &[u8], what: &str| {
+        format!(
+            "<div><img src=\"{}\" width=\"{width}\" height=\"{height}\" alt=\"{what}\"><p>{what}</p></div>\n",
+            data_uri(png)
+        )
+    };
+    let mut html = format!("<h3>{}</h3>\n<div class=\"row\">\n", escaped(&exhibit.title));
+    html += &image(&exhibit.picture, "A, the technique");
+    html += &image(&exhibit.truth, "the reference");
+    html += &image(&exhibit.map, exhibit.label);
+    html += &format!("</div>\n<div class=\"bar\"><img src=\"{}\" alt=\"colours\">", data_uri(&exhibit.bar));
+    for tick in &exhibit.ticks {
+        let at = 100.0 * tick.position;
+        html += &format!("<span style=\"left:{at:.1}%\">{}</span>", escaped(&tick.text));
+    }
+    html + "</div>\n<p class=\"small\">Radiance, mean of the three channels; blue: too dark, orange: too bright.</p>\n"
+}

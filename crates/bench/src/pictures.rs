@@ -1,0 +1,112 @@
+//! Small pictures for the page: each technique beside the truth, and where it is wrong, with the colours' scale.
+
+use crate::BenchError;
+use crate::plan::Part;
+use crate::references::Truth;
+use crate::way::{WHITTED_SPP, Way};
+use compare::{ColourScale, ErrorMap, Tick};
+use pathtrace::Tracer;
+use picture_file::{Records, encode_rgba8};
+use raster::{Fake, Raster, RasterSettings};
+use scene::display::DisplayTransform;
+use scene::{Film, Scene};
+
+/// One technique beside the truth.
+pub struct Exhibit {
+    /// The technique, for people.
+    pub title: String,
+    /// Its picture, PNG.
+    pub picture: Vec<u8>,
+    /// The truth, PNG.
+    pub truth: Vec<u8>,
+    /// Picture minus truth, PNG.
+    pub map: Vec<u8>,
+    /// The map's colours from its low end to its high one, PNG.
+    pub bar: Vec<u8>,
+    /// Marks along the bar.
+    pub ticks: Vec<Tick>,
+    /// What the map shows.
+    pub label: &'static str,
+    /// Width and height in pixels.
+    pub size: (u32, u32),
+}
+
+const BAR: (u32, u32) = (256, 12);
+
+/// The fakes, where something can draw them, and Whitted's picture of a part.
+///
+/// # Errors
+/// [`BenchError::Memory`], [`BenchError::File`] if a picture cannot be encoded.
+pub fn of(
+    part: &Part,
+    scene: &Scene,
+    tracer: &Tracer,
+    raster: Option<&mut Raster>,
+    truth: &Truth,
+) -> Result<Vec<Exhibit>, BenchError> {
+    let mut exhibits = Vec::new();
+    if let Some(raster) = raster {
+        for fake in [Fake::AsTaught, Fake::Fair] {
+            let settings = RasterSettings { fake, ..RasterSettings::new(part.width, part.height) };
+            // a device that fails was told of where the fake was measured
+            if let Ok(film) = raster.render(scene, &scene.camera, &settings) {
+                exhibits.push(exhibit(Way::Raster(fake).title(), &film, truth)?);
+            }
+        }
+    }
+    let mut film = Film::try_new(part.width, part.height).ok_or(BenchError::Memory(part.width, part.height))?;
+    tracer.render_whitted(&mut film, &scene.camera, &Way::whitted_settings(1), WHITTED_SPP, &|| false);
+    exhibits.push(exhibit(format!("Whitted, {WHITTED_SPP} samples per pixel"), &film, truth)?);
+    Ok(exhibits)
+}
+
+fn exhibit(title: String, film: &Film, truth: &Truth) -> Result<Exhibit, BenchError> {
+    let display = DisplayTransform::default();
+    let (width, height) = (film.width(), film.height());
+    let png = |rgba: &[u8], (width, height)| encode_rgba8(width, height, rgba, &Records::new());
+    let values = ErrorMap::Signed.of(film, &truth.film, &display)?;
+    let scale = ColourScale::fitted(ErrorMap::Signed, &values);
+    Ok(Exhibit {
+        title,
+        picture: png(&display.film_to_rgba8(film), (width, height))?,
+        truth: png(&display.film_to_rgba8(&truth.film), (width, height))?,
+        map: png(&scale.image(&values, width), (width, height))?,
+        bar: png(&scale.bar(BAR.0, BAR.1), BAR)?,
+        ticks: scale.ticks(4),
+        label: scale.label,
+        size: (width, height),
+    })
+}
+
+/// The address of a PNG within the page: RFC 2397, with the base 64 of RFC 4648.
+pub fn data_uri(png: &[u8]) -> String {
+    format!("data:image/png;base64,{}", base64(png))
+}
+
+fn base64(bytes: &[u8]) -> String {
+    const DIGITS: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    let mut text = String::with_capacity(bytes.len().div_ceil(3) * 4);
+    for three in bytes.chunks(3) {
+        let bits = three.iter().enumerate().fold(0, |bits, (i, byte)| bits | u32::from(*byte) << (16 - 8 * i));
+        for digit in 0..4 {
+            // n bytes fill n + 1 digits
+            let filled = digit <= three.len();
+            let index = (bits >> (18 - 6 * digit)) & 63;
+            text.push(if filled { char::from(DIGITS[index as usize]) } else { '=' });
+        }
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn base_64_is_that_of_the_rfcs_examples() {
+        let examples =
+            [("", ""), ("f", "Zg=="), ("fo", "Zm8="), ("foo", "Zm9v"), ("foob", "Zm9vYg=="), ("fooba", "Zm9vYmE=")];
+        assert!(examples.iter().all(|(plain, coded)| base64(plain.as_bytes()) == *coded));
+        assert_eq!(base64(&[255, 255, 254]), "///+");
+    }
+}

@@ -1,0 +1,325 @@
+//! What is measured, and how much of it: parts (a scene under one sun), their pictures' size, and the ladder of samples.
+//!
+//! A bench within so many seconds is planned from a speed that is measured first, so that it holds on slower machines
+//! too. The plan is kept in the journal: what is interrupted goes on by the same plan.
+
+use crate::way::{Line, Variant, WHITTED_SPP, Way};
+use crate::{BenchError, Options};
+use pathtrace::{Estimator, FEWEST_REPLICATES, PathSettings, SamplerKind, Tracer};
+use raster::Fake;
+use reference::{Maker, SAMPLES_PER_REPLICATE};
+use scene::{Film, Scene, builtin};
+use serde::{Deserialize, Serialize};
+use std::time::Instant;
+
+/// Scenes that are measured.
+pub const SCENES: [&str; 2] = ["cornell", "whitted"];
+
+/// Independent pictures of each measurement.
+pub const SEEDS: u32 = 5;
+
+/// Seconds of a quick bench on a machine that does nothing else.
+pub const QUICK_SECONDS: f64 = 60.0;
+
+/// Share of the time that goes into references.
+const REFERENCE_SHARE: f64 = 0.35;
+
+/// Each rung of the ladder of samples has this many times the samples of the one before.
+const RUNG: u32 = 4;
+
+/// How long a bench may take.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub enum Effort {
+    /// 256 x 256 and 256 x 144 pixels, up to 1024 samples, references of up to a quarter of an hour each.
+    Full,
+    /// About this many seconds on an idle machine, as small as it takes.
+    Seconds(f64),
+}
+
+/// A scene under one sun, at one size.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Part {
+    /// "cornell", "whitted-sun-0", "whitted-sun-2.5": what files and tables call it.
+    pub name: String,
+    /// Name of the built-in scene.
+    pub scene: String,
+    /// Angular radius of its sun in degrees, if not the scene's own.
+    pub sun_radius: Option<f32>,
+    /// Width in pixels.
+    pub width: u32,
+    /// Height in pixels.
+    pub height: u32,
+    /// Samples per pixel of the ladder's last rung.
+    pub most_spp: u32,
+    /// Seconds after which the reference is taken as it is.
+    pub reference_seconds: f64,
+    /// Speeds that were measured beforehand, for the forecast of the time alone.
+    pub speed: Speed,
+}
+
+/// Samples a second.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Speed {
+    /// Of a reference.
+    pub reference: f64,
+    /// Of a part's lines, all alike.
+    pub lines: f64,
+}
+
+/// A part before it has a size.
+struct Sketch {
+    name: &'static str,
+    scene: &'static str,
+    sun_radius: Option<f32>,
+    full: (u32, u32),
+    quick: (u32, u32),
+    /// Share of the time, relative to other parts.
+    weight: f64,
+}
+
+const SKETCHES: [Sketch; 3] = [
+    Sketch { name: "cornell", scene: "cornell", sun_radius: None, full: (256, 256), quick: (96, 96), weight: 3.0 },
+    Sketch {
+        name: "whitted-sun-0",
+        scene: "whitted",
+        sun_radius: Some(0.0),
+        full: (256, 144),
+        quick: (128, 72),
+        weight: 1.0,
+    },
+    Sketch {
+        name: "whitted-sun-2.5",
+        scene: "whitted",
+        sun_radius: None,
+        full: (256, 144),
+        quick: (128, 72),
+        weight: 2.0,
+    },
+];
+
+/// Names of all parts.
+pub fn part_names() -> impl Iterator<Item = &'static str> {
+    SKETCHES.iter().map(|sketch| sketch.name)
+}
+
+/// The parts that `options` ask for, sized by a speed that is measured here.
+///
+/// # Errors
+/// [`BenchError::UnknownScene`], [`BenchError::Scene`].
+pub fn plan(options: &Options) -> Result<Vec<Part>, BenchError> {
+    if let Some(unknown) = options.scenes.iter().find(|name| !SCENES.contains(&name.as_str())) {
+        return Err(BenchError::UnknownScene(unknown.clone()));
+    }
+    let asked = |s: &&Sketch| options.scenes.is_empty() || options.scenes.iter().any(|name| name == s.scene);
+    let sketches: Vec<&Sketch> = SKETCHES.iter().filter(asked).collect();
+    // a bench of one scene takes that scene's share of the time
+    let weights: f64 = SKETCHES.iter().map(|sketch| sketch.weight).sum();
+    let sized = |sketch: &&Sketch| {
+        let part = sketch.part();
+        let scene = part.scene()?;
+        let speed = Speed::measured(&part, &scene);
+        Ok(match options.effort {
+            Effort::Full => Part { speed, ..part },
+            Effort::Seconds(seconds) => part.within(&scene, seconds * sketch.weight / weights, speed, sketch.quick),
+        })
+    };
+    sketches.iter().map(sized).collect()
+}
+
+impl Sketch {
+    fn part(&self) -> Part {
+        Part {
+            name: self.name.into(),
+            scene: self.scene.into(),
+            sun_radius: self.sun_radius,
+            width: self.full.0,
+            height: self.full.1,
+            most_spp: 1024,
+            reference_seconds: 900.0,
+            speed: Speed { reference: 1.0, lines: 1.0 },
+        }
+    }
+}
+
+impl Part {
+    /// The scene under its sun.
+    ///
+    /// # Errors
+    /// [`BenchError::Scene`].
+    pub fn scene(&self) -> Result<Scene, BenchError> {
+        let mut scene = builtin::named(&self.scene)?;
+        if let (Some(radius), Some(sun)) = (self.sun_radius, &mut scene.sun) {
+            sun.angular_radius = radius;
+        }
+        Ok(scene)
+    }
+
+    /// For people.
+    pub fn title(&self) -> String {
+        match (self.scene.as_str(), self.sun_radius) {
+            ("whitted", Some(radius)) => format!("whitted, sun radius {radius}°"),
+            ("whitted", None) => "whitted, sun radius 2.5°".into(),
+            (scene, _) => scene.into(),
+        }
+    }
+
+    /// 1, 4, 16 and so on.
+    pub fn ladder(&self) -> Vec<u32> {
+        std::iter::successors(Some(1), |spp| Some(spp * RUNG)).take_while(|spp| *spp <= self.most_spp).collect()
+    }
+
+    /// Samples per pixel at which a way is measured.
+    pub fn rungs(&self, way: &Way) -> Vec<u32> {
+        match way {
+            Way::Path { .. } => self.ladder(),
+            Way::Whitted => vec![WHITTED_SPP],
+            Way::Raster(_) => vec![0],
+        }
+    }
+
+    /// Everything that is measured in this part, what needs a GPU last. By chance no path meets a sun of radius 0:
+    /// such ways are left out there.
+    pub fn lines(&self, scene: &Scene) -> Vec<Line> {
+        let delta_sun = scene.sun.is_some_and(|sun| sun.angular_radius == 0.0);
+        let mut ways = Vec::new();
+        for estimator in Estimator::ALL.into_iter().filter(|e| !delta_sun || e.samples_lights()) {
+            ways.extend(SamplerKind::ALL.map(|sampler| Way::path(estimator, sampler)));
+        }
+        if self.teaches_bias() {
+            ways.extend([0, 1, 3].map(Way::bounded));
+            ways.push(Way::survived(0.8));
+        }
+        ways.push(Way::Whitted);
+        ways.extend(Fake::ALL.map(Way::Raster));
+        let usual = &Variant::ALL[0];
+        let others = Variant::ALL[1..].iter().map(|variant| Line { way: Way::USUAL, variant });
+        others.chain(ways.into_iter().map(|way| Line { way, variant: usual })).collect()
+    }
+
+    /// Whether it has the lesson "biased against unbiased": where light goes around in a closed room.
+    pub fn teaches_bias(&self) -> bool {
+        self.scene == "cornell"
+    }
+
+    /// Pixels.
+    pub fn pixels(&self) -> u64 {
+        u64::from(self.width) * u64::from(self.height)
+    }
+
+    /// Samples of one line's measurement at `spp`, over all seeds.
+    pub fn samples(&self, spp: u32) -> f64 {
+        self.pixels() as f64 * f64::from(spp) * f64::from(SEEDS)
+    }
+
+    /// Samples of all lines' measurements.
+    fn all_samples(&self, scene: &Scene) -> f64 {
+        let of_line = |line: &Line| self.rungs(&line.way).iter().map(|spp| self.samples(*spp)).sum::<f64>();
+        self.lines(scene).iter().map(of_line).sum()
+    }
+
+    /// Replicates of a reference whose own error is a tenth of the best line's or less. The error of one is that of the
+    /// best line at 64 samples. With Owen-scrambled points mean squared errors were seen to fall like samples^-1.3 and
+    /// slower, so that those of the last rung are (64 / most)^1.3 of it, and K replicates leave 1 / K of it.
+    pub fn replicates(&self) -> u32 {
+        let rungs = f64::from(self.most_spp) / f64::from(SAMPLES_PER_REPLICATE);
+        ((10.0 * rungs.powf(1.3)).ceil() as u32).max(FEWEST_REPLICATES)
+    }
+
+    /// Seconds that the reference takes if it is not there.
+    pub fn forecast_reference(&self) -> f64 {
+        let samples = self.pixels() as f64 * f64::from(self.replicates() * SAMPLES_PER_REPLICATE);
+        (samples / self.speed.reference).min(self.reference_seconds)
+    }
+
+    /// The largest pictures, and with them the longest ladder, that this speed (samples a second) has the time for; the
+    /// ladder ends at 64 or above, where a slope can still be read, unless the pictures are as small as they get.
+    fn within(self, scene: &Scene, seconds: f64, speed: Speed, (width, height): (u32, u32)) -> Part {
+        let reference_seconds = seconds * REFERENCE_SHARE;
+        let candidate = |sixteenths: u32, most_spp: u32| {
+            let side = |side: u32| (side * sixteenths / 16).max(1);
+            Part { width: side(width), height: side(height), most_spp, reference_seconds, speed, ..self.clone() }
+        };
+        let fits = |part: &Part| {
+            let reference = part.pixels() as f64 * f64::from(part.replicates() * SAMPLES_PER_REPLICATE);
+            let (seconds, measured) = (seconds - reference_seconds, part.all_samples(scene));
+            reference <= speed.reference * reference_seconds && measured <= speed.lines * seconds
+        };
+        let sizes =
+            (2..=16).rev().flat_map(|sixteenths| [1024, 256, 64].map(|most_spp| candidate(sixteenths, most_spp)));
+        sizes.into_iter().find(fits).unwrap_or_else(|| candidate(2, 16))
+    }
+}
+
+impl Speed {
+    /// Measured in about half a second.
+    fn measured(part: &Part, scene: &Scene) -> Self {
+        let tracer = Tracer::new(scene);
+        let lines: Vec<PathSettings> = part.lines(scene).iter().filter_map(|line| line.way.path_settings(1)).collect();
+        Speed {
+            reference: samples_per_second(&tracer, scene, &[Maker::settings(1)]),
+            lines: samples_per_second(&tracer, scene, &lines),
+        }
+    }
+}
+
+/// Samples a second of all these settings in turn, over at least a fifth of a second.
+fn samples_per_second(tracer: &Tracer, scene: &Scene, ways: &[PathSettings]) -> f64 {
+    const SIDE: u32 = 48;
+    const LEAST_SECONDS: f64 = 0.2;
+    let mut film = Film::new(SIDE, SIDE);
+    let mut all =
+        |spp| ways.iter().map(|way| tracer.render(&mut film, &scene.camera, way, spp, &|| false).samples).sum();
+    // threads and caches awake before the clock runs
+    let _: u64 = all(1);
+    let (start, mut samples) = (Instant::now(), 0u64);
+    while start.elapsed().as_secs_f64() < LEAST_SECONDS {
+        samples += all(2);
+    }
+    samples as f64 / start.elapsed().as_secs_f64()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn cornell_within(seconds: f64, speed: f64) -> (Part, Scene) {
+        let part = SKETCHES[0].part();
+        let scene = part.scene().unwrap();
+        (part.within(&scene, seconds, Speed { reference: speed, lines: 1.5 * speed }, SKETCHES[0].quick), scene)
+    }
+
+    #[test]
+    fn a_plan_fits_its_time_at_any_speed() {
+        for speed in [2e5, 1e6, 3e6, 3e7, 1e9] {
+            let (part, scene) = cornell_within(30.0, speed);
+            let seconds = part.forecast_reference() + part.all_samples(&scene) / part.speed.lines;
+            assert!(seconds <= 30.0 && part.most_spp >= 64, "{part:?}: {seconds}");
+        }
+        let (slow, fast) = (cornell_within(30.0, 1e6).0, cornell_within(30.0, 3e7).0);
+        assert!(fast.pixels() * u64::from(fast.most_spp) > slow.pixels() * u64::from(slow.most_spp));
+    }
+
+    #[test]
+    fn hopeless_machines_get_the_smallest_plan() {
+        let (part, _) = cornell_within(1.0, 10.0);
+        assert_eq!((part.width, part.most_spp), (12, 16));
+    }
+
+    #[test]
+    fn no_line_measures_what_cannot_be_found() {
+        let part = SKETCHES[1].part();
+        let lines = part.lines(&part.scene().unwrap());
+        assert!(lines.iter().all(|line| !line.name().contains("uniform") && !line.name().contains("cosine")));
+        assert!(lines.iter().any(|line| line.name() == "path light sobol"));
+    }
+
+    #[test]
+    fn names_are_unique() {
+        let part = SKETCHES[0].part();
+        let mut names: Vec<_> = part.lines(&part.scene().unwrap()).iter().map(Line::name).collect();
+        let count = names.len();
+        names.sort();
+        names.dedup();
+        assert_eq!(names.len(), count);
+    }
+}

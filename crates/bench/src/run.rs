@@ -1,0 +1,286 @@
+//! A whole bench: plan, references, measurements, and what is written about them.
+
+use crate::clock::{Clock, Progress};
+use crate::host::{Host, peak_memory, today};
+use crate::journal::{self, Journal, Run};
+use crate::measure::{self, Measurement};
+use crate::page::Page;
+use crate::peer::{self, PeerRow};
+use crate::pictures::{self, Exhibit};
+use crate::plan::{self, Effort, Part, SEEDS};
+use crate::plots::{self, duration};
+use crate::references::{self, Truth};
+use crate::summary::{PartSummary, slope_words};
+use crate::way::{Line, Way};
+use crate::{BenchError, tables};
+use gpu::Gpu;
+use pathtrace::Tracer;
+use picture_file::{check_writable, write_whole};
+use raster::Raster;
+use reference::Store;
+use scene::Scene;
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+/// What is asked for.
+#[derive(Debug, Clone)]
+pub struct Options {
+    /// Folder for everything that is written.
+    pub folder: PathBuf,
+    /// How long it may take.
+    pub effort: Effort,
+    /// Names of the scenes, of [`plan::SCENES`]; empty for all.
+    pub scenes: Vec<String>,
+    /// Tables of other programs.
+    pub peers: Vec<PathBuf>,
+    /// Version and build of this program: measurements of another one are not mixed with its own.
+    pub program: String,
+    /// The command line, for the page.
+    pub command: String,
+}
+
+/// What came of it.
+#[derive(Debug)]
+pub struct Outcome {
+    /// The page.
+    pub page: PathBuf,
+    /// What was left out or went wrong, a sentence each.
+    pub notes: Vec<String>,
+    /// Measurements that were there already.
+    pub kept: usize,
+    /// All measurements.
+    pub measurements: usize,
+    /// The lines at their last rung, as plain text.
+    pub table: String,
+}
+
+/// Name of the page.
+const PAGE: &str = "bench.html";
+/// Forecast of a fake's measurement, in seconds.
+const FAKE_SECONDS: f64 = 0.1;
+
+struct Bench<'a> {
+    journal: Journal,
+    store: Store,
+    raster: Option<Raster>,
+    clock: Clock,
+    notes: Vec<String>,
+    progress: &'a mut dyn FnMut(&Progress),
+}
+
+/// Runs it, or goes on with it. `progress` is told now and then.
+///
+/// # Errors
+/// [`BenchError`], one line; what was measured before stays in the journal.
+pub fn run(options: &Options, progress: &mut dyn FnMut(&Progress)) -> Result<Outcome, BenchError> {
+    let start = Instant::now();
+    let peers: Vec<PeerRow> =
+        options.peers.iter().map(|path| peer::read(path)).collect::<Result<Vec<_>, _>>()?.concat();
+    let folder = &options.folder;
+    std::fs::create_dir_all(folder).map_err(|why| BenchError::Folder { why, folder: folder.clone() })?;
+    check_writable(&folder.join(PAGE))?;
+    let mut notes = Vec::new();
+    let (raster, adapter) = rasteriser();
+    if raster.is_none() {
+        notes.push(format!("The fakes are left out: {adapter}."));
+    }
+    let host = Host::this(adapter);
+    let run = Run { program: options.program.clone(), host, effort: options.effort, scenes: options.scenes.clone() };
+    let (journal, parts) = Journal::open(folder, &run, || plan::plan(options))?;
+    let store = Store::of_the_user().unwrap_or_else(|why| {
+        notes.push(format!("References are kept with the results: {why}."));
+        Store::new(folder.join("references"), Store::MOST_BYTES)
+    });
+    let with_lines = |part: &Part| Ok((part.clone(), part.lines(&part.scene()?)));
+    let planned: Vec<(Part, Vec<Line>)> = parts.iter().map(with_lines).collect::<Result<_, BenchError>>()?;
+    let ahead = planned.iter().map(|(part, lines)| forecast(&journal, part, lines)).sum();
+    let kept = journal.measurements().len();
+    let mut bench = Bench { journal, store, raster, clock: Clock::new(ahead), notes, progress };
+    let mut exhibits = Vec::new();
+    for (i, (part, lines)) in planned.iter().enumerate() {
+        // the last part is the tutorial's own scene, or the only one that was asked for
+        let shown = bench.part(part, lines, i + 1 == planned.len())?;
+        exhibits.push((part.title(), shown));
+    }
+    let summaries: Vec<PartSummary> =
+        planned.iter().filter_map(|(part, lines)| summary(&bench.journal, part, lines, &peers)).collect();
+    write_tables(folder, &planned, &summaries, bench.journal.measurements())?;
+    let page = folder.join(PAGE);
+    let parts = summaries.iter().map(|summary| (summary, plots::of(summary))).collect::<Vec<_>>();
+    for plot in parts.iter().flat_map(|(_, plots)| plots) {
+        write_whole(&folder.join(format!("{}.svg", plot.name)), plot.svg.as_bytes())?;
+    }
+    let made = provenance(options, &run.host, kept, bench.journal.measurements().len(), start);
+    write_whole(&page, Page { parts, exhibits, notes: &bench.notes, made }.html().as_bytes())?;
+    let measurements = bench.journal.measurements().len();
+    Ok(Outcome { page, notes: bench.notes, kept, measurements, table: text(&summaries) })
+}
+
+/// What draws the fakes and its description, or why nothing does.
+fn rasteriser() -> (Option<Raster>, String) {
+    let opened = Gpu::headless()
+        .map_err(|why| why.to_string())
+        .and_then(|gpu| Ok((Raster::new(&gpu).map_err(|why| why.to_string())?, gpu.describe())));
+    match opened {
+        Ok((raster, adapter)) => (Some(raster), adapter),
+        Err(why) => (None, why.lines().collect::<Vec<_>>().join(", ")),
+    }
+}
+
+/// Seconds that a part still takes.
+fn forecast(journal: &Journal, part: &Part, lines: &[Line]) -> f64 {
+    let missing = lines.iter().flat_map(|line| part.rungs(&line.way).into_iter().map(move |spp| (line, spp)));
+    let missing = missing.filter(|(line, spp)| journal.find(&part.name, &line.name(), *spp).is_none());
+    let seconds: f64 = missing.map(|(line, spp)| forecast_of(part, line, spp)).sum();
+    if seconds > 0.0 { seconds + part.forecast_reference() } else { 0.0 }
+}
+
+fn forecast_of(part: &Part, line: &Line, spp: u32) -> f64 {
+    if matches!(line.way, Way::Raster(_)) { FAKE_SECONDS } else { part.samples(spp) / part.speed.lines }
+}
+
+impl Bench<'_> {
+    /// Measures what is missing of a part, and makes its pictures if they are to be shown.
+    fn part(&mut self, part: &Part, lines: &[Line], show: bool) -> Result<Vec<Exhibit>, BenchError> {
+        let missing = forecast(&self.journal, part, lines) > 0.0;
+        if !missing && !show {
+            return Ok(Vec::new());
+        }
+        let scene = part.scene()?;
+        let tracer = Tracer::new(&scene);
+        let truth = self.reference(part, &scene, &tracer)?;
+        for line in lines {
+            let tracer = (line.way.converges() || line.way == Way::Whitted).then(|| (line.variant.tracer)(&scene));
+            for (rung, spp) in part.rungs(&line.way).into_iter().enumerate() {
+                if self.journal.find(&part.name, &line.name(), spp).is_some() {
+                    continue;
+                }
+                let what = format!("{}: {}, {spp} spp", part.name, line.name());
+                (self.progress)(&self.clock.progress(&what, 0.0));
+                let measured = match (&line.way, &tracer) {
+                    (Way::Raster(fake), _) => self.fake(part, &scene, *fake, &truth)?,
+                    (_, Some(tracer)) => Some(measure::traced(part, &scene, tracer, line, rung, &truth)?),
+                    (_, None) => None,
+                };
+                measured.map_or(Ok(()), |measured| self.journal.add(measured))?;
+                self.clock.done(forecast_of(part, line, spp));
+            }
+        }
+        if show { pictures::of(part, &scene, &tracer, self.raster.as_mut(), &truth) } else { Ok(Vec::new()) }
+    }
+
+    fn reference(&mut self, part: &Part, scene: &Scene, tracer: &Tracer) -> Result<Truth, BenchError> {
+        let forecast = part.forecast_reference();
+        let what = format!("{}: reference", part.name);
+        let (clock, progress) = (&self.clock, &mut self.progress);
+        let mut tell = |share: f64| progress(&clock.progress(&what, share * forecast));
+        tell(0.0);
+        let (truth, fault) = references::make(part, scene, tracer, Some(&self.store), &mut tell)?;
+        self.notes.extend(fault.map(|why| format!("The reference of {} is not kept: {why}.", part.name)));
+        self.clock.done(forecast);
+        Ok(truth)
+    }
+
+    /// A fake's measurement; a device that fails leaves it out, and is told of once a part.
+    fn fake(
+        &mut self,
+        part: &Part,
+        scene: &Scene,
+        fake: raster::Fake,
+        truth: &Truth,
+    ) -> Result<Option<Measurement>, BenchError> {
+        let Some(raster) = &mut self.raster else { return Ok(None) };
+        match measure::drawn(part, scene, raster, fake, truth) {
+            Ok(measured) => measured.map(Some),
+            Err(why) => {
+                self.notes.push(format!("The fake ({}) of {} is left out: {why}.", fake.name(), part.name));
+                Ok(None)
+            }
+        }
+    }
+}
+
+/// What is known of a part; `None` if nothing is.
+fn summary(journal: &Journal, part: &Part, lines: &[Line], peers: &[PeerRow]) -> Option<PartSummary> {
+    let worth = journal.measurements().iter().rfind(|m| m.part == part.name)?.reference;
+    Some(PartSummary::new(part, worth, lines, journal.measurements(), peers))
+}
+
+fn write_tables(
+    folder: &Path,
+    planned: &[(Part, Vec<Line>)],
+    summaries: &[PartSummary],
+    measurements: &[Measurement],
+) -> Result<(), BenchError> {
+    write_whole(&folder.join("measurements.csv"), tables::pictures(planned, measurements).as_bytes())?;
+    Ok(write_whole(&folder.join("summary.csv"), tables::summary(summaries).as_bytes())?)
+}
+
+fn provenance(
+    options: &Options,
+    host: &Host,
+    kept: usize,
+    measurements: usize,
+    start: Instant,
+) -> Vec<(&'static str, String)> {
+    let memory = peak_memory().map_or("not told by this system".into(), |bytes| {
+        format!("{:.0} MiB, of the whole process (VmHWM)", bytes as f64 / f64::from(1 << 20))
+    });
+    let resumed = if kept > 0 {
+        format!(", {kept} of them by an earlier run that was interrupted or repeated")
+    } else {
+        String::new()
+    };
+    vec![
+        ("command", options.command.clone()),
+        ("program", format!("visavis {}", options.program)),
+        ("date", today()),
+        ("processor", format!("{}, {} threads", host.cpu, host.threads)),
+        ("system", host.system.clone()),
+        ("adapter of the fakes", host.adapter.clone()),
+        ("measurements", format!("{measurements} of {SEEDS} pictures each{resumed}")),
+        ("time of this run", duration(start.elapsed().as_secs_f64())),
+        ("most memory held", memory),
+        (
+            "to repeat it",
+            format!(
+                "the same command with another -o; errors are the same to the last digit with the same program and sizes, \
+                 seconds are the machine's. Every picture is in measurements.csv, every point in summary.csv, what each \
+                 column means in docs/bench.md; {} is what an interrupted run goes on with",
+                journal::NAME
+            ),
+        ),
+    ]
+}
+
+/// The lines at their last rung, for a terminal.
+fn text(summaries: &[PartSummary]) -> String {
+    let mut text = String::new();
+    for summary in summaries {
+        let (part, worth) = (&summary.part, &summary.worth);
+        text += &format!(
+            "{}, {}x{}, reference {} spp, its own relMSE {:.1e}{}\n",
+            part.name,
+            part.width,
+            part.height,
+            worth.spp,
+            worth.rel_mse,
+            if worth.is_reliable() { "" } else { " (unreliable: heavy tail)" }
+        );
+        text += &format!("  {:<34}{:>6}{:>10}{:>10}{:>10}  slope\n", "", "spp", "time", "RMSE", "relMSE");
+        for curve in &summary.curves {
+            let Some(point) = curve.last() else { continue };
+            let flag = if point.below_reference_noise { "  below the reference's noise" } else { "" };
+            text += &format!(
+                "  {:<34}{:>6}{:>10}{:>10.2e}{:>10.2e}  {}{flag}\n",
+                curve.line.name(),
+                point.spp,
+                duration(point.seconds.median),
+                point.rmse.median,
+                point.rel_mse.median,
+                curve.slope.map(|fit| slope_words(&fit)).unwrap_or_default()
+            );
+        }
+    }
+    text
+}
