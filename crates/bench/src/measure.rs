@@ -5,7 +5,7 @@ use crate::BenchError;
 use crate::plan::{Part, SEEDS};
 use crate::references::{Truth, Worth};
 use crate::way::{Line, Way};
-use compare::{ErrorMap, Errors, finite_mean, split_error};
+use compare::{ErrorMap, Errors, REL_MSE_FLOOR, finite_mean, split_error};
 use pathtrace::{Stats, Tracer};
 use raster::{Fake, Raster, RasterSettings};
 use scene::display::DisplayTransform;
@@ -45,10 +45,10 @@ pub struct Picture {
     pub tail_weight: f64,
 }
 
-/// What all seeds of a measurement have in common against the truth.
+/// What all seeds of a measurement have in common against the truth: the mean over pixels and channels of a squared bias.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct BiasTest {
-    /// Mean over pixels and channels, in radiance squared; below 0 by chance where there is no bias.
+    /// Below 0 by chance where there is no bias.
     pub bias_squared: f64,
     /// Its standard error.
     pub standard_error: f64,
@@ -60,15 +60,29 @@ impl BiasTest {
         self.bias_squared > SIGMAS * self.standard_error
     }
 
-    /// The smallest bias (root of its mean square over pixels) that would have been noticed, as a share of `mean`.
-    pub fn power(&self, mean: f64) -> f64 {
-        (SIGMAS * self.standard_error).sqrt() / mean
+    /// The smallest bias (root of its mean square) that would have been noticed.
+    pub fn power(&self) -> f64 {
+        (SIGMAS * self.standard_error).sqrt()
     }
 
-    /// The bias, as a share of `mean`; 0 where chance made it negative.
-    pub fn bias(&self, mean: f64) -> f64 {
-        self.bias_squared.max(0.0).sqrt() / mean
+    /// The bias; 0 where chance made its square negative.
+    pub fn bias(&self) -> f64 {
+        self.bias_squared.max(0.0).sqrt()
     }
+
+    fn of(films: &[Film], truth: &Film, noise: f64) -> Result<Self, BenchError> {
+        let split = split_error(&films.iter().collect::<Vec<_>>(), truth, noise)?;
+        Ok(BiasTest { bias_squared: split.bias_squared, standard_error: split.bias_squared_error })
+    }
+}
+
+/// The two tests of a measurement's bias.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Bias {
+    /// In radiance squared: a part of the RMSE's square. The noise at a bright lamp's edge drowns it.
+    pub absolute: BiasTest,
+    /// Of each pixel as a share of its truth, the floor as in the relMSE: a part of the relMSE.
+    pub relative: BiasTest,
 }
 
 /// All pictures of one line at one number of samples.
@@ -83,7 +97,7 @@ pub struct Measurement {
     /// One for each seed.
     pub pictures: Vec<Picture>,
     /// `None` where nothing is random.
-    pub bias: Option<BiasTest>,
+    pub bias: Option<Bias>,
     /// What they were measured by.
     pub reference: Worth,
 }
@@ -120,8 +134,10 @@ pub fn traced(
         pictures.push(judged(&film, seed, seconds, stats, truth)?);
         films.push(film);
     }
-    let split = split_error(&films.iter().collect::<Vec<_>>(), &truth.film, truth.worth.mse)?;
-    let bias = BiasTest { bias_squared: split.bias_squared, standard_error: split.bias_squared_error };
+    let absolute = BiasTest::of(&films, &truth.film, truth.worth.mse)?;
+    let shares: Vec<Film> = films.iter().map(|film| as_shares(film, &truth.film)).collect();
+    let relative = BiasTest::of(&shares, &as_shares(&truth.film, &truth.film), truth.worth.rel_mse)?;
+    let bias = Bias { absolute, relative };
     Ok(Measurement {
         part: part.name.clone(),
         line: line.name(),
@@ -162,6 +178,18 @@ pub fn drawn(
         bias: None,
         reference: truth.worth,
     }))
+}
+
+/// A film with each value divided by the root of `r^2 + 0.01`, r being the truth there: its mean squared errors are relative
+/// ones.
+fn as_shares(film: &Film, truth: &Film) -> Film {
+    let mut shares = film.clone();
+    for (pixel, truth) in shares.pixels_mut().iter_mut().zip(truth.pixels()) {
+        for (sum, truth) in pixel.sum.iter_mut().zip(truth.mean()) {
+            *sum /= (truth * truth + REL_MSE_FLOOR).sqrt();
+        }
+    }
+    shares
 }
 
 fn judged(film: &Film, seed: u32, seconds: f64, stats: Stats, truth: &Truth) -> Result<Picture, BenchError> {

@@ -103,7 +103,7 @@ fn section(summary: &PartSummary, plots: &[Plot]) -> String {
     }
     html += &table::of(summary);
     html + &format!(
-        "<p class=\"small\">Medians over seeds, ranges in brackets. Efficiency: 1 / (MSE \u{d7} seconds). In {}. Grey: within \
+        "<p class=\"small\">Spp: samples per pixel. Medians over seeds, ranges in brackets. Efficiency: 1 / (MSE \u{d7} seconds). {} Grey: within \
          the reference's own noise.</p>\n",
         escaped(&bias_rule())
     )

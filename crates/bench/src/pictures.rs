@@ -72,7 +72,7 @@ fn exhibit(title: String, film: &Film, truth: &Truth) -> Result<Exhibit, BenchEr
         truth: png(&display.film_to_rgba8(&truth.film), (width, height))?,
         map: png(&scale.image(&values, width), (width, height))?,
         bar: png(&scale.bar(BAR.0, BAR.1), BAR)?,
-        ticks: scale.ticks(4),
+        ticks: scale.ticks(6),
         label: scale.label,
         size: (width, height),
     })

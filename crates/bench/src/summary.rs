@@ -1,7 +1,7 @@
 //! What measurements say together: a curve for each line, with medians and ranges over seeds, slopes, speed, what it is
 //! worth per second, and whether it is biased.
 
-use crate::measure::{BiasTest, Measurement, Picture, SIGMAS};
+use crate::measure::{Bias, Measurement, Picture, SIGMAS};
 use crate::peer::PeerRow;
 use crate::plan::Part;
 use crate::references::Worth;
@@ -53,7 +53,7 @@ pub struct Point {
     /// In [0, 1].
     pub flip: Range,
     /// Whether all seeds together are biased.
-    pub bias_test: Option<BiasTest>,
+    pub bias_test: Option<Bias>,
     /// Whether RMSE or relMSE is so small that the reference's own noise covers it.
     pub below_reference_noise: bool,
     /// `1 / (mse * seconds)`, of the medians.
@@ -167,12 +167,12 @@ impl Point {
         })
     }
 
-    /// What the test of its bias found, for people: "unbiased to 0.3 %" is the smallest that would have been noticed.
-    pub fn bias_words(&self, mean: f64) -> String {
-        match self.bias_test {
+    /// What the test of its relative bias found, for people.
+    pub fn bias_words(&self) -> String {
+        match self.bias_test.map(|bias| bias.relative) {
             None => String::new(),
-            Some(test) if test.found() => format!("{} biased", percent(test.bias(mean))),
-            Some(test) => format!("none above {}", percent(test.power(mean))),
+            Some(test) if test.found() => format!("{} biased", percent(test.bias())),
+            Some(test) => format!("none above {}", percent(test.power())),
         }
     }
 }
@@ -180,8 +180,8 @@ impl Point {
 /// How a bias is judged, for people.
 pub fn bias_rule() -> String {
     format!(
-        "bias: root of its mean square over pixels, as a share of the picture's mean, told when its square is more than \
-         {SIGMAS} standard errors above 0; \"none above\" is the smallest that would have been noticed"
+        "Bias: of each pixel as a share of its truth, root of the mean square over pixels; told when its square is more \
+         than {SIGMAS} standard errors above 0; \"none above\": the smallest that would have been noticed."
     )
 }
 
@@ -190,7 +190,8 @@ fn percent(share: f64) -> String {
     if percent >= 10.0 { format!("{percent:.0} %") } else { format!("{percent:.2} %") }
 }
 
-/// "-0.50 ± 0.01".
+/// "-0.50 ± 0.01", with a digit more where it is known better.
 pub fn slope_words(fit: &Fit) -> String {
-    format!("{:.2} ± {:.2}", fit.slope, fit.slope_error).replace('-', "\u{2212}")
+    let digits = if fit.slope_error < 0.01 { 3 } else { 2 };
+    format!("{:.digits$} ± {:.digits$}", fit.slope, fit.slope_error).replace('-', "\u{2212}")
 }

@@ -1,6 +1,6 @@
 //! The tables as CSV: every picture, and every measurement over its seeds. Columns are documented in docs/bench.md.
 
-use crate::measure::Measurement;
+use crate::measure::{Bias, BiasTest, Measurement};
 use crate::plan::Part;
 use crate::summary::PartSummary;
 use crate::way::Line;
@@ -52,7 +52,8 @@ pub fn summary(parts: &[PartSummary]) -> String {
     let mut text = format!(
         "part,line,device,sampler,spp,seeds,{ranges},slope,slope_error,relative_slope,relative_slope_error,\
          last_slope,efficiency,samples_per_second,\
-         rays_per_second,bias_squared,bias_squared_error,smallest_noticed_bias,below_reference_noise,nonfinite,cut_paths,\
+         rays_per_second,bias_squared,bias_squared_error,smallest_noticed_bias,relative_bias_squared,\
+         relative_bias_squared_error,smallest_noticed_relative_bias,below_reference_noise,nonfinite,cut_paths,\
          tail_weight,reference_spp,reference_rmse,reference_relmse,reference_tail_weight,reference_reliable\n"
     );
     for part in parts {
@@ -71,12 +72,14 @@ pub fn summary(parts: &[PartSummary]) -> String {
             let last_slope = curve.last_slope.map(number).unwrap_or_default();
             for p in &curve.points {
                 let ranges = [p.seconds, p.rmse, p.rel_mse, p.mae, p.bias, p.flip].map(range).join(",");
-                let (squared, squared_error, power) = p.bias_test.map_or_else(Default::default, |test| {
-                    (number(test.bias_squared), number(test.standard_error), number(test.power(worth.mean)))
-                });
+                let test = |test: BiasTest, mean: f64| {
+                    format!("{:e},{:e},{:e}", test.bias_squared, test.standard_error, test.power() / mean)
+                };
+                let both = |bias: Bias| format!("{},{}", test(bias.absolute, worth.mean), test(bias.relative, 1.0));
+                let bias = p.bias_test.map_or(",,,,,".into(), both);
                 let way = curve.line.way;
                 text += &format!(
-                    "{},{},{},{},{},{},{ranges},{slopes},{last_slope},{:e},{:e},{:e},{squared},{squared_error},{power},{},{},{},{:e},{reference}\n",
+                    "{},{},{},{},{},{},{ranges},{slopes},{last_slope},{:e},{:e},{:e},{bias},{},{},{},{:e},{reference}\n",
                     field(&part.part.name),
                     field(&curve.line.name()),
                     way.device(),
@@ -120,5 +123,16 @@ fn field(words: &str) -> String {
         format!("\"{}\"", words.replace('"', "\"\""))
     } else {
         words.to_owned()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn fields_that_would_break_a_row_are_quoted() {
+        assert_eq!(field("plain"), "plain");
+        assert_eq!(field("a,\"b\""), "\"a,\"\"b\"\"\"");
     }
 }

@@ -7,15 +7,15 @@ use compare::{Range, escaped};
 /// Columns, with units.
 const COLUMNS: [&str; 11] = [
     "technique",
-    "samples per pixel",
+    "spp",
     "time",
     "RMSE, radiance",
     "relMSE",
     "FLIP",
     "slope of RMSE",
     "efficiency, 1 / (radiance² s)",
-    "samples / s, rays / s",
-    "bias, of the mean",
+    "samples/s, rays/s",
+    "relative bias",
     "not finite",
 ];
 
@@ -26,7 +26,7 @@ pub fn of(summary: &PartSummary) -> String {
     html += "</tr>\n";
     for curve in &summary.curves {
         if let Some(point) = curve.last() {
-            html += &row(curve, point, summary.worth.mean);
+            html += &row(curve, point);
         }
     }
     for peer in &summary.peers {
@@ -38,7 +38,7 @@ pub fn of(summary: &PartSummary) -> String {
     html + "</table></div>\n"
 }
 
-fn row(curve: &Curve, point: &Point, mean: f64) -> String {
+fn row(curve: &Curve, point: &Point) -> String {
     let speed = |per_second: f64| format!("{:.2} M", per_second / 1e6);
     let speeds = || format!("{}<small>{}</small>", speed(point.samples_per_second), speed(point.rays_per_second));
     let cut = if point.cut_paths > 0 { format!("<small>{} cut short</small>", point.cut_paths) } else { String::new() };
@@ -51,11 +51,11 @@ fn row(curve: &Curve, point: &Point, mean: f64) -> String {
         curve.slope.map(|fit| slope_words(&fit)).unwrap_or_default(),
         if curve.line.way.converges() { format!("{:.2e}", point.efficiency) } else { String::new() },
         if point.samples_per_second > 0.0 { speeds() } else { String::new() },
-        escaped(&point.bias_words(mean)),
+        escaped(&point.bias_words()),
         format!("{}{cut}", point.nonfinite),
     ];
     let class = if point.below_reference_noise { " class=\"below\"" } else { "" };
-    format!("<tr{class}><td>{}</td>{}</tr>\n", escaped(&curve.line.name()), cells.map(cell).concat())
+    format!("<tr{class}><td>{}</td>{}</tr>\n", escaped(&curve.line.title()), cells.map(cell).concat())
 }
 
 fn cell(content: String) -> String {
@@ -66,5 +66,5 @@ fn with_range(range: Range, words: impl Fn(f64) -> String) -> String {
     if range.low == range.high {
         return words(range.median);
     }
-    format!("{}<small>({} to {})</small>", words(range.median), words(range.low), words(range.high))
+    format!("{}<small>({}–{})</small>", words(range.median), words(range.low), words(range.high))
 }
