@@ -47,6 +47,9 @@ pub enum BenchError {
         /// Their journal.
         path: PathBuf,
     },
+    /// Another program writes to the same folder.
+    #[error("another bench is running in this folder; wait for it, or give another folder with -o: {}", .0.display())]
+    Busy(PathBuf),
     /// A peer's table is not as it must be.
     #[error("line {line} of a peer's table: {found}, expected {expected}: {}", path.display())]
     Peer {

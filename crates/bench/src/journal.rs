@@ -6,8 +6,8 @@ use crate::host::Host;
 use crate::measure::Measurement;
 use crate::plan::{Effort, Part};
 use serde::{Deserialize, Serialize};
-use std::fs::File;
-use std::io::Write;
+use std::fs::{File, TryLockError};
+use std::io::{Read, Write};
 use std::path::{Path, PathBuf};
 
 /// Its name in the folder of the results.
@@ -47,17 +47,22 @@ impl Journal {
     ///
     /// # Errors
     /// [`BenchError::OtherRun`] if it belongs to another program, machine or other options; [`BenchError::Damaged`];
-    /// [`BenchError::Journal`].
+    /// [`BenchError::Busy`] while another program has it open; [`BenchError::Journal`].
     pub fn open(
         folder: &Path,
         run: &Run,
         plan: impl FnOnce() -> Result<Vec<Part>, BenchError>,
     ) -> Result<(Self, Vec<Part>), BenchError> {
         let path = folder.join(NAME);
-        let written = match std::fs::read(&path) {
-            Err(e) if e.kind() == std::io::ErrorKind::NotFound => Vec::new(),
-            read => read.map_err(BenchError::journal("read", &path))?,
-        };
+        let opened = File::options().create(true).read(true).append(true).open(&path);
+        let mut file = opened.map_err(BenchError::journal("write", &path))?;
+        match file.try_lock() {
+            Err(TryLockError::WouldBlock) => return Err(BenchError::Busy(path)),
+            // file systems without locks are used without
+            Err(TryLockError::Error(_)) | Ok(()) => {}
+        }
+        let mut written = Vec::new();
+        file.read_to_end(&mut written).map_err(BenchError::journal("read", &path))?;
         // the last line is whole when its end is there
         let whole = written.iter().rposition(|byte| *byte == b'\n').map_or(0, |end| end + 1);
         let mut lines = written[..whole].split_inclusive(|byte| *byte == b'\n').enumerate();
@@ -77,12 +82,7 @@ impl Journal {
         for (i, line) in lines {
             measurements.push(serde_json::from_slice(line).map_err(|e| damaged(i, e))?);
         }
-        let open = || {
-            let file = File::options().create(true).append(true).open(&path)?;
-            file.set_len(whole as u64)?;
-            Ok(file)
-        };
-        let file = open().map_err(BenchError::journal("write", &path))?;
+        file.set_len(whole as u64).map_err(BenchError::journal("write", &path))?;
         let mut journal = Journal { file, path, measurements };
         let parts = match header {
             Some(header) => header.parts,
@@ -206,6 +206,7 @@ mod tests {
         journal.add(measurement(1)).unwrap();
         let second = std::fs::metadata(&path).unwrap().len() as usize;
         journal.add(measurement(4)).unwrap();
+        drop(journal);
         let written = std::fs::read(&path).unwrap();
         for cut in (first..=written.len()).step_by(7).chain([second - 1, second, written.len() - 1, written.len()]) {
             std::fs::write(&path, &written[..cut]).unwrap();
@@ -216,6 +217,7 @@ mod tests {
             assert_eq!(parts, [part()]);
             // what is appended after a cut begins a line of its own
             journal.add(measurement(64)).unwrap();
+            drop(journal);
             assert_eq!(reopened(&folder, &run()).unwrap().0.measurements().len(), whole + 1);
         }
     }
@@ -234,6 +236,15 @@ mod tests {
             let line = reopened(&folder, other).unwrap_err().to_string();
             assert!(line.contains(words) && line.contains(NAME), "{line}");
         }
+    }
+
+    #[test]
+    fn two_benches_do_not_share_a_folder() {
+        let folder = TestFolder::new();
+        let first = Journal::open(folder.path(), &run(), || Ok(vec![part()])).unwrap();
+        assert!(matches!(reopened(&folder, &run()), Err(BenchError::Busy(_))));
+        drop(first);
+        assert!(reopened(&folder, &run()).is_ok());
     }
 
     #[test]
