@@ -41,7 +41,7 @@ fn against_samples(summary: &PartSummary) -> Plot {
         name: format!("{}-samples", part.name),
         svg: plot.svg(),
         caption: format!(
-            "Beside each name the slope of its line: independent numbers fall like samples^\u{2212}0.50, Sobol points faster. \
+            "Beside each name the slope of its line: errors of independent numbers fall like samples to the power of \u{2212}0.50, those of Sobol points faster. \
              {MARKS} Dotted: techniques without noise to lose, level at any number of samples."
         ),
     }

@@ -32,7 +32,12 @@ pub fn of(summary: &PartSummary) -> String {
     for peer in &summary.peers {
         if let Some(last) = peer.rows.last() {
             let cells = [last.spp.to_string(), duration(last.seconds), String::new(), format!("{:.2e}", last.rel_mse)];
-            html += &format!("<tr><td>{} (peer)</td>{}</tr>\n", escaped(&peer.name), cells.map(cell).concat());
+            let rest = COLUMNS.len() - 1 - cells.len();
+            html += &format!(
+                "<tr><td>{} (peer)</td>{}<td colspan=\"{rest}\"></td></tr>\n",
+                escaped(&peer.name),
+                cells.map(cell).concat()
+            );
         }
     }
     html + "</table></div>\n"
