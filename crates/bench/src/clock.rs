@@ -32,6 +32,11 @@ impl Clock {
         self.ahead = (self.ahead - forecast).max(0.0);
     }
 
+    /// So many forecast seconds of the work were done before.
+    pub fn skip(&mut self, forecast: f64) {
+        self.ahead = (self.ahead - forecast).max(0.0);
+    }
+
     /// What to tell while `begun` forecast seconds are done beside those of [`Clock::done`].
     pub fn progress<'a>(&self, what: &'a str, begun: f64) -> Progress<'a> {
         let (behind, ahead) = (self.behind + begun, (self.ahead - begun).max(0.0));
@@ -52,7 +57,9 @@ mod tests {
         clock.done(10.0);
         let progress = clock.progress("b", 20.0);
         assert!((progress.done - 0.75).abs() < 1e-12 && progress.seconds_left < 1.0);
-        clock.done(30.0);
+        clock.skip(15.0);
+        assert!((clock.progress("b", 10.0).done - 0.8).abs() < 1e-12);
+        clock.done(15.0);
         assert_eq!(clock.progress("c", 0.0).seconds_left, 0.0);
     }
 }

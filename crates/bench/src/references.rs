@@ -74,7 +74,8 @@ impl Worth {
     }
 }
 
-/// The part's reference. `progress` hears how far it is, from 0 to 1. A store that cannot be written loses nothing but
+/// The part's reference. `progress` hears how far it is, from 0 to 1: first
+/// what is there already. A store that cannot be written loses nothing but
 /// time: what stands in its way is returned beside the reference.
 ///
 /// # Errors
@@ -103,11 +104,15 @@ pub fn make(
             fault = Some(e.to_string());
         }
     };
+    let share = |maker: &Maker| {
+        let by_replicates = f64::from(maker.replicates()) / f64::from(part.replicates());
+        by_replicates.max(maker.seconds() / part.reference_seconds).min(1.0)
+    };
+    progress(if enough(&maker) { 1.0 } else { share(&maker) });
     let mut kept = Instant::now();
     while !enough(&maker) {
         maker.step(&|| false);
-        let by_replicates = f64::from(maker.replicates()) / f64::from(part.replicates());
-        progress(by_replicates.max(maker.seconds() / part.reference_seconds).min(1.0));
+        progress(share(&maker));
         if kept.elapsed() >= KEPT_EVERY {
             keep(&maker.reference());
             kept = Instant::now();

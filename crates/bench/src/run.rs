@@ -172,12 +172,19 @@ impl Bench<'_> {
     fn reference(&mut self, part: &Part, scene: &Scene, tracer: &Tracer) -> Result<Truth, BenchError> {
         let forecast = part.forecast_reference();
         let what = format!("{}: reference", part.name);
-        let (clock, progress) = (&self.clock, &mut self.progress);
-        let mut tell = |share: f64| progress(&clock.progress(&what, share * forecast));
-        tell(0.0);
+        let (clock, progress) = (&mut self.clock, &mut self.progress);
+        // what an earlier run has made of it takes no time
+        let mut there = None;
+        let mut tell = |share: f64| {
+            let there = *there.get_or_insert_with(|| {
+                clock.skip(share * forecast);
+                share
+            });
+            progress(&clock.progress(&what, (share - there) * forecast));
+        };
         let (truth, fault) = references::make(part, scene, tracer, Some(&self.store), &mut tell)?;
         self.notes.extend(fault.map(|why| format!("The reference of {} is not kept: {why}.", part.name)));
-        self.clock.done(forecast);
+        self.clock.done((1.0 - there.unwrap_or(0.0)) * forecast);
         Ok(truth)
     }
 
