@@ -31,6 +31,26 @@ impl ViewerUnderTest {
     /// If it does not start.
     pub fn start_scaled(binary: &Path, screen: &Screen, scale: f32, arguments: &[&str]) -> Self {
         let folder = TestFolder::new();
+        let cache = folder.file("cache");
+        Self::start_with_cache(binary, screen, scale, &cache, folder, arguments)
+    }
+
+    /// The same with this folder for references.
+    ///
+    /// # Panics
+    /// If it does not start.
+    pub fn start_cached(binary: &Path, screen: &Screen, cache: &Path, arguments: &[&str]) -> Self {
+        Self::start_with_cache(binary, screen, 1.0, cache, TestFolder::new(), arguments)
+    }
+
+    fn start_with_cache(
+        binary: &Path,
+        screen: &Screen,
+        scale: f32,
+        cache: &Path,
+        folder: TestFolder,
+        arguments: &[&str],
+    ) -> Self {
         let home = folder.file("home");
         std::fs::create_dir(&home).expect("a home folder");
         let process = Command::new(binary)
@@ -42,6 +62,7 @@ impl ViewerUnderTest {
             .env_remove("WAYLAND_SOCKET")
             .env("WINIT_X11_SCALE_FACTOR", scale.to_string())
             .env("HOME", &home)
+            .env("VISAVIS_CACHE", cache)
             .stderr(Stdio::inherit())
             .spawn()
             .expect("the viewer");

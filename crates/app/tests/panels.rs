@@ -7,7 +7,7 @@ use egui_kittest::kittest::{NodeT, Queryable};
 use std::cell::RefCell;
 use std::rc::Rc;
 use visavis::technique::Technique;
-use visavis::ui::{Dump, Pane, Request, Theme, Viewer};
+use visavis::ui::{Dump, Request, Theme, Viewer, Wall};
 
 /// A viewer on a scene, its panels drawn at 1280 x 720.
 struct Panels {
@@ -23,11 +23,7 @@ impl Panels {
         let requests = Rc::new(RefCell::new(Vec::new()));
         let (shared, asked) = (viewer.clone(), requests.clone());
         let harness = Harness::builder().with_size([1280.0, 720.0]).build_ui(move |ui| {
-            asked.borrow_mut().extend(shared.borrow_mut().ui(
-                ui,
-                &[Pane::default(), Pane::default()],
-                &mut Dump::default(),
-            ));
+            asked.borrow_mut().extend(shared.borrow_mut().ui(ui, &Wall::default(), &mut Dump::default()));
         });
         Panels { harness, viewer, requests }
     }

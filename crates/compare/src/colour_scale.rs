@@ -34,7 +34,12 @@ impl ColourScale {
     /// The usual scale of a map, fitted to its values: FLIP from 0 to 1, a sign about 0, magnitudes from 0; to the 99th
     /// percentile of the finite magnitudes, or their largest where that is 0, or 1 where all are 0.
     pub fn fitted(of: ErrorMap, values: &[f32]) -> Self {
-        let high = most_of(values);
+        Self::up_to(of, most_of(values))
+    }
+
+    /// The usual scale of a map up to a given value, above 0: two pictures under one scale can be compared by eye. FLIP has
+    /// its own.
+    pub fn up_to(of: ErrorMap, high: f32) -> Self {
         let (map, low, high) = match of {
             ErrorMap::Flip => (ColourMap::Magma, 0.0, 1.0),
             ErrorMap::Signed => (ColourMap::BlueWhiteOrange, -high, high),
@@ -145,6 +150,13 @@ mod tests {
         assert_eq!((of(ErrorMap::Signed).low, of(ErrorMap::Signed).high), (-0.5, 0.5));
         assert_eq!((of(ErrorMap::Flip).low, of(ErrorMap::Flip).high), (0.0, 1.0));
         assert_eq!(of(ErrorMap::Signed).map, ColourMap::BlueWhiteOrange);
+    }
+
+    #[test]
+    fn a_scale_that_is_held_is_the_same_whatever_the_values() {
+        let scale = ColourScale::up_to(ErrorMap::Signed, 0.25);
+        assert_eq!((scale.low, scale.high, scale.map), (-0.25, 0.25, ColourMap::BlueWhiteOrange));
+        assert_eq!(ColourScale::up_to(ErrorMap::Flip, 0.25), ColourScale::fitted(ErrorMap::Flip, &[]));
     }
 
     #[test]

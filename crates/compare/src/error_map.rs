@@ -58,6 +58,12 @@ impl ErrorMap {
         }
     }
 
+    /// The same of pictures by their names: "A - B".
+    pub fn label_of(self, film: &str, reference: &str) -> String {
+        let label = self.label().replace("reference", "\0").replace('A', film);
+        label.replace('\0', reference)
+    }
+
     /// The map of a film against a reference, rows from the top; NaN where either is not finite. `display` matters to
     /// [`ErrorMap::Flip`] alone.
     ///
@@ -175,6 +181,13 @@ mod tests {
             finite_mean(&ErrorMap::Flip.of_radiances(&FILM, &REFERENCE, 2, &display).unwrap()).0
         };
         assert!(flip(0.0) > 0.1 && flip(-20.0) == 0.0);
+    }
+
+    #[test]
+    fn labels_name_the_pictures() {
+        assert_eq!(ErrorMap::Signed.label_of("B", "A"), "B - A");
+        assert_eq!(ErrorMap::Relative.label_of("B", "reference"), "|B - reference| / (reference + 0.01)");
+        assert!(ErrorMap::ALL.iter().all(|map| map.label_of("A", "reference") == map.label()));
     }
 
     #[test]

@@ -1,10 +1,13 @@
-//! `visavis compare`: how far one picture is from another, in numbers and as a map.
+//! `visavis compare`: how far one picture is from another, or from the reference of what it shows, in numbers and as a map.
 
-use super::CompareArgs;
+use super::args::made_by;
+use super::{CompareArgs, reference};
+use crate::ruler::{HeatMap, Pair, noise_line};
+use ::reference::Reference;
 use anyhow::ensure;
 use compare::flip::{PIXELS_PER_DEGREE, hdr_flip};
-use compare::{ColourScale, ErrorMap, Errors, errors_of_radiances, finite_mean};
-use picture_file::{self, Kind, Layer, LayerValues, Radiances, Records};
+use compare::{ErrorMap, Errors, finite_mean};
+use picture_file::{Kind, Radiances, Records};
 use scene::display::DisplayTransform;
 use serde_json::json;
 use std::path::Path;
@@ -18,78 +21,70 @@ struct Comparison {
     hdr_flip: f64,
 }
 
-/// Height of the colour bar under a heat map, in pixels.
-const BAR: u32 = 12;
-
 pub fn run(args: &CompareArgs) -> anyhow::Result<()> {
-    let (a, b) = (picture_file::load(&args.film)?, picture_file::load(&args.reference)?);
-    ensure!(
-        (a.width, a.height) == (b.width, b.height),
-        compare::CompareError::Sizes(a.width, a.height, b.width, b.height)
-    );
+    let a = picture_file::load(&args.film)?;
     if let Some(out) = &args.heatmap {
         picture_file::check_writable(out)?;
     }
+    let r = match &args.reference {
+        Some(file) => Reference::load(file)?,
+        None => reference_of(&args.film, &a)?,
+    };
+    ensure!(
+        (a.width, a.height) == (r.width, r.height),
+        compare::CompareError::Sizes(a.width, a.height, r.width, r.height)
+    );
     let display = DisplayTransform { exposure: args.exposure };
-    let found = measure(&a, &b, &display)?;
+    let pair = Pair { names: ["A", "reference"], width: a.width, radiances: [&a.radiances, &r.radiances], display };
+    let found = measure(&pair, &r)?;
     if found.errors.nonfinite > 0 {
         note!("note: {} pixels are not finite and are left out of every mean", found.errors.nonfinite);
     }
-    let scale = match &args.heatmap {
-        Some(out) => Some(draw(args.map, &a, &b, &display, out)?),
+    let map = match &args.heatmap {
+        Some(out) => Some(draw(args.map, &pair, out)?),
         None => None,
     };
-    let text = if args.json { report(args, &a, &found, scale) } else { table(&found, scale) };
+    let text = if args.json { report(args, &a, &found, map.as_ref()) } else { table(&found, map.as_ref()) };
     super::print(&text)
 }
 
-fn measure(a: &Radiances, b: &Radiances, display: &DisplayTransform) -> anyhow::Result<Comparison> {
-    let shown = ErrorMap::Flip.of_radiances(&a.radiances, &b.radiances, a.width, display)?;
-    let swept = hdr_flip(&a.radiances, &b.radiances, a.width, PIXELS_PER_DEGREE)?;
+/// The reference of what a picture's records say that it shows.
+fn reference_of(file: &Path, picture: &Radiances) -> anyhow::Result<Reference> {
+    let made = made_by(file)?;
+    ensure!(
+        made.pane.recipe().shows_the_scene(),
+        "this is a map of the fake, not a picture of the scene: {}",
+        file.display()
+    );
+    ensure!(
+        made.seen.size == (picture.width, picture.height),
+        "its records are of another size, {}x{}: {}",
+        made.seen.size.0,
+        made.seen.size.1,
+        file.display()
+    );
+    reference::obtain(&made.seen.of(&made.scene)?, None)
+}
+
+fn measure(pair: &Pair, reference: &Reference) -> anyhow::Result<Comparison> {
+    let [film, _] = pair.radiances;
+    let shown = ErrorMap::Flip.of_radiances(film, &reference.radiances, pair.width, &pair.display)?;
+    let swept = hdr_flip(film, &reference.radiances, pair.width, PIXELS_PER_DEGREE)?;
     Ok(Comparison {
-        errors: errors_of_radiances(&a.radiances, &b.radiances),
+        errors: reference.errors(film)?,
         flip: finite_mean(&shown).0,
         hdr_flip: finite_mean(&swept.values).0,
     })
 }
 
-/// Writes the map: a PNG in colour with its colour bar below, low at the left; or an EXR with both pictures and every map
-/// as layers of numbers.
-fn draw(
-    map: ErrorMap,
-    a: &Radiances,
-    b: &Radiances,
-    display: &DisplayTransform,
-    out: &Path,
-) -> anyhow::Result<ColourScale> {
-    let values_of = |map: ErrorMap| map.of_radiances(&a.radiances, &b.radiances, a.width, display);
-    let values = values_of(map)?;
-    let scale = ColourScale::fitted(map, &values);
-    let bytes = if Kind::of(out) == Some(Kind::Exr) {
-        let mut layers = vec![
-            Layer { name: "A", values: LayerValues::Rgb(&a.radiances) },
-            Layer { name: "reference", values: LayerValues::Rgb(&b.radiances) },
-        ];
-        for map in ErrorMap::ALL {
-            layers.push(Layer { name: map.name(), values: LayerValues::Numbers(values_of(map)?) });
-        }
-        picture_file::encode_layers(a.width, a.height, &layers, &Records::new())?
-    } else {
-        let mut rgba = scale.image(&values, a.width);
-        rgba.extend(scale.bar(a.width, BAR));
-        let records = vec![
-            ("map", scale.label.to_owned()),
-            ("colours", scale.map.name().to_owned()),
-            ("low", scale.low.to_string()),
-            ("high", scale.high.to_string()),
-        ];
-        picture_file::encode_rgba8(a.width, a.height + BAR, &rgba, &records)?
-    };
-    picture_file::write_whole(out, &bytes)?;
-    Ok(scale)
+fn draw(map: ErrorMap, pair: &Pair, out: &Path) -> anyhow::Result<HeatMap> {
+    let map = HeatMap::of(pair, map, None)?;
+    let kind = Kind::of(out).unwrap_or(Kind::Png);
+    picture_file::write_whole(out, &map.encode(kind, pair, Records::new())?)?;
+    Ok(map)
 }
 
-fn table(found: &Comparison, scale: Option<ColourScale>) -> String {
+fn table(found: &Comparison, map: Option<&HeatMap>) -> String {
     let e = &found.errors;
     let mut text = format!(
         "RMSE      {:.6}\nrelMSE    {:.6}\nMAE       {:.6}\nbias      {:+.6} (A - B, {:+.3} %)\nFLIP      {:.6}\nHDR-FLIP  {:.6}\n",
@@ -101,24 +96,29 @@ fn table(found: &Comparison, scale: Option<ColourScale>) -> String {
         found.flip,
         found.hdr_flip
     );
-    if let Some(scale) = scale {
-        text += &format!("map       {}, {} from {} to {}\n", scale.label, scale.map.name(), scale.low, scale.high);
+    if let Some(noise) = noise_line(e) {
+        text += &format!("noise     {noise}\n");
+    }
+    if let Some(HeatMap { label, scale, .. }) = map {
+        text += &format!("map       {label}, {} from {} to {}\n", scale.map.name(), scale.low, scale.high);
     }
     text
 }
 
-fn report(args: &CompareArgs, a: &Radiances, found: &Comparison, scale: Option<ColourScale>) -> String {
+fn report(args: &CompareArgs, a: &Radiances, found: &Comparison, map: Option<&HeatMap>) -> String {
     let e = &found.errors;
     let mut report = json!({
-        "a": args.film.to_string_lossy(), "reference": args.reference.to_string_lossy(),
+        "a": args.film.to_string_lossy(),
+        "reference": args.reference.as_ref().map(|file| file.to_string_lossy()),
         "width": a.width, "height": a.height,
         "rmse": e.rmse, "relmse": e.rel_mse, "mae": e.mae, "bias": e.bias, "relative_bias": e.relative_bias,
+        "reference_noise": e.reference_noise, "below_reference_noise": e.below_reference_noise(),
         "flip": found.flip, "hdr_flip": found.hdr_flip,
         "nonfinite": e.nonfinite,
     });
-    if let Some(scale) = scale {
+    if let Some(HeatMap { label, scale, .. }) = map {
         report["map"] = json!({
-            "label": scale.label, "colours": scale.map.name(), "low": scale.low, "high": scale.high,
+            "label": label, "colours": scale.map.name(), "low": scale.low, "high": scale.high,
         });
     }
     format!("{report}\n")

@@ -14,9 +14,10 @@ mod check;
 mod compare;
 mod help;
 mod info;
+mod reference;
 mod render;
 
-pub use args::{BenchArgs, CheckArgs, CompareArgs, RenderArgs, ViewArgs};
+pub use args::{BenchArgs, CheckArgs, CompareArgs, ReferenceArgs, RenderArgs, Seen, ViewArgs};
 
 /// What the user asked for.
 #[derive(Debug)]
@@ -25,10 +26,12 @@ pub enum Command {
     View(ViewArgs),
     /// A picture to a file, without a window.
     Render(Box<RenderArgs>),
-    /// The distance between two pictures.
+    /// The distance between two pictures, or of one from its reference.
     Compare(CompareArgs),
     /// Speed against error of all techniques on the built-in scenes.
     Bench(BenchArgs),
+    /// References: made, kept, thrown away.
+    Reference(ReferenceArgs),
     /// Every hard case.
     Check(CheckArgs),
     /// Adapters, limits, and what would be used.
@@ -81,6 +84,7 @@ impl Command {
             Command::Render(args) => render::run(&args)?,
             Command::Compare(args) => compare::run(&args)?,
             Command::Bench(args) => bench::run(&args)?,
+            Command::Reference(args) => reference::run(&args)?,
             Command::Check(args) => check::run(&args)?,
             Command::Info => info::run()?,
             Command::Print(text) => print(text)?,

@@ -1,14 +1,16 @@
 //! `visavis render`: a picture to a file, without a window.
 
-use super::RenderArgs;
+use super::{RenderArgs, reference};
+use crate::ruler::{Sought, brief, error_records, noise_line};
 use crate::technique::{FakeSettings, Made, Provenance, RaySettings, Recipe, Technique};
 use anyhow::Context;
+use compare::Errors;
 use gpu::Gpu;
 use pathtrace::{SamplerKind, Stats, Tracer};
 use picture_file::{self, Kind, Linear};
 use raster::Raster;
 use scene::display::DisplayTransform;
-use scene::{Camera, Film, Scene, Vec3, builtin};
+use scene::{Film, Scene, Vec3, builtin};
 use serde_json::json;
 use std::io::IsTerminal;
 use std::time::{Duration, Instant};
@@ -26,16 +28,21 @@ struct Rendered {
 }
 
 pub fn run(args: &RenderArgs) -> anyhow::Result<()> {
-    let opened = builtin::named(&args.scene)?;
-    tell_what_has_no_effect(args, &opened);
-    let mut scene = args.changes.applied_to(&opened);
-    scene.camera = camera(args, &scene)?;
+    tell_what_has_no_effect(args, &builtin::named(&args.scene)?);
+    let sought = args.seen.of(&args.scene)?;
+    let scene = sought.scene.clone();
+    let recipe = args.pane.recipe();
+    anyhow::ensure!(
+        !args.errors || recipe.shows_the_scene(),
+        "a map of the fake has no errors: --errors needs --show picture"
+    );
     picture_file::check_writable(&args.out)?;
-    let rendered = match args.pane.recipe() {
+    let rendered = match recipe {
         Recipe::Fake(fake) => raster(args, &fake.applied_to(&scene), fake)?,
         Recipe::Rays(rays) => trace(args, &scene, rays)?,
     };
-    save(args, &scene, &rendered)?;
+    let errors = if args.errors { Some(measure(&sought, &rendered.film)?) } else { None };
+    save(args, &scene, &rendered, errors.as_ref())?;
     if rendered.film.nonfinite > 0 {
         note!(
             "visavis: {} samples were not finite and are left out: please report this scene",
@@ -46,28 +53,39 @@ pub fn run(args: &RenderArgs) -> anyhow::Result<()> {
         note!("note: {} samples were cut short and miss light: too many rays", rendered.stats.cut_paths);
     }
     if args.json {
-        super::print(&format!("{}\n", report(args, &scene, &rendered)))?;
+        super::print(&format!("{}\n", report(args, &scene, &rendered, errors.as_ref())))?;
     } else {
         note!(
             "{} of {} at {}x{} in {:.2} s: {}",
             args.pane.technique.name(),
             scene.name,
-            args.size.0,
-            args.size.1,
+            args.seen.size.0,
+            args.seen.size.1,
             rendered.seconds,
             args.out.display()
         );
+        if let Some(e) = errors {
+            let noise = noise_line(&e).map_or_else(String::new, |line| format!(", noise {line}"));
+            let (rel_mse, rmse) = (brief(e.rel_mse), brief(e.rmse));
+            note!("A - reference: relMSE {rel_mse}, RMSE {rmse}, bias {:+.2} %{noise}", 100.0 * e.relative_bias);
+        }
     }
     Ok(())
 }
 
-fn save(args: &RenderArgs, scene: &Scene, rendered: &Rendered) -> anyhow::Result<()> {
+/// How far a finished picture is from the reference of what it shows.
+fn measure(sought: &Sought, film: &Film) -> anyhow::Result<Errors> {
+    let reference = reference::obtain(sought, None)?;
+    Ok(reference.errors(&film.radiances().collect::<Vec<_>>())?)
+}
+
+fn save(args: &RenderArgs, scene: &Scene, rendered: &Rendered, errors: Option<&Errors>) -> anyhow::Result<()> {
     let provenance = Provenance {
         source: args.scene.clone(),
-        changes: args.changes,
+        changes: args.seen.changes,
         camera: scene.camera,
         recipe: args.pane.recipe(),
-        size: args.size,
+        size: args.seen.size,
     };
     let made = Made {
         spp: rendered.film.samples_per_pixel(),
@@ -75,9 +93,10 @@ fn save(args: &RenderArgs, scene: &Scene, rendered: &Rendered) -> anyhow::Result
         adapter: &rendered.adapter,
         exposure: args.exposure,
     };
-    let records = provenance.records(made);
+    let mut records = provenance.records(made);
+    records.extend(errors.into_iter().flat_map(|e| error_records(e, "reference".into())));
     let radiances: Vec<Vec3> = rendered.film.radiances().collect();
-    let picture = Linear { width: args.size.0, height: args.size.1, radiances: &radiances };
+    let picture = Linear { width: args.seen.size.0, height: args.seen.size.1, radiances: &radiances };
     let kind = Kind::of(&args.out).context("a picture's name must end in .png or .exr")?;
     let bytes = picture_file::encode(kind, picture, &DisplayTransform { exposure: args.exposure }, &records)?;
     Ok(picture_file::write_whole(&args.out, &bytes)?)
@@ -89,29 +108,15 @@ fn tell_what_has_no_effect(args: &RenderArgs, scene: &Scene) {
     }
     let fake = args.pane.recipe().technique() == Technique::Raster;
     if scene.refraction_ratio().is_none() {
-        if args.changes.refraction_ratio.is_some() {
+        if args.seen.changes.refraction_ratio.is_some() {
             note!("note: --refraction-ratio has no effect: {} has no glass", scene.name);
         }
         if fake && args.pane.fake.reflectivity.is_some() {
             note!("note: --reflectivity has no effect: {} has no glass", scene.name);
         }
     }
-    if scene.sun.is_none() && args.changes.sun_radius.is_some() {
+    if scene.sun.is_none() && args.seen.changes.sun_radius.is_some() {
         note!("note: --sun-radius has no effect: {} has no sun", scene.name);
-    }
-}
-
-/// The scene's camera with what the command line changes in it.
-fn camera(args: &RenderArgs, scene: &Scene) -> anyhow::Result<Camera> {
-    let camera = Camera {
-        eye: args.eye.unwrap_or(scene.camera.eye),
-        target: args.target.unwrap_or(scene.camera.target),
-        fov_y: args.fov.unwrap_or(scene.camera.fov_y),
-        ..scene.camera
-    };
-    match camera.fault() {
-        Some(fault) => anyhow::bail!("this camera sees nothing: {fault}; change --eye, --target or --fov"),
-        None => Ok(camera),
     }
 }
 
@@ -119,7 +124,7 @@ fn raster(args: &RenderArgs, scene: &Scene, fake: FakeSettings) -> anyhow::Resul
     let gpu = Gpu::headless().context("the raster technique needs a GPU")?;
     let mut raster = Raster::new(&gpu)?;
     let start = Instant::now();
-    let film = raster.render(scene, &scene.camera, &fake.sized(args.size.0, args.size.1))?;
+    let film = raster.render(scene, &scene.camera, &fake.sized(args.seen.size.0, args.seen.size.1))?;
     Ok(Rendered { film, seconds: start.elapsed().as_secs_f64(), stats: Stats::default(), adapter: gpu.describe() })
 }
 
@@ -130,7 +135,7 @@ fn trace(args: &RenderArgs, scene: &Scene, rays: RaySettings) -> anyhow::Result<
     }
     let start = Instant::now();
     let tracer = Tracer::new(scene);
-    let (width, height) = args.size;
+    let (width, height) = args.seen.size;
     let mut film = Film::try_new(width, height)
         .with_context(|| format!("not enough memory for {width}x{height} pixels; ask for a smaller --size"))?;
     let mut stats = Stats::default();
@@ -186,7 +191,7 @@ impl Progress {
     }
 }
 
-fn report(args: &RenderArgs, scene: &Scene, rendered: &Rendered) -> serde_json::Value {
+fn report(args: &RenderArgs, scene: &Scene, rendered: &Rendered, errors: Option<&Errors>) -> serde_json::Value {
     let technique = args.pane.technique;
     let per_second = |count: u64| count as f64 / rendered.seconds;
     let mut report = json!({
@@ -194,8 +199,8 @@ fn report(args: &RenderArgs, scene: &Scene, rendered: &Rendered) -> serde_json::
         "technique": technique.name(),
         "device": technique.device(),
         "adapter": rendered.adapter,
-        "width": args.size.0,
-        "height": args.size.1,
+        "width": args.seen.size.0,
+        "height": args.seen.size.1,
         "spp": rendered.film.samples_per_pixel(),
         "seconds": rendered.seconds,
         "samples_per_second": per_second(rendered.stats.samples),
@@ -219,6 +224,13 @@ fn report(args: &RenderArgs, scene: &Scene, rendered: &Rendered) -> serde_json::
             let reliable = independent && rendered.film.standard_error_is_reliable();
             report["standard_error_reliable"] = json!(reliable);
         }
+    }
+    if let Some(e) = errors {
+        report["errors"] = json!({
+            "against": "reference", "rmse": e.rmse, "relmse": e.rel_mse, "mae": e.mae, "bias": e.bias,
+            "relative_bias": e.relative_bias, "reference_noise": e.reference_noise,
+            "below_reference_noise": e.below_reference_noise(),
+        });
     }
     report
 }

@@ -5,7 +5,7 @@ mod provenance;
 mod rays;
 
 pub use fake::FakeSettings;
-pub use provenance::{Made, Provenance, made_from};
+pub use provenance::{Made, Provenance, made_from, point, quoted};
 pub use rays::{Method, RaySettings, TreeSettings, TruthSettings, bounces_name, roulette_name};
 
 use scene::Scene;

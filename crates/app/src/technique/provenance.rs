@@ -38,6 +38,9 @@ const RECORDS_VERSION: &str = "1";
 /// Records that say what a picture took, and are no options of `visavis render`.
 const NO_OPTIONS: [&str; 7] = ["records", "version", "scene", "device", "adapter", "seconds", "command"];
 
+/// Records that say how far a picture is from another begin with this.
+const MEASURED: &str = "error.";
+
 /// What makes a picture with these records again: the scene, and options of `visavis render`. `None` if they are not those
 /// of one pane's picture.
 ///
@@ -50,7 +53,8 @@ pub fn made_from(records: &[(String, String)]) -> anyhow::Result<Option<(String,
         version == RECORDS_VERSION,
         "its records are of version {version}, and this program reads version {RECORDS_VERSION}: use a newer one"
     );
-    let options = records.iter().filter(|(name, _)| !NO_OPTIONS.contains(&name.as_str()));
+    let is_option = |name: &str| !NO_OPTIONS.contains(&name) && !name.starts_with(MEASURED);
+    let options = records.iter().filter(|(name, _)| is_option(name));
     let words = options.map(|(name, value)| format!("--{name}={value}"));
     Ok(Some((scene.to_owned(), words.collect())))
 }
@@ -74,8 +78,8 @@ impl Provenance {
         ];
         // what was not changed is the scene's, and may differ from glass to glass
         records.extend(self.changes.refraction_ratio.map(|ratio| ("refraction-ratio", ratio.to_string())));
-        let radius = self.changes.sun_radius.filter(|_| matches!(self.recipe, Recipe::Rays(_)));
-        records.extend(radius.map(|radius| ("sun-radius", radius.to_string())));
+        // the fake does not see the sun's radius, but what it is compared with does
+        records.extend(self.changes.sun_radius.map(|radius| ("sun-radius", radius.to_string())));
         records.extend(self.recipe.options(spp));
         records.push(("exposure", exposure.to_string()));
         records.push(("command", self.command(spp, exposure, "picture.png")));
@@ -118,12 +122,12 @@ impl Recipe {
 }
 
 /// Three numbers that are read back as the same ones.
-fn point(p: Vec3) -> String {
+pub fn point(p: Vec3) -> String {
     format!("{},{},{}", p.x, p.y, p.z)
 }
 
 /// A word as a shell takes it whole.
-fn quoted(word: &str) -> String {
+pub fn quoted(word: &str) -> String {
     let plain = |c: char| c.is_alphanumeric() || "/._-+:,=@%".contains(c);
     if !word.is_empty() && word.chars().all(plain) { word.into() } else { format!("'{}'", word.replace('\'', r"'\''")) }
 }

@@ -1,7 +1,7 @@
 //! The export menu: the picture as seen or one pane, to a file or the clipboard, or as a command to type.
 
 use super::top_bar::{self, framed};
-use super::{Dump, Pane, Request, View, Viewer};
+use super::{Dump, Pane, Request, View, Viewer, Wall};
 use crate::workers::Side;
 use crate::workers::exporter::Destination;
 use egui::Ui;
@@ -16,6 +16,8 @@ pub enum What {
     Seen,
     /// One pane, whole and without labels.
     Pane(Side),
+    /// The map of errors, with its colour bar and without labels.
+    Map,
 }
 
 /// What is typed and chosen there.
@@ -28,13 +30,14 @@ pub struct ExportMenu {
 }
 
 impl What {
-    const ALL: [What; 3] = [What::Seen, What::Pane(Side::A), What::Pane(Side::B)];
+    const ALL: [What; 4] = [What::Seen, What::Pane(Side::A), What::Pane(Side::B), What::Map];
 
     fn title(self) -> &'static str {
         match self {
             What::Seen => "As seen",
             What::Pane(Side::A) => "A alone",
             What::Pane(Side::B) => "B alone",
+            What::Map => "The error map",
         }
     }
 }
@@ -57,6 +60,7 @@ fn default_folder() -> PathBuf {
 fn stem(viewer: &Viewer, what: What) -> String {
     let of = match (what, viewer.view) {
         (What::Pane(side), _) => viewer.settings.panes[side as usize].technique.name().to_owned(),
+        (What::Map, _) => format!("error-{}", viewer.measuring.map.name()),
         (What::Seen, View::A) => "a".into(),
         (What::Seen, View::B) => "b".into(),
         (What::Seen, view) => view.name().to_lowercase().replace(' ', "-"),
@@ -66,13 +70,17 @@ fn stem(viewer: &Viewer, what: What) -> String {
     format!("visavis-{scene}-{of}")
 }
 
-pub fn show(viewer: &mut Viewer, ui: &mut Ui, panes: &[Pane; 2], dump: &mut Dump, requests: &mut Vec<Request>) {
+pub fn show(viewer: &mut Viewer, ui: &mut Ui, wall: &Wall, dump: &mut Dump, requests: &mut Vec<Request>) {
+    // a map that is not looked at is not there
+    if wall.map.is_none() && viewer.export.what == What::Map {
+        viewer.export.what = What::Seen;
+    }
     let (response, _) = top_bar::menu("Export").ui(ui, |ui| {
         ui.set_min_width(300.0);
-        choice(viewer, ui, dump);
+        choice(viewer, ui, wall.map.is_some(), dump);
         file(viewer, ui, dump, requests);
         ui.separator();
-        for (side, pane) in [Side::A, Side::B].into_iter().zip(panes) {
+        for (side, pane) in [Side::A, Side::B].into_iter().zip(&wall.panes) {
             let Some(command) = command(viewer, side, pane) else { continue };
             let text = format!("Copy {side:?} as command");
             let button = ui.add(framed(&text, ui)).on_hover_text(&command);
@@ -86,10 +94,10 @@ pub fn show(viewer: &mut Viewer, ui: &mut Ui, panes: &[Pane; 2], dump: &mut Dump
     dump.note("export", "", response);
 }
 
-fn choice(viewer: &mut Viewer, ui: &mut Ui, dump: &mut Dump) {
+fn choice(viewer: &mut Viewer, ui: &mut Ui, with_map: bool, dump: &mut Dump) {
     let menu = &mut viewer.export;
     ui.horizontal(|ui| {
-        for what in What::ALL {
+        for what in What::ALL.into_iter().filter(|what| with_map || *what != What::Map) {
             let item = ui.radio_value(&mut menu.what, what, what.title());
             dump.note(&format!("export {}", what.title()), menu.what == what, item);
         }

@@ -6,11 +6,12 @@ use crate::workers::exporter::Destination;
 use egui::{Event, Key, Modifiers};
 
 /// What the keys do, for the help.
-pub const KEYS: [(&str, &str); 14] = [
+pub const KEYS: [(&str, &str); 15] = [
     ("T", "swap A and B"),
     ("1 2", "A alone, B alone"),
     ("3", "wipe; again: turn the line"),
     ("4", "side by side"),
+    ("5", "error map"),
     ("P", "pause, go on"),
     ("R", "restart"),
     ("C", "camera of the scene"),
@@ -65,7 +66,7 @@ fn letters(viewer: &mut Viewer, ctx: &egui::Context) {
     for _ in 0..presses(Key::T) {
         viewer.toggle();
     }
-    for (key, view) in [Key::Num1, Key::Num2, Key::Num3, Key::Num4].into_iter().zip(View::ALL) {
+    for (key, view) in [Key::Num1, Key::Num2, Key::Num3, Key::Num4, Key::Num5].into_iter().zip(View::ALL) {
         for _ in 0..presses(key) {
             viewer.choose(view);
         }

@@ -1,11 +1,12 @@
 //! What the window shows: [`Viewer`] holds all that the user can change, and draws itself into egui. It knows no window,
-//! no GPU and no thread: it is told what there is to show ([`Pane`]) and says what it wants ([`Request`]).
+//! no GPU and no thread: it is told what there is to show ([`Wall`]) and says what it wants ([`Request`]).
 
 mod controls;
 mod dump;
 mod export_menu;
 mod help;
 mod keys;
+mod measuring;
 mod message;
 mod picture;
 mod settings;
@@ -16,15 +17,39 @@ mod viewer;
 
 pub use dump::{Dump, Widget};
 pub use export_menu::What;
+pub use measuring::Measuring;
 pub use message::Message;
 pub use settings::{History, Settings};
 pub use theme::Theme;
 pub use view::{Line, View};
 pub use viewer::{Request, Viewer};
 
+use crate::ruler::Against;
 use crate::technique::Provenance;
+use crate::workers::referee::Progress;
+use crate::workers::surveyor::Surveyed;
 use compare::Errors;
 use std::sync::Arc;
+
+/// All that there is to show.
+#[derive(Debug, Clone, Default)]
+pub struct Wall {
+    /// Both sides.
+    pub panes: [Pane; 2],
+    /// Where the errors are, while that is looked at.
+    pub map: Option<MapPane>,
+    /// How far the reference has come, while it is asked for.
+    pub reference: Option<Progress>,
+}
+
+/// A map of errors as it is shown.
+#[derive(Debug, Clone)]
+pub struct MapPane {
+    /// Its colours.
+    pub texture: egui::TextureId,
+    /// Its numbers, and what they are of.
+    pub drawn: Arc<Surveyed>,
+}
 
 /// What there is to show of one side.
 #[derive(Debug, Clone, Default)]
@@ -43,8 +68,10 @@ pub struct Pane {
     pub rough: bool,
     /// Whether more of it will come.
     pub unfinished: bool,
-    /// Distance from the other side.
+    /// Distance from what it is compared with.
     pub errors: Option<Errors>,
+    /// What that is.
+    pub against: Against,
     /// Why there is no picture.
     pub fault: Option<String>,
 }

@@ -1,6 +1,6 @@
 //! The bar above the picture: scene, view, export, look. It wraps where the window is narrow.
 
-use super::{Dump, Pane, Request, Theme, View, Viewer, export_menu};
+use super::{Dump, Request, Theme, View, Viewer, Wall, export_menu};
 use egui::containers::menu::{MenuButton, MenuConfig};
 use egui::{Button, PopupCloseBehavior, Ui};
 use scene::builtin;
@@ -9,7 +9,7 @@ use std::path::Path;
 /// The most letters of a scene's name that the bar shows.
 const MOST_LETTERS: usize = 18;
 
-pub fn show(viewer: &mut Viewer, ui: &mut Ui, panes: &[Pane; 2], dump: &mut Dump, requests: &mut Vec<Request>) {
+pub fn show(viewer: &mut Viewer, ui: &mut Ui, wall: &Wall, dump: &mut Dump, requests: &mut Vec<Request>) {
     ui.horizontal_wrapped(|ui| {
         scene_menu(viewer, ui, dump, requests);
         ui.separator();
@@ -21,7 +21,7 @@ pub fn show(viewer: &mut Viewer, ui: &mut Ui, panes: &[Pane; 2], dump: &mut Dump
             }
         }
         ui.separator();
-        export_menu::show(viewer, ui, panes, dump, requests);
+        export_menu::show(viewer, ui, wall, dump, requests);
         look_menu(viewer, ui, dump);
         steps(viewer, ui, dump);
         let panel = ui.selectable_label(viewer.panel, "Controls").on_hover_text("Show or hide the controls (H)");
@@ -53,6 +53,7 @@ fn explain(view: View) -> &'static str {
         View::B => "Pane B alone (2, T swaps A and B)",
         View::Wipe => "Both, with a line to drag (3; again: turn the line)",
         View::SideBySide => "Both whole, each in half of the window (4)",
+        View::ErrorMap => "Where the errors are, and how large (5)",
     }
 }
 

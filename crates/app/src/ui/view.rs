@@ -11,6 +11,8 @@ pub enum View {
     Wipe,
     /// Both whole, A left and B right.
     SideBySide,
+    /// Where the errors are, and how large.
+    ErrorMap,
 }
 
 /// How the wipe's line stands.
@@ -23,8 +25,8 @@ pub enum Line {
 }
 
 impl View {
-    /// All, in the order of their keys 1 to 4.
-    pub const ALL: [View; 4] = [View::A, View::B, View::Wipe, View::SideBySide];
+    /// All, in the order of their keys 1 to 5.
+    pub const ALL: [View; 5] = [View::A, View::B, View::Wipe, View::SideBySide, View::ErrorMap];
 
     /// The name on its button.
     pub fn name(self) -> &'static str {
@@ -33,6 +35,7 @@ impl View {
             View::B => "B",
             View::Wipe => "Wipe",
             View::SideBySide => "Side by side",
+            View::ErrorMap => "Error map",
         }
     }
 }

@@ -2,9 +2,13 @@
 
 use super::export_menu::ExportMenu;
 use super::settings::{History, Settings};
-use super::{Dump, Line, Message, Pane, Theme, View, What, controls, help, keys, picture, top_bar};
+use super::{Dump, Line, Measuring, Message, Theme, View, Wall, What, controls, help, keys, picture, top_bar};
+use crate::ruler::Against;
+use crate::workers::Side;
+use crate::workers::darkroom::Comparison;
 use crate::workers::exporter::Destination;
 use scene::{Camera, Scene};
+use std::path::PathBuf;
 use std::sync::Arc;
 
 /// What only the shell around the viewer can do.
@@ -19,6 +23,8 @@ pub enum Request {
     },
     /// Read and open a scene, by name or file.
     Open(String),
+    /// Read a reference from a file.
+    LoadReference(PathBuf),
     /// Close the window.
     Quit,
 }
@@ -41,6 +47,8 @@ pub struct Viewer {
     pub wipe: f32,
     /// How the wipe's line stands.
     pub line: Line,
+    /// What is compared with what, and how it is drawn.
+    pub measuring: Measuring,
     /// Whether the truth waits.
     pub paused: bool,
     /// How often the user began the pictures anew.
@@ -95,6 +103,7 @@ impl Viewer {
             view: View::Wipe,
             wipe: 0.5,
             line: Line::Vertical,
+            measuring: Measuring::default(),
             paused: false,
             restarts: 0,
             theme,
@@ -137,7 +146,7 @@ impl Viewer {
     }
 
     /// Draws everything and returns what the user wants of the shell.
-    pub fn ui(&mut self, ui: &mut egui::Ui, panes: &[Pane; 2], dump: &mut Dump) -> Vec<Request> {
+    pub fn ui(&mut self, ui: &mut egui::Ui, wall: &Wall, dump: &mut Dump) -> Vec<Request> {
         let mut requests = Vec::new();
         if self.dressed != Some(self.theme) {
             self.theme.apply(ui.ctx());
@@ -145,16 +154,18 @@ impl Viewer {
             ui.ctx().request_repaint();
         }
         keys::listen(self, ui.ctx(), &mut requests);
-        egui::Panel::top("top bar").show(ui, |ui| top_bar::show(self, ui, panes, dump, &mut requests));
+        egui::Panel::top("top bar").show(ui, |ui| top_bar::show(self, ui, wall, dump, &mut requests));
         if self.panel {
             let width = controls::width(ui.available_width());
             egui::Panel::right("controls").resizable(false).exact_size(width).show(ui, |ui| {
-                egui::ScrollArea::vertical().auto_shrink(false).show(ui, |ui| controls::show(self, ui, dump));
+                egui::ScrollArea::vertical()
+                    .auto_shrink(false)
+                    .show(ui, |ui| controls::show(self, ui, wall, dump, &mut requests));
             });
         }
         // no ground under the pictures, which cover it: where the processor draws, every layer is paid for
         let bare = egui::CentralPanel::default().frame(egui::Frame::NONE);
-        bare.show(ui, |ui| picture::show(self, ui, panes, dump));
+        bare.show(ui, |ui| picture::show(self, ui, wall, dump));
         help::show(self, ui, dump);
         let busy = ui.input(|i| i.pointer.any_down()) || ui.ctx().text_edit_focused();
         self.history.note(&self.settings, busy);
@@ -169,16 +180,29 @@ impl Viewer {
         self.settings = self.history.redo(&self.settings).unwrap_or(self.settings);
     }
 
-    /// A becomes B and B becomes A; from a view of both it goes to A.
-    pub(super) fn toggle(&mut self) {
-        self.hint = false;
-        self.view = if self.view == View::A { View::B } else { View::A };
+    /// How errors are measured, and whether they are drawn.
+    pub fn comparison(&self) -> Comparison {
+        let map = (self.view == View::ErrorMap).then(|| self.measuring.wish());
+        Comparison { against: self.measuring.against, map }
     }
 
-    /// Shows a view; choosing the wipe once more turns its line.
+    /// A becomes B and B becomes A; from a view of both it goes to A. Maps against the reference take turns too.
+    pub(super) fn toggle(&mut self) {
+        self.hint = false;
+        match (self.view, self.measuring.against) {
+            (View::ErrorMap, Against::Reference) => self.measuring.of = self.measuring.of.other(),
+            (View::A, _) => self.view = View::B,
+            _ => self.view = View::A,
+        }
+    }
+
+    /// Shows a view; choosing the wipe once more turns its line. From one pane it goes to the map of that pane's errors.
     pub(super) fn choose(&mut self, view: View) {
-        if view == View::Wipe && self.view == View::Wipe {
-            self.line = self.line.turned();
+        match (self.view, view) {
+            (View::Wipe, View::Wipe) => self.line = self.line.turned(),
+            (View::A, View::ErrorMap) => self.measuring.of = Side::A,
+            (View::B, View::ErrorMap) => self.measuring.of = Side::B,
+            _ => {}
         }
         self.view = view;
     }

@@ -1,35 +1,40 @@
-//! What hangs in the window: for each pane its texture, what the UI says about it, and the picture itself for export.
+//! What hangs in the window: for each pane its texture, what the UI says about it, and the picture itself for export; and
+//! the map of errors.
 
 use super::textures::PaneTexture;
+use crate::ruler::{Against, error_records};
 use crate::technique::Made;
-use crate::ui::{Pane, Viewer};
+use crate::ui::{MapPane, Pane, Viewer, Wall};
 use crate::workers::darkroom::{News, Shelf};
 use crate::workers::exporter::Content;
+use crate::workers::surveyor::Surveyed;
 use crate::workers::{Picture, Side};
 use gpu::Gpu;
 use picture_file::Records;
 use scene::display::DisplayTransform;
+use std::sync::Arc;
 
-/// Both panes.
+/// Both panes and the map.
 #[derive(Default)]
 pub struct Exhibit {
     /// What the UI is told.
-    pub panes: [Pane; 2],
+    pub wall: Wall,
     pictures: [Option<Picture>; 2],
     textures: [PaneTexture; 2],
+    map_texture: PaneTexture,
 }
 
 impl Exhibit {
     /// Takes everything down; the textures stay for the next.
     pub fn clear(&mut self) {
-        self.panes = Default::default();
+        self.wall = Wall::default();
         self.pictures = Default::default();
     }
 
     /// Puts up what is new.
     pub fn hang(&mut self, shelf: Shelf, gpu: &Gpu, renderer: &mut egui_wgpu::Renderer) {
         for (side, news) in shelf.into_iter().enumerate() {
-            let pane = &mut self.panes[side];
+            let pane = &mut self.wall.panes[side];
             match news {
                 None => {}
                 Some(News::Fault(fault)) => {
@@ -46,11 +51,26 @@ impl Exhibit {
                     pane.provenance = Some(picture.order.provenance.clone());
                     (pane.spp, pane.seconds, pane.nonfinite) = (picture.spp, picture.seconds, picture.nonfinite);
                     (pane.rough, pane.unfinished) = (picture.rough, picture.unfinished);
-                    pane.errors = developed.errors;
+                    (pane.errors, pane.against) = (developed.errors, developed.against);
                     self.pictures[side] = Some(picture);
                 }
             }
         }
+    }
+
+    /// Puts up a map of errors, or takes it down.
+    pub fn hang_map(&mut self, drawn: Option<Surveyed>, gpu: &Gpu, renderer: &mut egui_wgpu::Renderer) {
+        self.wall.map = drawn.map(|drawn| {
+            let (width, height) = (drawn.map.width, drawn.map.height());
+            let texture = self.map_texture.upload(gpu, renderer, width, height, &drawn.rgba);
+            MapPane { texture, drawn: Arc::new(drawn) }
+        });
+    }
+
+    /// The map for export, if there is one.
+    pub fn map(&self, viewer: &Viewer) -> Option<(Content, Records)> {
+        let drawn = self.wall.map.as_ref()?.drawn.clone();
+        Some((Content::Map(drawn), self.records_of_both(viewer)))
     }
 
     /// One pane for export; `None` while there is nothing but a rough picture.
@@ -62,8 +82,24 @@ impl Exhibit {
             adapter: &picture.adapter,
             exposure: display.exposure,
         };
-        let records = picture.order.provenance.records(made);
+        let mut records = picture.order.provenance.records(made);
+        let pane = &self.wall.panes[side as usize];
+        if let (Some(errors), Some(against)) = (pane.errors, self.name_of_what_judges(side, display)) {
+            records.extend(error_records(&errors, against));
+        }
         Some((Content::Pane(picture.clone(), display), records))
+    }
+
+    /// "B: the command that makes it", or "reference".
+    fn name_of_what_judges(&self, side: Side, display: DisplayTransform) -> Option<String> {
+        if self.wall.panes[side as usize].against == Against::Reference {
+            return Some("reference".into());
+        }
+        let other = self.pictures[side.other() as usize].as_ref()?;
+        let name = side.other().name();
+        let out = format!("{}.png", name.to_lowercase());
+        let command = other.order.provenance.command(other.spp.unwrap_or(1), display.exposure, &out);
+        Some(format!("{name}: {command}"))
     }
 
     /// What a file keeps about the picture as seen: the view, and for each pane the command that makes it.

@@ -6,7 +6,8 @@ use super::frame_stats::{Clock, FrameStats};
 use super::stopwatch::Stopwatch;
 use super::surface::{Painting, Presented, WindowSurface};
 use crate::cli::ViewArgs;
-use crate::ui::{Dump, Request, Viewer, What};
+use crate::ruler::Against;
+use crate::ui::{Dump, Request, View, Viewer, What};
 use crate::workers::capture::Capture;
 use crate::workers::crew::Crew;
 use crate::workers::darkroom::News;
@@ -159,7 +160,7 @@ impl ViewerWindow {
         let mut requests = Vec::new();
         let output = context.run_ui(input, |ui| {
             self.dump = Dump::default();
-            requests.extend(self.viewer.ui(ui, &self.exhibit.panes, &mut self.dump));
+            requests.extend(self.viewer.ui(ui, &self.exhibit.wall, &mut self.dump));
         });
         self.scale = output.pixels_per_point;
         self.egui.handle_platform_output(&self.window, output.platform_output);
@@ -185,7 +186,7 @@ impl ViewerWindow {
         let wish = output.viewport_output.get(&egui::ViewportId::ROOT).map_or(Duration::MAX, |v| v.repaint_delay);
         let delay = match shown {
             Presented::Shown => {
-                self.stopwatch.shown(self.exhibit.panes.iter().all(|pane| pane.texture.is_some()));
+                self.stopwatch.shown(self.exhibit.wall.panes.iter().all(|pane| pane.texture.is_some()));
                 wish
             }
             Presented::Skipped => wish.min(RETRY),
@@ -206,6 +207,14 @@ impl ViewerWindow {
             }
         }
         self.exhibit.hang(shelf, &self.gpu, &mut self.surface.renderer);
+        if let Some(drawn) = self.crew.surveyed() {
+            self.exhibit.hang_map(drawn, &self.gpu, &mut self.surface.renderer);
+        }
+        // what is not looked at is not drawn again, and would grow old
+        if self.viewer.view != View::ErrorMap {
+            self.exhibit.wall.map = None;
+        }
+        self.follow_the_reference();
         match self.crew.loaded() {
             Some(Ok(opened)) => {
                 self.viewer.say(Ok(format!("Opened {}", opened.scene.name)));
@@ -218,11 +227,22 @@ impl ViewerWindow {
         self.crew.exported().into_iter().for_each(|outcome| self.viewer.say(outcome));
     }
 
+    fn follow_the_reference(&mut self) {
+        if self.viewer.measuring.against == Against::EachOther {
+            self.exhibit.wall.reference = None;
+        }
+        let Some(bulletin) = self.crew.bulletin() else { return };
+        self.exhibit.wall.reference = bulletin.progress.or_else(|| self.exhibit.wall.reference.take());
+        bulletin.faults.into_iter().for_each(|fault| self.viewer.say(Err(fault)));
+    }
+
     fn grant(&mut self, request: Request) {
         match request {
             Request::Export { what: What::Seen, to } => self.poses.push(to),
             Request::Export { what: What::Pane(side), to } => self.export_pane(side, to),
+            Request::Export { what: What::Map, to } => self.export_map(to),
             Request::Open(name) => self.crew.load(name),
+            Request::LoadReference(file) => self.crew.load_reference(&self.viewer, file),
             Request::Quit => self.quitting = true,
         }
         self.request_frame();
@@ -232,6 +252,13 @@ impl ViewerWindow {
         match self.exhibit.pane(side, self.viewer.settings.display) {
             Some((content, records)) => self.crew.export(Export { content, records, to }),
             None => self.viewer.say(Err(format!("{side:?} has no whole picture yet; try again in a moment"))),
+        }
+    }
+
+    fn export_map(&mut self, to: Destination) {
+        match self.exhibit.map(&self.viewer) {
+            Some((content, records)) => self.crew.export(Export { content, records, to }),
+            None => self.viewer.say(Err("there is no error map yet; try again in a moment".into())),
         }
     }
 
@@ -260,6 +287,7 @@ impl ViewerWindow {
     pub fn write_dump(&self, file: &Path) -> anyhow::Result<()> {
         let panes: Vec<_> = self
             .exhibit
+            .wall
             .panes
             .iter()
             .map(|pane| {
@@ -271,6 +299,7 @@ impl ViewerWindow {
                     "unfinished": pane.unfinished,
                     "nonfinite": pane.nonfinite,
                     "rel_mse": pane.errors.map(|e| e.rel_mse),
+                    "against": pane.against.name(),
                     "fault": pane.fault,
                 })
             })
@@ -289,6 +318,8 @@ impl ViewerWindow {
             "focus_id": self.egui.egui_ctx().memory(|m| m.focused()).map(|id| id.value()),
             "pressing": self.egui.egui_ctx().input(|i| i.pointer.any_down()),
             "typing": self.egui.egui_ctx().text_edit_focused(),
+            "map": self.exhibit.wall.map.as_ref().map(|map| &map.drawn.map.label),
+            "reference": self.exhibit.wall.reference.as_ref().map(|r| [r.pictures, u32::from(r.done)]),
             "a": panes[0],
             "b": panes[1],
             "frames": self.stopwatch.frames(),

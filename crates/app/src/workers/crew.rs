@@ -1,16 +1,20 @@
 //! The threads beside the UI as one: asks them for whatever no longer fits what the viewer shows, and ends them.
 
-use super::darkroom::{Darkroom, News, Shelf};
+use super::darkroom::{Comparison, Darkroom, News, Shelf};
 use super::exporter::{Export, Exporter, Outcome};
 use super::loader::{Loader, Opened};
+use super::referee::{Bulletin, Origin, Referee, Wish};
 use super::studio::Studio;
+use super::surveyor::{Surveyed, Surveyor};
 use super::{Order, Side, Wake};
+use crate::ruler::{Against, Sought};
 use crate::technique::{Provenance, Recipe, SceneChanges};
 use crate::ui::Viewer;
 use anyhow::Context;
 use gpu::Gpu;
 use scene::display::DisplayTransform;
 use scene::{Camera, Scene};
+use std::path::PathBuf;
 use std::sync::Arc;
 use std::thread::JoinHandle;
 
@@ -19,8 +23,12 @@ pub struct Crew {
     studios: [Studio; 2],
     darkroom: Arc<Darkroom>,
     darkroom_thread: Option<JoinHandle<()>>,
+    surveyor: Arc<Surveyor>,
+    /// Made when it is first asked for.
+    referee: Option<Referee>,
     exporter: Exporter,
     loader: Loader,
+    wake: Wake,
     asked: Asked,
 }
 
@@ -31,7 +39,12 @@ struct Asked {
     view: Option<View>,
     /// For each pane.
     made: [Option<(u64, u64, Recipe)>; 2],
+    /// For each pane its job, until its last picture has come.
+    unfinished: [Option<u64>; 2],
     display: Option<DisplayTransform>,
+    comparison: Comparison,
+    /// The view and the origin of the reference.
+    reference: Option<(u64, Origin)>,
     paused: bool,
     /// The first view of the scene that is open.
     oldest_view: u64,
@@ -55,24 +68,43 @@ impl Crew {
     /// # Errors
     /// If the system gives no threads.
     pub fn start(window: &Gpu, wake: Wake) -> anyhow::Result<Self> {
-        let (darkroom, thread) = Darkroom::start(wake.clone()).context("no thread for the darkroom")?;
+        let surveyor = Arc::new(Surveyor::start(wake.clone()).context("no thread for maps")?);
+        let (darkroom, thread) =
+            Darkroom::start(wake.clone(), surveyor.clone()).context("no thread for the darkroom")?;
         Ok(Crew {
             studios: [Side::A, Side::B].map(|side| Studio::new(side, window.clone(), darkroom.clone())),
             darkroom,
             darkroom_thread: Some(thread),
+            surveyor,
+            referee: None,
             exporter: Exporter::start(wake.clone()).context("no thread for exports")?,
-            loader: Loader::new(wake),
+            loader: Loader::new(wake.clone()),
+            wake,
             asked: Asked::default(),
         })
     }
 
     /// What is new since the last call.
-    pub fn collect(&self) -> Option<Shelf> {
+    pub fn collect(&mut self) -> Option<Shelf> {
         let mut shelf = self.darkroom.collect()?;
-        for place in &mut shelf {
+        for (place, job) in shelf.iter_mut().zip(&mut self.asked.unfinished) {
+            job.take_if(|job| place.as_ref().is_some_and(|news| is_the_last_of(news, *job)));
             place.take_if(|news| matches!(news, News::Picture(d) if d.picture.order.view < self.asked.oldest_view));
         }
         Some(shelf)
+    }
+
+    /// The map of errors that was drawn since the last call, or that there is none.
+    pub fn surveyed(&self) -> Option<Option<Surveyed>> {
+        self.surveyor.collect()
+    }
+
+    /// What the reference has to say since the last call.
+    pub fn bulletin(&self) -> Option<Bulletin> {
+        let mut bulletin = self.referee.as_ref()?.bulletin()?;
+        let wanted = self.asked.reference.as_ref().map(|(view, _)| *view);
+        bulletin.progress.take_if(|progress| Some(progress.view) != wanted);
+        Some(bulletin)
     }
 
     /// Asks for what has changed in the viewer; returns for each pane the number of its new job, if there is one.
@@ -100,8 +132,63 @@ impl Crew {
             asked.made[side] = wish;
             studio.submit(recipe, asked.order(viewer, scene.clone(), recipe));
             jobs[side] = Some(asked.jobs);
+            asked.unfinished[side] = Some(asked.jobs);
         }
+        self.compare(viewer, &scene);
         jobs
+    }
+
+    /// Follows what is compared with what; returns after posting.
+    fn compare(&mut self, viewer: &Viewer, scene: &Arc<Scene>) {
+        let comparison = viewer.comparison();
+        if self.asked.comparison != comparison {
+            self.asked.comparison = comparison;
+            self.darkroom.set_comparison(comparison);
+        }
+        let origin = match &self.asked.reference {
+            Some((view, origin)) if *view == self.asked.views => origin.clone(),
+            _ => Origin::Made,
+        };
+        match comparison.against {
+            Against::Reference => self.refer(viewer, scene, origin),
+            Against::EachOther => {
+                self.referee.iter_mut().for_each(Referee::cancel);
+                self.asked.reference = None;
+            }
+        }
+        // the user explores: panes come first, and what is paused is quiet
+        let busy = self.asked.unfinished.iter().any(Option::is_some);
+        self.referee.iter().for_each(|referee| referee.hold(busy || viewer.paused));
+    }
+
+    /// Takes the reference of what is seen from this file, until something else is seen.
+    pub fn load_reference(&mut self, viewer: &Viewer, file: PathBuf) {
+        let scene = self.asked.scene_of(viewer);
+        // the same file once more is read once more: it may have changed
+        self.asked.reference = None;
+        self.refer(viewer, &scene, Origin::File(file));
+    }
+
+    fn refer(&mut self, viewer: &Viewer, scene: &Arc<Scene>, origin: Origin) {
+        let wish = Some((self.asked.views, origin.clone()));
+        if self.asked.reference == wish {
+            return;
+        }
+        if self.referee.is_none() {
+            self.referee = Referee::start(self.darkroom.clone(), self.wake.clone()).ok();
+        }
+        self.asked.reference = wish;
+        let sought = Sought {
+            source: viewer.source.clone(),
+            changes: viewer.settings.changes,
+            scene: scene.clone(),
+            camera: viewer.camera,
+            size: viewer.picture_size,
+        };
+        let view = self.asked.views;
+        self.referee
+            .iter_mut()
+            .for_each(|referee| referee.submit(Wish { view, sought: sought.clone(), origin: origin.clone() }));
     }
 
     /// Reads a scene beside the UI.
@@ -170,8 +257,19 @@ impl Asked {
     }
 }
 
+/// Whether no more comes of a job after this.
+fn is_the_last_of(news: &News, job: u64) -> bool {
+    match news {
+        News::Picture(developed) => developed.picture.order.job == job && !developed.picture.unfinished,
+        News::Fault(_) => true,
+    }
+}
+
 impl Drop for Crew {
     fn drop(&mut self) {
+        // what it has made is kept while the others end
+        self.referee = None;
+        self.surveyor.close();
         self.darkroom.close();
         if let Some(thread) = self.darkroom_thread.take() {
             // a panic there has been printed already, and the window is closing

@@ -1,8 +1,11 @@
 //! The thread that develops: radiance through the display transform into bytes, and the error of each side against the
-//! other. Moving the exposure develops again and renders nothing.
+//! other or against the reference. Moving the exposure develops again and renders nothing. What a map of the errors is made
+//! of goes on to the [`Surveyor`], which has a thread of its own: FLIP takes longer than a picture may wait.
 
+use super::surveyor::{Survey, Surveyor};
 use super::{Inbox, Order, Picture, Side, Wake};
-use compare::{Errors, errors_of_radiances};
+use crate::ruler::{Against, Yardstick};
+use compare::{ErrorMap, Errors, errors_of_radiances};
 use scene::display::DisplayTransform;
 use std::sync::Arc;
 use std::thread::JoinHandle;
@@ -14,8 +17,30 @@ pub struct Developed {
     pub picture: Picture,
     /// Its bytes; `None` where only the errors are new.
     pub rgba: Option<Vec<u8>>,
-    /// How far it is from the other side; `None` unless both are there at one size.
+    /// How far it is from what it is compared with; `None` unless that is there at the same size.
     pub errors: Option<Errors>,
+    /// What that is.
+    pub against: Against,
+}
+
+/// How errors are measured and drawn.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Comparison {
+    /// With what both sides are compared.
+    pub against: Against,
+    /// The map that is looked at, if one is.
+    pub map: Option<MapWish>,
+}
+
+/// A map of errors to draw.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct MapWish {
+    /// Whose errors.
+    pub of: Side,
+    /// Which.
+    pub map: ErrorMap,
+    /// Where its scale ends; `None` to fit it.
+    pub held: Option<f32>,
 }
 
 /// What is new for one side.
@@ -49,18 +74,34 @@ struct Tray {
     deliveries: [Option<Delivery>; 2],
     display: Option<DisplayTransform>,
     oldest_view: Option<u64>,
+    comparison: Option<Comparison>,
+    /// The reference of a view, or that there is none.
+    reference: Option<Option<(u64, Yardstick)>>,
+}
+
+/// All that the thread has in hand.
+#[derive(Default)]
+struct Desk {
+    latest: [Option<Picture>; 2],
+    /// The newest job that each side has delivered.
+    newest: [u64; 2],
+    oldest_view: u64,
+    display: DisplayTransform,
+    comparison: Comparison,
+    reference: Option<(u64, Yardstick)>,
 }
 
 impl Darkroom {
-    /// Starts the thread, which calls `wake` whenever [`Darkroom::collect`] has something.
+    /// Starts the thread, which calls `wake` whenever [`Darkroom::collect`] has something and hands what is to be drawn to the
+    /// surveyor.
     ///
     /// # Errors
     /// If the system gives no thread.
-    pub fn start(wake: Wake) -> std::io::Result<(Arc<Self>, JoinHandle<()>)> {
+    pub fn start(wake: Wake, surveyor: Arc<Surveyor>) -> std::io::Result<(Arc<Self>, JoinHandle<()>)> {
         let darkroom = Arc::new(Darkroom::default());
         let thread = std::thread::Builder::new().name("darkroom".into()).spawn({
             let darkroom = darkroom.clone();
-            move || darkroom.work(&wake)
+            move || darkroom.work(&wake, &surveyor)
         })?;
         Ok((darkroom, thread))
     }
@@ -80,6 +121,16 @@ impl Darkroom {
         self.inbox.post(|tray| tray.display = Some(display));
     }
 
+    /// Another way to compare.
+    pub fn set_comparison(&self, comparison: Comparison) {
+        self.inbox.post(|tray| tray.comparison = Some(comparison));
+    }
+
+    /// The reference of a view as far as it has come, or that there is none.
+    pub fn set_reference(&self, reference: Option<(u64, Yardstick)>) {
+        self.inbox.post(|tray| tray.reference = Some(reference));
+    }
+
     /// Forgets every picture of a view before this one, whether it has come or is still on its way.
     pub fn forget_before(&self, view: u64) {
         self.inbox.post(|tray| tray.oldest_view = Some(view));
@@ -95,40 +146,119 @@ impl Darkroom {
         self.inbox.close();
     }
 
-    fn work(&self, wake: &Wake) {
-        let mut display = DisplayTransform::default();
-        let mut oldest_view = 0;
-        let mut latest: [Option<Picture>; 2] = [None, None];
-        let mut newest = [0; 2];
+    fn work(&self, wake: &Wake, surveyor: &Surveyor) {
+        let mut desk = Desk::default();
         while let Some(tray) = self.inbox.take() {
             let redevelop = tray.display.is_some();
-            display = tray.display.unwrap_or(display);
-            oldest_view = tray.oldest_view.unwrap_or(oldest_view);
-            latest.iter_mut().for_each(|kept| drop(kept.take_if(|picture| picture.order.view < oldest_view)));
-            let mut fresh = [false; 2];
-            for (side, delivery) in tray.deliveries.into_iter().enumerate() {
-                match delivery {
-                    Some(Delivery::Picture(picture)) if still_wanted(&picture.order, oldest_view, newest[side]) => {
-                        newest[side] = picture.order.job;
-                        latest[side] = Some(picture);
-                        fresh[side] = true;
+            let (fresh, faults) = desk.sort(tray);
+            let errors = desk.errors();
+            let develop = |side: usize| {
+                let picture = desk.latest[side].clone()?;
+                let radiances = picture.radiances.iter().copied();
+                let rgba = (redevelop || fresh[side]).then(|| desk.display.to_rgba8(radiances));
+                Some(Developed { picture, rgba, errors: errors[side], against: desk.comparison.against })
+            };
+            // both at once: the error of one belongs to the picture of the other
+            let developed = [develop(0), develop(1)];
+            self.shelf.post(|shelf| {
+                for ((place, new), fault) in shelf.iter_mut().zip(developed).zip(faults) {
+                    match (new, fault) {
+                        (_, Some(fault)) => *place = Some(News::Fault(fault)),
+                        (Some(new), None) => shelve(place, new),
+                        (None, None) => {}
                     }
-                    Some(Delivery::Fault(order, fault)) if still_wanted(&order, oldest_view, newest[side]) => {
-                        newest[side] = order.job;
-                        latest[side] = None;
-                        self.shelf.post(|shelf| shelf[side] = Some(News::Fault(fault)));
-                    }
-                    _ => {}
                 }
-            }
-            let errors = mutual_errors(&latest);
-            for side in 0..2 {
-                let Some(picture) = latest[side].clone() else { continue };
-                let rgba = (redevelop || fresh[side]).then(|| display.to_rgba8(picture.radiances.iter().copied()));
-                let new = Developed { picture, rgba, errors: errors[side] };
-                self.shelf.post(|shelf| shelve(&mut shelf[side], new));
-            }
+            });
             wake();
+            if let Some(survey) = desk.survey() {
+                surveyor.submit(survey);
+            }
+        }
+    }
+}
+
+impl Desk {
+    /// Takes what has come; returns which sides have a new picture, and why others have none.
+    fn sort(&mut self, tray: Tray) -> ([bool; 2], [Option<String>; 2]) {
+        self.display = tray.display.unwrap_or(self.display);
+        self.comparison = tray.comparison.unwrap_or(self.comparison);
+        self.reference = tray.reference.unwrap_or_else(|| self.reference.take());
+        self.oldest_view = tray.oldest_view.unwrap_or(self.oldest_view);
+        let oldest_view = self.oldest_view;
+        self.latest.iter_mut().for_each(|kept| drop(kept.take_if(|picture| picture.order.view < oldest_view)));
+        let (mut fresh, mut faults) = ([false; 2], [None, None]);
+        for (side, delivery) in tray.deliveries.into_iter().enumerate() {
+            match delivery {
+                Some(Delivery::Picture(picture)) if still_wanted(&picture.order, oldest_view, self.newest[side]) => {
+                    self.newest[side] = picture.order.job;
+                    self.latest[side] = Some(picture);
+                    fresh[side] = true;
+                }
+                Some(Delivery::Fault(order, fault)) if still_wanted(&order, oldest_view, self.newest[side]) => {
+                    self.newest[side] = order.job;
+                    self.latest[side] = None;
+                    faults[side] = Some(fault);
+                }
+                _ => {}
+            }
+        }
+        (fresh, faults)
+    }
+
+    /// Each side against the other, or against the reference, where both show one view at one size.
+    fn errors(&self) -> [Option<Errors>; 2] {
+        match (self.comparison.against, &self.latest) {
+            (Against::EachOther, [Some(a), Some(b)]) if comparable(a, b) => {
+                [(a, b), (b, a)].map(|(film, other)| Some(errors_of_radiances(&film.radiances, &other.radiances)))
+            }
+            (Against::EachOther, _) => [None, None],
+            (Against::Reference, sides) => [0, 1].map(|side| {
+                let picture = sides[side].as_ref()?;
+                Some(self.yardstick_of(picture)?.errors(&picture.radiances))
+            }),
+        }
+    }
+
+    /// The reference, if it is that of this picture.
+    fn yardstick_of(&self, picture: &Picture) -> Option<&Yardstick> {
+        let (view, yardstick) = self.reference.as_ref()?;
+        let fits = *view == picture.order.view && yardstick.size == (picture.width, picture.height);
+        (fits && picture.order.provenance.recipe.shows_the_scene()).then_some(yardstick)
+    }
+
+    /// What to draw; `None` to leave the map as it is, where it only has to wait for a picture on its way.
+    fn survey(&self) -> Option<Option<Survey>> {
+        let MapWish { of, map, held } = self.comparison.map?;
+        let film = self.latest[of as usize].as_ref();
+        let (name, against) = match self.comparison.against {
+            Against::EachOther => {
+                let other = self.latest[of.other() as usize].as_ref();
+                let other = other.filter(|other| film.is_some_and(|film| comparable(film, other)));
+                (of.other().name(), other.map(|other| other.radiances.clone()))
+            }
+            Against::Reference => {
+                let yardstick = film.and_then(|film| self.yardstick_of(film));
+                ("reference", yardstick.map(|yardstick| yardstick.radiances.clone()))
+            }
+        };
+        let rough = |picture: &Picture| picture.rough;
+        let on_its_way = match &self.latest {
+            [Some(a), Some(b)] if self.comparison.against == Against::EachOther => {
+                rough(a) || rough(b) || a.order.view != b.order.view
+            }
+            _ => film.is_some_and(rough),
+        };
+        match (film, against) {
+            (Some(film), Some(against)) => Some(Some(Survey {
+                names: [of.name(), name],
+                width: film.width,
+                radiances: [film.radiances.clone(), against],
+                display: self.display,
+                map,
+                held,
+            })),
+            _ if on_its_way => None,
+            _ => Some(None),
         }
     }
 }
@@ -146,104 +276,11 @@ fn shelve(place: &mut Option<News>, mut new: Developed) {
     *place = Some(News::Picture(Box::new(new)));
 }
 
-/// Each side against the other, where both show one view at one size.
-fn mutual_errors(latest: &[Option<Picture>; 2]) -> [Option<Errors>; 2] {
-    match latest {
-        [Some(a), Some(b)] if comparable(a, b) => {
-            let of =
-                |film: &Picture, reference: &Picture| Some(errors_of_radiances(&film.radiances, &reference.radiances));
-            [of(a, b), of(b, a)]
-        }
-        _ => [None, None],
-    }
-}
-
 fn comparable(a: &Picture, b: &Picture) -> bool {
     let shows_the_scene = |picture: &Picture| picture.order.provenance.recipe.shows_the_scene();
     (a.width, a.height, a.order.view) == (b.width, b.height, b.order.view) && shows_the_scene(a) && shows_the_scene(b)
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::technique::{PaneSettings, Provenance, SceneChanges, Technique};
-    use scene::Vec3;
-
-    fn order(job: u64, view: u64) -> Order {
-        let scene = Arc::new(scene::builtin::named("cornell").unwrap());
-        let provenance = Arc::new(Provenance {
-            source: "cornell".into(),
-            changes: SceneChanges::default(),
-            camera: scene.camera,
-            recipe: PaneSettings::of(Technique::Path).recipe(),
-            size: (1, 1),
-        });
-        Order { job, view, restarts: 0, scene, provenance }
-    }
-
-    fn picture(view: u64) -> Picture {
-        let order = order(view, view);
-        let radiances = [Vec3::splat(view as f32)].into();
-        Picture {
-            width: 1,
-            height: 1,
-            radiances,
-            spp: None,
-            seconds: 0.0,
-            nonfinite: 0,
-            adapter: "none".into(),
-            rough: false,
-            unfinished: false,
-            order,
-        }
-    }
-
-    /// Runs a darkroom over what `post` posts, and returns all that it shelved.
-    fn developed(post: impl Fn(&Darkroom)) -> Shelf {
-        let (darkroom, thread) = Darkroom::start(Arc::new(|| {})).unwrap();
-        post(&darkroom);
-        let mut shelf = Shelf::default();
-        for _ in 0..200 {
-            for (place, news) in shelf.iter_mut().zip(darkroom.collect().unwrap_or_default()) {
-                *place = news.or_else(|| place.take());
-            }
-            std::thread::sleep(std::time::Duration::from_millis(1));
-        }
-        darkroom.close();
-        thread.join().unwrap();
-        shelf
-    }
-
-    #[test]
-    fn only_pictures_of_one_view_are_compared() {
-        for (view_of_b, comparable) in [(1, true), (2, false)] {
-            let shelf = developed(|darkroom| {
-                darkroom.deliver(Side::A, picture(1));
-                darkroom.deliver(Side::B, picture(view_of_b));
-            });
-            let [Some(News::Picture(a)), Some(News::Picture(b))] = shelf else { panic!("two pictures") };
-            assert_eq!((a.errors.is_some(), b.errors.is_some()), (comparable, comparable));
-        }
-    }
-
-    #[test]
-    fn a_picture_of_an_older_job_does_not_replace_a_newer_one() {
-        let shelf = developed(|darkroom| {
-            darkroom.deliver(Side::A, Picture { order: order(8, 1), ..picture(1) });
-            std::thread::sleep(std::time::Duration::from_millis(20));
-            darkroom.deliver(Side::A, Picture { order: order(7, 1), ..picture(1) });
-        });
-        assert!(matches!(&shelf[0], Some(News::Picture(developed)) if developed.picture.order.job == 8));
-    }
-
-    #[test]
-    fn a_fault_stays_and_forgotten_views_do_not_come_back() {
-        let shelf = developed(|darkroom| {
-            darkroom.forget_before(5);
-            darkroom.report(Side::A, picture(5).order, "no".into());
-            darkroom.deliver(Side::B, picture(4));
-        });
-        assert!(matches!(&shelf[0], Some(News::Fault(fault)) if fault == "no"));
-        assert!(shelf[1].is_none());
-    }
-}
+#[path = "darkroom_tests.rs"]
+mod tests;

@@ -1,6 +1,7 @@
 //! The thread that writes pictures and fills the clipboard: encoding, disk and other programs take their time.
 
 use super::capture::{Capture, Pixels};
+use super::surveyor::Surveyed;
 use super::{Inbox, Picture, Wake};
 use anyhow::Context;
 use picture_file::Records;
@@ -17,6 +18,8 @@ pub enum Content {
     Seen(Capture),
     /// A pane's radiance, and how it is shown.
     Pane(Picture, DisplayTransform),
+    /// A map of errors.
+    Map(Arc<Surveyed>),
 }
 
 /// Where to.
@@ -105,7 +108,7 @@ fn save(export: &Export, path: &Path) -> anyhow::Result<PathBuf> {
     let bytes = match (&export.content, kind) {
         (Content::Seen(_), Kind::Exr) => {
             anyhow::bail!(
-                "EXR keeps the radiance of one pane: save A or B, or end the name in .png: {}",
+                "EXR keeps the radiance of one pane: save A, B or the error map, or end the name in .png: {}",
                 path.display()
             )
         }
@@ -113,6 +116,7 @@ fn save(export: &Export, path: &Path) -> anyhow::Result<PathBuf> {
             let Pixels { width, height, rgba } = capture.pixels()?;
             picture_file::encode_rgba8(width, height, &rgba, &export.records)?
         }
+        (Content::Map(drawn), kind) => drawn.map.encode(kind, &drawn.survey.pair(), export.records.clone())?,
         (Content::Pane(picture, display), kind) => {
             let linear = Linear { width: picture.width, height: picture.height, radiances: &picture.radiances };
             picture_file::encode(kind, linear, display, &export.records)?
@@ -127,6 +131,10 @@ fn copy(export: &Export, clipboard: &mut Option<arboard::Clipboard>) -> anyhow::
         Content::Pane(picture, display) => {
             let rgba = display.to_rgba8(picture.radiances.iter().copied());
             Pixels { width: picture.width, height: picture.height, rgba }
+        }
+        Content::Map(drawn) => {
+            let (width, height, rgba) = drawn.map.with_bar();
+            Pixels { width, height, rgba }
         }
     };
     let image = arboard::ImageData { width: width as usize, height: height as usize, bytes: rgba.into() };

@@ -1,6 +1,6 @@
 //! Rendering beside the UI. Each pane has a [`studio`] with a thread for each technique it has used ([`fake`], [`rays`]);
 //! they turn jobs into [`Picture`]s. The [`darkroom`] develops pictures into bytes for the screen and measures how far apart
-//! they are; the [`exporter`] writes files and fills the clipboard. Every thread is fed through an [`Inbox`] in which newer
+//! they are, from each other or from what the [`referee`] makes, and the [`surveyor`] draws where; the [`exporter`] writes files and fills the clipboard. Every thread is fed through an [`Inbox`] in which newer
 //! wishes replace older ones. The UI thread only posts and collects.
 
 pub mod capture;
@@ -10,7 +10,9 @@ pub mod exporter;
 pub mod fake;
 pub mod loader;
 pub mod rays;
+pub mod referee;
 pub mod studio;
+pub mod surveyor;
 
 use crate::technique::Provenance;
 use scene::{Camera, Scene, Vec3};
@@ -23,6 +25,27 @@ pub enum Side {
     A,
     /// Right of it.
     B,
+}
+
+impl Side {
+    /// Both, A first.
+    pub const ALL: [Side; 2] = [Side::A, Side::B];
+
+    /// "A" or "B".
+    pub fn name(self) -> &'static str {
+        match self {
+            Side::A => "A",
+            Side::B => "B",
+        }
+    }
+
+    /// The one on the other side of the wipe.
+    pub fn other(self) -> Self {
+        match self {
+            Side::A => Side::B,
+            Side::B => Side::A,
+        }
+    }
 }
 
 /// What a technique has made so far, in linear radiance.

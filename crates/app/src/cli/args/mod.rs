@@ -1,11 +1,15 @@
 //! From words to commands.
 
 mod bench;
+mod reference;
 mod render;
+mod seen;
 mod values;
 
 pub use bench::BenchArgs;
-pub use render::RenderArgs;
+pub use reference::ReferenceArgs;
+pub use render::{RenderArgs, made_by};
+pub use seen::Seen;
 
 use super::{CliError, Command, help};
 use crate::ui::Theme;
@@ -54,6 +58,7 @@ impl Command {
             "bench" => bench::parse,
             "info" => |parser| nothing_more(parser, Command::Info),
             "check" => parse_check,
+            "reference" => reference::parse,
             _ => return parse_view(parser),
         };
         parser.next()?;
@@ -91,8 +96,8 @@ fn parse_view(mut parser: lexopt::Parser) -> Result<Command, CliError> {
 pub struct CompareArgs {
     /// The picture to judge.
     pub film: PathBuf,
-    /// The picture to judge it by.
-    pub reference: PathBuf,
+    /// The picture to judge it by; `None` for the reference of what it shows.
+    pub reference: Option<PathBuf>,
     /// Where to draw a map of the errors.
     pub heatmap: Option<PathBuf>,
     /// Which errors it shows.
@@ -122,8 +127,9 @@ fn parse_compare(mut parser: lexopt::Parser) -> Result<Command, CliError> {
             other => return Err(other.unexpected().into()),
         }
     }
-    let Ok([film, reference]) = <[PathBuf; 2]>::try_from(files) else {
-        return usage("compare takes two pictures: visavis compare A B");
+    let mut files = files.into_iter();
+    let (Some(film), reference) = (files.next(), files.next()) else {
+        return usage("compare takes two pictures, visavis compare A B, or one to compare with its reference");
     };
     if let Some(out) = heatmap.as_ref().filter(|out| Kind::of(out).is_none()) {
         return usage(format!("--heatmap must end in .png or .exr: {}", out.display()));

@@ -1,15 +1,15 @@
 //! The options of `visavis render`: those of every technique, of the truth and of the fake.
 
+use super::seen::{Seen, parse_seen};
 use super::usage;
-use super::values::{choice, number, parse_finite, parse_whole, point, size, text, whole, within};
+use super::values::{choice, number, parse_finite, parse_whole, seconds, text, whole, within};
 use crate::cli::{CliError, Command, help};
-use crate::technique::{PaneSettings, SceneChanges, Technique, made_from};
+use crate::technique::{PaneSettings, Technique, made_from};
 use anyhow::Context;
 use lexopt::prelude::*;
 use pathtrace::{Estimator, GlassShadows, Roulette, SamplerKind, WhittedSettings};
 use picture_file::{self, Kind};
 use raster::{Fake, FakeKnobs, Shading, ShadowFilter, Show};
-use scene::Vec3;
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
@@ -21,14 +21,11 @@ pub struct RenderArgs {
     pub out: PathBuf,
     /// Technique and settings; their spp is not read here, but [`RenderArgs::spp`].
     pub pane: PaneSettings,
-    pub changes: SceneChanges,
-    pub size: (u32, u32),
+    pub seen: Seen,
     pub spp: Option<u32>,
     pub seconds: Option<f64>,
-    pub eye: Option<Vec3>,
-    pub target: Option<Vec3>,
-    pub fov: Option<f32>,
     pub exposure: f32,
+    pub errors: bool,
     pub json: bool,
     /// Options given that this technique ignores.
     pub without_effect: Vec<&'static str>,
@@ -58,22 +55,35 @@ pub fn parse(mut parser: lexopt::Parser) -> Result<Command, CliError> {
         (None, None) => return usage("--from needs a picture: visavis render --from FILE -o OUT"),
     };
     words.drain(place..place + taken);
-    let (scene, made) = read_records(&file)?;
+    let (before, made) = read_records(&file)?;
     words.splice(0..0, made);
-    parse_words(words, Some(scene))
+    let mut command = parse_words(words, Some(before.scene.clone()))?;
+    if let Command::Render(render) = &mut command {
+        // what a picture says of itself was not asked for just now
+        render.without_effect.retain(|option| !before.without_effect.contains(option));
+    }
+    Ok(command)
 }
 
-/// The scene and the options that a picture was made with.
-fn read_records(file: &Path) -> anyhow::Result<(String, Vec<OsString>)> {
+/// What a picture was made by, as its records say.
+///
+/// # Errors
+/// If it cannot be read, or does not say.
+pub fn made_by(file: &Path) -> anyhow::Result<RenderArgs> {
+    Ok(read_records(file)?.0)
+}
+
+/// What a picture was made by, read and as words.
+fn read_records(file: &Path) -> anyhow::Result<(RenderArgs, Vec<OsString>)> {
     let records = picture_file::records(file)?;
-    let made = made_from(&records).with_context(|| format!("cannot make this picture again: {}", file.display()))?;
+    let made = made_from(&records).with_context(|| format!("cannot read how it was made: {}", file.display()))?;
     let Some((scene, words)) = made else {
         anyhow::bail!("this picture does not say how it was made: {}", file.display());
     };
     let words: Vec<OsString> = words.into_iter().map(OsString::from).collect();
     let alone = words.iter().cloned().chain(["-o".into(), "out.png".into()]).collect();
-    match parse_words(alone, Some(scene.clone())) {
-        Ok(Command::Render(_)) => Ok((scene, words)),
+    match parse_words(alone, Some(scene)) {
+        Ok(Command::Render(render)) => Ok((*render, words)),
         Ok(_) => anyhow::bail!("its records are no options of render: {}", file.display()),
         Err(fault) => anyhow::bail!("its records make no picture ({}): {}", fault.line(), file.display()),
     }
@@ -90,14 +100,11 @@ fn parse_words(words: Vec<OsString>, scene: Option<String>) -> Result<Command, C
         scene: String::new(),
         out: PathBuf::new(),
         pane: PaneSettings::of(Technique::Path),
-        changes: SceneChanges::default(),
-        size: (1280, 720),
+        seen: Seen::default(),
         spp: None,
         seconds: None,
-        eye: None,
-        target: None,
-        fov: None,
         exposure: 0.0,
+        errors: false,
         json: false,
         without_effect: Vec::new(),
     };
@@ -144,19 +151,12 @@ fn parse_words(words: Vec<OsString>, scene: Option<String>) -> Result<Command, C
 fn of_all(option: &str, parser: &mut lexopt::Parser, r: &mut RenderArgs) -> Result<bool, CliError> {
     match option {
         "technique" => r.pane.technique = choice(parser, "--technique", Technique::named, "raster, whitted or path")?,
-        "size" => r.size = size(&text(parser)?)?,
-        "eye" => r.eye = Some(point(parser, "--eye")?),
-        "target" => r.target = Some(point(parser, "--target")?),
-        "fov" => r.fov = Some(number(parser, "--fov", "degrees between 0 and 180", |v| v > 0.0 && v < 180.0)?),
-        "refraction-ratio" => {
-            r.changes.refraction_ratio =
-                Some(number(parser, "--refraction-ratio", "a number from 0.001 to 1000", |v| {
-                    (0.001..=1000.0).contains(&v)
-                })?);
-        }
         "exposure" => r.exposure = number(parser, "--exposure", "stops from -30 to 30", |v| v.abs() <= 30.0)?,
+        "errors" => r.errors = true,
         "json" => r.json = true,
-        _ => return Ok(false),
+        // a size of the sun is no option of the fake
+        "sun-radius" => return Ok(false),
+        seen => return parse_seen(seen, parser, &mut r.seen),
     }
     Ok(true)
 }
@@ -170,13 +170,11 @@ fn of_rays(option: &str, parser: &mut lexopt::Parser, r: &mut RenderArgs) -> Res
             ("--spp", RAYS)
         }
         "time" => {
-            let seconds = number(parser, "--time", "seconds above 0 and at most 1e9", |v| v > 0.0 && v <= 1e9)?;
-            r.seconds = Some(f64::from(seconds));
+            r.seconds = Some(seconds(parser)?);
             ("--time", RAYS)
         }
         "sun-radius" => {
-            let below_90 = |v| (0.0..90.0).contains(&v);
-            r.changes.sun_radius = Some(number(parser, "--sun-radius", "degrees from 0 to below 90", below_90)?);
+            parse_seen(option, parser, &mut r.seen)?;
             ("--sun-radius", RAYS)
         }
         "seed" => {

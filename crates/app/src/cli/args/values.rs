@@ -32,6 +32,11 @@ pub fn number(
     parse_finite(&word).filter(|v| holds(*v)).map_or_else(|| usage(format!("{option} {word}: expected {expected}")), Ok)
 }
 
+/// What `--time` may be.
+pub fn seconds(parser: &mut lexopt::Parser) -> Result<f64, CliError> {
+    number(parser, "--time", "seconds above 0 and at most 1e9", |v| v > 0.0 && v <= 1e9).map(f64::from)
+}
+
 pub fn parse_finite(word: &str) -> Option<f32> {
     f32::from_str(word.trim()).ok().filter(|v| v.is_finite())
 }

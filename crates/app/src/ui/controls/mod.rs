@@ -3,12 +3,13 @@
 mod camera;
 mod display;
 mod fake;
+mod measuring;
 mod scene;
 mod truth;
 mod whitted;
 mod widgets;
 
-use super::{Dump, Viewer};
+use super::{Dump, Request, View, Viewer, Wall};
 use crate::technique::Technique;
 use crate::workers::Side;
 use egui::collapsing_header::CollapsingState;
@@ -22,8 +23,12 @@ pub fn width(window: f32) -> f32 {
 /// Windows lower than this, in points, open with fewer groups unfolded.
 const LOW: f32 = 600.0;
 
-pub fn show(viewer: &mut Viewer, ui: &mut Ui, dump: &mut Dump) {
+pub fn show(viewer: &mut Viewer, ui: &mut Ui, wall: &Wall, dump: &mut Dump, requests: &mut Vec<Request>) {
     let low = ui.ctx().content_rect().height() < LOW;
+    if viewer.view == View::ErrorMap {
+        let fitted = wall.map.as_ref().map(|map| map.drawn.map.scale.high);
+        group(ui, dump, "Error map", true, |ui, dump| measuring::map(viewer, ui, fitted, dump));
+    }
     if viewer.scene.refraction_ratio().is_some() || viewer.scene.sun.is_some() {
         group(ui, dump, "Scene (both)", true, |ui, dump| scene::show(viewer, ui, dump));
     }
@@ -31,6 +36,9 @@ pub fn show(viewer: &mut Viewer, ui: &mut Ui, dump: &mut Dump) {
         pane(viewer, side, !low || side == Side::B, ui, dump);
     }
     group(ui, dump, "Display (both)", true, |ui, dump| display::show(viewer, ui, dump));
+    group(ui, dump, "Compare with", false, |ui, dump| {
+        measuring::against(viewer, ui, wall, dump, requests);
+    });
     group(ui, dump, "Camera (both)", false, |ui, dump| camera::show(viewer, ui, dump));
 }
 

@@ -1,6 +1,7 @@
 //! Name, cost and error of a pane, on the picture: in a corner of what is seen of it.
 
 use super::{Dump, Pane, View, Viewer, spoken, text_box};
+use crate::ruler::{Against, brief};
 use crate::ui::Line;
 use crate::workers::Side;
 use egui::{Align2, Color32, Rect, Ui, vec2};
@@ -31,9 +32,13 @@ fn text(viewer: &Viewer, side: Side, pane: &Pane) -> String {
         text += &format!("\n{} samples were not finite and are left out", pane.nonfinite);
     }
     if let Some(e) = pane.errors {
-        let other = if side == Side::A { "A - B" } else { "B - A" };
-        text +=
-            &format!("\n{other}: relMSE {:.3}\nRMSE {:.3}, bias {:+.1} %", e.rel_mse, e.rmse, 100.0 * e.relative_bias);
+        let (name, other) = (side.name(), side.other().name());
+        let other = if pane.against == Against::Reference { "reference" } else { other };
+        let (rel_mse, rmse) = (brief(e.rel_mse), brief(e.rmse));
+        text += &format!("\n{name} - {other}: relMSE {rel_mse}\nRMSE {rmse}, bias {:+.1} %", 100.0 * e.relative_bias);
+        if e.below_reference_noise() {
+            text += "\nat the reference's noise";
+        }
     }
     text
 }

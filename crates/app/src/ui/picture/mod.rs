@@ -1,9 +1,11 @@
-//! The picture area: one pane, both under the wipe or both side by side, and what is known about each on top.
+//! The picture area: one pane, both under the wipe or both side by side, or the map of their errors, and what is known
+//! about each on top.
 
 mod label;
+mod map;
 mod mouse;
 
-use super::{Dump, Line, Message, Pane, View, Viewer};
+use super::{Dump, Line, Message, Pane, View, Viewer, Wall};
 use crate::workers::Side;
 use egui::accesskit;
 use egui::{Align2, Color32, FontId, Pos2, Rect, Sense, Stroke, Ui, pos2, vec2};
@@ -19,7 +21,8 @@ struct Shown {
     clip: Rect,
 }
 
-pub fn show(viewer: &mut Viewer, ui: &mut Ui, panes: &[Pane; 2], dump: &mut Dump) {
+pub fn show(viewer: &mut Viewer, ui: &mut Ui, wall: &Wall, dump: &mut Dump) {
+    let panes = &wall.panes;
     let scale = ui.ctx().pixels_per_point();
     let rect = whole_pixels(ui.max_rect(), scale);
     viewer.picture_rect = rect;
@@ -35,6 +38,9 @@ pub fn show(viewer: &mut Viewer, ui: &mut Ui, panes: &[Pane; 2], dump: &mut Dump
     }
     if viewer.view == View::Wipe {
         line(ui, rect, viewer.line, viewer.wipe);
+    }
+    if viewer.view == View::ErrorMap {
+        map::show(viewer, ui, rect, wall, response.hover_pos(), dump);
     }
     for Shown { side, clip, .. } in &shown {
         label::show(viewer, ui, *clip, *side, &panes[*side as usize], dump);
@@ -65,6 +71,7 @@ fn arranged(viewer: &Viewer, rect: Rect, frame: Rect) -> Vec<Shown> {
             let beside = frame.translate(vec2(rect.width() - frame.width(), 0.0));
             vec![shown(Side::A, frame, frame), shown(Side::B, beside, beside)]
         }
+        View::ErrorMap => Vec::new(),
     }
 }
 

@@ -1,0 +1,151 @@
+//! `visavis reference`: references made, fetched and thrown away; and how other commands come by one.
+
+use super::ReferenceArgs;
+use crate::ruler::{Sought, brief};
+use anyhow::Context;
+use pathtrace::{FEWEST_REPLICATES, Tracer};
+use reference::{Goal, Maker, Reference, Store};
+use std::io::IsTerminal;
+use std::time::{Duration, Instant};
+
+pub fn run(args: &ReferenceArgs) -> anyhow::Result<()> {
+    match args {
+        ReferenceArgs::Usage => {
+            let store = Store::of_the_user()?;
+            let usage = store.usage()?;
+            let mib = |bytes: u64| bytes as f64 / f64::from(1 << 20);
+            super::print(&format!(
+                "folder  {}\ncount   {}\nsize    {:.1} MiB\nlimit   {:.0} MiB (VISAVIS_CACHE_MIB)\n",
+                store.folder().display(),
+                usage.count,
+                mib(usage.bytes),
+                mib(store.most_bytes())
+            ))
+        }
+        ReferenceArgs::Clear => {
+            let store = Store::of_the_user()?;
+            let gone = store.clear()?;
+            super::print(&format!("removed {} references from {}\n", gone.count, store.folder().display()))
+        }
+        ReferenceArgs::Make { scene, out, seen, goal } => {
+            let sought = seen.of(scene)?;
+            picture_file::check_writable(out)?;
+            let reference = obtain(&sought, Some(*goal))?;
+            picture_file::write_whole(out, &reference.encode(sought.records())?)?;
+            note!(
+                "reference of {} at {}x{}: {}: {}",
+                scene,
+                seen.size.0,
+                seen.size.1,
+                course(&reference),
+                out.display()
+            );
+            Ok(())
+        }
+    }
+}
+
+/// How far a reference has come.
+fn course(reference: &Reference) -> String {
+    let noise = reference.rel_mse().map_or_else(|| "unknown".into(), brief);
+    format!("{} pictures, noise (relMSE) {noise}, {:.1} s", reference.replicates, reference.seconds)
+}
+
+/// The reference of what is sought. One from the store is taken as it is, unless there is a goal that it does not meet; what
+/// is made here is kept there. A store that cannot be used is told and does no harm.
+///
+/// # Errors
+/// If there is no memory for it.
+pub fn obtain(sought: &Sought, goal: Option<Goal>) -> anyhow::Result<Reference> {
+    let key = sought.key();
+    let store = Store::of_the_user().map_err(|fault| note!("note: {fault}")).ok();
+    let kept = store.as_ref().and_then(|store| store.get(key));
+    if let (Some(kept), None) = (&kept, goal) {
+        return Ok(kept.clone());
+    }
+    let goal = goal.unwrap_or_default();
+    let keep = |reference: &Reference| {
+        if let Some(Err(fault)) = store.as_ref().map(|store| store.put(key, reference, sought.records())) {
+            note!("note: {fault}");
+        }
+    };
+    let made = make(sought, &goal, kept.as_ref(), keep)?;
+    if kept.is_none_or(|kept| kept.replicates < made.replicates) {
+        keep(&made);
+    }
+    Ok(made)
+}
+
+/// Makes a reference, or goes on with one, until it is good enough. Every doubling is handed to `keep`: hours of work do not
+/// go with a power cut.
+fn make(
+    sought: &Sought,
+    goal: &Goal,
+    begun: Option<&Reference>,
+    keep: impl Fn(&Reference),
+) -> anyhow::Result<Reference> {
+    let tracer = Tracer::new(&sought.scene);
+    let (width, height) = sought.size;
+    let mut maker = Maker::new(&tracer, &sought.subject(), begun)
+        .with_context(|| format!("not enough memory for {width}x{height} pixels; ask for a smaller --size"))?;
+    let progress = Progress::of(maker.progress(goal));
+    let mut next_kept = (2 * FEWEST_REPLICATES).max(2 * maker.replicates());
+    while !maker.is_done(goal) {
+        maker.step(&|| false);
+        progress.show(&maker, goal);
+        if maker.replicates() >= next_kept && !maker.is_done(goal) {
+            next_kept *= 2;
+            keep(&maker.reference());
+        }
+    }
+    progress.finish();
+    Ok(maker.reference())
+}
+
+/// A line on stderr that says how long it takes, where someone can see it.
+struct Progress {
+    shown: bool,
+    start: Instant,
+    /// What was done before the start, from 0 to 1.
+    before: f64,
+}
+
+impl Progress {
+    fn of(before: f64) -> Self {
+        Progress { shown: std::io::stderr().is_terminal(), start: Instant::now(), before }
+    }
+
+    fn show(&self, maker: &Maker, goal: &Goal) {
+        if self.shown {
+            let left = time_left(self.before, maker.progress(goal), self.start.elapsed());
+            let left = left.map_or_else(String::new, |left| format!(", about {:.0} s left", left.as_secs_f64()));
+            let made = maker.replicates();
+            super::to_stderr(format_args!("\r\x1b[Kreference: {made} pictures, {:.1} s{left} ", maker.seconds()));
+        }
+    }
+
+    fn finish(&self) {
+        if self.shown {
+            super::to_stderr(format_args!("\r\x1b[K"));
+        }
+    }
+}
+
+/// At the speed so far; `None` as long as nothing is done.
+fn time_left(before: f64, now: f64, elapsed: Duration) -> Option<Duration> {
+    let per_share = elapsed.as_secs_f64() / (now - before);
+    Duration::try_from_secs_f64((1.0 - now) * per_share).ok()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_left_takes_as_long_as_what_is_done_took() {
+        let left = |before, now| time_left(before, now, Duration::from_secs(10));
+        assert_eq!(left(0.0, 0.5), Some(Duration::from_secs(10)));
+        assert_eq!(left(0.5, 0.75), Some(Duration::from_secs(10)));
+        assert_eq!(left(0.5, 0.5), None);
+    }
+}

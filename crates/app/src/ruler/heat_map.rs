@@ -1,0 +1,117 @@
+//! Errors pixel by pixel in colour: computed, scaled, and as files. PNG for people, with the colour bar below; EXR for
+//! other programs, with both pictures and every map as layers of numbers.
+
+use compare::{ColourScale, CompareError, ErrorMap, finite_mean};
+use picture_file::{Kind, Layer, LayerValues, PictureError, Records};
+use scene::Vec3;
+use scene::display::DisplayTransform;
+
+/// Two pictures of one size; the first is judged by the second.
+#[derive(Debug, Clone, Copy)]
+pub struct Pair<'a> {
+    /// What they are called: "A" and "reference".
+    pub names: [&'static str; 2],
+    /// Pixels in a row of both.
+    pub width: u32,
+    /// Linear radiances, rows from the top.
+    pub radiances: [&'a [Vec3]; 2],
+    /// How FLIP sees them.
+    pub display: DisplayTransform,
+}
+
+impl Pair<'_> {
+    fn values(&self, map: ErrorMap) -> Result<Vec<f32>, CompareError> {
+        map.of_radiances(self.radiances[0], self.radiances[1], self.width, &self.display)
+    }
+}
+
+/// A map of errors under a scale.
+#[derive(Debug, Clone, PartialEq)]
+pub struct HeatMap {
+    /// What is mapped.
+    pub map: ErrorMap,
+    /// With its sign, by the pictures' names: "A - B".
+    pub label: String,
+    /// Its colours.
+    pub scale: ColourScale,
+    /// Pixels in a row.
+    pub width: u32,
+    /// One number a pixel, rows from the top.
+    pub values: Vec<f32>,
+    /// Mean of those that are finite.
+    pub mean: f64,
+    /// How many are not.
+    pub nonfinite: u64,
+}
+
+/// Height of the colour bar under a PNG, in pixels.
+pub const BAR: u32 = 12;
+
+impl HeatMap {
+    /// The map of a pair, under a scale up to `held`, or fitted to it.
+    ///
+    /// # Errors
+    /// If the pictures do not have the same pixels.
+    pub fn of(pair: &Pair, map: ErrorMap, held: Option<f32>) -> Result<Self, CompareError> {
+        let values = pair.values(map)?;
+        let (mean, nonfinite) = finite_mean(&values);
+        let scale = held.map_or_else(|| ColourScale::fitted(map, &values), |high| ColourScale::up_to(map, high));
+        let label = map.label_of(pair.names[0], pair.names[1]);
+        Ok(HeatMap { map, label, scale, width: pair.width, values, mean, nonfinite })
+    }
+
+    /// Pixels in a column.
+    pub fn height(&self) -> u32 {
+        (self.values.len() / self.width.max(1) as usize) as u32
+    }
+
+    /// The map alone as opaque RGBA bytes, rows from the top.
+    pub fn rgba(&self) -> Vec<u8> {
+        self.scale.image(&self.values, self.width)
+    }
+
+    /// The map with its colour bar below, low at the left, as width, height and opaque RGBA bytes.
+    pub fn with_bar(&self) -> (u32, u32, Vec<u8>) {
+        let mut rgba = self.rgba();
+        rgba.extend(self.scale.bar(self.width, BAR));
+        (self.width, self.height() + BAR, rgba)
+    }
+
+    /// What its file keeps: what is mapped, and what the colours mean.
+    pub fn records(&self) -> Records {
+        vec![
+            ("map", self.label.clone()),
+            ("colours", self.scale.map.name().to_owned()),
+            ("low", self.scale.low.to_string()),
+            ("high", self.scale.high.to_string()),
+            ("nonfinite", self.nonfinite.to_string()),
+        ]
+    }
+
+    /// The bytes of a file of this kind; `more` records stand beside the map's own. `pair` is what the map is of.
+    ///
+    /// # Errors
+    /// If it cannot be encoded.
+    pub fn encode(&self, kind: Kind, pair: &Pair, more: Records) -> Result<Vec<u8>, PictureError> {
+        let records: Records = self.records().into_iter().chain(more).collect();
+        match kind {
+            Kind::Png => {
+                let (width, height, rgba) = self.with_bar();
+                picture_file::encode_rgba8(width, height, &rgba, &records)
+            }
+            Kind::Exr => {
+                let picture = |i: usize| Layer { name: pair.names[i], values: LayerValues::Rgb(pair.radiances[i]) };
+                let mut layers = vec![picture(0), picture(1)];
+                for map in ErrorMap::ALL {
+                    let values = if map == self.map { self.values.clone() } else { values_of(pair, map)? };
+                    layers.push(Layer { name: map.name(), values: LayerValues::Numbers(values) });
+                }
+                picture_file::encode_layers(self.width, self.height(), &layers, &records)
+            }
+        }
+    }
+}
+
+fn values_of(pair: &Pair, map: ErrorMap) -> Result<Vec<f32>, PictureError> {
+    pair.values(map).map_err(|e| PictureError::Encode("EXR", e.to_string()))
+}

@@ -1,0 +1,128 @@
+//! The map of errors, and on it what its colours mean: its name, a colour bar with ticks, its mean, what is not finite, and
+//! the numbers under the mouse.
+
+use super::{WHOLE, spoken, text_box};
+use crate::ruler::{Against, HeatMap, brief};
+use crate::ui::{Dump, MapPane, Viewer, Wall};
+use compare::ColourScale;
+use egui::{Align2, Color32, FontId, Galley, Mesh, Pos2, Rect, Stroke, Ui, pos2, vec2};
+use scene::Vec3;
+use std::sync::Arc;
+
+/// Steps of colour along the bar.
+const STEPS: u32 = 128;
+
+pub fn show(viewer: &Viewer, ui: &Ui, rect: Rect, wall: &Wall, hover: Option<Pos2>, dump: &mut Dump) {
+    let Some(map) = &wall.map else {
+        let text = why_not(viewer, wall);
+        let place = text_box(viewer, ui, rect, rect.center(), Align2::CENTER_CENTER, &text, Color32::WHITE);
+        dump.note_text("label no map", &text, place, rect);
+        spoken(ui, "label no map", &text, place, false);
+        return;
+    };
+    ui.painter().with_clip_rect(rect).image(map.texture, rect, WHOLE, Color32::WHITE);
+    let under_the_mouse = hover.filter(|_| !viewer.posing).and_then(|at| numbers_at(map, rect, at));
+    legend(viewer, ui, rect, &map.drawn.map, under_the_mouse, dump);
+}
+
+/// Why there is nothing to see.
+fn why_not(viewer: &Viewer, wall: &Wall) -> String {
+    let side = viewer.measuring.side();
+    let judged = if viewer.measuring.against == Against::Reference { vec![side] } else { vec![side, side.other()] };
+    for side in judged {
+        let pane = &wall.panes[side as usize];
+        if let Some(fault) = &pane.fault {
+            return fault.clone();
+        }
+        if pane.provenance.as_ref().is_some_and(|provenance| !provenance.recipe.shows_the_scene()) {
+            return format!("{} shows a map, not the scene: it has no errors", side.name());
+        }
+    }
+    match viewer.measuring.against {
+        Against::EachOther => "rendering ...".into(),
+        Against::Reference => "the reference is not there yet: two of its pictures are needed".into(),
+    }
+}
+
+/// "x 12, y 34: A 0.1 0.2 0.3, reference 0.1 0.2 0.3: 0.004".
+fn numbers_at(map: &MapPane, rect: Rect, at: Pos2) -> Option<String> {
+    let HeatMap { width, values, .. } = &map.drawn.map;
+    let height = map.drawn.map.height();
+    let share = (at - rect.min) / rect.size();
+    let (x, y) = ((share.x * *width as f32) as u32, (share.y * height as f32) as u32);
+    let index = (x < *width && y < height).then_some(y as usize * *width as usize + x as usize)?;
+    let channels = |v: &Vec3| v.to_array().map(|channel| brief(f64::from(channel))).join(" ");
+    let survey = &map.drawn.survey;
+    let [a, r] = [0, 1].map(|i| survey.radiances[i].get(index).map(channels));
+    let error = brief(f64::from(*values.get(index)?));
+    Some(format!("x {x}, y {y}: {error}\n{} {}\n{} {}", survey.names[0], a?, survey.names[1], r?))
+}
+
+/// The box in the corner, from top to bottom: name, bar, ticks, and the rest in words.
+fn legend(viewer: &Viewer, ui: &Ui, rect: Rect, map: &HeatMap, pixel: Option<String>, dump: &mut Dump) {
+    let painter = ui.painter().with_clip_rect(rect);
+    let size = viewer.theme.label_size();
+    let width = (20.0 * size).min(rect.width() - 36.0).max(40.0);
+    let lay = |text: String| painter.layout(text, FontId::proportional(size), Color32::WHITE, width);
+    let (name, words) = (lay(map.label.clone()), lay(in_words(map, pixel)));
+    let (bar_height, gap) = (0.9 * size, 0.3 * size);
+    let line = name.rows.first().map_or(size, |row| row.height());
+    let height = name.size().y + gap + bar_height + gap + line + gap + words.size().y;
+    let place = Rect::from_min_size(rect.min + vec2(12.0, 10.0), vec2(width, height));
+    painter.rect_filled(place.expand2(vec2(6.0, 3.0)), 4.0, Color32::from_black_alpha(215));
+
+    painter.galley(place.min, name.clone(), Color32::WHITE);
+    let bar = Rect::from_min_size(pos2(place.left(), place.top() + name.size().y + gap), vec2(width, bar_height));
+    painter.add(coloured(bar, &map.scale));
+    for (text, galley, at) in ticks(&map.scale, bar, lay) {
+        let foot = pos2(at, bar.bottom());
+        painter.line_segment([foot, foot - vec2(0.0, 0.35 * bar_height)], Stroke::new(1.0, Color32::WHITE));
+        let left = (at - 0.5 * galley.size().x).clamp(bar.left(), bar.right() - galley.size().x);
+        let corner = pos2(left, bar.bottom() + gap);
+        dump.note_text(&format!("label tick {text}"), &text, Rect::from_min_size(corner, galley.size()), rect);
+        painter.galley(corner, galley, Color32::WHITE);
+    }
+    let below = place.bottom() - words.size().y;
+    let text = format!("{}\n{}", name.text(), words.text());
+    painter.galley(pos2(place.left(), below), words, Color32::WHITE);
+    dump.note_text("label map", &text, place, rect);
+    dump.note_text("bar map", map.scale.map.name(), bar, rect);
+    spoken(ui, "label map", &text, place, false);
+}
+
+/// Mean, what is not finite, the numbers under the mouse.
+fn in_words(map: &HeatMap, pixel: Option<String>) -> String {
+    let mut text = format!("mean {}", brief(map.mean));
+    if map.nonfinite > 0 {
+        text += &format!("\n{} pixels are not finite: hatched", map.nonfinite);
+    }
+    pixel.into_iter().for_each(|pixel| text += &format!("\n{pixel}"));
+    text
+}
+
+fn coloured(bar: Rect, scale: &ColourScale) -> Mesh {
+    let mut mesh = Mesh::default();
+    for step in 0..STEPS {
+        let [from, to] = [step, step + 1].map(|step| bar.left() + bar.width() * step as f32 / STEPS as f32);
+        let [r, g, b] = scale.map.srgb((step as f32 + 0.5) / STEPS as f32);
+        let strip = Rect::from_min_max(pos2(from, bar.top()), pos2(to, bar.bottom()));
+        mesh.add_colored_rect(strip, Color32::from_rgb(r, g, b));
+    }
+    mesh
+}
+
+/// Text and place of the marks that have room beside each other.
+fn ticks(scale: &ColourScale, bar: Rect, lay: impl Fn(String) -> Arc<Galley>) -> Vec<(String, Arc<Galley>, f32)> {
+    let mut shown: Vec<(String, Arc<Galley>, f32)> = Vec::new();
+    let mut free = f32::NEG_INFINITY;
+    for tick in scale.ticks(4) {
+        let galley = lay(tick.text.clone());
+        let at = bar.left() + tick.position * bar.width();
+        let left = (at - 0.5 * galley.size().x).clamp(bar.left(), bar.right() - galley.size().x);
+        if left >= free {
+            free = left + galley.size().x + 4.0;
+            shown.push((tick.text, galley, at));
+        }
+    }
+    shown
+}
