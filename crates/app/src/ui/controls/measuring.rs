@@ -24,7 +24,7 @@ pub fn against(viewer: &mut Viewer, ui: &mut Ui, wall: &Wall, dump: &mut Dump, r
 }
 
 /// How far the reference has come.
-fn state(wall: &Wall, paused: bool) -> String {
+pub fn state(wall: &Wall, paused: bool) -> String {
     let Some(Progress { origin, pictures, noise, seconds, done, .. }) = &wall.reference else {
         return "reference: ...".into();
     };
@@ -36,12 +36,11 @@ fn state(wall: &Wall, paused: bool) -> String {
         }
         Origin::Made => {
             let of = if *pictures < FEWEST_REPLICATES { format!(" of {FEWEST_REPLICATES}") } else { String::new() };
-            let course = if paused && !done {
-                ", paused"
-            } else if *done {
-                ""
-            } else {
-                " ..."
+            let course = match (done, paused, wall.panes.iter().any(|pane| pane.unfinished)) {
+                (true, ..) => "",
+                (false, true, _) => ", paused",
+                (false, false, true) => ", waits for A and B",
+                (false, false, false) => " ...",
             };
             format!("reference: {pictures}{of} pictures{noise}, {seconds:.0} s{course}")
         }
@@ -70,7 +69,7 @@ pub fn map(viewer: &mut Viewer, ui: &mut Ui, fitted: Option<f32>, dump: &mut Dum
             measuring.of = Side::ALL[index];
         }
     }
-    let words = ErrorMap::ALL.map(|map| (map.name().replace('-', " "), describe(map), measuring.map == map));
+    let words = ErrorMap::ALL.map(|map| (title(map), describe(map), measuring.map == map));
     if let Some(index) = choice("map", words, ui, dump) {
         measuring.map = ErrorMap::ALL[index];
     }
@@ -112,6 +111,10 @@ fn whose(side: Side) -> &'static str {
         Side::A => "The errors of A against the reference (T changes to B)",
         Side::B => "The errors of B against the reference (T changes to A)",
     }
+}
+
+fn title(map: ErrorMap) -> String {
+    if map == ErrorMap::Flip { "FLIP".into() } else { map.name().replace('-', " ") }
 }
 
 fn describe(map: ErrorMap) -> &'static str {

@@ -9,6 +9,8 @@ mod truth;
 mod whitted;
 mod widgets;
 
+pub use measuring::state as reference_state;
+
 use super::{Dump, Request, View, Viewer, Wall};
 use crate::technique::Technique;
 use crate::workers::Side;

@@ -3,6 +3,7 @@
 
 use super::{WHOLE, spoken, text_box};
 use crate::ruler::{Against, HeatMap, brief};
+use crate::ui::controls::reference_state;
 use crate::ui::{Dump, MapPane, Viewer, Wall};
 use compare::ColourScale;
 use egui::{Align2, Color32, FontId, Galley, Mesh, Pos2, Rect, Stroke, Ui, pos2, vec2};
@@ -14,6 +15,10 @@ const STEPS: u32 = 128;
 
 pub fn show(viewer: &Viewer, ui: &Ui, rect: Rect, wall: &Wall, hover: Option<Pos2>, dump: &mut Dump) {
     let Some(map) = &wall.map else {
+        // what there will be a map of
+        if let Some(texture) = wall.panes[viewer.measuring.side() as usize].texture {
+            ui.painter().with_clip_rect(rect).image(texture, rect, WHOLE, Color32::WHITE);
+        }
         let text = why_not(viewer, wall);
         let place = text_box(viewer, ui, rect, rect.center(), Align2::CENTER_CENTER, &text, Color32::WHITE);
         dump.note_text("label no map", &text, place, rect);
@@ -40,7 +45,7 @@ fn why_not(viewer: &Viewer, wall: &Wall) -> String {
     }
     match viewer.measuring.against {
         Against::EachOther => "rendering ...".into(),
-        Against::Reference => "the reference is not there yet: two of its pictures are needed".into(),
+        Against::Reference => format!("{}\ntwo pictures make a map", reference_state(wall, viewer.paused)),
     }
 }
 
@@ -62,7 +67,7 @@ fn numbers_at(map: &MapPane, rect: Rect, at: Pos2) -> Option<String> {
 fn legend(viewer: &Viewer, ui: &Ui, rect: Rect, map: &HeatMap, pixel: Option<String>, dump: &mut Dump) {
     let painter = ui.painter().with_clip_rect(rect);
     let size = viewer.theme.label_size();
-    let width = (20.0 * size).min(rect.width() - 36.0).max(40.0);
+    let width = (15.0 * size).min(rect.width() - 36.0).max(40.0);
     let lay = |text: String| painter.layout(text, FontId::proportional(size), Color32::WHITE, width);
     let (name, words) = (lay(map.label.clone()), lay(in_words(map, pixel)));
     let (bar_height, gap) = (0.9 * size, 0.3 * size);
