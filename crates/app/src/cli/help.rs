@@ -18,6 +18,7 @@ visavis render SCENE -o OUT      render to OUT, .png (display-transformed) or .e
                                  camera (default the scene's)
     --refraction-ratio R         index outside over inside of all glass, 0.001 to 1000 (default the scene's)
     --exposure EV                stops added before display, PNG only (default 0)
+    --errors                     measure the picture against the scene's reference, which is made if it is not there
     --json                       print one JSON object about the result on stdout
   whitted and path:
     --spp N                      samples per pixel (default 64)
@@ -53,13 +54,22 @@ visavis render SCENE -o OUT      render to OUT, .png (display-transformed) or .e
     --segments N                 segments of a sphere, 3 to 512 (default the scene's)
     --show picture|cube-faces|shadow-map
                                  the picture, or a map that it is made from (default picture)
-visavis compare A B              how far picture A is from reference B (.exr or .png): RMSE, relMSE, MAE, bias, FLIP, HDR-FLIP
+visavis compare A B              how far picture A is from reference B (.exr or .png): RMSE, relMSE, MAE, bias, FLIP,
+                                 HDR-FLIP; B's own noise where it is a reference of this program
+visavis compare A                the same against the reference of what A's records say that it shows
     --heatmap OUT                draw the errors to OUT: .png in colour with a colour bar, or .exr with both pictures
                                  and every map as layers
     --map signed|absolute|relative|squared-relative|flip
                                  which errors the map shows (default absolute)
     --exposure EV                stops added before FLIP looks (default 0)
     --json                       as one JSON object
+visavis reference SCENE -o OUT   make or fetch the reference of a scene: OUT.exr with its standard error as a layer
+    --noise R                    until its own relMSE is R or less (default 1e-5)
+    --time SECONDS               or this long was spent on it, in all (default 120; without limit if --noise is given)
+    --size --eye --target --fov --refraction-ratio --sun-radius
+                                 as for render
+visavis reference                where references are kept, how many, their size and its limit
+    --clear                      throw them away
 visavis bench -o DIR             speed against error of every technique: one HTML page, its SVG plots, CSV tables; run
                                  again after an interruption, it goes on (docs/bench.md says what each number means)
     --quick                      as small as fits into a minute on an idle machine; without: an hour or two on two cores
@@ -75,9 +85,10 @@ visavis check                    every hard case: expected, measured, tolerance,
 visavis info                     adapters, limits, what would be used and why
 visavis --help, --version
 
+References lie in the system's folder for caches, or in VISAVIS_CACHE; VISAVIS_CACHE_MIB limits their size (default 1024).
 Exit code: 0 done, 1 failed (one line on stderr), 2 wrong usage.
 In the window: drag the line to wipe, drag the picture to orbit (Shift: pan, wheel: dolly, Ctrl+wheel: zoom), T swaps A and
-B, 1 2 3 4 show A, B, wipe, side by side, P pauses, R restarts, C resets the camera, H hides the panel, Ctrl+Z undoes,
+B, 1 2 3 4 5 show A, B, wipe, side by side, error map, P pauses, R restarts, C resets the camera, H hides the panel, Ctrl+Z undoes,
 Ctrl+S saves and Ctrl+C copies the picture as seen, Ctrl+Q quits, ? shows all keys.
 ";
 

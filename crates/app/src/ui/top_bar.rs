@@ -6,11 +6,19 @@ use egui::{Button, PopupCloseBehavior, Ui};
 use scene::builtin;
 use std::path::Path;
 
+/// Windows narrower than this, in points, have no room for the bar as it is.
+const NARROW: f32 = 740.0;
+
 /// The most letters of a scene's name that the bar shows.
 const MOST_LETTERS: usize = 18;
 
 pub fn show(viewer: &mut Viewer, ui: &mut Ui, wall: &Wall, dump: &mut Dump, requests: &mut Vec<Request>) {
     ui.horizontal_wrapped(|ui| {
+        if ui.available_width() < NARROW {
+            // closer together, so that it all stays in one row
+            ui.spacing_mut().item_spacing.x = 2.0;
+            ui.spacing_mut().button_padding.x = 4.0;
+        }
         scene_menu(viewer, ui, dump, requests);
         ui.separator();
         for view in View::ALL {

@@ -4,20 +4,30 @@
 
 mod bench;
 mod pictures;
+mod references;
 
 use serde_json::Value;
 use std::process::{Command, Output};
 use visavis_tests::TestFolder;
 
-fn visavis(arguments: &[&str]) -> Output {
+/// The program without a display, and without the user's references.
+fn program() -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_visavis"));
-    command.args(arguments).env_remove("DISPLAY").env_remove("WAYLAND_DISPLAY").env_remove("WAYLAND_SOCKET");
-    command.output().expect("the program")
+    command.env_remove("DISPLAY").env_remove("WAYLAND_DISPLAY").env_remove("WAYLAND_SOCKET");
+    command.env("VISAVIS_CACHE", "/dev/null/no-store").env_remove("VISAVIS_CACHE_MIB");
+    command
+}
+
+fn visavis(arguments: &[&str]) -> Output {
+    program().args(arguments).output().expect("the program")
 }
 
 /// Runs and expects failure with `code` and one line on stderr that holds all of `words`, nothing on stdout.
 fn assert_refused(arguments: &[&str], code: i32, words: &[&str]) {
-    let output = visavis(arguments);
+    assert_failed(arguments, &visavis(arguments), code, words);
+}
+
+fn assert_failed(arguments: &[&str], output: &Output, code: i32, words: &[&str]) {
     let line = String::from_utf8_lossy(&output.stderr);
     assert_eq!(output.status.code(), Some(code), "{arguments:?}: {line}");
     assert_eq!(line.lines().count(), 1, "{arguments:?}: {line}");
@@ -62,7 +72,13 @@ fn bad_values_are_wrong_usage_and_write_nothing() {
     assert_refused(&["render", "whitted", "-o", "out.jpg"], 2, &[".png or .exr", "out.jpg"]);
     assert_refused(&["render", "whitted"], 2, &["-o"]);
     assert_refused(&["render", "whitted", "-o", out, "--denoise"], 2, &["--denoise"]);
-    assert_refused(&["compare", "one.png"], 2, &["two pictures"]);
+    assert_refused(&["compare"], 2, &["two pictures", "with its reference"]);
+    assert_refused(&["reference", "cornell"], 2, &["-o OUT.exr"]);
+    assert_refused(&["reference", "cornell", "-o", out], 2, &["must end in .exr", "out.png"]);
+    assert_refused(&["reference", "cornell", "-o", "o.exr", "--noise", "0"], 2, &["relMSE above 0"]);
+    assert_refused(&["reference", "--size", "8x8"], 2, &["needs a scene"]);
+    assert_refused(&["reference", "cornell", "--clear"], 2, &["--clear", "nothing else"]);
+    assert_refused(&["reference", "cornell", "-o", "o.exr", "--spp", "4"], 2, &["--spp"]);
     assert_refused(&["render", "whitted", "-o", out, "--size", "1\n2"], 2, &["WIDTHxHEIGHT"]);
     assert_refused(&["render", "whitted", "-o", out, "--time", "1e30"], 2, &["at most 1e9"]);
     assert_refused(&["check", "--case", "99"], 2, &["--case 99", "from 1 to 24"]);
@@ -262,7 +278,7 @@ fn help_lists_every_option_and_exits_well() {
     let text = String::from_utf8_lossy(&output.stdout);
     assert!(output.status.success());
     let options = "technique device size seed spp bounces roulette estimator refraction-ratio sun-radius fake eye target fov \
-                   exposure time json quick help version";
+                   exposure time json quick help version errors noise clear";
     for option in options.split_whitespace().map(|name| format!("--{name}")) {
         assert!(text.contains(&option), "{option}");
     }

@@ -1,0 +1,228 @@
+//! The reference: its claim about its own error holds, making it in parts is making it at once, and the store gives back
+//! what it was given and takes no more room than it may.
+
+use reference::{Goal, Key, Maker, Reference, SAMPLES_PER_REPLICATE, Store, Subject};
+use scene::{Scene, Vec3};
+use std::path::Path;
+use std::time::{Duration, SystemTime};
+use visavis_tests::TestFolder;
+
+const SIZE: (u32, u32) = (24, 24);
+
+fn cornell() -> Scene {
+    scene::builtin::named("cornell").unwrap()
+}
+
+fn subject(scene: &Scene, size: (u32, u32)) -> Subject<'_> {
+    Subject { scene, camera: &scene.camera, size }
+}
+
+/// A reference of so many pictures, going on with one that is there.
+fn made(scene: &Scene, pictures: u32, begun: Option<&Reference>) -> Reference {
+    let tracer = pathtrace::Tracer::new(scene);
+    let mut maker = Maker::new(&tracer, &subject(scene, SIZE), begun).unwrap();
+    while maker.replicates() < pictures {
+        assert!(maker.step(&|| false));
+    }
+    maker.reference()
+}
+
+/// Against a picture of eight times as many samples, the squared differences are what the standard errors claim: pixel by
+/// pixel, and summed over the picture, which is the noise that is told. The truth's own noise adds 1/8; a mean of squared
+/// Student's t of 31 degrees of freedom is 31/29. The 576 pixels' channels go together, so that chance alone makes about 7 %
+/// of the one; the noisiest tenth of the pixels rules the other. With 16 pictures the first is about 1.5 instead of 1: some
+/// pixels have not met their rare bright samples yet and claim too little, while the sum is right already.
+#[test]
+fn the_standard_error_of_a_reference_is_calibrated() {
+    let scene = cornell();
+    let reference = made(&scene, 32, None);
+    let tracer = pathtrace::Tracer::new(&scene);
+    let settings = pathtrace::PathSettings { seed: 1000, ..Maker::settings(0) };
+    let mut truth = scene::Film::new(SIZE.0, SIZE.1);
+    tracer.render(&mut truth, &scene.camera, &settings, 8 * 32 * SAMPLES_PER_REPLICATE, &|| false);
+
+    let errors = reference.standard_errors.as_ref().unwrap();
+    let channels = |v: &Vec3| v.to_array().map(f64::from);
+    let (mut standardised, mut count, mut claimed, mut found) = (0.0, 0, 0.0, 0.0);
+    for ((mean, error), truth) in reference.radiances.iter().zip(errors).zip(truth.radiances()) {
+        for ((mean, error), truth) in channels(mean).into_iter().zip(channels(error)).zip(channels(&truth)) {
+            // a pixel that is wholly lamp or background does not vary
+            if error > 1e-5 * (1.0 + mean) {
+                standardised += ((mean - truth) / error).powi(2);
+                count += 1;
+            }
+            claimed += error * error;
+            found += (mean - truth).powi(2);
+        }
+    }
+    let of_pixels = standardised / f64::from(count) / (1.0 + 1.0 / 8.0) / (31.0 / 29.0);
+    let of_all = found / claimed / (1.0 + 1.0 / 8.0);
+    println!("found over claimed: {of_pixels:.3} pixel by pixel over {count} values, {of_all:.3} in all");
+    assert!(count > 1000, "{count} values that vary");
+    assert!((0.75..1.25).contains(&of_pixels), "found over claimed, pixel by pixel: {of_pixels}");
+    assert!((0.7..1.4).contains(&of_all), "found over claimed, in all: {of_all}");
+    let told = reference.mean_squared_error().unwrap();
+    assert!((told * f64::from(3 * SIZE.0 * SIZE.1) / claimed - 1.0).abs() < 1e-9);
+}
+
+#[test]
+fn going_on_with_a_reference_is_making_it_at_once() {
+    let scene = cornell();
+    let at_once = made(&scene, 6, None);
+    let begun = made(&scene, 3, None);
+    let in_parts = made(&scene, 6, Some(&begun));
+    assert_eq!((in_parts.replicates, in_parts.width, in_parts.height), (6, SIZE.0, SIZE.1));
+    assert!(in_parts.seconds > begun.seconds);
+    // what is kept in between is f32
+    let near = |a: &[Vec3], b: &[Vec3], tolerance: f32| {
+        a.iter().zip(b).all(|(a, b)| (*a - *b).abs().max_element() <= tolerance * (1e-3 + b.abs().max_element()))
+    };
+    assert!(near(&in_parts.radiances, &at_once.radiances, 1e-6));
+    let (parts, once) = (in_parts.standard_errors.unwrap(), at_once.standard_errors.unwrap());
+    assert!(near(&parts, &once, 1e-3));
+    assert!(once.iter().any(|error| error.max_element() > 0.0));
+}
+
+#[test]
+fn one_that_is_stopped_has_only_whole_pictures() {
+    let scene = cornell();
+    let tracer = pathtrace::Tracer::new(&scene);
+    let mut maker = Maker::new(&tracer, &subject(&scene, SIZE), None).unwrap();
+    assert!(maker.step(&|| false));
+    let before = maker.reference();
+    assert!(!maker.step(&|| true));
+    assert_eq!(maker.reference(), before);
+    assert!(!maker.is_done(&Goal { rel_mse: f64::INFINITY, seconds: 0.0 }), "one picture does not know its noise");
+}
+
+/// A picture that shared its random numbers with the reference would look better than it is.
+#[test]
+fn no_usual_picture_shares_its_seed_with_a_reference() {
+    let scene = cornell();
+    let tracer = pathtrace::Tracer::new(&scene);
+    let reference = made(&scene, 2, None);
+    for seed in (0..32).chain([Maker::settings(1).seed]) {
+        let settings = Maker::settings(seed);
+        let mut usual = scene::Film::new(SIZE.0, SIZE.1);
+        tracer.render(&mut usual, &scene.camera, &settings, SAMPLES_PER_REPLICATE, &|| false);
+        // the two pictures of the reference, from their mean and their spread
+        let pairs = usual.radiances().zip(&reference.radiances).zip(reference.standard_errors.as_ref().unwrap());
+        let same = pairs.filter(|((u, mean), error)| ((*u - **mean).abs() - **error).abs().max_element() < 1e-6);
+        let varied = reference.standard_errors.as_ref().unwrap().iter().filter(|e| e.max_element() > 1e-3).count();
+        assert!(same.count() < varied, "seed {seed}");
+    }
+    assert_eq!(pathtrace::PathSettings::default().seed, 1);
+}
+
+/// A reference without work, whose numbers are all different.
+fn sketched(pictures: u32) -> Reference {
+    let number = |i: u32| Vec3::new(i as f32, (i as f32).sqrt(), 1.0 / (i + pictures) as f32);
+    Reference {
+        width: 4,
+        height: 3,
+        radiances: (0..12).map(number).collect(),
+        standard_errors: Some((0..12).map(|i| 0.01 * number(i + 1)).collect()),
+        replicates: pictures,
+        seconds: 1.25,
+        nonfinite: 7,
+    }
+}
+
+#[test]
+fn a_file_keeps_every_bit() {
+    let folder = TestFolder::new();
+    let file = folder.file("reference.exr");
+    let reference = sketched(16);
+    std::fs::write(&file, reference.encode(vec![("scene", "cornell".into())]).unwrap()).unwrap();
+    assert_eq!(Reference::load(&file).unwrap(), reference);
+    let records = picture_file::records(&file).unwrap();
+    assert!(records.contains(&("scene".into(), "cornell".into())) && records.contains(&("spp".into(), "1024".into())));
+    // any other picture is one without an error
+    let plain = picture_file::Linear { width: 4, height: 3, radiances: &reference.radiances };
+    let bytes = picture_file::encode(picture_file::Kind::Exr, plain, &Default::default(), &Vec::new()).unwrap();
+    std::fs::write(&file, bytes).unwrap();
+    let loaded = Reference::load(&file).unwrap();
+    assert_eq!((loaded.standard_errors, loaded.replicates, loaded.radiances), (None, 0, reference.radiances));
+}
+
+fn keys(count: u32) -> Vec<Key> {
+    let scene = cornell();
+    (1..=count).map(|width| Key::of(&subject(&scene, (width, 3)))).collect()
+}
+
+#[test]
+fn a_store_returns_what_was_put_and_nothing_else() {
+    let folder = TestFolder::new();
+    let store = Store::new(folder.file("store"), Store::MOST_BYTES);
+    let [one, other] = keys(2)[..] else { panic!("two keys") };
+    assert_eq!((store.get(one), store.usage().unwrap().count), (None, 0));
+    store.put(one, &sketched(16), Vec::new()).unwrap();
+    assert_eq!((store.get(one), store.get(other)), (Some(sketched(16)), None));
+    store.put(one, &sketched(32), Vec::new()).unwrap();
+    assert_eq!((store.get(one).unwrap().replicates, store.usage().unwrap().count), (32, 1));
+}
+
+#[test]
+fn a_damaged_file_is_no_reference() {
+    let folder = TestFolder::new();
+    let store = Store::new(folder.path().to_owned(), Store::MOST_BYTES);
+    let key = keys(1)[0];
+    store.put(key, &sketched(16), Vec::new()).unwrap();
+    let file = folder.file(&format!("{key}.exr"));
+    let whole = std::fs::read(&file).unwrap();
+    for length in [0, 1, 100, whole.len() / 2, whole.len() - 1] {
+        std::fs::write(&file, &whole[..length]).unwrap();
+        assert_eq!(store.get(key), None, "{length} bytes of {}", whole.len());
+    }
+    store.put(key, &sketched(16), Vec::new()).unwrap();
+    assert_eq!(store.get(key), Some(sketched(16)));
+}
+
+fn used(file: &Path, seconds_ago: u64) {
+    let time = SystemTime::now() - Duration::from_secs(seconds_ago);
+    std::fs::File::options().append(true).open(file).unwrap().set_modified(time).unwrap();
+}
+
+#[test]
+fn what_was_not_used_for_longest_makes_room() {
+    let folder = TestFolder::new();
+    let keys = keys(4);
+    let file = |key: Key| folder.file(&format!("{key}.exr"));
+    let roomy = Store::new(folder.path().to_owned(), Store::MOST_BYTES);
+    keys[..3].iter().for_each(|key| roomy.put(*key, &sketched(16), Vec::new()).unwrap());
+    let each = roomy.usage().unwrap().bytes / 3;
+    [(keys[0], 300), (keys[1], 200), (keys[2], 100)].into_iter().for_each(|(key, ago)| used(&file(key), ago));
+    // looking at the oldest makes it the newest
+    assert!(roomy.get(keys[0]).is_some());
+    let tight = Store::new(folder.path().to_owned(), 3 * each + each / 2);
+    tight.put(keys[3], &sketched(16), Vec::new()).unwrap();
+    assert_eq!([0, 1, 2, 3].map(|i| tight.get(keys[i]).is_some()), [true, false, true, true]);
+    // one that has no room beside any other still stays until the next one
+    let tiny = Store::new(folder.path().to_owned(), 1);
+    tiny.put(keys[1], &sketched(16), Vec::new()).unwrap();
+    assert_eq!([0, 1, 2, 3].map(|i| tiny.get(keys[i]).is_some()), [false, true, false, false]);
+}
+
+#[test]
+fn clearing_leaves_what_is_not_the_stores() {
+    let folder = TestFolder::new();
+    let store = Store::new(folder.path().to_owned(), Store::MOST_BYTES);
+    keys(3).into_iter().for_each(|key| store.put(key, &sketched(16), Vec::new()).unwrap());
+    let foreign = ["holiday.exr", "notes.txt", "0123456789abcdef0123456789abcdeg.exr"];
+    foreign.iter().for_each(|name| std::fs::write(folder.file(name), "mine").unwrap());
+    assert_eq!(store.clear().unwrap().count, 3);
+    assert_eq!(folder.names(), ["0123456789abcdef0123456789abcdeg.exr", "holiday.exr", "notes.txt"]);
+    assert_eq!(store.usage().unwrap().bytes, 0);
+}
+
+#[test]
+fn a_file_in_the_folders_place_is_one_line() {
+    let folder = TestFolder::new();
+    let taken = folder.file("taken");
+    std::fs::write(&taken, "a file").unwrap();
+    let store = Store::new(taken, Store::MOST_BYTES);
+    assert_eq!(store.get(keys(1)[0]), None);
+    let fault = store.put(keys(1)[0], &sketched(16), Vec::new()).unwrap_err().to_string();
+    assert!(fault.contains("cannot keep references") && fault.ends_with("taken") && !fault.contains('\n'), "{fault}");
+    assert!(store.usage().is_err() && store.clear().is_err());
+}
