@@ -27,10 +27,10 @@ fn made(scene: &Scene, pictures: u32, begun: Option<&Reference>) -> Reference {
     maker.reference()
 }
 
-/// Against a picture of eight times as many samples, the squared differences are what the standard errors claim: pixel by
-/// pixel, and summed over the picture, which is the noise that is told. The truth's own noise adds 1/8; a mean of squared
+/// Against a picture of four times as many samples, the squared differences are what the standard errors claim: pixel by
+/// pixel, and summed over the picture, which is the noise that is told. The truth's own noise adds 1/4; a mean of squared
 /// Student's t of 31 degrees of freedom is 31/29. The 576 pixels' channels go together, so that chance alone makes about 7 %
-/// of the one; the noisiest tenth of the pixels rules the other. With 16 pictures the first is about 1.5 instead of 1: some
+/// of the one; a few of the noisiest pixels rule the other. With 16 pictures the first is about 1.5 instead of 1: some
 /// pixels have not met their rare bright samples yet and claim too little, while the sum is right already.
 #[test]
 fn the_standard_error_of_a_reference_is_calibrated() {
@@ -39,7 +39,7 @@ fn the_standard_error_of_a_reference_is_calibrated() {
     let tracer = pathtrace::Tracer::new(&scene);
     let settings = pathtrace::PathSettings { seed: 1000, ..Maker::settings(0) };
     let mut truth = scene::Film::new(SIZE.0, SIZE.1);
-    tracer.render(&mut truth, &scene.camera, &settings, 8 * 32 * SAMPLES_PER_REPLICATE, &|| false);
+    tracer.render(&mut truth, &scene.camera, &settings, 4 * 32 * SAMPLES_PER_REPLICATE, &|| false);
 
     let errors = reference.standard_errors.as_ref().unwrap();
     let channels = |v: &Vec3| v.to_array().map(f64::from);
@@ -55,12 +55,12 @@ fn the_standard_error_of_a_reference_is_calibrated() {
             found += (mean - truth).powi(2);
         }
     }
-    let of_pixels = standardised / f64::from(count) / (1.0 + 1.0 / 8.0) / (31.0 / 29.0);
-    let of_all = found / claimed / (1.0 + 1.0 / 8.0);
+    let of_pixels = standardised / f64::from(count) / (1.0 + 1.0 / 4.0) / (31.0 / 29.0);
+    let of_all = found / claimed / (1.0 + 1.0 / 4.0);
     println!("found over claimed: {of_pixels:.3} pixel by pixel over {count} values, {of_all:.3} in all");
     assert!(count > 1000, "{count} values that vary");
     assert!((0.75..1.25).contains(&of_pixels), "found over claimed, pixel by pixel: {of_pixels}");
-    assert!((0.7..1.4).contains(&of_all), "found over claimed, in all: {of_all}");
+    assert!((0.6..1.6).contains(&of_all), "found over claimed, in all: {of_all}");
     let told = reference.mean_squared_error().unwrap();
     assert!((told * f64::from(3 * SIZE.0 * SIZE.1) / claimed - 1.0).abs() < 1e-9);
 }

@@ -58,6 +58,10 @@ fn every_widget_has_a_name_and_a_slider_the_one_above_it() {
     panels.click("Limit bounces", 0);
     panels.click("P", 0);
     panels.click("Camera (both)", 0);
+    panels.click("Compare with", 0);
+    panels.click("the reference", 0);
+    panels.click("Error map", 0);
+    panels.click("Export", 0);
     let root = panels.harness.root();
     let mut nameless = Vec::new();
     let mut named = 0;
@@ -76,6 +80,29 @@ fn every_widget_has_a_name_and_a_slider_the_one_above_it() {
     assert!(nameless.is_empty(), "{named} named, without a name: {nameless:#?}");
     assert!(named > 30, "{named}");
     assert!(panels.harness.query_by_role_and_label(egui::accesskit::Role::Slider, "Exposure").is_some());
+}
+
+#[test]
+fn what_the_map_and_the_reference_need_is_there_with_them_alone() {
+    let mut panels = Panels::of("cornell");
+    let of_both = ["Hold the scale", "Load the reference", "B - reference"];
+    assert!(!of_both.iter().any(|label| panels.shows(label)));
+    panels.click("Error map", 0);
+    assert!(panels.shows("Hold the scale") && !panels.shows("B - reference"), "against each other it is A's alone");
+    panels.click("FLIP", 0);
+    assert!(!panels.shows("Hold the scale"), "the scale of FLIP is always from 0 to 1");
+    panels.click("squared relative", 0);
+    panels.click("Hold the scale", 0);
+    panels.click("Compare with", 0);
+    panels.click("the reference", 0);
+    assert!(of_both.iter().all(|label| panels.shows(label)));
+    panels.click("B - reference", 0);
+    let wish = panels.viewer.borrow().comparison().map.expect("a map to draw");
+    assert_eq!((wish.of, wish.map), (visavis::workers::Side::B, compare::ErrorMap::SquaredRelative));
+    assert_eq!(wish.held, Some(1.0), "there was no picture to fit it to");
+    // each map has a scale of its own
+    panels.click("relative", 0);
+    assert_eq!(panels.viewer.borrow().comparison().map.map(|wish| wish.held), Some(None));
 }
 
 #[test]

@@ -6,7 +6,7 @@ use std::process::Command;
 use visavis_tests::{Frame, Screen, ViewerUnderTest};
 
 /// Chooses what to export and types a file name into the menu.
-fn export(screen: &Screen, viewer: &mut ViewerUnderTest, choices: &[&str], file: &Path) -> Frame {
+pub fn export(screen: &Screen, viewer: &mut ViewerUnderTest, choices: &[&str], file: &Path) -> Frame {
     let frame = viewer.wait_for("the window", |_| true);
     screen.click(frame.point("export", 0.5, 0.5));
     viewer.wait_for_widget("save");
@@ -70,7 +70,19 @@ fn a_pane_its_film_and_its_command_are_one_picture() {
         viewer.wait_for("the menu to close", |f| !f.shows("save"));
 
         run(&command, &file("-again.png"));
-        run(&command, &file("-again.exr"));
+        // the records of its error stand beside those that make it again
+        let mut again = Command::new(env!("CARGO_BIN_EXE_visavis"));
+        again.args(["render", "--from"]).arg(file(".exr")).arg("-o").arg(file("-again.exr"));
+        let made = again.output().expect("the program");
+        assert!(made.status.success(), "{}", String::from_utf8_lossy(&made.stderr));
+        for kept in [file(".png"), file(".exr")] {
+            let records = picture_file::records(&kept).expect("records");
+            let value = |name: &str| records.iter().find(|(known, _)| known == name).map(|(_, value)| value.as_str());
+            let other =
+                if side == "A" { "B: visavis render whitted -o b.png" } else { "A: visavis render whitted -o a.png" };
+            assert!(value("error.against").is_some_and(|against| against.starts_with(other)), "{records:?}");
+            assert!(value("error.relmse").is_some_and(|error| error.parse::<f64>().is_ok_and(|e| e > 0.0)));
+        }
         let pixels = |path: PathBuf| image::open(&path).expect("a picture").to_rgb8();
         assert!(pixels(file(".png")) == pixels(file("-again.png")), "{side}: {command}");
         let film = |path: PathBuf| picture_file::load(&path).expect("an EXR");

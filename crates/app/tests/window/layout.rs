@@ -19,9 +19,10 @@ fn everything_fits_and_can_be_read_on_a_laptop_and_on_a_projector() {
             // away from everything, so that nothing is lit up by the mouse
             screen.move_to(0.5 * first.rect("picture")[2], 0.5 * height as f32);
             let here = format!("{scene} at {width} x {height}, scale {scale}, {theme}");
-            for (key, view) in [('3', "Wipe"), ('4', "Side by side"), ('1', "A")] {
+            for (key, view) in [('3', "Wipe"), ('4', "Side by side"), ('1', "A"), ('5', "Error map")] {
                 screen.key(key, false);
-                let frame = viewer.wait_for(view, |f| f.state("view") == view && both_whole(f));
+                let mapped = |f: &Frame| view != "Error map" || f.shows("bar map");
+                let frame = viewer.wait_for(view, |f| f.state("view") == view && both_whole(f) && mapped(f));
                 let [left, top, right, bottom] = frame.rect("picture");
                 let share = (right - left) * (bottom - top) / (width * height) as f32;
                 assert!(share >= 0.65, "{here}: the picture has {share} of the window");
@@ -73,8 +74,8 @@ fn scrolled_to(screen: &Screen, viewer: &mut ViewerUnderTest, name: &str) {
 
 /// Widgets that are not the picture and not on it.
 fn controls(frame: &Frame) -> Vec<&str> {
-    let on_the_picture = ["picture", "label A", "label B", "hint", "message"];
-    frame.names().into_iter().filter(|name| !on_the_picture.contains(name)).collect()
+    let on_the_picture = ["picture", "label ", "bar map", "hint", "message"];
+    frame.names().into_iter().filter(|name| !on_the_picture.iter().any(|start| name.starts_with(start))).collect()
 }
 
 fn assert_nothing_clipped_or_overlapping(frame: &Frame, here: &str) {
@@ -101,7 +102,8 @@ fn assert_no_overlap(frame: &Frame, here: &str) {
 fn assert_texts_are_readable(screen: &Screen, frame: &Frame, least: f64, here: &str) {
     let texts = frame.names().into_iter().filter(|name| {
         let switched_off = ["undo", "redo"].contains(name) && frame.value(name) == "false";
-        let is_text = ["text ", "label ", "hint", "message", "scene", "view ", "group ", "A ", "B ", "export", "look"];
+        let is_text =
+            ["text ", "label ", "hint", "message", "scene", "view ", "group ", "A ", "B ", "map", "export", "look"];
         !switched_off && is_text.iter().any(|start| name.starts_with(start))
     });
     let mut seen = 0;

@@ -6,6 +6,7 @@ mod export;
 mod journey;
 mod keys;
 mod layout;
+mod ruler;
 mod storms;
 
 use std::path::Path;

@@ -84,7 +84,7 @@ fn scale(held: &mut Option<f32>, ui: &mut Ui, fitted: Option<f32>, dump: &mut Du
         let mut holds = held.is_some();
         let check = ui.checkbox(&mut holds, "Hold the scale").on_hover_text("Else it is fitted to every new picture");
         if dump.note("hold scale", holds, check).changed() {
-            *held = fitted.filter(|_| holds);
+            *held = holds.then(|| fitted.unwrap_or(1.0));
         }
         let mut high = held.or(fitted).unwrap_or(1.0);
         let speed = 0.01 * f64::from(high);
