@@ -6,7 +6,6 @@ use super::frame_stats::{Clock, FrameStats};
 use super::stopwatch::Stopwatch;
 use super::surface::{Painting, Presented, WindowSurface};
 use crate::cli::ViewArgs;
-use crate::ruler::Against;
 use crate::ui::{Dump, Request, View, Viewer, What};
 use crate::workers::capture::Capture;
 use crate::workers::crew::Crew;
@@ -228,9 +227,8 @@ impl ViewerWindow {
     }
 
     fn follow_the_reference(&mut self) {
-        if self.viewer.measuring.against == Against::EachOther {
-            self.exhibit.wall.reference = None;
-        }
+        let view = self.crew.view_of_the_reference();
+        self.exhibit.wall.reference.take_if(|progress| Some(progress.view) != view);
         let Some(bulletin) = self.crew.bulletin() else { return };
         self.exhibit.wall.reference = bulletin.progress.or_else(|| self.exhibit.wall.reference.take());
         bulletin.faults.into_iter().for_each(|fault| self.viewer.say(Err(fault)));

@@ -102,9 +102,13 @@ impl Crew {
     /// What the reference has to say since the last call.
     pub fn bulletin(&self) -> Option<Bulletin> {
         let mut bulletin = self.referee.as_ref()?.bulletin()?;
-        let wanted = self.asked.reference.as_ref().map(|(view, _)| *view);
-        bulletin.progress.take_if(|progress| Some(progress.view) != wanted);
+        bulletin.progress.take_if(|progress| Some(progress.view) != self.view_of_the_reference());
         Some(bulletin)
+    }
+
+    /// The view whose reference is asked for, if one is.
+    pub fn view_of_the_reference(&self) -> Option<u64> {
+        self.asked.reference.as_ref().map(|(view, _)| *view)
     }
 
     /// Asks for what has changed in the viewer; returns for each pane the number of its new job, if there is one.
