@@ -1,14 +1,68 @@
 //! Reflection and refraction at smooth surfaces.
 
+use crate::vectors::{glam_vector, lane_vector};
 use scene::Vec3;
+use simd::{Double, Float, Vector};
 
 /// The mirror direction of `wo` (pointing away from the surface) about the unit normal `n`.
-pub fn reflect(wo: Vec3, n: Vec3) -> Vec3 {
-    2.0 * n.dot(wo) * n - wo
+#[inline(always)]
+pub fn reflected<F: Float>(wo: Vector<F>, n: Vector<F>) -> Vector<F> {
+    n * (n.dot(wo) * 2.0) - wo
 }
 
-/// The surface of a smooth dielectric as a ray meets it. The index is kept as it is and never inverted: 1 / 1.5 is not
-/// an f32, and its rounding moves the critical angle.
+/// The surface of a smooth dielectric as a ray meets it, in each lane. The index is kept as it is and never inverted:
+/// 1 / 1.5 is not an f32, and its rounding moves the critical angle.
+#[derive(Debug, Clone, Copy)]
+pub struct Interfaces<F: Float> {
+    /// Index of refraction of the inside over the outside.
+    pub ior: F,
+    /// Whether the ray comes from outside.
+    pub entering: F::M,
+}
+
+impl<F: Float> Interfaces<F> {
+    /// Cosine of the refracted direction for `cos_i` >= 0, and where there is one: not beyond the critical angle. Written
+    /// around `ior^2 - 1` rather than as the textbook's `sqrt(1 - (1 - cos^2) / ior^2)`: exact at index 1, where the latter
+    /// invents a rim. In f64, because near the critical angle the difference cancels.
+    #[inline(always)]
+    pub fn refracted_cosine(self, cos_i: F) -> (F, F::M) {
+        let (n, cos_i) = (self.ior.widen(), cos_i.widen());
+        let excess = (n - 1.0) * (n + 1.0);
+        let from_outside = (excess + cos_i * cos_i) / (n * n);
+        let from_inside = n * n * cos_i * cos_i - excess;
+        let zero = F::D::splat(0.0);
+        let refracts = (self.entering & zero.lt(from_outside)) | (!self.entering & zero.lt(from_inside));
+        (F::select(self.entering, from_outside.sqrt().narrow(), from_inside.sqrt().narrow()), refracts)
+    }
+
+    /// Share of unpolarised light that is reflected, in [0, 1]: Fresnel's equations, exact; 1 beyond the critical angle.
+    #[inline(always)]
+    pub fn fresnel(self, cos_i: F) -> F {
+        let (cos_t, refracts) = self.refracted_cosine(cos_i);
+        let outside = self.ior * F::select(self.entering, cos_i, cos_t);
+        let inside = F::select(self.entering, cos_t, cos_i);
+        let parallel = (outside - inside) / (outside + inside);
+        let outside = F::select(self.entering, cos_i, cos_t);
+        let inside = self.ior * inside;
+        let perpendicular = (outside - inside) / (outside + inside);
+        let share = (parallel * parallel + perpendicular * perpendicular) * 0.5;
+        let one = F::splat(1.0);
+        F::select(self.ior.eq(one), F::splat(0.0), F::select(refracts, share, one))
+    }
+
+    /// The direction into which `wo` refracts at the unit normal `n` on its side (`n . wo` >= 0), by Snell's law, and where
+    /// there is one: elsewhere all is reflected.
+    #[inline(always)]
+    pub fn refract(self, wo: Vector<F>, n: Vector<F>) -> (Vector<F>, F::M) {
+        let cos_i = n.dot(wo);
+        let (cos_t, refracts) = self.refracted_cosine(cos_i);
+        let wo = Vector::select(self.entering, wo.divided_by(self.ior), wo * self.ior);
+        let cos_i = F::select(self.entering, cos_i / self.ior, cos_i * self.ior);
+        (n * (cos_i - cos_t) - wo, refracts)
+    }
+}
+
+/// [`Interfaces`] of one lane.
 #[derive(Debug, Clone, Copy)]
 pub struct Interface {
     /// Index of refraction of the inside over the outside.
@@ -18,36 +72,26 @@ pub struct Interface {
 }
 
 impl Interface {
-    /// Cosine of the refracted direction for `cos_i` >= 0; `None` beyond the critical angle. Written around
-    /// `ior^2 - 1` rather than as the textbook's `sqrt(1 - (1 - cos^2) / ior^2)`: exact at index 1, where the latter
-    /// invents a rim. In f64, because near the critical angle the difference cancels.
-    pub fn refracted_cosine(self, cos_i: f32) -> Option<f32> {
-        let (n, cos_i) = (f64::from(self.ior), f64::from(cos_i));
-        let excess = (n - 1.0) * (n + 1.0);
-        let squared = if self.entering { (excess + cos_i * cos_i) / (n * n) } else { n * n * cos_i * cos_i - excess };
-        (squared > 0.0).then(|| squared.sqrt() as f32)
+    fn lane(self) -> Interfaces<f32> {
+        Interfaces { ior: self.ior, entering: self.entering }
     }
 
-    /// Share of unpolarised light that is reflected, in [0, 1]: Fresnel's equations, exact; 1 beyond the critical angle.
+    /// Cosine of the refracted direction for `cos_i` >= 0; `None` beyond the critical angle.
+    pub fn refracted_cosine(self, cos_i: f32) -> Option<f32> {
+        let (cosine, refracts) = self.lane().refracted_cosine(cos_i);
+        refracts.then_some(cosine)
+    }
+
+    /// Share of unpolarised light that is reflected, in [0, 1]; 1 beyond the critical angle.
     pub fn fresnel(self, cos_i: f32) -> f32 {
-        if self.ior == 1.0 {
-            return 0.0;
-        }
-        let Some(cos_t) = self.refracted_cosine(cos_i) else { return 1.0 };
-        let (outside, inside) = if self.entering { (cos_i, cos_t) } else { (cos_t, cos_i) };
-        let parallel = (self.ior * outside - inside) / (self.ior * outside + inside);
-        let perpendicular = (outside - self.ior * inside) / (outside + self.ior * inside);
-        0.5 * (parallel * parallel + perpendicular * perpendicular)
+        self.lane().fresnel(cos_i)
     }
 
     /// The direction into which `wo` refracts at the unit normal `n` on its side (`n . wo` >= 0), by Snell's law; `None`
     /// if all is reflected.
     pub fn refract(self, wo: Vec3, n: Vec3) -> Option<Vec3> {
-        let cos_i = n.dot(wo);
-        let cos_t = self.refracted_cosine(cos_i)?;
-        let (wo, cos_i) =
-            if self.entering { (wo / self.ior, cos_i / self.ior) } else { (wo * self.ior, cos_i * self.ior) };
-        Some((cos_i - cos_t) * n - wo)
+        let (direction, refracts) = self.lane().refract(lane_vector(wo), lane_vector(n));
+        refracts.then(|| glam_vector(direction))
     }
 }
 

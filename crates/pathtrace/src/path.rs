@@ -1,45 +1,48 @@
-//! One path: the tutorial's `shade`, turned from recursion into a state that moves from vertex to vertex (Task 2 d).
+//! Paths, one in each lane: the tutorial's `shade`, turned from recursion into a state that moves from vertex to vertex
+//! (Task 2 d).
 //!
-//! Each iteration is one segment: meet a surface, take its emission, sample a light, draw a direction, play roulette. The
-//! state is all there is: no recursion, no allocation. A bounce limit of N lets N + 1 vertices scatter; what is found by
-//! chance is found one segment later, by the last one.
+//! Each [`Walk::segment`] is one segment of every path: meet a surface, take its emission, sample a light, draw a
+//! direction, play roulette. What only some lanes do is computed for all and selected by a mask; what none does is
+//! skipped. The state is all there is: no recursion, no allocation. A bounce limit of N lets N + 1 vertices scatter; what
+//! is found by chance is found one segment later, by the last one.
 //!
 //! With more than one branch ("When N>1: Distributed ray tracing") a diffuse vertex is kept on a small stack, and the path
 //! comes back to it until it has left in N directions; each sees the lights anew and counts 1 / N.
 
-use crate::bsdf::{Interface, reflect};
-use crate::geometry::{Hit, NO_LIGHT, Ray, SurfacePoint};
-use crate::light::environment;
+use crate::bsdf::{Interfaces, reflected};
+use crate::forks::{Forks, MOST_FORKS, child};
+use crate::geometry::NO_LIGHT;
+use crate::geometry::lanes::{Hits, Rays, SurfacePoints};
+use crate::geometry::packet::Scratch;
 use crate::sampler::Sampler;
-use crate::sampling::{UNIFORM_HEMISPHERE_PDF, cosine_hemisphere, to_world, uniform_hemisphere};
+use crate::sampling::UNIFORM_HEMISPHERE_PDF;
 use crate::settings::{Directions, LightSearch, PathSettings, Roulette};
-use crate::world::{Outcome, World, emitted, facing};
-use scene::{Bsdf, Vec3};
+use crate::warp::{cosine_hemisphere, to_world, uniform_hemisphere};
+use crate::world::{Outcomes, World, facing};
+use scene::Vec3;
+use simd::{Column, Float, Mask, Vector, Word};
 use std::f32::consts::FRAC_1_PI;
 
 /// Paths that one sample may branch into.
 pub const MOST_BRANCHES: u32 = 65_536;
 
-/// Vertices that can wait for more branches at a time: two to this power is [`MOST_BRANCHES`].
-const MOST_FORKS: usize = 16;
-
-/// A path on its way.
+/// A path on its way, in each lane.
 #[derive(Clone, Copy)]
-struct PathState {
-    ray: Ray,
+pub struct PathStates<F: Float> {
+    rays: Rays<F>,
     /// Product of BSDF, cosine and inverse density so far: what radiance met now is worth at the camera.
-    throughput: Vec3,
+    throughput: Vector<F>,
     /// Vertices at which the path has scattered.
-    vertices: u32,
+    vertices: F::U,
     /// Diffuse ones among them, as far as they branched.
-    forked: u32,
+    forked: F::U,
     /// Tells the branches of a sample apart: the path's number in their tree, 0 if nothing branches.
-    branch: u32,
+    branch: F::U,
     /// The last vertex.
-    from: Vec3,
+    from: Vector<F>,
     /// Density per solid angle of the direction taken there, as far as the light met now needs it: [`MET_BY_CHANCE`] if
     /// it all counts, [`ALREADY_COUNTED`] if it does not, else weighted against light sampling.
-    direction_pdf: f32,
+    direction_pdf: F,
 }
 
 /// No light was sampled at the last vertex, or none could be: the camera, a mirror, glass.
@@ -47,59 +50,103 @@ const MET_BY_CHANCE: f32 = f32::INFINITY;
 /// Light was sampled at the last vertex: meeting it now would count it twice.
 const ALREADY_COUNTED: f32 = 0.0;
 
-/// A point of a diffuse surface.
+/// A point of a diffuse surface, in each lane.
 #[derive(Clone, Copy)]
-struct DiffuseVertex {
-    point: SurfacePoint,
+pub struct DiffuseVertices<F: Float> {
+    point: SurfacePoints<F>,
     /// On the side that the path came from.
-    normal: Vec3,
-    albedo: Vec3,
+    normal: Vector<F>,
+    albedo: Vector<F>,
 }
 
-/// A vertex that more branches will leave.
-#[derive(Clone, Copy)]
-struct Fork {
-    vertex: DiffuseVertex,
-    /// As it arrived.
-    path: PathState,
-    /// Branches to come.
-    left: u32,
-}
-
-/// Vertices that wait for their other branches, deepest last. Kept from sample to sample.
-pub struct Forks {
-    waiting: [Option<Fork>; MOST_FORKS],
-    count: usize,
-}
-
-impl Default for Forks {
-    fn default() -> Self {
-        Forks { waiting: [None; MOST_FORKS], count: 0 }
-    }
-}
-
-impl Forks {
-    fn push(&mut self, fork: Fork) {
-        self.waiting[self.count] = Some(fork);
-        self.count += 1;
-    }
-
-    /// The deepest vertex that waits, and the path as its next branch begins.
-    fn next(&mut self, branches: u32) -> Option<(DiffuseVertex, PathState)> {
-        let Fork { vertex, mut path, left } = self.waiting[self.count.checked_sub(1)?]?;
-        path.branch = child(path.branch, branches, branches - left);
-        if left > 1 {
-            self.waiting[self.count - 1].as_mut()?.left -= 1;
-        } else {
-            self.count -= 1;
+impl<F: Float> PathStates<F> {
+    /// As paths leave the camera.
+    #[inline(always)]
+    fn leaving_camera(rays: &Rays<F>) -> Self {
+        let none = F::U::splat(0);
+        PathStates {
+            rays: *rays,
+            throughput: Vector::along_all(F::splat(1.0)),
+            vertices: none,
+            forked: none,
+            branch: none,
+            from: rays.origin,
+            direction_pdf: F::splat(MET_BY_CHANCE),
         }
-        Some((vertex, path))
+    }
+
+    /// The path's number in the tree of its sample's branches.
+    #[inline(always)]
+    pub fn branch(&self) -> F::U {
+        self.branch
+    }
+
+    /// The same path as another of these branches.
+    #[inline(always)]
+    pub fn numbered(self, branch: F::U) -> Self {
+        PathStates { branch, ..self }
+    }
+
+    /// `mask ? yes : no`.
+    #[inline(always)]
+    pub fn select(mask: F::M, yes: Self, no: Self) -> Self {
+        PathStates {
+            rays: Rays::select(mask, yes.rays, no.rays),
+            throughput: Vector::select(mask, yes.throughput, no.throughput),
+            vertices: F::U::select(mask, yes.vertices, no.vertices),
+            forked: F::U::select(mask, yes.forked, no.forked),
+            branch: F::U::select(mask, yes.branch, no.branch),
+            from: Vector::select(mask, yes.from, no.from),
+            direction_pdf: F::select(mask, yes.direction_pdf, no.direction_pdf),
+        }
+    }
+
+    /// Blocks of random numbers: the camera takes block 0, each vertex two; branches keep apart by the bits above these.
+    #[inline(always)]
+    fn direction_dimension(&self) -> F::U {
+        let one = F::U::splat(1);
+        self.vertices.shl::<1>().wrapping_add(one).wrapping_add(self.branch.shl::<11>())
+    }
+
+    #[inline(always)]
+    fn light_dimension(&self) -> F::U {
+        self.direction_dimension().wrapping_add(F::U::splat(1))
+    }
+
+    /// Goes on, where `here` says so, in the unit direction `wi`, of which a specular surface left no choice.
+    #[inline(always)]
+    fn leave(&mut self, here: F::M, from: &SurfacePoints<F>, wi: Vector<F>) {
+        self.direction_pdf = F::select(here, F::splat(MET_BY_CHANCE), self.direction_pdf);
+        self.rays = Rays::select(here, Rays::new(from.leaving_towards(wi), wi), self.rays);
+    }
+
+    /// How much light that was met counts beside the same light sampled at the last vertex with density `light_pdf`.
+    #[inline(always)]
+    fn weight_of_meeting(&self, light_pdf: F) -> F {
+        let (zero, one) = (F::splat(0.0), F::splat(1.0));
+        let all_counts = self.direction_pdf.eq(F::splat(MET_BY_CHANCE));
+        let counted = self.direction_pdf.eq(F::splat(ALREADY_COUNTED));
+        let weighted = F::select(counted, zero, balance(self.direction_pdf, light_pdf));
+        F::select(all_counts, one, weighted)
     }
 }
 
-/// Number of a path's branch `index` in a tree where each has `branches`.
-fn child(parent: u32, branches: u32, index: u32) -> u32 {
-    parent.wrapping_mul(branches).wrapping_add(index + 1)
+impl<F: Float> DiffuseVertices<F> {
+    /// `mask ? yes : no`.
+    #[inline(always)]
+    pub fn select(mask: F::M, yes: Self, no: Self) -> Self {
+        DiffuseVertices {
+            point: SurfacePoints::select(mask, yes.point, no.point),
+            normal: Vector::select(mask, yes.normal, no.normal),
+            albedo: Vector::select(mask, yes.albedo, no.albedo),
+        }
+    }
+}
+
+/// The balance heuristic: the weight of a sample of density `own`, which may be infinite, against one of density `other`.
+#[inline(always)]
+fn balance<F: Float>(own: F, other: F) -> F {
+    F::splat(1.0) / (other / own + 1.0)
 }
 
 /// Settings as the walk reads them.
@@ -114,227 +161,266 @@ pub struct Plan {
     branches: u32,
     /// Diffuse vertices of a path that may branch.
     branching_vertices: u32,
+    /// `branches` to the power of the vertices that branched.
+    paths_after: Column,
 }
 
 impl Plan {
     /// Reads the settings.
     pub fn new(settings: &PathSettings) -> Self {
+        let branches = settings.branches.max(1);
+        let forks = 0..=MOST_FORKS as i32;
         Plan {
             directions: settings.estimator.directions,
             light: settings.estimator.light,
             roulette: settings.roulette,
             limit: settings.scattering_vertices(),
             capped: settings.bounces.is_none(),
-            branches: settings.branches.max(1),
+            branches,
             branching_vertices: settings.branching_vertices().min(MOST_FORKS as u32),
+            paths_after: Column::new(forks.map(|forks| (branches as f32).powi(forks))),
         }
     }
 }
 
-/// Blocks of random numbers: the camera takes block 0, each vertex two; branches keep apart by the bits above these.
-fn direction_dimension(path: &PathState) -> u32 {
-    1 + 2 * path.vertices + (path.branch << 11)
-}
-
-fn light_dimension(path: &PathState) -> u32 {
-    direction_dimension(path) + 1
-}
-
-/// Follows a camera ray, and all its branches, to their ends.
-#[inline]
-pub fn trace(world: &World, ray: Ray, plan: &Plan, sampler: &Sampler, forks: &mut Forks) -> Outcome {
-    let path = PathState {
-        ray,
-        throughput: Vec3::ONE,
-        vertices: 0,
-        forked: 0,
-        branch: 0,
-        from: ray.origin,
-        direction_pdf: MET_BY_CHANCE,
-    };
-    let mut walk = Walk { world, plan, sampler, path, outcome: Outcome::default() };
-    forks.count = 0;
-    loop {
-        let mut alive = walk.segment(forks);
-        while !alive {
-            let Some((vertex, path)) = forks.next(plan.branches) else { return walk.outcome };
-            walk.path = path;
-            alive = walk.leave_diffuse(&vertex);
-        }
-    }
-}
-
-/// A path, where it walks and what it brings.
-struct Walk<'a> {
-    world: &'a World<'a>,
+/// Paths, where they walk and what they bring.
+pub struct Walk<'a, F: Float> {
+    world: &'a World,
     plan: &'a Plan,
-    sampler: &'a Sampler,
-    path: PathState,
-    outcome: Outcome,
+    path: PathStates<F>,
+    /// Where a path comes back to a vertex that waits for more branches, and to which.
+    resumed: F::M,
+    vertex: DiffuseVertices<F>,
+    forks: Forks<F>,
+    scratch: Scratch<F>,
+    outcome: Outcomes<F>,
+    /// Rays traced.
+    rays: u64,
 }
 
-impl Walk<'_> {
-    /// One segment; false where the path ends.
-    #[inline]
-    fn segment(&mut self, forks: &mut Forks) -> bool {
-        self.outcome.rays += 1;
-        let path = &mut self.path;
-        let Some(hit) = self.world.accel.closest(&path.ray) else {
-            let weight = path.weight_of_meeting(|| self.world.sun_pdf);
-            let disc = self.world.sun_disc.as_ref();
-            self.outcome.radiance += path.throughput * environment(self.world.sky, disc, weight, path.ray.direction);
-            return false;
-        };
-        let material = &self.world.materials[hit.material as usize];
-        if material.emission.is_some() {
-            let weight = path.weight_of_meeting(|| self.world.light_pdf(path, &hit));
-            self.outcome.radiance += path.throughput * emitted(material, hit.point.normal, path.ray.direction) * weight;
+impl<'a, F: Float> crate::crew::Walk<F> for Walk<'a, F> {
+    /// Starts paths along camera rays where `here` says so.
+    #[inline(always)]
+    fn begin(&mut self, here: F::M, rays: &Rays<F>) {
+        self.path = PathStates::select(here, PathStates::leaving_camera(rays), self.path);
+        self.outcome.radiance = Vector::select(here, Vector::zero(), self.outcome.radiance);
+        self.outcome.cut = self.outcome.cut & !here;
+    }
+
+    /// One segment of the paths in the lanes `taken`; where these, and all their branches, have come to their ends.
+    #[inline(always)]
+    fn segment(&mut self, taken: F::M, sampler: &Sampler<F::U>) -> F::M {
+        let walking = taken & !self.resumed;
+        self.rays += u64::from(walking.count());
+        let hit = self.world.closest(&self.path.rays, walking, &mut self.scratch);
+        let missed = walking & !hit.met;
+        let met = walking & hit.met;
+        if self.world.has_environment() && missed.any() {
+            let weight = self.path.weight_of_meeting(F::splat(self.world.sun_pdf));
+            self.receive(missed, self.world.environment(self.path.rays.direction, weight));
         }
-        if path.vertices == self.plan.limit {
-            self.outcome.cut |= self.plan.capped;
-            return false;
+        let kinds = self.world.materials.kinds(hit.material);
+        let shining = met & kinds.lamp();
+        if self.world.materials.has().lamps && shining.any() {
+            let mis = self.plan.light == LightSearch::Mis;
+            let weight = self.path.weight_of_meeting(if mis { self.light_pdf(&hit) } else { F::splat(0.0) });
+            let normal = hit.point.normal;
+            let emitted = self.world.materials.emitted(hit.material, kinds, normal, self.path.rays.direction);
+            self.receive(shining, emitted * weight);
         }
-        let wo = -path.ray.direction;
-        match material.bsdf {
-            Bsdf::Diffuse { albedo } => {
-                let albedo = albedo.at(hit.point.position);
-                if albedo == Vec3::ZERO {
-                    return false;
-                }
-                let normal = facing(hit.point.normal, wo);
-                let vertex = DiffuseVertex { point: hit.point, normal, albedo };
-                if path.forked < self.plan.branching_vertices {
-                    path.forked += 1;
-                    path.throughput /= self.plan.branches as f32;
-                    forks.push(Fork { vertex, path: *path, left: self.plan.branches - 1 });
-                    path.branch = child(path.branch, self.plan.branches, 0);
-                }
-                self.leave_diffuse(&vertex)
-            }
-            Bsdf::Mirror { reflectance } => {
-                path.throughput *= reflectance;
-                path.leave(&hit.point, reflect(wo, facing(hit.point.normal, wo)));
-                let [.., u_roulette, _] = self.sampler.unit4(direction_dimension(path));
-                self.goes_on(u_roulette)
-            }
-            Bsdf::Dielectric { ior } => {
-                let [.., u_roulette, u_fresnel] = self.sampler.unit4(direction_dimension(path));
-                scatter_dielectric(path, &hit.point, wo, ior, u_fresnel);
-                self.goes_on(u_roulette)
-            }
+        let at_limit = met & self.path.vertices.eq(F::U::splat(self.plan.limit));
+        self.cut(at_limit);
+        let scattering = met & !at_limit;
+
+        let wo = -self.path.rays.direction;
+        let normal = facing(hit.point.normal, wo);
+        let colour = self.world.materials.colour(hit.material, kinds, hit.point.position);
+        let mut vertex = DiffuseVertices { point: hit.point, normal, albedo: colour };
+        let mut diffuse = scattering & kinds.diffuse() & !colour.is_zero();
+        if self.plan.branching_vertices > 0 {
+            self.fork(diffuse, &vertex);
+            vertex = DiffuseVertices::select(self.resumed, self.vertex, vertex);
+            diffuse = diffuse | self.resumed;
+        }
+        let u = sampler.unit4(self.path.direction_dimension());
+        let mut alive = diffuse;
+        let mirrors = scattering & kinds.mirror();
+        if self.world.materials.has().mirrors && mirrors.any() {
+            let throughput = self.path.throughput;
+            self.path.throughput = Vector::select(mirrors, throughput * colour, throughput);
+            self.path.leave(mirrors, &hit.point, reflected(wo, normal));
+            alive = alive | mirrors;
+        }
+        let glass = scattering & kinds.glass();
+        if self.world.materials.has().glass && glass.any() {
+            let ior = self.world.materials.ior(hit.material);
+            let wi = scatter_dielectric(&hit.point, wo, ior, u[3]);
+            self.path.leave(glass, &hit.point, wi);
+            alive = alive | glass;
+        }
+        if diffuse.any() {
+            self.leave_diffuse(diffuse, &vertex, sampler, [u[0], u[1]]);
+        }
+        alive = self.goes_on(alive, u[2]);
+        let ended = taken & !alive;
+        if self.plan.branching_vertices > 0 {
+            self.resumed = self.forks.next(ended, self.plan.branches, &mut self.vertex, &mut self.path);
+            return ended & !self.resumed;
+        }
+        ended
+    }
+
+    #[inline(always)]
+    fn outcomes(&self) -> &Outcomes<F> {
+        &self.outcome
+    }
+
+    fn rays(&self) -> u64 {
+        self.rays
+    }
+}
+
+impl<'a, F: Float> Walk<'a, F> {
+    /// No path yet.
+    #[inline(always)]
+    pub fn new(world: &'a World, plan: &'a Plan) -> Self {
+        let (zero, nowhere) = (Vector::zero(), Vector::zero());
+        let point = SurfacePoints { position: nowhere, error: zero, normal: zero };
+        Walk {
+            world,
+            plan,
+            path: PathStates::leaving_camera(&Rays::new(nowhere, Vector::splat([0.0, 0.0, 1.0]))),
+            resumed: F::M::splat(false),
+            vertex: DiffuseVertices { point, normal: zero, albedo: zero },
+            forks: Forks::default(),
+            scratch: Scratch::default(),
+            outcome: Outcomes { radiance: zero, cut: F::M::splat(false) },
+            rays: 0,
         }
     }
 
-    /// Samples a light and draws the direction in which the path leaves a diffuse vertex; false where it ends.
-    #[inline]
-    fn leave_diffuse(&mut self, vertex: &DiffuseVertex) -> bool {
-        if self.plan.light != LightSearch::Chance && !self.world.lights.is_empty() {
-            let u = self.sampler.unit4(light_dimension(&self.path));
-            let direct = self.sample_lights(&vertex.point, vertex.normal, u);
-            self.outcome.radiance += self.path.throughput * vertex.albedo * FRAC_1_PI * direct;
+    /// Adds radiance that came along the path, where `here` says so.
+    #[inline(always)]
+    fn receive(&mut self, here: F::M, radiance: Vector<F>) {
+        let sum = self.outcome.radiance + self.path.throughput * radiance;
+        self.outcome.radiance = Vector::select(here, sum, self.outcome.radiance);
+    }
+
+    /// Notes paths that end although no setting asked for it.
+    #[inline(always)]
+    fn cut(&mut self, here: F::M) {
+        if self.plan.capped {
+            self.outcome.cut = self.outcome.cut | here;
         }
-        let [u0, u1, u_roulette, _] = self.sampler.unit4(direction_dimension(&self.path));
-        let path = &mut self.path;
-        path.throughput *= vertex.albedo;
+    }
+
+    /// Lets diffuse vertices wait for more branches, and goes on with the first.
+    #[inline(always)]
+    fn fork(&mut self, diffuse: F::M, vertex: &DiffuseVertices<F>) {
+        let here = diffuse & self.path.forked.lt(F::U::splat(self.plan.branching_vertices));
+        if !here.any() {
+            return;
+        }
+        let mut path = self.path;
+        path.forked = path.forked.wrapping_add(F::U::splat(1));
+        path.throughput = path.throughput.divided_by(F::splat(self.plan.branches as f32));
+        self.forks.push(here, vertex, &path, self.plan.branches - 1);
+        path.branch = child::<F>(path.branch, self.plan.branches, F::U::splat(0));
+        self.path = PathStates::select(here, path, self.path);
+    }
+
+    /// Samples a light and takes the directions in which paths leave diffuse vertices, from two random numbers.
+    #[inline(always)]
+    fn leave_diffuse(&mut self, here: F::M, vertex: &DiffuseVertices<F>, sampler: &Sampler<F::U>, u: [F; 2]) {
+        if self.plan.light != LightSearch::Chance && !self.world.lights.is_empty() {
+            let u = sampler.unit4(self.path.light_dimension());
+            let (lit, direct) = self.sample_lights(here, &vertex.point, vertex.normal, u);
+            self.receive(lit, vertex.albedo * direct * F::splat(FRAC_1_PI));
+        }
+        let mut throughput = self.path.throughput * vertex.albedo;
         // Lambert: `f cos / pdf` is the albedo for cosine-weighted directions and `2 albedo cos` for uniform ones
         let (local, pdf) = match self.plan.directions {
             Directions::Uniform => {
-                let local = uniform_hemisphere([u0, u1]);
-                path.throughput *= FRAC_1_PI * local.z / UNIFORM_HEMISPHERE_PDF;
-                (local, UNIFORM_HEMISPHERE_PDF)
+                let local = uniform_hemisphere(u);
+                throughput = throughput * (local.z * (FRAC_1_PI / UNIFORM_HEMISPHERE_PDF));
+                (local, F::splat(UNIFORM_HEMISPHERE_PDF))
             }
             Directions::Cosine => {
-                let local = cosine_hemisphere([u0, u1]);
+                let local = cosine_hemisphere(u);
                 (local, local.z * FRAC_1_PI)
             }
         };
-        path.direction_pdf = match self.plan.light {
-            LightSearch::Chance => MET_BY_CHANCE,
-            LightSearch::Sampling => ALREADY_COUNTED,
+        let direction_pdf = match self.plan.light {
+            LightSearch::Chance => F::splat(MET_BY_CHANCE),
+            LightSearch::Sampling => F::splat(ALREADY_COUNTED),
             LightSearch::Mis => pdf,
         };
-        path.from = vertex.point.position;
         let wi = to_world(local, vertex.normal);
-        path.ray = Ray::new(vertex.point.leaving_towards(wi), wi);
-        self.goes_on(u_roulette)
+        let rays = Rays::new(vertex.point.leaving_towards(wi), wi);
+        let left = PathStates { rays, throughput, from: vertex.point.position, direction_pdf, ..self.path };
+        self.path = PathStates::select(here, left, self.path);
     }
 
-    /// Counts the vertex and plays roulette.
-    #[inline]
-    fn goes_on(&mut self, u_roulette: f32) -> bool {
+    /// Counts the vertex and plays roulette; where paths go on.
+    #[inline(always)]
+    fn goes_on(&mut self, alive: F::M, u_roulette: F) -> F::M {
         let path = &mut self.path;
-        path.vertices += 1;
-        let all_counted = path.direction_pdf == ALREADY_COUNTED && self.world.sky == Vec3::ZERO;
-        if path.vertices == self.plan.limit && all_counted {
-            self.outcome.cut |= self.plan.capped;
-            return false;
+        path.vertices = F::U::select(alive, path.vertices.wrapping_add(F::U::splat(1)), path.vertices);
+        let mut alive = alive;
+        if self.world.sky == Vec3::ZERO {
+            let all_counted = path.direction_pdf.eq(F::splat(ALREADY_COUNTED));
+            let at_limit = alive & path.vertices.eq(F::U::splat(self.plan.limit)) & all_counted;
+            if self.plan.capped {
+                self.outcome.cut = self.outcome.cut | at_limit;
+            }
+            alive = alive & !at_limit;
         }
-        let shared = if path.forked == 0 { 1.0 } else { (self.plan.branches as f32).powi(path.forked as i32) };
-        survives(&mut path.throughput, shared, self.plan.roulette, u_roulette)
+        let mut branches = F::splat(1.0);
+        if self.plan.branching_vertices > 0 {
+            branches = path.forked.look_up(&self.plan.paths_after);
+        }
+        let (survives, throughput) = survivors(path.throughput, branches, self.plan.roulette, u_roulette);
+        path.throughput = throughput;
+        alive & survives
     }
 
-    /// Incoming radiance times cosine over density, from one sample of the lights; zero in shadow. Under MIS weighted
-    /// against meeting the same light by chance.
-    #[inline]
-    fn sample_lights(&mut self, at: &SurfacePoint, normal: Vec3, u: [f32; 4]) -> Vec3 {
-        let Some(sample) = self.world.lights.sample(at.position, u[2], [u[0], u[1]]) else { return Vec3::ZERO };
+    /// Where light arrives, and its incoming radiance times cosine over density, from one sample of the lights: not in
+    /// shadow. Under MIS weighted against meeting the same light by chance.
+    #[inline(always)]
+    fn sample_lights(&mut self, here: F::M, at: &SurfacePoints<F>, normal: Vector<F>, u: [F; 4]) -> (F::M, Vector<F>) {
+        let sample = self.world.lights.table().sample(at.position, u[2], [u[0], u[1]]);
         let cosine = normal.dot(sample.wi);
-        if cosine <= 0.0 {
-            return Vec3::ZERO;
+        let faced = here & sample.shines & cosine.gt(F::splat(0.0));
+        self.rays += u64::from(faced.count());
+        if !faced.any() {
+            return (faced, Vector::zero());
         }
-        self.outcome.rays += 1;
-        if self.world.in_shadow(at, &sample) {
-            return Vec3::ZERO;
-        }
-        let weight = match (self.plan.light, self.plan.directions) {
-            (LightSearch::Mis, Directions::Cosine) => balance(sample.pdf, cosine * FRAC_1_PI),
-            (LightSearch::Mis, Directions::Uniform) => balance(sample.pdf, UNIFORM_HEMISPHERE_PDF),
-            _ => 1.0,
+        let shadowed = self.world.in_shadow(at, &sample, faced, false, &mut self.scratch);
+        let weighted = match (self.plan.light, self.plan.directions) {
+            (LightSearch::Mis, Directions::Cosine) => cosine * balance(sample.pdf, cosine * FRAC_1_PI),
+            (LightSearch::Mis, Directions::Uniform) => cosine * balance(sample.pdf, F::splat(UNIFORM_HEMISPHERE_PDF)),
+            _ => cosine,
         };
-        sample.radiance_over_pdf * (cosine * weight)
-    }
-}
-
-impl World<'_> {
-    /// Density with which light sampling at the path's last vertex draws the direction to this hit.
-    fn light_pdf(&self, path: &PathState, hit: &Hit) -> f32 {
-        if hit.light == NO_LIGHT { 0.0 } else { self.lights.pdf(hit.light, path.from, &hit.point) }
-    }
-}
-
-impl PathState {
-    /// Goes on in the unit direction `wi`, of which a specular surface left no choice.
-    fn leave(&mut self, from: &SurfacePoint, wi: Vec3) {
-        self.direction_pdf = MET_BY_CHANCE;
-        self.ray = Ray::new(from.leaving_towards(wi), wi);
+        (faced & !shadowed, sample.radiance_over_pdf * weighted)
     }
 
-    /// How much light that was met counts beside the same light sampled at the last vertex with density `light_pdf`.
-    #[inline]
-    fn weight_of_meeting(&self, light_pdf: impl FnOnce() -> f32) -> f32 {
-        if self.direction_pdf == MET_BY_CHANCE {
-            1.0
-        } else if self.direction_pdf == ALREADY_COUNTED {
-            0.0
-        } else {
-            balance(self.direction_pdf, light_pdf())
-        }
+    /// Density with which light sampling at the paths' last vertices draws the directions to these hits.
+    #[inline(always)]
+    fn light_pdf(&self, hit: &Hits<F>) -> F {
+        let pdf = self.world.lights.table().pdf(hit.light, self.path.from, hit.point.position);
+        F::select(hit.light.eq(F::U::splat(NO_LIGHT)), F::splat(0.0), pdf)
     }
-}
-
-/// The balance heuristic: the weight of a sample of density `own`, which may be infinite, against one of density `other`.
-fn balance(own: f32, other: f32) -> f32 {
-    1.0 / (1.0 + other / own)
 }
 
 /// Reflects with the probability that Fresnel gives, else refracts; the weights cancel. No scaling of radiance by the
 /// square of the index: a camera outside sees the same either way.
-fn scatter_dielectric(path: &mut PathState, at: &SurfacePoint, wo: Vec3, ior: f32, u: f32) {
+#[inline(always)]
+fn scatter_dielectric<F: Float>(at: &SurfacePoints<F>, wo: Vector<F>, ior: F, u: F) -> Vector<F> {
     let normal = facing(at.normal, wo);
-    let interface = Interface { ior, entering: at.normal.dot(wo) >= 0.0 };
-    let reflected = u < interface.fresnel(normal.dot(wo));
-    let refracted = if reflected { None } else { interface.refract(wo, normal) };
-    path.leave(at, refracted.unwrap_or_else(|| reflect(wo, normal)).normalize());
+    let interface = Interfaces { ior, entering: at.normal.dot(wo).ge(F::splat(0.0)) };
+    let reflects = u.lt(interface.fresnel(normal.dot(wo)));
+    let (refracted, refracts) = interface.refract(wo, normal);
+    Vector::select(refracts & !reflects, refracted, reflected(wo, normal)).normalize()
 }
 
 /// Survival for each unit of throughput. Measured on both of the tutorial's scenes: relMSE times seconds is 1.26e-3 at 1,
@@ -344,14 +430,20 @@ const ROULETTE_SLOPE: f32 = 2.0;
 /// Random numbers are multiples of 2^-24: a probability is one as well, or the survivors would be too many by up to that.
 const STEPS: f32 = 16_777_216.0;
 
-/// Russian roulette; the survivor carries the light of those that did not. `branches` paths share what one would carry.
-fn survives(throughput: &mut Vec3, branches: f32, roulette: Roulette, u: f32) -> bool {
-    let mut probability = roulette.probability.unwrap_or(1.0);
-    if roulette.throughput {
-        probability *= (ROULETTE_SLOPE * branches * throughput.max_element()).min(1.0);
-    }
-    probability = (probability * STEPS).ceil() / STEPS;
-    *throughput /= probability;
+/// Russian roulette: where paths survive, and the throughput of survivors, who carry the light of those that did not.
+/// `branches` paths share what one would carry.
+#[inline(always)]
+fn survivors<F: Float>(throughput: Vector<F>, branches: F, roulette: Roulette, u: F) -> (F::M, Vector<F>) {
     // nothing is left to carry: the product has underflowed, or the surface was black
-    u < probability && *throughput != Vec3::ZERO
+    let nothing = throughput.is_zero();
+    if roulette == Roulette::OFF {
+        return (!nothing, throughput);
+    }
+    let one = F::splat(1.0);
+    let mut probability = F::splat(roulette.probability.unwrap_or(1.0));
+    if roulette.throughput {
+        probability = probability * (branches * ROULETTE_SLOPE * throughput.max_element()).min(one);
+    }
+    probability = (probability * STEPS).ceil() * (1.0 / STEPS);
+    (u.lt(probability) & !nothing, throughput * (one / probability))
 }

@@ -1,25 +1,23 @@
 //! From paths to a film: progressive, parallel over chunks of pixels, cancelled at once.
 
-use crate::geometry::{Accel, Ray};
+use crate::crew::{self, Chunk, Order, Tally};
+use crate::geometry::Accel;
+use crate::geometry::structure::Structure;
 use crate::light::{Lights, SunDisc};
-use crate::path::{self, Forks, Plan};
-use crate::sampler::Sampler;
-use crate::settings::{PathSettings, SamplerKind};
-use crate::whitted::{self, Waiting, WhittedSettings};
-use crate::world::{Outcome, World};
+use crate::materials::Materials;
+use crate::path::{self, Plan};
+use crate::settings::PathSettings;
+use crate::whitted::{self, WhittedSettings};
+use crate::world::World;
 use rayon::prelude::*;
-use scene::film::Pixel;
-use scene::glam::Vec2;
-use scene::{Camera, Film, Material, Scene, Vec3};
+use scene::{Camera, Film, Scene};
+use simd::{Float, Kernel, Lanes};
 
 /// A scene made ready for rays. Camera and settings come with each call, so that moving them costs no rebuild.
 pub struct Tracer {
-    accel: Accel,
-    materials: Vec<Material>,
-    lights: Lights,
-    sky: Vec3,
-    sun_disc: Option<SunDisc>,
+    world: World,
     ambient: f32,
+    lanes: Lanes,
 }
 
 /// What a call of [`Tracer::render`] did.
@@ -33,42 +31,65 @@ pub struct Stats {
     pub cut_paths: u64,
 }
 
-/// Pixels that one thread takes at a time: few, so that small pictures keep all threads busy.
-const CHUNK: usize = 64;
+/// Pixels that one thread takes at a time: so many that its lanes are seldom idle at the end of them, but enough chunks
+/// that small pictures keep all threads busy.
+const CHUNK: std::ops::RangeInclusive<usize> = 64..=4096;
+
+/// Chunks for each thread, where there are pixels enough.
+const CHUNKS_PER_THREAD: usize = 8;
 
 impl Tracer {
     /// Builds the acceleration structure and the list of lights.
     pub fn new(scene: &Scene) -> Self {
         let lights = Lights::new(scene);
         Tracer {
-            accel: Accel::new(scene, &lights),
-            materials: scene.materials.clone(),
-            lights,
-            sky: scene.sky,
-            sun_disc: scene.sun.as_ref().and_then(SunDisc::new),
+            world: World {
+                structure: Structure::new(scene, &lights),
+                materials: Materials::new(&scene.materials),
+                sky: scene.sky,
+                sun_disc: scene.sun.as_ref().and_then(SunDisc::new),
+                sun_pdf: lights.sun_pdf(),
+                lights,
+            },
             ambient: scene.fake.ambient,
+            lanes: Lanes::best(),
         }
+    }
+
+    /// Traces in these lanes from now on. All give the same picture, bit for bit.
+    pub fn with_lanes(self, lanes: Lanes) -> Self {
+        Tracer { lanes, ..self }
+    }
+
+    /// What it traces in.
+    pub fn lanes(&self) -> Lanes {
+        self.lanes
     }
 
     /// Triangles, spheres and disks in the scene.
     pub fn primitives(&self) -> usize {
-        self.accel.len()
+        self.accel().len()
     }
 
-    /// The shapes, ready for rays.
+    /// The shapes, ready for single rays.
     pub fn accel(&self) -> &Accel {
-        &self.accel
+        self.world.structure.accel()
+    }
+
+    /// The shapes, ready for rays in lanes.
+    pub fn structure(&self) -> &Structure {
+        &self.world.structure
     }
 
     /// What is sampled as a light.
     pub fn lights(&self) -> &Lights {
-        &self.lights
+        &self.world.lights
     }
 
     /// Path traces `samples` more into every pixel of `film`, on the current rayon pool. Sample numbers go on from what
-    /// each pixel has, so that many small calls give the same picture as a large one. `stop` is asked before every sample;
-    /// once it says so the call returns, and pixels hold whole samples, but not all equally many: the next call brings
-    /// every pixel to `samples` more than the fewest.
+    /// each pixel has, so that many small calls give the same picture as a large one. `stop` is asked every few
+    /// microseconds; once it says so the call returns, and pixels hold whole samples, but not all equally many: the next
+    /// call brings every pixel to `samples` more than the fewest.
     ///
     /// `settings` should pass [`PathSettings::check`], which says what becomes of them if they do not.
     pub fn render(
@@ -79,9 +100,7 @@ impl Tracer {
         samples: u32,
         stop: &(impl Fn() -> bool + Sync),
     ) -> Stats {
-        let (world, plan) = (self.world(), Plan::new(settings));
-        let trace = |ray, sampler: &Sampler, forks: &mut Forks| path::trace(&world, ray, &plan, sampler, forks);
-        sample_film(film, camera, (settings.sampler, settings.seed), samples, stop, trace)
+        self.fill_with_paths(film, camera, settings, samples, stop)
     }
 
     /// As [`Tracer::render`], by Whitted's method.
@@ -93,69 +112,91 @@ impl Tracer {
         samples: u32,
         stop: &(impl Fn() -> bool + Sync),
     ) -> Stats {
-        let world = self.world();
-        let trace = |ray, sampler: &Sampler, waiting: &mut Waiting| {
-            whitted::trace(&world, ray, self.ambient, settings, sampler, waiting)
-        };
-        sample_film(film, camera, (settings.sampler, settings.seed), samples, stop, trace)
+        self.fill_with_trees(film, camera, settings, samples, stop)
     }
 
-    fn world(&self) -> World<'_> {
-        World {
-            accel: &self.accel,
-            materials: &self.materials,
-            lights: &self.lights,
-            sky: self.sky,
-            sun_disc: self.sun_disc,
-            sun_pdf: self.lights.sun_pdf(),
-        }
+    /// Not generic: kernels are large, and compiled here once.
+    fn fill_with_paths(
+        &self,
+        film: &mut Film,
+        camera: &Camera,
+        settings: &PathSettings,
+        samples: u32,
+        stop: &Stop,
+    ) -> Stats {
+        let (world, plan) = (&self.world, &Plan::new(settings));
+        let order = Order::new(film, camera, samples, (settings.sampler, settings.seed));
+        fill(film, |chunk| self.lanes.run(Paths { world, plan, order, chunk, stop }))
+    }
+
+    /// As [`Tracer::fill_with_paths`].
+    fn fill_with_trees(
+        &self,
+        film: &mut Film,
+        camera: &Camera,
+        settings: &WhittedSettings,
+        samples: u32,
+        stop: &Stop,
+    ) -> Stats {
+        let (world, ambient) = (&self.world, settings.ambient.unwrap_or(self.ambient));
+        let order = Order::new(film, camera, samples, (settings.sampler, settings.seed));
+        fill(film, |chunk| self.lanes.run(Trees { world, settings, ambient, order, chunk, stop }))
     }
 }
 
-/// Adds `samples` of `trace` to every pixel. `Scratch` is what a walk of rays keeps between samples.
-fn sample_film<Scratch: Default>(
-    film: &mut Film,
-    camera: &Camera,
-    (kind, seed): (SamplerKind, u32),
-    samples: u32,
-    stop: &(impl Fn() -> bool + Sync),
-    trace: impl Fn(Ray, &Sampler, &mut Scratch) -> Outcome + Sync,
-) -> Stats {
-    let (width, height) = (film.width(), film.height());
-    let frame = camera.frame(width as f32 / height as f32);
-    let size = Vec2::new(width as f32, height as f32);
-    let until = film.pixels().iter().map(|pixel| pixel.samples).min().unwrap_or(0).saturating_add(samples);
-    let chunks = film.pixels_mut().par_chunks_mut(CHUNK).enumerate();
-    let (stats, nonfinite) = chunks
-        .map(|(chunk, pixels)| {
-            let (mut tally, mut scratch) = ((Stats::default(), 0), Scratch::default());
-            for (offset, pixel) in pixels.iter_mut().enumerate() {
-                let index = (chunk * CHUNK + offset) as u32;
-                let corner = Vec2::new((index % width) as f32, (index / width) as f32);
-                while pixel.samples < until {
-                    if stop() {
-                        return tally;
-                    }
-                    let sampler = Sampler { kind, pixel: index, sample: pixel.samples, seed };
-                    let [jitter_x, jitter_y, _, _] = sampler.unit4(0);
-                    let ray = Ray::new(frame.eye, frame.direction((corner + Vec2::new(jitter_x, jitter_y)) / size));
-                    record(trace(ray, &sampler, &mut scratch), pixel, &mut tally);
-                }
-            }
-            tally
-        })
-        .reduce(|| (Stats::default(), 0), |a, b| (a.0.plus(b.0), a.1 + b.1));
+/// Says when to stop.
+type Stop<'a> = dyn Fn() -> bool + Sync + 'a;
+
+/// Fills a chunk with paths.
+struct Paths<'a> {
+    world: &'a World,
+    plan: &'a Plan,
+    order: Order,
+    chunk: Chunk<'a>,
+    stop: &'a Stop<'a>,
+}
+
+impl Kernel for Paths<'_> {
+    type Output = Tally;
+
+    #[inline(always)]
+    fn run<F: Float>(self) -> Tally {
+        crew::fill::<F>(&self.order, self.chunk, path::Walk::new(self.world, self.plan), self.stop)
+    }
+}
+
+/// Fills a chunk with Whitted's trees.
+struct Trees<'a> {
+    world: &'a World,
+    settings: &'a WhittedSettings,
+    ambient: f32,
+    order: Order,
+    chunk: Chunk<'a>,
+    stop: &'a Stop<'a>,
+}
+
+impl Kernel for Trees<'_> {
+    type Output = Tally;
+
+    #[inline(always)]
+    fn run<F: Float>(self) -> Tally {
+        let walk = whitted::Walk::new(self.world, self.settings, self.ambient);
+        crew::fill::<F>(&self.order, self.chunk, walk, self.stop)
+    }
+}
+
+/// Fills a film chunk by chunk.
+fn fill(film: &mut Film, filler: impl Fn(Chunk) -> Tally + Sync) -> Stats {
+    let chunks = rayon::current_num_threads() * CHUNKS_PER_THREAD;
+    let length = film.pixels().len().div_ceil(chunks).clamp(*CHUNK.start(), *CHUNK.end());
+    let (stats, nonfinite) = film
+        .pixels_mut()
+        .par_chunks_mut(length)
+        .enumerate()
+        .map(|(index, pixels)| filler(Chunk { first: (index * length) as u32, pixels }))
+        .reduce(Tally::default, |a, b| (a.0.plus(b.0), a.1 + b.1));
     film.nonfinite += nonfinite;
     stats
-}
-
-fn record(outcome: Outcome, pixel: &mut Pixel, (stats, nonfinite): &mut (Stats, u64)) {
-    let finite = outcome.radiance.is_finite();
-    pixel.add(if finite { outcome.radiance } else { Vec3::ZERO });
-    *nonfinite += u64::from(!finite);
-    stats.samples += 1;
-    stats.rays += u64::from(outcome.rays);
-    stats.cut_paths += u64::from(outcome.cut);
 }
 
 impl Stats {

@@ -1,29 +1,40 @@
 //! Random words as a function of four words: PCG4D of Jarzynski and Olano, "Hash Functions for
 //! GPU Rendering" (JCGT 9(3), 2020). 32-bit integers alone, so that a shader computes the same bits.
 
+use simd::Word;
+
 /// Four well mixed words from four words.
-pub fn pcg4d(mut v: [u32; 4]) -> [u32; 4] {
-    for word in &mut v {
-        *word = word.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
-    }
-    mix(&mut v);
-    for word in &mut v {
-        *word ^= *word >> 16;
-    }
-    mix(&mut v);
-    v
+#[inline(always)]
+pub fn pcg4d<U: Word>([x, y, z, w]: [U; 4]) -> [U; 4] {
+    let [x, y, z, w] = mix([step(x), step(y), step(z), step(w)]);
+    mix([folded(x), folded(y), folded(z), folded(w)])
 }
 
-fn mix(v: &mut [u32; 4]) {
+/// One step of a linear congruential generator.
+#[inline(always)]
+fn step<U: Word>(word: U) -> U {
+    word.wrapping_mul(U::splat(1_664_525)).wrapping_add(U::splat(1_013_904_223))
+}
+
+/// The upper half acts on the lower.
+#[inline(always)]
+fn folded<U: Word>(word: U) -> U {
+    word ^ word.shr::<16>()
+}
+
+#[inline(always)]
+fn mix<U: Word>(mut v: [U; 4]) -> [U; 4] {
     v[0] = v[0].wrapping_add(v[1].wrapping_mul(v[3]));
     v[1] = v[1].wrapping_add(v[2].wrapping_mul(v[0]));
     v[2] = v[2].wrapping_add(v[0].wrapping_mul(v[1]));
     v[3] = v[3].wrapping_add(v[1].wrapping_mul(v[2]));
+    v
 }
 
 /// A float in [0, 1) from the high 24 bits: 32 bits would round up to 1.
-pub fn unit_float(word: u32) -> f32 {
-    (word >> 8) as f32 * (1.0 / 16_777_216.0)
+#[inline(always)]
+pub fn unit_float<U: Word>(word: U) -> U::F {
+    word.shr::<8>().to_float() * (1.0 / 16_777_216.0)
 }
 
 #[cfg(test)]

@@ -7,16 +7,17 @@
 use crate::rng::{pcg4d, unit_float};
 use crate::settings::SamplerKind;
 use crate::sobol;
+use simd::Word;
 
-/// The random numbers of one sample of one pixel.
+/// The random numbers of one sample of one pixel, in each lane.
 #[derive(Debug, Clone, Copy)]
-pub struct Sampler {
+pub struct Sampler<U = u32> {
     /// Where they come from.
     pub kind: SamplerKind,
     /// Row-major index of the pixel.
-    pub pixel: u32,
+    pub pixel: U,
     /// Index of the sample within the pixel.
-    pub sample: u32,
+    pub sample: U,
     /// The picture's seed.
     pub seed: u32,
 }
@@ -26,19 +27,23 @@ impl Sampler {
     pub fn independent(pixel: u32, sample: u32, seed: u32) -> Self {
         Sampler { kind: SamplerKind::Independent, pixel, sample, seed }
     }
+}
 
+impl<U: Word> Sampler<U> {
     /// Four floats in [0, 1) for the block `dimension`. Blocks are independent of each other; within one, Sobol's four
-    /// numbers are coordinates of one point.
-    #[inline]
-    pub fn unit4(&self, dimension: u32) -> [f32; 4] {
-        match self.kind {
-            SamplerKind::Independent => pcg4d([self.pixel, self.sample, dimension, self.seed]).map(unit_float),
-            SamplerKind::Sobol => {
-                // the constant keeps these words apart from those of an independent sample
-                let words = pcg4d([self.pixel, 0x5eed_0b0e, dimension, self.seed]);
-                sobol::shuffled_scrambled(self.sample, words).map(unit_float)
-            }
+    /// numbers are coordinates of one point. What of the four is not used costs nothing.
+    #[inline(always)]
+    pub fn unit4(&self, dimension: U) -> [U::F; 4] {
+        let seed = U::splat(self.seed);
+        let sobol = self.kind == SamplerKind::Sobol;
+        // the constant keeps Sobol's words apart from those of an independent sample
+        let second = if sobol { U::splat(0x5eed_0b0e) } else { self.sample };
+        let mut words = pcg4d([self.pixel, second, dimension, seed]);
+        if sobol {
+            words = sobol::shuffled_scrambled(self.sample, words);
         }
+        let [a, b, c, d] = words;
+        [unit_float(a), unit_float(b), unit_float(c), unit_float(d)]
     }
 }
 

@@ -1,49 +1,26 @@
-//! Warps of uniform random numbers to directions and points, each with its density.
+//! Warps of uniform random numbers to directions and points, each with its density: [`crate::warp`] for one lane.
 
+use crate::vectors::{glam_vector, lane_vector};
+use crate::warp;
 use scene::Vec3;
-use std::f32::consts::{FRAC_1_PI, FRAC_PI_2};
+use std::f32::consts::FRAC_1_PI;
 
-/// Sine and cosine of `2 pi u` for `u` in [0, 1], by polynomials on an eighth of a turn (Cephes' coefficients): the same
-/// arithmetic can run in a shader. Largest error 1.2e-7.
-pub fn sin_cos_2pi(u: f32) -> (f32, f32) {
-    let quadrant = (4.0 * u).round();
-    let x = (4.0 * u - quadrant) * FRAC_PI_2;
-    let x2 = x * x;
-    let sin = x + x * x2 * (-1.666_665_5e-1 + x2 * (8.332_161e-3 + x2 * -1.951_529_6e-4));
-    let cos = 1.0 - 0.5 * x2 + x2 * x2 * (4.166_664_6e-2 + x2 * (-1.388_731_6e-3 + x2 * 2.443_315_7e-5));
-    match quadrant as u32 & 3 {
-        0 => (sin, cos),
-        1 => (cos, -sin),
-        2 => (-sin, -cos),
-        _ => (-cos, sin),
-    }
-}
+pub use warp::{cone_pdf, sin_cos_2pi, triangle};
 
-/// Two unit vectors that make a right-handed frame with the unit vector `n`: Duff et al., "Building an Orthonormal Basis,
-/// Revisited" (JCGT 6(1), 2017), accurate also at n = (0, 0, -1).
+/// Two unit vectors that make a right-handed frame with the unit vector `n`.
 pub fn orthonormal_basis(n: Vec3) -> (Vec3, Vec3) {
-    let sign = 1f32.copysign(n.z);
-    let a = -1.0 / (sign + n.z);
-    let b = n.x * n.y * a;
-    (Vec3::new(1.0 + sign * n.x * n.x * a, sign * b, -sign * n.x), Vec3::new(b, sign + n.y * n.y * a, -n.y))
+    let (s, t) = warp::orthonormal_basis(lane_vector(n));
+    (glam_vector(s), glam_vector(t))
 }
 
 /// A local direction, z along the unit vector `axis`, in world space.
 pub fn to_world(local: Vec3, axis: Vec3) -> Vec3 {
-    let (s, t) = orthonormal_basis(axis);
-    s * local.x + t * local.y + axis * local.z
-}
-
-/// A direction around z whose z is given: `z` in [-1, 1] and `sin` = sqrt(1 - z^2), azimuth from `u`.
-fn around_z(z: f32, sin: f32, u: f32) -> Vec3 {
-    let (sin_phi, cos_phi) = sin_cos_2pi(u);
-    Vec3::new(sin * cos_phi, sin * sin_phi, z)
+    glam_vector(warp::to_world(lane_vector(local), lane_vector(axis)))
 }
 
 /// Uniform on the hemisphere around z; density [`UNIFORM_HEMISPHERE_PDF`] (Task 2 b).
 pub fn uniform_hemisphere(u: [f32; 2]) -> Vec3 {
-    let z = 1.0 - u[0];
-    around_z(z, (u[0] * (2.0 - u[0])).sqrt(), u[1])
+    glam_vector(warp::uniform_hemisphere(u))
 }
 
 /// `1 / (2 pi)`, "1 / surface area" (Task 2 b).
@@ -51,31 +28,18 @@ pub const UNIFORM_HEMISPHERE_PDF: f32 = 0.5 * FRAC_1_PI;
 
 /// Proportional to the cosine on the hemisphere around z, after Malley; density `cos / pi`.
 pub fn cosine_hemisphere(u: [f32; 2]) -> Vec3 {
-    around_z((1.0 - u[0]).sqrt(), u[0].sqrt(), u[1])
+    glam_vector(warp::cosine_hemisphere(u))
 }
 
 /// Uniform on the unit disk in the plane z = 0; density `1 / pi`.
 pub fn disk(u: [f32; 2]) -> Vec3 {
-    let (sin_phi, cos_phi) = sin_cos_2pi(u[1]);
-    let radius = u[0].sqrt();
-    Vec3::new(radius * cos_phi, radius * sin_phi, 0.0)
+    let [x, y] = warp::disk(u);
+    Vec3::new(x, y, 0.0)
 }
 
 /// Uniform in the cone around z whose half angle has `1 - cos` = `one_minus_cos`; density [`cone_pdf`].
 pub fn cone(one_minus_cos: f32, u: [f32; 2]) -> Vec3 {
-    let height = u[0] * one_minus_cos;
-    around_z(1.0 - height, (height * (2.0 - height)).sqrt(), u[1])
-}
-
-/// Density of [`cone`] per solid angle.
-pub fn cone_pdf(one_minus_cos: f32) -> f32 {
-    UNIFORM_HEMISPHERE_PDF / one_minus_cos
-}
-
-/// Barycentric coordinates uniform on a triangle: Heitz, "A Low-Distortion Map Between Triangle and Square" (2019).
-pub fn triangle(u: [f32; 2]) -> [f32; 3] {
-    let (b0, b1) = if u[0] < u[1] { (0.5 * u[0], u[1] - 0.5 * u[0]) } else { (u[0] - 0.5 * u[1], 0.5 * u[1]) };
-    [b0, b1, 1.0 - b0 - b1]
+    glam_vector(warp::cone(one_minus_cos, u))
 }
 
 #[cfg(test)]

@@ -2,6 +2,8 @@
 //! Vegdahl, "Building a Better LK Hash" (2021). Points of four dimensions; more dimensions are padded with points whose
 //! order is shuffled anew, which works for any number of samples and dimensions.
 
+use simd::{BitMatrix, Word};
+
 /// Initial direction numbers of Joe and Kuo for dimensions 2 to 4: degree, coefficients and m of the primitive polynomial.
 const POLYNOMIALS: [(usize, u32, [u32; 3]); 3] = [(1, 0, [1, 0, 0]), (2, 1, [1, 3, 0]), (3, 1, [1, 3, 1])];
 
@@ -27,55 +29,40 @@ const fn directions((degree, coefficients, initial): (usize, u32, [u32; 3])) -> 
     v
 }
 
-/// What each byte of the index adds to the bit-reversed point.
-type ByteTables = [[u32; 256]; 4];
-
-const fn byte_tables(polynomial: (usize, u32, [u32; 3])) -> ByteTables {
-    let v = directions(polynomial);
-    let mut tables = [[0u32; 256]; 4];
-    let mut byte = 0;
-    while byte < 4 {
-        let mut value = 0;
-        while value < 256 {
-            let mut bit = 0;
-            while bit < 8 {
-                if (value >> bit) & 1 == 1 {
-                    tables[byte][value] ^= v[8 * byte + bit].reverse_bits();
-                }
-                bit += 1;
-            }
-            value += 1;
-        }
-        byte += 1;
+/// The matrix that takes an index to a point, bit-reversed.
+const fn reversed_matrix(polynomial: (usize, u32, [u32; 3])) -> BitMatrix {
+    let mut columns = directions(polynomial);
+    let mut i = 0;
+    while i < 32 {
+        columns[i] = columns[i].reverse_bits();
+        i += 1;
     }
-    tables
+    BitMatrix::new(&columns)
 }
 
-static TABLES: [ByteTables; 3] =
-    [byte_tables(POLYNOMIALS[0]), byte_tables(POLYNOMIALS[1]), byte_tables(POLYNOMIALS[2])];
+static MATRICES: [BitMatrix; 3] =
+    [reversed_matrix(POLYNOMIALS[0]), reversed_matrix(POLYNOMIALS[1]), reversed_matrix(POLYNOMIALS[2])];
 
 /// A nested uniform permutation of bit-reversed numbers: each bit is flipped or not by a hash of the lower ones.
-#[inline]
-fn permute_reversed(mut x: u32, seed: u32) -> u32 {
-    x ^= x.wrapping_mul(0x3d20_adea);
-    x = x.wrapping_add(seed);
-    x = x.wrapping_mul((seed >> 16) | 1);
-    x ^= x.wrapping_mul(0x0552_6c56);
-    x ^ x.wrapping_mul(0x53a2_2864)
+#[inline(always)]
+fn permute_reversed<U: Word>(x: U, seed: U) -> U {
+    let x = x ^ x.wrapping_mul(U::splat(0x3d20_adea));
+    let x = x.wrapping_add(seed);
+    let x = x.wrapping_mul(seed.shr::<16>() | U::splat(1));
+    let x = x ^ x.wrapping_mul(U::splat(0x0552_6c56));
+    x ^ x.wrapping_mul(U::splat(0x53a2_2864))
 }
 
 /// Coordinate `dimension` (1 to 3) of the point `index`, bit-reversed.
-#[inline]
-fn reversed_point(index: u32, dimension: usize) -> u32 {
-    let tables = &TABLES[dimension - 1];
-    let [a, b, c, d] = index.to_le_bytes();
-    tables[0][a as usize] ^ tables[1][b as usize] ^ tables[2][c as usize] ^ tables[3][d as usize]
+#[inline(always)]
+fn reversed_point<U: Word>(index: U, dimension: usize) -> U {
+    index.multiplied_by(&MATRICES[dimension - 1])
 }
 
 /// Four coordinates of point `sample` of the sequence whose order and digits are scrambled by `seeds`, as 32-bit
 /// fractions.
-#[inline(never)]
-pub fn shuffled_scrambled(sample: u32, seeds: [u32; 4]) -> [u32; 4] {
+#[inline(always)]
+pub fn shuffled_scrambled<U: Word>(sample: U, seeds: [U; 4]) -> [U; 4] {
     let index = permute_reversed(sample.reverse_bits(), seeds[0]).reverse_bits();
     [
         // the first dimension is the index itself, bit-reversed

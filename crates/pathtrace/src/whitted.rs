@@ -9,12 +9,14 @@
 //! What it cannot do, by design: light from diffuse surfaces on others, blurred reflections, caustics. The sky is seen but
 //! does not light; ambient light stands for it.
 
-use crate::bsdf::{Interface, reflect};
-use crate::geometry::{Ray, SurfacePoint};
+use crate::bsdf::{Interfaces, reflected};
+use crate::geometry::lanes::{Hits, Rays, SurfacePoints};
+use crate::geometry::packet::Scratch;
+use crate::materials::Kinds;
 use crate::sampler::Sampler;
 use crate::settings::SamplerKind;
-use crate::world::{Outcome, World, emitted, facing};
-use scene::{Bsdf, Vec3};
+use crate::world::{Outcomes, World, facing};
+use simd::{Float, Mask, Vector, Word};
 use std::f32::consts::FRAC_1_PI;
 
 /// Whether glass stops the light on its way to a diffuse surface.
@@ -89,157 +91,248 @@ pub const MOST_BRANCHES: u32 = 65_536;
 /// Lights up to which each is sampled; of more, this many are chosen by power.
 const MOST_LIGHTS: usize = 16;
 
-/// A ray on its way, or waiting.
+/// A ray on its way, or waiting, in each lane.
 #[derive(Clone, Copy)]
-struct Branch {
-    ray: Ray,
+struct Branches<F: Float> {
+    rays: Rays<F>,
     /// What radiance met now is worth at the camera.
-    weight: Vec3,
+    weight: Vector<F>,
     /// Specular scatterings so far.
-    depth: u32,
+    depth: F::U,
 }
 
-/// Reflected branches that wait, deepest last: at most one for each level. Kept from sample to sample.
-pub struct Waiting {
-    branches: [Option<Branch>; WhittedSettings::MOST_DEPTH as usize],
-    count: usize,
-}
+impl<F: Float> Branches<F> {
+    /// As they leave the camera.
+    #[inline(always)]
+    fn leaving_camera(rays: &Rays<F>) -> Self {
+        Branches { rays: *rays, weight: Vector::along_all(F::splat(1.0)), depth: F::U::splat(0) }
+    }
 
-impl Default for Waiting {
-    fn default() -> Self {
-        Waiting { branches: [None; WhittedSettings::MOST_DEPTH as usize], count: 0 }
+    #[inline(always)]
+    fn select(mask: F::M, yes: Self, no: Self) -> Self {
+        Branches {
+            rays: Rays::select(mask, yes.rays, no.rays),
+            weight: Vector::select(mask, yes.weight, no.weight),
+            depth: F::U::select(mask, yes.depth, no.depth),
+        }
+    }
+
+    /// The branch that leaves a surface in the unit direction `wi`.
+    #[inline(always)]
+    fn leave(&self, from: &SurfacePoints<F>, wi: Vector<F>, weight: Vector<F>) -> Self {
+        let depth = self.depth.wrapping_add(F::U::splat(1));
+        Branches { rays: Rays::new(from.leaving_towards(wi), wi), weight, depth }
     }
 }
 
-impl Waiting {
-    fn push(&mut self, branch: Branch) {
-        self.branches[self.count] = Some(branch);
-        self.count += 1;
+/// Reflected branches that wait, deepest last, in each lane: at most one for each level.
+struct Waiting<F: Float> {
+    branches: Vec<Branches<F>>,
+    count: F::U,
+}
+
+impl<F: Float> Waiting<F> {
+    #[inline(always)]
+    fn push(&mut self, here: F::M, branch: &Branches<F>) {
+        for depth in 0..WhittedSettings::MOST_DEPTH as usize {
+            let at = here & self.count.eq(F::U::splat(depth as u32));
+            if at.any() {
+                if depth == self.branches.len() {
+                    self.branches.push(*branch);
+                }
+                self.branches[depth] = Branches::select(at, *branch, self.branches[depth]);
+            }
+        }
+        self.count = F::U::select(here, self.count.wrapping_add(F::U::splat(1)), self.count);
     }
 
-    fn pop(&mut self) -> Option<Branch> {
-        self.count = self.count.checked_sub(1)?;
-        self.branches[self.count]
+    /// Takes the deepest where `here` says so and one waits, and says where.
+    #[inline(always)]
+    fn pop(&mut self, here: F::M, branch: &mut Branches<F>) -> F::M {
+        let mut found = F::M::splat(false);
+        for (depth, waiting) in (0..).zip(&self.branches) {
+            let at = here & self.count.eq(F::U::splat(depth + 1));
+            if at.any() {
+                *branch = Branches::select(at, *waiting, *branch);
+                found = found | at;
+            }
+        }
+        self.count = F::U::select(found, self.count.wrapping_sub(F::U::splat(1)), self.count);
+        found
     }
 }
 
-/// A tree of rays and where it grows.
-struct Tree<'a> {
-    world: &'a World<'a>,
+/// A tree of rays in each lane, and where they grow.
+pub struct Walk<'a, F: Float> {
+    world: &'a World,
     settings: &'a WhittedSettings,
-    sampler: &'a Sampler,
     /// Ambient radiance.
     ambient: f32,
+    branch: Branches<F>,
+    waiting: Waiting<F>,
     /// The next block of random numbers; the camera took block 0.
-    dimension: u32,
+    dimension: F::U,
     /// Branches followed so far.
-    followed: u32,
-    outcome: Outcome,
+    followed: F::U,
+    scratch: Scratch<F>,
+    outcome: Outcomes<F>,
+    /// Rays traced.
+    rays: u64,
 }
 
-/// Follows a camera ray through all its branches. `scene_ambient`: radiance of the scene's ambient light.
-pub fn trace(
-    world: &World,
-    ray: Ray,
-    scene_ambient: f32,
-    settings: &WhittedSettings,
-    sampler: &Sampler,
-    waiting: &mut Waiting,
-) -> Outcome {
-    let ambient = settings.ambient.unwrap_or(scene_ambient);
-    let mut tree = Tree { world, settings, sampler, ambient, dimension: 1, followed: 0, outcome: Outcome::default() };
-    waiting.count = 0;
-    let mut next = Some(Branch { ray, weight: Vec3::ONE, depth: 0 });
-    while let Some(branch) = next {
-        if tree.followed >= MOST_BRANCHES {
-            tree.outcome.cut = true;
-            break;
-        }
-        next = tree.follow(branch, waiting).or_else(|| waiting.pop());
+impl<'a, F: Float> crate::crew::Walk<F> for Walk<'a, F> {
+    /// Starts trees with camera rays where `here` says so.
+    #[inline(always)]
+    fn begin(&mut self, here: F::M, rays: &Rays<F>) {
+        self.branch = Branches::select(here, Branches::leaving_camera(rays), self.branch);
+        self.outcome.radiance = Vector::select(here, Vector::zero(), self.outcome.radiance);
+        self.outcome.cut = self.outcome.cut & !here;
+        let (none, one) = (F::U::splat(0), F::U::splat(1));
+        self.dimension = F::U::select(here, one, self.dimension);
+        self.followed = F::U::select(here, none, self.followed);
+        self.waiting.count = F::U::select(here, none, self.waiting.count);
     }
-    tree.outcome
+
+    /// Follows a branch of each tree to the next surface; where trees are complete.
+    #[inline(always)]
+    fn segment(&mut self, taken: F::M, sampler: &Sampler<F::U>) -> F::M {
+        self.rays += u64::from(taken.count());
+        self.followed = self.followed.wrapping_add(F::U::splat(1));
+        let hit = self.world.closest(&self.branch.rays, taken, &mut self.scratch);
+        let (missed, met) = (taken & !hit.met, taken & hit.met);
+        let direction = self.branch.rays.direction;
+        if self.world.has_environment() && missed.any() {
+            self.receive(missed, self.world.environment(direction, F::splat(1.0)));
+        }
+        let kinds = self.world.materials.kinds(hit.material);
+        let shining = met & kinds.lamp();
+        if self.world.materials.has().lamps && shining.any() {
+            self.receive(shining, self.world.materials.emitted(hit.material, kinds, hit.point.normal, direction));
+        }
+        let alive = self.scatter(met, &hit, kinds, sampler);
+        let ended = taken & !alive;
+        let alive = alive | self.waiting.pop(ended, &mut self.branch);
+        let too_many = alive & !self.followed.lt(F::U::splat(MOST_BRANCHES));
+        self.outcome.cut = self.outcome.cut | too_many;
+        (taken & !alive) | too_many
+    }
+
+    #[inline(always)]
+    fn outcomes(&self) -> &Outcomes<F> {
+        &self.outcome
+    }
+
+    fn rays(&self) -> u64 {
+        self.rays
+    }
 }
 
-impl Tree<'_> {
-    /// Follows a ray to the next surface; the branch that goes on from there, if one does.
-    fn follow(&mut self, branch: Branch, waiting: &mut Waiting) -> Option<Branch> {
-        let Branch { ray, weight, depth } = branch;
-        self.followed += 1;
-        self.outcome.rays += 1;
-        let Some(hit) = self.world.accel.closest(&ray) else {
-            let sun = self.world.sun_disc.as_ref();
-            self.outcome.radiance += weight * crate::light::environment(self.world.sky, sun, 1.0, ray.direction);
-            return None;
-        };
-        let material = &self.world.materials[hit.material as usize];
-        self.outcome.radiance += weight * emitted(material, hit.point.normal, ray.direction);
-        let wo = -ray.direction;
+impl<'a, F: Float> Walk<'a, F> {
+    /// No tree yet.
+    #[inline(always)]
+    pub fn new(world: &'a World, settings: &'a WhittedSettings, ambient: f32) -> Self {
+        let none = F::U::splat(0);
+        Walk {
+            world,
+            settings,
+            ambient,
+            branch: Branches::leaving_camera(&Rays::new(Vector::zero(), Vector::splat([0.0, 0.0, 1.0]))),
+            waiting: Waiting { branches: Vec::new(), count: none },
+            dimension: none,
+            followed: none,
+            scratch: Scratch::default(),
+            outcome: Outcomes { radiance: Vector::zero(), cut: F::M::splat(false) },
+            rays: 0,
+        }
+    }
+
+    /// Adds radiance that came along the branch, where `here` says so.
+    #[inline(always)]
+    fn receive(&mut self, here: F::M, radiance: Vector<F>) {
+        let sum = self.outcome.radiance + self.branch.weight * radiance;
+        self.outcome.radiance = Vector::select(here, sum, self.outcome.radiance);
+    }
+
+    /// Lights diffuse surfaces, and sends branches on from others; where they go on.
+    #[inline(always)]
+    fn scatter(&mut self, met: F::M, hit: &Hits<F>, kinds: Kinds<F::U>, sampler: &Sampler<F::U>) -> F::M {
+        let (world, has) = (self.world, self.world.materials.has());
+        let wo = -self.branch.rays.direction;
         let normal = facing(hit.point.normal, wo);
-        let deeper = depth < self.settings.depth.min(WhittedSettings::MOST_DEPTH);
-        let leave = |wi: Vec3, weight: Vec3| Branch {
-            ray: Ray::new(hit.point.leaving_towards(wi), wi),
-            weight,
-            depth: depth + 1,
-        };
-        match material.bsdf {
-            Bsdf::Diffuse { albedo } => {
-                let albedo = albedo.at(hit.point.position);
-                let direct = if albedo == Vec3::ZERO { Vec3::ZERO } else { self.irradiance(&hit.point, normal) };
-                self.outcome.radiance += weight * albedo * (direct * FRAC_1_PI + self.ambient);
-                None
-            }
-            Bsdf::Mirror { reflectance } => {
-                let weight = weight * reflectance;
-                (deeper && weight != Vec3::ZERO).then(|| leave(reflect(wo, normal), weight))
-            }
-            Bsdf::Dielectric { ior } if deeper => {
-                let interface = Interface { ior, entering: hit.point.normal.dot(wo) >= 0.0 };
-                let reflected = interface.fresnel(normal.dot(wo));
-                let mirrored = leave(reflect(wo, normal), weight * reflected);
-                let refracted = interface.refract(wo, normal).filter(|_| reflected < 1.0);
-                let Some(wi) = refracted else { return Some(mirrored) };
-                if reflected > 0.0 {
-                    waiting.push(mirrored);
-                }
-                Some(leave(wi.normalize(), weight * (1.0 - reflected)))
-            }
-            Bsdf::Dielectric { .. } => None,
+        let colour = world.materials.colour(hit.material, kinds, hit.point.position);
+        let lit = met & kinds.diffuse() & !colour.is_zero();
+        if lit.any() {
+            let direct = self.irradiance(lit, &hit.point, normal, sampler);
+            let ambient = Vector::along_all(F::splat(self.ambient));
+            self.receive(lit, colour * (direct * F::splat(FRAC_1_PI) + ambient));
         }
+        let most_depth = self.settings.depth.min(WhittedSettings::MOST_DEPTH);
+        let deeper = met & self.branch.depth.lt(F::U::splat(most_depth));
+        let mut alive = F::M::splat(false);
+        let (came, mirrored) = (self.branch, reflected(wo, normal));
+        let mirrors = deeper & kinds.mirror();
+        if has.mirrors && mirrors.any() {
+            let weight = came.weight * colour;
+            let goes_on = mirrors & !weight.is_zero();
+            self.branch = Branches::select(goes_on, came.leave(&hit.point, mirrored, weight), self.branch);
+            alive = alive | goes_on;
+        }
+        let glass = deeper & kinds.glass();
+        if has.glass && glass.any() {
+            let (zero, one) = (F::splat(0.0), F::splat(1.0));
+            let entering = hit.point.normal.dot(wo).ge(zero);
+            let interface = Interfaces { ior: world.materials.ior(hit.material), entering };
+            let share = interface.fresnel(normal.dot(wo));
+            let (wi, refracts) = interface.refract(wo, normal);
+            let refracts = refracts & share.lt(one);
+            let mirrored = came.leave(&hit.point, mirrored, came.weight * share);
+            let refracted = came.leave(&hit.point, wi.normalize(), came.weight * (one - share));
+            self.waiting.push(glass & refracts & share.gt(zero), &mirrored);
+            self.branch = Branches::select(glass, Branches::select(refracts, refracted, mirrored), self.branch);
+            alive = alive | glass;
+        }
+        alive
     }
 
-    /// Light that arrives at a surface: every light by itself, or of very many a choice.
-    fn irradiance(&mut self, at: &SurfacePoint, normal: Vec3) -> Vec3 {
-        let lights = self.world.lights;
+    /// Light that arrives at surfaces: every light by itself, or of very many a choice.
+    #[inline(always)]
+    fn irradiance(
+        &mut self,
+        here: F::M,
+        at: &SurfacePoints<F>,
+        normal: Vector<F>,
+        sampler: &Sampler<F::U>,
+    ) -> Vector<F> {
+        let lights = &self.world.lights;
         let rays = self.settings.shadow_rays.max(1);
-        let mut sum = Vec3::ZERO;
+        let opaque = self.settings.glass_shadows == GlassShadows::Clear;
+        let mut sum = Vector::zero();
         for turn in 0..lights.len().min(MOST_LIGHTS) {
             let each = lights.len() <= MOST_LIGHTS;
-            let rays = if each && lights.is_delta(turn) { 1 } else { rays };
-            let mut of_light = Vec3::ZERO;
+            let delta = each && lights.is_delta(turn);
+            let rays = if delta { 1 } else { rays };
+            let mut of_light = Vector::zero();
             for _ in 0..rays {
-                let u = self.sampler.unit4(self.dimension);
-                self.dimension += 1;
+                // of a delta light there is nothing to choose
+                let u = if delta { [F::splat(0.0); 4] } else { sampler.unit4(self.dimension) };
+                let next = self.dimension.wrapping_add(F::U::splat(1));
+                self.dimension = F::U::select(here, next, self.dimension);
                 let sample = if each {
-                    lights.sample_one(turn, at.position, [u[0], u[1]])
+                    lights.table().sample_one(F::U::splat(turn as u32), at.position, [u[0], u[1]])
                 } else {
-                    lights.sample(at.position, u[2], [u[0], u[1]])
+                    lights.table().sample(at.position, u[2], [u[0], u[1]])
                 };
-                let Some(sample) = sample else { continue };
                 let cosine = normal.dot(sample.wi);
-                if cosine <= 0.0 {
-                    continue;
-                }
-                self.outcome.rays += 1;
-                let shadow = match self.settings.glass_shadows {
-                    GlassShadows::Opaque => self.world.in_shadow(at, &sample),
-                    GlassShadows::Clear => self.world.in_shadow_of_opaque(at, &sample),
-                };
-                if !shadow {
-                    of_light += sample.radiance_over_pdf * cosine;
+                let faced = here & sample.shines & cosine.gt(F::splat(0.0));
+                self.rays += u64::from(faced.count());
+                if faced.any() {
+                    let shadow = self.world.in_shadow(at, &sample, faced, opaque, &mut self.scratch);
+                    let arrives = of_light + sample.radiance_over_pdf * cosine;
+                    of_light = Vector::select(faced & !shadow, arrives, of_light);
                 }
             }
             let share = if each { 1.0 } else { 1.0 / MOST_LIGHTS as f32 };
-            sum += of_light * (share / rays as f32);
+            sum = sum + of_light * F::splat(share / rays as f32);
         }
         sum
     }

@@ -1,17 +1,22 @@
-//! What every walk of rays needs: the scene made ready, and what a ray meets in it.
+//! What every walk of rays needs: the scene made ready, and what rays meet in it.
 
-use crate::geometry::{Accel, Ray, SurfacePoint};
-use crate::light::{LightSample, Lights, ShadowEnd, SunDisc};
-use scene::{Bsdf, Material, Vec3};
+use crate::geometry::lanes::{Hits, Rays, SurfacePoints};
+use crate::geometry::packet::Scratch;
+use crate::geometry::structure::Structure;
+use crate::light::{LightSamples, Lights, SunDisc};
+use crate::materials::Materials;
+use crate::vectors::in_all_lanes;
+use scene::Vec3;
+use simd::{Float, Vector};
 
 /// What a path walks through.
-pub struct World<'a> {
+pub struct World {
     /// The shapes.
-    pub accel: &'a Accel,
+    pub structure: Structure,
     /// What they are made of.
-    pub materials: &'a [Material],
+    pub materials: Materials,
     /// What shines and is sampled.
-    pub lights: &'a Lights,
+    pub lights: Lights,
     /// Radiance where nothing is hit.
     pub sky: Vec3,
     /// The sun that a ray can hit.
@@ -20,50 +25,60 @@ pub struct World<'a> {
     pub sun_pdf: f32,
 }
 
-/// What a sample of a pixel brought home.
-#[derive(Debug, Clone, Copy, Default)]
-pub struct Outcome {
+/// What the samples in the lanes have brought home so far.
+#[derive(Debug, Clone, Copy)]
+pub struct Outcomes<F: Float> {
     /// Radiance along the camera ray.
-    pub radiance: Vec3,
-    /// Rays traced, shadow rays included.
-    pub rays: u32,
+    pub radiance: Vector<F>,
     /// Whether rays were left out that no setting asked to leave out: beyond [`crate::PathSettings::HARD_CAP`], or
     /// beyond [`crate::whitted::MOST_BRANCHES`].
-    pub cut: bool,
+    pub cut: F::M,
 }
 
-impl World<'_> {
-    /// Whether something stands between a point and what shines on it.
-    pub fn in_shadow(&self, at: &SurfacePoint, sample: &LightSample) -> bool {
-        self.accel.occluded(&shadow_ray(at, sample))
+impl World {
+    /// The nearest hits of the `wanted` rays.
+    #[inline(always)]
+    pub fn closest<F: Float>(&self, rays: &Rays<F>, wanted: F::M, scratch: &mut Scratch<F>) -> Hits<F> {
+        self.structure.closest(rays, wanted, scratch)
     }
 
-    /// As [`World::in_shadow`], but glass lets light pass straight on.
-    pub fn in_shadow_of_opaque(&self, at: &SurfacePoint, sample: &LightSample) -> bool {
-        let opaque = |material: u32| !matches!(self.materials[material as usize].bsdf, Bsdf::Dielectric { .. });
-        self.accel.occluded_by(&shadow_ray(at, sample), opaque)
+    /// Where something stands between the `wanted` points and what shines on them; if `opaque`, glass does not count.
+    #[inline(always)]
+    pub fn in_shadow<F: Float>(
+        &self,
+        at: &SurfacePoints<F>,
+        sample: &LightSamples<F>,
+        wanted: F::M,
+        opaque: bool,
+        scratch: &mut Scratch<F>,
+    ) -> F::M {
+        // both ends off their surfaces
+        let from = at.leaving_towards(sample.wi);
+        let to = sample.point.leaving_towards(-sample.wi);
+        let between = Rays { origin: from, direction: to - from, tmax: F::splat(1.0) };
+        let rays = Rays::select(sample.endless, Rays::new(from, sample.wi), between);
+        self.structure.occluded(&rays, wanted, opaque, scratch)
     }
-}
 
-/// From a point to what shines on it, both ends off their surfaces.
-fn shadow_ray(at: &SurfacePoint, sample: &LightSample) -> Ray {
-    let from = at.leaving_towards(sample.wi);
-    match sample.end {
-        ShadowEnd::Lamp(lamp) => Ray::between(from, lamp.leaving_towards(-sample.wi)),
-        ShadowEnd::Point(end) => Ray::between(from, end),
-        ShadowEnd::Infinity => Ray::new(from, sample.wi),
+    /// Radiance that rays find where they hit nothing: the sky, and `sun_weight` times the sun's disc unless it is a delta
+    /// light.
+    #[inline(always)]
+    pub fn environment<F: Float>(&self, direction: Vector<F>, sun_weight: F) -> Vector<F> {
+        let sky = in_all_lanes(self.sky);
+        match &self.sun_disc {
+            Some(disc) => sky + disc.radiance(direction) * sun_weight,
+            None => sky,
+        }
+    }
+
+    /// Whether rays that hit nothing may find light.
+    pub fn has_environment(&self) -> bool {
+        self.sky != Vec3::ZERO || self.sun_disc.is_some()
     }
 }
 
 /// The normal on the side of `wo`.
-pub fn facing(normal: Vec3, wo: Vec3) -> Vec3 {
-    if normal.dot(wo) < 0.0 { -normal } else { normal }
-}
-
-/// What a surface of `material` and outward `normal` sends out against a ray of this direction.
-pub fn emitted(material: &Material, normal: Vec3, ray_direction: Vec3) -> Vec3 {
-    match material.emission {
-        Some(e) if e.two_sided || normal.dot(ray_direction) < 0.0 => e.radiance,
-        _ => Vec3::ZERO,
-    }
+#[inline(always)]
+pub fn facing<F: Float>(normal: Vector<F>, wo: Vector<F>) -> Vector<F> {
+    Vector::select(normal.dot(wo).lt(F::splat(0.0)), -normal, normal)
 }

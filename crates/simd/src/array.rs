@@ -281,8 +281,4 @@ impl<const N: usize> Float for Floats<N> {
     fn widen(self) -> Self::D {
         Doubles(self.0.map(f64::from))
     }
-    #[inline(never)]
-    fn aside<R>(work: impl FnOnce() -> R) -> R {
-        work()
-    }
 }

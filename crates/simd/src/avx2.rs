@@ -23,12 +23,6 @@ pub fn run<K: Kernel>(kernel: K) -> K::Output {
     kernel.run::<Floats>()
 }
 
-#[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt")]
-#[inline(never)]
-fn aside<R>(work: impl FnOnce() -> R) -> R {
-    work()
-}
-
 /// Calls an intrinsic.
 macro_rules! op {
     ($e:expr) => {{
@@ -351,9 +345,5 @@ impl Float for Floats {
             let [low, high] = [_mm256_castps256_ps128(self.0), _mm256_extractf128_ps::<1>(self.0)];
             Doubles(_mm256_cvtps_pd(low), _mm256_cvtps_pd(high))
         })
-    }
-    #[inline(always)]
-    fn aside<R>(work: impl FnOnce() -> R) -> R {
-        op!(aside(work))
     }
 }

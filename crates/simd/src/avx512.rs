@@ -22,12 +22,6 @@ pub fn run<K: Kernel>(kernel: K) -> K::Output {
     kernel.run::<Floats>()
 }
 
-#[target_feature(enable = "avx512f,avx512bw,avx512dq,avx512vl,avx2,bmi1,bmi2,lzcnt,popcnt")]
-#[inline(never)]
-fn aside<R>(work: impl FnOnce() -> R) -> R {
-    work()
-}
-
 /// Calls an intrinsic.
 macro_rules! op {
     ($e:expr) => {{
@@ -371,9 +365,5 @@ impl Float for Floats {
             let high = _mm512_extractf32x8_ps::<1>(self.0);
             Doubles(_mm512_cvtps_pd(_mm512_castps512_ps256(self.0)), _mm512_cvtps_pd(high))
         })
-    }
-    #[inline(always)]
-    fn aside<R>(work: impl FnOnce() -> R) -> R {
-        op!(aside(work))
     }
 }

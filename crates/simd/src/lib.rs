@@ -213,6 +213,4 @@ pub trait Float:
     fn next_down(self) -> Self {
         -(-self).next_up()
     }
-    /// What `work` gives, computed in a function of its own: keeps what is rare out of a large function's way.
-    fn aside<R>(work: impl FnOnce() -> R) -> R;
 }

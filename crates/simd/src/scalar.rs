@@ -194,8 +194,4 @@ impl Float for f32 {
     fn widen(self) -> f64 {
         f64::from(self)
     }
-    #[inline(never)]
-    fn aside<R>(work: impl FnOnce() -> R) -> R {
-        work()
-    }
 }

@@ -45,10 +45,20 @@ impl<F: Float> Vector<F> {
         Vector { x: F::select(mask, yes.x, no.x), y: F::select(mask, yes.y, no.y), z: F::select(mask, yes.z, no.z) }
     }
 
-    /// Each component by itself.
+    /// Divided by a number in each lane.
     #[inline(always)]
-    pub fn map(self, f: impl Fn(F) -> F) -> Self {
-        Vector { x: f(self.x), y: f(self.y), z: f(self.z) }
+    pub fn divided_by(self, divisor: F) -> Self {
+        Vector { x: self.x / divisor, y: self.y / divisor, z: self.z / divisor }
+    }
+
+    /// Vector product.
+    #[inline(always)]
+    pub fn cross(self, other: Self) -> Self {
+        Vector {
+            x: self.y * other.z - other.y * self.z,
+            y: self.z * other.x - other.z * self.x,
+            z: self.x * other.y - other.x * self.y,
+        }
     }
 
     /// Scalar product.
@@ -72,7 +82,7 @@ impl<F: Float> Vector<F> {
     /// Without signs.
     #[inline(always)]
     pub fn abs(self) -> Self {
-        self.map(F::abs)
+        Vector { x: self.x.abs(), y: self.y.abs(), z: self.z.abs() }
     }
 
     /// The largest component.
@@ -124,7 +134,7 @@ impl<F: Float> Mul<F> for Vector<F> {
     type Output = Self;
     #[inline(always)]
     fn mul(self, factor: F) -> Self {
-        self.map(|c| c * factor)
+        Vector { x: self.x * factor, y: self.y * factor, z: self.z * factor }
     }
 }
 
@@ -132,6 +142,6 @@ impl<F: Float> Neg for Vector<F> {
     type Output = Self;
     #[inline(always)]
     fn neg(self) -> Self {
-        self.map(|c| -c)
+        Vector { x: -self.x, y: -self.y, z: -self.z }
     }
 }

@@ -152,7 +152,6 @@ fn floats<F: Float>(log: &mut Log, a: F, b: F) {
     log.float("double numbers", ((c + 0.3) * 1.7 - 0.1).narrow());
     log.float("double splat", F::D::splat(0.1).narrow());
     log.mask::<F>("double lt", c.lt(d));
-    log.float("aside", F::aside(|| a * b));
     log.float("vector", Vector::new(a, b, a + b).normalize().max_element());
 }
 

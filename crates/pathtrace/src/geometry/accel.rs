@@ -12,7 +12,7 @@ use obvhs::bvh2::Bvh2;
 use obvhs::bvh2::builder::build_bvh2;
 use obvhs::ray::RayHit;
 use scene::glam::Vec3A;
-use scene::{Geometry, Scene, Shape, Vec3};
+use scene::{Geometry, Scene, Vec3};
 
 /// What a ray can hit.
 #[derive(Debug, Clone, Copy)]
@@ -180,12 +180,18 @@ impl Primitive {
     }
 }
 
+/// The shapes' indices in the order that decides ties: lamps first, so that a lamp in the plane of a wall wins against the
+/// wall.
+pub fn lamps_first(scene: &Scene) -> impl Iterator<Item = usize> {
+    let is_lamp = |index: &usize| scene.material_of(&scene.shapes[*index]).emission.is_some();
+    let (lamps, others): (Vec<_>, Vec<_>) = (0..scene.shapes.len()).partition(is_lamp);
+    lamps.into_iter().chain(others)
+}
+
 fn primitives(scene: &Scene, lights: &Lights) -> (Vec<Primitive>, Vec<Surface>) {
     let (mut primitives, mut surfaces) = (Vec::new(), Vec::new());
-    // lamps first, so that a lamp in the plane of a wall wins the tie against the wall
-    let is_lamp = |(_, shape): &(usize, &Shape)| scene.material_of(shape).emission.is_some();
-    let (lamps, others): (Vec<_>, Vec<_>) = scene.shapes.iter().enumerate().partition(is_lamp);
-    for (index, shape) in lamps.into_iter().chain(others) {
+    for index in lamps_first(scene) {
+        let shape = &scene.shapes[index];
         let material = shape.material as u32;
         let first_light = lights.first_of_shape(index);
         let mut light = first_light.unwrap_or(NO_LIGHT);

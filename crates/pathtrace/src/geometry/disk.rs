@@ -1,6 +1,8 @@
-//! Ray/disk intersection: the plane in f64, as for triangles, so that a disk never shadows itself.
+//! Ray/disk intersection for one lane: see [`DiskLanes::intersect`].
 
 use super::Ray;
+use super::lanes::Rays;
+use super::packet::DiskLanes;
 use scene::Vec3;
 
 /// A flat disk.
@@ -17,15 +19,9 @@ pub struct Disk {
 impl Disk {
     /// Distance to the disk with `0 < t < tmax`, in lengths of the ray's direction; from either side.
     pub fn intersect(&self, ray: &Ray, tmax: f32) -> Option<f32> {
-        let (normal, direction) = (self.normal.as_dvec3(), ray.direction.as_dvec3());
-        let to_center = self.center.as_dvec3() - ray.origin.as_dvec3();
-        let t = normal.dot(to_center) / normal.dot(direction);
-        // NaN and infinity, from a ray in the plane or beside it, fail too
-        if !(t > 0.0 && t < f64::from(tmax)) {
-            return None;
-        }
-        let off_center = direction * t - to_center;
-        (off_center.length_squared() <= f64::from(self.radius).powi(2)).then_some(t as f32).filter(|&t| t > 0.0)
+        let Disk { center, normal, radius } = *self;
+        let (met, t) = DiskLanes { center, normal, radius }.intersect(&Rays { tmax, ..ray.lane() });
+        met.then_some(t)
     }
 }
 

@@ -1,11 +1,16 @@
 //! Where rays meet shapes, in f32 and without a single absolute epsilon.
 //!
-//! [`triangle`] is watertight, [`sphere`] holds far away and huge, [`disk`] is flat; [`accel`] puts them into a BVH whose boxes are padded
-//! against the rounding of its box test, and [`surface_point`] says where a hit lies and how far to step off it.
+//! [`triangle`] is watertight, [`sphere`] holds far away and huge, [`disk`] is flat; [`accel`] puts them into a BVH whose
+//! boxes are padded against the rounding of its box test, [`packet`] tests all of a small scene against a ray in each lane,
+//! and [`structure`] chooses between these. [`surface_point`] says where a hit lies and how far to step off it; [`lanes`]
+//! has rays, points and hits in each lane.
 
 pub mod accel;
 pub mod disk;
+pub mod lanes;
+pub mod packet;
 pub mod sphere;
+pub mod structure;
 pub mod surface_point;
 pub mod triangle;
 
@@ -30,6 +35,12 @@ impl Ray {
     /// A ray without end along the unit vector `direction`.
     pub fn new(origin: Vec3, direction: Vec3) -> Self {
         Ray { origin, direction: without_negative_zero(direction), tmax: f32::INFINITY }
+    }
+
+    /// As one lane's ray.
+    pub fn lane(&self) -> lanes::Rays<f32> {
+        let [origin, direction] = [self.origin, self.direction].map(crate::vectors::lane_vector);
+        lanes::Rays { origin, direction, tmax: self.tmax }
     }
 
     /// A shadow ray: everything strictly between two points.

@@ -1,8 +1,9 @@
-//! Ray/sphere intersection that survives distance and size: Haines, Günther and Akenine-Möller, "Precision Improvements
-//! for Ray/Sphere Intersection" (Ray Tracing Gems, chapter 7). The textbook's `b^2 - 4ac` loses three quarters of the
-//! rays at a unit sphere 10,000 units away.
+//! Ray/sphere intersection that survives distance and size, for one lane: see [`SphereLanes::intersect`]. The textbook's
+//! `b^2 - 4ac` loses three quarters of the rays at a unit sphere 10,000 units away.
 
 use super::Ray;
+use super::lanes::{Rays, SphereLanes};
+use crate::vectors::glam_vector;
 use scene::Vec3;
 
 /// An analytic sphere.
@@ -15,37 +16,20 @@ pub struct Sphere {
 }
 
 impl Sphere {
+    fn lane(&self) -> SphereLanes<f32> {
+        SphereLanes::new(self.center, self.radius)
+    }
+
     /// Distance to the nearest meeting with `0 < t < tmax`, in lengths of the ray's direction.
     #[inline]
     pub fn intersect(&self, ray: &Ray, tmax: f32) -> Option<f32> {
-        let f = ray.origin - self.center;
-        let d = ray.direction;
-        let a = d.length_squared();
-        let b = -f.dot(d);
-        // squared distance of the centre from the line, without the cancellation of b^2 - a c
-        let off_axis = f + d * (b / a);
-        let discriminant = self.radius * self.radius - off_axis.length_squared();
-        if discriminant < 0.0 {
-            return None;
-        }
-        let q = b + (a * discriminant).sqrt().copysign(b);
-        let c = f.length_squared() - self.radius * self.radius;
-        let (t0, t1) = (c / q, q / a);
-        let (near, far) = (t0.min(t1), t0.max(t1));
-        let t = if near > 0.0 { near } else { far };
-        (t > 0.0 && t < tmax).then_some(t)
+        let (met, t) = self.lane().intersect(&Rays { tmax, ..ray.lane() });
+        met.then_some(t)
     }
 
-    /// The point at the distance `t` of [`Sphere::intersect`], relative to the centre. From the point of the ray nearest to
-    /// the centre, not along the ray: what a long `t` rounds does not turn the normal.
+    /// The point at the distance `t` of [`Sphere::intersect`], relative to the centre.
     pub fn meeting(&self, ray: &Ray, t: f32) -> Vec3 {
-        let f = ray.origin - self.center;
-        let d = ray.direction;
-        let a = d.length_squared();
-        let middle = -f.dot(d) / a;
-        let off_axis = f + d * middle;
-        let half_chord = ((self.radius * self.radius - off_axis.length_squared()).max(0.0) / a).sqrt();
-        off_axis + d * half_chord.copysign(t - middle)
+        glam_vector(self.lane().meeting(&ray.lane(), t))
     }
 }
 

@@ -1,7 +1,8 @@
-//! A point on a surface with a bound on its rounding error, and the step off the surface that the bound asks for (pbrt,
-//! section 6.8): large enough that a new ray cannot meet the surface it leaves, and no larger.
+//! A point on a surface with a bound on its rounding error: [`SurfacePoints`] of one lane.
 
 use super::gamma;
+use super::lanes::SurfacePoints;
+use crate::vectors::{glam_vector, lane_vector};
 use scene::Vec3;
 
 /// A point on a surface.
@@ -39,20 +40,7 @@ impl SurfacePoint {
     }
 
     /// The start of a ray that leaves on the side of `direction`.
-    #[inline]
     pub fn leaving_towards(&self, direction: Vec3) -> Vec3 {
-        let along = self.normal.abs().dot(self.error);
-        let outwards = if direction.dot(self.normal) < 0.0 { -self.normal } else { self.normal };
-        let moved = (self.position + outwards * along).to_array();
-        let outwards = outwards.to_array();
-        Vec3::from_array(std::array::from_fn(|axis| {
-            if outwards[axis] > 0.0 {
-                moved[axis].next_up()
-            } else if outwards[axis] < 0.0 {
-                moved[axis].next_down()
-            } else {
-                moved[axis]
-            }
-        }))
+        glam_vector(SurfacePoints::from(*self).leaving_towards(lane_vector(direction)))
     }
 }

@@ -1,53 +1,59 @@
 //! A sphere as a lamp: uniform in the cone that it fills as seen from a point outside; from inside, where only a two-sided
 //! lamp shines, uniform in all directions.
 
-use super::{LightSample, ShadowEnd};
-use crate::geometry::sphere::Sphere;
-use crate::geometry::{SurfacePoint, gamma};
-use crate::sampling;
-use scene::Vec3;
-use scene::material::Emission;
+use crate::geometry::gamma;
+use crate::geometry::lanes::{SphereLanes, SurfacePoints};
+use crate::warp;
+use simd::{Float, Vector};
 
 /// `1 - cos` of the cone of all directions.
 const ALL_DIRECTIONS: f32 = 2.0;
 
-/// `1 - cos` of the half angle of the cone that the sphere fills as seen from `x`; `None` from inside. Exact for a sphere
-/// tiny or far away, and where the point almost touches it.
+/// A sample of a ball in each lane.
+#[derive(Debug, Clone, Copy)]
+pub struct BallSamples<F: Float> {
+    /// Where the lamp shines.
+    pub shines: F::M,
+    /// Unit direction towards it.
+    pub wi: Vector<F>,
+    /// Density per solid angle.
+    pub pdf: F,
+    pub point: SurfacePoints<F>,
+}
+
+/// `1 - cos` of the half angle of the cone that the sphere fills as seen from `x`, and where `x` is outside. Exact for a
+/// sphere tiny or far away, and where the point almost touches it. From inside, the cone of all directions.
 ///
 /// A point on the sphere itself counts as inside: which side it was rounded to says nothing, from inside it sees the whole
 /// sphere, and outside nothing of it.
-fn one_minus_cos(x: Vec3, Sphere { center, radius }: Sphere) -> Option<f32> {
-    let distance = (center - x).length();
-    let rounding = gamma(8) * (center.abs().max_element() + radius);
-    if distance <= radius + rounding {
-        return None;
-    }
+#[inline(always)]
+fn cone<F: Float>(x: Vector<F>, ball: &SphereLanes<F>) -> (F, F::M) {
+    let (radius, distance) = (ball.radius, (ball.center - x).length_squared().sqrt());
+    let rounding = (ball.center.abs().max_element() + radius) * gamma(8);
+    let outside = !distance.le(radius + rounding);
     let cos = ((distance - radius) * (distance + radius)).sqrt() / distance;
     let sin = radius / distance;
-    Some(sin * sin / (1.0 + cos))
+    (F::select(outside, sin * sin / (cos + 1.0), F::splat(ALL_DIRECTIONS)), outside)
 }
 
-/// Density per solid angle of a direction from `x` that meets the sphere.
-pub fn pdf(x: Vec3, sphere: Sphere) -> f32 {
-    sampling::cone_pdf(one_minus_cos(x, sphere).unwrap_or(ALL_DIRECTIONS))
+/// Density per solid angle of a direction from `x` that meets the ball.
+#[inline(always)]
+pub fn pdf<F: Float>(x: Vector<F>, ball: &SphereLanes<F>) -> F {
+    warp::cone_pdf(cone(x, ball).0)
 }
 
-pub fn sample(x: Vec3, sphere: Sphere, emission: Emission, u: [f32; 2]) -> Option<LightSample> {
-    let to_center = sphere.center - x;
-    let outside = one_minus_cos(x, sphere);
-    let (wi, pdf) = match outside {
-        Some(cone) => {
-            let axis = to_center / to_center.length();
-            (sampling::to_world(sampling::cone(cone, u), axis), sampling::cone_pdf(cone))
-        }
-        None if emission.two_sided => (sampling::cone(ALL_DIRECTIONS, u), sampling::cone_pdf(ALL_DIRECTIONS)),
-        None => return None,
-    };
+/// Light from the balls at `x`.
+#[inline(always)]
+pub fn sample<F: Float>(x: Vector<F>, ball: &SphereLanes<F>, two_sided: F::M, u: [F; 2]) -> BallSamples<F> {
+    let to_center = ball.center - x;
+    let (one_minus_cos, outside) = cone(x, ball);
+    let local = warp::cone(one_minus_cos, u);
+    let wi = Vector::select(outside, warp::to_world(local, to_center.normalize()), local);
     // at the rim, rounding may find no meeting; then the point where the direction comes nearest stands for it
     let along = to_center.dot(wi);
     let off_axis = (to_center - wi * along).length_squared();
-    let half_chord = (sphere.radius * sphere.radius - off_axis).max(0.0).sqrt();
-    let met = wi * if outside.is_some() { along - half_chord } else { along + half_chord } - to_center;
-    let point = SurfacePoint::on_sphere(sphere.center, sphere.radius, met);
-    Some(LightSample { wi, radiance_over_pdf: emission.radiance / pdf, pdf, end: ShadowEnd::Lamp(point) })
+    let half_chord = (ball.radius * ball.radius - off_axis).max(F::splat(0.0)).sqrt();
+    let met = wi * F::select(outside, along - half_chord, along + half_chord) - to_center;
+    let point = SurfacePoints::on_sphere(ball.center, ball.radius, met);
+    BallSamples { shines: outside | two_sided, wi, pdf: warp::cone_pdf(one_minus_cos), point }
 }

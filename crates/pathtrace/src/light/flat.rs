@@ -1,44 +1,38 @@
 //! A flat lamp: the tutorial's `L cos' S / |x - x'|^2`, a point uniform on the lamp and its density `1 / S` turned into
 //! solid angle. From nearby that weight has no bound; a rectangle is then sampled uniformly in solid angle instead.
 
-use super::{LightSample, ShadowEnd, SphericalRectangle};
-use crate::geometry::{SurfacePoint, gamma};
-use crate::sampling;
+use super::spherical_rectangle::SphericalRectangles;
+use crate::geometry::lanes::SurfacePoints;
+use crate::warp;
 use scene::Vec3;
-use scene::material::Emission;
+use scene::glam::DVec3;
+use simd::{Float, Mask, Vector};
 use std::f32::consts::PI;
 
 /// What a flat lamp looks like.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Outline {
-    /// One corner and the edges that leave it.
-    Parallelogram {
-        /// One corner.
-        corner: Vec3,
-        /// To the next corner.
-        edge_u: Vec3,
-        /// To the other next corner.
-        edge_v: Vec3,
-        /// Whether the edges are at right angles.
-        square: bool,
-    },
-    /// Three corners.
-    Triangle([Vec3; 3]),
-    /// A disk.
-    Disk {
-        /// Its centre.
-        center: Vec3,
-        /// Its radius, > 0.
-        radius: f32,
-    },
+    /// All of the parallelogram of its edges.
+    Parallelogram,
+    /// As [`Outline::Parallelogram`], the edges at right angles.
+    Rectangle,
+    /// The half of it on the corner's side.
+    Triangle,
+    /// The corner is its centre, the edges are radii at right angles.
+    Disk,
 }
 
 /// A flat lamp.
 #[derive(Debug, Clone, Copy)]
 pub struct Flat {
-    outline: Outline,
-    normal: Vec3,
-    area: f32,
+    pub outline: Outline,
+    pub corner: Vec3,
+    pub edge_u: Vec3,
+    pub edge_v: Vec3,
+    /// Unit.
+    pub normal: Vec3,
+    /// Of one side.
+    pub area: f32,
 }
 
 /// Solid angle from which on a rectangle may be sampled by it: below, single precision knows the angle too badly.
@@ -50,101 +44,119 @@ impl Flat {
         let (u, v) = (edge_u.as_dvec3(), edge_v.as_dvec3());
         let cross = u.cross(v);
         let square = u.dot(v).abs() <= 1e-6 * u.length() * v.length();
+        let outline = if square { Outline::Rectangle } else { Outline::Parallelogram };
         let normal = cross.try_normalize()?.as_vec3();
-        let outline = Outline::Parallelogram { corner, edge_u, edge_v, square };
-        Some(Flat { outline, normal, area: cross.length() as f32 })
+        Some(Flat { outline, corner, edge_u, edge_v, normal, area: cross.length() as f32 })
     }
 
     /// A triangle with its unit normal.
-    pub fn triangle(corners: [Vec3; 3], normal: Vec3) -> Self {
-        let [a, b, c] = corners.map(|corner| corner.as_dvec3());
-        let area = 0.5 * (b - a).cross(c - a).length();
-        Flat { outline: Outline::Triangle(corners), normal, area: area as f32 }
+    pub fn triangle([a, b, c]: [Vec3; 3], normal: Vec3) -> Self {
+        let doubled = (b.as_dvec3() - a.as_dvec3()).cross(c.as_dvec3() - a.as_dvec3()).length();
+        let [edge_u, edge_v] = [b - a, c - a];
+        Flat { outline: Outline::Triangle, corner: a, edge_u, edge_v, normal, area: (0.5 * doubled) as f32 }
     }
 
-    /// A disk with its unit normal.
+    /// A disk with its unit normal. Its radii in f64: each component shall be right for itself.
     pub fn disk(center: Vec3, normal: Vec3, radius: f32) -> Self {
-        Flat { outline: Outline::Disk { center, radius }, normal, area: PI * radius * radius }
+        let exact = normal.as_dvec3().normalize();
+        let edge_u = exact.any_orthonormal_vector();
+        let [edge_u, edge_v] = [edge_u, exact.cross(edge_u)].map(|edge: DVec3| (edge * f64::from(radius)).as_vec3());
+        Flat { outline: Outline::Disk, corner: center, edge_u, edge_v, normal, area: PI * radius * radius }
     }
+}
 
-    /// Of one side.
-    pub fn area(&self) -> f32 {
-        self.area
-    }
+/// A flat lamp in each lane.
+#[derive(Debug, Clone, Copy)]
+pub struct Flats<F: Float> {
+    pub corner: Vector<F>,
+    pub edge_u: Vector<F>,
+    pub edge_v: Vector<F>,
+    pub normal: Vector<F>,
+    pub area: F,
+    pub two_sided: F::M,
+    pub is_rectangle: F::M,
+    pub is_triangle: F::M,
+    pub is_disk: F::M,
+}
 
-    /// A point uniform on the lamp.
-    pub fn point(&self, u: [f32; 2]) -> SurfacePoint {
-        match self.outline {
-            Outline::Parallelogram { corner, edge_u, edge_v, .. } => {
-                on_parallelogram(corner, edge_u * u[0], edge_v * u[1], self.normal)
-            }
-            Outline::Triangle(corners) => SurfacePoint::on_triangle(corners, sampling::triangle(u), self.normal),
-            Outline::Disk { center, radius } => {
-                let local = sampling::disk(u) * radius;
-                SurfacePoint::on_disk(center, center + sampling::to_world(local, self.normal), self.normal)
-            }
+/// A sample of a flat lamp in each lane.
+#[derive(Debug, Clone, Copy)]
+pub struct FlatSamples<F: Float> {
+    /// Where the lamp shines.
+    pub shines: F::M,
+    /// Unit direction towards it.
+    pub wi: Vector<F>,
+    /// Of the density per solid angle.
+    pub inverse_pdf: F,
+    pub point: SurfacePoints<F>,
+}
+
+impl<F: Float> Flats<F> {
+    /// Light from the lamps at `x`.
+    #[inline(always)]
+    pub fn sample(&self, x: Vector<F>, u: [F; 2]) -> FlatSamples<F> {
+        let mut place = u;
+        if self.is_triangle.any() {
+            let [_, s, t] = warp::triangle(u);
+            place = [F::select(self.is_triangle, s, place[0]), F::select(self.is_triangle, t, place[1])];
         }
-    }
-
-    /// Light from the lamp at `x`; `None` where it does not shine.
-    pub fn sample(&self, x: Vec3, emission: Emission, u: [f32; 2]) -> Option<LightSample> {
-        let near = self.as_seen_from_nearby(x);
-        let point = match (&near, self.outline) {
-            (Some(seen), Outline::Parallelogram { corner, edge_u, edge_v, .. }) => {
-                let [s, t] = seen.sample(u);
-                on_parallelogram(corner, edge_u * s, edge_v * t, self.normal)
-            }
-            _ => self.point(u),
-        };
+        if self.is_disk.any() {
+            let [s, t] = warp::disk(u);
+            place = [F::select(self.is_disk, s, place[0]), F::select(self.is_disk, t, place[1])];
+        }
+        let (near, mut solid_angle) = (self.is_near(x), F::splat(0.0));
+        if near.any() {
+            let seen = self.seen_from(x);
+            let [s, t] = seen.sample(u);
+            solid_angle = seen.solid_angle();
+            let by_angle = near & solid_angle.gt(F::splat(SMALLEST_SOLID_ANGLE));
+            place = [F::select(by_angle, s, place[0]), F::select(by_angle, t, place[1])];
+        }
+        let by_angle = near & solid_angle.gt(F::splat(SMALLEST_SOLID_ANGLE));
+        let point = SurfacePoints::on_plane(self.corner, self.edge_u * place[0], self.edge_v * place[1], self.normal);
         let to_light = point.position - x;
         let distance_squared = to_light.length_squared();
-        let wi = to_light / distance_squared.sqrt();
-        let cos_light = self.cosine(wi, emission.two_sided);
+        let wi = to_light * (F::splat(1.0) / distance_squared.sqrt());
+        let cos_light = self.cosine(wi);
+        let inverse_pdf = F::select(by_angle, solid_angle, cos_light * self.area / distance_squared);
         // also refuses x on the lamp itself, where wi is NaN
-        if !(cos_light > 0.0) {
-            return None;
-        }
-        let inverse_pdf = near.map_or(cos_light * self.area / distance_squared, |seen| seen.solid_angle());
-        let radiance_over_pdf = emission.radiance * inverse_pdf;
-        Some(LightSample { wi, radiance_over_pdf, pdf: 1.0 / inverse_pdf, end: ShadowEnd::Lamp(point) })
+        FlatSamples { shines: cos_light.gt(F::splat(0.0)), wi, inverse_pdf, point }
     }
 
-    /// Density per solid angle of the direction from `x` to `hit` on the lamp; infinite for an edge that no sample sees.
-    pub fn pdf(&self, x: Vec3, hit: &SurfacePoint, two_sided: bool) -> f32 {
-        if let Some(seen) = self.as_seen_from_nearby(x) {
-            return 1.0 / seen.solid_angle();
-        }
-        let to_light = hit.position - x;
+    /// Density per solid angle of the direction from `x` to the point `on` the lamp; infinite for an edge that no sample
+    /// sees.
+    #[inline(always)]
+    pub fn pdf(&self, x: Vector<F>, on: Vector<F>) -> F {
+        let to_light = on - x;
         let distance_squared = to_light.length_squared();
-        let cos_light = self.cosine(to_light / distance_squared.sqrt(), two_sided);
-        if cos_light > 0.0 { distance_squared / (cos_light * self.area) } else { f32::INFINITY }
-    }
-
-    fn cosine(&self, wi: Vec3, two_sided: bool) -> f32 {
-        let cosine = -self.normal.dot(wi);
-        if two_sided { cosine.abs() } else { cosine }
-    }
-
-    /// A rectangle whose middle is nearer than the root of its area: there its solid angle is worth its price.
-    fn as_seen_from_nearby(&self, x: Vec3) -> Option<SphericalRectangle> {
-        match self.outline {
-            Outline::Parallelogram { corner, edge_u, edge_v, square: true } => {
-                let to_middle = corner + 0.5 * (edge_u + edge_v) - x;
-                if to_middle.length_squared() > self.area { None } else { solid_angle_of(x, corner, edge_u, edge_v) }
-            }
-            _ => None,
+        let cos_light = self.cosine(to_light * (F::splat(1.0) / distance_squared.sqrt()));
+        let by_area =
+            F::select(cos_light.gt(F::splat(0.0)), distance_squared / (cos_light * self.area), F::splat(f32::INFINITY));
+        let near = self.is_near(x);
+        if !near.any() {
+            return by_area;
         }
+        let solid_angle = self.seen_from(x).solid_angle();
+        let by_angle = near & solid_angle.gt(F::splat(SMALLEST_SOLID_ANGLE));
+        F::select(by_angle, F::splat(1.0) / solid_angle, by_area)
     }
-}
 
-/// Kept out of the way of lamps farther off.
-#[inline(never)]
-fn solid_angle_of(x: Vec3, corner: Vec3, edge_u: Vec3, edge_v: Vec3) -> Option<SphericalRectangle> {
-    let seen = SphericalRectangle::new(x, corner, edge_u, edge_v);
-    (seen.solid_angle() > SMALLEST_SOLID_ANGLE).then_some(seen)
-}
+    #[inline(always)]
+    fn cosine(&self, wi: Vector<F>) -> F {
+        let cosine = -self.normal.dot(wi);
+        F::select(self.two_sided, cosine.abs(), cosine)
+    }
 
-fn on_parallelogram(corner: Vec3, along_u: Vec3, along_v: Vec3, normal: Vec3) -> SurfacePoint {
-    let error = gamma(4) * (corner.abs() + along_u.abs() + along_v.abs());
-    SurfacePoint { position: corner + along_u + along_v, error, normal }
+    /// Whether it is a rectangle whose middle is nearer than the root of its area: there its solid angle is worth its
+    /// price.
+    #[inline(always)]
+    fn is_near(&self, x: Vector<F>) -> F::M {
+        let to_middle = self.corner + (self.edge_u + self.edge_v) * F::splat(0.5) - x;
+        self.is_rectangle & to_middle.length_squared().le(self.area)
+    }
+
+    #[inline(always)]
+    fn seen_from(&self, x: Vector<F>) -> SphericalRectangles<F> {
+        SphericalRectangles::new(x, self.corner, self.edge_u, self.edge_v)
+    }
 }

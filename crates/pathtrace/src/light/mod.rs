@@ -5,16 +5,21 @@ mod ball;
 mod flat;
 mod spherical_rectangle;
 mod sun;
+mod table;
 
-pub use flat::{Flat, Outline};
 pub use spherical_rectangle::SphericalRectangle;
-pub use sun::{SunDisc, environment};
+pub use sun::SunDisc;
+pub use table::LightSamples;
 
 use crate::geometry::sphere::Sphere;
 use crate::geometry::{SurfacePoint, triangle_normal};
+use crate::vectors::{glam_vector, lane_vector};
+use crate::warp;
+use flat::Flat;
 use scene::material::Emission;
 use scene::{Geometry, PointLight, Scene, Shape, Sun, Vec3, colour};
 use std::f32::consts::PI;
+use table::Table;
 
 /// A light that can be sampled from a point.
 #[derive(Debug, Clone, Copy)]
@@ -31,12 +36,12 @@ pub struct Lights {
     lights: Vec<Light>,
     /// The probability of choosing each.
     probabilities: Vec<f32>,
-    /// Their running sum, the last one 1.
-    cumulative: Vec<f32>,
     /// Index of each shape's first light.
     first_of_shape: Vec<Option<u32>>,
     /// Index of the sun.
     sun: Option<usize>,
+    /// All of this as lanes look it up.
+    table: Table,
 }
 
 /// Light that arrives at a point from one sampled direction, if nothing stands between.
@@ -92,8 +97,9 @@ impl Lights {
         if let Some(last) = cumulative.last_mut() {
             *last = 1.0;
         }
-        let probabilities = probabilities.iter().map(|&p| p as f32).collect();
-        Lights { lights, probabilities, cumulative, first_of_shape, sun }
+        let probabilities: Vec<f32> = probabilities.iter().map(|&p| p as f32).collect();
+        let table = Table::new(&lights, &probabilities, cumulative);
+        Lights { lights, probabilities, first_of_shape, sun, table }
     }
 
     /// Number of lights; each triangle of a mesh that shines is one.
@@ -111,9 +117,15 @@ impl Lights {
         self.first_of_shape[shape]
     }
 
+    /// The lights in lanes.
+    #[inline(always)]
+    pub fn table(&self) -> &Table {
+        &self.table
+    }
+
     /// The light that `u` in [0, 1) chooses; there must be one.
     pub fn choose(&self, u: f32) -> usize {
-        self.cumulative.partition_point(|&c| c <= u).min(self.lights.len() - 1)
+        self.table.choose(u) as usize
     }
 
     /// The probability that [`Lights::choose`] gives this light.
@@ -127,38 +139,29 @@ impl Lights {
         if self.lights.is_empty() {
             return None;
         }
-        let light = self.choose(u_light);
-        let mut sample = self.sample_one(light, x, u)?;
-        sample.radiance_over_pdf /= self.probabilities[light];
-        sample.pdf *= self.probabilities[light];
-        Some(sample)
-    }
-
-    /// As [`Lights::sample`], but of one light of the caller's choice, whose probability is not in the densities.
-    pub fn sample_one(&self, light: usize, x: Vec3, u: [f32; 2]) -> Option<LightSample> {
-        match self.lights[light] {
-            Light::Flat(flat, emission) => flat.sample(x, emission, u),
-            Light::Sphere(sphere, emission) => ball::sample(x, sphere, emission, u),
-            Light::Point(point) => sample_point(x, point),
-            Light::Sun(sun) => Some(sun::sample(sun, u)),
-        }
+        let sample = self.table.sample(lane_vector(x), u_light, u);
+        let end = match self.lights[self.choose(u_light)] {
+            Light::Flat(..) | Light::Sphere(..) => ShadowEnd::Lamp(SurfacePoint {
+                position: glam_vector(sample.point.position),
+                error: glam_vector(sample.point.error),
+                normal: glam_vector(sample.point.normal),
+            }),
+            Light::Point(point) => ShadowEnd::Point(point.position),
+            Light::Sun(_) => ShadowEnd::Infinity,
+        };
+        let (wi, radiance_over_pdf) = (glam_vector(sample.wi), glam_vector(sample.radiance_over_pdf));
+        sample.shines.then_some(LightSample { wi, radiance_over_pdf, pdf: sample.pdf, end })
     }
 
     /// Density per solid angle with which [`Lights::sample`] at `x` draws the direction that met `light` at `hit`.
     pub fn pdf(&self, light: u32, x: Vec3, hit: &SurfacePoint) -> f32 {
-        let light = light as usize;
-        let density = match &self.lights[light] {
-            Light::Flat(flat, emission) => flat.pdf(x, hit, emission.two_sided),
-            Light::Sphere(sphere, _) => ball::pdf(x, *sphere),
-            Light::Point(_) | Light::Sun(_) => 0.0,
-        };
-        density * self.probabilities[light]
+        self.table.pdf(light, lane_vector(x), lane_vector(hit.position))
     }
 
     /// Density per solid angle with which [`Lights::sample`] draws a direction in the sun's disc.
     pub fn sun_pdf(&self) -> f32 {
         self.sun.map_or(0.0, |index| match self.lights[index] {
-            Light::Sun(sun) => sun::pdf(sun) * self.probabilities[index],
+            Light::Sun(sun) => warp::cone_pdf(sun.one_minus_cos()) * self.probabilities[index],
             _ => 0.0,
         })
     }
@@ -195,21 +198,6 @@ fn push_lamps(shape: &Shape, emission: Emission, lights: &mut Vec<Light>) {
     }
 }
 
-/// Intensity over squared distance: the irradiance on a surface that faces the point.
-fn sample_point(x: Vec3, point: PointLight) -> Option<LightSample> {
-    let to_light = point.position - x;
-    let distance_squared = to_light.length_squared();
-    if !(distance_squared > 0.0) {
-        return None;
-    }
-    Some(LightSample {
-        wi: to_light / distance_squared.sqrt(),
-        radiance_over_pdf: point.intensity / distance_squared,
-        pdf: f32::INFINITY,
-        end: ShadowEnd::Point(point.position),
-    })
-}
-
 impl Light {
     /// Emitted power, as far as choosing needs it; the sun's is what falls on the scene's disc.
     fn power(&self, scene_radius: f32) -> f32 {
@@ -217,7 +205,7 @@ impl Light {
             colour::luminance(emission.radiance) * area * PI * if emission.two_sided { 2.0 } else { 1.0 }
         };
         match self {
-            Light::Flat(flat, emission) => of(emission, flat.area()),
+            Light::Flat(flat, emission) => of(emission, flat.area),
             Light::Sphere(sphere, emission) => of(emission, 4.0 * PI * sphere.radius * sphere.radius),
             Light::Point(point) => colour::luminance(point.intensity) * 4.0 * PI,
             Light::Sun(sun) => colour::luminance(sun.irradiance) * PI * scene_radius * scene_radius,

@@ -1,70 +1,111 @@
 //! A rectangle sampled uniformly in the solid angle that it fills: Ureña, Fajardo and King, "An Area-Preserving
 //! Parametrization for Spherical Rectangles" (EGSR 2013).
 
+use crate::vectors::lane_vector;
+use crate::warp::{angle_of_upper, sin_cos_2pi};
 use scene::Vec3;
+use simd::{Float, Vector};
 use std::f32::consts::TAU;
 
-/// A rectangle as seen from a point.
+/// A rectangle as seen from a point, in each lane.
 #[derive(Debug, Clone, Copy)]
-pub struct SphericalRectangle {
-    x0: f32,
-    x1: f32,
-    y0: f32,
-    y1: f32,
+pub struct SphericalRectangles<F> {
+    x0: F,
+    x1: F,
+    y0: F,
+    y1: F,
     /// Distance of the plane, negative.
-    z0: f32,
+    z0: F,
     /// z of the normals of the great circles below and above.
-    b0: f32,
-    b1: f32,
+    b0: F,
+    b1: F,
     /// `2 pi` less two of the inner angles.
-    k: f32,
-    solid_angle: f32,
+    k: F,
+    solid_angle: F,
 }
 
-impl SphericalRectangle {
+impl<F: Float> SphericalRectangles<F> {
     /// The rectangle with this corner and these edges at right angles, seen from `eye`.
-    pub fn new(eye: Vec3, corner: Vec3, edge_u: Vec3, edge_v: Vec3) -> Self {
-        let (width, height) = (edge_u.length(), edge_v.length());
-        let (x, y) = (edge_u / width, edge_v / height);
+    #[inline(always)]
+    pub fn new(eye: Vector<F>, corner: Vector<F>, edge_u: Vector<F>, edge_v: Vector<F>) -> Self {
+        let (width, height) = (edge_u.length_squared().sqrt(), edge_v.length_squared().sqrt());
+        let (x, y) = (edge_u.divided_by(width), edge_v.divided_by(height));
         let d = corner - eye;
         let z0 = -d.dot(x.cross(y)).abs();
         let (x0, y0) = (d.dot(x), d.dot(y));
         let (x1, y1) = (x0 + width, y0 + height);
-        let across = |y: f32| y / (z0 * z0 + y * y).sqrt();
-        // inner angle at a corner: the arc cosine of `xy / sqrt((x^2 + z^2) (y^2 + z^2))`, as an arc tangent because close
-        // to the plane that cosine is 1 but for its last bits
-        let angle = |x: f32, y: f32, cos: f32| (-z0 * (x * x + y * y + z0 * z0).sqrt()).atan2(cos);
-        let (g0, g1) = (angle(x1, y0, x1 * y0), angle(x1, y1, -x1 * y1));
-        let (g2, g3) = (angle(x0, y1, x0 * y1), angle(x0, y0, -x0 * y0));
-        let k = TAU - g2 - g3;
+        let (g0, g1) = (inner_angle(x1, y0, z0, x1 * y0), inner_angle(x1, y1, z0, -x1 * y1));
+        let (g2, g3) = (inner_angle(x0, y1, z0, x0 * y1), inner_angle(x0, y0, z0, -x0 * y0));
+        let (zero, k) = (F::splat(0.0), F::splat(TAU) - g2 - g3);
         // in its plane an eye sees nothing of it
-        let solid_angle = if z0 == 0.0 { 0.0 } else { (g0 + g1 - k).max(0.0) };
-        SphericalRectangle { x0, x1, y0, y1, z0, b0: -across(y0), b1: across(y1), k, solid_angle }
+        let solid_angle = F::select(z0.eq(zero), zero, (g0 + g1 - k).max(zero));
+        SphericalRectangles { x0, x1, y0, y1, z0, b0: -slope(y0, z0), b1: slope(y1, z0), k, solid_angle }
     }
 
     /// In [0, 2 pi]; off by about 1e-6.
-    pub fn solid_angle(&self) -> f32 {
+    #[inline(always)]
+    pub fn solid_angle(&self) -> F {
         self.solid_angle
     }
 
     /// The place on the rectangle, in [0, 1]^2 along its edges, of a direction uniform in its solid angle.
-    #[inline(never)]
-    pub fn sample(&self, u: [f32; 2]) -> [f32; 2] {
-        if self.solid_angle == 0.0 {
-            return u;
-        }
-        let (sin, cos) = (u[0] * self.solid_angle + self.k).sin_cos();
+    #[inline(always)]
+    pub fn sample(&self, u: [F; 2]) -> [F; 2] {
+        let (zero, one) = (F::splat(0.0), F::splat(1.0));
+        let (sin, cos) = sin_cos_2pi((u[0] * self.solid_angle + self.k) * (1.0 / TAU));
         let fu = (cos * self.b0 - self.b1) / sin;
-        let cu = (1.0 / (fu * fu + self.b0 * self.b0).sqrt()).copysign(fu).clamp(-1.0, 1.0);
-        let xu = (-(cu * self.z0) / (1.0 - cu * cu).max(f32::MIN_POSITIVE).sqrt()).clamp(self.x0, self.x1);
+        let cu = (one / (fu * fu + self.b0 * self.b0).sqrt()).copysign(fu).clamp(-one, one);
+        let smallest = F::splat(f32::MIN_POSITIVE);
+        let xu = (-(cu * self.z0) / (one - cu * cu).max(smallest).sqrt()).clamp(self.x0, self.x1);
         let d = (xu * xu + self.z0 * self.z0).sqrt();
-        let h = |y: f32| y / (d * d + y * y).sqrt();
-        let (h0, h1) = (h(self.y0), h(self.y1));
+        let (h0, h1) = (slope(self.y0, d), slope(self.y1, d));
         let hv = h0 + u[1] * (h1 - h0);
-        let rest = ((1.0 - hv) * (1.0 + hv)).max(f32::MIN_POSITIVE);
+        let rest = ((one - hv) * (hv + one)).max(smallest);
         let yv = (hv * d / rest.sqrt()).clamp(self.y0, self.y1);
-        let share = |value: f32, from: f32, to: f32| ((value - from) / (to - from)).clamp(0.0, 1.0);
-        [share(xu, self.x0, self.x1), share(yv, self.y0, self.y1)]
+        let flat = self.solid_angle.eq(zero);
+        let [s, t] = [share(xu, self.x0, self.x1), share(yv, self.y0, self.y1)];
+        [F::select(flat, u[0], s), F::select(flat, u[1], t)]
+    }
+}
+
+/// The sine of the angle under which `y` is seen from the distance `d`.
+#[inline(always)]
+fn slope<F: Float>(y: F, d: F) -> F {
+    y / (d * d + y * y).sqrt()
+}
+
+/// Inner angle at the corner (x, y, z): the arc cosine of `xy / sqrt((x^2 + z^2) (y^2 + z^2))`, as an arc tangent because
+/// close to the plane that cosine is 1 but for its last bits. `cos` is `xy`, its sign by the corner.
+#[inline(always)]
+fn inner_angle<F: Float>(x: F, y: F, z: F, cos: F) -> F {
+    angle_of_upper(-z * (x * x + y * y + z * z).sqrt(), cos)
+}
+
+/// Where a value lies between two others, in [0, 1].
+#[inline(always)]
+fn share<F: Float>(value: F, from: F, to: F) -> F {
+    ((value - from) / (to - from)).clamp(F::splat(0.0), F::splat(1.0))
+}
+
+/// [`SphericalRectangles`] of one lane.
+#[derive(Debug, Clone, Copy)]
+pub struct SphericalRectangle(SphericalRectangles<f32>);
+
+impl SphericalRectangle {
+    /// The rectangle with this corner and these edges at right angles, seen from `eye`.
+    pub fn new(eye: Vec3, corner: Vec3, edge_u: Vec3, edge_v: Vec3) -> Self {
+        let [eye, corner, edge_u, edge_v] = [eye, corner, edge_u, edge_v].map(lane_vector);
+        SphericalRectangle(SphericalRectangles::new(eye, corner, edge_u, edge_v))
+    }
+
+    /// In [0, 2 pi]; off by about 1e-6.
+    pub fn solid_angle(&self) -> f32 {
+        self.0.solid_angle()
+    }
+
+    /// The place on the rectangle, in [0, 1]^2 along its edges, of a direction uniform in its solid angle.
+    pub fn sample(&self, u: [f32; 2]) -> [f32; 2] {
+        self.0.sample(u)
     }
 }
 

@@ -1,0 +1,290 @@
+//! The lights of a scene by columns, sampled in each lane.
+
+use super::Light;
+use super::ball;
+use super::flat::{Flats, Outline};
+use crate::geometry::lanes::{SphereLanes, SurfacePoints};
+use crate::vectors::VectorColumn;
+use crate::warp;
+use scene::Vec3;
+use simd::{Column, Float, Mask, Vector, Word, WordColumn};
+
+/// All lights.
+#[derive(Debug, Clone, Default)]
+pub struct Table {
+    /// Corner or centre of a lamp, place of a point, direction towards the sun.
+    position: VectorColumn,
+    edge_u: VectorColumn,
+    edge_v: VectorColumn,
+    normal: VectorColumn,
+    /// Radiance; of a point its intensity, of a delta sun its irradiance.
+    radiance: VectorColumn,
+    /// Area, radius of a ball, `1 - cos` of the sun's angular radius.
+    size: Column,
+    probability: Column,
+    /// Running sum of the probabilities, the last one 1.
+    cumulative: Column,
+    /// See [`kind`].
+    kind: WordColumn,
+    count: u32,
+    has: Has,
+}
+
+/// Which kinds of lights there are.
+#[derive(Debug, Clone, Copy, Default)]
+struct Has {
+    flats: bool,
+    balls: bool,
+    points: bool,
+    sun: bool,
+}
+
+/// Bits that say what a light is.
+mod kind {
+    pub const FLAT: u32 = 1;
+    pub const BALL: u32 = 2;
+    pub const POINT: u32 = 4;
+    pub const SUN: u32 = 8;
+    pub const TWO_SIDED: u32 = 16;
+    pub const RECTANGLE: u32 = 32;
+    pub const TRIANGLE: u32 = 64;
+    pub const DISK: u32 = 128;
+}
+
+/// Light that arrives at a point in each lane from one sampled direction, if nothing stands between.
+#[derive(Debug, Clone, Copy)]
+pub struct LightSamples<F: Float> {
+    /// Where the light shines; what else is said holds only there.
+    pub shines: F::M,
+    /// Unit direction towards the light.
+    pub wi: Vector<F>,
+    /// Radiance divided by `pdf`; for a point or a delta sun its irradiance.
+    pub radiance_over_pdf: Vector<F>,
+    /// Density per solid angle; infinite for a point and a delta sun.
+    pub pdf: F,
+    /// Where the shadow ray ends: on a lamp, or in the air at a point without a normal.
+    pub point: SurfacePoints<F>,
+    /// Where it does not end.
+    pub endless: F::M,
+}
+
+impl<F: Float> LightSamples<F> {
+    #[inline(always)]
+    fn select(mask: F::M, yes: Self, no: Self) -> Self {
+        LightSamples {
+            shines: (mask & yes.shines) | (!mask & no.shines),
+            wi: Vector::select(mask, yes.wi, no.wi),
+            radiance_over_pdf: Vector::select(mask, yes.radiance_over_pdf, no.radiance_over_pdf),
+            pdf: F::select(mask, yes.pdf, no.pdf),
+            point: SurfacePoints::select(mask, yes.point, no.point),
+            endless: (mask & yes.endless) | (!mask & no.endless),
+        }
+    }
+
+    #[inline(always)]
+    fn nowhere() -> Self {
+        let zero = Vector::zero();
+        LightSamples {
+            shines: F::M::splat(false),
+            wi: zero,
+            radiance_over_pdf: zero,
+            pdf: F::splat(0.0),
+            point: SurfacePoints { position: zero, error: zero, normal: zero },
+            endless: F::M::splat(false),
+        }
+    }
+}
+
+impl Table {
+    pub(super) fn new(lights: &[Light], probabilities: &[f32], cumulative: Vec<f32>) -> Self {
+        let vectors = |of: fn(&Light) -> Vec3| VectorColumn::new(lights.iter().map(of));
+        let of_flat = |light: &Light, of: fn(&super::Flat) -> Vec3| match light {
+            Light::Flat(flat, _) => of(flat),
+            Light::Sphere(..) | Light::Point(_) | Light::Sun(_) => Vec3::ZERO,
+        };
+        let flats = |of: fn(&super::Flat) -> Vec3| VectorColumn::new(lights.iter().map(|light| of_flat(light, of)));
+        Table {
+            position: vectors(|light| match light {
+                Light::Flat(flat, _) => flat.corner,
+                Light::Sphere(sphere, _) => sphere.center,
+                Light::Point(point) => point.position,
+                Light::Sun(sun) => sun.towards,
+            }),
+            edge_u: flats(|flat| flat.edge_u),
+            edge_v: flats(|flat| flat.edge_v),
+            normal: flats(|flat| flat.normal),
+            radiance: vectors(|light| match light {
+                Light::Flat(_, emission) | Light::Sphere(_, emission) => emission.radiance,
+                Light::Point(point) => point.intensity,
+                Light::Sun(sun) if sun.one_minus_cos() == 0.0 => sun.irradiance,
+                Light::Sun(sun) => sun.radiance(),
+            }),
+            size: Column::new(lights.iter().map(|light| match light {
+                Light::Flat(flat, _) => flat.area,
+                Light::Sphere(sphere, _) => sphere.radius,
+                Light::Point(_) => 0.0,
+                Light::Sun(sun) => sun.one_minus_cos(),
+            })),
+            probability: Column::new(probabilities.iter().copied()),
+            cumulative: Column::new(cumulative),
+            kind: WordColumn::new(lights.iter().map(kind_of)),
+            count: lights.len() as u32,
+            has: Has {
+                flats: lights.iter().any(|light| matches!(light, Light::Flat(..))),
+                balls: lights.iter().any(|light| matches!(light, Light::Sphere(..))),
+                points: lights.iter().any(|light| matches!(light, Light::Point(_))),
+                sun: lights.iter().any(|light| matches!(light, Light::Sun(_))),
+            },
+        }
+    }
+
+    /// The light that `u` in [0, 1) chooses; there must be one. The first whose running sum is above `u`, by halving.
+    #[inline(always)]
+    pub fn choose<F: Float>(&self, u: F) -> F::U {
+        let mut below = F::U::splat(0);
+        if self.count > 1 {
+            let last = F::U::splat(self.count - 1);
+            let mut step = self.count.next_power_of_two();
+            while step > 0 {
+                let next = below.wrapping_add(F::U::splat(step));
+                let of_next = next.wrapping_sub(F::U::splat(1));
+                let passed = !last.lt(next) & of_next.look_up(&self.cumulative).le(u);
+                below = F::U::select(passed, next, below);
+                step /= 2;
+            }
+        }
+        below
+    }
+
+    /// Samples the light that reaches the points `x`: one number in [0, 1) to choose a light, two to choose a point on it.
+    #[inline(always)]
+    pub fn sample<F: Float>(&self, x: Vector<F>, u_light: F, u: [F; 2]) -> LightSamples<F> {
+        let light = self.choose(u_light);
+        let mut sample = self.sample_one(light, x, u);
+        if self.count > 1 {
+            let probability = light.look_up(&self.probability);
+            sample.radiance_over_pdf = sample.radiance_over_pdf * (F::splat(1.0) / probability);
+            sample.pdf = sample.pdf * probability;
+        }
+        sample
+    }
+
+    /// As [`Table::sample`], but of one light of the caller's choice, whose probability is not in the densities.
+    #[inline(always)]
+    pub fn sample_one<F: Float>(&self, light: F::U, x: Vector<F>, u: [F; 2]) -> LightSamples<F> {
+        let position = self.position.look_up(light);
+        let radiance = self.radiance.look_up(light);
+        let size = light.look_up(&self.size);
+        let kind = light.look_up_word(&self.kind);
+        let (never, infinite) = (F::M::splat(false), F::splat(f32::INFINITY));
+        let mut sample = LightSamples::nowhere();
+        if self.has.flats {
+            let of = self.flats(light, kind).sample(x, u);
+            let flat = LightSamples {
+                shines: of.shines,
+                wi: of.wi,
+                radiance_over_pdf: radiance * of.inverse_pdf,
+                pdf: F::splat(1.0) / of.inverse_pdf,
+                point: of.point,
+                endless: never,
+            };
+            sample = LightSamples::select(is(kind, kind::FLAT), flat, sample);
+        }
+        if self.has.balls {
+            let of = ball::sample(x, &SphereLanes { center: position, radius: size }, is(kind, kind::TWO_SIDED), u);
+            let ball = LightSamples {
+                shines: of.shines,
+                wi: of.wi,
+                radiance_over_pdf: radiance * (F::splat(1.0) / of.pdf),
+                pdf: of.pdf,
+                point: of.point,
+                endless: never,
+            };
+            sample = LightSamples::select(is(kind, kind::BALL), ball, sample);
+        }
+        if self.has.points {
+            // intensity over squared distance: the irradiance on a surface that faces the point
+            let to_light = position - x;
+            let distance_squared = to_light.length_squared();
+            let point = LightSamples {
+                shines: distance_squared.gt(F::splat(0.0)),
+                wi: to_light * (F::splat(1.0) / distance_squared.sqrt()),
+                radiance_over_pdf: radiance * (F::splat(1.0) / distance_squared),
+                pdf: infinite,
+                point: SurfacePoints { position, error: Vector::zero(), normal: Vector::zero() },
+                endless: never,
+            };
+            sample = LightSamples::select(is(kind, kind::POINT), point, sample);
+        }
+        if self.has.sun {
+            let delta = size.eq(F::splat(0.0));
+            let in_cone = warp::to_world(warp::cone(size, u), position);
+            let pdf = warp::cone_pdf(size);
+            let sun = LightSamples {
+                shines: !never,
+                wi: Vector::select(delta, position, in_cone),
+                radiance_over_pdf: Vector::select(delta, radiance, radiance * (F::splat(1.0) / pdf)),
+                pdf: F::select(delta, infinite, pdf),
+                point: LightSamples::nowhere().point,
+                endless: !never,
+            };
+            sample = LightSamples::select(is(kind, kind::SUN), sun, sample);
+        }
+        sample
+    }
+
+    /// Density per solid angle with which [`Table::sample`] at `x` draws the direction that met a lamp at the point `on`
+    /// it.
+    #[inline(always)]
+    pub fn pdf<F: Float>(&self, light: F::U, x: Vector<F>, on: Vector<F>) -> F {
+        let kind = light.look_up_word(&self.kind);
+        let mut density = F::splat(0.0);
+        if self.has.flats {
+            density = F::select(is(kind, kind::FLAT), self.flats(light, kind).pdf(x, on), density);
+        }
+        if self.has.balls {
+            let ball = SphereLanes { center: self.position.look_up(light), radius: light.look_up(&self.size) };
+            density = F::select(is(kind, kind::BALL), ball::pdf(x, &ball), density);
+        }
+        density * light.look_up(&self.probability)
+    }
+
+    #[inline(always)]
+    fn flats<F: Float>(&self, light: F::U, kind: F::U) -> Flats<F> {
+        Flats {
+            corner: self.position.look_up(light),
+            edge_u: self.edge_u.look_up(light),
+            edge_v: self.edge_v.look_up(light),
+            normal: self.normal.look_up(light),
+            area: light.look_up(&self.size),
+            two_sided: is(kind, kind::TWO_SIDED),
+            is_rectangle: is(kind, kind::RECTANGLE),
+            is_triangle: is(kind, kind::TRIANGLE),
+            is_disk: is(kind, kind::DISK),
+        }
+    }
+}
+
+/// Where a light is what a bit of [`kind`] says.
+#[inline(always)]
+fn is<U: Word>(kind: U, bit: u32) -> U::M {
+    !(kind & U::splat(bit)).eq(U::splat(0))
+}
+
+fn kind_of(light: &Light) -> u32 {
+    let sides = |two_sided: bool| if two_sided { kind::TWO_SIDED } else { 0 };
+    match light {
+        Light::Sphere(_, emission) => kind::BALL | sides(emission.two_sided),
+        Light::Point(_) => kind::POINT,
+        Light::Sun(_) => kind::SUN,
+        Light::Flat(flat, emission) => {
+            let outline = match flat.outline {
+                Outline::Parallelogram => 0,
+                Outline::Rectangle => kind::RECTANGLE,
+                Outline::Triangle => kind::TRIANGLE,
+                Outline::Disk => kind::DISK,
+            };
+            kind::FLAT | outline | sides(emission.two_sided)
+        }
+    }
+}
