@@ -293,7 +293,7 @@ impl<'a, F: Float> Walk<'a, F> {
             resumed: F::M::splat(false),
             vertex: DiffuseVertices { point, normal: zero, albedo: zero },
             forks: Forks::default(),
-            scratch: Scratch::default(),
+            scratch: Scratch::new(world.structure.packet()),
             outcome: Outcomes { radiance: zero, cut: F::M::splat(false) },
             rays: 0,
         }

@@ -240,7 +240,7 @@ impl<'a, F: Float> Walk<'a, F> {
             waiting: Waiting { branches: Vec::new(), count: none },
             dimension: none,
             followed: none,
-            scratch: Scratch::default(),
+            scratch: Scratch::new(world.structure.packet()),
             outcome: Outcomes { radiance: Vector::zero(), cut: F::M::splat(false) },
             rays: 0,
         }

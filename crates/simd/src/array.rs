@@ -7,16 +7,16 @@ use std::ops::{Add, BitAnd, BitOr, BitXor, Div, Mul, Neg, Not, Sub};
 
 /// All ones where true.
 #[derive(Debug, Clone, Copy)]
-#[repr(align(32))]
+#[repr(align(16))]
 pub struct Masks<const N: usize>([u32; N]);
 #[derive(Debug, Clone, Copy)]
-#[repr(align(32))]
+#[repr(align(16))]
 pub struct Words<const N: usize>([u32; N]);
 #[derive(Debug, Clone, Copy)]
-#[repr(align(32))]
+#[repr(align(16))]
 pub struct Doubles<const N: usize>([f64; N]);
 #[derive(Debug, Clone, Copy)]
-#[repr(align(32))]
+#[repr(align(16))]
 pub struct Floats<const N: usize>([f32; N]);
 
 macro_rules! lane_by_lane {

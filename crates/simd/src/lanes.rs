@@ -11,7 +11,7 @@ pub enum Lanes {
     Avx512,
     /// 8 lanes, x86-64 with AVX2.
     Avx2,
-    /// 8 lanes in plain arrays, anywhere.
+    /// 4 lanes in plain arrays, anywhere.
     Array,
     /// One lane.
     Scalar,
@@ -87,7 +87,7 @@ impl Lanes {
                 unsafe { crate::avx2::run(kernel) }
             }
             Self::Scalar => kernel.run::<f32>(),
-            _ => kernel.run::<Floats<8>>(),
+            _ => kernel.run::<Floats<4>>(),
         }
     }
 }

@@ -1,5 +1,5 @@
 //! Lane types: an algorithm is written once over [`Float`], its words and masks, and runs on as many lanes as the machine
-//! has: 16 with AVX-512, 8 with AVX2, 8 in plain arrays anywhere, and one, which is `f32` itself.
+//! has: 16 with AVX-512, 8 with AVX2, 4 in plain arrays anywhere, and one, which is `f32` itself.
 //!
 //! What runs is a [`Kernel`]; [`Lanes::run`] picks its instantiation at run time. Every operation is IEEE 754's or integer
 //! arithmetic and none is fused, so all backends give the same bits.

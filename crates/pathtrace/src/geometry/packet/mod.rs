@@ -93,9 +93,23 @@ struct Slant<F: Float> {
     grazing: F::M,
 }
 
-impl<F: Float> Default for Scratch<F> {
-    fn default() -> Self {
-        Scratch { coordinates: [vec![], vec![], vec![]], corners: vec![], edges: vec![], planes: vec![] }
+impl<F: Float> Scratch<F> {
+    /// Room for the shapes of a packet, if there is one.
+    #[inline(always)]
+    pub fn new(packet: Option<&Packet>) -> Self {
+        let zero = F::splat(0.0);
+        let slant = Slant { start: F::D::splat(0.0), inverse: zero, grazing: zero.lt(zero) };
+        let mut scratch =
+            Scratch { coordinates: [vec![], vec![], vec![]], corners: vec![], edges: vec![], planes: vec![] };
+        if let Some(Packet { seen, .. }) = packet {
+            for axis in 0..3 {
+                scratch.coordinates[axis] = vec![[zero; 2]; seen.coordinates[axis].len()];
+            }
+            scratch.corners = vec![[zero; 2]; seen.corners.len()];
+            scratch.edges = vec![zero; seen.edges.len()];
+            scratch.planes = vec![slant; seen.normals.len()];
+        }
+        scratch
     }
 }
 
@@ -217,27 +231,24 @@ impl Shapes {
     fn prepare<F: Float>(&self, rays: &Rays<F>, frame: &Frame<F>, scratch: &mut Scratch<F>) {
         let origin = [rays.origin.x, rays.origin.y, rays.origin.z];
         for axis in 0..3 {
-            scratch.coordinates[axis].clear();
-            for &coordinate in &self.coordinates[axis] {
-                let from_origin = F::splat(coordinate) - origin[axis];
-                scratch.coordinates[axis].push([frame.x[axis] * from_origin, frame.y[axis] * from_origin]);
+            let (x, y, origin) = (frame.x[axis], frame.y[axis], origin[axis]);
+            for (place, &coordinate) in scratch.coordinates[axis].iter_mut().zip(&self.coordinates[axis]) {
+                let from_origin = F::splat(coordinate) - origin;
+                *place = [x * from_origin, y * from_origin];
             }
         }
         let [x, y, z] = &scratch.coordinates;
-        scratch.corners.clear();
-        for corner in &self.corners {
-            let (x, y, z) = (x[usize::from(corner[0])], y[usize::from(corner[1])], z[usize::from(corner[2])]);
-            scratch.corners.push([x[0] + y[0] + z[0], x[1] + y[1] + z[1]]);
+        for (corner, places) in scratch.corners.iter_mut().zip(&self.corners) {
+            let (x, y, z) = (x[usize::from(places[0])], y[usize::from(places[1])], z[usize::from(places[2])]);
+            *corner = [x[0] + y[0] + z[0], x[1] + y[1] + z[1]];
         }
-        scratch.edges.clear();
-        for edge in &self.edges {
-            let (p, q) = (scratch.corners[usize::from(edge[0])], scratch.corners[usize::from(edge[1])]);
+        for (edge, ends) in scratch.edges.iter_mut().zip(&self.edges) {
+            let (p, q) = (scratch.corners[usize::from(ends[0])], scratch.corners[usize::from(ends[1])]);
             // rounding is monotone, so without fusing the sign is right or it is 0
-            scratch.edges.push(p[0] * q[1] - p[1] * q[0]);
+            *edge = p[0] * q[1] - p[1] * q[0];
         }
-        scratch.planes.clear();
-        for normal in &self.normals {
-            scratch.planes.push(normal.slant(rays, frame.longest));
+        for (plane, normal) in scratch.planes.iter_mut().zip(&self.normals) {
+            *plane = normal.slant(rays, frame.longest);
         }
     }
 
