@@ -35,7 +35,7 @@ impl<F: Float> Forks<F> {
     #[inline(always)]
     pub fn push(&mut self, here: F::M, vertex: &DiffuseVertices<F>, path: &PathStates<F>, left: u32) {
         let fork = Fork { vertex: *vertex, path: *path, left: F::U::splat(left) };
-        for depth in 0..MOST_FORKS {
+        for depth in 0..(self.waiting.len() + 1).min(MOST_FORKS) {
             let at = here & self.count.eq(F::U::splat(depth as u32));
             if !at.any() {
                 continue;

@@ -134,7 +134,7 @@ struct Waiting<F: Float> {
 impl<F: Float> Waiting<F> {
     #[inline(always)]
     fn push(&mut self, here: F::M, branch: &Branches<F>) {
-        for depth in 0..WhittedSettings::MOST_DEPTH as usize {
+        for depth in 0..(self.branches.len() + 1).min(WhittedSettings::MOST_DEPTH as usize) {
             let at = here & self.count.eq(F::U::splat(depth as u32));
             if at.any() {
                 if depth == self.branches.len() {

@@ -315,3 +315,6 @@ impl PlaneNormal {
         Slant { start, inverse: F::splat(1.0) / towards, grazing: towards.abs().lt(longest * GRAZING) }
     }
 }
+
+#[cfg(test)]
+mod tests;

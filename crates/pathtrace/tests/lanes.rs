@@ -1,0 +1,227 @@
+//! One kernel, many lanes: pictures are the same bit for bit, whatever traces them and however many threads do.
+
+use pathtrace::{Estimator, GlassShadows, Lanes, PathSettings, Roulette, SamplerKind, Stats, Tracer, WhittedSettings};
+use scene::{Film, Scene, builtin};
+use std::path::Path;
+use std::sync::atomic::{AtomicU32, Ordering};
+
+/// Not a multiple of any number of lanes, and more than one chunk of pixels.
+const SIZE: (u32, u32) = (37, 29);
+
+/// What the built-in scenes lack: lamps of each outline and shapes that lie in one plane, beside glass, a mirror, a point
+/// light, a sun with a disc and a sky.
+const EVERYTHING: &str = r#"
+[camera]
+eye = [0.3, 1.2, 4]
+target = [0, 0.6, 0]
+fov_y = 55
+[sky]
+radiance = [0.2, 0.3, 0.5]
+[sun]
+towards = [0.48, 0.6, 0.64]
+angular_radius = 3
+irradiance = [1, 0.9, 0.7]
+[[point_light]]
+position = [-1.5, 1.5, 1]
+intensity = [0.5, 0.4, 0.9]
+[material.board]
+diffuse = { albedo = { even = [0.8, 0.8, 0.7], odd = [0.2, 0.3, 0.2], origin = [0, 0, 0], cell = [0.5, 0, 0.5] } }
+[material.white]
+diffuse = { albedo = [0.7, 0.7, 0.7] }
+[material.mirror]
+mirror = { reflectance = [0.9, 0.8, 0.7] }
+[material.glass]
+dielectric = { ior = 1.5 }
+[material.lamp]
+emissive = { radiance = [4, 3, 2] }
+[material.two_sided]
+emissive = { radiance = [1, 2, 3], two_sided = true }
+[[rectangle]]
+corner = [-3, 0, -3]
+edge_u = [0, 0, 6]
+edge_v = [6, 0, 0]
+material = "board"
+[[rectangle]]
+corner = [-0.5, 0, 0.8]
+edge_u = [0, 0, 0.5]
+edge_v = [0.5, 0, 0.1]
+material = "lamp"
+[[rectangle]]
+corner = [-1, 2, -1]
+edge_u = [2, 0, 0]
+edge_v = [0, 0, 2]
+material = "lamp"
+[[box]]
+corner = [-1.6, 0.1, -1]
+size = [0.8, 1, 0.7]
+turn_y = 20
+material = "white"
+[[box]]
+corner = [0.2, 0.2, -0.6]
+size = [0.5, 0.5, 0.5]
+turn_y = -35
+material = "glass"
+[[box]]
+corner = [1.5, 0.3, -1]
+size = [0.3, 0.3, 0.3]
+turn_y = 10
+material = "two_sided"
+[[sphere]]
+center = [-0.4, 0.5, 0.3]
+radius = 0.4
+material = "glass"
+[[sphere]]
+center = [1, 1.3, -1]
+radius = 0.5
+material = "mirror"
+[[sphere]]
+center = [-2, 0.6, 0.8]
+radius = 0.2
+material = "two_sided"
+[[disk]]
+center = [0.9, 0.8, 0.6]
+normal = [0, 0.6, -0.8]
+radius = 0.3
+material = "two_sided"
+[[disk]]
+center = [-1, 1.4, -1.5]
+normal = [0, 0, 1]
+radius = 0.6
+material = "mirror"
+[[mesh]]
+positions = [[1.8, 0, 1], [2.4, 0.1, 0.6], [2, 0.9, 0.7], [2.2, 0.2, 1.4]]
+triangles = [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]]
+material = "lamp"
+"#;
+
+fn everything() -> Scene {
+    scene::parse(EVERYTHING, "everything", Path::new("everything.toml")).expect("a scene")
+}
+
+/// As a mesh of many triangles: too many to be met one by one.
+fn a_tree() -> Scene {
+    let mut scene = everything();
+    let rings = 24u32;
+    let at = |i: u32, j: u32| {
+        let (theta, phi) = (3.14159 * f64::from(i) / f64::from(rings), 6.28318 * f64::from(j) / f64::from(rings));
+        let p = [theta.sin() * phi.cos(), theta.cos(), theta.sin() * phi.sin()].map(|c| 0.4 * c as f32);
+        scene::Vec3::from_array(p) + scene::Vec3::new(-1.2, 0.5, 1.0)
+    };
+    let positions = (0..=rings).flat_map(|i| (0..rings).map(move |j| at(i, j))).collect();
+    let index = |i: u32, j: u32| i * rings + j % rings;
+    let quads = (0..rings).flat_map(|i| (0..rings).map(move |j| (i, j)));
+    let triangles = quads
+        .flat_map(|(i, j)| {
+            let [a, b, c, d] = [index(i, j), index(i + 1, j), index(i + 1, j + 1), index(i, j + 1)];
+            [[a, c, b], [a, d, c]]
+        })
+        .collect();
+    let ball = scene::Shape { geometry: scene::Geometry::Mesh { positions, triangles }, material: 1 };
+    scene.shapes = scene.shapes.iter().cloned().chain([ball]).collect();
+    scene
+}
+
+/// All scenes that this test knows.
+fn scenes() -> Vec<Scene> {
+    let built_in = builtin::names().chain(builtin::hard_names());
+    built_in.map(|name| builtin::named(name).expect("built in")).chain([everything(), a_tree()]).collect()
+}
+
+fn all_settings() -> Vec<PathSettings> {
+    let estimators = Estimator::EVERY.map(|estimator| PathSettings { estimator, ..PathSettings::default() });
+    let base = PathSettings { sampler: SamplerKind::Independent, seed: 5, ..PathSettings::default() };
+    let others = [
+        base,
+        PathSettings { bounces: Some(0), ..base },
+        PathSettings { bounces: Some(3), roulette: Roulette::OFF, estimator: Estimator::MIS, ..base },
+        PathSettings { roulette: Roulette { probability: Some(0.7), throughput: true }, ..base },
+        PathSettings { branches: 3, bounces: Some(2), ..base },
+        PathSettings { branches: 2, bounces: Some(3), estimator: Estimator::UNIFORM_MIS, ..PathSettings::default() },
+    ];
+    estimators.into_iter().chain(others).collect()
+}
+
+fn path(tracer: &Tracer, scene: &Scene, settings: &PathSettings, samples: u32) -> (Film, Stats) {
+    let mut film = Film::new(SIZE.0, SIZE.1);
+    let stats = tracer.render(&mut film, &scene.camera, settings, samples, &|| false);
+    (film, stats)
+}
+
+fn whitted(tracer: &Tracer, scene: &Scene, settings: &WhittedSettings) -> (Film, Stats) {
+    let mut film = Film::new(SIZE.0, SIZE.1);
+    let stats = tracer.render_whitted(&mut film, &scene.camera, settings, 2, &|| false);
+    (film, stats)
+}
+
+fn tracers(scene: &Scene) -> Vec<(Lanes, Tracer)> {
+    Lanes::available().map(|lanes| (lanes, Tracer::new(scene).with_lanes(lanes))).collect()
+}
+
+#[test]
+fn all_lanes_trace_the_same_paths() {
+    for scene in scenes() {
+        let tracers = tracers(&scene);
+        for settings in all_settings() {
+            let of_lanes: Vec<_> = tracers.iter().map(|(_, tracer)| path(tracer, &scene, &settings, 3)).collect();
+            let (film, stats) = &of_lanes[0];
+            assert_eq!((film.nonfinite, stats.samples), (0, u64::from(SIZE.0 * SIZE.1 * 3)), "{}", scene.name);
+            for ((lanes, _), other) in tracers.iter().zip(&of_lanes) {
+                assert!(other == &of_lanes[0], "{}, {settings:?}: {} differs", scene.name, lanes.name());
+            }
+        }
+    }
+}
+
+#[test]
+fn all_lanes_grow_the_same_trees() {
+    let default = WhittedSettings::default();
+    let settings = [
+        default,
+        WhittedSettings { depth: 0, sampler: SamplerKind::Independent, ..default },
+        WhittedSettings { shadow_rays: 3, glass_shadows: GlassShadows::Clear, depth: 5, ..default },
+    ];
+    for scene in scenes() {
+        let tracers = tracers(&scene);
+        for settings in settings {
+            let of_lanes: Vec<_> = tracers.iter().map(|(_, tracer)| whitted(tracer, &scene, &settings)).collect();
+            for ((lanes, _), other) in tracers.iter().zip(&of_lanes) {
+                assert!(other == &of_lanes[0], "{}, {settings:?}: {} differs", scene.name, lanes.name());
+            }
+        }
+    }
+}
+
+#[test]
+fn pictures_do_not_depend_on_threads_or_on_how_samples_are_split() {
+    for scene in [everything(), a_tree()] {
+        let tracer = Tracer::new(&scene);
+        for sampler in SamplerKind::ALL {
+            let settings = PathSettings { sampler, ..PathSettings::default() };
+            let on = |threads: usize| {
+                let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
+                pool.install(|| path(&tracer, &scene, &settings, 4))
+            };
+            let whole = on(1);
+            assert!(whole == on(2) && whole == on(7), "{sampler:?}");
+            let mut film = Film::new(SIZE.0, SIZE.1);
+            let mut add = |samples| tracer.render(&mut film, &scene.camera, &settings, samples, &|| false);
+            let stats = add(1).plus(add(2)).plus(add(1));
+            assert!((film, stats) == whole, "{sampler:?}, in three calls");
+        }
+    }
+}
+
+/// A picture that was stopped holds whole samples, and is completed to the same picture.
+#[test]
+fn a_stopped_picture_is_completed() {
+    let scene = everything();
+    let tracer = Tracer::new(&scene);
+    let (settings, mut film) = (PathSettings::default(), Film::new(SIZE.0, SIZE.1));
+    let asked = AtomicU32::new(0);
+    let stop = || asked.fetch_add(1, Ordering::Relaxed) > 20;
+    let stats = tracer.render(&mut film, &scene.camera, &settings, 16, &stop);
+    let taken: u64 = film.pixels().iter().map(|pixel| u64::from(pixel.samples)).sum();
+    assert!(taken == stats.samples && taken > 0 && film.samples_per_pixel() == 0, "{taken}");
+    tracer.render(&mut film, &scene.camera, &settings, 16, &|| false);
+    assert!(film == path(&tracer, &scene, &settings, 16).0);
+}
