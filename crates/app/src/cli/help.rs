@@ -25,6 +25,8 @@ visavis render SCENE -o OUT      render to OUT, .png (display-transformed) or .e
     --time SECONDS               stop after this long, or at --spp if that is given and comes first
     --sampler independent|sobol  where random numbers come from (default sobol)
     --sun-radius DEG             angular radius of the sun, 0 is a delta light (default the scene's)
+    --lanes avx512|avx2|array|scalar
+                                 what rays are traced in: the same picture, sooner or later (default the widest)
     --seed N                     selects one of 2^32 independent pictures (default 1)
   path:
     --bounces N|inf              scattering vertices after the first; 0 is direct light (default inf)
@@ -81,6 +83,7 @@ visavis check                    every hard case: expected, measured, tolerance,
     --quick                      coarser, within a minute
     --case N,N,...               these cases alone
     --device auto|cpu            where: the cpu is all there is so far
+    --lanes L                    as for render
     --json                       one JSON object on stdout
 visavis info                     adapters, limits, what would be used and why
 visavis --help, --version

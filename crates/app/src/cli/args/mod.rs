@@ -18,7 +18,7 @@ use lexopt::prelude::*;
 use picture_file::Kind;
 use std::ffi::OsString;
 use std::path::PathBuf;
-use values::{choice, number};
+use values::{choice, lanes, number};
 
 /// `visavis [SCENE]`.
 #[derive(Debug, Clone, PartialEq)]
@@ -157,6 +157,7 @@ fn parse_check(mut parser: lexopt::Parser) -> Result<Command, CliError> {
             Long("device") => {
                 choice(&mut parser, "--device", |name| ["auto", "cpu"].contains(&name).then_some(()), "auto or cpu")?;
             }
+            Long("lanes") => lanes(&mut parser)?,
             Long("case") => args.cases = cases(&parser.value()?.string()?)?,
             Long("help") => return Ok(Command::Print(help::HELP)),
             other => return Err(other.unexpected().into()),

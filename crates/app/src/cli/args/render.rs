@@ -2,7 +2,7 @@
 
 use super::seen::{Seen, parse_seen};
 use super::usage;
-use super::values::{choice, number, parse_finite, parse_whole, seconds, text, whole, within};
+use super::values::{choice, lanes, number, parse_finite, parse_whole, seconds, text, whole, within};
 use crate::cli::{CliError, Command, help};
 use crate::technique::{PaneSettings, Technique, made_from};
 use anyhow::Context;
@@ -176,6 +176,10 @@ fn of_rays(option: &str, parser: &mut lexopt::Parser, r: &mut RenderArgs) -> Res
         "sun-radius" => {
             parse_seen(option, parser, &mut r.seen)?;
             ("--sun-radius", RAYS)
+        }
+        "lanes" => {
+            lanes(parser)?;
+            ("--lanes", RAYS)
         }
         "seed" => {
             path.seed = whole(parser, "--seed", 0)?;

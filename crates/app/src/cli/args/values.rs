@@ -74,6 +74,14 @@ pub fn point(parser: &mut lexopt::Parser, option: &str) -> Result<Vec3, CliError
     }
 }
 
+/// The lanes that every tracer of this process shall use, see [`pathtrace::Lanes::prefer`].
+pub fn lanes(parser: &mut lexopt::Parser) -> Result<(), CliError> {
+    let available = || pathtrace::Lanes::available();
+    let names: Vec<_> = available().map(pathtrace::Lanes::name).collect();
+    let named = |name: &str| available().find(|lanes| lanes.name() == name);
+    choice(parser, "--lanes", named, &format!("{} on this machine", names.join(", "))).map(pathtrace::Lanes::prefer)
+}
+
 /// A number within a range, as the fake's knobs have them.
 pub fn within<T: FromStr + PartialOrd + std::fmt::Display>(
     parser: &mut lexopt::Parser,
