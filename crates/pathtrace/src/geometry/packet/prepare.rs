@@ -192,8 +192,10 @@ impl Shapes {
         let largest = corners.iter().map(|p| f64::from(p.abs().max_element())).fold(0.0, f64::max);
         let own = (b - a).cross(d - a).normalize();
         let range = |normal: DVec3| {
-            let [offsets @ ..] = [a, b, c, d].map(|p| normal.dot(p));
-            offsets.into_iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(lo, hi), k| (lo.min(k), hi.max(k)))
+            [a, b, c, d]
+                .map(|p| normal.dot(p))
+                .into_iter()
+                .fold((f64::INFINITY, f64::NEG_INFINITY), |(lo, hi), k| (lo.min(k), hi.max(k)))
         };
         let parallel = |normal: &PlaneNormal| {
             let PlaneNormal::Tilted(normal) = *normal else { return false };
