@@ -1,6 +1,6 @@
 //! Vertices that wait for their other branches ("When N>1: Distributed ray tracing"), a small stack in each lane.
 
-use crate::path::{DiffuseVertices, PathStates};
+use crate::path_state::{DiffuseVertices, PathStates};
 use simd::{Float, Mask, Word};
 
 /// Vertices that can wait for more branches at a time: two to this power is [`crate::path::MOST_BRANCHES`].
@@ -67,7 +67,7 @@ impl<F: Float> Forks<F> {
             }
             found = found | at;
             *vertex = DiffuseVertices::select(at, fork.vertex, *vertex);
-            let branch = child::<F>(fork.path.branch(), branches, F::U::splat(branches).wrapping_sub(fork.left));
+            let branch = child::<F>(fork.path.branch, branches, F::U::splat(branches).wrapping_sub(fork.left));
             *path = PathStates::select(at, fork.path.numbered(branch), *path);
             self.count = F::U::select(at & fork.left.eq(one), self.count.wrapping_sub(one), self.count);
             fork.left = F::U::select(at, fork.left.wrapping_sub(one), fork.left);

@@ -1,7 +1,7 @@
 //! Paths, one in each lane: the tutorial's `shade`, turned from recursion into a state that moves from vertex to vertex
 //! (Task 2 d).
 //!
-//! Each [`Walk::segment`] is one segment of every path: meet a surface, take its emission, sample a light, draw a
+//! Each [`segment`](crate::crew::Walk::segment) is one segment of every path: meet a surface, take its emission, sample a light, draw a
 //! direction, play roulette. What only some lanes do is computed for all and selected by a mask; what none does is
 //! skipped. The state is all there is: no recursion, no allocation. A bounce limit of N lets N + 1 vertices scatter; what
 //! is found by chance is found one segment later, by the last one.
@@ -14,6 +14,8 @@ use crate::forks::{Forks, MOST_FORKS, child};
 use crate::geometry::NO_LIGHT;
 use crate::geometry::lanes::{Hits, Rays, SurfacePoints};
 use crate::geometry::packet::Scratch;
+use crate::path_state::{ALREADY_COUNTED, DiffuseVertices, MET_BY_CHANCE, PathStates, balance};
+use crate::roulette::survivors;
 use crate::sampler::Sampler;
 use crate::sampling::UNIFORM_HEMISPHERE_PDF;
 use crate::settings::{Directions, LightSearch, PathSettings, Roulette};
@@ -25,129 +27,6 @@ use std::f32::consts::FRAC_1_PI;
 
 /// Paths that one sample may branch into.
 pub const MOST_BRANCHES: u32 = 65_536;
-
-/// A path on its way, in each lane.
-#[derive(Clone, Copy)]
-pub struct PathStates<F: Float> {
-    rays: Rays<F>,
-    /// Product of BSDF, cosine and inverse density so far: what radiance met now is worth at the camera.
-    throughput: Vector<F>,
-    /// Vertices at which the path has scattered.
-    vertices: F::U,
-    /// Diffuse ones among them, as far as they branched.
-    forked: F::U,
-    /// Tells the branches of a sample apart: the path's number in their tree, 0 if nothing branches.
-    branch: F::U,
-    /// The last vertex.
-    from: Vector<F>,
-    /// Density per solid angle of the direction taken there, as far as the light met now needs it: [`MET_BY_CHANCE`] if
-    /// it all counts, [`ALREADY_COUNTED`] if it does not, else weighted against light sampling.
-    direction_pdf: F,
-}
-
-/// No light was sampled at the last vertex, or none could be: the camera, a mirror, glass.
-const MET_BY_CHANCE: f32 = f32::INFINITY;
-/// Light was sampled at the last vertex: meeting it now would count it twice.
-const ALREADY_COUNTED: f32 = 0.0;
-
-/// A point of a diffuse surface, in each lane.
-#[derive(Clone, Copy)]
-pub struct DiffuseVertices<F: Float> {
-    point: SurfacePoints<F>,
-    /// On the side that the path came from.
-    normal: Vector<F>,
-    albedo: Vector<F>,
-}
-
-impl<F: Float> PathStates<F> {
-    /// As paths leave the camera.
-    #[inline(always)]
-    fn leaving_camera(rays: &Rays<F>) -> Self {
-        let none = F::U::splat(0);
-        PathStates {
-            rays: *rays,
-            throughput: Vector::along_all(F::splat(1.0)),
-            vertices: none,
-            forked: none,
-            branch: none,
-            from: rays.origin,
-            direction_pdf: F::splat(MET_BY_CHANCE),
-        }
-    }
-
-    /// The path's number in the tree of its sample's branches.
-    #[inline(always)]
-    pub fn branch(&self) -> F::U {
-        self.branch
-    }
-
-    /// The same path as another of these branches.
-    #[inline(always)]
-    pub fn numbered(self, branch: F::U) -> Self {
-        PathStates { branch, ..self }
-    }
-
-    /// `mask ? yes : no`.
-    #[inline(always)]
-    pub fn select(mask: F::M, yes: Self, no: Self) -> Self {
-        PathStates {
-            rays: Rays::select(mask, yes.rays, no.rays),
-            throughput: Vector::select(mask, yes.throughput, no.throughput),
-            vertices: F::U::select(mask, yes.vertices, no.vertices),
-            forked: F::U::select(mask, yes.forked, no.forked),
-            branch: F::U::select(mask, yes.branch, no.branch),
-            from: Vector::select(mask, yes.from, no.from),
-            direction_pdf: F::select(mask, yes.direction_pdf, no.direction_pdf),
-        }
-    }
-
-    /// Blocks of random numbers: the camera takes block 0, each vertex two; branches keep apart by the bits above these.
-    #[inline(always)]
-    fn direction_dimension(&self) -> F::U {
-        let one = F::U::splat(1);
-        self.vertices.shl::<1>().wrapping_add(one).wrapping_add(self.branch.shl::<11>())
-    }
-
-    #[inline(always)]
-    fn light_dimension(&self) -> F::U {
-        self.direction_dimension().wrapping_add(F::U::splat(1))
-    }
-
-    /// Goes on, where `here` says so, in the unit direction `wi`, of which a specular surface left no choice.
-    #[inline(always)]
-    fn leave(&mut self, here: F::M, from: &SurfacePoints<F>, wi: Vector<F>) {
-        self.direction_pdf = F::select(here, F::splat(MET_BY_CHANCE), self.direction_pdf);
-        self.rays = Rays::select(here, Rays::new(from.leaving_towards(wi), wi), self.rays);
-    }
-
-    /// How much light that was met counts beside the same light sampled at the last vertex with density `light_pdf`.
-    #[inline(always)]
-    fn weight_of_meeting(&self, light_pdf: F) -> F {
-        let (zero, one) = (F::splat(0.0), F::splat(1.0));
-        let all_counts = self.direction_pdf.eq(F::splat(MET_BY_CHANCE));
-        let counted = self.direction_pdf.eq(F::splat(ALREADY_COUNTED));
-        let weighted = F::select(counted, zero, balance(self.direction_pdf, light_pdf));
-        F::select(all_counts, one, weighted)
-    }
-}
-
-impl<F: Float> DiffuseVertices<F> {
-    /// `mask ? yes : no`.
-    #[inline(always)]
-    pub fn select(mask: F::M, yes: Self, no: Self) -> Self {
-        DiffuseVertices {
-            point: SurfacePoints::select(mask, yes.point, no.point),
-            normal: Vector::select(mask, yes.normal, no.normal),
-            albedo: Vector::select(mask, yes.albedo, no.albedo),
-        }
-    }
-}
-
-/// The balance heuristic: the weight of a sample of density `own`, which may be infinite, against one of density `other`.
-#[inline(always)]
-fn balance<F: Float>(own: F, other: F) -> F {
-    F::splat(1.0) / (other / own + 1.0)
-}
 
 /// Settings as the walk reads them.
 pub struct Plan {
@@ -421,29 +300,4 @@ fn scatter_dielectric<F: Float>(at: &SurfacePoints<F>, wo: Vector<F>, ior: F, u:
     let reflects = u.lt(interface.fresnel(normal.dot(wo)));
     let (refracted, refracts) = interface.refract(wo, normal);
     Vector::select(refracts & !reflects, refracted, reflected(wo, normal)).normalize()
-}
-
-/// Survival for each unit of throughput. Measured on both of the tutorial's scenes: relMSE times seconds is 1.26e-3 at 1,
-/// 1.02e-3 at 1.5, 0.86e-3 at 2, 0.92e-3 at 4 and 2.2e-3 at 16 for the Cornell box, and flat from 1 to 2 for the spheres.
-const ROULETTE_SLOPE: f32 = 2.0;
-
-/// Random numbers are multiples of 2^-24: a probability is one as well, or the survivors would be too many by up to that.
-const STEPS: f32 = 16_777_216.0;
-
-/// Russian roulette: where paths survive, and the throughput of survivors, who carry the light of those that did not.
-/// `branches` paths share what one would carry.
-#[inline(always)]
-fn survivors<F: Float>(throughput: Vector<F>, branches: F, roulette: Roulette, u: F) -> (F::M, Vector<F>) {
-    // nothing is left to carry: the product has underflowed, or the surface was black
-    let nothing = throughput.is_zero();
-    if roulette == Roulette::OFF {
-        return (!nothing, throughput);
-    }
-    let one = F::splat(1.0);
-    let mut probability = F::splat(roulette.probability.unwrap_or(1.0));
-    if roulette.throughput {
-        probability = probability * (branches * ROULETTE_SLOPE * throughput.max_element()).min(one);
-    }
-    probability = (probability * STEPS).ceil() * (1.0 / STEPS);
-    (u.lt(probability) & !nothing, throughput * (one / probability))
 }

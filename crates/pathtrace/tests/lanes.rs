@@ -1,7 +1,10 @@
 //! One kernel, many lanes: pictures are the same bit for bit, whatever traces them and however many threads do.
 
+#![expect(clippy::expect_used, reason = "a scene that does not load is a failure")]
+
 use pathtrace::{Estimator, GlassShadows, Lanes, PathSettings, Roulette, SamplerKind, Stats, Tracer, WhittedSettings};
 use scene::{Film, Scene, builtin};
+use std::f64::consts::{PI, TAU};
 use std::path::Path;
 use std::sync::atomic::{AtomicU32, Ordering};
 
@@ -103,7 +106,7 @@ fn a_tree() -> Scene {
     let mut scene = everything();
     let rings = 24u32;
     let at = |i: u32, j: u32| {
-        let (theta, phi) = (3.14159 * f64::from(i) / f64::from(rings), 6.28318 * f64::from(j) / f64::from(rings));
+        let (theta, phi) = (PI * f64::from(i) / f64::from(rings), TAU * f64::from(j) / f64::from(rings));
         let p = [theta.sin() * phi.cos(), theta.cos(), theta.sin() * phi.sin()].map(|c| 0.4 * c as f32);
         scene::Vec3::from_array(p) + scene::Vec3::new(-1.2, 0.5, 1.0)
     };

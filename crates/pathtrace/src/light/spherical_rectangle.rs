@@ -87,7 +87,7 @@ fn share<F: Float>(value: F, from: F, to: F) -> F {
     ((value - from) / (to - from)).clamp(F::splat(0.0), F::splat(1.0))
 }
 
-/// [`SphericalRectangles`] of one lane.
+/// A rectangle as seen from a point.
 #[derive(Debug, Clone, Copy)]
 pub struct SphericalRectangle(SphericalRectangles<f32>);
 

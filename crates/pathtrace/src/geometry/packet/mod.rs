@@ -3,7 +3,7 @@
 //! Flat shapes are watertight as in [`super::triangle`], after Woop, Benthin and Wald, and cheaper by what they share:
 //! coordinates, corners and edges are each taken into the rays' frames once, however many shapes they belong to. So
 //! neighbours do not only evaluate the same expression for their common edge, it is the same number. The two halves of a
-//! rectangle are one [`Facet`] of four edges.
+//! rectangle are one facet of four edges.
 //!
 //! The distance to a plane is `(offset - n . origin) / (n . direction)`, above the division in f64, or exactly in f32 where
 //! the plane is parallel to an axis: from a point just above a wall, its sign must be right. Parallel planes share
