@@ -120,7 +120,7 @@ pub fn traced(
     rung: usize,
     truth: &Truth,
 ) -> Result<Measurement, BenchError> {
-    let spp = part.rungs(&line.way).get(rung).copied().unwrap_or(1);
+    let spp = part.rungs(line).get(rung).copied().unwrap_or(1);
     let (mut pictures, mut films) = (Vec::new(), Vec::new());
     for i in 0..SEEDS {
         let seed = seed(rung, i);

@@ -59,7 +59,7 @@ impl Page<'_> {
              two</th></tr>\n",
         );
         for (part, _) in &self.parts {
-            for curve in part.curves.iter().filter(|curve| curve.line.way.converges()) {
+            for curve in part.curves.iter().filter(|curve| curve.line.way.converges() && !curve.line.is_a_variant()) {
                 let words =
                     |fit: Option<Fit>| fit.map_or("within the reference's noise".into(), |fit| slope_words(&fit));
                 let (slope, relative) = (words(curve.slope), words(curve.relative_slope));
@@ -102,6 +102,7 @@ fn section(summary: &PartSummary, plots: &[Plot]) -> String {
         html += &format!("<figure>\n{}<figcaption>{}</figcaption>\n</figure>\n", plot.svg, escaped(&plot.caption));
     }
     html += &table::of(summary);
+    html += &table::of_variants(summary);
     html + &format!(
         "<p class=\"small\">Spp: samples per pixel. Medians over seeds, ranges in brackets. Efficiency: 1 / (MSE \u{d7} seconds). {} Grey: within \
          the reference's own noise.</p>\n",

@@ -3,7 +3,7 @@
 //! A bench within so many seconds is planned from a speed that is measured first, so that it holds on slower machines
 //! too. The plan is kept in the journal: what is interrupted goes on by the same plan.
 
-use crate::way::{Line, Variant, WHITTED_SPP, Way};
+use crate::way::{Line, VARIANT_SPP, Variant, WHITTED_SPP, Way};
 use crate::{BenchError, Options};
 use pathtrace::{Estimator, FEWEST_REPLICATES, PathSettings, SamplerKind, Tracer};
 use raster::Fake;
@@ -168,9 +168,10 @@ impl Part {
         std::iter::successors(Some(1), |spp| Some(spp * RUNG)).take_while(|spp| *spp <= self.most_spp).collect()
     }
 
-    /// Samples per pixel at which a way is measured.
-    pub fn rungs(&self, way: &Way) -> Vec<u32> {
-        match way {
+    /// Samples per pixel at which a line is measured.
+    pub fn rungs(&self, line: &Line) -> Vec<u32> {
+        match line.way {
+            _ if line.is_a_variant() => vec![VARIANT_SPP],
             Way::Path { .. } => self.ladder(),
             Way::Whitted => vec![WHITTED_SPP],
             Way::Raster(_) => vec![0],
@@ -192,7 +193,8 @@ impl Part {
         ways.push(Way::Whitted);
         ways.extend(Fake::ALL.map(Way::Raster));
         let usual = &Variant::ALL[0];
-        let others = Variant::ALL[1..].iter().map(|variant| Line { way: Way::USUAL, variant });
+        let available = Variant::ALL[1..].iter().filter(|variant| variant.is_available());
+        let others = available.map(|variant| Line { way: Way::USUAL, variant });
         others.chain(ways.into_iter().map(|way| Line { way, variant: usual })).collect()
     }
 
@@ -213,7 +215,7 @@ impl Part {
 
     /// Samples of all lines' measurements.
     fn all_samples(&self, scene: &Scene) -> f64 {
-        let of_line = |line: &Line| self.rungs(&line.way).iter().map(|spp| self.samples(*spp)).sum::<f64>();
+        let of_line = |line: &Line| self.rungs(line).iter().map(|spp| self.samples(*spp)).sum::<f64>();
         self.lines(scene).iter().map(of_line).sum()
     }
 

@@ -26,9 +26,14 @@ pub fn of(summary: &PartSummary) -> Vec<Plot> {
     plots
 }
 
+/// Whether a line stands in the plots against samples and time.
+fn drawn(curve: &&Curve) -> bool {
+    !curve.line.way.is_of_the_lesson() && !curve.line.is_a_variant()
+}
+
 fn against_samples(summary: &PartSummary) -> Plot {
     let part = &summary.part;
-    let curves = summary.curves.iter().filter(|curve| !curve.line.way.is_of_the_lesson());
+    let curves = summary.curves.iter().filter(drawn);
     let series = curves.map(|curve| series(curve, with_slope(curve), |p| (f64::from(p.spp), p.rmse))).collect();
     let plot = LogLogPlot {
         title: &format!("{}: error against samples", heading(part)),
@@ -49,7 +54,7 @@ fn against_samples(summary: &PartSummary) -> Plot {
 
 fn against_seconds(summary: &PartSummary) -> Plot {
     let part = &summary.part;
-    let curves = summary.curves.iter().filter(|curve| !curve.line.way.is_of_the_lesson());
+    let curves = summary.curves.iter().filter(drawn);
     let mut lines: Vec<Series> = curves
         .map(|curve| {
             let time = if curve.line.way.converges() {
@@ -96,7 +101,9 @@ fn against_seconds(summary: &PartSummary) -> Plot {
 fn lesson(summary: &PartSummary) -> Plot {
     let part = &summary.part;
     let independent = Way::path(Estimator::LIGHT, SamplerKind::Independent);
-    let taught = |curve: &&Curve| curve.line.way.is_of_the_lesson() || curve.line.way == independent;
+    let taught = |curve: &&Curve| {
+        !curve.line.is_a_variant() && (curve.line.way.is_of_the_lesson() || curve.line.way == independent)
+    };
     let named = |curve: &Curve| {
         let name = if curve.line.way == independent { "roulette, throughput".into() } else { curve.line.way.title() };
         let end = match curve.line.way.is_bounded() {

@@ -129,7 +129,7 @@ fn rasteriser() -> (Option<Raster>, String) {
 
 /// Seconds that a part still takes.
 fn forecast(journal: &Journal, part: &Part, lines: &[Line]) -> f64 {
-    let missing = lines.iter().flat_map(|line| part.rungs(&line.way).into_iter().map(move |spp| (line, spp)));
+    let missing = lines.iter().flat_map(|line| part.rungs(line).into_iter().map(move |spp| (line, spp)));
     let missing = missing.filter(|(line, spp)| journal.find(&part.name, &line.name(), *spp).is_none());
     let seconds: f64 = missing.map(|(line, spp)| forecast_of(part, line, spp)).sum();
     if seconds > 0.0 { seconds + part.forecast_reference() } else { 0.0 }
@@ -151,7 +151,7 @@ impl Bench<'_> {
         let truth = self.reference(part, &scene, &tracer)?;
         for line in lines {
             let tracer = (line.way.converges() || line.way == Way::Whitted).then(|| (line.variant.tracer)(&scene));
-            for (rung, spp) in part.rungs(&line.way).into_iter().enumerate() {
+            for (rung, spp) in part.rungs(line).into_iter().enumerate() {
                 if self.journal.find(&part.name, &line.name(), spp).is_some() {
                     continue;
                 }

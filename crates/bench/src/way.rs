@@ -1,6 +1,6 @@
 //! What is measured: ways to make a picture of a scene, each with the name that tables, plots and the journal know it by.
 
-use pathtrace::{Estimator, PathSettings, Roulette, SamplerKind, Tracer, WhittedSettings};
+use pathtrace::{Estimator, Lanes, PathSettings, Roulette, SamplerKind, Tracer, WhittedSettings};
 use raster::Fake;
 use scene::Scene;
 
@@ -12,12 +12,34 @@ pub struct Variant {
     pub name: &'static str,
     /// Makes the tracer.
     pub tracer: fn(&Scene) -> Tracer,
+    /// Lanes that it needs of the machine.
+    pub needs: Option<Lanes>,
 }
 
 impl Variant {
     /// The first traces every way; each further one traces [`Way::USUAL`] alone, for a comparison of speed.
-    pub const ALL: &'static [Variant] = &[Variant { name: "", tracer: Tracer::new }];
+    pub const ALL: &'static [Variant] = &[
+        Variant { name: "", tracer: Tracer::new, needs: None },
+        in_lanes("avx512", Lanes::Avx512, |scene| Tracer::new(scene).with_lanes(Lanes::Avx512)),
+        in_lanes("avx2", Lanes::Avx2, |scene| Tracer::new(scene).with_lanes(Lanes::Avx2)),
+        in_lanes("array", Lanes::Array, |scene| Tracer::new(scene).with_lanes(Lanes::Array)),
+        in_lanes("scalar", Lanes::Scalar, |scene| Tracer::new(scene).with_lanes(Lanes::Scalar)),
+        Variant { name: "single rays", tracer: |scene| Tracer::new(scene).with_single_rays(), needs: None },
+        Variant { name: "for any scene", tracer: |scene| Tracer::new(scene).for_any_scene(), needs: None },
+    ];
+
+    /// Whether this machine can.
+    pub fn is_available(&self) -> bool {
+        self.needs.is_none_or(Lanes::is_available)
+    }
 }
+
+const fn in_lanes(name: &'static str, lanes: Lanes, tracer: fn(&Scene) -> Tracer) -> Variant {
+    Variant { name, tracer, needs: Some(lanes) }
+}
+
+/// Samples per pixel at which variants are measured: their errors are those of the usual one, bit for bit.
+pub const VARIANT_SPP: u32 = 16;
 
 /// A way to make a picture.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -151,6 +173,11 @@ pub struct Line {
 }
 
 impl Line {
+    /// Whether it is measured for its speed alone.
+    pub fn is_a_variant(&self) -> bool {
+        !self.variant.name.is_empty()
+    }
+
     /// The name in tables and journal.
     pub fn name(&self) -> String {
         with_variant(self.way.name(), self.variant)
@@ -164,4 +191,34 @@ impl Line {
 
 fn with_variant(name: String, variant: &Variant) -> String {
     if variant.name.is_empty() { name } else { format!("{name}, {}", variant.name) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use scene::{Film, builtin};
+
+    #[test]
+    fn variants_differ_in_speed_alone() {
+        for name in ["cornell", "whitted"] {
+            let scene = builtin::named(name).unwrap();
+            let picture = |variant: &Variant| {
+                let mut film = Film::new(48, 27);
+                let settings = Way::USUAL.path_settings(1).unwrap();
+                (variant.tracer)(&scene).render(&mut film, &scene.camera, &settings, 4, &|| false);
+                film
+            };
+            let usual = picture(&Variant::ALL[0]);
+            for variant in Variant::ALL.iter().filter(|variant| variant.is_available()) {
+                let other = picture(variant);
+                let apart = usual.pixels().iter().zip(other.pixels()).filter(|(a, b)| {
+                    a.mean().iter().zip(b.mean()).any(|(a, b)| (a - b).abs() > 1e-3 * (1.0 + a.abs()))
+                });
+                // a shape that is met by other arithmetic may turn a path's choice at an edge
+                assert!(apart.count() <= 3, "{name}, {}", variant.name);
+                let lanes_alone = variant.needs.is_some();
+                assert!(!lanes_alone || usual == other, "{name}, {}: not the same bits", variant.name);
+            }
+        }
+    }
 }

@@ -98,6 +98,11 @@ impl Materials {
         }
     }
 
+    /// Looks for every kind of material from now on.
+    pub fn expect_everything(&mut self) {
+        self.has = Has { lamps: true, mirrors: true, glass: true, checkerboards: true };
+    }
+
     /// What occurs among them.
     #[inline(always)]
     pub fn has(&self) -> Has {

@@ -61,6 +61,20 @@ impl Tracer {
         Tracer { lanes, ..self }
     }
 
+    /// Traces one ray at a time from now on, through the tree, also where the shapes are few: the same picture but for rounding, for
+    /// measuring what meeting all shapes in all lanes saves.
+    pub fn with_single_rays(mut self) -> Self {
+        self.world.structure.forget_packet();
+        self
+    }
+
+    /// Forgets what the scene lacks, for measuring what knowing it saves: one ray at a time, and every kind of material is
+    /// looked for. The same picture but for rounding.
+    pub fn for_any_scene(mut self) -> Self {
+        self.world.materials.expect_everything();
+        self.with_single_rays()
+    }
+
     /// What it traces in.
     pub fn lanes(&self) -> Lanes {
         self.lanes

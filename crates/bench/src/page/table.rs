@@ -2,6 +2,7 @@
 
 use crate::plots::duration;
 use crate::summary::{Curve, PartSummary, Point, slope_words};
+use crate::way::{VARIANT_SPP, Way};
 use compare::{Range, escaped};
 
 /// Columns, with units.
@@ -24,7 +25,7 @@ pub fn of(summary: &PartSummary) -> String {
     let mut html = String::from("<div class=\"wide\"><table>\n<tr>");
     COLUMNS.iter().for_each(|column| html += &format!("<th>{column}</th>"));
     html += "</tr>\n";
-    for curve in &summary.curves {
+    for curve in summary.curves.iter().filter(|curve| !curve.line.is_a_variant()) {
         if let Some(point) = curve.last() {
             html += &row(curve, point);
         }
@@ -41,6 +42,31 @@ pub fn of(summary: &PartSummary) -> String {
         }
     }
     html + "</table></div>\n"
+}
+
+/// What lanes and specialisation save, as HTML: the same picture by other kernels.
+pub fn of_variants(summary: &PartSummary) -> String {
+    let usual = |curve: &Curve| curve.line.way == Way::USUAL && !curve.line.is_a_variant();
+    let usual = summary.curves.iter().find(|curve| usual(curve));
+    let usual = usual.and_then(|curve| curve.points.iter().find(|point| point.spp == VARIANT_SPP));
+    let Some(usual) = usual else { return String::new() };
+    let mut html = format!(
+        "<h3>What lanes and specialisation save</h3>\n<table>\n<tr><th>{}, {VARIANT_SPP} spp</th><th>samples/s</th>\
+         <th>time, times the usual</th></tr>\n",
+        escaped(&Way::USUAL.title())
+    );
+    let mut row = |name: &str, point: &Point| {
+        let cells = [
+            format!("{:.2} M", point.samples_per_second / 1e6),
+            format!("{:.2}", usual.samples_per_second / point.samples_per_second),
+        ];
+        html += &format!("<tr><td>{}</td>{}</tr>\n", escaped(name), cells.map(cell).concat());
+    };
+    row("the usual: widest lanes, what the scene lacks left out", usual);
+    for curve in summary.curves.iter().filter(|curve| curve.line.is_a_variant()) {
+        curve.last().into_iter().for_each(|point| row(curve.line.variant.name, point));
+    }
+    html + "</table>\n"
 }
 
 fn row(curve: &Curve, point: &Point) -> String {

@@ -34,6 +34,11 @@ impl Structure {
         self.packet.as_ref()
     }
 
+    /// Traces single rays from now on.
+    pub fn forget_packet(&mut self) {
+        self.packet = None;
+    }
+
     /// The nearest hits of the `wanted` rays before `rays.tmax`; of several at one distance a lamp, else the shape that
     /// comes first in the scene.
     #[inline(always)]
