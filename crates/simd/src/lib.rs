@@ -17,11 +17,17 @@ mod avx2;
 #[cfg(target_arch = "x86_64")]
 mod avx512;
 mod lanes;
+mod pages;
+mod rows;
 mod scalar;
+mod stack;
 mod tables;
 mod vector;
 
 pub use lanes::{Kernel, Lanes};
+pub use pages::ask_for_large_pages;
+pub use rows::{Row, RowKernel, RowLanes, Rows};
+pub use stack::Stack;
 pub use tables::{BitMatrix, Column, WordColumn};
 pub use vector::Vector;
 

@@ -6,6 +6,13 @@
 //! has rays, points and hits in each lane.
 
 pub mod accel;
+mod bvh8;
+mod bvh8_build;
+mod bvh8_collapse;
+mod bvh8_leaf;
+#[cfg(test)]
+mod bvh8_tests;
+mod bvh8_walk;
 pub mod disk;
 pub mod lanes;
 pub mod packet;

@@ -7,13 +7,13 @@ use scene::glam::DVec3;
 /// A ray turned so that its largest direction component is z, and the shear that takes it onto the z axis.
 #[derive(Debug, Clone, Copy)]
 pub struct ShearedRay {
-    origin: Vec3,
+    pub(super) origin: Vec3,
     direction: Vec3,
     /// The axis along which it goes farthest: 0, 1 or 2.
-    main_axis: usize,
-    shear: [f32; 2],
+    pub(super) main_axis: usize,
+    pub(super) shear: [f32; 2],
     /// Along the largest axis.
-    depth: f32,
+    pub(super) depth: f32,
 }
 
 impl ShearedRay {
@@ -72,7 +72,13 @@ impl Triangle {
             let (a, b) = (a.to_array(), b.to_array());
             a.iter().zip(&b).map(|(a, b)| a.total_cmp(b)).find(|o| o.is_ne()).unwrap_or(std::cmp::Ordering::Equal)
         });
-        let [a, b, c] = corners.map(|corner| corner.as_dvec3());
+        Triangle::sorted(corners)
+    }
+
+    /// From corners that are in order already.
+    #[inline(always)]
+    pub(super) fn sorted(corners: [Vec3; 3]) -> Self {
+        let (a, b, c) = (corners[0].as_dvec3(), corners[1].as_dvec3(), corners[2].as_dvec3());
         Triangle { corners, normal: (b - a).cross(c - a) }
     }
 
@@ -84,16 +90,27 @@ impl Triangle {
             return None;
         }
         let determinant = u + v + w;
-        let t = self.plane_distance(ray);
-        // NaN, from a triangle seen exactly edge-on, fails too
-        if determinant == 0.0 || !(t > 0.0) {
+        if determinant == 0.0 {
             return None;
         }
-        // u, v, w of one sign make the hit a mean of the corners: nearly edge-on, where the plane says little, it still is
+        let t = self.distance(ray, [a.z, b.z, c.z], tmax)?;
+        Some(TriangleHit { t, barycentrics: [u, v, w].map(|area| area / determinant) })
+    }
+
+    /// Where a ray that passes between the edges meets the triangle, if with `0 < t < tmax`. `z` are the corners' in the
+    /// ray's frame.
+    #[inline(always)]
+    pub(super) fn distance(&self, ray: &ShearedRay, [a, b, c]: [f32; 3], tmax: f32) -> Option<f32> {
+        let t = self.plane_distance(ray);
+        // NaN, from a triangle seen exactly edge-on, fails too
+        if !(t > 0.0) {
+            return None;
+        }
+        // areas of one sign make the hit a mean of the corners: nearly edge-on, where the plane says little, it still is
         // (divided, not multiplied by an inverse: rounding then keeps the order, and a lamp does not shadow itself)
-        let [near, far] = [a.z.min(b.z).min(c.z) / ray.depth, a.z.max(b.z).max(c.z) / ray.depth];
+        let [near, far] = [a.min(b).min(c) / ray.depth, a.max(b).max(c) / ray.depth];
         let t = t.clamp(near.min(far), near.max(far));
-        (t > 0.0 && t < tmax).then(|| TriangleHit { t, barycentrics: [u, v, w].map(|area| area / determinant) })
+        (t > 0.0 && t < tmax).then_some(t)
     }
 
     /// Distance to the triangle's plane, in f64 so that its sign is right: from a point just above a wall 500 units wide
