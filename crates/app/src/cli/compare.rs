@@ -41,7 +41,7 @@ pub fn run(args: &CompareArgs) -> anyhow::Result<()> {
         note!("note: {} pixels are not finite and are left out of every mean", found.errors.nonfinite);
     }
     let map = match &args.heatmap {
-        Some(out) => Some(draw(args.map, &pair, out)?),
+        Some(out) => Some(draw(args, &pair, out)?),
         None => None,
     };
     let text = if args.json { report(args, &a, &found, map.as_ref()) } else { table(&found, map.as_ref()) };
@@ -77,8 +77,8 @@ fn measure(pair: &Pair, reference: &Reference) -> anyhow::Result<Comparison> {
     })
 }
 
-fn draw(map: ErrorMap, pair: &Pair, out: &Path) -> anyhow::Result<HeatMap> {
-    let map = HeatMap::of(pair, map, None)?;
+fn draw(args: &CompareArgs, pair: &Pair, out: &Path) -> anyhow::Result<HeatMap> {
+    let map = HeatMap::of(pair, args.map, args.scale)?;
     let kind = Kind::of(out).unwrap_or(Kind::Png);
     picture_file::write_whole(out, &map.encode(kind, pair, Records::new())?)?;
     Ok(map)

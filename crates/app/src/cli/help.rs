@@ -63,6 +63,7 @@ visavis compare A                the same against the reference of what A's reco
                                  and every map as layers
     --map signed|absolute|relative|squared-relative|flip
                                  which errors the map shows (default absolute)
+    --scale E                    error at the end of the map's scale (default fitted to the map)
     --exposure EV                stops added before FLIP looks (default 0)
     --json                       as one JSON object
 visavis reference SCENE -o OUT   make or fetch the reference of a scene: OUT.exr with its standard error as a layer

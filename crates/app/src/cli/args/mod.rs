@@ -102,6 +102,8 @@ pub struct CompareArgs {
     pub heatmap: Option<PathBuf>,
     /// Which errors it shows.
     pub map: ErrorMap,
+    /// The error at the end of its scale; `None` fits it.
+    pub scale: Option<f32>,
     /// Stops added before FLIP looks.
     pub exposure: f32,
     /// One JSON object on stdout instead of a table.
@@ -113,12 +115,13 @@ const MAPS: &str = "signed, absolute, relative, squared-relative or flip";
 
 fn parse_compare(mut parser: lexopt::Parser) -> Result<Command, CliError> {
     let mut files = Vec::<PathBuf>::new();
-    let (mut heatmap, mut map, mut exposure, mut json) = (None, ErrorMap::default(), 0.0, false);
+    let (mut heatmap, mut map, mut scale, mut exposure, mut json) = (None, ErrorMap::default(), None, 0.0, false);
     while let Some(arg) = parser.next()? {
         match arg {
             Value(file) if files.len() < 2 => files.push(file.into()),
             Long("heatmap") => heatmap = Some(PathBuf::from(parser.value()?)),
             Long("map") => map = choice(&mut parser, "--map", ErrorMap::named, MAPS)?,
+            Long("scale") => scale = Some(number(&mut parser, "--scale", "a number above 0", |v| v > 0.0)?),
             Long("exposure") => {
                 exposure = number(&mut parser, "--exposure", "stops from -30 to 30", |v| v.abs() <= 30.0)?;
             }
@@ -134,7 +137,7 @@ fn parse_compare(mut parser: lexopt::Parser) -> Result<Command, CliError> {
     if let Some(out) = heatmap.as_ref().filter(|out| Kind::of(out).is_none()) {
         return usage(format!("--heatmap must end in .png or .exr: {}", out.display()));
     }
-    Ok(Command::Compare(CompareArgs { film, reference, heatmap, map, exposure, json }))
+    Ok(Command::Compare(CompareArgs { film, reference, heatmap, map, scale, exposure, json }))
 }
 
 /// `visavis check`.
