@@ -58,19 +58,11 @@ pub struct Chunk<'a> {
 /// What a chunk took, and how many of its samples were not finite.
 pub type Tally = (Stats, u64);
 
-/// Turns between two questions whether to stop: a few microseconds.
-const TURNS_BETWEEN_STOPS: u32 = 8;
-
 /// Fills a chunk of the film; `stop` leaves pixels with whole samples.
 #[inline(always)]
 pub fn fill<F: Float>(order: &Order, chunk: Chunk, mut walk: impl Walk<F>, stop: &dyn Fn() -> bool) -> Tally {
     let mut crew = Crew::<F>::new(order, chunk);
-    let mut turn = 0;
-    while crew.taken.any() {
-        if turn % TURNS_BETWEEN_STOPS == 0 && stop() {
-            break;
-        }
-        turn += 1;
+    while crew.taken.any() && !stop() {
         let sampler = crew.sampler(order);
         walk.begin(crew.fresh, &crew.camera_rays(order, &sampler));
         let complete = walk.segment(crew.taken, &sampler);

@@ -101,8 +101,8 @@ impl Tracer {
     }
 
     /// Path traces `samples` more into every pixel of `film`, on the current rayon pool. Sample numbers go on from what
-    /// each pixel has, so that many small calls give the same picture as a large one. `stop` is asked every few
-    /// microseconds; once it says so the call returns, and pixels hold whole samples, but not all equally many: the next
+    /// each pixel has, so that many small calls give the same picture as a large one. `stop` is asked before every segment
+    /// of a path; once it says so the call returns, and pixels hold whole samples, but not all equally many: the next
     /// call brings every pixel to `samples` more than the fewest.
     ///
     /// `settings` should pass [`PathSettings::check`], which says what becomes of them if they do not.

@@ -183,6 +183,9 @@ fn packet_and_tree_agree() {
                 (a, b) => a.is_none() && b.is_none(),
             };
             apart += u32::from(!agree);
+            if scene.sun.is_some() {
+                differently_shadowed += u32::from(of_tree.is_some() != subject.occluded(&ray));
+            }
             if let (Some(hit), Some(point)) = (&of_tree, last) {
                 let towards = hit.point.position - point.position;
                 let shadow = Ray::between(point.leaving_towards(towards), hit.point.leaving_towards(-towards));
