@@ -28,7 +28,7 @@ macro_rules! op {
     ($e:expr) => {{
         // SAFETY: values of this module's types exist only inside of `run`, which is entered only where the machine has
         // these instructions; memory is reached through slices whose length was checked
-        #[allow(unused_unsafe)]
+        #[allow(unused_unsafe, reason = "some of what is called through here is safe by itself")]
         unsafe {
             $e
         }

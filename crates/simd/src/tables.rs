@@ -57,6 +57,7 @@ impl WordColumn {
 
 /// A 32 x 32 matrix over the field of two elements, unrolled into tables of its products with three, four and eight bits.
 #[derive(Debug)]
+#[cfg_attr(not(target_arch = "x86_64"), expect(dead_code, reason = "the smaller tables are for registers of x86"))]
 pub struct BitMatrix {
     pub(crate) by_three: [[u32; 8]; 11],
     pub(crate) by_four: [[u32; 16]; 8],

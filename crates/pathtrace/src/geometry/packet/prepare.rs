@@ -40,7 +40,8 @@ struct Part {
 const FLAT: f64 = 4.0 / 16_777_216.0;
 
 impl Packet {
-    /// Most shapes that are worth testing one by one.
+    /// Most shapes that are worth testing one by one. Measured on spheres of triangles in the Cornell box, the tree is faster
+    /// beyond about 250 of them with 16 lanes, 170 with 8 and 50 with 4. One number for all, so that all see one picture.
     pub const MOST: usize = 128;
 
     /// The scene's shapes, if they are few enough.
