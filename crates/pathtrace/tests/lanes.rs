@@ -6,7 +6,9 @@ use pathtrace::{Estimator, GlassShadows, Lanes, PathSettings, Roulette, SamplerK
 use scene::{Film, Scene, builtin};
 use std::f64::consts::{PI, TAU};
 use std::path::Path;
+use std::sync::Mutex;
 use std::sync::atomic::{AtomicU32, Ordering};
+use std::time::{Duration, Instant};
 
 /// Not a multiple of any number of lanes, and more than one chunk of pixels.
 const SIZE: (u32, u32) = (37, 29);
@@ -227,4 +229,29 @@ fn a_stopped_picture_is_completed() {
     assert!(taken == stats.samples && taken > 0 && film.samples_per_pixel() == 0, "{taken}");
     tracer.render(&mut film, &scene.camera, &settings, 16, &|| false);
     assert!(film == path(&tracer, &scene, &settings, 16).0);
+}
+
+/// Of ten tries the fastest counts: a machine that does other things may wake a thread late.
+#[test]
+fn a_stop_is_obeyed_within_five_milliseconds() {
+    for scene in [everything(), a_tree()] {
+        let tracer = Tracer::new(&scene);
+        let settings = PathSettings { branches: 3, bounces: Some(2), ..PathSettings::default() };
+        let late = (0..10).map(|_| {
+            let (stopped, mut film) = (Mutex::new(None), Film::new(256, 256));
+            let begun = Instant::now();
+            let stop = || {
+                let now = begun.elapsed() > Duration::from_millis(5);
+                if now {
+                    stopped.lock().expect("no panic").get_or_insert_with(Instant::now);
+                }
+                now
+            };
+            tracer.render(&mut film, &scene.camera, &settings, u32::MAX, &stop);
+            let first = stopped.lock().expect("no panic").take();
+            first.expect("it was stopped").elapsed()
+        });
+        let least = late.min().expect("ten tries");
+        assert!(least < Duration::from_millis(5), "{}: {least:?}", scene.name);
+    }
 }
