@@ -1,6 +1,9 @@
 //! Every shader that ships is valid WGSL, and every struct that Rust and WGSL share has the same layout on both sides.
 
 use gpu::wgsl;
+use pathtrace::gpu::film_data::{Exposure, PictureFrame, Pixel};
+use pathtrace::gpu::rays::{RayAnswer, RayQuery};
+use pathtrace::gpu::scene_data::{Checkerboard, Header, Light, Material, Node, ShapeData as Primitive, Surface};
 use raster::gpu_data::{Lights, Object, View};
 use std::mem::offset_of;
 
@@ -90,4 +93,52 @@ fn mirrors_have_the_layout_of_their_structs() {
             slack
         ]
     );
+}
+
+#[test]
+fn mirrors_of_the_path_tracer_have_the_layout_of_their_structs() {
+    assert_same_layout!(
+        "lib/scene.wgsl",
+        Header,
+        [sky, primitives, sun_towards, sun_chord_squared, sun_radiance, sun_pdf, lights, zero]
+    );
+    assert_same_layout!("lib/scene.wgsl", Node, [low, contents, high, unused]);
+    assert_same_layout!("lib/scene.wgsl", Primitive, [a, normal_x, b, normal_y, c, normal_z, normal_low, tag]);
+    assert_same_layout!("lib/scene.wgsl", Surface, [normal, material, light]);
+    assert_same_layout!("lib/scene.wgsl", Checkerboard, [even, odd, origin, cells_per_unit]);
+    assert_same_layout!("lib/scene.wgsl", Material, [colour, emission, emitting_sides, bsdf, ior, root, root_low]);
+    assert_same_layout!(
+        "lib/scene.wgsl",
+        Light,
+        [position, outline, u, area, v, square, normal, two_sided, radiance, probability, cumulative]
+    );
+    assert_same_layout!("pathtrace/film.wgsl", PictureFrame, [eye, forward, right, up]);
+    assert_same_layout!(
+        "pathtrace/film.wgsl",
+        Exposure,
+        [
+            frame,
+            size,
+            film_row,
+            first_row,
+            end_row,
+            until,
+            seed,
+            limit,
+            capped,
+            branches,
+            branching_vertices,
+            by_throughput,
+            probability,
+            shadow_rays,
+            ambient
+        ]
+    );
+    assert_same_layout!(
+        "pathtrace/film.wgsl",
+        Pixel,
+        [sum, samples, sum_of_squares, largest, sum_low, rays, squares_low, faults]
+    );
+    assert_same_layout!("pathtrace/rays.wgsl", RayQuery, [origin, tmax, direction, unused]);
+    assert_same_layout!("pathtrace/rays.wgsl", RayAnswer, [position, t, error, material, normal, occluded]);
 }

@@ -15,6 +15,9 @@ pub use wgpu;
 
 use std::sync::{Arc, Mutex, PoisonError};
 
+/// What is used where an adapter has it, and done without where it has not: times of passes.
+const WELCOME: wgpu::Features = wgpu::Features::TIMESTAMP_QUERY;
+
 /// A graphics device with its queue. Clones share it.
 #[derive(Debug, Clone)]
 pub struct Gpu {
@@ -22,7 +25,7 @@ pub struct Gpu {
     pub instance: wgpu::Instance,
     /// The physical or software device.
     pub adapter: wgpu::Adapter,
-    /// The logical device, with every limit that the adapter offers.
+    /// The logical device, with every limit that the adapter offers, and a clock for passes if it has one.
     pub device: wgpu::Device,
     /// Where work is submitted.
     pub queue: wgpu::Queue,
@@ -44,8 +47,17 @@ impl Gpu {
     /// # Errors
     /// [`GpuError::NoAdapter`] if there is none, [`GpuError::Device`] if it refuses.
     pub fn headless() -> Result<Gpu, GpuError> {
+        Gpu::headless_through(wgpu::Backends::all())
+    }
+
+    /// As [`Gpu::headless`], through one of these interfaces.
+    ///
+    /// # Errors
+    /// As [`Gpu::headless`].
+    pub fn headless_through(interfaces: wgpu::Backends) -> Result<Gpu, GpuError> {
         let instance = new_instance(None);
-        let adapters = adapter::all(&instance);
+        let mut adapters = adapter::all(&instance);
+        adapters.retain(|adapter| interfaces.contains(adapter.get_info().backend.into()));
         Gpu::open(instance, adapters, GpuError::NoAdapter)
     }
 
@@ -70,6 +82,7 @@ impl Gpu {
         let descriptor = wgpu::DeviceDescriptor {
             label: Some("visavis"),
             required_limits: adapter.limits(),
+            required_features: adapter.features() & WELCOME,
             ..wgpu::DeviceDescriptor::default()
         };
         let refused = |source| GpuError::Device {

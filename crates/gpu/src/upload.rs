@@ -1,5 +1,6 @@
 //! Buffers and textures from slices of plain data.
 
+use crate::error::one_line;
 use crate::{Gpu, GpuError};
 use wgpu::util::DeviceExt;
 
@@ -19,8 +20,14 @@ impl Gpu {
         if bytes > limit {
             return Err(GpuError::TooManyBytes { what: label.to_owned(), bytes, limit });
         }
-        let descriptor = wgpu::util::BufferInitDescriptor { label: Some(label), contents, usage };
-        self.checked(label, || self.device.create_buffer_init(&descriptor))
+        let size = bytes.next_multiple_of(wgpu::COPY_BUFFER_ALIGNMENT);
+        let descriptor = wgpu::BufferDescriptor { label: Some(label), size, usage, mapped_at_creation: true };
+        // not `create_buffer_init`, which panics where there is no memory or the device is lost
+        let buffer = self.checked(label, || self.device.create_buffer(&descriptor))?;
+        let refused = |why: wgpu::MapRangeError| GpuError::Refused { what: label.to_owned(), why: one_line(&why) };
+        buffer.get_mapped_range_mut(..).map_err(refused)?.slice(..contents.len()).copy_from_slice(contents);
+        buffer.unmap();
+        Ok(buffer)
     }
 
     /// A two-dimensional texture of `layers` layers without contents. `label` names it in errors.

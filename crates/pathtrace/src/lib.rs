@@ -14,6 +14,7 @@ pub mod bsdf;
 pub mod crew;
 mod forks;
 pub mod geometry;
+pub mod gpu;
 pub mod light;
 mod materials;
 pub mod path;

@@ -55,7 +55,7 @@ fn permute_reversed<U: Word>(x: U, seed: U) -> U {
 
 /// Coordinate `dimension` (1 to 3) of the point `index`, bit-reversed.
 #[inline(always)]
-fn reversed_point<U: Word>(index: U, dimension: usize) -> U {
+pub(crate) fn reversed_point<U: Word>(index: U, dimension: usize) -> U {
     index.multiplied_by(&MATRICES[dimension - 1])
 }
 

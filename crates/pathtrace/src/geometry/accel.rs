@@ -21,7 +21,7 @@ use simd::{Lanes, RowLanes};
 
 /// What a ray can hit.
 #[derive(Debug, Clone, Copy)]
-pub(super) enum Primitive {
+pub(crate) enum Primitive {
     Triangle(Triangle),
     Sphere(Sphere),
     Disk(Disk),
@@ -29,7 +29,7 @@ pub(super) enum Primitive {
 
 /// A primitive and what shading needs of it, beside the part that intersection reads.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Surface {
+pub(crate) struct Surface {
     /// Unit normal of a triangle; others have their own.
     pub normal: Vec3,
     pub material: u32,
@@ -49,13 +49,13 @@ enum Hierarchy {
 }
 
 /// Two children a node.
-pub(super) struct Binary {
-    bvh: Bvh2,
+pub(crate) struct Binary {
+    pub(crate) bvh: Bvh2,
     /// In the order of the BVH's leaves.
-    primitives: Vec<Primitive>,
+    pub(crate) primitives: Vec<Primitive>,
     /// Each primitive's place in the scene's order, lamps first, which decides ties.
-    ids: Vec<u32>,
-    surfaces: Vec<Surface>,
+    pub(crate) ids: Vec<u32>,
+    pub(crate) surfaces: Vec<Surface>,
 }
 
 /// Fewest primitives for eight children a node.
@@ -135,6 +135,17 @@ impl Accel {
 }
 
 impl Binary {
+    /// Of a whole scene, however large.
+    pub(crate) fn of(scene: &Scene, lights: &Lights) -> Self {
+        let (primitives, surfaces) = primitives(scene, lights);
+        Binary::new(&primitives, &surfaces)
+    }
+
+    /// Number of triangles, spheres and disks.
+    pub(crate) fn len(&self) -> usize {
+        self.primitives.len()
+    }
+
     pub(super) fn new(primitives: &[Primitive], surfaces: &[Surface]) -> Self {
         let boxes = padded_boxes(primitives);
         let mut build_time = std::time::Duration::ZERO;

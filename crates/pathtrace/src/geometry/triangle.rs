@@ -53,7 +53,7 @@ pub struct Triangle {
     /// Corners in lexicographic order of their coordinates.
     pub corners: [Vec3; 3],
     /// Normal of the sorted corners, not unit. In f64, see [`Triangle::plane_distance`].
-    normal: DVec3,
+    pub(crate) normal: DVec3,
 }
 
 /// Where a ray meets a triangle.

@@ -2,7 +2,7 @@
 //! Light". One light is chosen, then a direction to it; [`Lights::pdf`] is the density of doing so, as MIS needs it.
 
 mod ball;
-mod flat;
+pub(crate) mod flat;
 mod spherical_rectangle;
 mod sun;
 mod table;
@@ -23,7 +23,7 @@ use table::Table;
 
 /// A light that can be sampled from a point.
 #[derive(Debug, Clone, Copy)]
-enum Light {
+pub(crate) enum Light {
     Flat(Flat, Emission),
     Sphere(Sphere, Emission),
     Point(PointLight),
@@ -33,9 +33,11 @@ enum Light {
 /// All lights of a scene that are sampled, with the probabilities of choosing each.
 #[derive(Debug, Clone, Default)]
 pub struct Lights {
-    lights: Vec<Light>,
+    pub(crate) lights: Vec<Light>,
     /// The probability of choosing each.
-    probabilities: Vec<f32>,
+    pub(crate) probabilities: Vec<f32>,
+    /// Their running sum, the last one 1.
+    pub(crate) cumulative: Vec<f32>,
     /// Index of each shape's first light.
     first_of_shape: Vec<Option<u32>>,
     /// Index of the sun.
@@ -98,8 +100,8 @@ impl Lights {
             *last = 1.0;
         }
         let probabilities: Vec<f32> = probabilities.iter().map(|&p| p as f32).collect();
-        let table = Table::new(&lights, &probabilities, cumulative);
-        Lights { lights, probabilities, first_of_shape, sun, table }
+        let table = Table::new(&lights, &probabilities, cumulative.clone());
+        Lights { cumulative, lights, probabilities, first_of_shape, sun, table }
     }
 
     /// Number of lights; each triangle of a mesh that shines is one.

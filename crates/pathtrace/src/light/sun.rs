@@ -7,10 +7,10 @@ use simd::{Float, Vector};
 /// The visible disc of a sun.
 #[derive(Debug, Clone, Copy)]
 pub struct SunDisc {
-    towards: Vec3,
+    pub(crate) towards: Vec3,
     /// Square of the chord that spans the angular radius: `4 sin^2 (radius / 2)`.
-    chord_squared: f32,
-    radiance: Vec3,
+    pub(crate) chord_squared: f32,
+    pub(crate) radiance: Vec3,
 }
 
 impl SunDisc {

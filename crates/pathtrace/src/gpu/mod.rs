@@ -1,0 +1,250 @@
+//! The same paths on a graphics device: twins of this crate's functions in `shaders/lib/` and `shaders/pathtrace/`, under the
+//! same names, with the same random numbers bit for bit.
+//!
+//! A [`GpuTracer`] is a scene made ready on a device. It adds samples to a [`GpuFilm`], which sums them where they are
+//! made and is read when someone looks; [`GpuTracer::render`] does both for a [`scene::Film`]. Nothing here panics when
+//! the device fails: every fault is a [`GpuTraceError`], and the processor's [`crate::Tracer`] can take over.
+
+mod dispatch;
+mod error;
+mod film;
+pub mod film_data;
+mod pipelines;
+pub mod rays;
+pub mod scene_data;
+mod timing;
+
+pub use error::GpuTraceError;
+pub use film::GpuFilm;
+pub use pipelines::{Choice, SceneNeeds};
+
+use crate::geometry::accel::Binary;
+use crate::light::Lights;
+use crate::render::Stats;
+use crate::settings::PathSettings;
+use crate::whitted::WhittedSettings;
+use dispatch::Dispatcher;
+use film_data::Exposure;
+use gpu::{Gpu, GpuError, wgpu};
+use pipelines::Pipelines;
+use scene::{Camera, Film, Scene};
+use timing::{BUDGET_SECONDS, Pace, Stopwatch};
+use wgpu::BufferUsages;
+
+/// A scene on a device, ready for rays. Camera and settings come with each call.
+#[derive(Debug)]
+pub struct GpuTracer {
+    gpu: Gpu,
+    pipelines: Pipelines,
+    scene: wgpu::BindGroup,
+    ambient: f32,
+    stopwatch: Stopwatch,
+    paces: Vec<(Choice, Pace)>,
+    budget: f64,
+}
+
+impl GpuTracer {
+    /// Builds the acceleration structure and the list of lights, and uploads them.
+    ///
+    /// # Errors
+    /// [`GpuTraceError`] if the scene is too large for the device, or the device too small for any.
+    pub fn new(gpu: &Gpu, scene: &Scene) -> Result<Self, GpuTraceError> {
+        let lights = Lights::new(scene);
+        let needs = SceneNeeds::of(scene, &lights);
+        Self::with_needs(gpu, scene, &lights, needs)
+    }
+
+    /// As [`GpuTracer::new`], with code for everything that any scene can ask for: to measure what leaving it out saves.
+    ///
+    /// # Errors
+    /// As [`GpuTracer::new`].
+    pub fn with_everything(gpu: &Gpu, scene: &Scene) -> Result<Self, GpuTraceError> {
+        let lights = Lights::new(scene);
+        let needs = SceneNeeds::of(scene, &lights).with_everything();
+        Self::with_needs(gpu, scene, &lights, needs)
+    }
+
+    fn with_needs(gpu: &Gpu, scene: &Scene, lights: &Lights, needs: SceneNeeds) -> Result<Self, GpuTraceError> {
+        let pipelines = Pipelines::new(gpu, needs)?;
+        let tree = Binary::of(scene, lights);
+        let uploaded = upload(gpu, &pipelines.scene_layout, scene, &tree, lights)?;
+        Ok(GpuTracer {
+            pipelines,
+            scene: uploaded,
+            ambient: scene.fake.ambient,
+            stopwatch: Stopwatch::new(gpu),
+            paces: Vec::new(),
+            budget: BUDGET_SECONDS,
+            gpu: gpu.clone(),
+        })
+    }
+
+    /// The device.
+    pub fn gpu(&self) -> &Gpu {
+        &self.gpu
+    }
+
+    /// Layout and contents of bind group 0, the scene, for shaders that import `lib/scene.wgsl`.
+    pub fn scene_group(&self) -> (&wgpu::BindGroupLayout, &wgpu::BindGroup) {
+        (&self.pipelines.scene_layout, &self.scene)
+    }
+
+    /// Sets how long a dispatch may take, in seconds, > 0; a twentieth at first. What shares the device, such as a window,
+    /// waits about that long, and so does `stop`.
+    pub fn set_budget(&mut self, seconds: f64) {
+        self.budget = seconds;
+    }
+
+    /// Whether dispatches are timed by the device's own clock.
+    pub fn has_a_clock(&self) -> bool {
+        self.stopwatch.is_exact()
+    }
+
+    /// A film on the device that goes on from `film`.
+    ///
+    /// # Errors
+    /// [`GpuTraceError::Gpu`] if the device can't hold it.
+    pub fn film(&self, film: Film) -> Result<GpuFilm, GpuTraceError> {
+        GpuFilm::new(&self.gpu, &self.pipelines.film_layout, film)
+    }
+
+    /// Path traces into a film on the device until each of its pixels has `until` samples. `stop` is asked between
+    /// dispatches; once it says so the call returns, and pixels hold whole samples, but not
+    /// all equally many. See [`GpuTracer::set_budget`] for how long a dispatch takes.
+    ///
+    /// # Errors
+    /// [`GpuTraceError`] if the device fails; what it had done is then lost.
+    pub fn expose(
+        &mut self,
+        film: &mut GpuFilm,
+        camera: &Camera,
+        settings: &PathSettings,
+        until: u32,
+        stop: &impl Fn() -> bool,
+    ) -> Result<(), GpuTraceError> {
+        let exposure = exposure(film, camera).with_paths(settings);
+        self.run(film, Choice::of_paths(settings), exposure, until, stop)
+    }
+
+    /// As [`GpuTracer::expose`], by Whitted's method.
+    ///
+    /// # Errors
+    /// As [`GpuTracer::expose`].
+    pub fn expose_whitted(
+        &mut self,
+        film: &mut GpuFilm,
+        camera: &Camera,
+        settings: &WhittedSettings,
+        until: u32,
+        stop: &impl Fn() -> bool,
+    ) -> Result<(), GpuTraceError> {
+        let exposure = exposure(film, camera).with_trees(settings, self.ambient);
+        self.run(film, Choice::of_trees(settings), exposure, until, stop)
+    }
+
+    /// Path traces `samples` more into every pixel of `film`, as [`crate::Tracer::render`] does, and waits for them.
+    ///
+    /// # Errors
+    /// [`GpuTraceError`] if the device fails; `film` is then as it was.
+    pub fn render(
+        &mut self,
+        film: &mut Film,
+        camera: &Camera,
+        settings: &PathSettings,
+        samples: u32,
+        stop: &impl Fn() -> bool,
+    ) -> Result<Stats, GpuTraceError> {
+        let until = film.samples_per_pixel().saturating_add(samples);
+        let mut on_device = self.film(film.clone())?;
+        self.expose(&mut on_device, camera, settings, until, stop)?;
+        let (read, stats) = on_device.read(&self.gpu)?;
+        *film = read;
+        Ok(stats)
+    }
+
+    /// As [`GpuTracer::render`], by Whitted's method.
+    ///
+    /// # Errors
+    /// As [`GpuTracer::render`].
+    pub fn render_whitted(
+        &mut self,
+        film: &mut Film,
+        camera: &Camera,
+        settings: &WhittedSettings,
+        samples: u32,
+        stop: &impl Fn() -> bool,
+    ) -> Result<Stats, GpuTraceError> {
+        let until = film.samples_per_pixel().saturating_add(samples);
+        let mut on_device = self.film(film.clone())?;
+        self.expose_whitted(&mut on_device, camera, settings, until, stop)?;
+        let (read, stats) = on_device.read(&self.gpu)?;
+        *film = read;
+        Ok(stats)
+    }
+
+    fn run(
+        &mut self,
+        film: &mut GpuFilm,
+        choice: Choice,
+        exposure: Exposure,
+        until: u32,
+        stop: &impl Fn() -> bool,
+    ) -> Result<(), GpuTraceError> {
+        let pipeline = self.pipelines.prepare(&self.gpu, choice)?;
+        let known = self.paces.iter().position(|(c, _)| *c == choice).unwrap_or_else(|| {
+            self.paces.push((choice, Pace::default()));
+            self.paces.len() - 1
+        });
+        let dispatcher = Dispatcher {
+            gpu: &self.gpu,
+            pipeline: &pipeline,
+            scene: &self.scene,
+            stopwatch: &mut self.stopwatch,
+            pace: &mut self.paces[known].1,
+            budget: self.budget,
+            in_flight: Vec::new(),
+            submitted: 0,
+        };
+        dispatcher.run(film, exposure, until, stop)
+    }
+}
+
+fn exposure(film: &GpuFilm, camera: &Camera) -> Exposure {
+    let (width, height) = (film.width(), film.height());
+    Exposure::of(&camera.frame(width as f32 / height as f32), (width, height))
+}
+
+fn upload(
+    gpu: &Gpu,
+    layout: &wgpu::BindGroupLayout,
+    scene: &Scene,
+    tree: &Binary,
+    lights: &Lights,
+) -> Result<wgpu::BindGroup, GpuTraceError> {
+    let buffers = [
+        gpu.buffer("the scene", &[scene_data::header(scene, tree, lights)], BufferUsages::UNIFORM)?,
+        storage(gpu, "the tree of boxes", &scene_data::nodes(tree)?)?,
+        storage(gpu, "the shapes", &scene_data::primitives(tree))?,
+        storage(gpu, "the surfaces", &scene_data::surfaces(tree))?,
+        storage(gpu, "the materials", &scene_data::materials(scene))?,
+        storage(gpu, "the lights", &scene_data::lights(lights))?,
+        storage(gpu, "the Sobol points", &scene_data::sobol_bytes())?,
+    ];
+    let bound = buffers.iter().zip(0..).map(|(buffer, binding)| {
+        let resource = buffer.as_entire_binding();
+        wgpu::BindGroupEntry { binding, resource }
+    });
+    let entries: Vec<_> = bound.collect();
+    let descriptor = wgpu::BindGroupDescriptor { label: Some("the scene"), layout, entries: &entries };
+    Ok(gpu.checked("the scene", || gpu.device.create_bind_group(&descriptor))?)
+}
+
+/// A buffer that shaders read, of at least one element.
+fn storage<T: bytemuck::Pod>(gpu: &Gpu, what: &str, data: &[T]) -> Result<wgpu::Buffer, GpuError> {
+    let (bytes, limit) = (size_of_val(data) as u64, gpu.device.limits().max_storage_buffer_binding_size);
+    if bytes > limit {
+        return Err(GpuError::TooManyBytes { what: what.to_owned(), bytes, limit });
+    }
+    let none = [T::zeroed()];
+    gpu.buffer(what, if data.is_empty() { &none } else { data }, BufferUsages::STORAGE)
+}

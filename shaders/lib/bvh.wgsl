@@ -1,0 +1,155 @@
+//#import lib/needs.wgsl
+//#import lib/triangle.wgsl
+//#import lib/sphere.wgsl
+//#import lib/disk.wgsl
+//#import lib/surface_point.wgsl
+// The acceleration structure: obvhs' BVH2 over triangles, spheres and disks. Twin: crates/pathtrace/src/geometry/accel.rs.
+
+// Inner nodes that can wait; the host refuses deeper trees.
+const MOST_WAITING: u32 = 64u;
+
+// A node's contents: primitives of a leaf above, 0 for an inner node; index below.
+const COUNT_SHIFT: u32 = 27u;
+const FIRST_MASK: u32 = 0x7ffffffu;
+
+// The nearest meeting so far.
+struct Nearest {
+    t: f32,
+    // into the primitives, or NOTHING
+    index: u32,
+    id: u32,
+}
+
+const NOTHING: u32 = 0xffffffffu;
+
+// Nodes that wait. Not the traversal's own: it would be cleared each time.
+var<private> waiting_nodes: array<u32, MOST_WAITING>;
+
+struct Hit {
+    // where, with the outward normal
+    point: SurfacePoint,
+    material: u32,
+    // index into the lights, or NO_LIGHT
+    light: u32,
+}
+
+// The nearest hit before ray.tmax; of several at one distance a lamp, else the primitive that comes first in the scene.
+fn closest(ray: Ray) -> Nearest {
+    return traverse(ray, false);
+}
+
+// Whether anything lies on the ray before ray.tmax.
+fn occluded(ray: Ray) -> bool {
+    return traverse(ray, true).index != NOTHING;
+}
+
+fn traverse(ray: Ray, any_will_do: bool) -> Nearest {
+    let sheared = sheared_ray(ray.direction);
+    let inverse = safe_inverse(ray.direction);
+    var nearest = Nearest(ray.tmax, NOTHING, NOTHING);
+    if header.primitives == 0u {
+        return nearest;
+    }
+    var count = 0u;
+    var contents = 0u;
+    // nodes and leaves in loops of their own, after Aila and Laine, "Understanding the Efficiency of Ray Traversal on GPUs"
+    // (2009): threads that go together go through one of them
+    loop {
+        while contents >> COUNT_SHIFT == 0u {
+            let left_t = box_distance(nodes[contents], ray.origin, inverse, nearest.t);
+            let right_t = box_distance(nodes[contents + 1u], ray.origin, inverse, nearest.t);
+            let left = nodes[contents].contents;
+            let right = nodes[contents + 1u].contents;
+            let left_is_near = left_t <= right_t;
+            if max(left_t, right_t) < FAR {
+                waiting_nodes[count] = select(left, right, left_is_near);
+                count += 1u;
+            }
+            if min(left_t, right_t) < FAR {
+                contents = select(right, left, left_is_near);
+            } else if count > 0u {
+                count -= 1u;
+                contents = waiting_nodes[count];
+            } else {
+                return nearest;
+            }
+        }
+        let first = contents & FIRST_MASK;
+        let end = first + (contents >> COUNT_SHIFT);
+        for (var index = first; index < end; index++) {
+            let primitive = primitives[index];
+            let t = primitive_distance(primitive, ray, sheared);
+            if t > 0.0 && t <= nearest.t && !passes(index, any_will_do) {
+                let id = primitive.tag & ((1u << KIND_SHIFT) - 1u);
+                if t < nearest.t || (id < nearest.id && !any_will_do) {
+                    nearest = Nearest(t, index, id);
+                }
+            }
+        }
+        if count == 0u || (any_will_do && nearest.index != NOTHING) {
+            return nearest;
+        }
+        count -= 1u;
+        contents = waiting_nodes[count];
+    }
+    return nearest;
+}
+
+// Whether a shadow ray goes through this primitive.
+fn passes(index: u32, shadow: bool) -> bool {
+    if CLEAR_GLASS {
+        return shadow && materials[surfaces[index].material].bsdf == BSDF_DIELECTRIC;
+    }
+    return false;
+}
+
+// Inverts a direction, at least 1.2e-7 along each axis.
+fn safe_inverse(direction: vec3f) -> vec3f {
+    let smallest = vec3f(1.1920929e-7);
+    let at_least = select(smallest, -smallest, direction < vec3f(0.0));
+    return 1.0 / select(direction, at_least, abs(direction) <= smallest);
+}
+
+// Where a ray enters a box before tmax; FAR if it does not.
+fn box_distance(node: Node, origin: vec3f, inverse: vec3f, tmax: f32) -> f32 {
+    let t1 = (node.low - origin) * inverse;
+    let t2 = (node.high - origin) * inverse;
+    let near = min(t1, t2);
+    let far = max(t1, t2);
+    let enters = max(near.x, max(near.y, near.z));
+    let leaves = min(far.x, min(far.y, far.z));
+    return select(FAR, enters, leaves >= max(enters, 0.0) && enters < tmax);
+}
+
+fn primitive_distance(primitive: Primitive, ray: Ray, sheared: ShearedRay) -> f32 {
+    let kind = primitive.tag >> KIND_SHIFT;
+    if TRIANGLES && (kind == KIND_TRIANGLE || !(SPHERES || DISKS)) {
+        return triangle_distance(primitive, ray, sheared);
+    }
+    if SPHERES && (kind == KIND_SPHERE || !DISKS) {
+        return sphere_distance(primitive.a, primitive.normal_x, ray);
+    }
+    if DISKS {
+        return disk_distance(primitive.a, primitive.b, primitive.normal_x, ray);
+    }
+    return 0.0;
+}
+
+// What the ray met.
+fn hit_of(nearest: Nearest, ray: Ray) -> Hit {
+    let primitive = primitives[nearest.index];
+    let surface = surfaces[nearest.index];
+    let kind = primitive.tag >> KIND_SHIFT;
+    var point: SurfacePoint;
+    if TRIANGLES && (kind == KIND_TRIANGLE || !(SPHERES || DISKS)) {
+        let areas = triangle_areas(primitive, ray.origin, sheared_ray(ray.direction));
+        let barycentrics = areas / (areas.x + areas.y + areas.z);
+        point = on_triangle(primitive.a, primitive.b, primitive.c, barycentrics, surface.normal);
+    } else if SPHERES && (kind == KIND_SPHERE || !DISKS) {
+        let from_center = sphere_meeting(primitive.a, primitive.normal_x, ray, nearest.t);
+        point = on_sphere(primitive.a, primitive.normal_x, from_center);
+    } else if DISKS {
+        point = on_disk(primitive.a, ray.origin + ray.direction * nearest.t, primitive.b);
+    }
+    return Hit(point, surface.material, surface.light);
+}

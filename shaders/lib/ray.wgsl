@@ -1,0 +1,22 @@
+// Rays. Twin: crates/pathtrace/src/geometry/mod.rs.
+
+struct Ray {
+    // where it starts, world space
+    origin: vec3f,
+    // where it goes; unit length but for shadow rays to a point
+    direction: vec3f,
+    // hits must lie before this
+    tmax: f32,
+}
+
+// Farther than anything: shaders may take infinity away.
+const FAR: f32 = 3.4028234e38;
+
+// A shadow ray ends at 1, and divisions may be off by 2.5 ulp: the lamp at its end must not shadow itself.
+const SHADOW_END: f32 = 1.0 - 5e-7;
+
+// Higham's bound on the relative error of n roundings in a row, f32.
+fn gamma(n: f32) -> f32 {
+    let error = n * 5.9604645e-8;
+    return error / (1.0 - error);
+}

@@ -1,0 +1,41 @@
+//#import lib/world.wgsl
+// Rays by themselves, for whoever wants to know what they meet. Mirror: crates/pathtrace/src/gpu/rays.rs.
+
+struct RayQuery {
+    origin: vec3f,
+    tmax: f32,
+    direction: vec3f,
+    unused: u32,
+}
+
+struct RayAnswer {
+    position: vec3f,
+    // 0 where nothing is met
+    t: f32,
+    error: vec3f,
+    material: u32,
+    normal: vec3f,
+    // whether anything at all is met, as a shadow ray asks
+    occluded: u32,
+}
+
+@group(1) @binding(0) var<storage, read> queries: array<RayQuery>;
+@group(1) @binding(1) var<storage, read_write> answers: array<RayAnswer>;
+
+@compute @workgroup_size(64)
+fn trace(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups) groups: vec3u) {
+    let index = id.y * groups.x * 64u + id.x;
+    if index >= arrayLength(&queries) {
+        return;
+    }
+    let query = queries[index];
+    let ray = Ray(query.origin, query.direction, query.tmax);
+    let nearest = closest(ray);
+    var answer: RayAnswer;
+    if nearest.index != NOTHING {
+        let hit = hit_of(nearest, ray);
+        answer = RayAnswer(hit.point.position, nearest.t, hit.point.error, hit.material, hit.point.normal, 0u);
+    }
+    answer.occluded = select(0u, 1u, occluded(ray));
+    answers[index] = answer;
+}

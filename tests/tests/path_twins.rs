@@ -1,0 +1,384 @@
+//! The path tracer on the GPU is the twin of the CPU's: rays meet the same surfaces at the same places, pictures agree pixel
+//! by pixel, and their means within their errors, through Vulkan and through OpenGL.
+
+use gpu::{Gpu, wgpu};
+use pathtrace::geometry::Ray;
+use pathtrace::gpu::GpuTracer;
+use pathtrace::sampler::Sampler;
+use pathtrace::{
+    Estimator, GlassShadows, PathSettings, Roulette, SamplerKind, Stats, Tracer, WhittedSettings, rng, sampling,
+};
+use scene::{Camera, Film, Scene, Vec3, builtin};
+use std::path::Path;
+
+const EVERYTHING: &str = include_str!("scenes/everything.toml");
+
+fn devices() -> [Gpu; 2] {
+    [wgpu::Backends::VULKAN, wgpu::Backends::GL].map(|through| Gpu::headless_through(through).unwrap())
+}
+
+fn named(name: &str) -> Scene {
+    match name {
+        "everything" => scene::parse(EVERYTHING, "everything", Path::new("everything.toml")).unwrap(),
+        _ => builtin::named(name).unwrap(),
+    }
+}
+
+fn direction(item: u32, block: u32) -> Vec3 {
+    let [u, v, ..] = rng::pcg4d([item, block, 5, 1]).map(rng::unit_float);
+    sampling::cone(2.0, [u, v])
+}
+
+/// A thousand triangles, spheres and disks of all sizes, each of its own material, so that a hit tells what was met.
+fn crowd() -> Scene {
+    let mut text =
+        String::from("[camera]\neye = [0, 0, 9]\ntarget = [0, 0, 0]\nfov_y = 50\n[sky]\nradiance = [1, 1, 1]\n");
+    let mut shapes = String::new();
+    for i in 0..1000u32 {
+        let [size, ..] = rng::pcg4d([i, 0, 6, 1]).map(rng::unit_float);
+        let size = 10f32.powf(-2.5 * size);
+        let at = direction(i, 7) * (0.2 + 3.0 * rng::unit_float(rng::pcg4d([i, 1, 6, 1])[0]));
+        let vector = |v: Vec3| format!("[{:.7}, {:.7}, {:.7}]", v.x, v.y, v.z);
+        text += &format!("[material.m{i}]\ndiffuse = {{ albedo = [{:.4}, 0.5, 0.5] }}\n", i as f32 / 1000.0);
+        shapes += &match i % 3 {
+            0 => format!("[[sphere]]\ncenter = {}\nradius = {:.6}\n", vector(at), 0.3 * size),
+            1 => format!(
+                "[[disk]]\ncenter = {}\nnormal = {}\nradius = {:.6}\n",
+                vector(at),
+                vector(direction(i, 8)),
+                size
+            ),
+            _ => {
+                let (u, v) = (direction(i, 8) * size, direction(i, 9) * size);
+                format!("[[rectangle]]\ncorner = {}\nedge_u = {}\nedge_v = {}\n", vector(at), vector(u), vector(v))
+            }
+        };
+        shapes += &format!("material = \"m{i}\"\n");
+    }
+    scene::parse(&(text + &shapes), "crowd", Path::new("crowd.toml")).unwrap()
+}
+
+/// Rays from everywhere to everywhere, and rays that leave what they met: the same surface on both machines for all but 1 in
+/// 100,000, at the same place.
+#[test]
+fn rays_meet_the_same_surfaces_at_the_same_places() {
+    let scene = crowd();
+    let cpu = Tracer::new(&scene);
+    let aimed = |i: u32| direction(i, 2) * (2.0 * rng::unit_float(rng::pcg4d([i, 4, 5, 1])[0]));
+    let towards = |from: Vec3, to: Vec3| Ray::new(from, (to - from).normalize());
+    let first: Vec<Ray> = (0..100_000).map(|i| towards(direction(i, 1) * 4.0, aimed(i))).collect();
+    for gpu in devices() {
+        let tracer = GpuTracer::new(&gpu, &scene).unwrap();
+        let mut rays = first.clone();
+        for bounce in 0..2 {
+            let answers = tracer.meet(&rays).unwrap();
+            // beside that share of the distance, what rounding does to coordinates of 3 where rays graze a sphere
+            let (mut other, mut met) = (0, 0);
+            let mut next = Vec::new();
+            for (i, (ray, answer)) in (0..).zip(rays.iter().zip(&answers)) {
+                let hit = cpu.accel().closest(ray);
+                let same = hit.map(|hit| hit.material) == answer.point().map(|_| answer.material);
+                other += u32::from(!same || cpu.accel().occluded(ray) != (answer.occluded == 1));
+                let (Some(hit), Some(point), true) = (hit, answer.point(), same) else { continue };
+                met += 1;
+                let distance = (hit.point.position - ray.origin).length();
+                let off = (hit.point.position - point.position).length();
+                assert!(off <= 1e-5 * distance + 1e-5, "{bounce}: off by {off} at {distance}, ray {i}");
+                let off = (answer.t * ray.direction.length() - distance).abs();
+                assert!(off <= 1e-5 * distance + 1e-5, "{bounce}: t off by {off} at {distance}, ray {i}");
+                let out = direction(i, 3);
+                next.push(Ray::new(hit.point.leaving_towards(out), out));
+            }
+            assert!(met > rays.len() / 3, "{met} of {} hit", rays.len());
+            assert!(other <= 1, "{bounce}: {other} of {} meet something else, {}", rays.len(), gpu.describe());
+            rays = next;
+        }
+    }
+}
+
+struct Pair {
+    gpu: Film,
+    cpu: Film,
+    stats: [Stats; 2],
+}
+
+impl Pair {
+    /// Pixels farther apart than `tolerance`, as a share of all; relative above 1.
+    fn apart(&self, tolerance: f32) -> f64 {
+        assert_eq!((self.gpu.nonfinite, self.cpu.nonfinite), (0, 0));
+        let far = |(a, b): &(Vec3, Vec3)| (a - b).abs().max_element() > tolerance * b.max_element().max(1.0);
+        let pixels = f64::from(self.gpu.width() * self.gpu.height());
+        self.gpu.radiances().zip(self.cpu.radiances()).filter(far).count() as f64 / pixels
+    }
+
+    /// Rays on the GPU over rays on the CPU.
+    fn rays(&self) -> f64 {
+        let [gpu, cpu] = self.stats;
+        assert_eq!((gpu.samples, gpu.cut_paths), (cpu.samples, cpu.cut_paths));
+        gpu.rays as f64 / cpu.rays as f64
+    }
+}
+
+fn paths(gpu: &Gpu, scene: &Scene, size: (u32, u32), spp: u32, settings: &PathSettings) -> Pair {
+    let [mut on_gpu, mut on_cpu] = [(); 2].map(|()| Film::new(size.0, size.1));
+    let gpu = GpuTracer::new(gpu, scene).unwrap().render(&mut on_gpu, &scene.camera, settings, spp, &|| false).unwrap();
+    let cpu = Tracer::new(scene).render(&mut on_cpu, &scene.camera, settings, spp, &|| false);
+    Pair { gpu: on_gpu, cpu: on_cpu, stats: [gpu, cpu] }
+}
+
+fn settings(estimator: Estimator, bounces: u32) -> PathSettings {
+    PathSettings { estimator, bounces: Some(bounces), ..PathSettings::default() }
+}
+
+/// One sample a pixel and 8 bounces: the same picture but for pixels where rounding sends a path elsewhere.
+#[test]
+fn pictures_agree_pixel_by_pixel() {
+    for gpu in devices() {
+        for (name, allowed) in [("cornell", 1e-3), ("hard/mirror-box", 1e-3), ("whitted", 1e-2), ("everything", 1e-2)] {
+            let pair = paths(&gpu, &named(name), (160, 100), 1, &settings(Estimator::LIGHT, 8));
+            let (apart, rays) = (pair.apart(1e-3), pair.rays());
+            assert!(apart <= allowed && (rays - 1.0).abs() < 1e-3, "{name}, {}: {apart} {rays}", gpu.describe());
+        }
+    }
+}
+
+/// Every estimator, sampler, roulette and number of branches, where all kinds of lights and materials are.
+#[test]
+fn every_setting_agrees_pixel_by_pixel() {
+    let gpu = Gpu::headless_through(wgpu::Backends::VULKAN).unwrap();
+    let scene = named("everything");
+    let mut all = Estimator::EVERY.map(|estimator| settings(estimator, 3)).to_vec();
+    // of the ways that are not compiled into pipelines of their own, one more with each estimator
+    all[0].bounces = None;
+    all[1].roulette = Roulette::constant(0.7);
+    all[2].roulette = Roulette { probability: Some(0.8), throughput: true };
+    all[3] = PathSettings { sampler: SamplerKind::Independent, seed: 9, ..all[3] };
+    all[4] = PathSettings { branches: 2, ..all[4] };
+    all[5] = PathSettings { branches: 3, roulette: Roulette::OFF, bounces: Some(2), ..all[5] };
+    for settings in all {
+        let pair = paths(&gpu, &scene, (96, 64), 1, &settings);
+        let (apart, rays) = (pair.apart(1e-3), pair.rays());
+        assert!(apart <= 5e-3 && (rays - 1.0).abs() < 2e-3, "{settings:?}: {apart} {rays}");
+    }
+}
+
+#[test]
+fn whitted_trees_agree_pixel_by_pixel() {
+    let [vulkan, gl] = devices();
+    let cases = [
+        (&vulkan, "everything", GlassShadows::Opaque),
+        (&vulkan, "everything", GlassShadows::Clear),
+        (&gl, "whitted", GlassShadows::Opaque),
+    ];
+    for (gpu, name, glass_shadows) in cases {
+        let scene = named(name);
+        let settings = WhittedSettings { glass_shadows, shadow_rays: 2, ..WhittedSettings::default() };
+        let [mut on_gpu, mut on_cpu] = [(); 2].map(|()| Film::new(120, 80));
+        let mut tracer = GpuTracer::new(gpu, &scene).unwrap();
+        let gpu_stats = tracer.render_whitted(&mut on_gpu, &scene.camera, &settings, 1, &|| false).unwrap();
+        let cpu_stats = Tracer::new(&scene).render_whitted(&mut on_cpu, &scene.camera, &settings, 1, &|| false);
+        let pair = Pair { gpu: on_gpu, cpu: on_cpu, stats: [gpu_stats, cpu_stats] };
+        let (apart, rays) = (pair.apart(1e-3), pair.rays());
+        assert!(apart <= 1e-2 && (rays - 1.0).abs() < 1e-3, "{name} {glass_shadows:?}: {apart} {rays}");
+    }
+}
+
+/// Of different seeds, so that errors are independent: within four standard errors, which are 2 % at most.
+#[test]
+fn converged_means_agree_within_four_standard_errors() {
+    for gpu in devices() {
+        let scene = named("cornell");
+        let on_cpu = PathSettings { sampler: SamplerKind::Independent, ..settings(Estimator::MIS, 8) };
+        let on_gpu = PathSettings { seed: 77, ..on_cpu };
+        let [mut gpu_film, mut cpu_film] = [(); 2].map(|()| Film::new(32, 32));
+        GpuTracer::new(&gpu, &scene).unwrap().render(&mut gpu_film, &scene.camera, &on_gpu, 128, &|| false).unwrap();
+        Tracer::new(&scene).render(&mut cpu_film, &scene.camera, &on_cpu, 512, &|| false);
+        for c in 0..3 {
+            let error = gpu_film.standard_error()[c].hypot(cpu_film.standard_error()[c]);
+            let (a, b) = (gpu_film.mean()[c], cpu_film.mean()[c]);
+            assert!((a - b).abs() <= 4.0 * error && error < 0.02 * b, "{c}: {a} {b} +- {error}");
+        }
+    }
+}
+
+/// Rays from the inner half of a closed box of tilted walls 500 units wide, its surface met again and again: none gets out,
+/// none meets the wall that it leaves.
+#[test]
+fn no_ray_leaks_from_a_large_tilted_room_and_no_wall_shadows_itself() {
+    let mut room = named("hard/light-tight-box");
+    let shapes = room.shapes.iter().cloned().map(|mut shape| {
+        shape.geometry = scene::Geometry::Box {
+            corner: Vec3::new(-170.0, -250.0, 190.0),
+            size: Vec3::new(500.0, 480.0, 510.0),
+            turn_y: 31.0,
+        };
+        shape
+    });
+    room.shapes = shapes.take(1).collect();
+    let (lo, hi) = room.bounds();
+    for gpu in devices() {
+        let tracer = GpuTracer::new(&gpu, &room).unwrap();
+        let start = |i| Ray::new(0.5 * (lo + hi) + direction(i, 20) * 100.0, direction(i, 21));
+        let mut rays: Vec<Ray> = (0..20_000).map(start).collect();
+        for bounce in 0..6 {
+            let answers = tracer.meet(&rays).unwrap();
+            let escaped = answers.iter().filter(|a| a.point().is_none() || a.occluded == 0).count();
+            assert_eq!(escaped, 0, "bounce {bounce}, {}", gpu.describe());
+            let leave = |(i, (ray, answer)): (u32, (&Ray, &pathtrace::gpu::rays::RayAnswer))| {
+                let point = answer.point().unwrap();
+                let normal = if point.normal.dot(ray.direction) > 0.0 { -point.normal } else { point.normal };
+                let [u, v, ..] = Sampler::independent(i, bounce, 3).unit4(0);
+                let out = sampling::to_world(sampling::cosine_hemisphere([u, v]), normal);
+                (Ray::new(point.leaving_towards(out), out), point.normal)
+            };
+            let left: Vec<(Ray, Vec3)> = (0..).zip(rays.iter().zip(&answers)).map(leave).collect();
+            rays = left.iter().map(|(ray, _)| *ray).collect();
+            let again = tracer.meet(&rays).unwrap();
+            let own = again.iter().zip(&left).filter(|(answer, (_, normal))| answer.normal == *normal).count();
+            assert_eq!(own, 0, "bounce {bounce}, {}", gpu.describe());
+        }
+    }
+}
+
+/// Close to a corner at the origin of walls 500 units wide the step off a wall is tiny, and the plane's other corners are far:
+/// floats alone cannot tell which side of it a ray starts on.
+#[test]
+fn large_walls_do_not_shadow_themselves_close_to_a_corner() {
+    let mut room = named("hard/light-tight-box");
+    let mut shape = room.shapes[0].clone();
+    shape.geometry = scene::Geometry::Box { corner: Vec3::ZERO, size: Vec3::splat(500.0), turn_y: 31.0 };
+    room.shapes = [shape].into();
+    let (lo, hi) = room.bounds();
+    let middle = 0.5 * (lo + hi);
+    let aim = |i: u32| direction(i, 22).abs() * middle.signum() * 10f32.powf(-4.0 * rng::unit_float(i << 12));
+    let rays: Vec<Ray> = (0..40_000).map(|i| Ray::new(middle, (aim(i) - middle).normalize())).collect();
+    for gpu in devices() {
+        let tracer = GpuTracer::new(&gpu, &room).unwrap();
+        let met: Vec<_> = tracer.meet(&rays).unwrap().iter().filter_map(|answer| answer.point()).collect();
+        assert_eq!(met.len(), rays.len());
+        let leave = |(i, point): (u32, &pathtrace::geometry::SurfacePoint)| {
+            let inside = if point.normal.dot(middle - point.position) < 0.0 { -point.normal } else { point.normal };
+            let [u, v, ..] = Sampler::independent(i, 0, 4).unit4(0);
+            let out = sampling::to_world(sampling::cosine_hemisphere([u, v]), inside);
+            Ray::new(point.leaving_towards(out), out)
+        };
+        let left: Vec<Ray> = (0..).zip(&met).map(leave).collect();
+        let again = tracer.meet(&left).unwrap();
+        let own = again.iter().zip(&met).filter(|(answer, point)| answer.normal == point.normal).count();
+        assert_eq!(own, 0, "{}", gpu.describe());
+    }
+}
+
+/// Of surfaces in one plane a lamp is met, wherever it stands in the scene, else the one that comes first.
+#[test]
+fn of_surfaces_in_one_plane_the_lamp_is_met_and_then_the_first() {
+    let wall = |corner: &str, u: &str, v: &str, material: &str| {
+        format!("[[rectangle]]\ncorner = {corner}\nedge_u = {u}\nedge_v = {v}\nmaterial = \"{material}\"\n")
+    };
+    let diffuse = |name: &str| format!("[material.{name}]\ndiffuse = {{ albedo = [0.5, 0.5, 0.5] }}\n");
+    let text = [
+        "[camera]\neye = [0, 0, 9]\ntarget = [0, 0, 0]\nfov_y = 50\n".to_owned(),
+        diffuse("first")
+            + &diffuse("second")
+            + "[material.lamp]\nemissive = { radiance = [1, 1, 1], two_sided = true }\n",
+        wall("[-3, -2, 0.7]", "[6, 0, 0]", "[0, 5, 0]", "first"),
+        wall("[-2.5, -2.1, 0.7]", "[5.3, 0, 0]", "[0, 4.4, 0]", "second"),
+        wall("[-0.6, -0.5, 0.7]", "[0, 1.1, 0]", "[1.3, 0, 0]", "lamp"),
+    ];
+    let scene = scene::parse(&text.concat(), "plane", Path::new("plane.toml")).unwrap();
+    let cpu = Tracer::new(&scene);
+    let aim = |i| direction(i, 30) * Vec3::new(2.0, 1.8, 0.0) + Vec3::Z * 0.7;
+    let rays = (0..20_000).map(|i| (direction(i, 31) * 5.0, aim(i))).map(|(o, to)| Ray::new(o, (to - o).normalize()));
+    let rays: Vec<Ray> = rays.collect();
+    for gpu in devices() {
+        let answers = GpuTracer::new(&gpu, &scene).unwrap().meet(&rays).unwrap();
+        let mut met = [0; 3];
+        for (ray, answer) in rays.iter().zip(&answers) {
+            let hit = cpu.accel().closest(ray);
+            assert_eq!(hit.map(|hit| hit.material), answer.point().map(|_| answer.material));
+            if let Some(hit) = hit {
+                met[hit.material as usize] += 1;
+            }
+        }
+        let [first, second, lamp] = ["first", "second", "lamp"]
+            .map(|name| met[scene.materials.iter().position(|material| material.name == name).unwrap()]);
+        assert!(first > 10_000 && second == 0 && lamp > 500, "{met:?}");
+    }
+}
+
+/// A film goes on where it was, in parts or at once, stops between dispatches, and can be read while it grows.
+#[test]
+fn films_go_on_stop_and_are_read_without_waiting() {
+    let gpu = Gpu::headless_through(wgpu::Backends::VULKAN).unwrap();
+    let scene = named("cornell");
+    let settings = settings(Estimator::LIGHT, 2);
+    let mut tracer = GpuTracer::new(&gpu, &scene).unwrap();
+    let mut render = |film: &mut Film, spp| tracer.render(film, &scene.camera, &settings, spp, &|| false).unwrap();
+    let [mut at_once, mut in_parts] = [(); 2].map(|()| Film::new(48, 40));
+    render(&mut at_once, 6);
+    render(&mut in_parts, 1);
+    render(&mut in_parts, 5);
+    let off =
+        at_once.radiances().zip(in_parts.radiances()).map(|(a, b)| (a - b).abs().max_element()).fold(0.0, f32::max);
+    assert!(off < 1e-6, "{off}");
+
+    let mut on_device = tracer.film(Film::new(48, 40)).unwrap();
+    tracer.expose(&mut on_device, &scene.camera, &settings, 6, &|| false).unwrap();
+    on_device.begin_reading(&gpu).unwrap();
+    let (film, stats) = loop {
+        if let Some(read) = on_device.poll_reading(&gpu).unwrap() {
+            break read;
+        }
+        std::thread::yield_now();
+    };
+    assert_eq!((film.samples_per_pixel(), stats.samples), (6, 6 * 48 * 40));
+    assert!(film.radiances().eq(at_once.radiances()));
+
+    let mut stopped = Film::new(640, 400);
+    let asked = std::cell::Cell::new(0);
+    let stop = || asked.replace(asked.get() + 1) >= 2;
+    let stats = tracer.render(&mut stopped, &scene.camera, &settings, 64, &stop).unwrap();
+    let taken: u64 = stopped.pixels().iter().map(|pixel| u64::from(pixel.samples)).sum();
+    assert!(stats.samples > 0 && stats.samples == taken && taken < 640 * 400);
+}
+
+/// A million samples of one pixel: plain f32 sums would be off by a percent.
+#[test]
+fn sums_of_many_samples_do_not_drift() {
+    let gpu = Gpu::headless_through(wgpu::Backends::VULKAN).unwrap();
+    let mut scene = named("hard/camera-inside-glass");
+    scene.shapes = [].into();
+    scene.sky = Vec3::splat(0.1);
+    let settings = settings(Estimator::COSINE, 0);
+    for (size, spp) in [((8, 1), 200_000), ((1, 1), 1025)] {
+        let mut film = Film::new(size.0, size.1);
+        let mut tracer = GpuTracer::new(&gpu, &scene).unwrap();
+        tracer.render(&mut film, &scene.camera, &settings, spp, &|| false).unwrap();
+        for pixel in film.pixels() {
+            assert_eq!((pixel.samples, pixel.largest), (spp, 0.1));
+            let expected = f64::from(0.1f32);
+            assert!((pixel.mean()[0] / expected - 1.0).abs() < 1e-6, "{}", pixel.mean()[0]);
+            assert!((pixel.sum_of_squares[1] / f64::from(spp) / expected.powi(2) - 1.0).abs() < 1e-6);
+        }
+    }
+}
+
+/// What no device can do is an error and not a panic.
+#[test]
+fn what_does_not_fit_is_refused() {
+    let gpu = Gpu::headless_through(wgpu::Backends::VULKAN).unwrap();
+    let scene = named("cornell");
+    let tracer = GpuTracer::new(&gpu, &scene).unwrap();
+    assert!(tracer.film(Film::new(0, 4)).is_err());
+    let side = gpu.device.limits().max_texture_dimension_2d + 1;
+    let error = tracer.film(Film::new(side, 1)).unwrap_err().to_string();
+    assert!(error.contains("too large"), "{error}");
+    let lost = GpuTracer::new(&gpu, &scene).unwrap();
+    gpu.device.destroy();
+    let mut film = Film::new(8, 8);
+    let camera: Camera = scene.camera;
+    let mut lost = lost;
+    assert!(lost.render(&mut film, &camera, &PathSettings::default(), 1, &|| false).is_err());
+    assert!(lost.meet(&[Ray::new(Vec3::ZERO, Vec3::X)]).is_err());
+    assert!(GpuTracer::new(&gpu, &scene).is_err());
+}
