@@ -6,7 +6,7 @@
 //! within four standard errors of the expected value *and* that standard error is small enough to notice a fault; both are
 //! in the row.
 //!
-//! Neither a GPU nor a window is needed. [`Device`] has room for more than the CPU.
+//! [`run`] needs neither a GPU nor a window. [`run_on_gpu`] runs what a graphics device renders.
 
 mod case;
 mod dielectrics;
@@ -19,6 +19,7 @@ mod leaks;
 mod measure;
 mod meshes;
 mod offsets;
+mod on_gpu;
 mod robustness;
 mod row;
 mod samplers;
@@ -27,4 +28,5 @@ mod warps;
 
 pub use case::{CASES, Case, run};
 pub use measure::{Effort, Trial};
+pub use on_gpu::run_on_gpu;
 pub use row::{Device, Relation, Row, Verdict};

@@ -27,6 +27,7 @@ const ROUNDING: f64 = 2e-6;
 /// One case on its way.
 pub struct Trial<'a> {
     case: u32,
+    device: Device,
     effort: Effort,
     stop: &'a AtomicBool,
     rows: Vec<Row>,
@@ -54,7 +55,12 @@ impl Mean {
 impl<'a> Trial<'a> {
     /// Begins case number `case`.
     pub fn new(case: u32, effort: Effort, stop: &'a AtomicBool) -> Self {
-        Trial { case, effort, stop, rows: Vec::new(), nonfinite: 0 }
+        Trial { case, device: Device::Cpu, effort, stop, rows: Vec::new(), nonfinite: 0 }
+    }
+
+    /// The same on another device.
+    pub fn on(self, device: Device) -> Self {
+        Trial { device, ..self }
     }
 
     /// Whether everything is run.
@@ -93,7 +99,7 @@ impl<'a> Trial<'a> {
         let (expected, measured, tolerance) = numbers;
         self.rows.push(Row {
             case: self.case,
-            device: Device::Cpu,
+            device: self.device,
             subject: subject.to_owned(),
             quantity: quantity.to_owned(),
             expected,
@@ -163,14 +169,26 @@ impl<'a> Trial<'a> {
         render: impl Fn(&mut Film, u32, u32, &AtomicBool) + Sync,
     ) -> Mean {
         let found = self.mean_of(expected, power, self.pick(20_000, 100_000), render);
-        let tolerance = 4.0 * found.standard_error + ROUNDING * expected;
-        let reached = found.standard_error / expected;
-        let passed = (found.mean - expected).abs() <= tolerance && reached <= power;
-        self.push(subject, quantity, (expected, found.mean, tolerance), Relation::Equal, verdict(passed));
+        self.mean_and_error(subject, quantity, expected, (found.mean, found.standard_error), power);
+        found
+    }
+
+    /// A mean with its standard error must be within four of these, and they within `power` of what is expected.
+    pub fn mean_and_error(
+        &mut self,
+        subject: &str,
+        quantity: &str,
+        expected: f64,
+        (mean, standard_error): (f64, f64),
+        power: f64,
+    ) {
+        let tolerance = 4.0 * standard_error + ROUNDING * expected;
+        let reached = standard_error / expected;
+        let passed = (mean - expected).abs() <= tolerance && reached <= power;
+        self.push(subject, quantity, (expected, mean, tolerance), Relation::Equal, verdict(passed));
         if let Some(row) = self.rows.last_mut() {
             row.power = Some((reached, power));
         }
-        found
     }
 
     /// A Monte Carlo row of a path traced picture.

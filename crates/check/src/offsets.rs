@@ -9,7 +9,7 @@ use pathtrace::sampling;
 use scene::Vec3;
 
 /// Translation, size and distance of the camera in sizes.
-const PLACES: [(f32, f32, f32); 8] = [
+pub const PLACES: [(f32, f32, f32); 8] = [
     (0.0, 1.0, 4.0),
     (0.0, 1.0, 1000.0),
     (1e3, 1.0, 4.0),

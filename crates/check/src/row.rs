@@ -7,6 +7,8 @@ use std::fmt;
 pub enum Device {
     /// The processor.
     Cpu,
+    /// A graphics device, or a processor that plays one.
+    Gpu,
 }
 
 impl Device {
@@ -14,6 +16,7 @@ impl Device {
     pub fn name(self) -> &'static str {
         match self {
             Device::Cpu => "cpu",
+            Device::Gpu => "gpu",
         }
     }
 }
