@@ -12,7 +12,7 @@ visavis render SCENE -o OUT      render to OUT, .png (display-transformed) or .e
     --from FILE                  make the picture in FILE (.png or .exr of this program) again; other options change it
     --technique raster|whitted|path
                                  the fake, Whitted's trees of rays or the truth (default path)
-    --device auto|cpu|gpu        where: the fake needs the gpu, rays the cpu (default auto)
+    --device auto|cpu|gpu        where: the fake needs the gpu (default auto: rays on the cpu)
     --size WxH                   pixels (default 1280x720)
     --eye X,Y,Z --target X,Y,Z --fov DEG
                                  camera (default the scene's)

@@ -2,10 +2,11 @@
 
 use super::{RenderArgs, reference};
 use crate::ruler::{Sought, brief, error_records, noise_line};
-use crate::technique::{FakeSettings, Made, Provenance, RaySettings, Recipe, Technique};
+use crate::technique::{FakeSettings, Made, Method, Provenance, RaySettings, Recipe, Technique};
 use anyhow::Context;
 use compare::Errors;
 use gpu::Gpu;
+use pathtrace::gpu::GpuTracer;
 use pathtrace::{SamplerKind, Stats, Tracer};
 use picture_file::{self, Kind, Linear};
 use raster::Raster;
@@ -39,6 +40,7 @@ pub fn run(args: &RenderArgs) -> anyhow::Result<()> {
     picture_file::check_writable(&args.out)?;
     let rendered = match recipe {
         Recipe::Fake(fake) => raster(args, &fake.applied_to(&scene), fake)?,
+        Recipe::Rays(rays) if args.rays_on_gpu => trace_on_gpu(args, &scene, rays)?,
         Recipe::Rays(rays) => trace(args, &scene, rays)?,
     };
     let errors = if args.errors { Some(measure(&sought, &rendered.film)?) } else { None };
@@ -95,6 +97,7 @@ fn save(args: &RenderArgs, scene: &Scene, rendered: &Rendered, errors: Option<&E
     };
     let mut records = provenance.records(made);
     records.extend(errors.into_iter().flat_map(|e| error_records(e, "reference".into())));
+    records.iter_mut().filter(|(name, _)| *name == "device").for_each(|(_, device)| *device = device_of(args).into());
     let radiances: Vec<Vec3> = rendered.film.radiances().collect();
     let picture = Linear { width: args.seen.size.0, height: args.seen.size.1, radiances: &radiances };
     let kind = Kind::of(&args.out).context("a picture's name must end in .png or .exr")?;
@@ -126,6 +129,47 @@ fn raster(args: &RenderArgs, scene: &Scene, fake: FakeSettings) -> anyhow::Resul
     let start = Instant::now();
     let film = raster.render(scene, &scene.camera, &fake.sized(args.seen.size.0, args.seen.size.1))?;
     Ok(Rendered { film, seconds: start.elapsed().as_secs_f64(), stats: Stats::default(), adapter: gpu.describe() })
+}
+
+/// Where the picture was made.
+fn device_of(args: &RenderArgs) -> &'static str {
+    if args.rays_on_gpu { "gpu" } else { args.pane.technique.device() }
+}
+
+fn trace_on_gpu(args: &RenderArgs, scene: &Scene, rays: RaySettings) -> anyhow::Result<Rendered> {
+    let instead = "the graphics device does not trace this; --device cpu does";
+    let gpu = Gpu::headless().context(instead)?;
+    if let Some(blind) = rays.blind_spot(scene) {
+        note!("note: {blind}");
+    }
+    let start = Instant::now();
+    let mut tracer = GpuTracer::new(&gpu, scene).context(instead)?;
+    let (width, height) = args.seen.size;
+    let film = Film::try_new(width, height)
+        .with_context(|| format!("not enough memory for {width}x{height} pixels; ask for a smaller --size"))?;
+    let mut film = tracer.film(film).context(instead)?;
+    let spp = args.spp.unwrap_or(if args.seconds.is_some() { u32::MAX } else { DEFAULT_SPP });
+    let limit = args.seconds.map(Duration::from_secs_f64);
+    let progress = Progress::new(spp);
+    let mut batch = 1;
+    while film.samples_per_pixel() < spp {
+        let batch_start = Instant::now();
+        let samples = batch.min(spp - film.samples_per_pixel());
+        let until = film.samples_per_pixel() + samples;
+        match &rays.method {
+            Method::Path(path) => tracer.expose(&mut film, &scene.camera, path, until, &|| false),
+            Method::Whitted(tree) => tracer.expose_whitted(&mut film, &scene.camera, tree, until, &|| false),
+        }
+        .context(instead)?;
+        progress.show(until, start.elapsed());
+        if limit.is_some_and(|limit| start.elapsed() >= limit) {
+            break;
+        }
+        batch = next_batch(samples, batch_start.elapsed(), limit.map(|l| l.saturating_sub(start.elapsed())));
+    }
+    let (film, stats) = film.read(&gpu).context(instead)?;
+    progress.finish();
+    Ok(Rendered { film, seconds: start.elapsed().as_secs_f64(), stats, adapter: gpu.describe() })
 }
 
 fn trace(args: &RenderArgs, scene: &Scene, rays: RaySettings) -> anyhow::Result<Rendered> {
@@ -197,7 +241,7 @@ fn report(args: &RenderArgs, scene: &Scene, rendered: &Rendered, errors: Option<
     let mut report = json!({
         "scene": scene.name,
         "technique": technique.name(),
-        "device": technique.device(),
+        "device": device_of(args),
         "adapter": rendered.adapter,
         "width": args.seen.size.0,
         "height": args.seen.size.1,

@@ -57,6 +57,25 @@ material = "diamond"
     assert_refused(&["render", "--from", &file("plain.png"), "-o", &again], 1, &["does not say how it was made"]);
 }
 
+/// Both machines follow the same rays: the pictures differ by rounding, and each says where it was made.
+#[test]
+fn the_gpu_traces_the_picture_of_the_cpu() {
+    let folder = TestFolder::new();
+    let file = |name: &str| folder.file(name).to_str().expect("a plain path").to_owned();
+    for technique in ["path", "whitted"] {
+        let [cpu, gpu] = ["cpu", "gpu"].map(|device| {
+            let out = file(&format!("{device}.exr"));
+            let options = ["--technique", technique, "--size", "32x24", "--spp", "2", "--device", device, "--json"];
+            let report = json(&visavis(&[&["render", "cornell", "-o", &out], &options[..]].concat()));
+            assert_eq!((&report["device"], &report["spp"]), (&device.into(), &2.into()));
+            (out, report["rays"].as_u64())
+        });
+        assert_eq!(cpu.1, gpu.1, "{technique}");
+        let compared = json(&visavis(&["compare", &gpu.0, &cpu.0, "--json"]));
+        assert!(compared["rmse"].as_f64().is_some_and(|rmse| rmse < 1e-4), "{compared}");
+    }
+}
+
 #[test]
 fn two_pictures_are_compared_in_numbers_and_as_a_map() {
     let folder = TestFolder::new();

@@ -22,6 +22,8 @@ pub struct RenderArgs {
     /// Technique and settings; their spp is not read here, but [`RenderArgs::spp`].
     pub pane: PaneSettings,
     pub seen: Seen,
+    /// Whether rays are traced by the graphics device.
+    pub rays_on_gpu: bool,
     pub spp: Option<u32>,
     pub seconds: Option<f64>,
     pub exposure: f32,
@@ -101,6 +103,7 @@ fn parse_words(words: Vec<OsString>, scene: Option<String>) -> Result<Command, C
         out: PathBuf::new(),
         pane: PaneSettings::of(Technique::Path),
         seen: Seen::default(),
+        rays_on_gpu: false,
         spp: None,
         seconds: None,
         exposure: 0.0,
@@ -133,12 +136,10 @@ fn parse_words(words: Vec<OsString>, scene: Option<String>) -> Result<Command, C
         return usage(format!("-o must end in .png or .exr: {}", out.display()));
     }
     let technique = r.pane.technique;
-    match (technique.device(), device) {
-        ("gpu", Device::Cpu) | ("cpu", Device::Gpu) => {
-            return usage(format!("--technique {} runs on the {} only", technique.name(), technique.device()));
-        }
-        _ => {}
+    if technique == Technique::Raster && device == Device::Cpu {
+        return usage(format!("--technique {} runs on the {} only", technique.name(), technique.device()));
     }
+    r.rays_on_gpu = technique != Technique::Raster && device == Device::Gpu;
     if let (Technique::Path, Err(fault)) = (technique, r.pane.truth.path.check()) {
         return usage(fault.to_string());
     }
@@ -298,7 +299,7 @@ fn roulette(word: &str) -> Result<Roulette, CliError> {
     }
 }
 
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, PartialEq, Eq)]
 enum Device {
     Auto,
     Cpu,
