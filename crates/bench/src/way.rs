@@ -190,7 +190,7 @@ impl Line {
 }
 
 fn with_variant(name: String, variant: &Variant) -> String {
-    if variant.name.is_empty() { name } else { format!("{name}, {}", variant.name) }
+    if variant.name.is_empty() { name } else { format!("{name} ({})", variant.name) }
 }
 
 #[cfg(test)]
