@@ -1,7 +1,9 @@
 //! `visavis check`: every hard case, as a table or as JSON.
 
 use super::CheckArgs;
+use anyhow::Context;
 use check::{CASES, Case, Effort, Row, Verdict};
+use gpu::Gpu;
 use serde_json::{Value, json};
 use std::sync::atomic::AtomicBool;
 use std::time::Instant;
@@ -12,13 +14,23 @@ pub fn run(args: &CheckArgs) -> anyhow::Result<()> {
     let effort = if args.quick { Effort::Quick } else { Effort::Full };
     let start = Instant::now();
     let mut printed = Ok(());
-    let rows = check::run(&cases, effort, &AtomicBool::new(false), |case, rows| {
+    let (mut run, mut place, never) = (0, String::new(), AtomicBool::new(false));
+    let tell = |case: &Case, rows: &[Row]| {
+        run += 1;
         if !args.json {
             printed = super::print(&table(case, rows));
         }
         printed.is_ok()
-    });
+    };
+    let rows = if args.on_gpu {
+        let gpu = Gpu::headless().context("--device gpu needs a graphics device")?;
+        place = format!(" on {}", gpu.describe());
+        check::run_on_gpu(&gpu, &cases, effort, &never, tell)?
+    } else {
+        check::run(&cases, effort, &never, tell)
+    };
     printed?;
+    anyhow::ensure!(run > 0, "no graphics device renders these cases: --device cpu runs them");
     let seconds = start.elapsed().as_secs_f64();
     let count = |verdict| rows.iter().filter(|row| row.verdict == verdict).count();
     let (passed, failed) = (count(Verdict::Pass), count(Verdict::Fail));
@@ -33,13 +45,14 @@ pub fn run(args: &CheckArgs) -> anyhow::Result<()> {
         });
         super::print(&format!("{report}\n"))?;
     } else {
-        super::print(&format!("{} cases, {passed} rows passed, {failed} failed, {seconds:.0} s\n", cases.len()))?;
+        super::print(&format!("{run} cases{place}, {passed} rows passed, {failed} failed, {seconds:.0} s\n"))?;
     }
     let numbers = failed_cases(&rows);
     let effort = if args.quick { " --quick" } else { "" };
+    let device = if args.on_gpu { " --device gpu" } else { "" };
     anyhow::ensure!(
         failed == 0,
-        "the check failed in {numbers}: see its rows; visavis check{effort} --case {numbers} runs them alone"
+        "the check failed in {numbers}: see its rows; visavis check{effort}{device} --case {numbers} runs them alone"
     );
     Ok(())
 }

@@ -97,7 +97,13 @@ fn save(args: &RenderArgs, scene: &Scene, rendered: &Rendered, errors: Option<&E
     };
     let mut records = provenance.records(made);
     records.extend(errors.into_iter().flat_map(|e| error_records(e, "reference".into())));
-    records.iter_mut().filter(|(name, _)| *name == "device").for_each(|(_, device)| *device = device_of(args).into());
+    for (name, value) in &mut records {
+        match *name {
+            "device" => *value = device_of(args).into(),
+            "command" if args.rays_on_gpu => *value += " --device gpu",
+            _ => {}
+        }
+    }
     let radiances: Vec<Vec3> = rendered.film.radiances().collect();
     let picture = Linear { width: args.seen.size.0, height: args.seen.size.1, radiances: &radiances };
     let kind = Kind::of(&args.out).context("a picture's name must end in .png or .exr")?;

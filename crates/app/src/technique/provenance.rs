@@ -1,6 +1,6 @@
 //! Where a picture comes from: everything that makes it again, as records to keep in its file and as a command to type.
 
-use super::{Recipe, SceneChanges};
+use super::{Recipe, SceneChanges, Technique};
 use picture_file::Records;
 use scene::{Camera, Vec3};
 
@@ -36,7 +36,7 @@ pub struct Made<'a> {
 const RECORDS_VERSION: &str = "1";
 
 /// Records that say what a picture took, and are no options of `visavis render`.
-const NO_OPTIONS: [&str; 7] = ["records", "version", "scene", "device", "adapter", "seconds", "command"];
+const NO_OPTIONS: [&str; 6] = ["records", "version", "scene", "adapter", "seconds", "command"];
 
 /// Records that say how far a picture is from another begin with this.
 const MEASURED: &str = "error.";
@@ -53,7 +53,10 @@ pub fn made_from(records: &[(String, String)]) -> anyhow::Result<Option<(String,
         version == RECORDS_VERSION,
         "its records are of version {version}, and this program reads version {RECORDS_VERSION}: use a newer one"
     );
-    let is_option = |name: &str| !NO_OPTIONS.contains(&name) && !name.starts_with(MEASURED);
+    // only rays traced on the graphics device ask for it: the fake has no other, and the processor is the usual one
+    let asks_for_gpu = value("device") == Some("gpu") && value("technique") != Some(Technique::Raster.name());
+    let says_nothing = |name: &str| NO_OPTIONS.contains(&name) || (name == "device" && !asks_for_gpu);
+    let is_option = |name: &str| !says_nothing(name) && !name.starts_with(MEASURED);
     let options = records.iter().filter(|(name, _)| is_option(name));
     let words = options.map(|(name, value)| format!("--{name}={value}"));
     Ok(Some((scene.to_owned(), words.collect())))

@@ -82,7 +82,8 @@ fn bad_values_are_wrong_usage_and_write_nothing() {
     assert_refused(&["render", "whitted", "-o", out, "--size", "1\n2"], 2, &["WIDTHxHEIGHT"]);
     assert_refused(&["render", "whitted", "-o", out, "--time", "1e30"], 2, &["at most 1e9"]);
     assert_refused(&["check", "--case", "99"], 2, &["--case 99", "from 1 to 24"]);
-    assert_refused(&["check", "--device", "gpu"], 2, &["auto or cpu"]);
+    assert_refused(&["check", "--device", "tpu"], 2, &["auto, cpu or gpu"]);
+    assert_refused(&["check", "--device", "gpu", "--case", "10"], 1, &["no graphics device renders these cases"]);
     let branches = ["render", "cornell", "-o", out, "--branches", "16", "--bounces", "9"];
     assert_refused(&branches, 2, &["fewer directions or fewer bounces"]);
     assert_refused(&["render", "cornell", "-o", out, "--branches", "2"], 2, &["limit of bounces"]);
@@ -293,6 +294,8 @@ fn the_check_prints_a_table_or_rows_of_json() {
     let text = String::from_utf8_lossy(&table.stdout);
     assert!(text.contains("10. Fresnel table") && text.contains("23. A million samples"), "{text}");
     assert!(text.contains(" pass") && text.contains("0 failed"), "{text}");
+    let report = json(&visavis(&["check", "--quick", "--case", "15", "--device", "gpu", "--json"]));
+    assert_eq!((&report["rows"][0]["device"], &report["failed"]), (&"gpu".into(), &0.into()));
     let report = json(&visavis(&["check", "--quick", "--case", "10", "--json"]));
     let rows = report["rows"].as_array().expect("rows");
     assert!(rows.len() > 10 && rows.iter().all(|row| row["case"] == 10 && row["verdict"] == "pass"));

@@ -71,6 +71,14 @@ fn the_gpu_traces_the_picture_of_the_cpu() {
             (out, report["rays"].as_u64())
         });
         assert_eq!(cpu.1, gpu.1, "{technique}");
+        let records = picture_file::records(std::path::Path::new(&gpu.0)).expect("its records");
+        let command = records.iter().find(|(name, _)| name == "command").map(|(_, command)| command.as_str());
+        assert!(command.is_some_and(|command| command.contains("--device gpu")), "{command:?}");
+        let again = file("again.exr");
+        for (made, device) in [(&gpu.0, "gpu"), (&cpu.0, "cpu")] {
+            let report = json(&visavis(&["render", "--from", made, "-o", &again, "--json"]));
+            assert_eq!(report["device"], device, "{technique}");
+        }
         let compared = json(&visavis(&["compare", &gpu.0, &cpu.0, "--json"]));
         assert!(compared["rmse"].as_f64().is_some_and(|rmse| rmse < 1e-4), "{compared}");
     }

@@ -145,6 +145,8 @@ fn parse_compare(mut parser: lexopt::Parser) -> Result<Command, CliError> {
 pub struct CheckArgs {
     /// Whether to look coarsely.
     pub quick: bool,
+    /// Whether the graphics device is checked, in those of the cases that it renders.
+    pub on_gpu: bool,
     /// Numbers of the cases to run; empty for all.
     pub cases: Vec<u32>,
     /// One JSON object on stdout instead of a table.
@@ -152,13 +154,14 @@ pub struct CheckArgs {
 }
 
 fn parse_check(mut parser: lexopt::Parser) -> Result<Command, CliError> {
-    let mut args = CheckArgs { quick: false, cases: Vec::new(), json: false };
+    let mut args = CheckArgs { quick: false, on_gpu: false, cases: Vec::new(), json: false };
     while let Some(arg) = parser.next()? {
         match arg {
             Long("quick") => args.quick = true,
             Long("json") => args.json = true,
             Long("device") => {
-                choice(&mut parser, "--device", |name| ["auto", "cpu"].contains(&name).then_some(()), "auto or cpu")?;
+                let device = |name: &str| ["auto", "cpu", "gpu"].contains(&name).then_some(name == "gpu");
+                args.on_gpu = choice(&mut parser, "--device", device, "auto, cpu or gpu")?;
             }
             Long("lanes") => lanes(&mut parser)?,
             Long("case") => args.cases = cases(&parser.value()?.string()?)?,
