@@ -2,7 +2,7 @@
 
 use std::io::{BufRead, BufReader};
 use std::process::{Child, Command, Stdio};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 use x11rb::connection::Connection;
 use x11rb::protocol::xproto::{self, ConnectionExt as _};
 use x11rb::protocol::xtest::ConnectionExt as _;
@@ -73,6 +73,21 @@ impl Screen {
         }
         std::thread::sleep(HOLD);
         self.fake(xproto::BUTTON_RELEASE_EVENT, 1, to[0], to[1]);
+    }
+
+    /// Drags with the left button to and fro between two points for so long, without a rest.
+    pub fn drag_to_and_fro(&self, from: [f32; 2], to: [f32; 2], lasting: Duration) {
+        self.move_to(from[0], from[1]);
+        self.fake(xproto::BUTTON_PRESS_EVENT, 1, from[0], from[1]);
+        let start = Instant::now();
+        for step in (0..40).chain((1..=40).rev()).cycle() {
+            let share = step as f32 / 40.0;
+            let (x, y) = (from[0] + share * (to[0] - from[0]), from[1] + share * (to[1] - from[1]));
+            self.move_to(x, y);
+            if start.elapsed() >= lasting {
+                return self.fake(xproto::BUTTON_RELEASE_EVENT, 1, x, y);
+            }
+        }
     }
 
     /// Turns the wheel by one notch, away from the user.

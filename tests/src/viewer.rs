@@ -30,9 +30,7 @@ impl ViewerUnderTest {
     /// # Panics
     /// If it does not start.
     pub fn start_scaled(binary: &Path, screen: &Screen, scale: f32, arguments: &[&str]) -> Self {
-        let folder = TestFolder::new();
-        let cache = folder.file("cache");
-        Self::start_with_cache(binary, screen, scale, &cache, folder, arguments)
+        Self::start_in(binary, screen, &[("WINIT_X11_SCALE_FACTOR", &scale.to_string())], arguments)
     }
 
     /// The same with this folder for references.
@@ -40,17 +38,16 @@ impl ViewerUnderTest {
     /// # Panics
     /// If it does not start.
     pub fn start_cached(binary: &Path, screen: &Screen, cache: &Path, arguments: &[&str]) -> Self {
-        Self::start_with_cache(binary, screen, 1.0, cache, TestFolder::new(), arguments)
+        let cache = cache.to_str().expect("a plain path");
+        Self::start_in(binary, screen, &[("VISAVIS_CACHE", cache)], arguments)
     }
 
-    fn start_with_cache(
-        binary: &Path,
-        screen: &Screen,
-        scale: f32,
-        cache: &Path,
-        folder: TestFolder,
-        arguments: &[&str],
-    ) -> Self {
+    /// The same with these variables in its environment.
+    ///
+    /// # Panics
+    /// If it does not start.
+    pub fn start_in(binary: &Path, screen: &Screen, variables: &[(&str, &str)], arguments: &[&str]) -> Self {
+        let folder = TestFolder::new();
         let home = folder.file("home");
         std::fs::create_dir(&home).expect("a home folder");
         let process = Command::new(binary)
@@ -60,9 +57,10 @@ impl ViewerUnderTest {
             .env("DISPLAY", &screen.display)
             .env_remove("WAYLAND_DISPLAY")
             .env_remove("WAYLAND_SOCKET")
-            .env("WINIT_X11_SCALE_FACTOR", scale.to_string())
+            .env("WINIT_X11_SCALE_FACTOR", "1")
             .env("HOME", &home)
-            .env("VISAVIS_CACHE", cache)
+            .env("VISAVIS_CACHE", folder.file("cache"))
+            .envs(variables.iter().copied())
             .stderr(Stdio::inherit())
             .spawn()
             .expect("the viewer");

@@ -6,8 +6,8 @@ use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT, Queryable};
 use std::cell::RefCell;
 use std::rc::Rc;
-use visavis::technique::Technique;
-use visavis::ui::{Dump, Request, Theme, Viewer, Wall};
+use visavis::technique::{Device, Technique};
+use visavis::ui::{Adapter, Dump, Request, Theme, Viewer, Wall};
 
 /// A viewer on a scene, its panels drawn at 1280 x 720.
 struct Panels {
@@ -19,7 +19,18 @@ struct Panels {
 impl Panels {
     fn of(scene: &str) -> Self {
         let opened = scene::builtin::named(scene).expect("a built-in scene");
-        let viewer = Rc::new(RefCell::new(Viewer::new(opened, scene.into(), Theme::Dark)));
+        Self::showing(Viewer::new(opened, scene.into(), Theme::Dark))
+    }
+
+    /// The same beside an adapter.
+    fn beside_an_adapter(scene: &str, device: Device) -> Self {
+        let opened = scene::builtin::named(scene).expect("a built-in scene");
+        let adapter = Adapter { name: "an adapter, an interface".into(), software: true };
+        Self::showing(Viewer::new(opened, scene.into(), Theme::Dark).beside(adapter, device))
+    }
+
+    fn showing(viewer: Viewer) -> Self {
+        let viewer = Rc::new(RefCell::new(viewer));
         let requests = Rc::new(RefCell::new(Vec::new()));
         let (shared, asked) = (viewer.clone(), requests.clone());
         let harness = Harness::builder().with_size([1280.0, 720.0]).build_ui(move |ui| {
@@ -30,6 +41,27 @@ impl Panels {
 
     fn shows(&self, label: &str) -> bool {
         self.harness.query_all_by_label_contains(label).next().is_some()
+    }
+
+    /// Expects that every widget has a name, and returns how many there are.
+    fn count_named(&self) -> usize {
+        let root = self.harness.root();
+        let mut nameless = Vec::new();
+        let mut named = 0;
+        for node in root.children_recursive() {
+            let node = node.accesskit_node();
+            use egui::accesskit::Role;
+            let widgets =
+                [Role::Button, Role::CheckBox, Role::RadioButton, Role::Slider, Role::SpinButton, Role::TextInput];
+            if widgets.contains(&node.role()) {
+                match node.label() {
+                    Some(label) if !label.trim().is_empty() => named += 1,
+                    _ => nameless.push(format!("{:?} {:?}", node.role(), node.bounding_box())),
+                }
+            }
+        }
+        assert!(nameless.is_empty(), "{named} named, without a name: {nameless:#?}");
+        named
     }
 
     /// Clicks the `nth` widget of that label, from the top.
@@ -53,6 +85,27 @@ fn settings_that_cannot_apply_are_absent() {
 }
 
 #[test]
+fn where_rays_are_traced_is_chosen_where_there_is_a_choice() {
+    let mut without = Panels::of("cornell");
+    without.click("More", 1);
+    assert!(without.shows("Seed") && !without.shows("the GPU"));
+    let mut panels = Panels::beside_an_adapter("cornell", Device::Gpu);
+    panels.click("More", 1);
+    assert!(panels.shows("the GPU is an adapter, an interface"));
+    let device = |panels: &Panels| panels.viewer.borrow().settings.panes.map(|pane| pane.device);
+    assert_eq!(device(&panels), [Device::Gpu; 2]);
+    panels.click("auto", 0);
+    assert_eq!(device(&panels), [Device::Gpu, Device::Auto]);
+    assert!(!panels.shows("the GPU is"), "where the processor plays the adapter, auto is the processor");
+    panels.click("Undo", 0);
+    assert_eq!(device(&panels), [Device::Gpu; 2]);
+    panels.count_named();
+    panels.click("Whitted", 1);
+    panels.click("the CPU", 0);
+    assert_eq!(device(&panels), [Device::Gpu, Device::Cpu], "Whitted's trees are traced there too");
+}
+
+#[test]
 fn every_widget_has_a_name_and_a_slider_the_one_above_it() {
     let mut panels = Panels::of("whitted");
     panels.click("Limit bounces", 0);
@@ -62,22 +115,7 @@ fn every_widget_has_a_name_and_a_slider_the_one_above_it() {
     panels.click("the reference", 0);
     panels.click("Error map", 0);
     panels.click("Export", 0);
-    let root = panels.harness.root();
-    let mut nameless = Vec::new();
-    let mut named = 0;
-    for node in root.children_recursive() {
-        let node = node.accesskit_node();
-        use egui::accesskit::Role;
-        let widgets =
-            [Role::Button, Role::CheckBox, Role::RadioButton, Role::Slider, Role::SpinButton, Role::TextInput];
-        if widgets.contains(&node.role()) {
-            match node.label() {
-                Some(label) if !label.trim().is_empty() => named += 1,
-                _ => nameless.push(format!("{:?} {:?}", node.role(), node.bounding_box())),
-            }
-        }
-    }
-    assert!(nameless.is_empty(), "{named} named, without a name: {nameless:#?}");
+    let named = panels.count_named();
     assert!(named > 30, "{named}");
     assert!(panels.harness.query_by_role_and_label(egui::accesskit::Role::Slider, "Exposure").is_some());
 }

@@ -7,7 +7,9 @@ Visavis: the rasterised fake of a scene face to face with its path-traced truth.
 visavis [SCENE]                  open the viewer; SCENE is whitted, cornell, hard/NAME or a .toml file (default
                                  whitted); hard/? lists the hard ones
     --theme dark|projector       projector: black on white, large type (default dark)
-    --frame-stats                print at the end what a frame cost the window's thread: egui, tessellation, uploads
+    --device auto|cpu|gpu        where rays are traced at first; auto is the gpu, but the cpu where the adapter is software
+    --frame-stats                print at the end what a frame cost the window's thread (egui, tessellation, uploads) and
+                                 how long it was from frame to frame while dragging
 visavis render SCENE -o OUT      render to OUT, .png (display-transformed) or .exr (linear, settings in the header)
     --from FILE                  make the picture in FILE (.png or .exr of this program) again; other options change it
     --technique raster|whitted|path

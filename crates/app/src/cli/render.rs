@@ -2,7 +2,7 @@
 
 use super::{RenderArgs, reference};
 use crate::ruler::{Sought, brief, error_records, noise_line};
-use crate::technique::{FakeSettings, Made, Method, Provenance, RaySettings, Recipe, Technique};
+use crate::technique::{FakeSettings, Machine, Made, Method, Provenance, RaySettings, Recipe, Technique};
 use anyhow::Context;
 use compare::Errors;
 use gpu::Gpu;
@@ -88,6 +88,7 @@ fn save(args: &RenderArgs, scene: &Scene, rendered: &Rendered, errors: Option<&E
         camera: scene.camera,
         recipe: args.pane.recipe(),
         size: args.seen.size,
+        device: device_of(args),
     };
     let made = Made {
         spp: rendered.film.samples_per_pixel(),
@@ -97,13 +98,6 @@ fn save(args: &RenderArgs, scene: &Scene, rendered: &Rendered, errors: Option<&E
     };
     let mut records = provenance.records(made);
     records.extend(errors.into_iter().flat_map(|e| error_records(e, "reference".into())));
-    for (name, value) in &mut records {
-        match *name {
-            "device" => *value = device_of(args).into(),
-            "command" if args.rays_on_gpu => *value += " --device gpu",
-            _ => {}
-        }
-    }
     let radiances: Vec<Vec3> = rendered.film.radiances().collect();
     let picture = Linear { width: args.seen.size.0, height: args.seen.size.1, radiances: &radiances };
     let kind = Kind::of(&args.out).context("a picture's name must end in .png or .exr")?;
@@ -138,8 +132,8 @@ fn raster(args: &RenderArgs, scene: &Scene, fake: FakeSettings) -> anyhow::Resul
 }
 
 /// Where the picture was made.
-fn device_of(args: &RenderArgs) -> &'static str {
-    if args.rays_on_gpu { "gpu" } else { args.pane.technique.device() }
+fn device_of(args: &RenderArgs) -> Machine {
+    if args.rays_on_gpu { Machine::Gpu } else { args.pane.technique.usual_machine() }
 }
 
 fn trace_on_gpu(args: &RenderArgs, scene: &Scene, rays: RaySettings) -> anyhow::Result<Rendered> {
@@ -247,7 +241,7 @@ fn report(args: &RenderArgs, scene: &Scene, rendered: &Rendered, errors: Option<
     let mut report = json!({
         "scene": scene.name,
         "technique": technique.name(),
-        "device": device_of(args),
+        "device": device_of(args).name(),
         "adapter": rendered.adapter,
         "width": args.seen.size.0,
         "height": args.seen.size.1,

@@ -1,9 +1,11 @@
 //! A technique with its settings: what a pane of the viewer or one call of `visavis render` makes of a scene.
 
+mod device;
 mod fake;
 mod provenance;
 mod rays;
 
+pub use device::{Device, Machine};
 pub use fake::FakeSettings;
 pub use provenance::{Made, Provenance, made_from, point, quoted};
 pub use rays::{Method, RaySettings, TreeSettings, TruthSettings, bounces_name, roulette_name};
@@ -15,9 +17,9 @@ use scene::Scene;
 pub enum Technique {
     /// The fake: rasterised on the GPU.
     Raster,
-    /// Whitted's trees of rays, on the CPU.
+    /// Whitted's trees of rays.
     Whitted,
-    /// The truth: path traced on the CPU.
+    /// The truth: path traced.
     Path,
 }
 
@@ -34,11 +36,11 @@ impl Technique {
         }
     }
 
-    /// Where it runs.
-    pub fn device(self) -> &'static str {
+    /// What runs it if nobody says otherwise.
+    pub fn usual_machine(self) -> Machine {
         match self {
-            Technique::Raster => "gpu",
-            Technique::Whitted | Technique::Path => "cpu",
+            Technique::Raster => Machine::Gpu,
+            Technique::Whitted | Technique::Path => Machine::Cpu,
         }
     }
 
@@ -62,6 +64,8 @@ impl Technique {
 pub struct PaneSettings {
     /// The technique that is used.
     pub technique: Technique,
+    /// Where its rays are traced.
+    pub device: Device,
     /// The settings of the fake.
     pub fake: FakeSettings,
     /// The settings of Whitted's method.
@@ -75,6 +79,7 @@ impl PaneSettings {
     pub fn of(technique: Technique) -> Self {
         PaneSettings {
             technique,
+            device: Device::default(),
             fake: FakeSettings::default(),
             whitted: TreeSettings::default(),
             truth: TruthSettings::default(),
@@ -85,8 +90,8 @@ impl PaneSettings {
     pub fn recipe(&self) -> Recipe {
         match self.technique {
             Technique::Raster => Recipe::Fake(self.fake),
-            Technique::Whitted => Recipe::Rays(self.whitted.into()),
-            Technique::Path => Recipe::Rays(self.truth.into()),
+            Technique::Whitted => Recipe::Rays(RaySettings { device: self.device, ..self.whitted.into() }),
+            Technique::Path => Recipe::Rays(RaySettings { device: self.device, ..self.truth.into() }),
         }
     }
 

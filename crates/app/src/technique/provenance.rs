@@ -1,6 +1,6 @@
 //! Where a picture comes from: everything that makes it again, as records to keep in its file and as a command to type.
 
-use super::{Recipe, SceneChanges, Technique};
+use super::{Machine, Recipe, SceneChanges, Technique};
 use picture_file::Records;
 use scene::{Camera, Vec3};
 
@@ -17,6 +17,8 @@ pub struct Provenance {
     pub recipe: Recipe,
     /// Width and height in pixels.
     pub size: (u32, u32),
+    /// On what.
+    pub device: Machine,
 }
 
 /// What a picture took, and how it is shown.
@@ -71,7 +73,7 @@ impl Provenance {
             ("version", env!("CARGO_PKG_VERSION").into()),
             ("scene", self.source.clone()),
             ("technique", self.recipe.technique().name().into()),
-            ("device", self.recipe.technique().device().into()),
+            ("device", self.device.name().into()),
             ("adapter", adapter.into()),
             ("size", format!("{}x{}", self.size.0, self.size.1)),
             ("seconds", seconds.to_string()),
@@ -94,6 +96,9 @@ impl Provenance {
         let mut words = vec!["visavis".into(), "render".into(), quoted(&self.source), "-o".into(), quoted(out)];
         let mut option = |name: &str, value: String| words.extend([format!("--{name}"), value]);
         option("technique", self.recipe.technique().name().into());
+        if self.device != self.recipe.technique().usual_machine() {
+            option("device", self.device.name().into());
+        }
         option("size", format!("{}x{}", self.size.0, self.size.1));
         option("eye", point(self.camera.eye));
         option("target", point(self.camera.target));

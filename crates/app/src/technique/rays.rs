@@ -1,5 +1,6 @@
 //! The settings of what is traced by rays: the truth, and Whitted's step towards it.
 
+use super::Device;
 use pathtrace::{GlassShadows, LightSearch, PathSettings, Roulette, SamplerKind, Stats, Tracer, WhittedSettings};
 use picture_file::Records;
 use scene::{Camera, Film, Scene};
@@ -13,11 +14,13 @@ pub enum Method {
     Whitted(WhittedSettings),
 }
 
-/// A method and how long it goes on.
+/// A method, where and how long it goes on.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RaySettings {
     /// How.
     pub method: Method,
+    /// Where.
+    pub device: Device,
     /// Samples per pixel at which rendering stops.
     pub spp: u32,
 }
@@ -55,13 +58,13 @@ impl Default for TreeSettings {
 
 impl From<TruthSettings> for RaySettings {
     fn from(TruthSettings { path, spp }: TruthSettings) -> Self {
-        RaySettings { method: Method::Path(path), spp }
+        RaySettings { method: Method::Path(path), device: Device::default(), spp }
     }
 }
 
 impl From<TreeSettings> for RaySettings {
     fn from(TreeSettings { tree, spp }: TreeSettings) -> Self {
-        RaySettings { method: Method::Whitted(tree), spp }
+        RaySettings { method: Method::Whitted(tree), device: Device::default(), spp }
     }
 }
 

@@ -42,6 +42,15 @@ pub struct Wall {
     pub reference: Option<Progress>,
 }
 
+/// The graphics device, for the user.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Adapter {
+    /// Name and interface.
+    pub name: String,
+    /// Whether the processor plays it.
+    pub software: bool,
+}
+
 /// A map of errors as it is shown.
 #[derive(Debug, Clone)]
 pub struct MapPane {
@@ -74,4 +83,6 @@ pub struct Pane {
     pub against: Against,
     /// Why there is no picture.
     pub fault: Option<String>,
+    /// Why it was not made where it should be.
+    pub refused: Option<Arc<str>>,
 }

@@ -2,8 +2,9 @@
 
 use super::export_menu::ExportMenu;
 use super::settings::{History, Settings};
-use super::{Dump, Line, Measuring, Message, Theme, View, Wall, What, controls, help, keys, picture, top_bar};
+use super::{Adapter, Dump, Line, Measuring, Message, Theme, View, Wall, What, controls, help, keys, picture, top_bar};
 use crate::ruler::Against;
+use crate::technique::Device;
 use crate::workers::Side;
 use crate::workers::darkroom::Comparison;
 use crate::workers::exporter::Destination;
@@ -39,6 +40,8 @@ pub struct Viewer {
     pub opened: u64,
     /// What sliders and choices say.
     pub settings: Settings,
+    /// The graphics device, if there is one.
+    pub adapter: Option<Adapter>,
     /// Where both sides look from.
     pub camera: Camera,
     /// Which is shown.
@@ -100,6 +103,7 @@ impl Viewer {
             source,
             opened: 0,
             settings,
+            adapter: None,
             view: View::Wipe,
             wipe: 0.5,
             line: Line::Vertical,
@@ -126,6 +130,14 @@ impl Viewer {
             },
             dressed: None,
         }
+    }
+
+    /// The same beside a graphics device, and with rays traced where `device` says.
+    pub fn beside(mut self, adapter: Adapter, device: Device) -> Self {
+        self.adapter = Some(adapter);
+        self.settings.panes.iter_mut().for_each(|pane| pane.device = device);
+        self.history = History::new(self.settings);
+        self
     }
 
     /// Shows another scene from its own camera. What was set against the scene before goes; techniques and their ways stay.

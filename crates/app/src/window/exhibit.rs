@@ -50,6 +50,7 @@ impl Exhibit {
                     }
                     pane.provenance = Some(picture.order.provenance.clone());
                     (pane.spp, pane.seconds, pane.nonfinite) = (picture.spp, picture.seconds, picture.nonfinite);
+                    pane.refused = picture.refused.clone();
                     (pane.rough, pane.unfinished) = (picture.rough, picture.unfinished);
                     (pane.errors, pane.against) = (developed.errors, developed.against);
                     self.pictures[side] = Some(picture);

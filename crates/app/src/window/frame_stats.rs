@@ -1,13 +1,17 @@
-//! What a frame costs the UI thread: running egui, tessellation and uploads, but not waiting for the screen or drawing.
+//! What a frame costs the UI thread: running egui, tessellation and uploads, but not waiting for the screen or drawing. And
+//! how long it is from one frame to the next while the user drags: all of it.
 
 use crate::ui::View;
 use std::fmt;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 /// Times of frames, by view.
 #[derive(Debug, Default)]
 pub struct FrameStats {
     frames: [Vec<f32>; View::ALL.len()],
+    /// From one shown frame to the next while a button of the mouse is down.
+    intervals: Vec<f32>,
+    last_shown: Option<Instant>,
 }
 
 /// A running measurement of the UI thread's own time.
@@ -52,19 +56,43 @@ impl FrameStats {
             frames.push(took.as_secs_f32() * 1000.0);
         }
     }
+
+    /// Counts a frame that is on the screen, in the middle of a drag or not.
+    pub fn note_shown(&mut self, dragging: bool) {
+        let now = Instant::now();
+        let before = std::mem::replace(&mut self.last_shown, dragging.then_some(now));
+        if let Some(before) = before.filter(|_| dragging && self.intervals.len() < MOST_FRAMES) {
+            self.intervals.push((now - before).as_secs_f32() * 1000.0);
+        }
+    }
+
+    /// How many intervals there were between frames while dragging; their median, 99th percentile and greatest, in
+    /// milliseconds.
+    pub fn while_dragging(&self) -> Option<(usize, [f32; 3])> {
+        let count = self.intervals.len();
+        (count > 0).then(|| (count, quantiles(&self.intervals, [0.5, 0.99, 1.0])))
+    }
 }
 
 impl fmt::Display for FrameStats {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         writeln!(f, "{:<14}{:>8}{:>14}{:>14}", "view", "frames", "median (ms)", "99th (ms)")?;
         for (view, frames) in View::ALL.iter().zip(&self.frames).filter(|(_, frames)| !frames.is_empty()) {
-            let mut sorted = frames.clone();
-            sorted.sort_by(f32::total_cmp);
-            let at = |share: f32| sorted[((sorted.len() - 1) as f32 * share).round() as usize];
-            writeln!(f, "{:<14}{:>8}{:>14.2}{:>14.2}", view.name(), sorted.len(), at(0.5), at(0.99))?;
+            let [median, most] = quantiles(frames, [0.5, 0.99]);
+            writeln!(f, "{:<14}{:>8}{median:>14.2}{most:>14.2}", view.name(), frames.len())?;
+        }
+        if let Some((count, [median, most, _])) = self.while_dragging() {
+            writeln!(f, "{:<14}{count:>8}{median:>14.2}{most:>14.2}", "from frame to frame while dragging")?;
         }
         Ok(())
     }
+}
+
+/// What these shares of the numbers do not exceed; there must be some.
+fn quantiles<const N: usize>(numbers: &[f32], shares: [f32; N]) -> [f32; N] {
+    let mut sorted = numbers.to_vec();
+    sorted.sort_by(f32::total_cmp);
+    shares.map(|share| sorted[((sorted.len() - 1) as f32 * share).round() as usize])
 }
 
 #[cfg(test)]
@@ -80,6 +108,16 @@ mod tests {
         let table = stats.to_string();
         assert_eq!(table.lines().count(), 2);
         assert!(table.contains("Wipe") && table.contains("50.00") && table.contains("99.00"), "{table}");
+    }
+
+    #[test]
+    fn intervals_are_those_within_a_drag() {
+        let mut stats = FrameStats::default();
+        for dragging in [false, true, false, true, true, true, false] {
+            stats.note_shown(dragging);
+        }
+        assert_eq!(stats.while_dragging().map(|(count, _)| count), Some(2));
+        assert_eq!(quantiles(&[3.0, 1.0, 2.0], [0.5, 1.0]), [2.0, 3.0]);
     }
 
     #[test]

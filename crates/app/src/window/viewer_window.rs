@@ -6,12 +6,12 @@ use super::frame_stats::{Clock, FrameStats};
 use super::stopwatch::Stopwatch;
 use super::surface::{Painting, Presented, WindowSurface};
 use crate::cli::ViewArgs;
-use crate::ui::{Dump, Request, View, Viewer, What};
+use crate::ui::{Adapter, Dump, Request, View, Viewer, What};
 use crate::workers::capture::Capture;
 use crate::workers::crew::Crew;
 use crate::workers::darkroom::News;
 use crate::workers::exporter::{Content, Destination, Export};
-use crate::workers::{Side, Wake};
+use crate::workers::{Picture, Side, Wake};
 use anyhow::Context;
 use egui_wgpu::ScreenDescriptor;
 use egui_winit::accesskit_winit;
@@ -89,9 +89,10 @@ impl ViewerWindow {
         egui.init_accesskit(events, &window, proxy);
         window.set_visible(true);
         window.request_redraw();
+        let adapter = Adapter { name: gpu.describe(), software: gpu.is_software() };
         Ok(ViewerWindow {
             crew: Crew::start(&gpu, wake)?,
-            viewer: Viewer::new(scene, args.scene.clone(), args.theme),
+            viewer: Viewer::new(scene, args.scene.clone(), args.theme).beside(adapter, args.device),
             exhibit: Exhibit::default(),
             egui,
             surface,
@@ -185,6 +186,7 @@ impl ViewerWindow {
         let wish = output.viewport_output.get(&egui::ViewportId::ROOT).map_or(Duration::MAX, |v| v.repaint_delay);
         let delay = match shown {
             Presented::Shown => {
+                self.stats.note_shown(context.input(|i| i.pointer.any_down()));
                 self.stopwatch.shown(self.exhibit.wall.panes.iter().all(|pane| pane.texture.is_some()));
                 wish
             }
@@ -200,9 +202,10 @@ impl ViewerWindow {
             self.viewer.say(Err(format!("The GPU failed: {fault}")));
         }
         let shelf = self.crew.collect().unwrap_or_default();
-        for news in shelf.iter().flatten() {
-            if let News::Picture(developed) = news {
+        for (side, news) in Side::ALL.into_iter().zip(&shelf) {
+            if let Some(News::Picture(developed)) = news {
                 self.stopwatch.received(developed.picture.order.job);
+                self.tell_of_refusal(side, &developed.picture);
             }
         }
         self.exhibit.hang(shelf, &self.gpu, &mut self.surface.renderer);
@@ -224,6 +227,14 @@ impl ViewerWindow {
             None => {}
         }
         self.crew.exported().into_iter().for_each(|outcome| self.viewer.say(outcome));
+    }
+
+    /// Says once that a pane's rays are not traced where they should be.
+    fn tell_of_refusal(&mut self, side: Side, picture: &Picture) {
+        let known = &self.exhibit.wall.panes[side as usize].refused;
+        if let Some(why) = picture.refused.as_ref().filter(|_| *known != picture.refused) {
+            self.viewer.say(Err(format!("{side:?} goes on on the CPU, the GPU failed: {why}. R tries it again")));
+        }
     }
 
     fn follow_the_reference(&mut self) {
@@ -299,6 +310,8 @@ impl ViewerWindow {
                     "rel_mse": pane.errors.map(|e| e.rel_mse),
                     "against": pane.against.name(),
                     "fault": pane.fault,
+                    "device": pane.provenance.as_ref().map(|p| p.device.name()),
+                    "refused": pane.refused.as_deref(),
                 })
             })
             .collect();
@@ -321,9 +334,13 @@ impl ViewerWindow {
             "a": panes[0],
             "b": panes[1],
             "frames": self.stopwatch.frames(),
+            "dragged_ms": self.stats.while_dragging(),
             "latency_ms": self.stopwatch.latency().map(|t| t.as_millis() as u64),
             "first_pictures_ms": self.stopwatch.first_pictures().map(|t| t.as_millis() as u64),
         });
-        Ok(picture_file::write_whole(file, self.dump.json(self.scale, state).as_bytes())?)
+        // not as pictures are written, which reach the disk before the program goes on: a frame would take as long
+        let partial = file.with_extension("partial");
+        std::fs::write(&partial, self.dump.json(self.scale, state))?;
+        Ok(std::fs::rename(&partial, file)?)
     }
 }

@@ -256,6 +256,7 @@ impl Asked {
             camera: viewer.camera,
             recipe,
             size: viewer.picture_size,
+            device: recipe.technique().usual_machine(),
         });
         Order { job: self.jobs, view: self.views, restarts: viewer.restarts, scene, provenance }
     }

@@ -1,7 +1,7 @@
 //! What comes out of the darkroom, and what does not.
 
 use super::*;
-use crate::technique::{PaneSettings, Provenance, SceneChanges, Technique};
+use crate::technique::{Machine, PaneSettings, Provenance, SceneChanges, Technique};
 use scene::Vec3;
 
 fn order(job: u64, view: u64) -> Order {
@@ -12,6 +12,7 @@ fn order(job: u64, view: u64) -> Order {
         camera: scene.camera,
         recipe: PaneSettings::of(Technique::Path).recipe(),
         size: (1, 1),
+        device: Machine::Cpu,
     });
     Order { job, view, restarts: 0, scene, provenance }
 }
@@ -27,6 +28,7 @@ fn picture(view: u64) -> Picture {
         seconds: 0.0,
         nonfinite: 0,
         adapter: "none".into(),
+        refused: None,
         rough: false,
         unfinished: false,
         order,

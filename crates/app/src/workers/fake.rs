@@ -1,9 +1,9 @@
 //! The thread that rasterises. Where a picture takes long, a rough one comes first, so that the fake follows the mouse too.
 
 use super::darkroom::Darkroom;
-use super::{Inbox, Job, Picture, Side};
+use super::{Inbox, Job, Picture, Side, step_back};
 use crate::technique::FakeSettings;
-use gpu::Gpu;
+use gpu::{Gpu, GpuError};
 use raster::{Raster, RasterError};
 use scene::Film;
 use std::sync::Arc;
@@ -23,16 +23,16 @@ pub struct FakeWorker {
 }
 
 impl FakeWorker {
-    /// Starts the thread.
+    /// Starts the thread; `window` is the window's device.
     ///
     /// # Errors
     /// If the system gives no thread.
-    pub fn start(side: Side, gpu: Gpu, darkroom: Arc<Darkroom>) -> std::io::Result<Self> {
+    pub fn start(side: Side, window: Gpu, darkroom: Arc<Darkroom>) -> std::io::Result<Self> {
         let inbox = Arc::new(Inbox::default());
         let jobs = inbox.clone();
         let thread = std::thread::Builder::new()
             .name(format!("fake {side:?}"))
-            .spawn(move || work(side, &gpu, &jobs, &darkroom))?;
+            .spawn(move || work(side, &window, &jobs, &darkroom))?;
         Ok(FakeWorker { inbox, thread: Some(thread) })
     }
 
@@ -57,16 +57,28 @@ impl Drop for FakeWorker {
     }
 }
 
-fn work(side: Side, gpu: &Gpu, jobs: &Inbox<Option<FakeJob>>, darkroom: &Darkroom) {
-    let mut raster = Raster::new(gpu);
-    let adapter = Arc::from(gpu.describe());
+/// The window's own device; but where the processor plays that another one, because there a frame of the window would wait
+/// in one queue behind the whole of the fake.
+fn device_beside(window: &Gpu) -> Result<Gpu, GpuError> {
+    if !window.is_software() {
+        return Ok(window.clone());
+    }
+    step_back();
+    Gpu::headless()
+}
+
+fn work(side: Side, window: &Gpu, jobs: &Inbox<Option<FakeJob>>, darkroom: &Darkroom) {
+    let gpu = device_beside(window);
+    let adapter = gpu.as_ref().map_or_else(|_| Arc::default(), |gpu| Arc::from(gpu.describe()));
+    let mut raster =
+        gpu.map_err(|fault| fault.to_string()).and_then(|gpu| Raster::new(&gpu).map_err(|fault| fault.to_string()));
     let mut seconds_per_pixel = 0.0;
     while let Some(job) = jobs.take() {
         let Some(job) = job else { continue };
         let raster = match &mut raster {
             Ok(raster) => raster,
-            Err(e) => {
-                darkroom.report(side, job.order, e.to_string());
+            Err(fault) => {
+                darkroom.report(side, job.order, fault.clone());
                 continue;
             }
         };
@@ -100,6 +112,7 @@ fn paint(side: Side, raster: &mut Raster, darkroom: &Darkroom, job: &FakeJob, sh
                 seconds: start.elapsed().as_secs_f64(),
                 nonfinite: film.nonfinite,
                 adapter: adapter.clone(),
+                refused: None,
                 rough: shrink > 1,
                 unfinished: shrink > 1,
                 order: job.order.clone(),

@@ -1,4 +1,5 @@
-//! Rendering beside the UI. Each pane has a [`studio`] with a thread for each technique it has used ([`fake`], [`rays`]);
+//! Rendering beside the UI. Each pane has a [`studio`] with a thread for each technique it has used ([`fake`], and [`rays`]
+//! with its [`painter`], who holds a [`kernel`] for the processor or for the graphics device);
 //! they turn jobs into [`Picture`]s. The [`darkroom`] develops pictures into bytes for the screen and measures how far apart
 //! they are, from each other or from what the [`referee`] makes, and the [`surveyor`] draws where; the [`exporter`] writes files and fills the clipboard. Every thread is fed through an [`Inbox`] in which newer
 //! wishes replace older ones. The UI thread only posts and collects.
@@ -8,13 +9,15 @@ pub mod crew;
 pub mod darkroom;
 pub mod exporter;
 pub mod fake;
+pub mod kernel;
 pub mod loader;
+pub mod painter;
 pub mod rays;
 pub mod referee;
 pub mod studio;
 pub mod surveyor;
 
-use crate::technique::Provenance;
+use crate::technique::{Machine, Provenance};
 use scene::{Camera, Scene, Vec3};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 
@@ -65,6 +68,8 @@ pub struct Picture {
     pub nonfinite: u64,
     /// What made it: a GPU's name, or a number of threads.
     pub adapter: Arc<str>,
+    /// Why it was not made where it should be: one line.
+    pub refused: Option<Arc<str>>,
     /// Whether this is a rough picture at a lower resolution.
     pub rough: bool,
     /// Whether more of this job will come.
@@ -98,6 +103,15 @@ pub struct Order {
 }
 
 impl Order {
+    /// The same, made on this machine.
+    pub fn made_on(&self, device: Machine) -> Self {
+        let mut order = self.clone();
+        if order.provenance.device != device {
+            Arc::make_mut(&mut order.provenance).device = device;
+        }
+        order
+    }
+
     /// From where.
     pub fn camera(&self) -> &Camera {
         &self.provenance.camera
@@ -107,6 +121,14 @@ impl Order {
     pub fn size(&self) -> (u32, u32) {
         self.provenance.size
     }
+}
+
+/// Lets the threads of the window go first, and those of its driver where the processor draws. What this thread starts steps
+/// back with it.
+pub fn step_back() {
+    // only here is it a thread's own affair; one that may not step back is as fast as before
+    #[cfg(target_os = "linux")]
+    let _ = rustix::process::nice(10);
 }
 
 /// Wakes the UI thread when there is something to collect.

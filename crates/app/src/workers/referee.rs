@@ -3,7 +3,7 @@
 //! doubling, and when something else is asked for or the window closes.
 
 use super::darkroom::Darkroom;
-use super::{Inbox, Wake};
+use super::{Inbox, Wake, step_back};
 use crate::ruler::{Sought, Yardstick};
 use pathtrace::{FEWEST_REPLICATES, Tracer};
 use reference::{Goal, Key, Maker, Reference, Store};
@@ -81,8 +81,11 @@ impl Referee {
     pub fn start(darkroom: Arc<Darkroom>, wake: Wake) -> anyhow::Result<Self> {
         let cores = std::thread::available_parallelism().map_or(1, usize::from);
         let threads = cores.saturating_sub(1).max(1);
-        let pool =
-            rayon::ThreadPoolBuilder::new().num_threads(threads).thread_name(|i| format!("referee {i}")).build()?;
+        let pool = rayon::ThreadPoolBuilder::new()
+            .num_threads(threads)
+            .thread_name(|i| format!("referee {i}"))
+            .start_handler(|_| step_back())
+            .build()?;
         let inbox = Arc::new(Inbox::<Option<Commission>>::default());
         let (bulletin, gate) = (Arc::new(Inbox::default()), Arc::new(Gate::default()));
         let mut bench = Bench { darkroom, wake, bulletin: bulletin.clone(), gate: gate.clone(), tracer: None };

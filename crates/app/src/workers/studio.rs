@@ -50,8 +50,8 @@ impl Studio {
 
     fn fake(&mut self) -> anyhow::Result<&FakeWorker> {
         if self.fake.is_none() {
-            let gpu = fake_gpu(&self.gpu)?;
-            let worker = FakeWorker::start(self.side, gpu, self.darkroom.clone()).context("no thread for the fake")?;
+            let worker = FakeWorker::start(self.side, self.gpu.clone(), self.darkroom.clone());
+            let worker = worker.context("no thread for the fake")?;
             self.fake = Some(worker);
         }
         self.fake.as_ref().context("no thread for the fake")
@@ -59,16 +59,11 @@ impl Studio {
 
     fn rays(&mut self) -> anyhow::Result<&mut RayWorker> {
         if self.rays.is_none() {
-            let worker = RayWorker::start(self.side, self.darkroom.clone()).context("no threads for tracing rays")?;
+            let worker = RayWorker::start(self.side, self.gpu.is_software(), self.darkroom.clone())
+                .context("no threads for tracing rays")?;
             worker.hold(self.held);
             self.rays = Some(worker);
         }
         self.rays.as_mut().context("no threads for tracing rays")
     }
-}
-
-/// The device of the fake: the window's own, but where the processor plays the graphics device another one, because there
-/// a frame of the window would wait in one queue behind the whole of the fake.
-fn fake_gpu(window: &Gpu) -> anyhow::Result<Gpu> {
-    if window.is_software() { Ok(Gpu::headless()?) } else { Ok(window.clone()) }
 }

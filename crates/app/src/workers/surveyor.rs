@@ -1,7 +1,7 @@
 //! The thread that draws maps of errors. It has its own because FLIP takes a third of a second, and no picture shall wait
 //! for a map; a newer wish replaces one that was not begun.
 
-use super::{Inbox, Wake};
+use super::{Inbox, Wake, step_back};
 use crate::ruler::{HeatMap, Pair};
 use compare::ErrorMap;
 use scene::Vec3;
@@ -62,6 +62,7 @@ impl Surveyor {
         let thread = std::thread::Builder::new().name("surveyor".into()).spawn({
             let (inbox, shelf) = (inbox.clone(), shelf.clone());
             move || {
+                step_back();
                 while let Some(survey) = inbox.take() {
                     // two pictures without the same pixels have no map
                     let drawn = survey.and_then(draw);

@@ -90,6 +90,7 @@ fn bad_values_are_wrong_usage_and_write_nothing() {
     assert_refused(&["render", "cornell", "-o", out, "--depth", "65"], 2, &["from 0 to 64"]);
     assert_refused(&["render", "cornell", "-o", out, "--segments", "2"], 2, &["from 3 to 512"]);
     assert_refused(&["render", "hard/none", "-o", out], 1, &["hard/slab"]);
+    assert_refused(&["whitted", "--device", "tpu"], 2, &["--device tpu", "auto, cpu or gpu"]);
     assert_refused(&["bench", "--quick"], 2, &["-o DIR"]);
     assert_refused(&["bench", "-o", out, "--time", "0"], 2, &["seconds from 1"]);
     assert_refused(&["bench", "-o", out, "--scene", "teapot"], 2, &["teapot", "cornell or whitted"]);

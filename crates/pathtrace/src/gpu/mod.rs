@@ -79,6 +79,24 @@ impl GpuTracer {
         })
     }
 
+    /// Takes another scene. What is compiled stays where that needs nothing else: while a slider moves, say.
+    ///
+    /// # Errors
+    /// As [`GpuTracer::new`]; the scene before is then still there.
+    pub fn set_scene(&mut self, scene: &Scene) -> Result<(), GpuTraceError> {
+        let lights = Lights::new(scene);
+        let needs = SceneNeeds::of(scene, &lights);
+        if needs != self.pipelines.needs() {
+            let budget = self.budget;
+            *self = GpuTracer { budget, ..Self::with_needs(&self.gpu.clone(), scene, &lights, needs)? };
+            return Ok(());
+        }
+        let tree = Binary::of(scene, &lights);
+        self.scene = upload(&self.gpu, &self.pipelines.scene_layout, scene, &tree, &lights)?;
+        self.ambient = scene.fake.ambient;
+        Ok(())
+    }
+
     /// The device.
     pub fn gpu(&self) -> &Gpu {
         &self.gpu

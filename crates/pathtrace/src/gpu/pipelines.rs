@@ -61,7 +61,7 @@ impl Choice {
 }
 
 /// Kinds of what is sampled as a light.
-#[derive(Debug, Clone, Copy, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 struct LightKinds {
     rectangles: bool,
     triangles: bool,
@@ -90,7 +90,7 @@ impl LightKinds {
 }
 
 /// What a scene needs of a shader.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct SceneNeeds {
     needs: Needs,
     lights: LightKinds,
@@ -167,6 +167,11 @@ impl Pipelines {
             (layout(gpu, &scene), layout(gpu, &film))
         })?;
         Ok(Pipelines { scene_layout, film_layout, needs, compiled: Vec::new() })
+    }
+
+    /// What they are compiled for.
+    pub fn needs(&self) -> SceneNeeds {
+        self.needs
     }
 
     /// The pipeline of a choice.

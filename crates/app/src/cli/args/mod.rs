@@ -12,13 +12,14 @@ pub use render::{RenderArgs, made_by};
 pub use seen::Seen;
 
 use super::{CliError, Command, help};
+use crate::technique::Device;
 use crate::ui::Theme;
 use compare::ErrorMap;
 use lexopt::prelude::*;
 use picture_file::Kind;
 use std::ffi::OsString;
 use std::path::PathBuf;
-use values::{choice, lanes, number};
+use values::{DEVICES, choice, lanes, number};
 
 /// `visavis [SCENE]`.
 #[derive(Debug, Clone, PartialEq)]
@@ -29,6 +30,8 @@ pub struct ViewArgs {
     pub ui_dump: Option<PathBuf>,
     /// How the window looks at first.
     pub theme: Theme,
+    /// Where rays are traced at first, in both panes.
+    pub device: Device,
     /// Whether to print at the end what frames cost the UI thread.
     pub frame_stats: bool,
 }
@@ -76,11 +79,13 @@ fn nothing_more(mut parser: lexopt::Parser, command: Command) -> Result<Command,
 
 fn parse_view(mut parser: lexopt::Parser) -> Result<Command, CliError> {
     let (mut scene, mut ui_dump, mut theme, mut frame_stats) = (None, None, Theme::default(), false);
+    let mut device = Device::default();
     while let Some(arg) = parser.next()? {
         match arg {
             Value(word) if scene.is_none() => scene = Some(word.string()?),
             Long("ui-dump") => ui_dump = Some(PathBuf::from(parser.value()?)),
             Long("theme") => theme = choice(&mut parser, "--theme", Theme::named, "dark or projector")?,
+            Long("device") => device = choice(&mut parser, "--device", Device::named, DEVICES)?,
             Long("frame-stats") => frame_stats = true,
             Long("help") | Short('h') => return Ok(Command::Print(help::HELP)),
             Long("version") | Short('V') => return Ok(Command::Print(help::VERSION)),
@@ -88,7 +93,7 @@ fn parse_view(mut parser: lexopt::Parser) -> Result<Command, CliError> {
         }
     }
     let scene = scene.unwrap_or_else(|| "whitted".into());
-    Ok(Command::View(ViewArgs { scene, ui_dump, theme, frame_stats }))
+    Ok(Command::View(ViewArgs { scene, ui_dump, theme, device, frame_stats }))
 }
 
 /// `visavis compare A B ...`.

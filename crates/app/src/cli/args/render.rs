@@ -2,9 +2,9 @@
 
 use super::seen::{Seen, parse_seen};
 use super::usage;
-use super::values::{choice, lanes, number, parse_finite, parse_whole, seconds, text, whole, within};
+use super::values::{DEVICES, choice, lanes, number, parse_finite, parse_whole, seconds, text, whole, within};
 use crate::cli::{CliError, Command, help};
-use crate::technique::{PaneSettings, Technique, made_from};
+use crate::technique::{Device, PaneSettings, Technique, made_from};
 use anyhow::Context;
 use lexopt::prelude::*;
 use pathtrace::{Estimator, GlassShadows, Roulette, SamplerKind, WhittedSettings};
@@ -116,7 +116,7 @@ fn parse_words(words: Vec<OsString>, scene: Option<String>) -> Result<Command, C
             Value(word) if scene.is_none() => scene = Some(word.string()?),
             Short('o') => out = Some(PathBuf::from(parser.value()?)),
             Long("help") => return Ok(Command::Print(help::HELP)),
-            Long("device") => device = choice(&mut parser, "--device", Device::named, "auto, cpu or gpu")?,
+            Long("device") => device = choice(&mut parser, "--device", Device::named, DEVICES)?,
             Long(option) => {
                 let option = option.to_owned();
                 if !of_all(&option, &mut parser, &mut r)? {
@@ -137,7 +137,7 @@ fn parse_words(words: Vec<OsString>, scene: Option<String>) -> Result<Command, C
     }
     let technique = r.pane.technique;
     if technique == Technique::Raster && device == Device::Cpu {
-        return usage(format!("--technique {} runs on the {} only", technique.name(), technique.device()));
+        return usage(format!("--technique {} runs on the gpu only", technique.name()));
     }
     r.rays_on_gpu = technique != Technique::Raster && device == Device::Gpu;
     if let (Technique::Path, Err(fault)) = (technique, r.pane.truth.path.check()) {
@@ -296,23 +296,5 @@ fn roulette(word: &str) -> Result<Roulette, CliError> {
         _ => usage(format!(
             "--roulette {word}: expected a probability above 0 and at most 1, throughput, both as P+throughput, or off"
         )),
-    }
-}
-
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Device {
-    Auto,
-    Cpu,
-    Gpu,
-}
-
-impl Device {
-    fn named(name: &str) -> Option<Self> {
-        match name {
-            "auto" => Some(Device::Auto),
-            "cpu" => Some(Device::Cpu),
-            "gpu" => Some(Device::Gpu),
-            _ => None,
-        }
     }
 }

@@ -8,6 +8,9 @@ use scene::Vec3;
 use std::ops::RangeInclusive;
 use std::str::FromStr;
 
+/// What `--device` may be.
+pub const DEVICES: &str = "auto, cpu or gpu";
+
 pub fn text(parser: &mut lexopt::Parser) -> Result<String, CliError> {
     Ok(parser.value()?.string()?)
 }

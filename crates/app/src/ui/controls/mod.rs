@@ -1,6 +1,7 @@
 //! The panel of controls, grouped by what they change. What the scene or the technique cannot use is absent.
 
 mod camera;
+mod device;
 mod display;
 mod fake;
 mod measuring;

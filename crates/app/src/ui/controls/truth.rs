@@ -1,5 +1,6 @@
 //! The settings of a truth.
 
+use super::device;
 use super::widgets::{Stepped, choice, doubling, fit};
 use crate::technique::Recipe;
 use crate::ui::{Dump, Viewer};
@@ -22,13 +23,14 @@ pub fn show(viewer: &mut Viewer, side: Side, ui: &mut Ui, dump: &mut Dump) {
     doubling([&name, "Samples per pixel (spp)"], &mut truth.spp, 0..=MOST_SPP_EXPONENT, ui, dump);
     bounces(viewer, side, ui, dump);
     roulette(viewer, side, ui, dump);
-    let path = &mut viewer.settings.panes[side as usize].truth.path;
     let more = CollapsingHeader::new("More").id_salt(("more", side as usize)).show_unindented(ui, |ui| {
+        device::show(viewer, side, ui, dump);
+        let path = &mut viewer.settings.panes[side as usize].truth.path;
         branches(path, side, ui, dump);
         sampling(&mut path.sampler, &mut path.seed, side, ui, dump);
     });
     dump.note(&format!("{side:?} more"), more.fully_open(), more.header_response);
-    if let Err(fault) = path.check() {
+    if let Err(fault) = viewer.settings.panes[side as usize].truth.path.check() {
         ui.label(fault.to_string());
     }
     blind_spot(viewer, side, ui);

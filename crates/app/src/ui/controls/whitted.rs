@@ -1,5 +1,6 @@
 //! The settings of a picture by Whitted's method.
 
+use super::device;
 use super::truth::{blind_spot, sampling};
 use super::widgets::{Stepped, choice, doubling, whole};
 use crate::ui::{Dump, Viewer};
@@ -39,6 +40,8 @@ pub fn show(viewer: &mut Viewer, side: Side, ui: &mut Ui, dump: &mut Dump) {
     let spp = format!("{side:?} spp");
     doubling([&spp, "Samples per pixel (spp)"], &mut whitted.spp, 0..=16, ui, dump);
     let more = CollapsingHeader::new("More").id_salt(("more", side as usize)).show_unindented(ui, |ui| {
+        device::show(viewer, side, ui, dump);
+        let tree = &mut viewer.settings.panes[side as usize].whitted.tree;
         let rays = format!("{side:?} shadow rays");
         doubling([&rays, "Shadow rays to each lamp"], &mut tree.shadow_rays, 0..=MOST_SHADOW_RAYS_EXPONENT, ui, dump);
         sampling(&mut tree.sampler, &mut tree.seed, side, ui, dump);

@@ -2,6 +2,7 @@
 
 use super::{Dump, Pane, View, Viewer, spoken, text_box};
 use crate::ruler::{Against, brief};
+use crate::technique::Machine;
 use crate::ui::Line;
 use crate::workers::Side;
 use egui::{Align2, Color32, Rect, Ui, vec2};
@@ -28,6 +29,9 @@ pub fn show(viewer: &Viewer, ui: &Ui, clip: Rect, side: Side, pane: &Pane, dump:
 fn text(viewer: &Viewer, side: Side, pane: &Pane) -> String {
     let name = pane.provenance.as_ref().map_or(String::new(), |p| p.recipe.label());
     let mut text = format!("{side:?}: {name}\n{}", progress(viewer, side, pane));
+    if let Some(why) = &pane.refused {
+        text += &format!("\non the CPU: the GPU failed: {why}");
+    }
     if pane.nonfinite > 0 {
         text += &format!("\n{} samples were not finite and are left out", pane.nonfinite);
     }
@@ -46,9 +50,10 @@ fn text(viewer: &Viewer, side: Side, pane: &Pane) -> String {
 fn progress(viewer: &Viewer, side: Side, pane: &Pane) -> String {
     let wished = viewer.settings.panes[side as usize].wished_spp().unwrap_or(0);
     let paused = if viewer.paused && pane.unfinished { ", paused" } else { "" };
+    let by = if pane.provenance.as_ref().is_some_and(|made| made.device == Machine::Gpu) { " on the GPU" } else { "" };
     match pane.spp {
         Some(spp) if pane.rough => format!("{spp} spp, rough"),
-        Some(spp) => format!("{spp} of {wished} spp, {:.1} s{paused}", pane.seconds),
+        Some(spp) => format!("{spp} of {wished} spp, {:.1} s{by}{paused}", pane.seconds),
         None if pane.rough => "rough".into(),
         None => format!("{:.0} ms", pane.seconds * 1000.0),
     }

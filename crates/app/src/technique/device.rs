@@ -1,0 +1,74 @@
+//! Where rays are traced: as the user wishes, and as it is then done.
+
+/// What the user wishes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Device {
+    /// Where it is faster.
+    #[default]
+    Auto,
+    /// By the processor.
+    Cpu,
+    /// By the graphics device.
+    Gpu,
+}
+
+/// What traces.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Machine {
+    /// The processor.
+    Cpu,
+    /// The graphics device.
+    Gpu,
+}
+
+impl Device {
+    /// All, the usual one first.
+    pub const ALL: [Device; 3] = [Device::Auto, Device::Cpu, Device::Gpu];
+
+    /// The name on the command line.
+    pub fn name(self) -> &'static str {
+        match self {
+            Device::Auto => "auto",
+            Device::Cpu => "cpu",
+            Device::Gpu => "gpu",
+        }
+    }
+
+    /// The device of that name.
+    pub fn named(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|device| device.name() == name)
+    }
+
+    /// What it is beside an adapter: where the processor only plays the graphics device, it is faster as itself.
+    pub fn beside(self, software_adapter: bool) -> Machine {
+        match self {
+            Device::Cpu => Machine::Cpu,
+            Device::Auto if software_adapter => Machine::Cpu,
+            Device::Auto | Device::Gpu => Machine::Gpu,
+        }
+    }
+}
+
+impl Machine {
+    /// The name of the device that asks for it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Machine::Cpu => "cpu",
+            Machine::Gpu => "gpu",
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn auto_is_the_faster_machine_and_a_wish_is_a_wish() {
+        assert_eq!(Device::Auto.beside(true), Machine::Cpu);
+        assert_eq!(Device::Auto.beside(false), Machine::Gpu);
+        assert_eq!([true, false].map(|software| Device::Gpu.beside(software)), [Machine::Gpu; 2]);
+        assert_eq!([true, false].map(|software| Device::Cpu.beside(software)), [Machine::Cpu; 2]);
+        assert_eq!(Device::ALL.map(|device| Device::named(device.name())), Device::ALL.map(Some));
+    }
+}

@@ -1,0 +1,204 @@
+//! What traces a pane's rays, the processor or the graphics device, and the films that either adds samples to.
+
+use super::rays::RayJob;
+use crate::technique::{Machine, Method};
+use gpu::Gpu;
+use pathtrace::Tracer;
+use pathtrace::gpu::{GpuFilm, GpuTraceError, GpuTracer};
+use scene::{Film, Scene};
+use std::cell::Cell;
+
+/// Seconds that a dispatch may take: a frame of the window waits about that long for the same adapter, and so does a newer
+/// job. Where the processor plays the adapter a dispatch costs so much by itself that shorter ones would only add to it.
+const BUDGET: f64 = 0.008;
+const BUDGET_OF_SOFTWARE: f64 = 0.04;
+
+/// A scene made ready for rays.
+pub enum Kernel {
+    /// On the processor.
+    Cpu(Box<Tracer>),
+    /// On the graphics device.
+    Gpu(Box<Card>),
+}
+
+/// A scene on a graphics device.
+pub struct Card {
+    tracer: GpuTracer,
+    fuse: Option<Fuse>,
+}
+
+/// A film, and what a device has added to it.
+pub struct Plate {
+    /// The film as last developed.
+    film: Film,
+    /// Samples that every pixel has, on the device too.
+    spp: u32,
+    /// Samples that a pixel may have at most: a pass that was stopped leaves some with more than others.
+    most: u32,
+    on_device: Option<GpuFilm>,
+}
+
+impl Kernel {
+    /// A scene on the processor.
+    pub fn on_the_processor(scene: &Scene) -> Self {
+        Kernel::Cpu(Box::new(Tracer::new(scene)))
+    }
+
+    /// A scene on a graphics device of its own. The window's would do, but one queue serves first what came first, so that
+    /// its frames would wait behind rays, and a device that is lost over rays would take the window with it.
+    ///
+    /// # Errors
+    /// If there is no device, or if it can't take the scene.
+    pub fn on_the_device(scene: &Scene) -> Result<Self, GpuTraceError> {
+        let gpu = Gpu::headless()?;
+        let mut tracer = GpuTracer::new(&gpu, scene)?;
+        tracer.set_budget(if gpu.is_software() { BUDGET_OF_SOFTWARE } else { BUDGET });
+        Ok(Kernel::Gpu(Box::new(Card { tracer, fuse: Fuse::from_environment() })))
+    }
+
+    /// The machine.
+    pub fn machine(&self) -> Machine {
+        match self {
+            Kernel::Cpu(_) => Machine::Cpu,
+            Kernel::Gpu(_) => Machine::Gpu,
+        }
+    }
+
+    /// The adapter's name, or how many threads there are.
+    pub fn adapter(&self) -> String {
+        match self {
+            Kernel::Cpu(_) => format!("{} threads", rayon::current_num_threads()),
+            Kernel::Gpu(card) => card.tracer.gpu().describe(),
+        }
+    }
+
+    /// Adds `samples` to every pixel, unless `stop` says so; returns how many it took in all. A pass that was stopped is
+    /// completed by the next one.
+    ///
+    /// # Errors
+    /// If the device fails; the plate is then as it was when it was last developed.
+    pub fn expose(
+        &mut self,
+        plate: &mut Plate,
+        job: &RayJob,
+        samples: u32,
+        stop: &(impl Fn() -> bool + Sync),
+    ) -> Result<u64, GpuTraceError> {
+        let until = plate.spp + samples;
+        plate.most = plate.most.max(until);
+        match self {
+            Kernel::Cpu(tracer) => {
+                let stats = job.settings.render(tracer, &mut plate.film, job.order.camera(), samples, stop);
+                if !stop() {
+                    plate.spp = until;
+                }
+                Ok(stats.samples)
+            }
+            Kernel::Gpu(card) => card.expose(plate, job, until, stop),
+        }
+    }
+
+    /// Brings what a device has added into the film.
+    ///
+    /// # Errors
+    /// If the device fails.
+    pub fn develop(&self, plate: &mut Plate) -> Result<(), GpuTraceError> {
+        if let (Kernel::Gpu(card), Some(on_device)) = (self, &mut plate.on_device) {
+            plate.film = on_device.read(card.tracer.gpu())?.0;
+        }
+        Ok(())
+    }
+
+    /// Takes a film off the device, as far as that still gives it back.
+    pub fn release(&self, plate: &mut Plate) {
+        // what a failed device does not give back is lost, and made again
+        let _ = self.develop(plate);
+        plate.forget_the_device();
+    }
+}
+
+impl Card {
+    /// Takes another scene. What is compiled stays where it does for that one too.
+    ///
+    /// # Errors
+    /// If the device can't take it.
+    pub fn take_scene(&mut self, scene: &Scene) -> Result<(), GpuTraceError> {
+        self.tracer.set_scene(scene)
+    }
+
+    fn expose(
+        &mut self,
+        plate: &mut Plate,
+        job: &RayJob,
+        until: u32,
+        stop: &impl Fn() -> bool,
+    ) -> Result<u64, GpuTraceError> {
+        let Card { tracer, fuse } = self;
+        let film = match plate.on_device.take() {
+            Some(film) => film,
+            None => tracer.film(plate.film.clone())?,
+        };
+        let film = plate.on_device.insert(film);
+        let before = film.samples_per_pixel();
+        let gpu = tracer.gpu().clone();
+        let stop = || {
+            fuse.iter().for_each(|fuse| fuse.burn(&gpu));
+            stop()
+        };
+        match &job.settings.method {
+            Method::Path(path) => tracer.expose(film, job.order.camera(), path, until, &stop)?,
+            Method::Whitted(tree) => tracer.expose_whitted(film, job.order.camera(), tree, until, &stop)?,
+        }
+        plate.spp = film.samples_per_pixel();
+        let pixels = u64::from(film.width()) * u64::from(film.height());
+        Ok(pixels * u64::from(plate.spp - before))
+    }
+}
+
+impl Plate {
+    /// A film without light; `None` if there is no memory for it.
+    pub fn blank(width: u32, height: u32) -> Option<Self> {
+        Some(Plate { film: Film::try_new(width, height)?, spp: 0, most: 0, on_device: None })
+    }
+
+    /// The film as last developed.
+    pub fn film(&self) -> &Film {
+        &self.film
+    }
+
+    /// Samples that every pixel has.
+    pub fn spp(&self) -> u32 {
+        self.spp
+    }
+
+    /// Samples that a pixel may have at most.
+    pub fn most(&self) -> u32 {
+        self.most
+    }
+
+    /// Goes on from the film as last developed.
+    pub fn forget_the_device(&mut self) {
+        if self.on_device.take().is_some() {
+            self.spp = self.film.samples_per_pixel();
+        }
+    }
+}
+
+/// Destroys the device after so many dispatches, for tests of what happens then.
+struct Fuse {
+    left: Cell<u32>,
+}
+
+impl Fuse {
+    fn from_environment() -> Option<Self> {
+        let left = std::env::var("VISAVIS_GPU_FAILS_AFTER").ok()?.parse().ok()?;
+        Some(Fuse { left: Cell::new(left) })
+    }
+
+    fn burn(&self, gpu: &Gpu) {
+        match self.left.get() {
+            0 => gpu.device.destroy(),
+            left => self.left.set(left - 1),
+        }
+    }
+}
