@@ -82,7 +82,7 @@ impl fmt::Display for FrameStats {
             writeln!(f, "{:<14}{:>8}{median:>14.2}{most:>14.2}", view.name(), frames.len())?;
         }
         if let Some((count, [median, most, _])) = self.while_dragging() {
-            writeln!(f, "{:<14}{count:>8}{median:>14.2}{most:>14.2}", "from frame to frame while dragging")?;
+            writeln!(f, "{:<14}{count:>8}{median:>14.2}{most:>14.2}", "drag intervals")?;
         }
         Ok(())
     }
