@@ -1,6 +1,7 @@
 //! Why a bench cannot go on: one line each, the path last.
 
 use compare::CompareError;
+use pathtrace::gpu::GpuTraceError;
 use picture_file::PictureError;
 use scene::SceneError;
 use std::path::{Path, PathBuf};
@@ -71,6 +72,9 @@ pub enum BenchError {
     /// A film does not fit its reference.
     #[error(transparent)]
     Compare(#[from] CompareError),
+    /// The graphics device does not trace it.
+    #[error(transparent)]
+    Gpu(#[from] GpuTraceError),
     /// There is no memory for a picture.
     #[error("not enough memory for a picture of {0}x{1} pixels")]
     Memory(u32, u32),

@@ -6,6 +6,7 @@ use crate::plan::{Part, SEEDS};
 use crate::references::{Truth, Worth};
 use crate::way::{Line, Way};
 use compare::{ErrorMap, Errors, REL_MSE_FLOOR, finite_mean, split_error};
+use pathtrace::gpu::GpuTracer;
 use pathtrace::{Stats, Tracer};
 use raster::{Fake, Raster, RasterSettings};
 use scene::display::DisplayTransform;
@@ -120,16 +121,49 @@ pub fn traced(
     rung: usize,
     truth: &Truth,
 ) -> Result<Measurement, BenchError> {
+    exposed(part, line, rung, truth, |film, seed, spp| {
+        Ok(match line.way.path_settings(seed) {
+            Some(path) => tracer.render(film, &scene.camera, &path, spp, &|| false),
+            None => tracer.render_whitted(film, &scene.camera, &Way::whitted_settings(seed), spp, &|| false),
+        })
+    })
+}
+
+/// As [`traced`] on the graphics device, once its pipelines are built.
+///
+/// # Errors
+/// As [`traced`], and [`BenchError::Gpu`].
+pub fn traced_on_gpu(
+    part: &Part,
+    scene: &Scene,
+    tracer: &mut GpuTracer,
+    line: &Line,
+    truth: &Truth,
+) -> Result<Measurement, BenchError> {
+    let mut trace = |film: &mut Film, seed: u32, spp: u32| {
+        Ok(match line.way.path_settings(seed) {
+            Some(path) => tracer.render(film, &scene.camera, &path, spp, &|| false)?,
+            None => tracer.render_whitted(film, &scene.camera, &Way::whitted_settings(seed), spp, &|| false)?,
+        })
+    };
+    trace(&mut Film::new(part.width, part.height), 0, 1)?;
+    exposed(part, line, 0, truth, trace)
+}
+
+fn exposed(
+    part: &Part,
+    line: &Line,
+    rung: usize,
+    truth: &Truth,
+    mut trace: impl FnMut(&mut Film, u32, u32) -> Result<Stats, BenchError>,
+) -> Result<Measurement, BenchError> {
     let spp = part.rungs(line).get(rung).copied().unwrap_or(1);
     let (mut pictures, mut films) = (Vec::new(), Vec::new());
     for i in 0..SEEDS {
         let seed = seed(rung, i);
         let mut film = Film::try_new(part.width, part.height).ok_or(BenchError::Memory(part.width, part.height))?;
         let start = Instant::now();
-        let stats = match line.way.path_settings(seed) {
-            Some(path) => tracer.render(&mut film, &scene.camera, &path, spp, &|| false),
-            None => tracer.render_whitted(&mut film, &scene.camera, &Way::whitted_settings(seed), spp, &|| false),
-        };
+        let stats = trace(&mut film, seed, spp)?;
         let seconds = start.elapsed().as_secs_f64();
         pictures.push(judged(&film, seed, seconds, stats, truth)?);
         films.push(film);

@@ -11,7 +11,7 @@ use crate::plan::{self, Effort, Part, SEEDS};
 use crate::plots::{self, duration};
 use crate::references::{self, Truth};
 use crate::summary::{PartSummary, slope_words};
-use crate::way::{Line, Way};
+use crate::way::{Line, MakeTracer, Way};
 use crate::{BenchError, tables};
 use gpu::Gpu;
 use pathtrace::Tracer;
@@ -63,6 +63,7 @@ struct Bench<'a> {
     journal: Journal,
     store: Store,
     raster: Option<Raster>,
+    gpu: Option<Gpu>,
     clock: Clock,
     notes: Vec<String>,
     progress: &'a mut dyn FnMut(&Progress),
@@ -80,7 +81,7 @@ pub fn run(options: &Options, progress: &mut dyn FnMut(&Progress)) -> Result<Out
     std::fs::create_dir_all(folder).map_err(|why| BenchError::Folder { why, folder: folder.clone() })?;
     check_writable(&folder.join(PAGE))?;
     let mut notes = Vec::new();
-    let (raster, adapter) = rasteriser();
+    let (raster, gpu, adapter) = rasteriser();
     if raster.is_none() {
         notes.push(format!("The fakes are left out: {adapter}."));
     }
@@ -95,7 +96,7 @@ pub fn run(options: &Options, progress: &mut dyn FnMut(&Progress)) -> Result<Out
     let planned: Vec<(Part, Vec<Line>)> = parts.iter().map(with_lines).collect::<Result<_, BenchError>>()?;
     let ahead = planned.iter().map(|(part, lines)| forecast(&journal, part, lines)).sum();
     let kept = journal.measurements().len();
-    let mut bench = Bench { journal, store, raster, clock: Clock::new(ahead), notes, progress };
+    let mut bench = Bench { journal, store, raster, gpu, clock: Clock::new(ahead), notes, progress };
     let mut exhibits = Vec::new();
     for (i, (part, lines)) in planned.iter().enumerate() {
         // the last part is the tutorial's own scene, or the only one that was asked for
@@ -116,14 +117,14 @@ pub fn run(options: &Options, progress: &mut dyn FnMut(&Progress)) -> Result<Out
     Ok(Outcome { page, notes: bench.notes, kept, measurements, table: text(&summaries) })
 }
 
-/// What draws the fakes and its description, or why nothing does.
-fn rasteriser() -> (Option<Raster>, String) {
+/// What draws the fakes, its device and its description, or why nothing does.
+fn rasteriser() -> (Option<Raster>, Option<Gpu>, String) {
     let opened = Gpu::headless()
         .map_err(|why| why.to_string())
-        .and_then(|gpu| Ok((Raster::new(&gpu).map_err(|why| why.to_string())?, gpu.describe())));
+        .and_then(|gpu| Ok((Raster::new(&gpu).map_err(|why| why.to_string())?, gpu)));
     match opened {
-        Ok((raster, adapter)) => (Some(raster), adapter),
-        Err(why) => (None, why.lines().collect::<Vec<_>>().join(", ")),
+        Ok((raster, gpu)) => (Some(raster), Some(gpu.clone()), gpu.describe()),
+        Err(why) => (None, None, why.lines().collect::<Vec<_>>().join(", ")),
     }
 }
 
@@ -150,7 +151,11 @@ impl Bench<'_> {
         let tracer = Tracer::new(&scene);
         let truth = self.reference(part, &scene, &tracer)?;
         for line in lines {
-            let tracer = (line.way.converges() || line.way == Way::Whitted).then(|| (line.variant.tracer)(&scene));
+            let rays = line.way.converges() || line.way == Way::Whitted;
+            let tracer = match line.variant.tracer {
+                MakeTracer::Cpu(tracer) if rays => Some(tracer(&scene)),
+                MakeTracer::Cpu(_) | MakeTracer::Gpu(_) => None,
+            };
             for (rung, spp) in part.rungs(line).into_iter().enumerate() {
                 if self.journal.find(&part.name, &line.name(), spp).is_some() {
                     continue;
@@ -160,7 +165,7 @@ impl Bench<'_> {
                 let measured = match (&line.way, &tracer) {
                     (Way::Raster(fake), _) => self.fake(part, &scene, *fake, &truth)?,
                     (_, Some(tracer)) => Some(measure::traced(part, &scene, tracer, line, rung, &truth)?),
-                    (_, None) => None,
+                    (_, None) => self.on_gpu(part, &scene, line, &truth)?,
                 };
                 measured.map_or(Ok(()), |measured| self.journal.add(measured))?;
                 self.clock.done(forecast_of(part, line, spp));
@@ -186,6 +191,27 @@ impl Bench<'_> {
         self.notes.extend(fault.map(|why| format!("The reference of {} is not kept: {why}.", part.name)));
         self.clock.done((1.0 - there.unwrap_or(0.0)) * forecast);
         Ok(truth)
+    }
+
+    /// What the graphics device makes of a line; one that fails leaves it out, and is told of.
+    fn on_gpu(
+        &mut self,
+        part: &Part,
+        scene: &Scene,
+        line: &Line,
+        truth: &Truth,
+    ) -> Result<Option<Measurement>, BenchError> {
+        let (Some(gpu), MakeTracer::Gpu(tracer)) = (&self.gpu, line.variant.tracer) else { return Ok(None) };
+        let measured = tracer(gpu, scene)
+            .map_err(BenchError::from)
+            .and_then(|mut tracer| measure::traced_on_gpu(part, scene, &mut tracer, line, truth));
+        match measured {
+            Err(BenchError::Gpu(why)) => {
+                self.notes.push(format!("{} of {} is left out: {why}.", line.name(), part.name));
+                Ok(None)
+            }
+            measured => measured.map(Some),
+        }
     }
 
     /// A fake's measurement; a device that fails leaves it out, and is told of once a part.

@@ -15,7 +15,7 @@ pub fn pictures(parts: &[(Part, Vec<Line>)], measurements: &[Measurement]) -> St
     for m in measurements {
         let Some((part, lines)) = parts.iter().find(|(part, _)| part.name == m.part) else { continue };
         let Some(line) = lines.iter().find(|line| line.name() == m.line) else { continue };
-        let (device, sampler) = (line.way.device(), line.way.sampler());
+        let (device, sampler) = (line.device(), line.way.sampler());
         let (reference_rmse, reference_rel_mse) = (m.reference.mse.sqrt(), m.reference.rel_mse);
         for p in &m.pictures {
             text += &format!(
@@ -82,7 +82,7 @@ pub fn summary(parts: &[PartSummary]) -> String {
                     "{},{},{},{},{},{},{ranges},{slopes},{last_slope},{:e},{:e},{:e},{bias},{},{},{},{:e},{reference}\n",
                     field(&part.part.name),
                     field(&curve.line.name()),
-                    way.device(),
+                    curve.line.device(),
                     way.sampler(),
                     p.spp,
                     crate::plan::SEEDS,

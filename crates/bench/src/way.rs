@@ -1,5 +1,7 @@
 //! What is measured: ways to make a picture of a scene, each with the name that tables, plots and the journal know it by.
 
+use gpu::Gpu;
+use pathtrace::gpu::{GpuTraceError, GpuTracer};
 use pathtrace::{Estimator, Lanes, PathSettings, Roulette, SamplerKind, Tracer, WhittedSettings};
 use raster::Fake;
 use scene::Scene;
@@ -11,21 +13,32 @@ pub struct Variant {
     /// In names, after the way; empty for the usual one.
     pub name: &'static str,
     /// Makes the tracer.
-    pub tracer: fn(&Scene) -> Tracer,
+    pub tracer: MakeTracer,
     /// Lanes that it needs of the machine.
     pub needs: Option<Lanes>,
+}
+
+/// What traces, and where.
+#[derive(Debug, Clone, Copy)]
+pub enum MakeTracer {
+    /// On the processor.
+    Cpu(fn(&Scene) -> Tracer),
+    /// On the graphics device, if there is one.
+    Gpu(fn(&Gpu, &Scene) -> Result<GpuTracer, GpuTraceError>),
 }
 
 impl Variant {
     /// The first traces every way; each further one traces [`Way::USUAL`] alone, for a comparison of speed.
     pub const ALL: &'static [Variant] = &[
-        Variant { name: "", tracer: Tracer::new, needs: None },
+        on_cpu("", Tracer::new),
         in_lanes("avx512", Lanes::Avx512, |scene| Tracer::new(scene).with_lanes(Lanes::Avx512)),
         in_lanes("avx2", Lanes::Avx2, |scene| Tracer::new(scene).with_lanes(Lanes::Avx2)),
         in_lanes("array", Lanes::Array, |scene| Tracer::new(scene).with_lanes(Lanes::Array)),
         in_lanes("scalar", Lanes::Scalar, |scene| Tracer::new(scene).with_lanes(Lanes::Scalar)),
-        Variant { name: "single rays", tracer: |scene| Tracer::new(scene).with_single_rays(), needs: None },
-        Variant { name: "for any scene", tracer: |scene| Tracer::new(scene).for_any_scene(), needs: None },
+        on_cpu("single rays", |scene| Tracer::new(scene).with_single_rays()),
+        on_cpu("for any scene", |scene| Tracer::new(scene).for_any_scene()),
+        on_gpu("gpu", GpuTracer::new),
+        on_gpu("gpu for any scene", GpuTracer::with_everything),
     ];
 
     /// Whether this machine can.
@@ -34,8 +47,16 @@ impl Variant {
     }
 }
 
+const fn on_cpu(name: &'static str, tracer: fn(&Scene) -> Tracer) -> Variant {
+    Variant { name, tracer: MakeTracer::Cpu(tracer), needs: None }
+}
+
+const fn on_gpu(name: &'static str, tracer: fn(&Gpu, &Scene) -> Result<GpuTracer, GpuTraceError>) -> Variant {
+    Variant { name, tracer: MakeTracer::Gpu(tracer), needs: None }
+}
+
 const fn in_lanes(name: &'static str, lanes: Lanes, tracer: fn(&Scene) -> Tracer) -> Variant {
-    Variant { name, tracer, needs: Some(lanes) }
+    Variant { name, tracer: MakeTracer::Cpu(tracer), needs: Some(lanes) }
 }
 
 /// Samples per pixel at which variants are measured: their errors are those of the usual one, bit for bit.
@@ -173,6 +194,11 @@ pub struct Line {
 }
 
 impl Line {
+    /// Where it runs: "cpu" or "gpu".
+    pub fn device(&self) -> &'static str {
+        if matches!(self.variant.tracer, MakeTracer::Gpu(_)) { "gpu" } else { self.way.device() }
+    }
+
     /// Whether it is measured for its speed alone.
     pub fn is_a_variant(&self) -> bool {
         !self.variant.name.is_empty()
@@ -205,12 +231,13 @@ mod tests {
             let picture = |variant: &Variant| {
                 let mut film = Film::new(48, 27);
                 let settings = Way::USUAL.path_settings(1).unwrap();
-                (variant.tracer)(&scene).render(&mut film, &scene.camera, &settings, 4, &|| false);
-                film
+                let MakeTracer::Cpu(tracer) = variant.tracer else { return None };
+                tracer(&scene).render(&mut film, &scene.camera, &settings, 4, &|| false);
+                Some(film)
             };
-            let usual = picture(&Variant::ALL[0]);
+            let usual = picture(&Variant::ALL[0]).unwrap();
             for variant in Variant::ALL.iter().filter(|variant| variant.is_available()) {
-                let other = picture(variant);
+                let Some(other) = picture(variant) else { continue };
                 let apart = usual.pixels().iter().zip(other.pixels()).filter(|(a, b)| {
                     a.mean().iter().zip(b.mean()).any(|(a, b)| (a - b).abs() > 1e-3 * (1.0 + a.abs()))
                 });

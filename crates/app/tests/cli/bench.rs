@@ -10,7 +10,8 @@ use visavis_tests::TestFolder;
 fn bench(folder: &TestFolder, arguments: &[&str]) -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_visavis"));
     command.args(["bench", "--time", "4", "--scene", "cornell", "-o"]).arg(folder.file("results")).args(arguments);
-    command.env("VISAVIS_CACHE", folder.file("references")).env_remove("DISPLAY").env_remove("WAYLAND_DISPLAY");
+    command.env("VISAVIS_CACHE", folder.file("references")).env("XDG_RUNTIME_DIR", std::env::temp_dir());
+    command.env_remove("DISPLAY").env_remove("WAYLAND_DISPLAY");
     command
 }
 
@@ -141,7 +142,8 @@ fn on_a_full_disk_it_stops_with_one_line_and_keeps_what_it_has() {
     // 24 blocks of 512 or 1024 bytes; the signal that would come instead of an error is ignored
     let script = format!("trap '' XFSZ; ulimit -f 24; exec '{}' {}", env!("CARGO_BIN_EXE_visavis"), words.join(" "));
     let mut shell = Command::new("sh");
-    shell.args(["-c", &script]).env("VISAVIS_CACHE", folder.file("references")).env_remove("DISPLAY");
+    shell.args(["-c", &script]).env("XDG_RUNTIME_DIR", std::env::temp_dir());
+    shell.env("VISAVIS_CACHE", folder.file("references")).env_remove("DISPLAY");
     let mut child = shell.stdout(Stdio::null()).stderr(Stdio::piped()).spawn().expect("sh");
     let mut line = String::new();
     child.stderr.take().expect("its stderr").read_to_string(&mut line).expect("words");
