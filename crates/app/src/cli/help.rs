@@ -77,7 +77,7 @@ visavis reference                where references are kept, how many, their size
     --clear                      throw them away
 visavis bench -o DIR             speed against error of every technique: one HTML page, its SVG plots, CSV tables; run
                                  again after an interruption, it goes on (docs/bench.md says what each number means)
-    --quick                      as small as fits into a minute on an idle machine; without: an hour or two on two cores
+    --quick                      as small as fits into a minute on an idle machine; without: half an hour on two fast cores
     --time SECONDS               as small as fits into this long
     --scene cornell,whitted      these scenes alone
     --peer FILE.csv              further lines from another renderer, may be repeated; columns name,scene,spp,seconds,
