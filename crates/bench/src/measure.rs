@@ -61,7 +61,7 @@ impl BiasTest {
         self.bias_squared > SIGMAS * self.standard_error
     }
 
-    /// The smallest bias (root of its mean square) that would have been noticed.
+    /// The bias (root of its mean square) that is noticed every other time; one and a half times as large, nearly always.
     pub fn power(&self) -> f64 {
         (SIGMAS * self.standard_error).sqrt()
     }

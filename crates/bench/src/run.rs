@@ -277,7 +277,7 @@ fn provenance(
         (
             "to repeat it",
             format!(
-                "the same command with another -o; errors are the same to the last digit with the same program and sizes, \
+                "the same command with another -o; pictures are the same with the same program and sizes, errors as far as the references are, \
                  seconds are the machine's. Every picture is in measurements.csv, every point in summary.csv, what each \
                  column means in docs/bench.md; {} is what an interrupted run goes on with",
                 journal::NAME

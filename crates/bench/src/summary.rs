@@ -120,11 +120,10 @@ impl Curve {
         };
         let slope = law(|p, worth| without_noise(p.rmse * p.rmse, worth.mse));
         let relative_slope = law(|p, worth| without_noise(p.rel_mse, worth.rel_mse));
-        let noise = measurements.last().map_or(0.0, |m| m.reference.rel_mse);
-        let last_slope = match points.as_slice() {
-            [.., a, b] if !b.below_reference_noise => {
-                let of = |point: &Point| without_noise(point.rel_mse.median, noise);
-                Some((of(b) / of(a)).log10() / (f64::from(b.spp) / f64::from(a.spp)).log10())
+        let last_slope = match (points.as_slice(), measurements) {
+            ([.., a, b], [.., of_a, of_b]) if !b.below_reference_noise => {
+                let of = |point: &Point, m: &Measurement| without_noise(point.rel_mse.median, m.reference.rel_mse);
+                Some((of(b, of_b) / of(a, of_a)).log10() / (f64::from(b.spp) / f64::from(a.spp)).log10())
             }
             _ => None,
         };
@@ -158,7 +157,7 @@ impl Point {
             flip: range(|p| p.flip)?,
             bias_test: m.bias,
             below_reference_noise: median.below_reference_noise() || relative,
-            efficiency: efficiency(rmse.median * rmse.median, seconds.median),
+            efficiency: efficiency(without_noise(rmse.median * rmse.median, m.reference.mse).powi(2), seconds.median),
             samples_per_second: range(|p| p.samples as f64 / p.seconds)?.median,
             rays_per_second: range(|p| p.rays as f64 / p.seconds)?.median,
             nonfinite: m.pictures.iter().map(|p| p.nonfinite).sum(),
@@ -181,7 +180,7 @@ impl Point {
 pub fn bias_rule() -> String {
     format!(
         "Bias: of each pixel as a share of its truth, root of the mean square over pixels; told when its square is more \
-         than {SIGMAS} standard errors above 0; \"none above\": the smallest that would have been noticed."
+         than {SIGMAS} standard errors above 0; \"none above\": a bias of that size is noticed every other time, one half as large again nearly always."
     )
 }
 

@@ -1,7 +1,7 @@
 //! The reference: the truth of a scene as well as this program knows it, with an error bar of its own, to judge pictures by.
 //!
-//! A [`Maker`] averages independently scrambled pictures by the estimator that is bounded everywhere, with seeds that no
-//! other picture uses; their spread is the [`Reference`]'s standard error. A [`Store`] keeps references on disk by the
+//! A [`Maker`] averages independently scrambled pictures by the estimator that is bounded everywhere, with seeds that
+//! pictures have only if they are asked for (from 0x5eed0000 on); their spread is the [`Reference`]'s standard error. A [`Store`] keeps references on disk by the
 //! [`Key`] of what they show, so that one that was made once is there at once, and can be made finer later.
 
 mod key;

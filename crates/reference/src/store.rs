@@ -110,7 +110,7 @@ impl Store {
             if bytes <= self.most_bytes {
                 break;
             }
-            std::fs::remove_file(&oldest.path).map_err(|why| self.fault(why))?;
+            self.remove(oldest)?;
             bytes -= oldest.bytes;
         }
         Ok(())
@@ -132,9 +132,17 @@ impl Store {
     pub fn clear(&self) -> Result<Usage, StoreError> {
         let usage = self.usage()?;
         for entry in self.entries()? {
-            std::fs::remove_file(&entry.path).map_err(|why| self.fault(why))?;
+            self.remove(&entry)?;
         }
         Ok(usage)
+    }
+
+    /// That another program was faster is no fault.
+    fn remove(&self, entry: &Entry) -> Result<(), StoreError> {
+        match std::fs::remove_file(&entry.path) {
+            Err(why) if why.kind() != std::io::ErrorKind::NotFound => Err(self.fault(why)),
+            _ => Ok(()),
+        }
     }
 
     fn path(&self, key: Key) -> PathBuf {
@@ -155,6 +163,7 @@ impl Store {
             let file = file.map_err(|why| self.fault(why))?;
             if file.file_name().to_str().is_some_and(of_a_key)
                 && let Ok(meta) = file.metadata()
+                && meta.is_file()
             {
                 let used = meta.modified().unwrap_or(SystemTime::UNIX_EPOCH);
                 entries.push(Entry { path: file.path(), bytes: meta.len(), used });

@@ -24,12 +24,17 @@ struct Comparison {
 pub fn run(args: &CompareArgs) -> anyhow::Result<()> {
     let a = picture_file::load(&args.film)?;
     if let Some(out) = &args.heatmap {
+        refuse_to_overwrite(args, out)?;
         picture_file::check_writable(out)?;
     }
     let r = match &args.reference {
         Some(file) => Reference::load(file)?,
         None => reference_of(&args.film, &a)?,
     };
+    let clipped = |file: &Path| Kind::of(file) == Some(Kind::Png);
+    if clipped(&args.film) && !args.reference.as_deref().is_some_and(clipped) {
+        note!("note: what is brighter than white is clipped in a .png, and its exposure counts; an .exr has neither");
+    }
     ensure!(
         (a.width, a.height) == (r.width, r.height),
         compare::CompareError::Sizes(a.width, a.height, r.width, r.height)
@@ -46,6 +51,14 @@ pub fn run(args: &CompareArgs) -> anyhow::Result<()> {
     };
     let text = if args.json { report(args, &a, &found, map.as_ref()) } else { table(&found, map.as_ref()) };
     super::print(&text)
+}
+
+/// A map must not take the place of what it is a map of.
+fn refuse_to_overwrite(args: &CompareArgs, out: &Path) -> anyhow::Result<()> {
+    let same = |file: &Path| matches!((file.canonicalize(), out.canonicalize()), (Ok(a), Ok(b)) if a == b);
+    let taken = std::iter::once(&args.film).chain(&args.reference).any(|file| same(file));
+    ensure!(!taken, "--heatmap would overwrite a picture that is compared; give another name: {}", out.display());
+    Ok(())
 }
 
 /// The reference of what a picture's records say that it shows.

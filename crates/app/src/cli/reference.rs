@@ -5,6 +5,7 @@ use crate::ruler::{Sought, brief};
 use anyhow::Context;
 use pathtrace::{FEWEST_REPLICATES, Tracer};
 use reference::{Goal, Maker, Reference, Store};
+use std::cell::Cell;
 use std::io::IsTerminal;
 use std::time::{Duration, Instant};
 
@@ -64,8 +65,11 @@ pub fn obtain(sought: &Sought, goal: Option<Goal>) -> anyhow::Result<Reference> 
         return Ok(kept.clone());
     }
     let goal = goal.unwrap_or_default();
+    let told = Cell::new(false);
     let keep = |reference: &Reference| {
-        if let Some(Err(fault)) = store.as_ref().map(|store| store.put(key, reference, sought.records())) {
+        if let Some(Err(fault)) = store.as_ref().map(|store| store.put(key, reference, sought.records()))
+            && !told.replace(true)
+        {
             note!("note: {fault}");
         }
     };

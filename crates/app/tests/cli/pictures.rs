@@ -104,6 +104,9 @@ fn two_pictures_are_compared_in_numbers_and_as_a_map() {
         let picture = image::open(&map).expect("a PNG").to_rgb8();
         assert_eq!(picture.dimensions(), (48, 27 + 12));
     }
+    for input in [&fake, &truth] {
+        assert_refused(&["compare", &fake, &truth, "--heatmap", input], 1, &["overwrite", input]);
+    }
     let layers = file("layers.exr");
     assert!(visavis(&["compare", &fake, &truth, "--heatmap", &layers]).status.success());
     let image = exr::prelude::read_all_data_from_file(&layers).expect("an EXR");

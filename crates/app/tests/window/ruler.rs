@@ -5,6 +5,7 @@ use super::{alone, both_whole, ready, says};
 use reference::{Key, Reference, Store, Subject};
 use scene::Vec3;
 use std::path::Path;
+use std::time::Duration;
 use visavis_tests::{Frame, Screen, TestFolder, ViewerUnderTest};
 
 fn close_to(pixel: [u8; 3], expected: [u8; 3]) -> bool {
@@ -116,7 +117,12 @@ fn a_reference_is_made_while_the_panes_rest_kept_and_there_at_once_the_second_ti
     let found = viewer.wait_for("the reference from the store", |f| judged(f) && f.state("view") == "Side by side");
     assert!(found.state("reference")[0].as_u64() >= Some(15));
     viewer.wait_for("one picture more", |f| f.state("reference")[0] == 16 && f.state("reference")[1] == 1);
-    assert_eq!(store.get(key).map(|kept| kept.replicates), Some(16));
+    // it is shown before it is on the disk
+    let kept = (0..200).any(|_| {
+        std::thread::sleep(Duration::from_millis(50));
+        store.get(key).is_some_and(|kept| kept.replicates == 16)
+    });
+    assert!(kept, "the reference is not kept");
     screen.key('q', true);
     assert!(viewer.wait_for_end().success());
 
