@@ -255,3 +255,32 @@ fn a_stop_is_obeyed_within_five_milliseconds() {
         assert!(least < Duration::from_millis(5), "{}: {least:?}", scene.name);
     }
 }
+
+/// A floor with a lamp close below it, which shines upwards, and a ball above: nothing is lit.
+fn a_lamp_behind_a_floor(side: f32, below: f32) -> Scene {
+    let above = "[camera]\neye = [0, 1, 5]\ntarget = [0, 1, 0]\nfov_y = 30\n\
+         [material.grey]\ndiffuse = { albedo = [0.5, 0.5, 0.5] }\n\
+         [material.lamp]\nemissive = { radiance = [10, 8, 6] }\n\
+         [[sphere]]\ncenter = [0, 1, 0]\nradius = 0.5\nmaterial = 'grey'\n";
+    let level = |y: f32, material: &str| {
+        let [corner, edge] = [-0.5 * side, side];
+        format!(
+            "[[rectangle]]\ncorner = [{corner:?}, {y:?}, {corner:?}]\nedge_u = [0, 0, {edge:?}]\n\
+             edge_v = [{edge:?}, 0, 0]\nmaterial = '{material}'\n"
+        )
+    };
+    let text = format!("{above}{}{}", level(0.0, "grey"), level(-below, "lamp"));
+    scene::parse(&text, "behind", Path::new("behind.toml")).expect("a scene")
+}
+
+#[test]
+fn a_lamp_just_behind_a_wall_is_in_its_shadow() {
+    for (side, below) in [(2e4, 2e-3), (2e6, 0.2), (10.0, 1e-5), (10.0, 1e-3)] {
+        let scene = a_lamp_behind_a_floor(side, below);
+        let tracer = Tracer::new(&scene);
+        for estimator in [Estimator::LIGHT, Estimator::MIS] {
+            let (film, _) = path(&tracer, &scene, &PathSettings { estimator, ..PathSettings::default() }, 16);
+            assert_eq!(film.mean(), [0.0; 3], "{} behind {side}, {}", below, estimator.name());
+        }
+    }
+}

@@ -250,13 +250,15 @@ impl Reach {
 
     /// Whether all that shadow rays go between lies on one side of a facet's plane: then none meets it before its end.
     fn is_beside(&self, facet: &Facet, shapes: &Shapes) -> bool {
-        let normal = match shapes.normals[usize::from(facet.normal)] {
-            PlaneNormal::Axis(axis) => DVec3::AXES[axis],
-            PlaneNormal::Tilted(normal) => DVec3::from_array(normal),
+        let (normal, exact) = match shapes.normals[usize::from(facet.normal)] {
+            PlaneNormal::Axis(axis) => (DVec3::AXES[axis], true),
+            PlaneNormal::Tilted(normal) => (DVec3::from_array(normal), false),
         };
         let on_side = |sign: f64| {
             self.balls.iter().all(|&(center, radius)| {
-                let rounding = FLAT * center.abs().max_element();
+                // a corner lies on an axis-parallel plane or it does not: a lamp just behind a wall is in its shadow
+                let corner = exact && radius == 0.0;
+                let rounding = if corner { 0.0 } else { FLAT * (normal * center).abs().element_sum() };
                 sign * (normal.dot(center) - facet.offset) - radius >= -rounding
             })
         };
