@@ -191,15 +191,6 @@ fn both_hierarchies_meet_the_same_triangles_at_the_same_distances() {
 }
 
 #[test]
-#[ignore = "minutes: the same for millions of rays"]
-fn both_hierarchies_meet_the_same_triangles_over_millions_of_rays() {
-    agree_on("bumpy sphere", &Model::bumpy_sphere(224, Vec3::ZERO, 1.0), 3_000_000);
-    agree_on("cube", &Model::cube(92, Vec3::ZERO, 1.0), 3_000_000);
-    agree_on("cube far from the origin", &Model::cube(92, Vec3::splat(1e4), 1.0), 1_000_000);
-    agree_on("soup", &Model::soup(30_000), 3_000_000);
-}
-
-#[test]
 fn the_hierarchy_finds_what_testing_everything_finds() {
     for (name, model) in [
         ("bumpy sphere", Model::bumpy_sphere(24, Vec3::ZERO, 1.0)),
