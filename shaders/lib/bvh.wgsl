@@ -1,8 +1,7 @@
-//#import lib/needs.wgsl
+//#import lib/nearest.wgsl
 //#import lib/triangle.wgsl
 //#import lib/sphere.wgsl
 //#import lib/disk.wgsl
-//#import lib/surface_point.wgsl
 // The acceleration structure: obvhs' BVH2 over triangles, spheres and disks. Twin: crates/pathtrace/src/geometry/accel.rs.
 
 // Inner nodes that can wait; the host refuses deeper trees.
@@ -12,36 +11,8 @@ const MOST_WAITING: u32 = 64u;
 const COUNT_SHIFT: u32 = 27u;
 const FIRST_MASK: u32 = 0x7ffffffu;
 
-// The nearest meeting so far.
-struct Nearest {
-    t: f32,
-    // into the primitives, or NOTHING
-    index: u32,
-    id: u32,
-}
-
-const NOTHING: u32 = 0xffffffffu;
-
 // Nodes that wait. Not the traversal's own: it would be cleared each time.
 var<private> waiting_nodes: array<u32, MOST_WAITING>;
-
-struct Hit {
-    // where, with the outward normal
-    point: SurfacePoint,
-    material: u32,
-    // index into the lights, or NO_LIGHT
-    light: u32,
-}
-
-// The nearest hit before ray.tmax; of several at one distance a lamp, else the primitive that comes first in the scene.
-fn closest(ray: Ray) -> Nearest {
-    return traverse(ray, false);
-}
-
-// Whether anything lies on the ray before ray.tmax.
-fn occluded(ray: Ray) -> bool {
-    return traverse(ray, true).index != NOTHING;
-}
 
 fn traverse(ray: Ray, any_will_do: bool) -> Nearest {
     let sheared = sheared_ray(ray.direction);
@@ -95,14 +66,6 @@ fn traverse(ray: Ray, any_will_do: bool) -> Nearest {
     return nearest;
 }
 
-// Whether a shadow ray goes through this primitive.
-fn passes(index: u32, shadow: bool) -> bool {
-    if CLEAR_GLASS {
-        return shadow && materials[surfaces[index].material].bsdf == BSDF_DIELECTRIC;
-    }
-    return false;
-}
-
 // Inverts a direction, at least 1.2e-7 along each axis.
 fn safe_inverse(direction: vec3f) -> vec3f {
     let smallest = vec3f(1.1920929e-7);
@@ -124,7 +87,9 @@ fn box_distance(node: Node, origin: vec3f, inverse: vec3f, tmax: f32) -> f32 {
 fn primitive_distance(primitive: Primitive, ray: Ray, sheared: ShearedRay) -> f32 {
     let kind = primitive.tag >> KIND_SHIFT;
     if TRIANGLES && (kind == KIND_TRIANGLE || !(SPHERES || DISKS)) {
-        return triangle_distance(primitive, ray, sheared);
+        let normal = vec3f(primitive.normal_x, primitive.normal_y, primitive.normal_z);
+        let plane = Plane(primitive.a, normal, primitive.normal_low);
+        return triangle_distance(Triangle(primitive.a, primitive.b, primitive.c), plane, ray, sheared);
     }
     if SPHERES && (kind == KIND_SPHERE || !DISKS) {
         return sphere_distance(primitive.a, primitive.normal_x, ray);
@@ -136,13 +101,14 @@ fn primitive_distance(primitive: Primitive, ray: Ray, sheared: ShearedRay) -> f3
 }
 
 // What the ray met.
-fn hit_of(nearest: Nearest, ray: Ray) -> Hit {
+fn hit_of_primitive(nearest: Nearest, ray: Ray) -> Hit {
     let primitive = primitives[nearest.index];
     let surface = surfaces[nearest.index];
     let kind = primitive.tag >> KIND_SHIFT;
     var point: SurfacePoint;
     if TRIANGLES && (kind == KIND_TRIANGLE || !(SPHERES || DISKS)) {
-        let areas = triangle_areas(primitive, ray.origin, sheared_ray(ray.direction));
+        let triangle = Triangle(primitive.a, primitive.b, primitive.c);
+        let areas = triangle_areas(triangle, ray.origin, sheared_ray(ray.direction));
         let barycentrics = areas / (areas.x + areas.y + areas.z);
         point = on_triangle(primitive.a, primitive.b, primitive.c, barycentrics, surface.normal);
     } else if SPHERES && (kind == KIND_SPHERE || !DISKS) {

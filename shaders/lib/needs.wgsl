@@ -1,6 +1,9 @@
 // What a scene and its settings ask for. Pipelines are compiled for each choice, so that what is not asked for costs neither
 // time nor registers. Twin: crates/scene/src/needs.rs and crates/pathtrace/src/settings.rs.
 
+// whether all shapes are met one by one; through a tree if not
+override FEW_SHAPES: bool = false;
+override QUADRILATERALS: bool = true;
 override TRIANGLES: bool = true;
 override SPHERES: bool = true;
 override DISKS: bool = true;

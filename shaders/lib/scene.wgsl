@@ -4,7 +4,7 @@
 struct Header {
     // radiance where nothing is hit
     sky: vec3f,
-    // how many triangles, spheres and disks there are
+    // how many triangles, spheres and disks there are in the tree
     primitives: u32,
     // unit direction of a sun that has a disc
     sun_towards: vec3f,
@@ -17,6 +17,10 @@ struct Header {
     lights: u32,
     // 0, which no compiler knows
     zero: u32,
+    // of few shapes: where among them quadrilaterals, triangles, spheres and disks end
+    seen: vec4u,
+    // the same of those that shadow rays may meet, which stand first in each kind
+    shading: vec4u,
 }
 
 // Two children lie side by side; the root's children are 0 and 1.
@@ -43,14 +47,36 @@ struct Primitive {
     tag: u32,
 }
 
+// One of few. A sphere is `a` and a radius, a disk also has a normal in `b`, a triangle is its first three corners.
+struct Shape {
+    // corners, see Quadrilateral and Triangle
+    a: vec3f,
+    // normal of its plane, largest component 1, as a sum of two floats; or a radius
+    normal_x: f32,
+    b: vec3f,
+    normal_y: f32,
+    c: vec3f,
+    normal_z: f32,
+    d: vec3f,
+    // place in the scene's order, lamps first, which decides ties
+    id: u32,
+    normal_low: vec3f,
+    // how far from its plane its points may lie
+    flatness: f32,
+    // of its plane, the same for all shapes in it
+    plane_point: vec3f,
+}
+
+const MOST_SHAPES: u32 = 64u;
+
 const KIND_SHIFT: u32 = 30u;
 const KIND_TRIANGLE: u32 = 0u;
 const KIND_SPHERE: u32 = 1u;
 const KIND_DISK: u32 = 2u;
 
-// What shading needs of a primitive.
+// What shading needs of a primitive, in the order of the leaves; of few shapes in the order of their ids.
 struct Surface {
-    // unit normal of a triangle
+    // unit normal of a flat one
     normal: vec3f,
     material: u32,
     // index into the lights, or NO_LIGHT
@@ -116,3 +142,4 @@ const LIGHT_SUN: u32 = 5u;
 @group(0) @binding(5) var<storage, read> lights: array<Light>;
 // what each byte of an index adds to dimensions 1 to 3 of a Sobol point
 @group(0) @binding(6) var<storage, read> sobol_bytes: array<vec4u>;
+@group(0) @binding(7) var<uniform> shapes: array<Shape, MOST_SHAPES>;

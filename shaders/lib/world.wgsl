@@ -1,4 +1,4 @@
-//#import lib/bvh.wgsl
+//#import lib/structure.wgsl
 //#import lib/light.wgsl
 // What a ray meets in the scene. Twin: crates/pathtrace/src/world.rs.
 

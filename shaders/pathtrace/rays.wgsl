@@ -15,7 +15,7 @@ struct RayAnswer {
     error: vec3f,
     material: u32,
     normal: vec3f,
-    // whether anything at all is met, as a shadow ray asks
+    // whether anything at all is met, asked as shadow rays ask
     occluded: u32,
 }
 
@@ -36,6 +36,6 @@ fn trace(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups) grou
         let hit = hit_of(nearest, ray);
         answer = RayAnswer(hit.point.position, nearest.t, hit.point.error, hit.material, hit.point.normal, 0u);
     }
-    answer.occluded = select(0u, 1u, occluded(ray));
+    answer.occluded = select(0u, 1u, meets_anything(ray));
     answers[index] = answer;
 }

@@ -29,12 +29,12 @@ fn direction(item: u32, block: u32) -> Vec3 {
     sampling::cone(2.0, [u, v])
 }
 
-/// A thousand triangles, spheres and disks of all sizes, each of its own material, so that a hit tells what was met.
-fn crowd() -> Scene {
+/// Triangles, spheres and disks of all sizes, each of its own material, so that a hit tells what was met.
+fn crowd(shapes_in_it: u32) -> Scene {
     let mut text =
         String::from("[camera]\neye = [0, 0, 9]\ntarget = [0, 0, 0]\nfov_y = 50\n[sky]\nradiance = [1, 1, 1]\n");
     let mut shapes = String::new();
-    for i in 0..1000u32 {
+    for i in 0..shapes_in_it {
         let [size, ..] = rng::pcg4d([i, 0, 6, 1]).map(rng::unit_float);
         let size = 10f32.powf(-2.5 * size);
         let at = direction(i, 7) * (0.2 + 3.0 * rng::unit_float(rng::pcg4d([i, 1, 6, 1])[0]));
@@ -58,17 +58,25 @@ fn crowd() -> Scene {
     scene::parse(&(text + &shapes), "crowd", Path::new("crowd.toml")).unwrap()
 }
 
+#[test]
+fn rays_meet_the_same_surfaces_at_the_same_places_through_a_tree() {
+    rays_meet_the_same_surfaces_at_the_same_places(&crowd(1000));
+}
+
+#[test]
+fn rays_meet_the_same_surfaces_at_the_same_places_among_few_shapes() {
+    rays_meet_the_same_surfaces_at_the_same_places(&crowd(21));
+}
+
 /// Rays from everywhere to everywhere, and rays that leave what they met: the same surface on both machines for all but 1 in
 /// 100,000, at the same place.
-#[test]
-fn rays_meet_the_same_surfaces_at_the_same_places() {
-    let scene = crowd();
-    let cpu = Tracer::new(&scene);
+fn rays_meet_the_same_surfaces_at_the_same_places(scene: &Scene) {
+    let cpu = Tracer::new(scene);
     let aimed = |i: u32| direction(i, 2) * (2.0 * rng::unit_float(rng::pcg4d([i, 4, 5, 1])[0]));
     let towards = |from: Vec3, to: Vec3| Ray::new(from, (to - from).normalize());
     let first: Vec<Ray> = (0..100_000).map(|i| towards(direction(i, 1) * 4.0, aimed(i))).collect();
     for gpu in devices() {
-        let tracer = GpuTracer::new(&gpu, &scene).unwrap();
+        let tracer = GpuTracer::new(&gpu, scene).unwrap();
         let mut rays = first.clone();
         for bounce in 0..2 {
             let answers = tracer.meet(&rays).unwrap();
@@ -89,7 +97,7 @@ fn rays_meet_the_same_surfaces_at_the_same_places() {
                 let out = direction(i, 3);
                 next.push(Ray::new(hit.point.leaving_towards(out), out));
             }
-            assert!(met > rays.len() / 3, "{met} of {} hit", rays.len());
+            assert!(met > rays.len() / 20, "{met} of {} hit", rays.len());
             assert!(other <= 1, "{bounce}: {other} of {} meet something else, {}", rays.len(), gpu.describe());
             rays = next;
         }

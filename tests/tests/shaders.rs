@@ -3,7 +3,8 @@
 use gpu::wgsl;
 use pathtrace::gpu::film_data::{Exposure, PictureFrame, Pixel};
 use pathtrace::gpu::rays::{RayAnswer, RayQuery};
-use pathtrace::gpu::scene_data::{Checkerboard, Header, Light, Material, Node, ShapeData as Primitive, Surface};
+use pathtrace::gpu::scene_data::{Checkerboard, Header, Light, Material};
+use pathtrace::gpu::shape_data::{FewShape as Shape, Node, ShapeData as Primitive, Surface};
 use raster::gpu_data::{Lights, Object, View};
 use std::mem::offset_of;
 
@@ -100,10 +101,15 @@ fn mirrors_of_the_path_tracer_have_the_layout_of_their_structs() {
     assert_same_layout!(
         "lib/scene.wgsl",
         Header,
-        [sky, primitives, sun_towards, sun_chord_squared, sun_radiance, sun_pdf, lights, zero]
+        [sky, primitives, sun_towards, sun_chord_squared, sun_radiance, sun_pdf, lights, zero, seen, shading]
     );
     assert_same_layout!("lib/scene.wgsl", Node, [low, contents, high, unused]);
     assert_same_layout!("lib/scene.wgsl", Primitive, [a, normal_x, b, normal_y, c, normal_z, normal_low, tag]);
+    assert_same_layout!(
+        "lib/scene.wgsl",
+        Shape,
+        [a, normal_x, b, normal_y, c, normal_z, d, id, normal_low, flatness, plane_point]
+    );
     assert_same_layout!("lib/scene.wgsl", Surface, [normal, material, light]);
     assert_same_layout!("lib/scene.wgsl", Checkerboard, [even, odd, origin, cells_per_unit]);
     assert_same_layout!("lib/scene.wgsl", Material, [colour, emission, emitting_sides, bsdf, ior, root, root_low]);

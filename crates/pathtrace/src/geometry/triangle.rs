@@ -3,6 +3,7 @@
 use super::Ray;
 use scene::Vec3;
 use scene::glam::DVec3;
+use std::cmp::Ordering;
 
 /// A ray turned so that its largest direction component is z, and the shear that takes it onto the z axis.
 #[derive(Debug, Clone, Copy)]
@@ -67,12 +68,8 @@ pub struct TriangleHit {
 
 impl Triangle {
     /// Sorts the corners.
-    pub fn new(mut corners: [Vec3; 3]) -> Self {
-        corners.sort_by(|a, b| {
-            let (a, b) = (a.to_array(), b.to_array());
-            a.iter().zip(&b).map(|(a, b)| a.total_cmp(b)).find(|o| o.is_ne()).unwrap_or(std::cmp::Ordering::Equal)
-        });
-        Triangle::sorted(corners)
+    pub fn new(corners: [Vec3; 3]) -> Self {
+        Triangle::sorted(sorted(corners))
     }
 
     /// From corners that are in order already.
@@ -120,6 +117,18 @@ impl Triangle {
         let to_plane = self.corners[0].as_dvec3() - ray.origin.as_dvec3();
         (self.normal.dot(to_plane) / self.normal.dot(ray.direction.as_dvec3())) as f32
     }
+}
+
+/// Which of two points comes first in lexicographic order.
+pub(crate) fn in_order(a: &Vec3, b: &Vec3) -> Ordering {
+    let (a, b) = (a.to_array(), b.to_array());
+    a.iter().zip(&b).map(|(a, b)| a.total_cmp(b)).find(|o| o.is_ne()).unwrap_or(Ordering::Equal)
+}
+
+/// Corners in lexicographic order.
+pub(crate) fn sorted(mut corners: [Vec3; 3]) -> [Vec3; 3] {
+    corners.sort_by(in_order);
+    corners
 }
 
 /// Unit normal by winding, in f64 so that slivers have one too; `None` without area.

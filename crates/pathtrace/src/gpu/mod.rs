@@ -12,22 +12,24 @@ pub mod film_data;
 mod pipelines;
 pub mod rays;
 pub mod scene_data;
+pub mod shape_data;
 mod timing;
 
 pub use error::GpuTraceError;
 pub use film::GpuFilm;
 pub use pipelines::{Choice, SceneNeeds};
 
-use crate::geometry::accel::Binary;
 use crate::light::Lights;
 use crate::render::Stats;
 use crate::settings::PathSettings;
 use crate::whitted::WhittedSettings;
+use bytemuck::Zeroable;
 use dispatch::Dispatcher;
 use film_data::Exposure;
 use gpu::{Gpu, GpuError, wgpu};
 use pipelines::Pipelines;
 use scene::{Camera, Film, Scene};
+use shape_data::{FewShape, MOST_SHAPES, Shapes};
 use timing::{BUDGET_SECONDS, Pace, Stopwatch};
 use wgpu::BufferUsages;
 
@@ -37,6 +39,7 @@ pub struct GpuTracer {
     gpu: Gpu,
     pipelines: Pipelines,
     scene: wgpu::BindGroup,
+    leaves: Leaves,
     ambient: f32,
     stopwatch: Stopwatch,
     paces: Vec<(Choice, Pace)>,
@@ -49,9 +52,7 @@ impl GpuTracer {
     /// # Errors
     /// [`GpuTraceError`] if the scene is too large for the device, or the device too small for any.
     pub fn new(gpu: &Gpu, scene: &Scene) -> Result<Self, GpuTraceError> {
-        let lights = Lights::new(scene);
-        let needs = SceneNeeds::of(scene, &lights);
-        Self::with_needs(gpu, scene, &lights, needs)
+        Self::leaving_out(gpu, scene, Leaves::default())
     }
 
     /// As [`GpuTracer::new`], with code for everything that any scene can ask for: to measure what leaving it out saves.
@@ -59,18 +60,24 @@ impl GpuTracer {
     /// # Errors
     /// As [`GpuTracer::new`].
     pub fn with_everything(gpu: &Gpu, scene: &Scene) -> Result<Self, GpuTraceError> {
-        let lights = Lights::new(scene);
-        let needs = SceneNeeds::of(scene, &lights).with_everything();
-        Self::with_needs(gpu, scene, &lights, needs)
+        Self::leaving_out(gpu, scene, Leaves { nothing_out: true, ..Leaves::default() })
     }
 
-    fn with_needs(gpu: &Gpu, scene: &Scene, lights: &Lights, needs: SceneNeeds) -> Result<Self, GpuTraceError> {
-        let pipelines = Pipelines::new(gpu, needs)?;
-        let tree = Binary::of(scene, lights);
-        let uploaded = upload(gpu, &pipelines.scene_layout, scene, &tree, lights)?;
+    /// As [`GpuTracer::new`], through a tree even if there are few shapes: to measure what doing without saves.
+    ///
+    /// # Errors
+    /// As [`GpuTracer::new`].
+    pub fn through_a_tree(gpu: &Gpu, scene: &Scene) -> Result<Self, GpuTraceError> {
+        Self::leaving_out(gpu, scene, Leaves { always_a_tree: true, ..Leaves::default() })
+    }
+
+    fn leaving_out(gpu: &Gpu, scene: &Scene, leaves: Leaves) -> Result<Self, GpuTraceError> {
+        let made = Made::of(scene, leaves)?;
+        let pipelines = Pipelines::new(gpu, made.needs)?;
         Ok(GpuTracer {
+            scene: made.upload(gpu, &pipelines.scene_layout, scene)?,
             pipelines,
-            scene: uploaded,
+            leaves,
             ambient: scene.fake.ambient,
             stopwatch: Stopwatch::new(gpu),
             paces: Vec::new(),
@@ -84,15 +91,14 @@ impl GpuTracer {
     /// # Errors
     /// As [`GpuTracer::new`]; the scene before is then still there.
     pub fn set_scene(&mut self, scene: &Scene) -> Result<(), GpuTraceError> {
-        let lights = Lights::new(scene);
-        let needs = SceneNeeds::of(scene, &lights);
-        if needs != self.pipelines.needs() {
-            let budget = self.budget;
-            *self = GpuTracer { budget, ..Self::with_needs(&self.gpu.clone(), scene, &lights, needs)? };
-            return Ok(());
+        let made = Made::of(scene, self.leaves)?;
+        if made.needs != self.pipelines.needs() {
+            let pipelines = Pipelines::new(&self.gpu, made.needs)?;
+            self.scene = made.upload(&self.gpu, &pipelines.scene_layout, scene)?;
+            (self.pipelines, self.paces) = (pipelines, Vec::new());
+        } else {
+            self.scene = made.upload(&self.gpu, &self.pipelines.scene_layout, scene)?;
         }
-        let tree = Binary::of(scene, &lights);
-        self.scene = upload(&self.gpu, &self.pipelines.scene_layout, scene, &tree, &lights)?;
         self.ambient = scene.fake.ambient;
         Ok(())
     }
@@ -232,29 +238,57 @@ fn exposure(film: &GpuFilm, camera: &Camera) -> Exposure {
     Exposure::of(&camera.frame(width as f32 / height as f32), (width, height))
 }
 
-fn upload(
-    gpu: &Gpu,
-    layout: &wgpu::BindGroupLayout,
-    scene: &Scene,
-    tree: &Binary,
-    lights: &Lights,
-) -> Result<wgpu::BindGroup, GpuTraceError> {
-    let buffers = [
-        gpu.buffer("the scene", &[scene_data::header(scene, tree, lights)], BufferUsages::UNIFORM)?,
-        storage(gpu, "the tree of boxes", &scene_data::nodes(tree)?)?,
-        storage(gpu, "the shapes", &scene_data::primitives(tree))?,
-        storage(gpu, "the surfaces", &scene_data::surfaces(tree))?,
-        storage(gpu, "the materials", &scene_data::materials(scene))?,
-        storage(gpu, "the lights", &scene_data::lights(lights))?,
-        storage(gpu, "the Sobol points", &scene_data::sobol_bytes())?,
-    ];
-    let bound = buffers.iter().zip(0..).map(|(buffer, binding)| {
-        let resource = buffer.as_entire_binding();
-        wgpu::BindGroupEntry { binding, resource }
-    });
-    let entries: Vec<_> = bound.collect();
-    let descriptor = wgpu::BindGroupDescriptor { label: Some("the scene"), layout, entries: &entries };
-    Ok(gpu.checked("the scene", || gpu.device.create_bind_group(&descriptor))?)
+/// What is left out of what any scene can ask for.
+#[derive(Debug, Clone, Copy, Default)]
+struct Leaves {
+    nothing_out: bool,
+    always_a_tree: bool,
+}
+
+/// A scene made ready, before it is on a device.
+struct Made {
+    lights: Lights,
+    shapes: Shapes,
+    needs: SceneNeeds,
+}
+
+impl Made {
+    fn of(scene: &Scene, leaves: Leaves) -> Result<Self, GpuTraceError> {
+        let lights = Lights::new(scene);
+        let shapes =
+            if leaves.always_a_tree { Shapes::in_a_tree(scene, &lights) } else { Shapes::new(scene, &lights) }?;
+        let needs = SceneNeeds::of(scene, &lights, shapes.kinds());
+        let needs = if leaves.nothing_out { needs.with_everything() } else { needs };
+        Ok(Made { lights, shapes, needs })
+    }
+
+    fn upload(
+        &self,
+        gpu: &Gpu,
+        layout: &wgpu::BindGroupLayout,
+        scene: &Scene,
+    ) -> Result<wgpu::BindGroup, GpuTraceError> {
+        let Made { lights, shapes, .. } = self;
+        let mut few = [FewShape::zeroed(); MOST_SHAPES];
+        few[..shapes.few.len()].copy_from_slice(&shapes.few);
+        let buffers = [
+            gpu.buffer("the scene", &[scene_data::header(scene, shapes, lights)], BufferUsages::UNIFORM)?,
+            storage(gpu, "the tree of boxes", &shapes.nodes)?,
+            storage(gpu, "the shapes", &shapes.primitives)?,
+            storage(gpu, "the surfaces", &shapes.surfaces)?,
+            storage(gpu, "the materials", &scene_data::materials(scene))?,
+            storage(gpu, "the lights", &scene_data::lights(lights))?,
+            storage(gpu, "the Sobol points", &scene_data::sobol_bytes())?,
+            gpu.buffer("the shapes", &few, BufferUsages::UNIFORM)?,
+        ];
+        let bound = buffers.iter().zip(0..).map(|(buffer, binding)| {
+            let resource = buffer.as_entire_binding();
+            wgpu::BindGroupEntry { binding, resource }
+        });
+        let entries: Vec<_> = bound.collect();
+        let descriptor = wgpu::BindGroupDescriptor { label: Some("the scene"), layout, entries: &entries };
+        Ok(gpu.checked("the scene", || gpu.device.create_bind_group(&descriptor))?)
+    }
 }
 
 /// A buffer that shaders read, of at least one element.

@@ -3,6 +3,7 @@
 use super::GpuTraceError;
 use super::film_data::{Exposure, is_sobol};
 use super::scene_data::Header;
+use super::shape_data::{FewShape, MOST_SHAPES, ShapeKinds};
 use crate::light::flat::Outline;
 use crate::light::{Light, Lights};
 use crate::settings::{Directions, LightSearch, PathSettings};
@@ -93,6 +94,7 @@ impl LightKinds {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct SceneNeeds {
     needs: Needs,
+    shapes: ShapeKinds,
     lights: LightKinds,
     /// Everything is compiled in, as if the scene had some of it.
     everything: bool,
@@ -100,8 +102,8 @@ pub struct SceneNeeds {
 
 impl SceneNeeds {
     /// What this scene needs.
-    pub fn of(scene: &Scene, lights: &Lights) -> Self {
-        SceneNeeds { needs: scene.needs(), lights: LightKinds::of(lights), everything: false }
+    pub(crate) fn of(scene: &Scene, lights: &Lights, shapes: ShapeKinds) -> Self {
+        SceneNeeds { needs: scene.needs(), shapes, lights: LightKinds::of(lights), everything: false }
     }
 
     /// The same, with code for all that any scene can ask for: to measure what leaving it out saves.
@@ -109,29 +111,42 @@ impl SceneNeeds {
         SceneNeeds { everything: true, ..self }
     }
 
-    /// Values of the overrides in `shaders/lib/needs.wgsl`.
-    pub fn constants(&self, choice: Choice) -> [(&'static str, f64); 17] {
-        let flag = |needed: bool| f64::from(u8::from(needed || self.everything));
-        let exactly = |set: bool| f64::from(u8::from(set));
+    /// Values of the overrides in `shaders/lib/needs.wgsl` that say which shapes there are.
+    pub fn shape_constants(&self) -> [(&'static str, f64); 5] {
         [
-            ("TRIANGLES", flag(self.needs.triangles)),
-            ("SPHERES", flag(self.needs.spheres)),
-            ("DISKS", flag(self.needs.disks)),
-            ("CHECKERBOARD", flag(self.needs.checkerboard)),
-            ("MIRROR", flag(self.needs.mirror)),
-            ("DIELECTRIC", flag(self.needs.dielectric)),
-            ("RECTANGLE_LAMPS", flag(self.lights.rectangles)),
-            ("TRIANGLE_LAMPS", flag(self.lights.triangles)),
-            ("DISK_LAMPS", flag(self.lights.disks)),
-            ("BALL_LAMPS", flag(self.lights.balls)),
-            ("POINT_LIGHTS", flag(self.lights.points)),
-            ("SUN", flag(self.needs.sun)),
+            ("FEW_SHAPES", f64::from(u8::from(self.shapes.few))),
+            ("QUADRILATERALS", self.flag(self.shapes.quadrilaterals)),
+            ("TRIANGLES", self.flag(self.shapes.triangles)),
+            ("SPHERES", self.flag(self.shapes.spheres)),
+            ("DISKS", self.flag(self.shapes.disks)),
+        ]
+    }
+
+    /// Values of all the overrides.
+    pub fn constants(&self, choice: Choice) -> Vec<(&'static str, f64)> {
+        let exactly = |set: bool| f64::from(u8::from(set));
+        let mut constants = self.shape_constants().to_vec();
+        constants.extend([
+            ("CHECKERBOARD", self.flag(self.needs.checkerboard)),
+            ("MIRROR", self.flag(self.needs.mirror)),
+            ("DIELECTRIC", self.flag(self.needs.dielectric)),
+            ("RECTANGLE_LAMPS", self.flag(self.lights.rectangles)),
+            ("TRIANGLE_LAMPS", self.flag(self.lights.triangles)),
+            ("DISK_LAMPS", self.flag(self.lights.disks)),
+            ("BALL_LAMPS", self.flag(self.lights.balls)),
+            ("POINT_LIGHTS", self.flag(self.lights.points)),
+            ("SUN", self.flag(self.needs.sun)),
             ("SOBOL", exactly(choice.sobol)),
             ("UNIFORM_DIRECTIONS", exactly(choice.uniform_directions)),
             ("LIGHT_SEARCH", f64::from(choice.light_search)),
-            ("BRANCHING", flag(choice.branching)),
+            ("BRANCHING", self.flag(choice.branching)),
             ("CLEAR_GLASS", exactly(choice.clear_glass)),
-        ]
+        ]);
+        constants
+    }
+
+    fn flag(&self, needed: bool) -> f64 {
+        f64::from(u8::from(needed || self.everything))
     }
 }
 
@@ -162,6 +177,7 @@ impl Pipelines {
             let read = BufferBindingType::Storage { read_only: true };
             let mut scene = vec![(BufferBindingType::Uniform, size_of::<Header>())];
             scene.extend([(read, 0); 6]);
+            scene.push((BufferBindingType::Uniform, MOST_SHAPES * size_of::<FewShape>()));
             let written = (BufferBindingType::Storage { read_only: false }, 0);
             let film = [(BufferBindingType::Uniform, size_of::<Exposure>()), written];
             (layout(gpu, &scene), layout(gpu, &film))

@@ -35,7 +35,7 @@ pub struct RayAnswer {
     pub material: u32,
     /// Unit outward normal.
     pub normal: Vec3,
-    /// 1 if anything at all is met, as a shadow ray asks.
+    /// 1 if anything at all is met, asked as shadow rays ask.
     pub occluded: u32,
 }
 
@@ -114,7 +114,10 @@ impl GpuTracer {
                 layout: Some(&layout),
                 module: &module,
                 entry_point: Some("trace"),
-                compilation_options: wgpu::PipelineCompilationOptions::default(),
+                compilation_options: wgpu::PipelineCompilationOptions {
+                    constants: &self.pipelines.needs().shape_constants(),
+                    ..wgpu::PipelineCompilationOptions::default()
+                },
                 cache: None,
             })
         })?)

@@ -1,13 +1,11 @@
 //! Mirrors of the structs in `shaders/lib/scene.wgsl`, field for field, and what fills them. A test compares every offset with
 //! the shader compiler's. Padding is spelled out as `unused*`.
 
-use super::GpuTraceError;
-use crate::geometry::accel::{Binary, Primitive};
+use super::shape_data::Shapes;
 use crate::light::flat::Outline;
 use crate::light::{Light as HostLight, Lights, SunDisc};
 use crate::sobol::reversed_point;
 use bytemuck::{Pod, Zeroable};
-use scene::glam::DVec3;
 use scene::material::Emission;
 use scene::{Bsdf, Scene, Texture, Vec3};
 
@@ -17,7 +15,7 @@ use scene::{Bsdf, Scene, Texture, Vec3};
 pub struct Header {
     /// Radiance where nothing is hit.
     pub sky: Vec3,
-    /// How many triangles, spheres and disks there are.
+    /// How many triangles, spheres and disks there are in the tree.
     pub primitives: u32,
     /// Unit direction of a sun that has a disc.
     pub sun_towards: Vec3,
@@ -33,56 +31,10 @@ pub struct Header {
     pub zero: u32,
     /// Padding.
     pub unused: [u32; 2],
-}
-
-/// A node of the BVH; two children lie side by side, the root's are 0 and 1.
-#[repr(C)]
-#[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
-pub struct Node {
-    /// Corner of the box.
-    pub low: Vec3,
-    /// Index of an inner node's first child, or of a leaf's first primitive with their number above.
-    pub contents: u32,
-    /// Other corner of the box.
-    pub high: Vec3,
-    /// Padding.
-    pub unused: u32,
-}
-
-/// A triangle, sphere or disk.
-#[repr(C)]
-#[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
-pub struct ShapeData {
-    /// Corner or centre.
-    pub a: Vec3,
-    /// Of the normal, or a radius.
-    pub normal_x: f32,
-    /// Corner, or normal of a disk.
-    pub b: Vec3,
-    /// Of the normal.
-    pub normal_y: f32,
-    /// Corner.
-    pub c: Vec3,
-    /// Of the normal.
-    pub normal_z: f32,
-    /// What a float could not hold of the normal.
-    pub normal_low: Vec3,
-    /// Place in the scene's order, the kind above.
-    pub tag: u32,
-}
-
-/// What shading needs of a primitive.
-#[repr(C)]
-#[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
-pub struct Surface {
-    /// Unit normal of a triangle.
-    pub normal: Vec3,
-    /// Index into the materials.
-    pub material: u32,
-    /// Index into the lights, or [`crate::geometry::NO_LIGHT`].
-    pub light: u32,
-    /// Padding.
-    pub unused: [u32; 3],
+    /// Of few shapes: where among them quadrilaterals, triangles, spheres and disks end.
+    pub seen: [u32; 4],
+    /// The same of those that shadow rays may meet, which stand first in each kind.
+    pub shading: [u32; 4],
 }
 
 /// Two colours of cells that fill space; `even` alone without a pattern.
@@ -157,17 +109,12 @@ pub struct Light {
     pub unused: [u32; 3],
 }
 
-const KIND_SHIFT: u32 = 30;
-const COUNT_SHIFT: u32 = 27;
-/// Inner nodes that can wait in a traversal.
-const MOST_WAITING: usize = 64;
-
 /// The header of a scene.
-pub(crate) fn header(scene: &Scene, tree: &Binary, lights: &Lights) -> Header {
+pub(crate) fn header(scene: &Scene, shapes: &Shapes, lights: &Lights) -> Header {
     let disc = scene.sun.as_ref().and_then(SunDisc::new);
     Header {
         sky: scene.sky,
-        primitives: tree.len() as u32,
+        primitives: shapes.primitives.len() as u32,
         sun_towards: disc.map_or(Vec3::Y, |d| d.towards),
         sun_chord_squared: disc.map_or(0.0, |d| d.chord_squared),
         sun_radiance: disc.map_or(Vec3::ZERO, |d| d.radiance),
@@ -176,90 +123,9 @@ pub(crate) fn header(scene: &Scene, tree: &Binary, lights: &Lights) -> Header {
         lights: lights.len() as u32,
         zero: 0,
         unused: [0; 2],
+        seen: shapes.seen,
+        shading: shapes.shading,
     }
-}
-
-/// The tree, breadth first, with the root left out: its box is what its children's are.
-///
-/// # Errors
-/// [`GpuTraceError::TooDeep`] and [`GpuTraceError::TooMany`] where the shader's stack or a node's bits do not suffice.
-pub(crate) fn nodes(tree: &Binary) -> Result<Vec<Node>, GpuTraceError> {
-    let boxes = &tree.bvh.nodes;
-    if boxes.is_empty() {
-        return Ok(vec![Node::zeroed(); 2]);
-    }
-    let depth = tree.bvh.depth(0);
-    if depth > MOST_WAITING {
-        return Err(GpuTraceError::TooDeep { depth, limit: MOST_WAITING });
-    }
-    let node = |index: u32, contents: u32| {
-        let bounds = boxes[index as usize].aabb();
-        let (low, high) = (Vec3::from(bounds.min), Vec3::from(bounds.max));
-        Node { low, contents, high, unused: 0 }
-    };
-    // a lone leaf stands on both sides of the root: what it holds is met twice at one distance
-    let first = if boxes[0].is_leaf() { [0, 0] } else { [boxes[0].first_index, boxes[0].first_index + 1] };
-    let mut order: Vec<u32> = first.to_vec();
-    let mut nodes = Vec::with_capacity(boxes.len());
-    let mut next = 0;
-    while let Some(&index) = order.get(next) {
-        next += 1;
-        let from = &boxes[index as usize];
-        let contents = if from.is_leaf() {
-            if from.prim_count >= 1 << (32 - COUNT_SHIFT) {
-                return Err(GpuTraceError::TooMany { what: "shapes at one place" });
-            }
-            from.first_index | from.prim_count << COUNT_SHIFT
-        } else {
-            let children = order.len() as u32;
-            order.extend([from.first_index, from.first_index + 1]);
-            children
-        };
-        nodes.push(node(index, contents));
-    }
-    if order.len().max(tree.len()) >= 1 << COUNT_SHIFT {
-        return Err(GpuTraceError::TooMany { what: "triangles" });
-    }
-    Ok(nodes)
-}
-
-/// The primitives in the order of the leaves.
-pub(crate) fn primitives(tree: &Binary) -> Vec<ShapeData> {
-    let tagged = tree.primitives.iter().zip(&tree.ids);
-    let one = |(primitive, &id): (&Primitive, &u32)| match primitive {
-        Primitive::Triangle(triangle) => {
-            let [a, b, c] = triangle.corners;
-            let (normal, normal_low) = two_floats(triangle.normal / triangle.normal.abs().max_element());
-            let [normal_x, normal_y, normal_z] = normal.to_array();
-            ShapeData { a, normal_x, b, normal_y, c, normal_z, normal_low, tag: id }
-        }
-        Primitive::Sphere(sphere) => {
-            let (a, normal_x, tag) = (sphere.center, sphere.radius, id | 1 << KIND_SHIFT);
-            ShapeData { a, normal_x, tag, ..ShapeData::zeroed() }
-        }
-        Primitive::Disk(disk) => {
-            let (a, b, normal_x, tag) = (disk.center, disk.normal, disk.radius, id | 2 << KIND_SHIFT);
-            ShapeData { a, b, normal_x, tag, ..ShapeData::zeroed() }
-        }
-    };
-    tagged.map(one).collect()
-}
-
-/// A vector as the sum of one rounded to f32 and what that left, rounded again.
-fn two_floats(v: DVec3) -> (Vec3, Vec3) {
-    let rounded = v.as_vec3();
-    (rounded, (v - rounded.as_dvec3()).as_vec3())
-}
-
-/// What shading needs of each primitive.
-pub(crate) fn surfaces(tree: &Binary) -> Vec<Surface> {
-    let one = |s: &crate::geometry::accel::Surface| Surface {
-        normal: s.normal,
-        material: s.material,
-        light: s.light,
-        unused: [0; 3],
-    };
-    tree.surfaces.iter().map(one).collect()
 }
 
 /// The scene's materials.

@@ -10,10 +10,12 @@
 //! their normal, and the division.
 
 mod disks;
+mod pieces;
 mod prepare;
 mod surfaces;
 
 pub use disks::DiskLanes;
+pub(crate) use pieces::{PacketForm, PacketPlane};
 
 use super::lanes::{Hits, Rays, SphereLanes};
 use super::{NO_LIGHT, gamma};

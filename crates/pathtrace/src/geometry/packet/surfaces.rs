@@ -60,6 +60,8 @@ pub struct Surfaces {
     form: WordColumn,
     clear: Vec<bool>,
     has: [bool; 3],
+    /// As they came.
+    entries: Vec<Surface>,
 }
 
 impl Surfaces {
@@ -100,7 +102,13 @@ impl Surfaces {
             form: words(&form),
             clear: surfaces.iter().map(|surface| surface.clear).collect(),
             has: [0, 1, 2].map(|kind| surfaces.iter().any(|surface| form(surface) == kind)),
+            entries: surfaces.to_vec(),
         }
+    }
+
+    /// All, in the order of their ids.
+    pub fn entries(&self) -> &[Surface] {
+        &self.entries
     }
 
     /// Whether the shape of this id is of glass.
