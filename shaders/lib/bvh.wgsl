@@ -66,12 +66,16 @@ fn traverse(ray: Ray, any_will_do: bool) -> Nearest {
     return nearest;
 }
 
-// Inverts a direction, at least 1.2e-7 along each axis.
+// Inverts a direction, at least 2^-23 of its largest component along each axis: shadow rays may be short, but not slower.
 fn safe_inverse(direction: vec3f) -> vec3f {
-    let smallest = vec3f(1.1920929e-7);
+    let size = abs(direction);
+    let smallest = vec3f(1.1920929e-7 * max(size.x, max(size.y, size.z)));
     let at_least = select(smallest, -smallest, direction < vec3f(0.0));
-    return 1.0 / select(direction, at_least, abs(direction) <= smallest);
+    return 1.0 / select(direction, at_least, size <= smallest);
 }
+
+// What rounds in the distances to a box's planes, seen from far away: Ize, "Robust BVH Ray Traversal" (JCGT 2(2), 2013).
+const BOX_SLACK: f32 = 1.0 + 1e-6;
 
 // Where a ray enters a box before tmax; FAR if it does not.
 fn box_distance(node: Node, origin: vec3f, inverse: vec3f, tmax: f32) -> f32 {
@@ -81,7 +85,7 @@ fn box_distance(node: Node, origin: vec3f, inverse: vec3f, tmax: f32) -> f32 {
     let far = max(t1, t2);
     let enters = max(near.x, max(near.y, near.z));
     let leaves = min(far.x, min(far.y, far.z));
-    return select(FAR, enters, leaves >= max(enters, 0.0) && enters < tmax);
+    return select(FAR, enters, leaves * BOX_SLACK >= max(enters, 0.0) && enters < tmax * BOX_SLACK);
 }
 
 fn primitive_distance(primitive: Primitive, ray: Ray, sheared: ShearedRay) -> f32 {

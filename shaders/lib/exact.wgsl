@@ -43,8 +43,8 @@ fn exact_dot(a: vec3f, a_low: vec3f, b: vec3f, b_low: vec3f) -> f32 {
     return three.sum.x + (three.sum.y + (rest.x + (three.sum.z + rest.y)));
 }
 
-// Below this share of the sum of |a_i b_i| a plain dot product is not good to 17 bits.
-const CANCELLED: f32 = 0.03125;
+// Below this share of the sum of |a_i b_i| a plain dot product is not good to 20 bits.
+const CANCELLED: f32 = 0.25;
 
 // `size` with the sign of `sign_of`.
 fn copysign(size: f32, sign_of: f32) -> f32 {

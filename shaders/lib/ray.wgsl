@@ -12,8 +12,9 @@ struct Ray {
 // Farther than anything: shaders may take infinity away.
 const FAR: f32 = 3.4028234e38;
 
-// A shadow ray ends at 1, and divisions may be off by 2.5 ulp: the lamp at its end must not shadow itself.
-const SHADOW_END: f32 = 1.0 - 5e-7;
+// A shadow ray ends at 1, which is rounded with its direction, distances to planes are good to 20 bits, and divisions may be off
+// by 2.5 ulp: the lamp at its end must not shadow itself.
+const SHADOW_END: f32 = 1.0 - 1e-6;
 
 // Higham's bound on the relative error of n roundings in a row, f32.
 fn gamma(n: f32) -> f32 {

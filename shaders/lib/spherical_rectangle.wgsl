@@ -61,8 +61,8 @@ fn sample_spherical_rectangle(seen: SphericalRectangle, u: vec2f) -> vec2f {
         return u;
     }
     let azimuth = sin_cos(u.x * seen.solid_angle + seen.k);
-    // a sine of 0 stands for the smallest: its quotient is then the arc's end
-    let sine = copysign(max(abs(azimuth.x), 1e-30), azimuth.x);
+    // a sine of 0 stands for one so small that its quotient is the arc's end, and still has a square
+    let sine = copysign(max(abs(azimuth.x), 1e-18), azimuth.x);
     let fu = (azimuth.y * seen.b0 - seen.b1) / sine;
     let cu = clamp(copysign(1.0 / sqrt(max(fu * fu + seen.b0 * seen.b0, 1e-30)), fu), -1.0, 1.0);
     let across_u = -(cu * seen.z0) / sqrt(max(1.0 - cu * cu, SMALLEST_POSITIVE));

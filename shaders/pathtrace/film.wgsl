@@ -45,6 +45,9 @@ struct Pixel {
     faults: u32,
 }
 
+// Radiance beyond which the sum of squares takes a sample for no brighter.
+const MOST_IN_SQUARES: f32 = 1e17;
+
 const CUT_SHIFT: u32 = 16u;
 
 // What a sample of a pixel brought home.
@@ -66,11 +69,14 @@ fn record(pixel: ptr<function, Pixel>, outcome: Outcome) {
     let sum = two_sum((*pixel).sum, radiance);
     (*pixel).sum = sum.sum;
     (*pixel).sum_low += sum.rest;
-    let squares = two_sum((*pixel).sum_of_squares, radiance * radiance);
+    // their sum shall be finite too
+    let within = min(radiance, vec3f(MOST_IN_SQUARES));
+    let squares = two_sum((*pixel).sum_of_squares, within * within);
     (*pixel).sum_of_squares = squares.sum;
     (*pixel).squares_low += squares.rest;
     (*pixel).largest = max((*pixel).largest, max(radiance.x, max(radiance.y, radiance.z)));
-    (*pixel).rays += outcome.rays;
+    // rather too few than from 0 again
+    (*pixel).rays = max((*pixel).rays + outcome.rays, (*pixel).rays);
     (*pixel).faults += select(1u, 0u, finite) + select(0u, 1u << CUT_SHIFT, outcome.cut);
     (*pixel).samples += 1u;
 }

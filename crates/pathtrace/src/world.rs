@@ -1,5 +1,6 @@
 //! What every walk of rays needs: the scene made ready, and what rays meet in it.
 
+use crate::geometry::SHADOW_END;
 use crate::geometry::lanes::{Hits, Rays, SurfacePoints};
 use crate::geometry::packet::Scratch;
 use crate::geometry::structure::Structure;
@@ -55,7 +56,7 @@ impl World {
         // both ends off their surfaces
         let from = at.leaving_towards(sample.wi);
         let to = sample.point.leaving_towards(-sample.wi);
-        let between = Rays { origin: from, direction: to - from, tmax: F::splat(1.0) };
+        let between = Rays { origin: from, direction: to - from, tmax: F::splat(SHADOW_END) };
         let rays = Rays::select(sample.endless, Rays::new(from, sample.wi), between);
         self.structure.occluded(&rays, wanted, opaque, scratch)
     }

@@ -32,7 +32,7 @@ use scene::Vec3;
 pub struct Ray {
     /// Where it starts, world space.
     pub origin: Vec3,
-    /// Where it goes; unit length but for shadow rays, which end at `t` = 1. Never has a -0.0.
+    /// Where it goes; unit length but for shadow rays, which end at [`SHADOW_END`]. Never has a -0.0.
     pub direction: Vec3,
     /// Hits must lie before this.
     pub tmax: f32,
@@ -52,9 +52,13 @@ impl Ray {
 
     /// A shadow ray: everything strictly between two points.
     pub fn between(from: Vec3, to: Vec3) -> Self {
-        Ray { origin: from, direction: without_negative_zero(to - from), tmax: 1.0 }
+        Ray { origin: from, direction: without_negative_zero(to - from), tmax: SHADOW_END }
     }
 }
+
+/// Where a shadow ray between two points ends, in lengths of its direction. Its end at 1 is rounded with the direction: what lies
+/// as near to it is not known to lie before it, and a lamp there must not shadow itself.
+pub const SHADOW_END: f32 = 1.0 - gamma(8);
 
 /// Wide box tests choose near and far planes by the sign of the direction, where -0.0 is a trap.
 fn without_negative_zero(v: Vec3) -> Vec3 {

@@ -17,8 +17,8 @@ mod surfaces;
 pub use disks::DiskLanes;
 pub(crate) use pieces::{PacketForm, PacketPlane};
 
+use super::NO_LIGHT;
 use super::lanes::{Hits, Rays, SphereLanes};
-use super::{NO_LIGHT, gamma};
 use scene::Vec3;
 use simd::{Double, Float, Mask, Word};
 use surfaces::Surfaces;
@@ -145,23 +145,21 @@ impl Packet {
     #[inline(always)]
     pub fn occluded<F: Float>(&self, rays: &Rays<F>, wanted: F::M, opaque: bool, scratch: &mut Scratch<F>) -> F::M {
         let shapes = &self.shading;
-        // a shadow ray's end is rounded with its direction: what lies as near to it is not known to lie before it
-        let rays = Rays { tmax: rays.tmax * (1.0 - gamma(8)), ..*rays };
-        let frame = Frame::new(&rays);
-        shapes.prepare(&rays, &frame, scratch);
+        let frame = Frame::new(rays);
+        shapes.prepare(rays, &frame, scratch);
         let mut occluded = !wanted;
         for facet in shapes.facets.iter().filter(|facet| !(opaque && facet.clear)) {
-            let (met, distance) = shapes.meet(facet, &rays, &frame, scratch);
+            let (met, distance) = shapes.meet(facet, rays, &frame, scratch);
             occluded = occluded | (met & distance.lt(rays.tmax));
         }
         for &(of, center, radius) in &shapes.spheres {
             if !(opaque && self.surfaces.is_clear(of)) {
-                occluded = occluded | SphereLanes::new(center, radius).intersect(&rays).0;
+                occluded = occluded | SphereLanes::new(center, radius).intersect(rays).0;
             }
         }
         for (of, disk) in &shapes.disks {
             if !(opaque && self.surfaces.is_clear(*of)) {
-                occluded = occluded | disk.intersect(&rays).0;
+                occluded = occluded | disk.intersect(rays).0;
             }
         }
         occluded & wanted
