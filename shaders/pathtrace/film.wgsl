@@ -10,9 +10,12 @@ struct Exposure {
     size: vec2f,
     // the film's part at hand begins with this row ...
     film_row: u32,
-    // ... and these rows are sampled
+    // ... and these rows are sampled ...
     first_row: u32,
     end_row: u32,
+    // ... between these columns
+    first_column: u32,
+    end_column: u32,
     // samples that every pixel shall have
     until: u32,
     seed: u32,

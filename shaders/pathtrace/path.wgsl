@@ -63,9 +63,9 @@ var<private> waiting: u32;
 
 @compute @workgroup_size(8, 8)
 fn trace(@builtin(global_invocation_id) id: vec3u) {
-    let place = vec2u(id.x, id.y + exposure.first_row);
+    let place = id.xy + vec2u(exposure.first_column, exposure.first_row);
     let width = u32(exposure.size.x);
-    if place.x >= width || place.y >= exposure.end_row {
+    if place.x >= exposure.end_column || place.y >= exposure.end_row {
         return;
     }
     let index = (place.y - exposure.film_row) * width + place.x;

@@ -242,6 +242,22 @@ fn films_go_on_stop_and_are_read_without_waiting() {
     let stats = tracer.render(&mut stopped, &scene.camera, &settings, 64, &stop).unwrap();
     let taken: u64 = stopped.pixels().iter().map(|pixel| u64::from(pixel.samples)).sum();
     assert!(stats.samples > 0 && stats.samples == taken && taken < 640 * 400);
+
+    // a pass that was stopped goes on where it was, and ends with the picture that was never stopped
+    let mut tracer = GpuTracer::new(&gpu, &scene).unwrap();
+    tracer.set_budget(1e-3);
+    let [mut whole, mut halting] = [(); 2].map(|()| tracer.film(Film::new(203, 120)).unwrap());
+    tracer.expose(&mut whole, &scene.camera, &settings, 3, &|| false).unwrap();
+    let mut stops = 0;
+    while halting.samples_per_pixel() < 3 {
+        let asked = std::cell::Cell::new(0);
+        let stop = || asked.replace(asked.get() + 1) >= 1;
+        tracer.expose(&mut halting, &scene.camera, &settings, 3, &stop).unwrap();
+        stops += 1;
+    }
+    let [(whole, stats), (halted, halted_stats)] = [whole, halting].map(|mut film| film.read(&gpu).unwrap());
+    assert!(stops > 3 && halted.pixels().iter().all(|pixel| pixel.samples == 3));
+    assert!(whole.radiances().eq(halted.radiances()) && stats == halted_stats, "{stops} {stats:?} {halted_stats:?}");
 }
 
 /// A million samples of one pixel: plain f32 sums would be off by a percent.

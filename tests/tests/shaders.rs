@@ -128,6 +128,8 @@ fn mirrors_of_the_path_tracer_have_the_layout_of_their_structs() {
             film_row,
             first_row,
             end_row,
+            first_column,
+            end_column,
             until,
             seed,
             limit,

@@ -7,6 +7,7 @@ mod adapter;
 mod error;
 pub mod readback;
 pub mod upload;
+pub mod waiting;
 pub mod wgsl;
 
 pub use adapter::{AdapterReport, Rank, choose};
@@ -108,6 +109,10 @@ impl Gpu {
     /// The first thing that went wrong outside of [`Gpu::checked`], or the loss of the device: one line.
     pub fn fault(&self) -> Option<String> {
         self.fault.lock().unwrap_or_else(PoisonError::into_inner).clone()
+    }
+
+    fn remember(&self, why: String) {
+        self.fault.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert(why);
     }
 
     /// Runs `work` and turns what the device objects to into an error. `what` names the work in the message.

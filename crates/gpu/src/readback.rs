@@ -51,13 +51,13 @@ impl Gpu {
     }
 
     fn mapped(&self, what: &str, staging: &wgpu::Buffer, take: impl Fn(&[u8]) -> Vec<u8>) -> Result<Vec<u8>, GpuError> {
-        let lost = |why: String| GpuError::Lost { what: what.to_owned(), why: self.fault().unwrap_or(why) };
+        let lost = |why: String| self.lost(what, why);
         let (send, receive) = mpsc::channel();
         staging.map_async(wgpu::MapMode::Read, .., move |outcome| {
             // nobody listens any more only if the wait below failed
             let _ = send.send(outcome);
         });
-        self.device.poll(wgpu::PollType::wait_indefinitely()).map_err(|why| lost(why.to_string()))?;
+        self.wait_for_all(what)?;
         receive.try_recv().map_err(|why| lost(why.to_string()))?.map_err(|why| lost(why.to_string()))?;
         let range = staging.get_mapped_range(..).map_err(|why| lost(why.to_string()))?;
         Ok(take(&range))

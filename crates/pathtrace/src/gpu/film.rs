@@ -2,6 +2,7 @@
 //! binding.
 
 use super::GpuTraceError;
+use super::dispatch::Pass;
 use super::film_data::{Exposure, Pixel};
 use crate::render::Stats;
 use gpu::{Gpu, GpuError, wgpu};
@@ -21,7 +22,11 @@ pub struct GpuFilm {
     pub(super) samples_done: u32,
     /// Samples of a pixel that the device may have summed since `before`.
     pub(super) unfolded: u32,
+    /// A pass that was stopped.
+    pub(super) pass: Option<Pass>,
     reading: Option<Reading>,
+    /// Where the last reading arrived, for the next.
+    staging: Vec<wgpu::Buffer>,
 }
 
 /// Rows of a film.
@@ -63,7 +68,16 @@ impl GpuFilm {
         });
         let bands = bands.collect::<Result<_, GpuError>>()?;
         let samples_done = before.samples_per_pixel();
-        Ok(GpuFilm { before, stats: Stats::default(), bands, samples_done, unfolded: 0, reading: None })
+        Ok(GpuFilm {
+            before,
+            stats: Stats::default(),
+            bands,
+            samples_done,
+            unfolded: 0,
+            pass: None,
+            reading: None,
+            staging: Vec::new(),
+        })
     }
 
     /// Width in pixels.
@@ -86,12 +100,14 @@ impl GpuFilm {
     /// # Errors
     /// [`gpu::GpuError::Lost`] and others if the device fails.
     pub fn read(&mut self, gpu: &Gpu) -> Result<(Film, Stats), GpuTraceError> {
+        // one that is on its way may be of less
+        self.reading = None;
         self.begin_reading(gpu)?;
         loop {
             if let Some(read) = self.poll_reading(gpu)? {
                 return Ok(read);
             }
-            gpu.device.poll(wgpu::PollType::wait_indefinitely()).map_err(|why| lost(gpu, why.to_string()))?;
+            gpu.wait_for_all(WHAT)?;
         }
     }
 
@@ -105,14 +121,14 @@ impl GpuFilm {
             return Ok(());
         }
         let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some(WHAT) });
-        let mut staging = Vec::new();
-        for band in &self.bands {
-            let size = band.sums.size();
-            let usage = BufferUsages::COPY_DST | BufferUsages::MAP_READ;
+        let mut staging = std::mem::take(&mut self.staging);
+        for band in &self.bands[staging.len()..] {
+            let (size, usage) = (band.sums.size(), BufferUsages::COPY_DST | BufferUsages::MAP_READ);
             let descriptor = wgpu::BufferDescriptor { label: Some(WHAT), size, usage, mapped_at_creation: false };
-            let buffer = gpu.checked(WHAT, || gpu.device.create_buffer(&descriptor))?;
-            encoder.copy_buffer_to_buffer(&band.sums, 0, &buffer, 0, size);
-            staging.push(buffer);
+            staging.push(gpu.checked(WHAT, || gpu.device.create_buffer(&descriptor))?);
+        }
+        for (band, buffer) in self.bands.iter().zip(&staging) {
+            encoder.copy_buffer_to_buffer(&band.sums, 0, buffer, 0, band.sums.size());
         }
         gpu.queue.submit([encoder.finish()]);
         let (send, mapped) = mpsc::channel();
@@ -131,7 +147,7 @@ impl GpuFilm {
     /// [`gpu::GpuError::Lost`] if the device fails, [`GpuTraceError::Memory`] for want of memory.
     pub fn poll_reading(&mut self, gpu: &Gpu) -> Result<Option<(Film, Stats)>, GpuTraceError> {
         let Some(reading) = &mut self.reading else { return Ok(None) };
-        gpu.device.poll(wgpu::PollType::Poll).map_err(|why| lost(gpu, why.to_string()))?;
+        gpu.look(WHAT)?;
         while let Ok(outcome) = reading.mapped.try_recv() {
             if let Err(why) = outcome {
                 self.reading = None;
@@ -140,13 +156,13 @@ impl GpuFilm {
             reading.arrived += 1;
         }
         if reading.arrived < reading.staging.len() {
-            return match gpu.fault() {
-                Some(why) => Err(lost(gpu, why)),
-                None => Ok(None),
-            };
+            return Ok(None);
         }
         let Some(Reading { staging, .. }) = self.reading.take() else { return Ok(None) };
-        self.add_up(gpu, &staging).map(Some)
+        let read = self.add_up(gpu, &staging)?;
+        staging.iter().for_each(wgpu::Buffer::unmap);
+        self.staging = staging;
+        Ok(Some(read))
     }
 
     fn add_up(&self, gpu: &Gpu, staging: &[wgpu::Buffer]) -> Result<(Film, Stats), GpuTraceError> {
@@ -188,7 +204,7 @@ impl GpuFilm {
 }
 
 pub(super) fn lost(gpu: &Gpu, why: String) -> GpuTraceError {
-    GpuError::Lost { what: WHAT.to_owned(), why: gpu.fault().unwrap_or(why) }.into()
+    gpu.lost(WHAT, why).into()
 }
 
 impl Band {

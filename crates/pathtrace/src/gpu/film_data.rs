@@ -38,10 +38,14 @@ pub struct Exposure {
     pub size: [f32; 2],
     /// The film's part at hand begins with this row ...
     pub film_row: u32,
-    /// ... and these rows are sampled.
+    /// ... and these rows are sampled ...
     pub first_row: u32,
     /// One past the last of them.
     pub end_row: u32,
+    /// ... between these columns.
+    pub first_column: u32,
+    /// One past the last of them.
+    pub end_column: u32,
     /// Samples that every pixel shall have.
     pub until: u32,
     /// The picture's seed.
@@ -63,7 +67,7 @@ pub struct Exposure {
     /// Whitted's ambient radiance.
     pub ambient: f32,
     /// Padding.
-    pub unused: u32,
+    pub unused: [u32; 3],
 }
 
 /// A pixel's sums.
@@ -134,6 +138,12 @@ impl Exposure {
             probability: settings.roulette.probability.unwrap_or(1.0),
             ..self
         }
+    }
+
+    /// What of it a sample's cost depends on, beside what is seen.
+    pub fn effort(&self) -> Self {
+        let Exposure { limit, branches, branching_vertices, by_throughput, probability, shadow_rays, .. } = *self;
+        Exposure { limit, branches, branching_vertices, by_throughput, probability, shadow_rays, ..Exposure::zeroed() }
     }
 
     /// With the settings of Whitted's trees.

@@ -42,7 +42,7 @@ pub struct GpuTracer {
     leaves: Leaves,
     ambient: f32,
     stopwatch: Stopwatch,
-    paces: Vec<(Choice, Pace)>,
+    paces: Vec<(Choice, Exposure, Pace)>,
     budget: f64,
 }
 
@@ -98,6 +98,7 @@ impl GpuTracer {
             (self.pipelines, self.paces) = (pipelines, Vec::new());
         } else {
             self.scene = made.upload(&self.gpu, &self.pipelines.scene_layout, scene)?;
+            self.paces.iter_mut().for_each(|(.., pace)| pace.doubt());
         }
         self.ambient = scene.fake.ambient;
         Ok(())
@@ -117,6 +118,11 @@ impl GpuTracer {
     /// waits about that long, and so does `stop`.
     pub fn set_budget(&mut self, seconds: f64) {
         self.budget = seconds;
+    }
+
+    /// Whether rays can be traced like this at once, without compiling anything first: that takes a software device seconds.
+    pub fn has_compiled(&self, choice: Choice) -> bool {
+        self.pipelines.has_compiled(choice)
     }
 
     /// Whether dispatches are timed by the device's own clock.
@@ -215,16 +221,21 @@ impl GpuTracer {
         stop: &impl Fn() -> bool,
     ) -> Result<(), GpuTraceError> {
         let pipeline = self.pipelines.prepare(&self.gpu, choice)?;
-        let known = self.paces.iter().position(|(c, _)| *c == choice).unwrap_or_else(|| {
-            self.paces.push((choice, Pace::default()));
+        let effort = exposure.effort();
+        let known = self.paces.iter().position(|(c, ..)| *c == choice).unwrap_or_else(|| {
+            self.paces.push((choice, effort, Pace::default()));
             self.paces.len() - 1
         });
+        let (_, known_effort, pace) = &mut self.paces[known];
+        if *known_effort != effort {
+            (*known_effort, *pace) = (effort, Pace::default());
+        }
         let dispatcher = Dispatcher {
             gpu: &self.gpu,
             pipeline: &pipeline,
             scene: &self.scene,
             stopwatch: &mut self.stopwatch,
-            pace: &mut self.paces[known].1,
+            pace,
             budget: self.budget,
             in_flight: Vec::new(),
             submitted: 0,

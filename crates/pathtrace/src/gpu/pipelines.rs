@@ -190,6 +190,11 @@ impl Pipelines {
         self.needs
     }
 
+    /// Whether the pipeline of a choice is there already.
+    pub fn has_compiled(&self, choice: Choice) -> bool {
+        self.compiled.iter().any(|(compiled, _)| *compiled == choice)
+    }
+
     /// The pipeline of a choice.
     ///
     /// # Errors

@@ -33,7 +33,12 @@ impl Pace {
     /// Learns from a dispatch. Slower is believed at once, faster step by step: one part of a picture is not like another.
     pub fn learn(&mut self, samples: f64, seconds: f64, budget: f64) {
         let fit = samples * budget / seconds.max(1e-6);
-        self.samples_that_fit = fit.clamp(1.0, 4.0 * self.samples_that_fit);
+        self.samples_that_fit = fit.clamp(1.0, 2.0 * self.samples_that_fit);
+    }
+
+    /// Something has changed that may make each sample take longer, though hardly several times as long.
+    pub fn doubt(&mut self) {
+        self.samples_that_fit = (self.samples_that_fit / 4.0).max(1.0);
     }
 }
 
@@ -150,9 +155,9 @@ mod tests {
         let mut pace = Pace::default();
         let first = pace.samples_that_fit();
         pace.learn(first, 1e-5, 0.05);
-        assert_eq!(pace.samples_that_fit(), 4.0 * first);
+        assert_eq!(pace.samples_that_fit(), 2.0 * first);
         pace.learn(pace.samples_that_fit(), 5.0, 0.05);
-        assert!((pace.samples_that_fit() - 0.04 * first).abs() < 1e-6 * first);
+        assert!((pace.samples_that_fit() - 0.02 * first).abs() < 1e-6 * first);
         // never less than a sample, or nothing would ever be done
         pace.learn(1.0, 5.0, 0.05);
         assert_eq!(pace.samples_that_fit(), 1.0);
