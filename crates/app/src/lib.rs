@@ -5,6 +5,7 @@
 //! both, the only place that knows winit.
 
 pub mod cli;
+mod fuse;
 pub mod ruler;
 pub mod technique;
 pub mod ui;

@@ -6,8 +6,8 @@ use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT, Queryable};
 use std::cell::RefCell;
 use std::rc::Rc;
-use visavis::technique::{Device, Technique};
-use visavis::ui::{Adapter, Dump, Request, Theme, Viewer, Wall};
+use visavis::technique::{Adapter, Adapters, Device, Technique};
+use visavis::ui::{Dump, Request, Theme, Viewer, Wall};
 
 /// A viewer on a scene, its panels drawn at 1280 x 720.
 struct Panels {
@@ -25,8 +25,8 @@ impl Panels {
     /// The same beside an adapter.
     fn beside_an_adapter(scene: &str, device: Device) -> Self {
         let opened = scene::builtin::named(scene).expect("a built-in scene");
-        let adapter = Adapter { name: "an adapter, an interface".into(), software: true };
-        Self::showing(Viewer::new(opened, scene.into(), Theme::Dark).beside(adapter, device))
+        let adapters = Adapters(vec![Adapter { name: "an adapter, an interface".into(), software: true }]);
+        Self::showing(Viewer::new(opened, scene.into(), Theme::Dark).beside(adapters, device))
     }
 
     fn showing(viewer: Viewer) -> Self {

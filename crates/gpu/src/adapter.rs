@@ -49,10 +49,19 @@ pub struct AdapterReport {
     pub driver: String,
     /// Most pixels along a side of a texture.
     pub max_texture_size: u32,
+    /// Whether the processor plays it.
+    pub software: bool,
     /// Whether it is the one that is used.
     pub chosen: bool,
     /// Why it is used or not.
     pub why: String,
+}
+
+impl AdapterReport {
+    /// Name and interface, by which [`crate::Gpu::headless_on`] finds it: as in "llvmpipe (LLVM 19.1, 256 bits), Vulkan".
+    pub fn describe(&self) -> String {
+        format!("{}, {}", self.name, self.backend)
+    }
 }
 
 pub(crate) fn all(instance: &wgpu::Instance) -> Vec<wgpu::Adapter> {
@@ -74,6 +83,7 @@ pub(crate) fn report(adapters: &[wgpu::Adapter]) -> Vec<AdapterReport> {
             device_type: device_name(info.device_type).to_owned(),
             driver: format!("{} {}", info.driver, info.driver_info).trim().to_owned(),
             max_texture_size: adapter.limits().max_texture_dimension_2d,
+            software: info.device_type == DeviceType::Cpu,
             chosen: chosen == Some(index),
             why: chosen.map(|best| reason(info, &infos[best], best == index)).unwrap_or_default(),
         }

@@ -13,6 +13,9 @@ pub enum GpuError {
         "no graphics adapter can draw in this window: install a GPU driver, or a software one (Debian, Ubuntu: apt install mesa-vulkan-drivers)"
     )]
     NoAdapterForWindow,
+    /// It was there before.
+    #[error("there is no graphics adapter {0:?}: visavis info lists those there are")]
+    NoSuchAdapter(String),
     /// The adapter gives no device.
     #[error("{adapter} gives no device ({why}): update its driver, or choose another with WGPU_BACKEND=vulkan or gl")]
     Device {

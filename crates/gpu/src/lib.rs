@@ -62,14 +62,30 @@ impl Gpu {
         Gpu::open(instance, adapters, GpuError::NoAdapter)
     }
 
-    /// The best device that can present on `surface`, which `instance` made.
+    /// As [`Gpu::headless`], on the adapter that calls itself `described`, see [`AdapterReport::describe`].
+    ///
+    /// # Errors
+    /// [`GpuError::NoSuchAdapter`] if none does, [`GpuError::Device`] if it refuses.
+    pub fn headless_on(described: &str) -> Result<Gpu, GpuError> {
+        let instance = new_instance(None);
+        let mut adapters = adapter::all(&instance);
+        adapters.retain(|adapter| adapter::describe(&adapter.get_info()) == described);
+        Gpu::open(instance, adapters, GpuError::NoSuchAdapter(described.to_owned()))
+    }
+
+    /// The best device that can present on `surface`, which `instance` made, and every adapter there is, whether it can or
+    /// not.
     ///
     /// # Errors
     /// [`GpuError::NoAdapterForWindow`] if there is none, [`GpuError::Device`] if it refuses.
-    pub fn for_surface(instance: wgpu::Instance, surface: &wgpu::Surface<'_>) -> Result<Gpu, GpuError> {
+    pub fn for_surface(
+        instance: wgpu::Instance,
+        surface: &wgpu::Surface<'_>,
+    ) -> Result<(Gpu, Vec<AdapterReport>), GpuError> {
         let mut adapters = adapter::all(&instance);
+        let report = adapter::report(&adapters);
         adapters.retain(|adapter| adapter.is_surface_supported(surface));
-        Gpu::open(instance, adapters, GpuError::NoAdapterForWindow)
+        Ok((Gpu::open(instance, adapters, GpuError::NoAdapterForWindow)?, report))
     }
 
     /// Every adapter of this computer in the order in which they answer, and which one [`Gpu::headless`] takes.
@@ -111,7 +127,8 @@ impl Gpu {
         self.fault.lock().unwrap_or_else(PoisonError::into_inner).clone()
     }
 
-    fn remember(&self, why: String) {
+    /// Takes down that this device has failed, where that was noticed in other ways than its own.
+    pub fn remember(&self, why: String) {
         self.fault.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert(why);
     }
 

@@ -24,7 +24,7 @@ pub fn run(args: &CheckArgs) -> anyhow::Result<()> {
     };
     let rows = if args.on_gpu {
         let gpu = Gpu::headless().context("--device gpu needs a graphics device")?;
-        place = format!(" on {}", gpu.describe());
+        place = gpu.describe();
         check::run_on_gpu(&gpu, &cases, effort, &never, tell)?
     } else {
         check::run(&cases, effort, &never, tell)
@@ -38,6 +38,7 @@ pub fn run(args: &CheckArgs) -> anyhow::Result<()> {
         let rows: Vec<Value> = rows.iter().map(to_json).collect();
         let report = json!({
             "effort": if args.quick { "quick" } else { "full" },
+            "adapter": if args.on_gpu { json!(place) } else { Value::Null },
             "seconds": seconds,
             "passed": passed,
             "failed": failed,
@@ -45,6 +46,7 @@ pub fn run(args: &CheckArgs) -> anyhow::Result<()> {
         });
         super::print(&format!("{report}\n"))?;
     } else {
+        let place = if args.on_gpu { format!(" on {place}") } else { place };
         super::print(&format!("{run} cases{place}, {passed} rows passed, {failed} failed, {seconds:.0} s\n"))?;
     }
     let numbers = failed_cases(&rows);

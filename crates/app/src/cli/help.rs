@@ -14,7 +14,8 @@ visavis render SCENE -o OUT      render to OUT, .png (display-transformed) or .e
     --from FILE                  make the picture in FILE (.png or .exr of this program) again; other options change it
     --technique raster|whitted|path
                                  the fake, Whitted's trees of rays or the truth (default path)
-    --device auto|cpu|gpu        where: the fake needs the gpu (default auto: rays on the cpu)
+    --device auto|cpu|gpu        where: the fake needs the gpu; auto traces rays on the gpu if that is no software and there
+                                 is enough to do (2^24 samples), else on the cpu (default auto)
     --size WxH                   pixels (default 1280x720)
     --eye X,Y,Z --target X,Y,Z --fov DEG
                                  camera (default the scene's)

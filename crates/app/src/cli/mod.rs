@@ -16,6 +16,7 @@ mod help;
 mod info;
 mod reference;
 mod render;
+mod tracing;
 
 pub use args::{BenchArgs, CheckArgs, CompareArgs, ReferenceArgs, RenderArgs, Seen, ViewArgs};
 

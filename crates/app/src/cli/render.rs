@@ -1,13 +1,13 @@
 //! `visavis render`: a picture to a file, without a window.
 
+use super::tracing::{self, Traced, Tracing};
 use super::{RenderArgs, reference};
 use crate::ruler::{Sought, brief, error_records, noise_line};
-use crate::technique::{FakeSettings, Machine, Made, Method, Provenance, RaySettings, Recipe, Technique};
+use crate::technique::{FakeSettings, Machine, Made, Provenance, RaySettings, Recipe, Technique};
 use anyhow::Context;
 use compare::Errors;
 use gpu::Gpu;
-use pathtrace::gpu::GpuTracer;
-use pathtrace::{SamplerKind, Stats, Tracer};
+use pathtrace::{SamplerKind, Stats};
 use picture_file::{self, Kind, Linear};
 use raster::Raster;
 use scene::display::DisplayTransform;
@@ -24,6 +24,8 @@ struct Rendered {
     film: Film,
     seconds: f64,
     stats: Stats,
+    /// Where it was made, at the end.
+    machine: Machine,
     /// Name of the GPU, or of the CPU renderer's threads.
     adapter: String,
 }
@@ -40,7 +42,6 @@ pub fn run(args: &RenderArgs) -> anyhow::Result<()> {
     picture_file::check_writable(&args.out)?;
     let rendered = match recipe {
         Recipe::Fake(fake) => raster(args, &fake.applied_to(&scene), fake)?,
-        Recipe::Rays(rays) if args.rays_on_gpu => trace_on_gpu(args, &scene, rays)?,
         Recipe::Rays(rays) => trace(args, &scene, rays)?,
     };
     let errors = if args.errors { Some(measure(&sought, &rendered.film)?) } else { None };
@@ -88,7 +89,7 @@ fn save(args: &RenderArgs, scene: &Scene, rendered: &Rendered, errors: Option<&E
         camera: scene.camera,
         recipe: args.pane.recipe(),
         size: args.seen.size,
-        device: device_of(args),
+        device: rendered.machine,
     };
     let made = Made {
         spp: rendered.film.samples_per_pixel(),
@@ -128,79 +129,39 @@ fn raster(args: &RenderArgs, scene: &Scene, fake: FakeSettings) -> anyhow::Resul
     let mut raster = Raster::new(&gpu)?;
     let start = Instant::now();
     let film = raster.render(scene, &scene.camera, &fake.sized(args.seen.size.0, args.seen.size.1))?;
-    Ok(Rendered { film, seconds: start.elapsed().as_secs_f64(), stats: Stats::default(), adapter: gpu.describe() })
-}
-
-/// Where the picture was made.
-fn device_of(args: &RenderArgs) -> Machine {
-    if args.rays_on_gpu { Machine::Gpu } else { args.pane.technique.usual_machine() }
-}
-
-fn trace_on_gpu(args: &RenderArgs, scene: &Scene, rays: RaySettings) -> anyhow::Result<Rendered> {
-    let instead = "the graphics device does not trace this; --device cpu does";
-    let gpu = Gpu::headless().context(instead)?;
-    if let Some(blind) = rays.blind_spot(scene) {
-        note!("note: {blind}");
-    }
-    let start = Instant::now();
-    let mut tracer = GpuTracer::new(&gpu, scene).context(instead)?;
-    let (width, height) = args.seen.size;
-    let film = Film::try_new(width, height)
-        .with_context(|| format!("not enough memory for {width}x{height} pixels; ask for a smaller --size"))?;
-    let mut film = tracer.film(film).context(instead)?;
-    let spp = args.spp.unwrap_or(if args.seconds.is_some() { u32::MAX } else { DEFAULT_SPP });
-    let limit = args.seconds.map(Duration::from_secs_f64);
-    let progress = Progress::new(spp);
-    let mut batch = 1;
-    while film.samples_per_pixel() < spp {
-        let batch_start = Instant::now();
-        let samples = batch.min(spp - film.samples_per_pixel());
-        let until = film.samples_per_pixel() + samples;
-        match &rays.method {
-            Method::Path(path) => tracer.expose(&mut film, &scene.camera, path, until, &|| false),
-            Method::Whitted(tree) => tracer.expose_whitted(&mut film, &scene.camera, tree, until, &|| false),
-        }
-        .context(instead)?;
-        progress.show(until, start.elapsed());
-        if limit.is_some_and(|limit| start.elapsed() >= limit) {
-            break;
-        }
-        batch = next_batch(samples, batch_start.elapsed(), limit.map(|l| l.saturating_sub(start.elapsed())));
-    }
-    let (film, stats) = film.read(&gpu).context(instead)?;
-    progress.finish();
-    Ok(Rendered { film, seconds: start.elapsed().as_secs_f64(), stats, adapter: gpu.describe() })
+    let (seconds, machine) = (start.elapsed().as_secs_f64(), Machine::Gpu);
+    Ok(Rendered { film, seconds, stats: Stats::default(), machine, adapter: gpu.describe() })
 }
 
 fn trace(args: &RenderArgs, scene: &Scene, rays: RaySettings) -> anyhow::Result<Rendered> {
-    let spp = args.spp.unwrap_or(if args.seconds.is_some() { u32::MAX } else { DEFAULT_SPP });
     if let Some(blind) = rays.blind_spot(scene) {
         note!("note: {blind}");
     }
-    let start = Instant::now();
-    let tracer = Tracer::new(scene);
+    let spp = args.spp.unwrap_or(if args.seconds.is_some() { u32::MAX } else { DEFAULT_SPP });
     let (width, height) = args.seen.size;
-    let mut film = Film::try_new(width, height)
+    let film = Film::try_new(width, height)
         .with_context(|| format!("not enough memory for {width}x{height} pixels; ask for a smaller --size"))?;
-    let mut stats = Stats::default();
+    let work = u64::from(width) * u64::from(height) * u64::from(spp);
+    let gpu = tracing::device(args.device, work)?;
+    let start = Instant::now();
+    let mut tracing = Tracing::begin(gpu, scene, rays, film, args.device)?;
     let limit = args.seconds.map(Duration::from_secs_f64);
     let progress = Progress::new(spp);
     let mut batch = 1;
-    let mut done = 0;
-    while done < spp {
+    while tracing.spp() < spp {
         let batch_start = Instant::now();
-        let samples = batch.min(spp - done);
-        stats = stats.plus(rays.render(&tracer, &mut film, &scene.camera, samples, &|| false));
-        done += samples;
-        progress.show(done, start.elapsed());
+        let samples = batch.min(spp - tracing.spp());
+        tracing.add(samples)?;
+        progress.show(tracing.spp(), start.elapsed());
         if limit.is_some_and(|limit| start.elapsed() >= limit) {
             break;
         }
         batch = next_batch(samples, batch_start.elapsed(), limit.map(|l| l.saturating_sub(start.elapsed())));
     }
+    let traced = tracing.finish()?;
     progress.finish();
-    let adapter = format!("{} threads", rayon::current_num_threads());
-    Ok(Rendered { film, seconds: start.elapsed().as_secs_f64(), stats, adapter })
+    let Traced { film, stats, machine, adapter } = traced;
+    Ok(Rendered { film, seconds: start.elapsed().as_secs_f64(), stats, machine, adapter })
 }
 
 /// How many samples fill a quarter of a second, or what is left of the time, at the speed of the last batch.
@@ -241,7 +202,7 @@ fn report(args: &RenderArgs, scene: &Scene, rendered: &Rendered, errors: Option<
     let mut report = json!({
         "scene": scene.name,
         "technique": technique.name(),
-        "device": device_of(args).name(),
+        "device": rendered.machine.name(),
         "adapter": rendered.adapter,
         "width": args.seen.size.0,
         "height": args.seen.size.1,

@@ -1,5 +1,7 @@
 //! Where rays are traced: as the user wishes, and as it is then done.
 
+use gpu::AdapterReport;
+
 /// What the user wishes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Device {
@@ -10,6 +12,33 @@ pub enum Device {
     Cpu,
     /// By the graphics device.
     Gpu,
+}
+
+/// What rays can be traced by beside the processor.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Adapter {
+    /// Name and interface.
+    pub name: String,
+    /// Whether the processor plays it.
+    pub software: bool,
+}
+
+/// Every adapter of this computer, the best first.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct Adapters(pub Vec<Adapter>);
+
+impl Adapters {
+    /// Those of a report.
+    pub fn of(report: &[AdapterReport]) -> Self {
+        let (best, others): (Vec<_>, Vec<_>) = report.iter().partition(|adapter| adapter.chosen);
+        let one = |adapter: &AdapterReport| Adapter { name: adapter.describe(), software: adapter.software };
+        Adapters(best.into_iter().chain(others).map(one).collect())
+    }
+
+    /// Whether the processor plays even the best.
+    pub fn only_software(&self) -> bool {
+        self.0.first().is_none_or(|best| best.software)
+    }
 }
 
 /// What traces.
@@ -39,7 +68,7 @@ impl Device {
         Self::ALL.into_iter().find(|device| device.name() == name)
     }
 
-    /// What it is beside an adapter: where the processor only plays the graphics device, it is faster as itself.
+    /// What it is beside the best adapter: where the processor only plays the graphics device, it is faster as itself.
     pub fn beside(self, software_adapter: bool) -> Machine {
         match self {
             Device::Cpu => Machine::Cpu,

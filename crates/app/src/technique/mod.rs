@@ -5,7 +5,7 @@ mod fake;
 mod provenance;
 mod rays;
 
-pub use device::{Device, Machine};
+pub use device::{Adapter, Adapters, Device, Machine};
 pub use fake::FakeSettings;
 pub use provenance::{Made, Provenance, made_from, point, quoted};
 pub use rays::{Method, RaySettings, TreeSettings, TruthSettings, bounces_name, roulette_name};
@@ -66,6 +66,8 @@ pub struct PaneSettings {
     pub technique: Technique,
     /// Where its rays are traced.
     pub device: Device,
+    /// By which of the adapters, where by one.
+    pub adapter: u8,
     /// The settings of the fake.
     pub fake: FakeSettings,
     /// The settings of Whitted's method.
@@ -80,6 +82,7 @@ impl PaneSettings {
         PaneSettings {
             technique,
             device: Device::default(),
+            adapter: 0,
             fake: FakeSettings::default(),
             whitted: TreeSettings::default(),
             truth: TruthSettings::default(),
@@ -90,9 +93,13 @@ impl PaneSettings {
     pub fn recipe(&self) -> Recipe {
         match self.technique {
             Technique::Raster => Recipe::Fake(self.fake),
-            Technique::Whitted => Recipe::Rays(RaySettings { device: self.device, ..self.whitted.into() }),
-            Technique::Path => Recipe::Rays(RaySettings { device: self.device, ..self.truth.into() }),
+            Technique::Whitted => Recipe::Rays(self.here(self.whitted.into())),
+            Technique::Path => Recipe::Rays(self.here(self.truth.into())),
         }
+    }
+
+    fn here(&self, rays: RaySettings) -> RaySettings {
+        RaySettings { device: self.device, adapter: self.adapter, ..rays }
     }
 
     /// Takes `scene`'s own numbers again, and looks at the picture where it has no such map.

@@ -21,6 +21,8 @@ pub struct RaySettings {
     pub method: Method,
     /// Where.
     pub device: Device,
+    /// By which of the adapters, where by one: the best is 0.
+    pub adapter: u8,
     /// Samples per pixel at which rendering stops.
     pub spp: u32,
 }
@@ -58,13 +60,13 @@ impl Default for TreeSettings {
 
 impl From<TruthSettings> for RaySettings {
     fn from(TruthSettings { path, spp }: TruthSettings) -> Self {
-        RaySettings { method: Method::Path(path), device: Device::default(), spp }
+        RaySettings { method: Method::Path(path), device: Device::default(), adapter: 0, spp }
     }
 }
 
 impl From<TreeSettings> for RaySettings {
     fn from(TreeSettings { tree, spp }: TreeSettings) -> Self {
-        RaySettings { method: Method::Whitted(tree), device: Device::default(), spp }
+        RaySettings { method: Method::Whitted(tree), device: Device::default(), adapter: 0, spp }
     }
 }
 

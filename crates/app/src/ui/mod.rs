@@ -42,15 +42,6 @@ pub struct Wall {
     pub reference: Option<Progress>,
 }
 
-/// The graphics device, for the user.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Adapter {
-    /// Name and interface.
-    pub name: String,
-    /// Whether the processor plays it.
-    pub software: bool,
-}
-
 /// A map of errors as it is shown.
 #[derive(Debug, Clone)]
 pub struct MapPane {
@@ -75,12 +66,16 @@ pub struct Pane {
     pub nonfinite: u64,
     /// Whether the picture is a rough first one.
     pub rough: bool,
+    /// How many pixels of the picture area one of its pixels takes, along a side.
+    pub shrink: u32,
     /// Whether more of it will come.
     pub unfinished: bool,
     /// Distance from what it is compared with.
     pub errors: Option<Errors>,
     /// What that is.
     pub against: Against,
+    /// What made it.
+    pub adapter: Option<Arc<str>>,
     /// Why there is no picture.
     pub fault: Option<String>,
     /// Why it was not made where it should be.

@@ -2,9 +2,9 @@
 
 use super::export_menu::ExportMenu;
 use super::settings::{History, Settings};
-use super::{Adapter, Dump, Line, Measuring, Message, Theme, View, Wall, What, controls, help, keys, picture, top_bar};
+use super::{Dump, Line, Measuring, Message, Theme, View, Wall, What, controls, help, keys, picture, top_bar};
 use crate::ruler::Against;
-use crate::technique::Device;
+use crate::technique::{Adapters, Device};
 use crate::workers::Side;
 use crate::workers::darkroom::Comparison;
 use crate::workers::exporter::Destination;
@@ -40,8 +40,8 @@ pub struct Viewer {
     pub opened: u64,
     /// What sliders and choices say.
     pub settings: Settings,
-    /// The graphics device, if there is one.
-    pub adapter: Option<Adapter>,
+    /// The graphics devices that can trace rays.
+    pub adapters: Adapters,
     /// Where both sides look from.
     pub camera: Camera,
     /// Which is shown.
@@ -103,7 +103,7 @@ impl Viewer {
             source,
             opened: 0,
             settings,
-            adapter: None,
+            adapters: Adapters::default(),
             view: View::Wipe,
             wipe: 0.5,
             line: Line::Vertical,
@@ -132,9 +132,9 @@ impl Viewer {
         }
     }
 
-    /// The same beside a graphics device, and with rays traced where `device` says.
-    pub fn beside(mut self, adapter: Adapter, device: Device) -> Self {
-        self.adapter = Some(adapter);
+    /// The same beside graphics devices, and with rays traced where `device` says.
+    pub fn beside(mut self, adapters: Adapters, device: Device) -> Self {
+        self.adapters = adapters;
         self.settings.panes.iter_mut().for_each(|pane| pane.device = device);
         self.history = History::new(self.settings);
         self

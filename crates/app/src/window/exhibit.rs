@@ -31,6 +31,13 @@ impl Exhibit {
         self.pictures = Default::default();
     }
 
+    /// Takes all textures down, whose device has failed; the pictures stay for the next device.
+    pub fn lose_textures(&mut self) {
+        (self.textures, self.map_texture) = Default::default();
+        self.wall.panes.iter_mut().for_each(|pane| pane.texture = None);
+        self.wall.map = None;
+    }
+
     /// Puts up what is new.
     pub fn hang(&mut self, shelf: Shelf, gpu: &Gpu, renderer: &mut egui_wgpu::Renderer) {
         for (side, news) in shelf.into_iter().enumerate() {
@@ -51,7 +58,9 @@ impl Exhibit {
                     pane.provenance = Some(picture.order.provenance.clone());
                     (pane.spp, pane.seconds, pane.nonfinite) = (picture.spp, picture.seconds, picture.nonfinite);
                     pane.refused = picture.refused.clone();
+                    pane.adapter = Some(picture.adapter.clone());
                     (pane.rough, pane.unfinished) = (picture.rough, picture.unfinished);
+                    pane.shrink = picture.order.size().0.div_ceil(picture.width.max(1));
                     (pane.errors, pane.against) = (developed.errors, developed.against);
                     self.pictures[side] = Some(picture);
                 }

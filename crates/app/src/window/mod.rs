@@ -2,6 +2,7 @@
 
 mod exhibit;
 mod frame_stats;
+mod revival;
 mod shell;
 mod stopwatch;
 mod surface;

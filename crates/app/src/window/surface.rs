@@ -1,9 +1,12 @@
 //! The window's surface: configuring it, getting a frame, drawing egui into it or into a texture that is read back.
 
+use crate::technique::Adapters;
 use anyhow::Context;
 use egui_wgpu::ScreenDescriptor;
 use gpu::{Gpu, GpuError};
+use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
+use winit::event_loop::OwnedDisplayHandle;
 use winit::window::Window;
 
 /// The window's surface and egui's renderer for it.
@@ -33,32 +36,26 @@ pub struct Painting<'a> {
 }
 
 impl WindowSurface {
-    /// Makes the surface and the device behind it.
+    /// Makes the surface and the device behind it, and tells what else there is to trace rays.
     ///
     /// # Errors
     /// If no adapter can draw to this window: one line that says what to install.
-    pub fn new(window: Arc<Window>, display: winit::event_loop::OwnedDisplayHandle) -> anyhow::Result<(Self, Gpu)> {
-        let instance = gpu::new_instance(Some(Box::new(display)));
-        // an interface that is not there makes no surface, so that no adapter can even be asked
-        let surface = instance.create_surface(window.clone()).map_err(|_| GpuError::NoAdapterForWindow)?;
-        let gpu = Gpu::for_surface(instance, &surface)?;
-        let size = window.inner_size();
-        let mut config = surface
-            .get_default_config(&gpu.adapter, size.width.max(1), size.height.max(1))
-            .context("this adapter cannot draw to the window; see visavis info")?;
-        // egui blends in sRGB-encoded values: a format that does not encode
-        let formats = surface.get_capabilities(&gpu.adapter).formats;
-        let plain = [wgpu::TextureFormat::Rgba8Unorm, wgpu::TextureFormat::Bgra8Unorm];
-        config.format = plain.into_iter().find(|f| formats.contains(f)).unwrap_or(config.format);
-        // where the processor draws, waiting for the screen as well would only add to it
-        let software = gpu.is_software();
-        config.present_mode = if software { wgpu::PresentMode::AutoNoVsync } else { wgpu::PresentMode::AutoVsync };
-        config.desired_maximum_frame_latency = 1;
-        surface.configure(&gpu.device, &config);
-        // dithering would change the bytes of the panes
-        let options = egui_wgpu::RendererOptions { dithering: false, ..Default::default() };
-        let renderer = egui_wgpu::Renderer::new(&gpu.device, config.format, options);
-        Ok((WindowSurface { window, surface, config, renderer }, gpu))
+    pub fn new(window: Arc<Window>, display: OwnedDisplayHandle) -> anyhow::Result<(Self, Gpu, Adapters)> {
+        let (surface, gpu, adapters) = open(&window, display)?;
+        let (config, renderer) = furnish(&window, &surface, &gpu)?;
+        Ok((WindowSurface { window, surface, config, renderer }, gpu, adapters))
+    }
+
+    /// Begins again with a new device, in place of one that has failed. egui's renderer is then empty.
+    ///
+    /// # Errors
+    /// As [`WindowSurface::new`]; what was there is then still there, as far as it works.
+    pub fn begin_again(&mut self, display: OwnedDisplayHandle) -> anyhow::Result<Gpu> {
+        let (surface, gpu, _) = open(&self.window, display)?;
+        // the one before lets go of the window first
+        self.surface = surface;
+        (self.config, self.renderer) = furnish(&self.window, &self.surface, &gpu)?;
+        Ok(gpu)
     }
 
     /// Follows the window's size; a minimised window has none and keeps the last.
@@ -95,10 +92,17 @@ impl WindowSurface {
                 return Presented::Skipped;
             }
         };
-        let view = frame.texture.create_view(&wgpu::TextureViewDescriptor::default());
-        self.draw(gpu, painting, &view);
-        self.window.pre_present_notify();
-        gpu.queue.present(frame);
+        // wgpu and egui's renderer panic where a driver loses the device in the middle of a frame
+        let drawn = catch_unwind(AssertUnwindSafe(|| {
+            let view = frame.texture.create_view(&wgpu::TextureViewDescriptor::default());
+            self.draw(gpu, painting, &view);
+            self.window.pre_present_notify();
+            gpu.queue.present(frame);
+        }));
+        if drawn.is_err() {
+            gpu.remember("the graphics device was lost while it drew the window".into());
+            return Presented::Skipped;
+        }
         if suboptimal {
             self.surface.configure(&gpu.device, &self.config);
         }
@@ -144,4 +148,38 @@ impl WindowSurface {
         commands.push(encoder.finish());
         gpu.queue.submit(commands);
     }
+}
+
+/// A surface, the best device for it, and every adapter.
+fn open(window: &Arc<Window>, display: OwnedDisplayHandle) -> anyhow::Result<(wgpu::Surface<'static>, Gpu, Adapters)> {
+    let instance = gpu::new_instance(Some(Box::new(display)));
+    // an interface that is not there makes no surface, so that no adapter can even be asked
+    let surface = instance.create_surface(window.clone()).map_err(|_| GpuError::NoAdapterForWindow)?;
+    let (gpu, report) = Gpu::for_surface(instance, &surface)?;
+    Ok((surface, gpu, Adapters::of(&report)))
+}
+
+/// Configures a surface, and makes egui's renderer for it.
+fn furnish(
+    window: &Window,
+    surface: &wgpu::Surface<'static>,
+    gpu: &Gpu,
+) -> anyhow::Result<(wgpu::SurfaceConfiguration, egui_wgpu::Renderer)> {
+    let size = window.inner_size();
+    let mut config = surface
+        .get_default_config(&gpu.adapter, size.width.max(1), size.height.max(1))
+        .context("this adapter cannot draw to the window; see visavis info")?;
+    // egui blends in sRGB-encoded values: a format that does not encode
+    let formats = surface.get_capabilities(&gpu.adapter).formats;
+    let plain = [wgpu::TextureFormat::Rgba8Unorm, wgpu::TextureFormat::Bgra8Unorm];
+    config.format = plain.into_iter().find(|f| formats.contains(f)).unwrap_or(config.format);
+    // where the processor draws, waiting for the screen as well would only add to it
+    let software = gpu.is_software();
+    config.present_mode = if software { wgpu::PresentMode::AutoNoVsync } else { wgpu::PresentMode::AutoVsync };
+    config.desired_maximum_frame_latency = 1;
+    surface.configure(&gpu.device, &config);
+    // dithering would change the bytes of the panes
+    let options = egui_wgpu::RendererOptions { dithering: false, ..Default::default() };
+    let renderer = egui_wgpu::Renderer::new(&gpu.device, config.format, options);
+    Ok((config, renderer))
 }

@@ -3,10 +3,11 @@
 use super::Happened;
 use super::exhibit::Exhibit;
 use super::frame_stats::{Clock, FrameStats};
+use super::revival::Revival;
 use super::stopwatch::Stopwatch;
 use super::surface::{Painting, Presented, WindowSurface};
 use crate::cli::ViewArgs;
-use crate::ui::{Adapter, Dump, Request, View, Viewer, What};
+use crate::ui::{Dump, Request, View, Viewer, What};
 use crate::workers::capture::Capture;
 use crate::workers::crew::Crew;
 use crate::workers::darkroom::News;
@@ -22,7 +23,7 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 use winit::dpi::LogicalSize;
 use winit::event::WindowEvent;
-use winit::event_loop::{ActiveEventLoop, EventLoopProxy};
+use winit::event_loop::{ActiveEventLoop, EventLoopProxy, OwnedDisplayHandle};
 use winit::window::Window;
 
 /// Everything that lives as long as the window.
@@ -34,6 +35,8 @@ pub struct ViewerWindow {
     surface: WindowSurface,
     gpu: Gpu,
     window: Arc<Window>,
+    display: OwnedDisplayHandle,
+    revival: Revival,
     next_frame: Option<Instant>,
     /// Where the next frame's picture goes, beside the screen.
     poses: Vec<Destination>,
@@ -77,7 +80,7 @@ impl ViewerWindow {
             // shown once screen readers know it
             .with_visible(false);
         let window = Arc::new(events.create_window(attributes).context("no window can be opened here")?);
-        let (surface, gpu) = WindowSurface::new(window.clone(), events.owned_display_handle())?;
+        let (surface, gpu, adapters) = WindowSurface::new(window.clone(), events.owned_display_handle())?;
         let mut egui = egui_winit::State::new(
             egui::Context::default(),
             egui::ViewportId::ROOT,
@@ -89,15 +92,16 @@ impl ViewerWindow {
         egui.init_accesskit(events, &window, proxy);
         window.set_visible(true);
         window.request_redraw();
-        let adapter = Adapter { name: gpu.describe(), software: gpu.is_software() };
         Ok(ViewerWindow {
-            crew: Crew::start(&gpu, wake)?,
-            viewer: Viewer::new(scene, args.scene.clone(), args.theme).beside(adapter, args.device),
+            crew: Crew::start(&gpu, &adapters, wake)?,
+            viewer: Viewer::new(scene, args.scene.clone(), args.theme).beside(adapters, args.device),
             exhibit: Exhibit::default(),
             egui,
             surface,
             gpu,
             window,
+            display: events.owned_display_handle(),
+            revival: Revival::new(),
             next_frame: None,
             poses: Vec::new(),
             quitting: false,
@@ -152,6 +156,7 @@ impl ViewerWindow {
     /// One frame: collect, draw, ask for what has changed, present. Returns whether the user wants to quit.
     pub fn frame(&mut self) -> bool {
         let clock = Clock::start();
+        self.revive();
         self.collect();
         let poses = std::mem::take(&mut self.poses);
         self.viewer.posing = !poses.is_empty();
@@ -196,11 +201,29 @@ impl ViewerWindow {
         self.quitting && self.poses.is_empty()
     }
 
+    /// Begins again with a new device where the window's has failed. What was on the screen is developed again.
+    fn revive(&mut self) {
+        self.revival.count_frame(&self.gpu);
+        let Some(fault) = self.gpu.fault().filter(|_| self.revival.is_due()) else { return };
+        match self.surface.begin_again(self.display.clone()) {
+            Ok(gpu) => self.gpu = gpu,
+            Err(why) => {
+                crate::cli::to_stderr(format_args!(
+                    "visavis: the window's GPU failed ({fault}) and is gone: {why:#}\n"
+                ));
+                return;
+            }
+        }
+        // egui sends its letters again only where a texture may have another size than before
+        let side = self.gpu.device.limits().max_texture_dimension_2d as usize;
+        self.egui.set_max_texture_side(side - usize::from(self.revival.is_odd()));
+        self.exhibit.lose_textures();
+        self.crew.move_to(&self.gpu);
+        self.viewer.say(Err(format!("The window's GPU failed and was begun again: {fault}")));
+    }
+
     /// Takes what the workers have finished.
     fn collect(&mut self) {
-        if let Some(fault) = self.gpu.fault() {
-            self.viewer.say(Err(format!("The GPU failed: {fault}")));
-        }
         let shelf = self.crew.collect().unwrap_or_default();
         for (side, news) in Side::ALL.into_iter().zip(&shelf) {
             if let Some(News::Picture(developed)) = news {
@@ -310,6 +333,7 @@ impl ViewerWindow {
                     "rel_mse": pane.errors.map(|e| e.rel_mse),
                     "against": pane.against.name(),
                     "fault": pane.fault,
+                    "adapter": pane.adapter.as_deref(),
                     "device": pane.provenance.as_ref().map(|p| p.device.name()),
                     "refused": pane.refused.as_deref(),
                 })

@@ -8,7 +8,7 @@ use super::studio::Studio;
 use super::surveyor::{Surveyed, Surveyor};
 use super::{Order, Side, Wake};
 use crate::ruler::{Against, Sought};
-use crate::technique::{Provenance, Recipe, SceneChanges};
+use crate::technique::{Adapters, Provenance, Recipe, SceneChanges};
 use crate::ui::Viewer;
 use anyhow::Context;
 use gpu::Gpu;
@@ -67,12 +67,13 @@ impl Crew {
     ///
     /// # Errors
     /// If the system gives no threads.
-    pub fn start(window: &Gpu, wake: Wake) -> anyhow::Result<Self> {
+    pub fn start(window: &Gpu, adapters: &Adapters, wake: Wake) -> anyhow::Result<Self> {
         let surveyor = Arc::new(Surveyor::start(wake.clone()).context("no thread for maps")?);
         let (darkroom, thread) =
             Darkroom::start(wake.clone(), surveyor.clone()).context("no thread for the darkroom")?;
         Ok(Crew {
-            studios: [Side::A, Side::B].map(|side| Studio::new(side, window.clone(), darkroom.clone())),
+            studios: [Side::A, Side::B]
+                .map(|side| Studio::new(side, window.clone(), adapters.clone(), darkroom.clone())),
             darkroom,
             darkroom_thread: Some(thread),
             surveyor,
@@ -82,6 +83,16 @@ impl Crew {
             wake,
             asked: Asked::default(),
         })
+    }
+
+    /// Goes on with another device of the window: fakes are drawn again, and all that is shown is developed again.
+    pub fn move_to(&mut self, window: &Gpu) {
+        for (studio, made) in self.studios.iter_mut().zip(&mut self.asked.made) {
+            studio.move_to(window.clone());
+            made.take_if(|(.., recipe)| matches!(recipe, Recipe::Fake(_)));
+        }
+        self.asked.display = None;
+        self.darkroom.set_comparison(self.asked.comparison);
     }
 
     /// What is new since the last call.

@@ -1,12 +1,12 @@
 //! What traces a pane's rays, the processor or the graphics device, and the films that either adds samples to.
 
 use super::rays::RayJob;
+use crate::fuse::Fuse;
 use crate::technique::{Machine, Method};
 use gpu::Gpu;
 use pathtrace::Tracer;
-use pathtrace::gpu::{GpuFilm, GpuTraceError, GpuTracer};
+use pathtrace::gpu::{Choice, GpuFilm, GpuTraceError, GpuTracer};
 use scene::{Film, Scene};
-use std::cell::Cell;
 
 /// Seconds that a dispatch may take: a frame of the window waits about that long for the same adapter, and so does a newer
 /// job. Where the processor plays the adapter a dispatch costs so much by itself that shorter ones would only add to it.
@@ -36,6 +36,8 @@ pub struct Plate {
     /// Samples that a pixel may have at most: a pass that was stopped leaves some with more than others.
     most: u32,
     on_device: Option<GpuFilm>,
+    /// What has added to it, one after the other.
+    makers: Vec<String>,
 }
 
 impl Kernel {
@@ -48,12 +50,12 @@ impl Kernel {
     /// its frames would wait behind rays, and a device that is lost over rays would take the window with it.
     ///
     /// # Errors
-    /// If there is no device, or if it can't take the scene.
-    pub fn on_the_device(scene: &Scene) -> Result<Self, GpuTraceError> {
-        let gpu = Gpu::headless()?;
+    /// If there is no such device, or if it can't take the scene.
+    pub fn on_the_device(adapter: &str, scene: &Scene) -> Result<Self, GpuTraceError> {
+        let gpu = Gpu::headless_on(adapter)?;
         let mut tracer = GpuTracer::new(&gpu, scene)?;
         tracer.set_budget(if gpu.is_software() { BUDGET_OF_SOFTWARE } else { BUDGET });
-        Ok(Kernel::Gpu(Box::new(Card { tracer, fuse: Fuse::from_environment() })))
+        Ok(Kernel::Gpu(Box::new(Card { tracer, fuse: Fuse::of_rays() })))
     }
 
     /// The machine.
@@ -72,6 +74,15 @@ impl Kernel {
         }
     }
 
+    /// Whether it can begin at once: a device may have to compile first.
+    pub fn has_compiled(&self, method: &Method) -> bool {
+        match (self, method) {
+            (Kernel::Cpu(_), _) => true,
+            (Kernel::Gpu(card), Method::Path(path)) => card.tracer.has_compiled(Choice::of_paths(path)),
+            (Kernel::Gpu(card), Method::Whitted(tree)) => card.tracer.has_compiled(Choice::of_trees(tree)),
+        }
+    }
+
     /// Adds `samples` to every pixel, unless `stop` says so; returns how many it took in all. A pass that was stopped is
     /// completed by the next one.
     ///
@@ -86,6 +97,10 @@ impl Kernel {
     ) -> Result<u64, GpuTraceError> {
         let until = plate.spp + samples;
         plate.most = plate.most.max(until);
+        let maker = self.adapter();
+        if plate.makers.last() != Some(&maker) {
+            plate.makers.push(maker);
+        }
         match self {
             Kernel::Cpu(tracer) => {
                 let stats = job.settings.render(tracer, &mut plate.film, job.order.camera(), samples, stop);
@@ -158,7 +173,8 @@ impl Card {
 impl Plate {
     /// A film without light; `None` if there is no memory for it.
     pub fn blank(width: u32, height: u32) -> Option<Self> {
-        Some(Plate { film: Film::try_new(width, height)?, spp: 0, most: 0, on_device: None })
+        let film = Film::try_new(width, height)?;
+        Some(Plate { film, spp: 0, most: 0, on_device: None, makers: Vec::new() })
     }
 
     /// The film as last developed.
@@ -176,29 +192,18 @@ impl Plate {
         self.most
     }
 
+    /// What has made it: an adapter's name, or how many threads; both where one took over.
+    pub fn made_by(&self) -> String {
+        self.makers.join(", then ")
+    }
+
     /// Goes on from the film as last developed.
     pub fn forget_the_device(&mut self) {
         if self.on_device.take().is_some() {
             self.spp = self.film.samples_per_pixel();
-        }
-    }
-}
-
-/// Destroys the device after so many dispatches, for tests of what happens then.
-struct Fuse {
-    left: Cell<u32>,
-}
-
-impl Fuse {
-    fn from_environment() -> Option<Self> {
-        let left = std::env::var("VISAVIS_GPU_FAILS_AFTER").ok()?.parse().ok()?;
-        Some(Fuse { left: Cell::new(left) })
-    }
-
-    fn burn(&self, gpu: &Gpu) {
-        match self.left.get() {
-            0 => gpu.device.destroy(),
-            left => self.left.set(left - 1),
+            if self.spp == 0 {
+                self.makers.clear();
+            }
         }
     }
 }

@@ -5,7 +5,7 @@ use super::darkroom::Darkroom;
 use super::kernel::{Kernel, Plate};
 use super::rays::{Gate, RayJob, Stop};
 use super::{Order, Picture, Side};
-use crate::technique::Machine;
+use crate::technique::{Adapters, Machine};
 use pathtrace::gpu::GpuTraceError;
 use scene::Scene;
 use std::sync::Arc;
@@ -44,8 +44,8 @@ struct Refusal {
 /// The one who paints.
 pub struct Painter {
     side: Side,
-    /// Whether the processor plays the window's adapter.
-    software: bool,
+    /// What can trace rays beside the processor.
+    adapters: Adapters,
     darkroom: Arc<Darkroom>,
     gate: Arc<Gate>,
     /// The scene of the last job, ready for rays.
@@ -60,11 +60,11 @@ pub struct Painter {
 }
 
 impl Painter {
-    /// A painter for one side, whose window's adapter the processor plays or not.
-    pub fn new(side: Side, software: bool, darkroom: Arc<Darkroom>, gate: Arc<Gate>) -> Self {
+    /// A painter for one side.
+    pub fn new(side: Side, adapters: Adapters, darkroom: Arc<Darkroom>, gate: Arc<Gate>) -> Self {
         Painter {
             side,
-            software,
+            adapters,
             darkroom,
             gate,
             ready: None,
@@ -85,7 +85,7 @@ impl Painter {
             Some(exposed) => Some(Exposed { job: job.clone(), ..exposed }),
             None => {
                 if rough {
-                    self.rough(&mut kernel, job, stop);
+                    self.rough_by_whoever_is_ready(&mut kernel, job, stop);
                 }
                 if stop.now() { None } else { self.blank(job) }
             }
@@ -103,17 +103,19 @@ impl Painter {
     fn make_ready(&mut self, job: &RayJob, rough: &mut bool, stop: &Stop) -> Kernel {
         let scene = &job.order.scene;
         let machine = self.machine_for(job);
+        let adapter = self.adapter_for(job);
         let before = self.ready.take();
         if let Some((of, kernel)) = before {
             let same_scene = Arc::ptr_eq(&of, scene);
-            if same_scene && kernel.machine() == machine {
+            let same_device = machine == Machine::Cpu || kernel.adapter() == adapter;
+            if same_scene && kernel.machine() == machine && same_device {
                 return kernel;
             }
             if !same_scene {
                 self.kept.clear();
             }
             self.kept.iter_mut().for_each(|exposed| kernel.release(&mut exposed.plate));
-            if let (Kernel::Gpu(mut card), Machine::Gpu) = (kernel, machine) {
+            if let (Kernel::Gpu(mut card), Machine::Gpu, true) = (kernel, machine, same_device) {
                 match card.take_scene(scene) {
                     Ok(()) => return Kernel::Gpu(card),
                     Err(fault) => self.refuse(job, &fault),
@@ -129,7 +131,7 @@ impl Painter {
         if std::mem::take(rough) {
             self.rough(&mut processor, job, stop);
         }
-        match Kernel::on_the_device(scene) {
+        match Kernel::on_the_device(&adapter, scene) {
             Ok(kernel) => return kernel,
             Err(fault) => self.refuse(job, &fault),
         }
@@ -138,11 +140,18 @@ impl Painter {
 
     /// The machine that the job wants, unless that has failed at this scene and nobody has asked to try again.
     fn machine_for(&mut self, job: &RayJob) -> Machine {
-        let wish = job.settings.device.beside(self.software);
+        let wish = job.settings.device.beside(self.adapters.only_software());
         let Order { restarts, provenance, .. } = &job.order;
         let stands = |of: &Refusal| of.source == provenance.source && of.restarts == *restarts;
         self.refusal.take_if(|refusal| wish == Machine::Cpu || !stands(refusal));
         if self.refusal.is_some() { Machine::Cpu } else { wish }
+    }
+
+    /// The name of the adapter that the job wants; without any, one that is not there.
+    fn adapter_for(&self, job: &RayJob) -> String {
+        let adapters = &self.adapters.0;
+        let chosen = adapters.get(usize::from(job.settings.adapter)).or(adapters.first());
+        chosen.map_or_else(|| "of any kind".into(), |adapter| adapter.name.clone())
     }
 
     fn refuse(&mut self, job: &RayJob, fault: &GpuTraceError) {
@@ -153,7 +162,11 @@ impl Painter {
     /// The processor takes over from a device that has failed.
     fn replace(&mut self, kernel: &mut Kernel, plate: &mut Plate, job: &RayJob, fault: &GpuTraceError) {
         self.refuse(job, fault);
-        *kernel = Kernel::on_the_processor(&job.order.scene);
+        let failed = std::mem::replace(kernel, Kernel::on_the_processor(&job.order.scene));
+        if matches!(fault, GpuTraceError::Hangs(_)) {
+            // to let go of a device that does not answer is to wait for its answer
+            std::mem::forget(failed);
+        }
         self.kept.iter_mut().map(|exposed| &mut exposed.plate).chain([plate]).for_each(Plate::forget_the_device);
     }
 
@@ -176,13 +189,24 @@ impl Painter {
         plate.map(|plate| Exposed { plate, spent: Duration::ZERO, job: job.clone() })
     }
 
+    /// Rough pictures by the processor where the device has to compile first, which takes longer than anyone should look at
+    /// the last picture.
+    fn rough_by_whoever_is_ready(&mut self, kernel: &mut Kernel, job: &RayJob, stop: &Stop) {
+        if kernel.has_compiled(&job.settings.method) {
+            self.rough(kernel, job, stop);
+        } else {
+            self.rough(&mut Kernel::on_the_processor(&job.order.scene), job, stop);
+        }
+    }
+
     /// Pictures of an eighth, a quarter and half the resolution, beginning with the finest that is ready in time.
     fn rough(&mut self, kernel: &mut Kernel, job: &RayJob, stop: &Stop) {
         let (width, height) = job.order.size();
         let pixels = f64::from(width) * f64::from(height);
-        let per_sample = self.seconds_per_sample[kernel.machine() as usize];
         let mut shown = false;
         for shrink in [8, 4, 2] {
+            // it may be another machine's from one to the next
+            let per_sample = self.seconds_per_sample[kernel.machine() as usize];
             let (pixels, finer) = (pixels / f64::from(shrink * shrink), pixels / f64::from(shrink * shrink / 4));
             let patience = if shrink == 2 { AT_ONCE } else { ROUGH };
             if finer * per_sample <= patience.as_secs_f64() {
@@ -220,8 +244,9 @@ impl Painter {
         while exposed.plate.spp() < wished {
             let before = exposed.plate.spp();
             // while held, a new picture still gets its first pass
-            if before > 0 {
-                gate.pass(stop, || self.show(kernel, &mut exposed));
+            if before > 0 && gate.is_held() {
+                self.show(kernel, &mut exposed);
+                gate.pass(stop);
             }
             if stop.soon() {
                 break;
@@ -291,7 +316,7 @@ impl Painter {
                 spp: Some(film.samples_per_pixel()),
                 seconds: spent.as_secs_f64(),
                 nonfinite: film.nonfinite,
-                adapter: kernel.adapter().into(),
+                adapter: plate.made_by().into(),
                 refused: self.refusal.as_ref().map(|refusal| refusal.why.clone()),
                 rough,
                 unfinished,
@@ -303,7 +328,7 @@ impl Painter {
 
 /// Whether two jobs differ in the wished number of samples alone.
 pub fn same_picture(a: &RayJob, b: &RayJob) -> bool {
-    let how = |job: &RayJob| (job.settings.method, job.settings.device);
+    let how = |job: &RayJob| (job.settings.method, job.settings.device, job.settings.adapter);
     let seen = |job: &RayJob| (*job.order.camera(), job.order.size(), job.order.restarts);
     how(a) == how(b) && seen(a) == seen(b) && Arc::ptr_eq(&a.order.scene, &b.order.scene)
 }

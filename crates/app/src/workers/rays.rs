@@ -5,7 +5,8 @@
 use super::darkroom::Darkroom;
 use super::painter::{Painter, same_picture};
 use super::{Inbox, Job, Side, step_back};
-use crate::technique::RaySettings;
+use crate::technique::{Adapters, RaySettings};
+use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Condvar, Mutex, PoisonError};
 use std::thread::JoinHandle;
@@ -28,12 +29,11 @@ pub struct RayWorker {
 }
 
 impl RayWorker {
-    /// Starts the thread and its pool, which leaves one core to the UI. `software` says whether the processor plays the
-    /// window's adapter.
+    /// Starts the thread and its pool, which leaves one core to the UI. `adapters` can trace rays too.
     ///
     /// # Errors
     /// If the system gives no threads.
-    pub fn start(side: Side, software: bool, darkroom: Arc<Darkroom>) -> anyhow::Result<Self> {
+    pub fn start(side: Side, adapters: Adapters, darkroom: Arc<Darkroom>) -> anyhow::Result<Self> {
         let cores = std::thread::available_parallelism().map_or(1, usize::from);
         let pool = rayon::ThreadPoolBuilder::new()
             .num_threads(cores.saturating_sub(1).max(1))
@@ -46,11 +46,16 @@ impl RayWorker {
             let commissions: Arc<Inbox<Option<Commission>>> = inbox.clone();
             let gate = gate.clone();
             move || {
-                let mut painter = Painter::new(side, software, darkroom, gate);
+                let new_painter = || Painter::new(side, adapters.clone(), darkroom.clone(), gate.clone());
+                let mut painter = new_painter();
                 while let Some(commission) = commissions.take() {
-                    if let Some((job, cancel)) = commission {
-                        let stop = Stop { cancel: &cancel, newer: &|| commissions.has_fresh() };
-                        pool.install(|| painter.paint(&job, &stop));
+                    let Some((job, cancel)) = commission else { continue };
+                    let stop = Stop { cancel: &cancel, newer: &|| commissions.has_fresh() };
+                    // a fault of ours, or of a driver's: the pane says so, and the next job begins anew
+                    let painted = catch_unwind(AssertUnwindSafe(|| pool.install(|| painter.paint(&job, &stop))));
+                    if painted.is_err() {
+                        darkroom.report(side, job.order, "the renderer stopped at a fault of its own".into());
+                        painter = new_painter();
                     }
                 }
             }
@@ -114,14 +119,15 @@ impl Gate {
         self.changed.notify_all();
     }
 
-    /// Waits until the gate is open or the job shall stop; `before` runs once if there is anything to wait for.
-    pub fn pass(&self, stop: &Stop, before: impl FnOnce()) {
-        let mut before = Some(before);
+    /// Whether there would be anything to wait for.
+    pub fn is_held(&self) -> bool {
+        *self.held.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Waits until the gate is open or the job shall stop.
+    pub fn pass(&self, stop: &Stop) {
         let mut held = self.held.lock().unwrap_or_else(PoisonError::into_inner);
         while *held && !stop.soon() {
-            if let Some(before) = before.take() {
-                before();
-            }
             held = self.changed.wait(held).unwrap_or_else(PoisonError::into_inner);
         }
     }

@@ -4,7 +4,7 @@ use super::darkroom::Darkroom;
 use super::fake::FakeWorker;
 use super::rays::RayWorker;
 use super::{Job, Order, Side};
-use crate::technique::Recipe;
+use crate::technique::{Adapters, Recipe};
 use anyhow::Context;
 use gpu::Gpu;
 use std::sync::Arc;
@@ -13,6 +13,7 @@ use std::sync::Arc;
 pub struct Studio {
     side: Side,
     gpu: Gpu,
+    adapters: Adapters,
     darkroom: Arc<Darkroom>,
     fake: Option<FakeWorker>,
     rays: Option<RayWorker>,
@@ -20,9 +21,14 @@ pub struct Studio {
 }
 
 impl Studio {
-    /// A studio without workers yet. `gpu` is the window's.
-    pub fn new(side: Side, gpu: Gpu, darkroom: Arc<Darkroom>) -> Self {
-        Studio { side, gpu, darkroom, fake: None, rays: None, held: false }
+    /// A studio without workers yet. `gpu` is the window's, `adapters` can trace rays.
+    pub fn new(side: Side, gpu: Gpu, adapters: Adapters, darkroom: Arc<Darkroom>) -> Self {
+        Studio { side, gpu, adapters, darkroom, fake: None, rays: None, held: false }
+    }
+
+    /// Draws the fake on another device of the window's from now on.
+    pub fn move_to(&mut self, gpu: Gpu) {
+        (self.gpu, self.fake) = (gpu, None);
     }
 
     /// Asks for a picture; whatever this pane was making stops.
@@ -59,7 +65,7 @@ impl Studio {
 
     fn rays(&mut self) -> anyhow::Result<&mut RayWorker> {
         if self.rays.is_none() {
-            let worker = RayWorker::start(self.side, self.gpu.is_software(), self.darkroom.clone())
+            let worker = RayWorker::start(self.side, self.adapters.clone(), self.darkroom.clone())
                 .context("no threads for tracing rays")?;
             worker.hold(self.held);
             self.rays = Some(worker);

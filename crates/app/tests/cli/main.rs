@@ -3,6 +3,7 @@
 #![expect(clippy::expect_used, reason = "a test stops at the first thing that is not as it must be")]
 
 mod bench;
+mod device;
 mod pictures;
 mod references;
 
@@ -85,7 +86,7 @@ fn bad_values_are_wrong_usage_and_write_nothing() {
     assert_refused(&["render", "whitted", "-o", out, "--time", "1e30"], 2, &["at most 1e9"]);
     assert_refused(&["check", "--case", "99"], 2, &["--case 99", "from 1 to 24"]);
     assert_refused(&["check", "--device", "tpu"], 2, &["auto, cpu or gpu"]);
-    assert_refused(&["check", "--device", "gpu", "--case", "10"], 1, &["no graphics device renders these cases"]);
+    assert_refused(&["check", "--device", "gpu", "--case", "22"], 1, &["no graphics device renders these cases"]);
     let branches = ["render", "cornell", "-o", out, "--branches", "16", "--bounces", "9"];
     assert_refused(&branches, 2, &["fewer directions or fewer bounces"]);
     assert_refused(&["render", "cornell", "-o", out, "--branches", "2"], 2, &["limit of bounces"]);

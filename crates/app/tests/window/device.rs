@@ -2,6 +2,7 @@
 
 use super::export::export;
 use super::{alone, both_whole, ready, says};
+use std::collections::HashSet;
 use std::path::Path;
 use std::time::Duration;
 use visavis_tests::{Frame, Screen, ViewerUnderTest};
@@ -76,13 +77,87 @@ fn screen_has_the_window(viewer: &mut ViewerUnderTest) {
     viewer.wait_for("both pictures", |f| f.state("a")["ready"] == true && f.state("b")["ready"] == true);
 }
 
+/// The window's own device is lost: it is begun again, and what was on the screen is there again.
+#[test]
+fn the_window_comes_back_from_the_loss_of_its_device() {
+    let _alone = alone();
+    let screen = Screen::start(800, 600);
+    let binary = Path::new(env!("CARGO_BIN_EXE_visavis"));
+    let fails = [("VISAVIS_WINDOW_FAILS_AFTER", "40")];
+    let mut viewer = ViewerUnderTest::start_in(binary, &screen, &fails, &["cornell"]);
+    screen_has_the_window(&mut viewer);
+    screen.focus("Visavis");
+    // frames go by while the user does something
+    let mut frames = 0;
+    let told = loop {
+        screen.key('h', false);
+        let frame = viewer.wait_for("a frame", |f| f.state("frames").as_u64() > Some(frames));
+        frames = frame.state("frames").as_u64().expect("a number");
+        if says(&frame, "was begun again") {
+            break frame;
+        }
+        assert!(frames < 200, "the device was not lost");
+    };
+    println!("{}", told.state("message"));
+    let back = viewer.wait_for("both pictures again", |f| both_whole(f) && f.state("b")["spp"].as_u64() > Some(8));
+    assert!(back.state("a")["fault"].is_null() && back.state("b")["fault"].is_null());
+    // letters and pictures are on the screen: no part of the window is of one colour
+    screen.key('2', false);
+    let shown = viewer.wait_for("B alone", |f| f.state("view") == "B");
+    let rect = shown.rect("picture");
+    std::thread::sleep(Duration::from_millis(500));
+    let colours = |[left, top, right, bottom]: [f32; 4]| {
+        let [left, top, right, bottom] = [left, top, right, bottom].map(|side| side as u32);
+        screen.pixels(left, top, right - left, bottom - top).into_iter().collect::<HashSet<_>>().len()
+    };
+    assert!(colours(rect) > 1000, "{} colours in the picture", colours(rect));
+    let letters = shown.rect("export");
+    assert!(colours(letters) > 5, "{} colours in a button", colours(letters));
+    screen.key('q', true);
+    assert!(viewer.wait_for_end().success());
+}
+
+/// Both of Mesa's interfaces are there to choose from, by name.
+#[test]
+fn an_adapter_is_chosen_by_its_name() {
+    let _alone = alone();
+    let screen = Screen::start(1280, 720);
+    let (mut viewer, first) = ready(&screen, &["cornell", "--device", "gpu"]);
+    screen.click(first.point("group A", 0.5, 0.5));
+    screen.click(viewer.wait_for_widget("B more").point("B more", 0.1, 0.5));
+    let more = viewer.wait_for_widget("text B adapter");
+    assert!(more.value("text B adapter").ends_with("Vulkan"), "{}", more.value("text B adapter"));
+    screen.click(more.point("text B adapter", 0.5, 0.5));
+    let entry = |f: &Frame| {
+        let names = f.names().into_iter().map(str::to_owned);
+        names.into_iter().find(|name| name.starts_with("B adapter") && name.ends_with("OpenGL"))
+    };
+    let open = viewer.wait_for("a list", |f| entry(f).is_some());
+    let name = entry(&open).expect("an entry");
+    screen.click(open.point(&name, 0.5, 0.5));
+    viewer.wait_for("the choice", |f| f.value("text B adapter").ends_with("OpenGL"));
+    viewer.wait_for("its picture", |f| {
+        made_by(f, "gpu") && f.state("b")["adapter"].as_str().is_some_and(|adapter| adapter.ends_with("OpenGL"))
+    });
+}
+
 /// With what one gets by default where the processor draws the window too. A tenth of a second is the goal for 99 of 100
 /// frames; the bound is for machines that have more to do.
 #[test]
 fn the_window_follows_the_mouse_while_rays_are_traced() {
+    the_window_follows_the_mouse(&[]);
+}
+
+/// The same while the rays are traced by the device that the processor plays, which draws the window too.
+#[test]
+fn the_window_follows_the_mouse_while_rays_are_traced_by_the_device() {
+    the_window_follows_the_mouse(&["--device", "gpu"]);
+}
+
+fn the_window_follows_the_mouse(arguments: &[&str]) {
     let _alone = alone();
     let screen = Screen::start(1280, 720);
-    let (mut viewer, first) = ready(&screen, &[]);
+    let (mut viewer, first) = ready(&screen, arguments);
     let [left, top, _, bottom] = first.rect("refraction ratio");
     let y = 0.5 * (top + bottom);
     screen.drag_to_and_fro([left + 20.0, y], [left + 110.0, y], Duration::from_secs(10));

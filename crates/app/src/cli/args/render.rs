@@ -22,8 +22,8 @@ pub struct RenderArgs {
     /// Technique and settings; their spp is not read here, but [`RenderArgs::spp`].
     pub pane: PaneSettings,
     pub seen: Seen,
-    /// Whether rays are traced by the graphics device.
-    pub rays_on_gpu: bool,
+    /// Where rays are traced.
+    pub device: Device,
     pub spp: Option<u32>,
     pub seconds: Option<f64>,
     pub exposure: f32,
@@ -96,14 +96,13 @@ fn parse_words(words: Vec<OsString>, scene: Option<String>) -> Result<Command, C
     let mut parser = lexopt::Parser::from_args(words);
     let mut scene = scene;
     let mut out = None;
-    let mut device = Device::Auto;
     let mut read: Vec<Applies> = Vec::new();
     let mut r = RenderArgs {
         scene: String::new(),
         out: PathBuf::new(),
         pane: PaneSettings::of(Technique::Path),
         seen: Seen::default(),
-        rays_on_gpu: false,
+        device: Device::Auto,
         spp: None,
         seconds: None,
         exposure: 0.0,
@@ -116,7 +115,7 @@ fn parse_words(words: Vec<OsString>, scene: Option<String>) -> Result<Command, C
             Value(word) if scene.is_none() => scene = Some(word.string()?),
             Short('o') => out = Some(PathBuf::from(parser.value()?)),
             Long("help") => return Ok(Command::Print(help::HELP)),
-            Long("device") => device = choice(&mut parser, "--device", Device::named, DEVICES)?,
+            Long("device") => r.device = choice(&mut parser, "--device", Device::named, DEVICES)?,
             Long(option) => {
                 let option = option.to_owned();
                 if !of_all(&option, &mut parser, &mut r)? {
@@ -136,10 +135,13 @@ fn parse_words(words: Vec<OsString>, scene: Option<String>) -> Result<Command, C
         return usage(format!("-o must end in .png or .exr: {}", out.display()));
     }
     let technique = r.pane.technique;
-    if technique == Technique::Raster && device == Device::Cpu {
+    if technique == Technique::Raster && r.device == Device::Cpu {
         return usage(format!("--technique {} runs on the gpu only", technique.name()));
     }
-    r.rays_on_gpu = technique != Technique::Raster && device == Device::Gpu;
+    // only the processor has lanes
+    if r.device == Device::Auto && read.iter().any(|(option, _)| *option == "--lanes") {
+        r.device = Device::Cpu;
+    }
     if let (Technique::Path, Err(fault)) = (technique, r.pane.truth.path.check()) {
         return usage(fault.to_string());
     }

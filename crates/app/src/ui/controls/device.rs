@@ -4,20 +4,38 @@ use super::widgets::choice;
 use crate::technique::{Device, Machine};
 use crate::ui::{Dump, Viewer};
 use crate::workers::Side;
-use egui::Ui;
+use egui::{ComboBox, Ui};
 
 pub fn show(viewer: &mut Viewer, side: Side, ui: &mut Ui, dump: &mut Dump) {
-    let Some(adapter) = &viewer.adapter else { return };
-    let device = &mut viewer.settings.panes[side as usize].device;
+    let Some(best) = viewer.adapters.0.first() else { return };
+    let pane = &mut viewer.settings.panes[side as usize];
     ui.label("Rays are traced by");
-    let words = Device::ALL.map(|d| (title(d).to_owned(), explain(d, adapter.software), *device == d));
+    let words = Device::ALL.map(|d| (title(d).to_owned(), explain(d, best.software), pane.device == d));
     if let Some(index) = choice(&format!("{side:?} device"), words, ui, dump) {
-        *device = Device::ALL[index];
+        pane.device = Device::ALL[index];
     }
-    if device.beside(adapter.software) == Machine::Gpu {
-        let name = format!("the GPU is {}", adapter.name);
-        dump.note(&format!("text {side:?} adapter"), &name, ui.label(&name));
+    if pane.device.beside(best.software) == Machine::Cpu {
+        return;
     }
+    let adapters = &viewer.adapters.0;
+    let chosen = adapters.get(usize::from(pane.adapter)).unwrap_or(best);
+    let name = format!("text {side:?} adapter");
+    if adapters.len() == 1 {
+        let text = format!("the GPU is {}", chosen.name);
+        dump.note(&name, &text, ui.label(&text));
+        return;
+    }
+    let combo = ComboBox::from_id_salt(&name).selected_text(&chosen.name).width(ui.available_width() - 8.0).truncate();
+    let shown = combo.show_ui(ui, |ui| {
+        for (index, adapter) in (0..).zip(adapters) {
+            let entry = ui.selectable_label(pane.adapter == index, &adapter.name);
+            if dump.note(&format!("{side:?} adapter {}", adapter.name), pane.adapter == index, entry).clicked() {
+                pane.adapter = index;
+            }
+        }
+    });
+    let response = shown.response.on_hover_text("Which graphics device traces the rays").accessible_name("Adapter");
+    dump.note(&name, &chosen.name, response);
 }
 
 fn title(device: Device) -> &'static str {

@@ -1,0 +1,199 @@
+//! Tracing rays without a window, on either machine: the processor takes over from a graphics device that fails, and goes on
+//! from the last film that came back.
+
+use crate::fuse::Fuse;
+use crate::technique::{Device, Machine, Method, RaySettings};
+use anyhow::Context;
+use gpu::Gpu;
+use pathtrace::gpu::{GpuFilm, GpuTraceError, GpuTracer};
+use pathtrace::{Stats, Tracer};
+use scene::{Film, Scene};
+use std::time::{Duration, Instant};
+
+/// Samples that are not worth opening a graphics device for: a second of an ordinary processor.
+const LITTLE_WORK: u64 = 1 << 24;
+
+/// How long a device may work on what nobody has read yet.
+const AT_RISK: Duration = Duration::from_secs(5);
+
+const INSTEAD: &str = "the graphics device does not trace this; --device cpu does";
+
+/// The graphics device that is to trace so many samples; `None` for the processor.
+///
+/// # Errors
+/// If the user wants one and there is none.
+pub fn device(wish: Device, samples: u64) -> anyhow::Result<Option<Gpu>> {
+    match wish {
+        Device::Cpu => Ok(None),
+        Device::Gpu => Gpu::headless().context(INSTEAD).map(Some),
+        Device::Auto if samples < LITTLE_WORK => Ok(None),
+        // where the processor plays it, it is faster as itself; and what does not open is not faster either
+        Device::Auto => {
+            let hardware = Gpu::adapters().iter().any(|adapter| adapter.chosen && !adapter.software);
+            Ok(if hardware { Gpu::headless().ok() } else { None })
+        }
+    }
+}
+
+/// A film on its way.
+pub struct Tracing<'a> {
+    scene: &'a Scene,
+    rays: RaySettings,
+    on: On,
+    /// What has added to it, one after the other.
+    makers: Vec<String>,
+}
+
+enum On {
+    Processor { tracer: Box<Tracer>, film: Film, stats: Stats, spp: u32 },
+    Device(Box<OnDevice>),
+}
+
+struct OnDevice {
+    tracer: GpuTracer,
+    film: GpuFilm,
+    /// As last read.
+    read: (Film, Stats),
+    read_at: Instant,
+    fuse: Option<Fuse>,
+}
+
+/// A film that is done.
+pub struct Traced {
+    pub film: Film,
+    pub stats: Stats,
+    /// What it was made by in the end.
+    pub machine: Machine,
+    /// Names of all that has made it.
+    pub adapter: String,
+}
+
+impl<'a> Tracing<'a> {
+    /// Makes the scene ready. What a device refuses the processor traces, unless `wish` is the device.
+    ///
+    /// # Errors
+    /// If the device that the user wants can't take it.
+    pub fn begin(
+        gpu: Option<Gpu>,
+        scene: &'a Scene,
+        rays: RaySettings,
+        film: Film,
+        wish: Device,
+    ) -> anyhow::Result<Self> {
+        let on_device = gpu.map(|gpu| OnDevice::new(&gpu, scene, film.clone()).map(|on| (on, gpu.describe())));
+        let (on, maker) = match on_device {
+            Some(Ok((on, name))) => (On::Device(Box::new(on)), name),
+            Some(Err(fault)) if wish == Device::Gpu => return Err(fault).context(INSTEAD),
+            Some(Err(fault)) => {
+                note!("note: the processor traces this, the graphics device does not: {fault}");
+                (On::processor(scene, film, Stats::default()), threads())
+            }
+            None => (On::processor(scene, film, Stats::default()), threads()),
+        };
+        Ok(Tracing { scene, rays, on, makers: vec![maker] })
+    }
+
+    /// Samples that every pixel has.
+    pub fn spp(&self) -> u32 {
+        match &self.on {
+            On::Processor { spp, .. } => *spp,
+            On::Device(on) => on.film.samples_per_pixel(),
+        }
+    }
+
+    /// Adds samples to every pixel; fewer where the processor takes over.
+    pub fn add(&mut self, samples: u32) -> anyhow::Result<()> {
+        match &mut self.on {
+            On::Processor { tracer, film, stats, spp } => {
+                *stats = stats.plus(self.rays.render(tracer, film, &self.scene.camera, samples, &|| false));
+                *spp += samples;
+            }
+            On::Device(on) => {
+                if let Err(fault) = on.add(self.scene, &self.rays, samples) {
+                    self.take_over(&fault);
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// The film, once all is done.
+    pub fn finish(mut self) -> anyhow::Result<Traced> {
+        if let On::Device(on) = &mut self.on {
+            let wanted = on.film.samples_per_pixel();
+            if let Err(fault) = on.read() {
+                self.take_over(&fault);
+                self.add(wanted - self.spp())?;
+            }
+        }
+        let adapter = self.makers.join(", then ");
+        Ok(match self.on {
+            On::Processor { film, stats, .. } => Traced { film, stats, machine: Machine::Cpu, adapter },
+            On::Device(on) => Traced { film: on.read.0, stats: on.read.1, machine: Machine::Gpu, adapter },
+        })
+    }
+
+    fn take_over(&mut self, fault: &GpuTraceError) {
+        let On::Device(on) = &mut self.on else { return };
+        let (film, stats) = std::mem::replace(&mut on.read, (Film::new(1, 1), Stats::default()));
+        let spp = film.samples_per_pixel();
+        let failed = std::mem::replace(&mut self.on, On::processor(self.scene, film, stats));
+        if matches!(fault, GpuTraceError::Hangs(_)) {
+            // to let go of a device that does not answer is to wait for its answer
+            std::mem::forget(failed);
+        }
+        note!("note: the processor goes on from {spp} spp, the graphics device failed: {fault}");
+        if spp == 0 {
+            self.makers.clear();
+        }
+        self.makers.push(threads());
+    }
+}
+
+impl On {
+    fn processor(scene: &Scene, film: Film, stats: Stats) -> Self {
+        let spp = film.samples_per_pixel();
+        On::Processor { tracer: Box::new(Tracer::new(scene)), film, stats, spp }
+    }
+}
+
+impl OnDevice {
+    fn new(gpu: &Gpu, scene: &Scene, film: Film) -> Result<Self, GpuTraceError> {
+        let tracer = GpuTracer::new(gpu, scene)?;
+        Ok(OnDevice {
+            film: tracer.film(film.clone())?,
+            tracer,
+            read: (film, Stats::default()),
+            read_at: Instant::now(),
+            fuse: Fuse::of_rays(),
+        })
+    }
+
+    fn add(&mut self, scene: &Scene, rays: &RaySettings, samples: u32) -> Result<(), GpuTraceError> {
+        let OnDevice { tracer, film, fuse, .. } = self;
+        let until = film.samples_per_pixel() + samples;
+        let gpu = tracer.gpu().clone();
+        let stop = || {
+            fuse.iter().for_each(|fuse| fuse.burn(&gpu));
+            false
+        };
+        match &rays.method {
+            Method::Path(path) => tracer.expose(film, &scene.camera, path, until, &stop)?,
+            Method::Whitted(tree) => tracer.expose_whitted(film, &scene.camera, tree, until, &stop)?,
+        }
+        if self.read_at.elapsed() > AT_RISK {
+            self.read()?;
+        }
+        Ok(())
+    }
+
+    fn read(&mut self) -> Result<(), GpuTraceError> {
+        self.read = self.film.read(self.tracer.gpu())?;
+        self.read_at = Instant::now();
+        Ok(())
+    }
+}
+
+fn threads() -> String {
+    format!("{} threads", rayon::current_num_threads())
+}
