@@ -122,14 +122,17 @@ pub fn traced(
     truth: &Truth,
 ) -> Result<Measurement, BenchError> {
     exposed(part, line, rung, truth, |film, seed, spp| {
-        Ok(match line.way.path_settings(seed) {
+        let start = Instant::now();
+        let stats = match line.way.path_settings(seed) {
             Some(path) => tracer.render(film, &scene.camera, &path, spp, &|| false),
             None => tracer.render_whitted(film, &scene.camera, &Way::whitted_settings(seed), spp, &|| false),
-        })
+        };
+        Ok((stats, start.elapsed().as_secs_f64()))
     })
 }
 
-/// As [`traced`] on the graphics device, once its pipelines are built.
+/// As [`traced`] on the graphics device, once its pipelines are built. Seconds are the device's own, without its film on its way
+/// there and back.
 ///
 /// # Errors
 /// As [`traced`], and [`BenchError::Gpu`].
@@ -141,10 +144,11 @@ pub fn traced_on_gpu(
     truth: &Truth,
 ) -> Result<Measurement, BenchError> {
     let mut trace = |film: &mut Film, seed: u32, spp: u32| {
-        Ok(match line.way.path_settings(seed) {
+        let stats = match line.way.path_settings(seed) {
             Some(path) => tracer.render(film, &scene.camera, &path, spp, &|| false)?,
             None => tracer.render_whitted(film, &scene.camera, &Way::whitted_settings(seed), spp, &|| false)?,
-        })
+        };
+        Ok((stats, tracer.take_seconds()))
     };
     trace(&mut Film::new(part.width, part.height), 0, 1)?;
     exposed(part, line, 0, truth, trace)
@@ -155,16 +159,14 @@ fn exposed(
     line: &Line,
     rung: usize,
     truth: &Truth,
-    mut trace: impl FnMut(&mut Film, u32, u32) -> Result<Stats, BenchError>,
+    mut trace: impl FnMut(&mut Film, u32, u32) -> Result<(Stats, f64), BenchError>,
 ) -> Result<Measurement, BenchError> {
     let spp = part.rungs(line).get(rung).copied().unwrap_or(1);
     let (mut pictures, mut films) = (Vec::new(), Vec::new());
     for i in 0..SEEDS {
         let seed = seed(rung, i);
         let mut film = Film::try_new(part.width, part.height).ok_or(BenchError::Memory(part.width, part.height))?;
-        let start = Instant::now();
-        let stats = trace(&mut film, seed, spp)?;
-        let seconds = start.elapsed().as_secs_f64();
+        let (stats, seconds) = trace(&mut film, seed, spp)?;
         pictures.push(judged(&film, seed, seconds, stats, truth)?);
         films.push(film);
     }

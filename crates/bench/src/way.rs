@@ -38,6 +38,7 @@ impl Variant {
         on_cpu("single rays", |scene| Tracer::new(scene).with_single_rays()),
         on_cpu("for any scene", |scene| Tracer::new(scene).for_any_scene()),
         on_gpu("gpu", GpuTracer::new),
+        on_gpu("gpu through a tree", GpuTracer::through_a_tree),
         on_gpu("gpu for any scene", GpuTracer::with_everything),
     ];
 

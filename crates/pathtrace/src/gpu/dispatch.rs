@@ -27,6 +27,8 @@ pub(super) struct Dispatcher<'a> {
     pub pace: &'a mut Pace,
     /// Seconds that a dispatch may take.
     pub budget: f64,
+    /// What all dispatches have taken.
+    pub seconds: &'a mut f64,
     /// Dispatches on their way, oldest first: where their times are, how many samples they take, what to wait for.
     pub in_flight: Vec<(usize, f64, wgpu::SubmissionIndex)>,
     pub submitted: usize,
@@ -164,6 +166,7 @@ impl Dispatcher<'_> {
                 return Err(GpuTraceError::Hangs(format!("a dispatch took more than {seconds} seconds")));
             }
             let seconds = self.stopwatch.seconds(slot);
+            *self.seconds += seconds;
             self.pace.learn(work, seconds, self.budget);
         }
         Ok(())

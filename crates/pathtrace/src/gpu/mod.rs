@@ -44,6 +44,8 @@ pub struct GpuTracer {
     stopwatch: Stopwatch,
     paces: Vec<(Choice, Exposure, Pace)>,
     budget: f64,
+    /// What dispatches have taken.
+    seconds: f64,
 }
 
 impl GpuTracer {
@@ -82,6 +84,7 @@ impl GpuTracer {
             stopwatch: Stopwatch::new(gpu),
             paces: Vec::new(),
             budget: BUDGET_SECONDS,
+            seconds: 0.0,
             gpu: gpu.clone(),
         })
     }
@@ -128,6 +131,12 @@ impl GpuTracer {
     /// Whether dispatches are timed by the device's own clock.
     pub fn has_a_clock(&self) -> bool {
         self.stopwatch.is_exact()
+    }
+
+    /// Seconds that dispatches have taken since the last call, see [`GpuTracer::has_a_clock`]: tracing alone, without
+    /// compiling and without films on their way.
+    pub fn take_seconds(&mut self) -> f64 {
+        std::mem::take(&mut self.seconds)
     }
 
     /// A film on the device that goes on from `film`.
@@ -237,6 +246,7 @@ impl GpuTracer {
             stopwatch: &mut self.stopwatch,
             pace,
             budget: self.budget,
+            seconds: &mut self.seconds,
             in_flight: Vec::new(),
             submitted: 0,
         };
