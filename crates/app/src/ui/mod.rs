@@ -19,7 +19,7 @@ pub use dump::{Dump, Widget};
 pub use export_menu::What;
 pub use measuring::Measuring;
 pub use message::Message;
-pub use settings::{History, Settings};
+pub use settings::{History, Resolution, Settings};
 pub use theme::Theme;
 pub use view::{Line, View};
 pub use viewer::{Request, Viewer};

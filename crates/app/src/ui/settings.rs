@@ -12,6 +12,43 @@ pub struct Settings {
     pub panes: [PaneSettings; 2],
     /// How both are shown.
     pub display: DisplayTransform,
+    /// Of both.
+    pub resolution: Resolution,
+}
+
+/// How many pixels a picture has.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Resolution {
+    /// As many as the picture area. While something changes, pictures that take too long for that begin coarser.
+    #[default]
+    Full,
+    /// One for two by two.
+    Half,
+    /// One for four by four.
+    Quarter,
+}
+
+impl Resolution {
+    /// All, the finest first.
+    pub const ALL: [Resolution; 3] = [Resolution::Full, Resolution::Half, Resolution::Quarter];
+
+    /// Pixels of the picture area along a side of one of the picture.
+    pub fn shrink(self) -> u32 {
+        match self {
+            Resolution::Full => 1,
+            Resolution::Half => 2,
+            Resolution::Quarter => 4,
+        }
+    }
+
+    /// "full", "1/2", "1/4".
+    pub fn name(self) -> &'static str {
+        match self {
+            Resolution::Full => "full",
+            Resolution::Half => "1/2",
+            Resolution::Quarter => "1/4",
+        }
+    }
 }
 
 impl Default for Settings {
@@ -21,6 +58,7 @@ impl Default for Settings {
             changes: SceneChanges::default(),
             panes: [PaneSettings::of(Technique::Raster), PaneSettings::of(Technique::Path)],
             display: DisplayTransform::default(),
+            resolution: Resolution::default(),
         }
     }
 }

@@ -60,7 +60,7 @@ impl Exhibit {
                     pane.refused = picture.refused.clone();
                     pane.adapter = Some(picture.adapter.clone());
                     (pane.rough, pane.unfinished) = (picture.rough, picture.unfinished);
-                    pane.shrink = picture.order.size().0.div_ceil(picture.width.max(1));
+                    pane.shrink = picture.order.size().0.div_ceil(picture.width.max(1)) * picture.order.shrink;
                     (pane.errors, pane.against) = (developed.errors, developed.against);
                     self.pictures[side] = Some(picture);
                 }

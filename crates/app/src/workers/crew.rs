@@ -269,7 +269,8 @@ impl Asked {
             size: viewer.picture_size,
             device: recipe.technique().usual_machine(),
         });
-        Order { job: self.jobs, view: self.views, restarts: viewer.restarts, scene, provenance }
+        let shrink = viewer.settings.resolution.shrink();
+        Order { job: self.jobs, view: self.views, shrink, restarts: viewer.restarts, scene, provenance }
     }
 }
 

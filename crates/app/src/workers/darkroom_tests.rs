@@ -14,7 +14,7 @@ fn order(job: u64, view: u64) -> Order {
         size: (1, 1),
         device: Machine::Cpu,
     });
-    Order { job, view, restarts: 0, scene, provenance }
+    Order { job, view, shrink: 1, restarts: 0, scene, provenance }
 }
 
 fn picture(view: u64) -> Picture {

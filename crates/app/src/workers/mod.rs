@@ -94,6 +94,8 @@ pub struct Order {
     pub job: u64,
     /// Counts what both sides share: scene, camera and size. Only pictures of one view can be compared.
     pub view: u64,
+    /// Pixels of the picture area along a side of one of the picture.
+    pub shrink: u32,
     /// How often the user began the truth anew.
     pub restarts: u64,
     /// The scene that is seen.

@@ -1,6 +1,6 @@
 //! Nothing is clipped, nothing overlaps, the picture is large, and every text can be read.
 
-use super::{alone, both_whole, scaled_viewer_on};
+use super::{alone, both_whole, ready, scaled_viewer_on};
 use visavis_tests::{Frame, Screen, ViewerUnderTest};
 
 /// The screens that a lecture meets: width, height, scale, theme, the least contrast of text (WCAG AA and AAA).
@@ -158,4 +158,24 @@ fn luminance(colour: [u8; 3]) -> f64 {
         if v <= 0.04045 { v / 12.92 } else { ((v + 0.055) / 1.055).powf(2.4) }
     });
     0.2126 * r + 0.7152 * g + 0.0722 * b
+}
+
+/// Both pictures have a pixel for two by two, and their labels say so; undo gives every pixel back.
+#[test]
+fn pictures_are_made_at_half_the_resolution_if_asked() {
+    let _alone = alone();
+    let screen = Screen::start(1280, 720);
+    let (mut viewer, first) = ready(&screen, &["cornell"]);
+    let size = |f: &Frame, i: usize| f.state("picture_size")[i].as_u64().expect("a size");
+    let said = |f: &Frame, side: &str| f.value(&format!("label {side}")).contains("at 1/2 of the resolution");
+    assert!(!said(&first, "A") && !said(&first, "B"));
+    screen.click(first.point("group Camera (both)", 0.05, 0.5));
+    let camera = viewer.wait_for_widget("resolution 1/2");
+    screen.click(camera.point("resolution 1/2", 0.5, 0.5));
+    let half = viewer.wait_for("half", |f| both_whole(f) && size(f, 0) == size(&first, 0).div_ceil(2));
+    assert_eq!(size(&half, 1), size(&first, 1).div_ceil(2));
+    let half = viewer.wait_for("labels that say so", |f| both_whole(f) && said(f, "A") && said(f, "B"));
+    assert!(half.state("a")["rel_mse"].is_number());
+    screen.key('z', true);
+    viewer.wait_for("every pixel", |f| both_whole(f) && size(f, 0) == size(&first, 0) && !said(f, "B"));
 }

@@ -52,14 +52,13 @@ fn progress(viewer: &Viewer, side: Side, pane: &Pane) -> String {
     let paused = if viewer.paused && pane.unfinished { ", paused" } else { "" };
     let by = if pane.provenance.as_ref().is_some_and(|made| made.device == Machine::Gpu) { " on the GPU" } else { "" };
     match pane.spp {
-        Some(spp) if pane.rough => format!("{spp} spp, {}", resolution(pane)),
-        Some(spp) => format!("{spp} of {wished} spp, {:.1} s{by}{paused}", pane.seconds),
-        None if pane.rough => resolution(pane),
-        None => format!("{:.0} ms", pane.seconds * 1000.0),
+        Some(spp) if pane.rough => format!("{spp} spp{}", resolution(pane)),
+        Some(spp) => format!("{spp} of {wished} spp, {:.1} s{by}{paused}{}", pane.seconds, resolution(pane)),
+        None => format!("{:.0} ms{}", pane.seconds * 1000.0, resolution(pane)),
     }
 }
 
-/// Of a rough picture: "at 1/4 of the resolution".
+/// Of a picture with fewer pixels than there is room for: ", at 1/4 of the resolution".
 fn resolution(pane: &Pane) -> String {
-    format!("at 1/{} of the resolution", pane.shrink)
+    if pane.shrink > 1 { format!(", at 1/{} of the resolution", pane.shrink) } else { String::new() }
 }

@@ -28,7 +28,9 @@ pub fn show(viewer: &mut Viewer, ui: &mut Ui, wall: &Wall, dump: &mut Dump) {
     viewer.picture_rect = rect;
     let frame = if viewer.view == View::SideBySide { left_half(rect, scale) } else { rect };
     let pixels = frame.size() * scale;
-    viewer.picture_size = (pixels.x.round().max(1.0) as u32, pixels.y.round().max(1.0) as u32);
+    let shrink = viewer.settings.resolution.shrink();
+    let side = |pixels: f32| (pixels.round().max(1.0) as u32).div_ceil(shrink);
+    viewer.picture_size = (side(pixels.x), side(pixels.y));
 
     let response = ui.allocate_rect(rect, Sense::click_and_drag());
     mouse::listen(viewer, ui, &response, rect);
