@@ -6,6 +6,7 @@ use super::dispatch::Pass;
 use super::film_data::{Exposure, Pixel};
 use crate::render::Stats;
 use gpu::{Gpu, GpuError, wgpu};
+use rayon::prelude::*;
 use scene::Film;
 use std::sync::mpsc;
 use wgpu::BufferUsages;
@@ -175,15 +176,16 @@ impl GpuFilm {
             let bytes = staging.get_mapped_range(..).map_err(|why| lost(gpu, why.to_string()))?;
             let sums: &[Pixel] = bytemuck::cast_slice(&bytes);
             let pixels = &mut film.pixels_mut()[(band.first_row * width) as usize..];
-            let mut nonfinite = 0;
-            for (pixel, sums) in pixels.iter_mut().zip(sums) {
-                stats.samples += u64::from(sums.samples - pixel.samples);
-                let (rays, cut, not_finite) = sums.add_to(pixel);
-                stats.rays += rays;
-                stats.cut_paths += cut;
-                nonfinite += not_finite;
-            }
-            film.nonfinite += nonfinite;
+            // 64 bytes of each pixel, two million of them on a large screen: by all threads
+            let added = pixels.par_iter_mut().zip(sums).with_min_len(1 << 14).map(|(pixel, sums)| {
+                let samples = u64::from(sums.samples.saturating_sub(pixel.samples));
+                let (rays, cut_paths, not_finite) = sums.add_to(pixel);
+                (Stats { samples, rays, cut_paths }, not_finite)
+            });
+            let none = || (Stats::default(), 0);
+            let (took, not_finite) = added.reduce(none, |(a, m), (b, n)| (a.plus(b), m + n));
+            stats = stats.plus(took);
+            film.nonfinite += not_finite;
         }
         Ok((film, stats))
     }
