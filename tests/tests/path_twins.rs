@@ -291,6 +291,7 @@ fn what_does_not_fit_is_refused() {
     let side = gpu.device.limits().max_texture_dimension_2d + 1;
     let error = tracer.film(Film::new(side, 1)).unwrap_err().to_string();
     assert!(error.contains("too large"), "{error}");
+    more_triangles_than_a_binding_holds_are_refused(&gpu, &scene, tracer);
     let lost = GpuTracer::new(&gpu, &scene).unwrap();
     gpu.device.destroy();
     let mut film = Film::new(8, 8);
@@ -299,4 +300,27 @@ fn what_does_not_fit_is_refused() {
     assert!(lost.render(&mut film, &camera, &PathSettings::default(), 1, &|| false).is_err());
     assert!(lost.meet(&[Ray::new(Vec3::ZERO, Vec3::X)]).is_err());
     assert!(GpuTracer::new(&gpu, &scene).is_err());
+}
+
+fn more_triangles_than_a_binding_holds_are_refused(gpu: &Gpu, scene: &Scene, mut tracer: GpuTracer) {
+    let limit = gpu.device.limits().max_storage_buffer_binding_size;
+    // a device that takes gigabytes would have the test build them
+    if limit > 1 << 28 {
+        return;
+    }
+    let side = ((limit / 128) as f64).sqrt() as u32 + 8;
+    let positions = (0..side * side).map(|i| Vec3::new((i % side) as f32, 0.0, (i / side) as f32)).collect();
+    let quad = |i: u32| {
+        let a = i / (side - 1) * side + i % (side - 1);
+        [[a, a + side, a + side + 1], [a, a + side + 1, a + 1]]
+    };
+    let triangles = (0..(side - 1) * (side - 1)).flat_map(quad).collect();
+    let mut large = scene.clone();
+    large.shapes = [scene::Shape { geometry: scene::Geometry::Mesh { positions, triangles }, material: 0 }].into();
+    let error = GpuTracer::new(gpu, &large).unwrap_err().to_string();
+    assert!(error.contains("bytes, and the graphics device takes at most"), "{error}");
+    // what was there before still is
+    assert!(tracer.set_scene(&large).is_err());
+    let mut film = Film::new(8, 8);
+    assert!(tracer.render(&mut film, &scene.camera, &PathSettings::default(), 1, &|| false).is_ok());
 }
