@@ -1,4 +1,5 @@
 //#import lib/world.wgsl
+//#import lib/bsdf.wgsl
 // Rays by themselves, for whoever wants to know what they meet. Mirror: crates/pathtrace/src/gpu/rays.rs.
 
 struct RayQuery {
@@ -17,6 +18,10 @@ struct RayAnswer {
     normal: vec3f,
     // whether anything at all is met, asked as shadow rays ask
     occluded: u32,
+    // unit direction behind a dielectric surface; 0 where there is none
+    refracted: vec3f,
+    // what a dielectric surface reflects, 1 beyond the critical angle; 0 of others
+    reflectance: f32,
 }
 
 @group(1) @binding(0) var<storage, read> queries: array<RayQuery>;
@@ -34,8 +39,28 @@ fn trace(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups) grou
     var answer: RayAnswer;
     if nearest.index != NOTHING {
         let hit = hit_of(nearest, ray);
-        answer = RayAnswer(hit.point.position, nearest.t, hit.point.error, hit.material, hit.point.normal, 0u);
+        answer.position = hit.point.position;
+        answer.t = nearest.t;
+        answer.error = hit.point.error;
+        answer.material = hit.material;
+        answer.normal = hit.point.normal;
+        let material = materials[hit.material];
+        if material.bsdf == BSDF_DIELECTRIC {
+            meet_dielectric(&answer, -ray.direction, material);
+        }
     }
     answer.occluded = select(0u, 1u, meets_anything(ray));
     answers[index] = answer;
+}
+
+// What a smooth dielectric does to light, as paths and trees ask it.
+fn meet_dielectric(answer: ptr<function, RayAnswer>, wo: vec3f, material: Material) {
+    let outward = (*answer).normal;
+    let normal = facing(outward, wo);
+    let boundary = Interface(material.ior, dot(outward, wo) >= 0.0, material.root, material.root_low);
+    (*answer).reflectance = fresnel(boundary, dot(normal, wo));
+    if refracted_cosine(boundary, dot(normal, wo)) != ALL_REFLECTED {
+        let wi = refract(boundary, wo, normal);
+        (*answer).refracted = wi / sqrt(dot(wi, wi));
+    }
 }

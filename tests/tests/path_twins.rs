@@ -144,6 +144,7 @@ fn pictures_agree_pixel_by_pixel() {
         for (name, allowed) in [("cornell", 1e-3), ("hard/mirror-box", 1e-3), ("whitted", 1e-2), ("everything", 1e-2)] {
             let pair = paths(&gpu, &named(name), (160, 100), 1, &settings(Estimator::LIGHT, 8));
             let (apart, rays) = (pair.apart(1e-3), pair.rays());
+            println!("{name}, {}: {apart} of the pixels apart, {rays} times the rays", gpu.describe());
             assert!(apart <= allowed && (rays - 1.0).abs() < 1e-3, "{name}, {}: {apart} {rays}", gpu.describe());
         }
     }
@@ -203,6 +204,7 @@ fn converged_means_agree_within_four_standard_errors() {
         for c in 0..3 {
             let error = gpu_film.standard_error()[c].hypot(cpu_film.standard_error()[c]);
             let (a, b) = (gpu_film.mean()[c], cpu_film.mean()[c]);
+            println!("channel {c}, {}: {:.2} standard errors apart", gpu.describe(), (a - b).abs() / error);
             assert!((a - b).abs() <= 4.0 * error && error < 0.02 * b, "{c}: {a} {b} +- {error}");
         }
     }

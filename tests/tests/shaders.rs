@@ -148,5 +148,9 @@ fn mirrors_of_the_path_tracer_have_the_layout_of_their_structs() {
         [sum, samples, sum_of_squares, largest, sum_low, rays, squares_low, faults]
     );
     assert_same_layout!("pathtrace/rays.wgsl", RayQuery, [origin, tmax, direction, unused]);
-    assert_same_layout!("pathtrace/rays.wgsl", RayAnswer, [position, t, error, material, normal, occluded]);
+    assert_same_layout!(
+        "pathtrace/rays.wgsl",
+        RayAnswer,
+        [position, t, error, material, normal, occluded, refracted, reflectance]
+    );
 }

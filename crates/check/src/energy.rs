@@ -3,16 +3,22 @@
 use crate::hard::{known, spot, with_geometry};
 use crate::measure::{Trial, farthest, independent, paths};
 use pathtrace::{Estimator, PathSettings, Roulette, Tracer, WhittedSettings};
-use scene::{Bsdf, Geometry, Scene, Texture, Vec3};
+use scene::{Bsdf, Camera, Geometry, Scene, Texture, Vec3};
 use std::f32::consts::PI;
 
-fn with(estimator: Estimator, bounces: Option<u32>, roulette: Roulette) -> PathSettings {
+/// Independent samples of paths.
+pub fn with(estimator: Estimator, bounces: Option<u32>, roulette: Roulette) -> PathSettings {
     PathSettings { estimator, bounces, roulette, ..independent() }
 }
 
 /// Light that paths have lost at the middle of the floor when they stop after so many scatterings: a random walk in f64,
 /// known to .001.
-const LOST: [(u32, f64); 5] = [(1, 0.759), (2, 0.621), (4, 0.408), (8, 0.185), (16, 0.038)];
+pub const LOST: [(u32, f64); 5] = [(1, 0.759), (2, 0.621), (4, 0.408), (8, 0.185), (16, 0.038)];
+
+/// What sees nothing but the middle of the floor.
+pub fn floor_centre() -> Camera {
+    spot(Vec3::new(0.5, 0.5, 0.5), Vec3::new(0.5, 0.5, 0.0))
+}
 
 pub fn white_furnace(trial: &mut Trial) {
     let scene = known("white-furnace");
@@ -29,18 +35,26 @@ pub fn white_furnace(trial: &mut Trial) {
     let one = with(Estimator::COSINE, Some(3), Roulette::OFF);
     let straight = trial.mean_of(1.0, 0.002, 10_000, paths(seen.0, seen.1, &one));
     trial.path("3 branches against 1, 3 bounces", straight.mean, seen, &branching);
-    let floor = spot(Vec3::new(0.5, 0.5, 0.5), Vec3::new(0.5, 0.5, 0.0));
     for (scatterings, lost) in LOST {
         let settings = with(Estimator::COSINE, Some(scatterings - 1), Roulette::OFF);
         let power = trial.pick(0.001, 0.0003) / (1.0 - lost);
-        let found = trial.mean_of(1.0 - lost, power, 20_000, paths(seen.0, &floor, &settings));
+        let found = trial.mean_of(1.0 - lost, power, 20_000, paths(seen.0, &floor_centre(), &settings));
         let quantity = format!("floor centre after {scatterings} scatterings");
         trial.equal("path cosine", &quantity, 1.0 - lost, found.mean, 0.001 + 4.0 * found.standard_error);
     }
 }
 
+/// Albedo (or reflectance) and emission of closed boxes of radiance 1.
+pub const CLOSED: [(f32, f32); 3] = [(0.5, 0.5), (0.8, 0.2), (0.99, 0.01)];
+
+/// Radiance in such a box when paths stop after so many scatterings.
+pub fn after(scatterings: u32, (share, emission): (f32, f32)) -> f64 {
+    let (rho, le) = (f64::from(share), f64::from(emission));
+    le * (1.0 - rho.powi(scatterings as i32 + 1)) / (1.0 - rho)
+}
+
 /// The box with another albedo (or reflectance) and emission.
-fn shining(mut scene: Scene, share: f32, emission: f32) -> Scene {
+pub fn shining(mut scene: Scene, share: f32, emission: f32) -> Scene {
     for material in &mut scene.materials {
         material.bsdf = match material.bsdf {
             Bsdf::Mirror { .. } => Bsdf::Mirror { reflectance: Vec3::splat(share) },
@@ -53,21 +67,29 @@ fn shining(mut scene: Scene, share: f32, emission: f32) -> Scene {
     scene
 }
 
+/// Those whose weights have a small variance between walls of this albedo: of uniform directions they have a finite one only
+/// while albedo^2 4/3 < 1, and a small one well below.
+pub fn estimators_of_walls(albedo: f32) -> impl Iterator<Item = Estimator> {
+    let uniform = |estimator: &Estimator| estimator.directions == Estimator::UNIFORM.directions;
+    Estimator::EVERY.into_iter().filter(move |estimator| albedo <= 0.5 || !uniform(estimator))
+}
+
+/// Largest relative standard error with power between walls of this albedo.
+pub fn power_between_walls(trial: &Trial, albedo: f32) -> f64 {
+    // a path of hundreds of vertices is dear
+    if albedo > 0.9 { 0.005 } else { trial.power() }
+}
+
 pub fn closed_box(trial: &mut Trial) {
-    for (share, emission) in [(0.5f32, 0.5f32), (0.8, 0.2), (0.99, 0.01)] {
+    for (share, emission) in CLOSED {
         let diffuse = shining(known("closed-box"), share, emission);
         let seen = (&Tracer::new(&diffuse), &diffuse.camera);
-        for estimator in Estimator::EVERY {
-            // uniform directions' weights have a finite variance only while albedo^2 4/3 < 1, and a small one well below
-            if estimator.directions == Estimator::UNIFORM.directions && share > 0.5 {
-                continue;
-            }
+        for estimator in estimators_of_walls(share) {
             let roulettes = [(Roulette::THROUGHPUT, "throughput"), (Roulette::constant(0.9), "constant .9")];
             for (roulette, name) in roulettes.into_iter().take(if share > 0.5 { 1 } else { 2 }) {
                 let quantity = format!("mean, albedo {share}, roulette {name}");
                 let settings = with(estimator, None, roulette);
-                // a path of hundreds of vertices is dear
-                let power = if share > 0.9 { 0.005 } else { trial.power() };
+                let power = power_between_walls(trial, share);
                 let subject = format!("path {}", estimator.name());
                 trial.monte_carlo_to(power, &subject, &quantity, 1.0, paths(seen.0, seen.1, &settings));
             }
@@ -77,8 +99,7 @@ pub fn closed_box(trial: &mut Trial) {
         let quantity = format!("mean, mirrors of {share}");
         trial.path(&quantity, 1.0, reflected, &with(Estimator::LIGHT, None, Roulette::THROUGHPUT));
         for scatterings in [1u32, 4, 8, 16, 64] {
-            let (rho, le) = (f64::from(share), f64::from(emission));
-            let expected = le * (1.0 - rho.powi(scatterings as i32 + 1)) / (1.0 - rho);
+            let expected = after(scatterings, (share, emission));
             let quantity = format!("every pixel, {share}, {scatterings} scatterings");
             let settings = with(Estimator::COSINE, Some(scatterings - 1), Roulette::OFF);
             let film = trial.path_film(seen, &settings, 8, 4);
@@ -90,13 +111,28 @@ pub fn closed_box(trial: &mut Trial) {
     }
 }
 
+/// Radius and albedo of spheres of radiance 1, and the intensity of the light in their middle.
+pub const SPHERES: [(f32, f32, f32); 3] = [(1.0, 0.5, PI), (2.0, 0.5, 4.0 * PI), (1.0, 0.9, PI / 9.0)];
+
+/// Such a sphere.
+pub fn lit_sphere((radius, albedo, intensity): (f32, f32, f32)) -> Scene {
+    let mut scene = with_geometry(known("point-light-in-sphere"), |_, geometry| {
+        *geometry = Geometry::Sphere { center: Vec3::ZERO, radius };
+    });
+    scene.materials[0].bsdf = Bsdf::Diffuse { albedo: Texture::Constant(Vec3::splat(albedo)) };
+    scene.point_lights[0].intensity = Vec3::splat(intensity);
+    scene
+}
+
+/// What of its radiance has come straight from the light.
+pub fn direct_part((radius, albedo, intensity): (f32, f32, f32)) -> f64 {
+    f64::from(albedo * intensity / (PI * radius * radius))
+}
+
 pub fn point_light(trial: &mut Trial) {
-    for (radius, albedo, intensity) in [(1.0, 0.5, PI), (2.0, 0.5, 4.0 * PI), (1.0, 0.9, PI / 9.0)] {
-        let mut scene = with_geometry(known("point-light-in-sphere"), |_, geometry| {
-            *geometry = Geometry::Sphere { center: Vec3::ZERO, radius };
-        });
-        scene.materials[0].bsdf = Bsdf::Diffuse { albedo: Texture::Constant(Vec3::splat(albedo)) };
-        scene.point_lights[0].intensity = Vec3::splat(intensity);
+    for sphere in SPHERES {
+        let (radius, albedo, _) = sphere;
+        let scene = lit_sphere(sphere);
         let seen = (&Tracer::new(&scene), &scene.camera);
         for estimator in [Estimator::LIGHT, Estimator::MIS, Estimator::UNIFORM_LIGHT] {
             let uniform = estimator == Estimator::UNIFORM_LIGHT;
@@ -106,7 +142,7 @@ pub fn point_light(trial: &mut Trial) {
             let quantity = format!("mean, radius {radius}, albedo {albedo}");
             trial.path(&quantity, 1.0, seen, &with(estimator, None, Roulette::THROUGHPUT));
         }
-        let direct = f64::from(albedo * intensity / (PI * radius * radius));
+        let direct = direct_part(sphere);
         let settings = WhittedSettings { ambient: Some(0.0), ..WhittedSettings::default() };
         let film = trial.whitted_film(seen, &settings, 16, 4);
         let quantity = format!("every pixel, direct, radius {radius}, albedo {albedo}");

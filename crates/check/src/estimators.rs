@@ -1,61 +1,84 @@
 //! Several estimators of one integral: their means, their variances, and how fast their errors fall.
 
-use crate::hard::{known, spot};
-use crate::lamps::RECTANGLE;
-use crate::measure::{Trial, independent, paths};
-use pathtrace::{Estimator, PathSettings, Roulette, SamplerKind, Tracer, estimate_with_replicates};
-use scene::{Camera, Film, Vec3};
+use crate::hard::known;
+use crate::lamps::{RECTANGLE, direct, from_above};
+use crate::measure::{Trial, paths};
+use pathtrace::{Estimator, PathSettings, SamplerKind, Tracer, estimate_with_replicates};
+use scene::{Camera, Film};
+use std::convert::Infallible;
 use std::sync::atomic::Ordering;
 
 /// Relative variance of one sample, from f64.
-const VARIANCES: [(Estimator, f64); 3] =
+pub const VARIANCES: [(Estimator, f64); 3] =
     [(Estimator::COSINE, 29.8), (Estimator::LIGHT, 0.431), (Estimator::MIS, 0.439)];
+
+/// The point of the floor that all of them look at, and its radiance.
+pub fn far_point() -> (Camera, f64) {
+    let (x, y, expected) = RECTANGLE[2];
+    (from_above(x, y, 0.5), expected)
+}
 
 pub fn three_of_one(trial: &mut Trial) {
     let scene = known("rectangle-light");
-    let (x, y, expected) = RECTANGLE[2];
-    let camera = spot(Vec3::new(x, y, 0.5), Vec3::new(x, y, 0.0));
+    let (camera, expected) = far_point();
     let tracer = Tracer::new(&scene);
     let seen = (&tracer, &camera);
     for (estimator, variance) in VARIANCES {
-        let settings = PathSettings { estimator, bounces: Some(0), roulette: Roulette::OFF, ..independent() };
+        let settings = direct(estimator);
         trial.path("mean", expected, seen, &settings);
         let mut film = Film::new(64, 64);
         tracer.render(&mut film, &camera, &settings, trial.pick(128, 1024), &|| trial.stopped());
         trial.count_nonfinite(&film);
-        // the variance within pixels: all of them see one point
-        let samples = f64::from(film.samples_per_pixel());
-        let within = film.pixels().iter().map(|p| p.variance_of_mean()[0] * samples).sum::<f64>() / 4096.0;
         let subject = format!("path {}", estimator.name());
-        let measured = within / (expected * expected);
+        let measured = variance_of_a_sample(&film) / (expected * expected);
         trial.equal(&subject, "relative variance of a sample", variance, measured, 0.05 * variance);
         // errors over the spread of pictures, 16 to 16384 samples
         let pictures = trial.pick(2304, 4096);
         if estimator != Estimator::COSINE || trial.full() {
-            let measured = slope(trial, seen, &settings, pictures);
+            let measured = slope_on_the_processor(trial, seen, &settings, pictures);
             trial.equal(&subject, "slope of the error, independent", -0.5, measured, 0.05);
-            let measured = slope(trial, seen, &PathSettings { sampler: SamplerKind::Sobol, ..settings }, pictures / 4);
+            let sobol = PathSettings { sampler: SamplerKind::Sobol, ..settings };
+            let measured = slope_on_the_processor(trial, seen, &sobol, pictures / 4);
             trial.at_most(&subject, "slope of the error, Sobol", -0.45, measured);
         }
     }
     replicates(trial, &tracer, expected);
 }
 
-/// The power of the number of samples with which the error falls, over the spread of `pictures` pixels that all see one
-/// point, from 16 samples on.
-fn slope(trial: &Trial, (tracer, camera): (&Tracer, &Camera), settings: &PathSettings, pictures: u32) -> f64 {
+/// Variance of a sample inside of a pixel, mean over all pixels.
+pub fn variance_of_a_sample(film: &Film) -> f64 {
+    let samples = f64::from(film.samples_per_pixel());
+    film.pixels().iter().map(|p| p.variance_of_mean()[0] * samples).sum::<f64>() / film.pixels().len() as f64
+}
+
+/// The power of the number of samples with which the error falls, from 16 samples to 2^`last`, over the spread of pixels
+/// that all see one point; `render` makes a film of so many samples.
+///
+/// # Errors
+/// Those of `render`.
+pub fn slope<E>(expected: f64, last: u32, mut render: impl FnMut(u32) -> Result<Film, E>) -> Result<f64, E> {
+    let mut errors = Vec::new();
+    for exponent in (4..=last).step_by(2) {
+        let film = render(1 << exponent)?;
+        let squares = film.pixels().iter().map(|p| (p.mean()[0] - expected).powi(2)).sum::<f64>();
+        errors.push((f64::from(exponent), 0.5 * (squares / film.pixels().len() as f64).log2()));
+    }
+    Ok(fitted_slope(&errors))
+}
+
+fn slope_on_the_processor(
+    trial: &Trial,
+    (tracer, camera): (&Tracer, &Camera),
+    settings: &PathSettings,
+    pictures: u32,
+) -> f64 {
     let side = f64::from(pictures).sqrt() as u32;
-    let exponents = (4..=trial.pick(10, 14)).step_by(2);
-    let errors: Vec<(f64, f64)> = exponents
-        .map(|exponent| {
-            let mut film = Film::new(side, side);
-            tracer.render(&mut film, camera, settings, 1 << exponent, &|| trial.stopped());
-            let expected = RECTANGLE[2].2;
-            let squares = film.pixels().iter().map(|p| (p.mean()[0] - expected).powi(2)).sum::<f64>();
-            (f64::from(exponent), 0.5 * (squares / f64::from(side * side)).log2())
-        })
-        .collect();
-    fitted_slope(&errors)
+    let Ok(slope) = slope(RECTANGLE[2].2, trial.pick(10, 14), |samples| {
+        let mut film = Film::new(side, side);
+        tracer.render(&mut film, camera, settings, samples, &|| trial.stopped());
+        Ok::<_, Infallible>(film)
+    });
+    slope
 }
 
 /// Least squares through (x, y).
@@ -69,9 +92,8 @@ fn fitted_slope(points: &[(f64, f64)]) -> f64 {
 /// A film's standard errors are the spread of pictures of many seeds: from samples if these are independent, from
 /// replicates if they are not.
 fn replicates(trial: &mut Trial, tracer: &Tracer, expected: f64) {
-    let (x, y, _) = RECTANGLE[2];
-    let camera = spot(Vec3::new(x, y, 0.5), Vec3::new(x, y, 0.0));
-    let settings = PathSettings { bounces: Some(0), roulette: Roulette::OFF, ..independent() };
+    let (camera, _) = far_point();
+    let settings = direct(Estimator::default());
     let stop = trial.stop_flag();
     let independent = |seed: u32| {
         let mut film = Film::new(32, 32);

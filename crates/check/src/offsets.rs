@@ -20,11 +20,16 @@ pub const PLACES: [(f32, f32, f32); 8] = [
     (0.0, 1e4, 4.0),
 ];
 
+/// How far a ray's start has moved off the surface, over the largest coordinate.
+pub fn moved(start: Vec3, position: Vec3) -> f64 {
+    f64::from((start - position).length()) / f64::from(position.abs().max_element())
+}
+
 pub fn self_intersection(trial: &mut Trial) {
     for (shift, size, distance) in PLACES {
         let tracer = Mesh::sphere(48, 96, 0.0).placed(size, shift).tracer();
         let center = Vec3::splat(shift);
-        let (mut hits, mut met_again, mut lost, mut own, mut moved) = (0u32, 0u32, 0u32, 0u32, 0f64);
+        let (mut hits, mut met_again, mut lost, mut own, mut farthest) = (0u32, 0u32, 0u32, 0u32, 0f64);
         for i in 0..trial.pick(20_000, 100_000) {
             if trial.stopped() {
                 return;
@@ -42,8 +47,7 @@ pub fn self_intersection(trial: &mut Trial) {
             let out = sampling::to_world(sampling::cosine_hemisphere([u, v]), normal);
             let start = hit.point.leaving_towards(out);
             met_again += u32::from(tracer.accel().occluded(&Ray::new(start, out)));
-            let largest = f64::from(hit.point.position.abs().max_element());
-            moved = moved.max(f64::from((start - hit.point.position).length()) / largest);
+            farthest = farthest.max(moved(start, hit.point.position));
             let inside = -sampling::to_world(sampling::cosine_hemisphere([w, x]), normal);
             let ray = Ray::new(hit.point.leaving_towards(inside), inside);
             match tracer.accel().closest(&ray) {
@@ -63,35 +67,69 @@ pub fn self_intersection(trial: &mut Trial) {
             f64::from(lost) / f64::from(hits),
         );
         trial.equal("offset", &format!("inward rays that hit their triangle, {place}"), 0.0, f64::from(own), 0.0);
-        trial.at_most("offset", &format!("start moved, of the coordinate, {place}"), 1e-6, moved);
+        trial.at_most("offset", &format!("start moved, of the coordinate, {place}"), 1e-6, farthest);
     }
 }
 
-pub fn far_spheres(trial: &mut Trial) {
-    for (distance, radius, tolerance) in
-        [(10.0f32, 1.0f32, 1e-5), (1e3, 1.0, 1e-3), (1e4, 1.0, 1e-2), (100.0, 1e3, 3e-4), (10.0, 1e5, 3e-2)]
-    {
-        let sphere = Sphere { center: Vec3::ZERO, radius };
-        let (mut missed, mut off) = (0u32, 0f64);
-        for i in 0..trial.pick(50_000, 200_000) {
-            let [u, v, w, x] = Sampler::independent(19, i, 1).unit4(0);
-            let from = any_direction([u, v]);
-            let origin = from * (radius + distance);
-            let aim = sampling::to_world(sampling::disk([w, x]) * (0.99 * radius), from);
-            let ray = Ray::new(origin, (aim - origin).normalize());
-            let Some(t) = sphere.intersect(&ray, f32::INFINITY) else {
-                missed += 1;
-                continue;
-            };
-            let (o, d) = (ray.origin.as_dvec3(), ray.direction.as_dvec3());
-            let (a, b, c) = (d.length_squared(), o.dot(d), o.length_squared() - f64::from(radius).powi(2));
-            off = off.max((f64::from(t) - (-b - (b * b - a * c).sqrt()) / a).abs());
-        }
-        let quantity = format!("rays that miss, distance {distance}, radius {radius}");
-        trial.equal("sphere", &quantity, 0.0, f64::from(missed), 0.0);
-        trial.at_most("sphere", &format!("largest error of t, distance {distance}, radius {radius}"), tolerance, off);
+/// A sphere around the origin, how far from its surface rays at it start, and how far off their meetings may be.
+#[derive(Debug, Clone, Copy)]
+pub struct FarSphere {
+    pub distance: f32,
+    pub radius: f32,
+    tolerance: f64,
+}
+
+const fn far(distance: f32, radius: f32, tolerance: f64) -> FarSphere {
+    FarSphere { distance, radius, tolerance }
+}
+
+pub const FAR_SPHERES: [FarSphere; 5] =
+    [far(10.0, 1.0, 1e-5), far(1e3, 1.0, 1e-3), far(1e4, 1.0, 1e-2), far(100.0, 1e3, 3e-4), far(10.0, 1e5, 3e-2)];
+
+impl FarSphere {
+    /// Ray number `i`, past the middle by up to .99 radius.
+    pub fn ray(&self, i: u32) -> Ray {
+        let [u, v, w, x] = Sampler::independent(19, i, 1).unit4(0);
+        let from = any_direction([u, v]);
+        let origin = from * (self.radius + self.distance);
+        let aim = sampling::to_world(sampling::disk([w, x]) * (0.99 * self.radius), from);
+        Ray::new(origin, (aim - origin).normalize())
     }
-    let central = Ray::new(Vec3::new(0.0, 0.0, 1e4), -Vec3::Z);
-    let t = Sphere { center: Vec3::ZERO, radius: 1.0 }.intersect(&central, f32::INFINITY).unwrap_or(f32::NAN);
+
+    /// Where a ray meets it, in f64.
+    fn exact(&self, ray: &Ray) -> f64 {
+        let (o, d) = (ray.origin.as_dvec3(), ray.direction.as_dvec3());
+        let (a, b, c) = (d.length_squared(), o.dot(d), o.length_squared() - f64::from(self.radius).powi(2));
+        (-b - (b * b - a * c).sqrt()) / a
+    }
+
+    /// Compares what rays have met.
+    pub fn compare(&self, trial: &mut Trial, subject: &str, met: impl Iterator<Item = (Ray, Option<f32>)>) {
+        let (mut missed, mut off) = (0u32, 0f64);
+        for (ray, t) in met {
+            match t {
+                Some(t) => off = off.max((f64::from(t) - self.exact(&ray)).abs()),
+                None => missed += 1,
+            }
+        }
+        let FarSphere { distance, radius, tolerance } = *self;
+        let quantity = format!("rays that miss, distance {distance}, radius {radius}");
+        trial.equal(subject, &quantity, 0.0, f64::from(missed), 0.0);
+        trial.at_most(subject, &format!("largest error of t, distance {distance}, radius {radius}"), tolerance, off);
+    }
+}
+
+/// A ray at the middle of a unit sphere from 10,000 units away; it goes 9999 of them.
+pub fn central_ray() -> Ray {
+    Ray::new(Vec3::new(0.0, 0.0, 1e4), -Vec3::Z)
+}
+
+pub fn far_spheres(trial: &mut Trial) {
+    for far in FAR_SPHERES {
+        let sphere = Sphere { center: Vec3::ZERO, radius: far.radius };
+        let rays = (0..trial.pick(50_000, 200_000)).map(|i| far.ray(i));
+        far.compare(trial, "sphere", rays.map(|ray| (ray, sphere.intersect(&ray, f32::INFINITY))));
+    }
+    let t = Sphere { center: Vec3::ZERO, radius: 1.0 }.intersect(&central_ray(), f32::INFINITY).unwrap_or(f32::NAN);
     trial.equal("sphere", "central ray from 10000", 9999.0, f64::from(t), 0.0);
 }

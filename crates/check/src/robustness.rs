@@ -1,15 +1,16 @@
 //! Scenes scaled and moved, and geometry that is not what it should be.
 
 use crate::hard::{known, spot};
-use crate::lamps::RECTANGLE;
+use crate::lamps::{RECTANGLE, direct};
 use crate::measure::{Trial, independent};
+use crate::meshes::Mesh;
 use pathtrace::geometry::Ray;
-use pathtrace::{Estimator, PathSettings, Roulette, Tracer, WhittedSettings};
+use pathtrace::{Estimator, PathSettings, Tracer, WhittedSettings};
 use scene::{Bsdf, Camera, Geometry, Scene, Shape, Texture, Vec3};
 use std::path::Path;
 
 /// The scene and camera, every point `p` now at `p * scale + shift`.
-fn placed(mut scene: Scene, camera: Camera, scale: f32, shift: f32) -> (Scene, Camera) {
+pub fn placed(mut scene: Scene, camera: Camera, scale: f32, shift: f32) -> (Scene, Camera) {
     let point = |p: Vec3| p * scale + Vec3::splat(shift);
     let mut shapes = scene.shapes.to_vec();
     for shape in &mut shapes {
@@ -28,61 +29,78 @@ fn placed(mut scene: Scene, camera: Camera, scale: f32, shift: f32) -> (Scene, C
     (scene, Camera { eye: point(camera.eye), target: point(camera.target), ..camera })
 }
 
-pub fn invariance(trial: &mut Trial) {
+/// What must not depend on size and place.
+#[derive(Debug, Clone)]
+pub struct Invariant {
+    pub name: String,
+    pub scene: Scene,
+    pub camera: Camera,
+    pub settings: PathSettings,
+    /// By Whitted's trees instead: two branches have no noise.
+    pub trees: Option<WhittedSettings>,
+    pub expected: f64,
+}
+
+/// Scale, shift along every axis, and the relative difference that rounding of the coordinates allows. The first is where
+/// scenes stand by themselves.
+pub const PLACEMENTS: [(f32, f32, f64); 6] =
+    [(1.0, 0.0, 0.0), (1e-4, 0.0, 1e-4), (1e4, 0.0, 1e-4), (1.0, 1e3, 3e-3), (1.0, 1e4, 5e-2), (1e3, 1e6, 3e-3)];
+
+pub fn invariants() -> [Invariant; 4] {
     let (x, y, lambert) = RECTANGLE[2];
     let wide = |camera: Camera| Camera { fov_y: 0.5, ..camera };
     let over_floor = wide(spot(Vec3::new(x, y, 0.5), Vec3::new(x, y, 0.0)));
     let slanting = wide(spot(Vec3::new(3.0, 0.0, 3.0f32.sqrt()), Vec3::ZERO));
+    let lit = known("rectangle-light");
     let furnace = known("closed-box");
-    let camera = furnace.camera;
-    let direct = PathSettings { bounces: Some(0), roulette: Roulette::OFF, ..independent() };
-    let cases = [
-        ("closed box", furnace, camera, independent(), 1.0),
-        ("rectangle light", known("rectangle-light"), over_floor, direct, lambert),
-        (
-            "rectangle light, mis",
-            known("rectangle-light"),
-            over_floor,
-            PathSettings { estimator: Estimator::MIS, ..direct },
-            lambert,
-        ),
-        (
-            "slab at 60 degrees",
-            known("slab"),
-            slanting,
-            PathSettings { roulette: Roulette::OFF, ..direct },
-            0.8362324627,
-        ),
-    ];
-    for (name, scene, camera, settings, expected) in cases {
-        let settings = if name.starts_with("slab") { PathSettings { bounces: None, ..settings } } else { settings };
-        let subject = format!("path {}", settings.estimator.name());
-        let mut still = None;
-        for (scale, shift, allowed) in [
-            (1.0f32, 0.0f32, 0.0),
-            (1e-4, 0.0, 1e-4),
-            (1e4, 0.0, 1e-4),
-            (1.0, 1e3, 3e-3),
-            (1.0, 1e4, 5e-2),
-            (1e3, 1e6, 3e-3),
-        ] {
-            let (scene, camera) = placed(scene.clone(), camera, scale, shift);
-            let tracer = Tracer::new(&scene);
-            let mut mean = trial.path_film((&tracer, &camera), &settings, 32, trial.pick(64, 512)).mean()[0];
-            let quantity = format!("{name}, scale {scale}, moved {shift}");
-            if name.starts_with("slab") {
-                // two branches have no noise
-                let settings = WhittedSettings { depth: 64, ambient: Some(0.0), ..WhittedSettings::default() };
-                mean = trial.whitted_film((&tracer, &camera), &settings, 8, 4).mean()[0];
-            }
-            match still {
-                None => {
-                    trial.equal(&subject, &quantity, expected, mean, 0.02 * expected);
-                    still = Some(mean);
-                }
-                Some(still) => trial.equal(&subject, &quantity, still, mean, allowed * still),
+    let whole = furnace.camera;
+    let light = direct(Estimator::LIGHT);
+    let glass = PathSettings { bounces: None, ..light };
+    let trees = WhittedSettings { depth: 64, ambient: Some(0.0), ..WhittedSettings::default() };
+    let one = |name: &str, (scene, camera), settings, expected| Invariant {
+        name: name.to_owned(),
+        scene,
+        camera,
+        settings,
+        trees: None,
+        expected,
+    };
+    [
+        one("closed box", (furnace, whole), independent(), 1.0),
+        one("rectangle light", (lit.clone(), over_floor), light, lambert),
+        one("rectangle light, mis", (lit, over_floor), direct(Estimator::MIS), lambert),
+        Invariant { trees: Some(trees), ..one("slab at 60 degrees", (known("slab"), slanting), glass, 0.8362324627) },
+    ]
+}
+
+impl Invariant {
+    /// Compares the means at all [`PLACEMENTS`].
+    pub fn compare(&self, trial: &mut Trial, means: &[f64]) {
+        let subject = format!("path {}", self.settings.estimator.name());
+        let Some(&still) = means.first() else { return };
+        for ((scale, shift, allowed), &mean) in PLACEMENTS.into_iter().zip(means) {
+            let quantity = format!("{}, scale {scale}, moved {shift}", self.name);
+            if (scale, shift) == (1.0, 0.0) {
+                trial.equal(&subject, &quantity, self.expected, mean, 0.02 * self.expected);
+            } else {
+                trial.equal(&subject, &quantity, still, mean, allowed * still);
             }
         }
+    }
+}
+
+pub fn invariance(trial: &mut Trial) {
+    for invariant in invariants() {
+        let means = PLACEMENTS.map(|(scale, shift, _)| {
+            let (scene, camera) = placed(invariant.scene.clone(), invariant.camera, scale, shift);
+            let seen = (&Tracer::new(&scene), &camera);
+            let film = match &invariant.trees {
+                Some(trees) => trial.whitted_film(seen, trees, 8, 4),
+                None => trial.path_film(seen, &invariant.settings, 32, trial.pick(64, 512)),
+            };
+            film.mean()[0]
+        });
+        invariant.compare(trial, &means);
     }
 }
 
@@ -94,7 +112,8 @@ const BAD_CORNERS: [[f32; 3]; 3] = [
 ];
 const BAD_RAY: [[f32; 3]; 2] = [[-1081.47925, 99.9999542, 87.7701111], [-32.1072998, -183.355865, -144.607635]];
 
-pub fn degenerate(trial: &mut Trial) {
+/// A mesh of triangles without area.
+pub fn flat_triangles() -> Mesh {
     let mut positions = BAD_CORNERS.map(Vec3::from_array).to_vec();
     let mut triangles = vec![[0u32, 1, 2]];
     for i in 0..1000u32 {
@@ -107,17 +126,24 @@ pub fn degenerate(trial: &mut Trial) {
         positions.extend(if i % 2 == 0 { [a, a, a + along] } else { [a, a + along, a + along * 4.0] });
         triangles.push([first, first + 1, first + 2]);
     }
-    let mut scene = known("light-tight-box");
-    let flat = Shape { geometry: Geometry::Mesh { positions: positions.clone(), triangles }, material: 0 };
-    scene.shapes = vec![flat].into();
-    let tracer = Tracer::new(&scene);
+    Mesh { positions, triangles }
+}
+
+/// Rays at such triangles: pbrt's, and one at each corner.
+pub fn rays_at_corners(positions: &[Vec3]) -> Vec<Ray> {
     let [o, d] = BAD_RAY.map(Vec3::from_array);
-    let mut hits = u32::from(tracer.accel().closest(&Ray::new(o, d.normalize())).is_some());
-    for (i, p) in positions.iter().enumerate() {
+    let at = |(i, p): (usize, &Vec3)| {
         let from = Vec3::new(0.3, 0.4, 3.0 + i as f32);
-        hits += u32::from(tracer.accel().closest(&Ray::new(from, (*p - from).normalize())).is_some());
-    }
-    trial.equal("bvh2", "hits on triangles without area", 0.0, f64::from(hits), 0.0);
+        Ray::new(from, (*p - from).normalize())
+    };
+    [Ray::new(o, d.normalize())].into_iter().chain(positions.iter().enumerate().map(at)).collect()
+}
+
+pub fn degenerate(trial: &mut Trial) {
+    let flat = flat_triangles();
+    let tracer = flat.clone().tracer();
+    let hits = rays_at_corners(&flat.positions).iter().filter(|ray| tracer.accel().closest(ray).is_some()).count();
+    trial.equal("bvh2", "hits on triangles without area", 0.0, hits as f64, 0.0);
     trial.equal("bvh2", "triangles without area that are kept", 0.0, tracer.primitives() as f64, 0.0);
     refused(trial);
     slivers(trial);
@@ -134,8 +160,8 @@ fn refused(trial: &mut Trial) {
     trial.equal("scene file", "corners not finite that are accepted", 0.0, f64::from(accepted), 0.0);
 }
 
-/// Triangles a millionth wide, between lamp and floor but beside the point that is looked at.
-fn slivers(trial: &mut Trial) {
+/// Triangles a millionth wide, between lamp and floor but beside the point that is looked at; and what it looks like.
+pub fn under_slivers() -> (Scene, Camera, f64) {
     let mut scene = known("rectangle-light");
     let (mut positions, mut triangles) = (Vec::new(), Vec::new());
     for i in 0..100u32 {
@@ -148,10 +174,14 @@ fn slivers(trial: &mut Trial) {
     let thin = Shape { geometry: Geometry::Mesh { positions, triangles }, material: 0 };
     scene.shapes = scene.shapes.iter().cloned().chain([thin]).collect();
     let (x, y, expected) = RECTANGLE[2];
-    let camera = spot(Vec3::new(x + 0.3, y, 0.1), Vec3::new(x, y, 0.0));
+    (scene, spot(Vec3::new(x + 0.3, y, 0.1), Vec3::new(x, y, 0.0)), expected)
+}
+
+fn slivers(trial: &mut Trial) {
+    let (scene, camera, expected) = under_slivers();
     let tracer = Tracer::new(&scene);
     for estimator in [Estimator::LIGHT, Estimator::MIS] {
-        let settings = PathSettings { estimator, bounces: Some(0), roulette: Roulette::OFF, ..independent() };
+        let settings = direct(estimator);
         trial.path("under slivers 1e-6 wide", expected, (&tracer, &camera), &settings);
     }
 }

@@ -37,6 +37,10 @@ pub struct RayAnswer {
     pub normal: Vec3,
     /// 1 if anything at all is met, asked as shadow rays ask.
     pub occluded: u32,
+    /// Unit direction in which the ray goes on behind a dielectric surface; zero where there is none.
+    pub refracted: Vec3,
+    /// Share of unpolarised light that a dielectric surface reflects, 1 beyond the critical angle; 0 of other surfaces.
+    pub reflectance: f32,
 }
 
 impl RayAnswer {
@@ -44,6 +48,12 @@ impl RayAnswer {
     pub fn point(&self) -> Option<SurfacePoint> {
         let Self { position, error, normal, .. } = *self;
         (self.t > 0.0).then_some(SurfacePoint { position, error, normal })
+    }
+
+    /// The ray that goes on behind a dielectric surface, if one is met and refracts it.
+    pub fn behind(&self) -> Option<Ray> {
+        let point = self.point().filter(|_| self.refracted != Vec3::ZERO)?;
+        Some(Ray::new(point.leaving_towards(self.refracted), self.refracted))
     }
 }
 
