@@ -36,10 +36,8 @@ impl Revival {
         self.attempts % 2 == 1
     }
 
-    /// Burns down the fuse of a device that was not replaced yet, if there is one.
+    /// Burns down the fuse, if there is one.
     pub fn count_frame(&self, gpu: &Gpu) {
-        if self.attempts == 0 {
-            self.fuse.iter().for_each(|fuse| fuse.burn(gpu));
-        }
+        self.fuse.iter().for_each(|fuse| fuse.burn(gpu));
     }
 }

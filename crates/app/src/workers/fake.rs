@@ -2,6 +2,7 @@
 
 use super::darkroom::Darkroom;
 use super::{Inbox, Job, Picture, Side, step_back};
+use crate::fuse::Fuse;
 use crate::technique::FakeSettings;
 use gpu::{Gpu, GpuError};
 use raster::{Raster, RasterError};
@@ -67,16 +68,36 @@ fn device_beside(window: &Gpu) -> Result<Gpu, GpuError> {
     Gpu::headless()
 }
 
+/// What a fake is drawn on.
+struct Stage {
+    gpu: Gpu,
+    raster: Raster,
+    adapter: Arc<str>,
+}
+
+impl Stage {
+    fn on(gpu: Result<Gpu, GpuError>) -> Result<Self, String> {
+        let gpu = gpu.map_err(|fault| fault.to_string())?;
+        let raster = Raster::new(&gpu).map_err(|fault| fault.to_string())?;
+        Ok(Stage { adapter: gpu.describe().into(), gpu, raster })
+    }
+}
+
 fn work(side: Side, window: &Gpu, jobs: &Inbox<Option<FakeJob>>, darkroom: &Darkroom) {
-    let gpu = device_beside(window);
-    let adapter = gpu.as_ref().map_or_else(|_| Arc::default(), |gpu| Arc::from(gpu.describe()));
-    let mut raster =
-        gpu.map_err(|fault| fault.to_string()).and_then(|gpu| Raster::new(&gpu).map_err(|fault| fault.to_string()));
+    let mut stage = Stage::on(device_beside(window));
+    let fuse = Fuse::of_fakes();
     let mut seconds_per_pixel = 0.0;
     while let Some(job) = jobs.take() {
         let Some(job) = job else { continue };
-        let raster = match &mut raster {
-            Ok(raster) => raster,
+        if let (Some(fuse), Ok(stage)) = (&fuse, &stage) {
+            fuse.burn(&stage.gpu);
+        }
+        // a device that was lost stays so: the next picture gets another
+        if stage.as_ref().is_ok_and(|stage| stage.gpu.fault().is_some()) {
+            stage = Stage::on(Gpu::headless());
+        }
+        let Stage { gpu: _, raster, adapter } = match &mut stage {
+            Ok(stage) => stage,
             Err(fault) => {
                 darkroom.report(side, job.order, fault.clone());
                 continue;
@@ -87,12 +108,12 @@ fn work(side: Side, window: &Gpu, jobs: &Inbox<Option<FakeJob>>, darkroom: &Dark
         let shrink = if expected > 4.0 * PATIENCE.as_secs_f64() { 4 } else { 2 };
         let rough = expected > PATIENCE.as_secs_f64();
         if rough {
-            paint(side, raster, darkroom, &job, shrink, &adapter);
+            paint(side, raster, darkroom, &job, shrink, adapter);
         }
         // a newer job makes the fine picture of this one superfluous
         if !rough || !jobs.has_fresh() {
             let start = Instant::now();
-            paint(side, raster, darkroom, &job, 1, &adapter);
+            paint(side, raster, darkroom, &job, 1, adapter);
             seconds_per_pixel = start.elapsed().as_secs_f64() / (f64::from(width) * f64::from(height));
         }
     }

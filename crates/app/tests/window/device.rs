@@ -117,6 +117,24 @@ fn the_window_comes_back_from_the_loss_of_its_device() {
     assert!(viewer.wait_for_end().success());
 }
 
+/// The fake's device is lost between two pictures: the next is drawn on another.
+#[test]
+fn the_fake_goes_on_after_the_loss_of_its_device() {
+    let _alone = alone();
+    let screen = Screen::start(1280, 720);
+    let binary = Path::new(env!("CARGO_BIN_EXE_visavis"));
+    let mut viewer = ViewerUnderTest::start_in(binary, &screen, &[("VISAVIS_FAKE_FAILS_AFTER", "2")], &[]);
+    let first = viewer.wait_for("both pictures", both_whole);
+    screen.focus("Visavis");
+    for x in [0.2, 0.3, 0.4, 0.5, 0.6] {
+        let before = viewer.wait_for("a frame", both_whole).state("a")["adapter"].clone();
+        screen.click(first.point("refraction ratio", x, 0.5));
+        std::thread::sleep(Duration::from_millis(300));
+        let after = viewer.wait_for("both pictures again", both_whole);
+        assert!(after.state("a")["fault"].is_null() && after.state("a")["adapter"] == before, "{:?}", after.state("a"));
+    }
+}
+
 /// Both of Mesa's interfaces are there to choose from, by name.
 #[test]
 fn an_adapter_is_chosen_by_its_name() {
