@@ -126,12 +126,15 @@ fn the_fake_goes_on_after_the_loss_of_its_device() {
     let mut viewer = ViewerUnderTest::start_in(binary, &screen, &[("VISAVIS_FAKE_FAILS_AFTER", "2")], &[]);
     let first = viewer.wait_for("both pictures", both_whole);
     screen.focus("Visavis");
-    for x in [0.2, 0.3, 0.4, 0.5, 0.6] {
-        let before = viewer.wait_for("a frame", both_whole).state("a")["adapter"].clone();
-        screen.click(first.point("refraction ratio", x, 0.5));
-        std::thread::sleep(Duration::from_millis(300));
-        let after = viewer.wait_for("both pictures again", both_whole);
-        assert!(after.state("a")["fault"].is_null() && after.state("a")["adapter"] == before, "{:?}", after.state("a"));
+    let [left, top, right, bottom] = first.rect("refraction ratio");
+    let at = |x: f32| [left + x * (right - left), 0.5 * (top + bottom)];
+    let mut before = first;
+    for (from, to) in [(0.2, 0.3), (0.3, 0.4), (0.4, 0.5), (0.5, 0.6)] {
+        screen.drag(at(from), at(to));
+        let again = |f: &Frame| both_whole(f) && f.value("refraction ratio") != before.value("refraction ratio");
+        let after = viewer.wait_for("both pictures again", again);
+        assert!(after.state("a")["fault"].is_null(), "{:?}", after.state("a"));
+        before = after;
     }
 }
 
