@@ -85,7 +85,7 @@ fn box_distance(node: Node, origin: vec3f, inverse: vec3f, tmax: f32) -> f32 {
     let far = max(t1, t2);
     let enters = max(near.x, max(near.y, near.z));
     let leaves = min(far.x, min(far.y, far.z));
-    return select(FAR, enters, leaves * BOX_SLACK >= max(enters, 0.0) && enters < tmax * BOX_SLACK);
+    return select(FAR, enters, leaves * BOX_SLACK >= max(enters, 0.0) && enters / BOX_SLACK < tmax);
 }
 
 fn primitive_distance(primitive: Primitive, ray: Ray, sheared: ShearedRay) -> f32 {

@@ -1,5 +1,5 @@
 //#import lib/checkerboard.wgsl
-// The scene as the device holds it. Mirror: crates/pathtrace/src/gpu/scene_data.rs.
+// The scene as the device holds it. Mirrors: crates/pathtrace/src/gpu/scene_data.rs and, of shapes, shape_data.rs.
 
 struct Header {
     // radiance where nothing is hit

@@ -257,6 +257,15 @@ fn films_go_on_stop_and_are_read_without_waiting() {
         tracer.expose(&mut halting, &scene.camera, &settings, 3, &stop).unwrap();
         stops += 1;
     }
+    // one that is asked for less than it began is begun anew, for those who lack it
+    let mut tracer = GpuTracer::new(&gpu, &scene).unwrap();
+    tracer.set_budget(1e-3);
+    let mut less = tracer.film(Film::new(203, 120)).unwrap();
+    let once = std::cell::Cell::new(0);
+    tracer.expose(&mut less, &scene.camera, &settings, 3, &|| once.replace(once.get() + 1) >= 2).unwrap();
+    tracer.expose(&mut less, &scene.camera, &settings, 2, &|| false).unwrap();
+    let (less, _) = less.read(&gpu).unwrap();
+    assert!(less.samples_per_pixel() == 2 && less.pixels().iter().all(|pixel| pixel.samples <= 3));
     let [(whole, stats), (halted, halted_stats)] = [whole, halting].map(|mut film| film.read(&gpu).unwrap());
     assert!(stops > 3 && halted.pixels().iter().all(|pixel| pixel.samples == 3));
     assert!(whole.radiances().eq(halted.radiances()) && stats == halted_stats, "{stops} {stats:?} {halted_stats:?}");

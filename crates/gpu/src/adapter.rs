@@ -51,6 +51,8 @@ pub struct AdapterReport {
     pub max_texture_size: u32,
     /// Whether the processor plays it.
     pub software: bool,
+    /// How many before it have the same name and interface.
+    pub twins_before: usize,
     /// Whether it is the one that is used.
     pub chosen: bool,
     /// Why it is used or not.
@@ -58,9 +60,11 @@ pub struct AdapterReport {
 }
 
 impl AdapterReport {
-    /// Name and interface, by which [`crate::Gpu::headless_on`] finds it: as in "llvmpipe (LLVM 19.1, 256 bits), Vulkan".
+    /// Name and interface, by which [`crate::Gpu::headless_on`] finds it: as in "llvmpipe (LLVM 19.1, 256 bits), Vulkan"; of
+    /// several that are alike each has its number.
     pub fn describe(&self) -> String {
-        format!("{}, {}", self.name, self.backend)
+        let name = format!("{}, {}", self.name, self.backend);
+        if self.twins_before > 0 { format!("{name} ({})", self.twins_before + 1) } else { name }
     }
 }
 
@@ -84,6 +88,7 @@ pub(crate) fn report(adapters: &[wgpu::Adapter]) -> Vec<AdapterReport> {
             driver: format!("{} {}", info.driver, info.driver_info).trim().to_owned(),
             max_texture_size: adapter.limits().max_texture_dimension_2d,
             software: info.device_type == DeviceType::Cpu,
+            twins_before: infos[..index].iter().filter(|before| describe(before) == describe(info)).count(),
             chosen: chosen == Some(index),
             why: chosen.map(|best| reason(info, &infos[best], best == index)).unwrap_or_default(),
         }

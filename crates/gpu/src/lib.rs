@@ -69,8 +69,9 @@ impl Gpu {
     pub fn headless_on(described: &str) -> Result<Gpu, GpuError> {
         let instance = new_instance(None);
         let mut adapters = adapter::all(&instance);
-        adapters.retain(|adapter| adapter::describe(&adapter.get_info()) == described);
-        Gpu::open(instance, adapters, GpuError::NoSuchAdapter(described.to_owned()))
+        let found = adapter::report(&adapters).iter().position(|adapter| adapter.describe() == described);
+        let only = found.map(|index| adapters.swap_remove(index));
+        Gpu::open(instance, only.into_iter().collect(), GpuError::NoSuchAdapter(described.to_owned()))
     }
 
     /// The best device that can present on `surface`, which `instance` made, and every adapter there is, whether it can or

@@ -69,18 +69,22 @@ impl Gpu {
 
     fn poll(&self, wait: wgpu::PollType) -> Result<wgpu::PollStatus, Fault> {
         // wgpu 30 panics here if a driver loses the device or runs out of memory
-        let polled = catch_unwind(AssertUnwindSafe(|| self.device.poll(wait)));
-        match polled {
+        match caught(|| self.device.poll(wait)) {
             Ok(Ok(status)) => Ok(status),
             Ok(Err(wgpu::PollError::Timeout)) => Err(Fault::TimeIsUp),
             Ok(Err(why)) => Err(Fault::Lost(one_line(&why))),
-            Err(panic) => {
-                let why = format!("the graphics device was lost: {}", words_of(panic.as_ref()));
+            Err(why) => {
                 self.remember(why.clone());
                 Err(Fault::Lost(why))
             }
         }
     }
+}
+
+/// What `work` returns, or what it said when it panicked.
+fn caught<T>(work: impl FnOnce() -> T) -> Result<T, String> {
+    let lost = |panic: Box<dyn Any + Send>| format!("the graphics device was lost: {}", words_of(panic.as_ref()));
+    catch_unwind(AssertUnwindSafe(work)).map_err(lost)
 }
 
 enum Fault {
@@ -100,13 +104,14 @@ mod tests {
 
     #[test]
     fn a_panic_is_told_in_one_line() {
-        for thrown in [catch_unwind(|| panic!("device\n  lost")), catch_unwind(|| panic!("device {}", "lost"))] {
-            assert_eq!(words_of(thrown.unwrap_err().as_ref()), "device lost");
-        }
+        let told = Err("the graphics device was lost: no answer".to_owned());
+        assert_eq!(caught(|| panic!("no\n  answer")), told.clone());
+        assert_eq!(caught(|| panic!("no {}", "answer")), told);
+        assert_eq!(caught(|| 3), Ok(3));
     }
 
     #[test]
-    fn a_device_without_work_is_done_and_a_destroyed_one_hangs_nobody() {
+    fn a_device_without_work_is_done_and_one_that_failed_says_so_to_all_who_wait() {
         let gpu = Gpu::headless().unwrap();
         assert!(gpu.wait("nothing", None, PATIENCE).unwrap());
         gpu.look("nothing").unwrap();

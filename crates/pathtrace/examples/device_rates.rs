@@ -34,7 +34,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let numbers: Result<Vec<u32>, _> = std::env::args().skip(1).map(|word| word.parse()).collect();
     let [width, height, spp] = match numbers?[..] {
         [] => [512, 512, 8],
-        [width, height, spp] if width * height * spp > 0 => [width, height, spp],
+        [width, height, spp] if width.min(height).min(spp) > 0 => [width, height, spp],
         _ => Err("width, height and samples per pixel, or nothing")?,
     };
     let scenes = [scene::builtin::named("cornell")?, scene::builtin::named("whitted")?, mesh()?];

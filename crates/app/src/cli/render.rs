@@ -147,20 +147,31 @@ fn trace(args: &RenderArgs, scene: &Scene, rays: RaySettings) -> anyhow::Result<
     let mut tracing = Tracing::begin(gpu, scene, rays, film, args.device)?;
     let limit = args.seconds.map(Duration::from_secs_f64);
     let progress = Progress::new(spp);
+    let is_late = || limit.is_some_and(|limit| start.elapsed() >= limit);
     let mut batch = 1;
-    while tracing.spp() < spp {
+    loop {
         let batch_start = Instant::now();
-        let samples = batch.min(spp - tracing.spp());
-        tracing.add(samples)?;
-        progress.show(tracing.spp(), start.elapsed());
-        if limit.is_some_and(|limit| start.elapsed() >= limit) {
-            break;
+        let samples = batch.min(spp.saturating_sub(tracing.spp()));
+        // what is not read yet may be lost, and is then made up for
+        let machine = tracing.machine();
+        if samples == 0 || is_late() {
+            tracing.read();
+            if tracing.machine() == machine || is_late() {
+                break;
+            }
+        } else {
+            tracing.add(samples);
         }
-        batch = next_batch(samples, batch_start.elapsed(), limit.map(|l| l.saturating_sub(start.elapsed())));
+        progress.show(tracing.spp(), start.elapsed());
+        batch = if tracing.machine() == machine {
+            next_batch(samples, batch_start.elapsed(), limit.map(|l| l.saturating_sub(start.elapsed())))
+        } else {
+            1
+        };
     }
-    let traced = tracing.finish()?;
     progress.finish();
-    let Traced { film, stats, machine, adapter } = traced;
+    let Traced { film, stats, machine, adapter } = tracing.finish();
+    anyhow::ensure!(film.samples_per_pixel() > 0, "no sample of every pixel was done; allow more --time");
     Ok(Rendered { film, seconds: start.elapsed().as_secs_f64(), stats, machine, adapter })
 }
 

@@ -23,15 +23,21 @@ const INSTEAD: &str = "the graphics device does not trace this; --device cpu doe
 /// # Errors
 /// If the user wants one and there is none.
 pub fn device(wish: Device, samples: u64) -> anyhow::Result<Option<Gpu>> {
+    let there_is_hardware = || Gpu::adapters().iter().any(|adapter| adapter.chosen && !adapter.software);
     match wish {
-        Device::Cpu => Ok(None),
         Device::Gpu => Gpu::headless().context(INSTEAD).map(Some),
-        Device::Auto if samples < LITTLE_WORK => Ok(None),
-        // where the processor plays it, it is faster as itself; and what does not open is not faster either
-        Device::Auto => {
-            let hardware = Gpu::adapters().iter().any(|adapter| adapter.chosen && !adapter.software);
-            Ok(if hardware { Gpu::headless().ok() } else { None })
-        }
+        // what does not open is not faster
+        _ if is_for_a_device(wish, samples, there_is_hardware) => Ok(Gpu::headless().ok()),
+        _ => Ok(None),
+    }
+}
+
+/// Where the processor plays the device it is faster as itself, and also where there is little to do.
+fn is_for_a_device(wish: Device, samples: u64, there_is_hardware: impl FnOnce() -> bool) -> bool {
+    match wish {
+        Device::Cpu => false,
+        Device::Gpu => true,
+        Device::Auto => samples >= LITTLE_WORK && there_is_hardware(),
     }
 }
 
@@ -101,8 +107,16 @@ impl<'a> Tracing<'a> {
         }
     }
 
-    /// Adds samples to every pixel; fewer where the processor takes over.
-    pub fn add(&mut self, samples: u32) -> anyhow::Result<()> {
+    /// What traces now.
+    pub fn machine(&self) -> Machine {
+        match self.on {
+            On::Processor { .. } => Machine::Cpu,
+            On::Device(_) => Machine::Gpu,
+        }
+    }
+
+    /// Adds samples to every pixel, unless the device fails: then the processor stands where the film was last read.
+    pub fn add(&mut self, samples: u32) {
         match &mut self.on {
             On::Processor { tracer, film, stats, spp } => {
                 *stats = stats.plus(self.rays.render(tracer, film, &self.scene.camera, samples, &|| false));
@@ -114,23 +128,24 @@ impl<'a> Tracing<'a> {
                 }
             }
         }
-        Ok(())
     }
 
-    /// The film, once all is done.
-    pub fn finish(mut self) -> anyhow::Result<Traced> {
-        if let On::Device(on) = &mut self.on {
-            let wanted = on.film.samples_per_pixel();
-            if let Err(fault) = on.read() {
-                self.take_over(&fault);
-                self.add(wanted - self.spp())?;
-            }
+    /// Brings home what the device has done. If it fails the processor takes over as in [`Tracing::add`].
+    pub fn read(&mut self) {
+        if let On::Device(on) = &mut self.on
+            && let Err(fault) = on.read()
+        {
+            self.take_over(&fault);
         }
-        let adapter = self.makers.join(", then ");
-        Ok(match self.on {
-            On::Processor { film, stats, .. } => Traced { film, stats, machine: Machine::Cpu, adapter },
-            On::Device(on) => Traced { film: on.read.0, stats: on.read.1, machine: Machine::Gpu, adapter },
-        })
+    }
+
+    /// The film, as last read.
+    pub fn finish(self) -> Traced {
+        let (machine, adapter) = (self.machine(), self.makers.join(", then "));
+        match self.on {
+            On::Processor { film, stats, .. } => Traced { film, stats, machine, adapter },
+            On::Device(on) => Traced { film: on.read.0, stats: on.read.1, machine, adapter },
+        }
     }
 
     fn take_over(&mut self, fault: &GpuTraceError) {
@@ -181,7 +196,8 @@ impl OnDevice {
             Method::Path(path) => tracer.expose(film, &scene.camera, path, until, &stop)?,
             Method::Whitted(tree) => tracer.expose_whitted(film, &scene.camera, tree, until, &stop)?,
         }
-        if self.read_at.elapsed() > AT_RISK {
+        // a test does not wait for seconds
+        if self.read_at.elapsed() > AT_RISK || self.fuse.is_some() {
             self.read()?;
         }
         Ok(())
@@ -196,4 +212,17 @@ impl OnDevice {
 
 fn threads() -> String {
     format!("{} threads", rayon::current_num_threads())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn auto_takes_hardware_where_there_is_enough_to_do() {
+        let of = |wish, samples, hardware| is_for_a_device(wish, samples, || hardware);
+        assert!(of(Device::Auto, LITTLE_WORK, true) && !of(Device::Auto, LITTLE_WORK - 1, true));
+        assert!(!of(Device::Auto, u64::MAX, false));
+        assert!(of(Device::Gpu, 0, false) && !of(Device::Cpu, u64::MAX, true));
+    }
 }

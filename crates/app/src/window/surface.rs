@@ -73,8 +73,22 @@ impl WindowSurface {
         [self.config.width, self.config.height]
     }
 
+    /// Takes what egui has drawn in its own textures.
+    pub fn take_textures(&mut self, gpu: &Gpu, textures: &egui::TexturesDelta) {
+        let renderer = &mut self.renderer;
+        guarded(gpu, || {
+            for (id, deltas) in &textures.set {
+                deltas.iter().for_each(|delta| renderer.update_texture(&gpu.device, &gpu.queue, *id, delta));
+            }
+        });
+    }
+
     /// Draws and presents a frame.
     pub fn present(&mut self, gpu: &Gpu, painting: &Painting) -> Presented {
+        guarded(gpu, || self.presented(gpu, painting)).unwrap_or(Presented::Skipped)
+    }
+
+    fn presented(&mut self, gpu: &Gpu, painting: &Painting) -> Presented {
         use wgpu::CurrentSurfaceTexture as Frame;
         let (frame, suboptimal) = match self.surface.get_current_texture() {
             Frame::Success(frame) => (frame, false),
@@ -92,25 +106,22 @@ impl WindowSurface {
                 return Presented::Skipped;
             }
         };
-        // wgpu and egui's renderer panic where a driver loses the device in the middle of a frame
-        let drawn = catch_unwind(AssertUnwindSafe(|| {
-            let view = frame.texture.create_view(&wgpu::TextureViewDescriptor::default());
-            self.draw(gpu, painting, &view);
-            self.window.pre_present_notify();
-            gpu.queue.present(frame);
-        }));
-        if drawn.is_err() {
-            gpu.remember("the graphics device was lost while it drew the window".into());
-            return Presented::Skipped;
-        }
+        let view = frame.texture.create_view(&wgpu::TextureViewDescriptor::default());
+        self.draw(gpu, painting, &view);
+        self.window.pre_present_notify();
+        gpu.queue.present(frame);
         if suboptimal {
             self.surface.configure(&gpu.device, &self.config);
         }
         Presented::Shown
     }
 
-    /// The same frame once more, into a texture of the window's size that can be read back.
-    pub fn capture(&mut self, gpu: &Gpu, painting: &Painting) -> wgpu::Texture {
+    /// The same frame once more, into a texture of the window's size that can be read back; `None` if the device fails.
+    pub fn capture(&mut self, gpu: &Gpu, painting: &Painting) -> Option<wgpu::Texture> {
+        guarded(gpu, || self.captured(gpu, painting))
+    }
+
+    fn captured(&mut self, gpu: &Gpu, painting: &Painting) -> wgpu::Texture {
         let texture = gpu.device.create_texture(&wgpu::TextureDescriptor {
             label: Some("picture as seen"),
             size: wgpu::Extent3d { width: self.config.width, height: self.config.height, depth_or_array_layers: 1 },
@@ -148,6 +159,15 @@ impl WindowSurface {
         commands.push(encoder.finish());
         gpu.queue.submit(commands);
     }
+}
+
+/// Does `work` on a device that may be lost in the middle of it: wgpu and egui's renderer then panic.
+fn guarded<T>(gpu: &Gpu, work: impl FnOnce() -> T) -> Option<T> {
+    let done = catch_unwind(AssertUnwindSafe(work)).ok();
+    if done.is_none() {
+        gpu.remember("the graphics device was lost while it drew the window".into());
+    }
+    done
 }
 
 /// A surface, the best device for it, and every adapter.

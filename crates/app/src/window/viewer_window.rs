@@ -170,11 +170,7 @@ impl ViewerWindow {
         self.scale = output.pixels_per_point;
         self.egui.handle_platform_output(&self.window, output.platform_output);
         let mut textures = output.textures_delta;
-        for (id, deltas) in &textures.set {
-            for delta in deltas {
-                self.surface.renderer.update_texture(&self.gpu.device, &self.gpu.queue, *id, delta);
-            }
-        }
+        self.surface.take_textures(&self.gpu, &textures);
         let jobs = context.tessellate(output.shapes, self.scale);
         let screen = ScreenDescriptor { size_in_pixels: self.surface.size(), pixels_per_point: self.scale };
         let painting = Painting { jobs: &jobs, screen };
@@ -214,9 +210,8 @@ impl ViewerWindow {
                 return;
             }
         }
-        // egui sends its letters again only where a texture may have another size than before
         let side = self.gpu.device.limits().max_texture_dimension_2d as usize;
-        self.egui.set_max_texture_side(side - usize::from(self.revival.is_odd()));
+        self.egui.set_max_texture_side(self.revival.another_side(side));
         self.exhibit.lose_textures();
         self.crew.move_to(&self.gpu);
         self.viewer.say(Err(format!("The window's GPU failed and was begun again: {fault}")));
@@ -305,7 +300,9 @@ impl ViewerWindow {
             pixel(rect.right(), width),
             pixel(rect.bottom(), height),
         ];
-        let texture = self.surface.capture(&self.gpu, painting);
+        let Some(texture) = self.surface.capture(&self.gpu, painting) else {
+            return self.viewer.say(Err("the GPU failed at this picture; try again in a moment".into()));
+        };
         let content = Content::Seen(Capture { gpu: self.gpu.clone(), texture, part });
         self.crew.export(Export { content, records: self.exhibit.records_of_both(&self.viewer), to });
         // the next frame has hint and message again

@@ -23,6 +23,8 @@ pub enum Kernel {
 
 /// A scene on a graphics device.
 pub struct Card {
+    /// What the adapter is called among all of them.
+    name: String,
     tracer: GpuTracer,
     fuse: Option<Fuse>,
 }
@@ -38,6 +40,8 @@ pub struct Plate {
     on_device: Option<GpuFilm>,
     /// What has added to it, one after the other.
     makers: Vec<String>,
+    /// How many of them have added to the film as last developed.
+    developed_by: usize,
 }
 
 impl Kernel {
@@ -55,7 +59,7 @@ impl Kernel {
         let gpu = Gpu::headless_on(adapter)?;
         let mut tracer = GpuTracer::new(&gpu, scene)?;
         tracer.set_budget(if gpu.is_software() { BUDGET_OF_SOFTWARE } else { BUDGET });
-        Ok(Kernel::Gpu(Box::new(Card { tracer, fuse: Fuse::of_rays() })))
+        Ok(Kernel::Gpu(Box::new(Card { name: adapter.to_owned(), tracer, fuse: Fuse::of_rays() })))
     }
 
     /// The machine.
@@ -70,7 +74,7 @@ impl Kernel {
     pub fn adapter(&self) -> String {
         match self {
             Kernel::Cpu(_) => format!("{} threads", rayon::current_num_threads()),
-            Kernel::Gpu(card) => card.tracer.gpu().describe(),
+            Kernel::Gpu(card) => card.name.clone(),
         }
     }
 
@@ -104,6 +108,7 @@ impl Kernel {
         match self {
             Kernel::Cpu(tracer) => {
                 let stats = job.settings.render(tracer, &mut plate.film, job.order.camera(), samples, stop);
+                plate.developed_by = plate.makers.len();
                 if !stop() {
                     plate.spp = until;
                 }
@@ -120,6 +125,7 @@ impl Kernel {
     pub fn develop(&self, plate: &mut Plate) -> Result<(), GpuTraceError> {
         if let (Kernel::Gpu(card), Some(on_device)) = (self, &mut plate.on_device) {
             plate.film = on_device.read(card.tracer.gpu())?.0;
+            plate.developed_by = plate.makers.len();
         }
         Ok(())
     }
@@ -148,7 +154,7 @@ impl Card {
         until: u32,
         stop: &impl Fn() -> bool,
     ) -> Result<u64, GpuTraceError> {
-        let Card { tracer, fuse } = self;
+        let Card { tracer, fuse, .. } = self;
         let film = match plate.on_device.take() {
             Some(film) => film,
             None => tracer.film(plate.film.clone())?,
@@ -174,7 +180,7 @@ impl Plate {
     /// A film without light; `None` if there is no memory for it.
     pub fn blank(width: u32, height: u32) -> Option<Self> {
         let film = Film::try_new(width, height)?;
-        Some(Plate { film, spp: 0, most: 0, on_device: None, makers: Vec::new() })
+        Some(Plate { film, spp: 0, most: 0, on_device: None, makers: Vec::new(), developed_by: 0 })
     }
 
     /// The film as last developed.
@@ -199,11 +205,9 @@ impl Plate {
 
     /// Goes on from the film as last developed.
     pub fn forget_the_device(&mut self) {
+        self.makers.truncate(self.developed_by);
         if self.on_device.take().is_some() {
             self.spp = self.film.samples_per_pixel();
-            if self.spp == 0 {
-                self.makers.clear();
-            }
         }
     }
 }

@@ -7,7 +7,7 @@ use super::rays::{Gate, RayJob, Stop};
 use super::{Order, Picture, Side};
 use crate::technique::{Adapters, Machine};
 use pathtrace::gpu::GpuTraceError;
-use scene::Scene;
+use scene::{Geometry, Scene, Shape};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
@@ -22,6 +22,9 @@ const AT_ONCE: Duration = Duration::from_millis(30);
 /// Least and most time between two pictures once the resolution is full: an eighth of the time spent so far, because
 /// showing costs too, and a picture changes ever less.
 const REFRESH: [Duration; 2] = [Duration::from_millis(150), Duration::from_secs(1)];
+
+/// Triangles that take the processor a tenth of a second to make ready.
+const LARGE: usize = 100_000;
 
 /// Films that are kept beside the one in hand: one to come back to.
 const MOST_KEPT: usize = 2;
@@ -192,7 +195,13 @@ impl Painter {
     /// Rough pictures by the processor where the device has to compile first, which takes longer than anyone should look at
     /// the last picture.
     fn rough_by_whoever_is_ready(&mut self, kernel: &mut Kernel, job: &RayJob, stop: &Stop) {
-        if kernel.has_compiled(&job.settings.method) {
+        let triangles = |shape: &Shape| match &shape.geometry {
+            Geometry::Mesh { triangles, .. } => triangles.len(),
+            _ => 0,
+        };
+        // where the processor would take as long to make the scene ready, nothing is won
+        let large = job.order.scene.shapes.iter().map(triangles).sum::<usize>() > LARGE;
+        if large || kernel.has_compiled(&job.settings.method) {
             self.rough(kernel, job, stop);
         } else {
             self.rough(&mut Kernel::on_the_processor(&job.order.scene), job, stop);

@@ -55,7 +55,8 @@ impl RayWorker {
                     let painted = catch_unwind(AssertUnwindSafe(|| pool.install(|| painter.paint(&job, &stop))));
                     if painted.is_err() {
                         darkroom.report(side, job.order, "the renderer stopped at a fault of its own".into());
-                        painter = new_painter();
+                        // what it held may fail once more while it goes
+                        drop(catch_unwind(AssertUnwindSafe(|| painter = new_painter())));
                     }
                 }
             }

@@ -12,12 +12,11 @@ fn render(folder: &TestFolder, fails_after: Option<&str>, options: &[&str]) -> s
     command.output().expect("the program")
 }
 
-/// The device is destroyed at once, in the middle, and before the last reading: the picture is the processor's, whole, and
-/// a line says so.
+/// The device is destroyed at once, and before anything was read: the picture is the processor's, whole, and a line says so.
 #[test]
 fn the_processor_takes_over_where_the_device_fails() {
     let folder = TestFolder::new();
-    for dispatches in ["0", "3"] {
+    for dispatches in ["0", "1"] {
         let output = render(&folder, Some(dispatches), &["--device", "gpu", "--spp", "32"]);
         let told = String::from_utf8_lossy(&output.stderr).into_owned();
         assert!(told.contains("the processor goes on from 0 spp, the graphics device failed: "), "{told}");
@@ -31,11 +30,31 @@ fn the_processor_takes_over_where_the_device_fails() {
     }
 }
 
+/// The device is destroyed after its film was read: the processor goes on from there.
 #[test]
-fn auto_is_the_processor_where_it_plays_the_device_and_where_there_is_little_to_do() {
+fn the_processor_goes_on_from_the_film_that_was_read_last() {
     let folder = TestFolder::new();
-    // 2^24 samples are more than little
-    for options in [&["--spp", "1"][..], &["--spp", "1830"], &["--spp", "1", "--lanes", "array"]] {
+    let output = render(&folder, Some("12"), &["--device", "gpu", "--spp", "1000", "--sampler", "independent"]);
+    let told = String::from_utf8_lossy(&output.stderr).into_owned();
+    let spp: u32 = told
+        .split_once("the processor goes on from ")
+        .and_then(|(_, rest)| rest.split_once(" spp"))
+        .map(|(spp, _)| spp.parse().expect("a number"))
+        .expect("a takeover");
+    assert!(spp > 0 && spp < 1000, "{told}");
+    let report = json(&output);
+    assert_eq!((&report["device"], &report["spp"]), (&"cpu".into(), &1000.into()));
+    assert!(report["adapter"].as_str().is_some_and(|adapter| adapter.contains(", then ")), "{}", report["adapter"]);
+    assert_eq!(report["samples"], 1000 * 96 * 96);
+    let (mean, error) = (report["mean"][0].as_f64().expect("a mean"), report["standard_error"][0].as_f64());
+    let error = error.expect("its standard error");
+    assert!((mean - 0.25169).abs() < 5.0 * error && error < 2e-3, "{mean} +- {error}");
+}
+
+#[test]
+fn auto_is_the_processor_where_there_is_little_to_do_and_where_lanes_are_asked_for() {
+    let folder = TestFolder::new();
+    for options in [&["--spp", "1"][..], &["--spp", "1", "--lanes", "array"]] {
         let report = json(&render(&folder, None, options));
         assert_eq!(report["device"], "cpu", "{options:?}");
     }

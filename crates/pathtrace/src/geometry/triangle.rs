@@ -126,7 +126,9 @@ pub(crate) fn in_order(a: &Vec3, b: &Vec3) -> Ordering {
 }
 
 /// Corners in lexicographic order.
-pub(crate) fn sorted(mut corners: [Vec3; 3]) -> [Vec3; 3] {
+pub(crate) fn sorted(corners: [Vec3; 3]) -> [Vec3; 3] {
+    // +0.0 and -0.0 are one place
+    let mut corners = corners.map(|corner| corner + Vec3::ZERO);
     corners.sort_by(in_order);
     corners
 }

@@ -32,6 +32,8 @@ pub(super) struct Dispatcher<'a> {
     /// Dispatches on their way, oldest first: where their times are, how many samples they take, what to wait for.
     pub in_flight: Vec<(usize, f64, wgpu::SubmissionIndex)>,
     pub submitted: usize,
+    /// Whether the time of a dispatch tells the device's pace.
+    pub learning: bool,
 }
 
 /// Some samples of every pixel, as far as they have come: tiles from left to right in strips of rows.
@@ -92,7 +94,10 @@ impl Dispatcher<'_> {
     ) -> Result<(), GpuTraceError> {
         self.stopwatch.restart();
         while film.samples_done < until {
-            let goes_on = film.pass.take().filter(|pass| film.samples_done + pass.samples <= until);
+            let stopped = film.pass.take();
+            let goes_on = stopped.filter(|pass| film.samples_done + pass.samples <= until);
+            // of a pass that was stopped and asked for more, tiles are there already: they take no time, which says nothing
+            self.learning = stopped.is_none() || goes_on.is_some();
             let mut pass = match goes_on {
                 Some(pass) => pass,
                 None => self.begin(film, until)?,
@@ -167,7 +172,9 @@ impl Dispatcher<'_> {
             }
             let seconds = self.stopwatch.seconds(slot);
             *self.seconds += seconds;
-            self.pace.learn(work, seconds, self.budget);
+            if self.learning || seconds > self.budget {
+                self.pace.learn(work, seconds, self.budget);
+            }
         }
         Ok(())
     }

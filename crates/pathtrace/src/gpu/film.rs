@@ -5,6 +5,7 @@ use super::GpuTraceError;
 use super::dispatch::Pass;
 use super::film_data::{Exposure, Pixel};
 use crate::render::Stats;
+use gpu::waiting::PATIENCE;
 use gpu::{Gpu, GpuError, wgpu};
 use rayon::prelude::*;
 use scene::Film;
@@ -108,7 +109,9 @@ impl GpuFilm {
             if let Some(read) = self.poll_reading(gpu)? {
                 return Ok(read);
             }
-            gpu.wait_for_all(WHAT)?;
+            if !gpu.wait(WHAT, None, PATIENCE)? {
+                return Err(GpuTraceError::Hangs(format!("{WHAT} did not come in {} seconds", PATIENCE.as_secs())));
+            }
         }
     }
 

@@ -249,6 +249,7 @@ impl GpuTracer {
             seconds: &mut self.seconds,
             in_flight: Vec::new(),
             submitted: 0,
+            learning: true,
         };
         dispatcher.run(film, exposure, until, stop)
     }

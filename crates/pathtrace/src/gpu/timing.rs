@@ -32,6 +32,10 @@ impl Pace {
 
     /// Learns from a dispatch. Slower is believed at once, faster step by step: one part of a picture is not like another.
     pub fn learn(&mut self, samples: f64, seconds: f64, budget: f64) {
+        // the rest at a picture's edge says little: a few threads take as long as many
+        if samples < 0.5 * self.samples_that_fit && seconds <= budget {
+            return;
+        }
         let fit = samples * budget / seconds.max(1e-6);
         self.samples_that_fit = fit.clamp(1.0, 2.0 * self.samples_that_fit);
     }
@@ -158,6 +162,10 @@ mod tests {
         assert_eq!(pace.samples_that_fit(), 2.0 * first);
         pace.learn(pace.samples_that_fit(), 5.0, 0.05);
         assert!((pace.samples_that_fit() - 0.02 * first).abs() < 1e-6 * first);
+        // a small rest that fits says nothing
+        let before = pace.samples_that_fit();
+        pace.learn(0.1 * before, 0.049, 0.05);
+        assert_eq!(pace.samples_that_fit(), before);
         // never less than a sample, or nothing would ever be done
         pace.learn(1.0, 5.0, 0.05);
         assert_eq!(pace.samples_that_fit(), 1.0);
