@@ -90,3 +90,17 @@ fn rectangles_far_away_do_not_shadow_themselves() {
         }
     }
 }
+
+/// A card 2e-4 of the way before a lamp keeps all its light: a shadow ray ends no sooner than rounding asks for.
+#[test]
+fn a_card_right_before_a_lamp_far_away_shadows_it() {
+    let lamp = "[[rectangle]]\ncorner = [-1, -1, 0.004]\nedge_u = [2, 0, 0]\nedge_v = [0, 2, 0]\nmaterial = \"floor\"\n\
+                [[rectangle]]\ncorner = [-0.5, -0.5, 0]\nedge_u = [1, 0, 0]\nedge_v = [0, 1, 0]";
+    for (name, mean) in means(&lit_by(lamp, Vec3::Z)) {
+        assert!(mean == 0.0, "{name}: {mean}");
+    }
+    // and there is light without it
+    let alone = lamp.split_once("[[rectangle]]\ncorner = [-0.5").expect("two shapes").1;
+    let alone = format!("[[rectangle]]\ncorner = [-0.5{alone}");
+    assert!(means(&lit_by(&alone, Vec3::Z)).iter().all(|(_, mean)| *mean > 0.1));
+}

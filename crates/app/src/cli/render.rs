@@ -147,16 +147,17 @@ fn trace(args: &RenderArgs, scene: &Scene, rays: RaySettings) -> anyhow::Result<
     let mut tracing = Tracing::begin(gpu, scene, rays, film, args.device)?;
     let limit = args.seconds.map(Duration::from_secs_f64);
     let progress = Progress::new(spp);
-    let is_late = || limit.is_some_and(|limit| start.elapsed() >= limit);
+    // one sample of every pixel is made however late it is
+    let is_late = |tracing: &Tracing| tracing.spp() > 0 && limit.is_some_and(|limit| start.elapsed() >= limit);
     let mut batch = 1;
     loop {
         let batch_start = Instant::now();
         let samples = batch.min(spp.saturating_sub(tracing.spp()));
         // what is not read yet may be lost, and is then made up for
         let machine = tracing.machine();
-        if samples == 0 || is_late() {
+        if samples == 0 || is_late(&tracing) {
             tracing.read();
-            if tracing.machine() == machine || is_late() {
+            if tracing.machine() == machine || is_late(&tracing) {
                 break;
             }
         } else {
@@ -171,7 +172,6 @@ fn trace(args: &RenderArgs, scene: &Scene, rays: RaySettings) -> anyhow::Result<
     }
     progress.finish();
     let Traced { film, stats, machine, adapter } = tracing.finish();
-    anyhow::ensure!(film.samples_per_pixel() > 0, "no sample of every pixel was done; allow more --time");
     Ok(Rendered { film, seconds: start.elapsed().as_secs_f64(), stats, machine, adapter })
 }
 

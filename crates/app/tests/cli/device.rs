@@ -67,3 +67,13 @@ fn info_says_what_traces_rays() {
     assert!(text.starts_with("truth (path) and whitted, --device auto: the cpu; cpu: "), "{text}");
     assert!(text.contains("used for the fake, the first in order"), "{text}");
 }
+
+/// However little time there is, every pixel gets a sample.
+#[test]
+fn a_moment_is_enough_for_one_sample_on_either_machine() {
+    let folder = TestFolder::new();
+    for device in ["cpu", "gpu"] {
+        let report = json(&render(&folder, None, &["--device", device, "--time", "0.0001"]));
+        assert_eq!((&report["device"], report["spp"].as_u64() >= Some(1)), (&device.into(), true), "{report}");
+    }
+}

@@ -187,5 +187,5 @@ fn the_window_follows_the_mouse(arguments: &[&str]) {
     let dragged = frame.state("dragged_ms");
     println!("frames and milliseconds from one to the next (median, 99th percentile, most): {dragged}");
     assert!(dragged[0].as_u64() > Some(30), "{dragged}");
-    assert!(dragged[1][1].as_f64() < Some(300.0), "{dragged}");
+    assert!(dragged[1][1].as_f64() < Some(1000.0), "{dragged}");
 }

@@ -1,7 +1,7 @@
 //! Direct light of lamps over a grey floor.
 
 use super::{Bench, Outcome};
-use crate::hard::known;
+use crate::hard::{known, with_geometry};
 use crate::lamps::{
     DISKS, EDGE_ON, FINDING_AN_EDGE, RECTANGLE, SPHERES, SQUARES, WALL, along_the_edge, beside_the_plane,
     beside_the_wall, direct, facing_squares, from_above, mesh_lamp, over_the_square, shadow_rays, under_a_disk,
@@ -9,7 +9,7 @@ use crate::lamps::{
 };
 use pathtrace::geometry::Ray;
 use pathtrace::{Estimator, PathSettings};
-use scene::Vec3;
+use scene::{Geometry, Scene, Vec3};
 
 pub fn rectangle(bench: &mut Bench) -> Outcome {
     let scene = known("rectangle-light");
@@ -30,11 +30,25 @@ pub fn rectangle(bench: &mut Bench) -> Outcome {
             bench.whitted_mean(&quantity, expected, (tracer, &camera), &shadow_rays(rays))?;
         }
     }
+    tracer.set_scene(&facing_away(scene.clone()))?;
+    for estimator in [Estimator::COSINE, Estimator::LIGHT, Estimator::MIS] {
+        let film = bench.film((tracer, &from_above(0.0, 0.0, 0.5)), &direct(estimator), 32, 64)?;
+        let subject = super::subject(&direct(estimator));
+        bench.trial.equal(&subject, "at (0, 0), the lamp facing away", 0.0, film.mean()[0], 0.0);
+    }
     let (tracer, camera) = (&mut bench.tracer(&mesh_lamp(scene))?, from_above(1.0, 0.0, 0.5));
     for estimator in [Estimator::LIGHT, Estimator::MIS] {
         bench.mean("at (1, 0), the lamp as a mesh", RECTANGLE[1].2, (tracer, &camera), &direct(estimator))?;
     }
     Ok(())
+}
+
+/// The lamp over the floor sends its light up.
+fn facing_away(scene: Scene) -> Scene {
+    with_geometry(scene, |index, geometry| match geometry {
+        Geometry::Rectangle { edge_u, edge_v, .. } if index == 1 => std::mem::swap(edge_u, edge_v),
+        _ => {}
+    })
 }
 
 pub fn edge_on(bench: &mut Bench) -> Outcome {
