@@ -1,29 +1,29 @@
 //#import raster/view.wgsl
-//#import lib/checkerboard.wgsl
-//#import lib/refraction.wgsl
-//#import lib/shading.wgsl
-//#import lib/shadow.wgsl
+//#import shared/checkerboard.wgsl
+//#import raster/refraction.wgsl
+//#import raster/shading.wgsl
+//#import raster/shadow.wgsl
 // Pass 2: every shape, shaded where it is drawn. The same pass fills the faces of the cube maps and the picture.
 // Mirrors of the structs: crates/raster/src/gpu_data.rs.
 
 const SHADING_PHONG: u32 = 1u;
 const SHADING_BLINN_PHONG: u32 = 2u;
 
-const LAMP_NONE: u32 = 0u;
-const LAMP_WITHOUT_DECAY: u32 = 1u;
-const LAMP_ALL_AROUND: u32 = 2u;
-const LAMP_ONE_SIDED: u32 = 3u;
+const AREA_LIGHT_NONE: u32 = 0u;
+const AREA_LIGHT_WITHOUT_DECAY: u32 = 1u;
+const AREA_LIGHT_ALL_AROUND: u32 = 2u;
+const AREA_LIGHT_ONE_SIDED: u32 = 3u;
 
-// What fragments branch on is compiled in. Uniforms must not decide it: Mesa's lavapipe 22.3 compiles a fragment shader that
-// branches on a uniform anew for every draw, and keeps all of them until the pipeline goes. So `select` and `&` stand below
-// where `if` and `&&` could.
+// What fragments branch on is compiled in. Uniforms must not decide it: Mesa's lavapipe 22.3 compiles a fragment shader
+// that branches on a uniform anew for every draw, and keeps all of them until the pipeline goes. So `select` and `&`
+// stand below where `if` and `&&` could.
 
 // 0 hard, 1 PCF, 2 PCF soft
 override SHADOW_FILTER: u32 = 2u;
 override GLASS: bool = false;
 override SUN: bool = true;
-// one of LAMP_*
-override LAMP: u32 = 0u;
+// one of AREA_LIGHT_*
+override AREA_LIGHT: u32 = 0u;
 // 0 three, or one of SHADING_*
 override SHADING: u32 = 0u;
 
@@ -32,15 +32,15 @@ struct Lights {
     shading: u32,
     sun_incident: vec3f,
     refracts_per_vertex: u32,
-    lamp_position: vec3f,
-    lamp_pattern: u32,
-    lamp_normal: vec3f,
-    lamp_incident: vec3f,
+    area_light_position: vec3f,
+    area_light_pattern: u32,
+    area_light_normal: vec3f,
+    area_light_incident: vec3f,
     // added to depths before they are compared
     shadow_bias: f32,
     ambient: vec3f,
     sky: vec3f,
-    // 0: the sun's; 1 to 6: the lamp's, +x, -x, +y, -y, +z, -z
+    // 0: the sun's; 1 to 6: the area light's, +x, -x, +y, -y, +z, -z
     shadow_views: array<View, 7>,
 }
 
@@ -126,11 +126,11 @@ fn surface(p: vec3f, n: vec3f) -> vec3f {
         let l = lights.sun_towards;
         sum += shadow(0u, p, dot(n, l)) * shaded(n, l, v, kd, lights.sun_incident);
     }
-    if LAMP != LAMP_NONE {
-        let to_lamp = lights.lamp_position - p;
-        let l = normalize(to_lamp);
-        let seen = shadow(1u + face_of(-to_lamp), p, dot(n, l));
-        sum += seen * shaded(n, l, v, kd, lamp_incident(to_lamp, l));
+    if AREA_LIGHT != AREA_LIGHT_NONE {
+        let to_area_light = lights.area_light_position - p;
+        let l = normalize(to_area_light);
+        let seen = shadow(1u + face_of(-to_area_light), p, dot(n, l));
+        sum += seen * shaded(n, l, v, kd, area_light_incident(to_area_light, l));
     }
     return sum;
 }
@@ -143,20 +143,21 @@ fn shaded(n: vec3f, l: vec3f, v: vec3f, kd: vec3f, incident: vec3f) -> vec3f {
     }
 }
 
-fn lamp_incident(to_lamp: vec3f, l: vec3f) -> vec3f {
-    if LAMP == LAMP_WITHOUT_DECAY {
-        return lights.lamp_incident;
+fn area_light_incident(to_area_light: vec3f, l: vec3f) -> vec3f {
+    if AREA_LIGHT == AREA_LIGHT_WITHOUT_DECAY {
+        return lights.area_light_incident;
     }
-    let decayed = lights.lamp_incident / dot(to_lamp, to_lamp);
-    if LAMP == LAMP_ALL_AROUND {
+    let decayed = lights.area_light_incident / dot(to_area_light, to_area_light);
+    if AREA_LIGHT == AREA_LIGHT_ALL_AROUND {
         return decayed;
     }
-    let cosine = dot(lights.lamp_normal, -l);
-    return decayed * select(abs(cosine), max(cosine, 0.0), LAMP == LAMP_ONE_SIDED);
+    let cosine = dot(lights.area_light_normal, -l);
+    return decayed * select(abs(cosine), max(cosine, 0.0), AREA_LIGHT == AREA_LIGHT_ONE_SIDED);
 }
 
-// A plane's depth changes by at most 1 / (N.L) per unit across the light's view: that times the kernel's reach is what a
-// shape that casts its own lit side must be forgiven. Light that grazes below 3 degrees (N.L < .05) is not told apart.
+// A plane's depth changes by at most 1 / (N.L) per unit across the light's view: that times the kernel's reach is what
+// a shape that casts its own lit side must be forgiven. Light that grazes below 3 degrees (N.L < .05) is not told
+// apart.
 fn shadow(index: u32, p: vec3f, n_dot_l: f32) -> f32 {
     let clip = lights.shadow_views[index].clip_from_world * vec4f(p, 1.0);
     let uv = vec2f(0.5, -0.5) * clip.xy / clip.w + 0.5;

@@ -1,5 +1,5 @@
-//! Films that the program renders, as rows of a table. All that is known of the program is its command line, its JSON and
-//! its .exr: films of any two commits can be compared.
+//! Films that the program renders, as rows of a table. Only its command line, its JSON and its .exr are known of the
+//! program: films of any two commits can be compared.
 
 use crate::TestFolder;
 use exr::prelude as exr;

@@ -1,4 +1,5 @@
-//! Support for tests: a virtual screen with real X events, the viewer in it, and folders that clean up after themselves.
+//! Support for tests: a virtual screen with real X events, the viewer in it, and folders that clean up after
+//! themselves.
 
 pub mod films;
 mod folder;

@@ -20,7 +20,8 @@ pub struct Screen {
 
 /// How long the mouse rests between two steps, so that every step is a frame of its own.
 const STEP: Duration = Duration::from_millis(15);
-/// How long a pressed button stays down before and after a drag: a hand is never faster, and a loaded machine may need it.
+/// How long a pressed button stays down before and after a drag: a hand is never faster, and a loaded machine may need
+/// it.
 const HOLD: Duration = Duration::from_millis(300);
 
 impl Screen {

@@ -1,8 +1,9 @@
-//! Lights of a scene together, whose radiance is known in closed form, and what the settings do to rays. The hard cases of
-//! one light each are in the crate `check`.
+//! Lights of a scene together, whose radiance is known in closed form, and what the settings do to rays. The hard cases
+//! of one light each are in the crate `check`.
 
+use film::Film;
 use pathtrace::{Estimator, GlassShadows, PathSettings, Roulette, SamplerKind, Tracer, WhittedSettings};
-use scene::{Film, Scene};
+use scene::Scene;
 use std::path::Path;
 
 /// The default settings, with samples whose spread tells their error.
@@ -37,9 +38,9 @@ fn assert_mean(film: &Film, expected: f64, power: f64, what: &str) {
 }
 
 /// Inside a sphere that shines on both sides every point receives pi L, and a white one sends back L: here half of it,
-/// beside a lamp that is much weaker and must not be forgotten.
+/// beside an area light that is much weaker and must not be forgotten.
 #[test]
-fn the_inside_of_a_shining_sphere_lights_and_weak_lamps_keep_their_share() {
+fn the_inside_of_a_shining_sphere_lights_and_weak_area_lights_keep_their_share() {
     let inside = |weak: f32| {
         scene(&format!(
             r#"
@@ -78,9 +79,9 @@ material = "floor"
     }
 }
 
-/// A weak lamp under a sun whose power, over a wide scene, is a billion times its own.
+/// A weak area light under a sun whose power, over a wide scene, is a billion times its own.
 #[test]
-fn a_lamp_is_not_lost_beside_a_strong_sun() {
+fn an_area_light_is_not_lost_beside_a_strong_sun() {
     let lit = scene(
         r#"
 [camera]
@@ -154,8 +155,8 @@ material = "wall"
     assert_eq!(blind.mean(), [0.0; 3]);
 }
 
-/// Where all surfaces are diffuse, Whitted's picture without ambient light is the truth's direct light; glass in the way of
-/// a lamp throws the shadow that was asked for.
+/// Where all surfaces are diffuse, Whitted's picture without ambient light is the truth's direct light; glass in the
+/// way of an area light throws the shadow that was asked for.
 #[test]
 fn whitted_without_ambient_light_is_direct_light() {
     let scene = scene::builtin::named("cornell").expect("built in");
@@ -221,7 +222,7 @@ fn branches_multiply_the_rays_and_change_no_mean() {
         let settings = PathSettings { branches, ..with(estimator, Some(2), Roulette::OFF) };
         let mut film = Film::new(16, 16);
         let stats = tracer.render(&mut film, &room, &settings, 16, &|| false);
-        // some paths leave through the open side or end at the black lamp: all but a few of the rays are there
+        // some paths leave through the open side or end at the black area light: all but a few of the rays are there
         let per_sample = stats.rays as f64 / stats.samples as f64;
         assert!(per_sample <= rays && per_sample > 0.6 * rays, "{branches}: {per_sample} of {rays}");
     }
@@ -249,7 +250,7 @@ fn a_film_knows_when_its_standard_error_means_little() {
     assert!(!caustic.standard_error_is_reliable(), "{}", caustic.tail_weight());
 }
 
-/// A point of a lamp's own wall is neither in front of it nor behind it: rounding must not decide what it sees.
+/// A point of an area light's own wall is neither in front of it nor behind it: rounding must not decide what it sees.
 #[test]
 fn a_scattering_shell_that_shines_inwards_has_radiance_one() {
     for (center, radius) in [([0.3, 0.7, -0.2], 3.0), ([0.0, 0.0, 0.0], 1.0), ([10.0, 5.0, 7.0], 20.0)] {

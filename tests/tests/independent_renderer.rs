@@ -1,7 +1,8 @@
 //! The truth against an independent renderer, block by block: `tests/data` says where the values come from.
 
+use film::Film;
 use pathtrace::{Estimator, PathSettings, Roulette, SamplerKind, Tracer};
-use scene::{Film, Scene, builtin};
+use scene::{Scene, builtin};
 use serde_json::Value;
 
 /// The default settings, with samples whose spread tells their error.
@@ -71,7 +72,7 @@ fn assert_blocks_agree(film: &Film, reference: &Value, block: u32) {
 }
 
 #[test]
-fn cornell_agrees_block_by_block_and_outside_the_lamp() {
+fn cornell_agrees_block_by_block_and_outside_the_area_light() {
     let scene = builtin::named("cornell").expect("built in");
     for (text, bounces, roulette) in [
         (include_str!("../data/cornell.json"), None, Roulette::THROUGHPUT),
@@ -124,8 +125,8 @@ fn whitted_under_a_delta_sun_agrees_block_by_block() {
     }
 }
 
-/// With a sun of 2.5 degrees the caustic's rare bright paths make block errors unreliable; the whole picture is compared
-/// within 1 %, four times what 64 batches of this length spread by.
+/// With a sun of 2.5 degrees the caustic's rare bright paths make block errors unreliable; the whole picture is
+/// compared within 1 %, four times what 64 batches of this length spread by.
 #[test]
 fn whitted_under_a_wide_sun_agrees_as_a_whole() {
     let scene = builtin::named("whitted").expect("built in");

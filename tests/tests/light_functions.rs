@@ -1,5 +1,5 @@
-//! Light sampling in WGSL and in Rust gives the same samples, of every kind of light from every place: near, far and inside;
-//! and the same densities, cameras and surroundings. Through Vulkan and through OpenGL.
+//! Light sampling in WGSL and in Rust gives the same samples, of every kind of light from every place: near, far and
+//! inside; and the same densities, cameras and surroundings. Through Vulkan and through OpenGL.
 
 mod twin;
 
@@ -59,12 +59,13 @@ fn lights() -> Scene {
     scene::parse(LIGHTS, "lights", Path::new("lights.toml")).unwrap()
 }
 
-/// Places from within a lamp's breadth of it to ten times as far as everything.
+/// Places from within an area light's breadth of it to ten times as far as everything.
 fn place(item: u32) -> Vec3 {
     direction(item, 12) * 10f32.powf(3.0 * units(item, 13)[0] - 1.0)
 }
 
-/// Close to the horizon of a lamp, rounding decides whether it is seen at all: there its light is next to nothing.
+/// Close to the horizon of an area light, rounding decides whether it is seen at all: there its light is next to
+/// nothing.
 #[test]
 fn samples_of_every_light_agree() {
     let scene = lights();
@@ -77,16 +78,16 @@ fn samples_of_every_light_agree() {
         let sampled = "let s = sample_light(vec(at), f(at + 3u), vec2f(f(at + 4u), f(at + 5u)));";
         let wi = run(
             &tracer,
-            "lib/light.wgsl",
+            "pathtrace/light/light.wgsl",
             &format!("{sampled} return bits(s.wi.x, s.wi.y, s.wi.z, s.pdf);"),
             &[],
             &given,
         );
         let light = "return bits(s.radiance_over_pdf.x, s.radiance_over_pdf.y, s.radiance_over_pdf.z, f32(s.endless));";
-        let light = run(&tracer, "lib/light.wgsl", &format!("{sampled} {light}"), &[], &given);
+        let light = run(&tracer, "pathtrace/light/light.wgsl", &format!("{sampled} {light}"), &[], &given);
         let end = run(
             &tracer,
-            "lib/light.wgsl",
+            "pathtrace/light/light.wgsl",
             &format!("{sampled} return bits(s.end.x, s.end.y, s.end.z, 0.0);"),
             &[],
             &given,
@@ -109,7 +110,7 @@ fn samples_of_every_light_agree() {
                 continue;
             };
             let kind = match sample.end {
-                ShadowEnd::Lamp(_) => 0,
+                ShadowEnd::AreaLight(_) => 0,
                 ShadowEnd::Point(_) => 1,
                 ShadowEnd::Infinity => 2,
             };
@@ -127,7 +128,7 @@ fn samples_of_every_light_agree() {
             match sample.end {
                 ShadowEnd::Infinity => {}
                 ShadowEnd::Point(point) => assert_eq!(Vec3::new(x, y, z), point),
-                ShadowEnd::Lamp(point) => {
+                ShadowEnd::AreaLight(point) => {
                     let off = (Vec3::new(x, y, z) - point.leaving_towards(-sample.wi)).length();
                     let far = (point.position - place(item)).length();
                     assert!(off < 2e-5 * (1.0 + 0.1 * far), "item {item}: the shadow ray's end is off by {off}");
@@ -138,25 +139,26 @@ fn samples_of_every_light_agree() {
     }
 }
 
-/// Density of meeting by sampling what was met by chance, on every lamp.
+/// Density of meeting by sampling what was met by chance, on every area light.
 #[test]
 fn densities_of_every_light_agree() {
     let scene = lights();
     let lights = Lights::new(&scene);
-    let last_lamp = scene.shapes.len() - 1;
-    let first_of_box = lights.first_of_shape(last_lamp).unwrap();
-    let on_lamp = |item: u32| {
+    let last_area_light = scene.shapes.len() - 1;
+    let first_of_box = lights.first_of_shape(last_area_light).unwrap();
+    let on_area_light = |item: u32| {
         let [a, b, c, _] = units(item, 15);
         // a sample that the host drew stands for a point met by chance
         lights.sample(place(item), a, [b, c]).and_then(|sample| match sample.end {
-            ShadowEnd::Lamp(point) => Some((lights.choose(a) as u32, point)),
+            ShadowEnd::AreaLight(point) => Some((lights.choose(a) as u32, point)),
             _ => None,
         })
     };
     assert!(lights.len() > first_of_box as usize);
     for tracer in devices(&scene) {
         let given = input(|item| {
-            let (light, point) = on_lamp(item).map_or((u32::MAX, Vec3::ZERO), |(light, point)| (light, point.position));
+            let (light, point) =
+                on_area_light(item).map_or((u32::MAX, Vec3::ZERO), |(light, point)| (light, point.position));
             let [x, y, z] = point.to_array();
             let mut words = numbers(place(item), [x, y, z, 0.0, 0.0]);
             words[6] = light;
@@ -165,10 +167,10 @@ fn densities_of_every_light_agree() {
         let body = "let light = numbers[at + 6u];
             if light == 0xffffffffu { return vec4u(0u); }
             return bits(light_pdf(light, vec(at), vec(at + 3u)), 0.0, 0.0, 0.0);";
-        let on_gpu = run(&tracer, "lib/light.wgsl", body, &[], &given);
+        let on_gpu = run(&tracer, "pathtrace/light/light.wgsl", body, &[], &given);
         let mut compared = 0;
         for item in 0..ITEMS {
-            let Some((light, point)) = on_lamp(item) else { continue };
+            let Some((light, point)) = on_area_light(item) else { continue };
             let expected = lights.pdf(light, place(item), &point);
             let measured = f32::from_bits(on_gpu[item as usize][0]);
             // edge-on a density goes with 1 / cos, which rounding spoils
@@ -197,7 +199,7 @@ fn spherical_rectangles_agree() {
         let body = "let seen = spherical_rectangle(vec(at), vec3f(-0.5, 0.2, -0.7), vec3f(1.2, 0.0, 0.0), vec3f(0.0, 0.0, 0.9));
             let place = sample_spherical_rectangle(seen, vec2f(f(at + 3u), f(at + 4u)));
             return bits(seen.solid_angle, place.x, place.y, 0.0);";
-        let on_gpu = run(&tracer, "lib/spherical_rectangle.wgsl", body, &[], &given);
+        let on_gpu = run(&tracer, "pathtrace/light/spherical_rectangle.wgsl", body, &[], &given);
         let off = farthest(&on_gpu, |item| {
             let seen = SphericalRectangle::new(eye(item), corner, edge_u, edge_v);
             let [x, y] = seen.sample([units(item, 16)[3], units(item, 17)[0]]);
@@ -231,7 +233,7 @@ fn cameras_and_what_rays_find_in_the_sky_agree() {
             "let ray = camera_ray(PictureFrame({axes}), vec2f(f(at + 3u), f(at + 4u)));
             return bits(ray.direction.x, ray.direction.y, ray.direction.z, ray.origin.x);"
         );
-        let on_gpu = run(&tracer, "lib/camera.wgsl", &body, &[], &given);
+        let on_gpu = run(&tracer, "pathtrace/camera.wgsl", &body, &[], &given);
         let off = farthest(&on_gpu, |item| {
             let [a, b, ..] = units(item, 18);
             let direction = frame.direction(Vec2::new(a, b));
@@ -239,7 +241,7 @@ fn cameras_and_what_rays_find_in_the_sky_agree() {
         });
         assert!(off < 3e-7, "{off}");
         let body = "let e = environment(0.5, vec(at)); return bits(e.x, e.y, e.z, 0.0);";
-        let on_gpu = run(&tracer, "lib/sun.wgsl", body, &[], &given);
+        let on_gpu = run(&tracer, "pathtrace/light/sun.wgsl", body, &[], &given);
         let mut in_the_sun = 0;
         for (found, given) in on_gpu.iter().zip(&given) {
             let [x, y, z, ..] = given.map(f32::from_bits);

@@ -1,13 +1,14 @@
-//! The path tracer's functions in WGSL and in Rust give the same numbers: each is run over random inputs on a device that is
-//! reached through Vulkan, and again through OpenGL.
+//! The path tracer's functions in WGSL and in Rust give the same numbers: each is run over random inputs on a device
+//! that is reached through Vulkan, and again through OpenGL.
 
 mod twin;
 
+use pathtrace::SamplerKind;
 use pathtrace::bsdf::Interface;
-use pathtrace::geometry::SurfacePoint;
 use pathtrace::gpu::GpuTracer;
-use pathtrace::sampler::Sampler;
-use pathtrace::{SamplerKind, rng, sampling};
+use pathtrace::intersect::SurfacePoint;
+use pathtrace::sampling::sampler::Sampler;
+use pathtrace::sampling::{self, rng};
 use scene::{Vec3, builtin};
 use twin::{ITEMS, direction, farthest, input, numbers, run, units, words};
 
@@ -23,12 +24,12 @@ fn random_numbers_agree_bit_for_bit() {
     };
     for tracer in devices() {
         let body = "return pcg4d(vec4u(numbers[at], numbers[at + 1u], numbers[at + 2u], numbers[at + 3u]));";
-        let on_gpu = run(&tracer, "lib/rng.wgsl", body, &[], &input(of));
+        let on_gpu = run(&tracer, "pathtrace/sampling/rng.wgsl", body, &[], &input(of));
         assert!((0..).zip(&on_gpu).all(|(item, gpu)| *gpu == rng::pcg4d(words(item, 0))));
         for (kind, sobol) in [(SamplerKind::Independent, 0.0), (SamplerKind::Sobol, 1.0)] {
             let body = "let u = unit4(Sampler(numbers[at], numbers[at + 1u], numbers[at + 2u]), numbers[at + 3u]);
                 return bitcast<vec4u>(u);";
-            let on_gpu = run(&tracer, "lib/sampler.wgsl", body, &[("SOBOL", sobol)], &input(of));
+            let on_gpu = run(&tracer, "pathtrace/sampling/sampler.wgsl", body, &[("SOBOL", sobol)], &input(of));
             for (item, gpu) in (0..).zip(&on_gpu) {
                 let [pixel, sample, seed, dimension] = words(item, 0);
                 let on_cpu = Sampler { kind, pixel, sample, seed }.unit4(dimension);
@@ -103,7 +104,7 @@ fn warps_agree() {
     for tracer in devices() {
         for (body, twin, tolerance) in &warps {
             let given = input(|item| numbers(of(item).0, of(item).1));
-            let on_gpu = run(&tracer, "lib/sampling.wgsl", body, &[], &given);
+            let on_gpu = run(&tracer, "pathtrace/sampling/warp.wgsl", body, &[], &given);
             let off = farthest(&on_gpu, |item| twin(of(item).0, of(item).1));
             assert!(off <= *tolerance, "{body}: {off}");
         }
@@ -121,7 +122,7 @@ fn frames_agree_also_where_z_is_a_negative_zero() {
     for tracer in devices() {
         let body = "let b = orthonormal_basis(vec(at)); return bits(b.s.x, b.s.y, b.s.z, b.t.x);";
         let given = input(|item| numbers(of(item), [0.0; 5]));
-        let on_gpu = run(&tracer, "lib/sampling.wgsl", body, &[], &given);
+        let on_gpu = run(&tracer, "pathtrace/sampling/warp.wgsl", body, &[], &given);
         let off = farthest(&on_gpu, |item| {
             let (s, t) = sampling::orthonormal_basis(of(item));
             [s.x, s.y, s.z, t.x]
@@ -156,7 +157,8 @@ fn fresnel_and_refraction_agree_also_at_the_critical_angle() {
             let entering = f32::from(u8::from(interface.entering));
             numbers(Vec3::new(interface.ior, cos_i, entering), [root, root_low, 0.0, 0.0, 0.0])
         });
-        // where nothing is refracted, and so close to it that a rounded cosine decides, there is no direction to compare
+        // where nothing is refracted, and so close to it that a rounded cosine decides, there is no direction to
+        // compare
         let body = "let surface = Interface(f(at), f(at + 2u) == 1.0, f(at + 3u), f(at + 4u));
             let c = f(at + 1u);
             let wo = vec3f(sqrt(1.0 - c * c), 0.0, c);
@@ -164,7 +166,7 @@ fn fresnel_and_refraction_agree_also_at_the_critical_angle() {
             let cos_t = max(refracted_cosine(surface, c), 0.0);
             let all = cos_t < 1e-4;
             return bits(fresnel(surface, c), cos_t, select(wi.x, 0.0, all), select(wi.z, 0.0, all));";
-        let on_gpu = run(&tracer, "lib/bsdf.wgsl", body, &[], &given);
+        let on_gpu = run(&tracer, "pathtrace/bsdf/bsdf.wgsl", body, &[], &given);
         let off = farthest(&on_gpu, |item| {
             let (interface, c) = of(item);
             let wo = Vec3::new((1.0 - c * c).sqrt(), 0.0, c);
@@ -198,7 +200,7 @@ fn steps_off_a_surface_agree_bit_for_bit_but_for_one_rounding() {
         let body = "let p = vec(at);
             let start = leaving_towards(SurfacePoint(p, abs(p) * f(at + 7u), vec(at + 3u)), vec(at + 3u) * f(at + 6u));
             return bits(start.x, start.y, start.z, 0.0);";
-        let on_gpu = run(&tracer, "lib/surface_point.wgsl", body, &[], &given);
+        let on_gpu = run(&tracer, "pathtrace/intersect/surface_point.wgsl", body, &[], &given);
         let mut same = 0;
         for (item, gpu) in (0..).zip(&on_gpu) {
             let (point, towards) = of(item);
@@ -229,7 +231,7 @@ fn exact_dot_products_keep_what_cancels() {
         });
         let body = "let d = exact_dot(vec(at), vec3f(0.0), vec(at + 3u), vec3f(0.0));
             return bits(d, dot(vec(at), vec(at + 3u)), 0.0, 0.0);";
-        let on_gpu = run(&tracer, "lib/exact.wgsl", body, &[], &given);
+        let on_gpu = run(&tracer, "pathtrace/exact.wgsl", body, &[], &given);
         let (mut exactly, mut plainly) = (0f64, 0f64);
         for (item, gpu) in (0..).zip(&on_gpu) {
             let (n, a) = of(item);

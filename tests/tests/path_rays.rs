@@ -1,11 +1,13 @@
-//! Rays on the GPU find what is there, and nothing else: closed rooms let none out, walls do not shadow themselves, boxes of
-//! the tree are met from far away and in tiny scenes, lamps win in their plane. Through Vulkan and through OpenGL.
+//! Rays on the GPU find what is there, and nothing else: closed rooms let none out, walls do not shadow themselves,
+//! boxes of the tree are met from far away and in tiny scenes, area lights win in their plane. Through Vulkan and
+//! through OpenGL.
 
 use gpu::{Gpu, wgpu};
-use pathtrace::geometry::Ray;
+use pathtrace::Tracer;
 use pathtrace::gpu::GpuTracer;
-use pathtrace::sampler::Sampler;
-use pathtrace::{Tracer, rng, sampling};
+use pathtrace::intersect::Ray;
+use pathtrace::sampling::sampler::Sampler;
+use pathtrace::sampling::{self, rng};
 use scene::{Geometry, Scene, Vec3, builtin};
 use std::path::Path;
 
@@ -78,8 +80,8 @@ fn shadow_rays_of_tiny_scenes_meet_boxes() {
     }
 }
 
-/// Rays from the inner half of a closed box of tilted walls 500 units wide, its surface met again and again: none gets out,
-/// none meets the wall that it leaves.
+/// Rays from the inner half of a closed box of tilted walls 500 units wide, its surface met again and again: none gets
+/// out, none meets the wall that it leaves.
 #[test]
 fn no_ray_leaks_from_a_large_tilted_room_and_no_wall_shadows_itself() {
     let mut room = named("hard/light-tight-box");
@@ -117,8 +119,8 @@ fn no_ray_leaks_from_a_large_tilted_room_and_no_wall_shadows_itself() {
     }
 }
 
-/// Close to a corner at the origin of walls 500 units wide the step off a wall is tiny, and the plane's other corners are far:
-/// floats alone cannot tell which side of it a ray starts on.
+/// Close to a corner at the origin of walls 500 units wide the step off a wall is tiny, and the plane's other corners
+/// are far: floats alone cannot tell which side of it a ray starts on.
 #[test]
 fn large_walls_do_not_shadow_themselves_close_to_a_corner() {
     let mut room = named("hard/light-tight-box");
@@ -133,7 +135,7 @@ fn large_walls_do_not_shadow_themselves_close_to_a_corner() {
         let tracer = GpuTracer::new(&gpu, &room).unwrap();
         let met: Vec<_> = tracer.meet(&rays).unwrap().iter().filter_map(|answer| answer.point()).collect();
         assert_eq!(met.len(), rays.len());
-        let leave = |(i, point): (u32, &pathtrace::geometry::SurfacePoint)| {
+        let leave = |(i, point): (u32, &pathtrace::intersect::SurfacePoint)| {
             let inside = if point.normal.dot(middle - point.position) < 0.0 { -point.normal } else { point.normal };
             let [u, v, ..] = Sampler::independent(i, 0, 4).unit4(0);
             let out = sampling::to_world(sampling::cosine_hemisphere([u, v]), inside);
@@ -146,9 +148,9 @@ fn large_walls_do_not_shadow_themselves_close_to_a_corner() {
     }
 }
 
-/// Of surfaces in one plane a lamp is met, wherever it stands in the scene, else the one that comes first.
+/// Of surfaces in one plane an area light is met, wherever it stands in the scene, else the one that comes first.
 #[test]
-fn of_surfaces_in_one_plane_the_lamp_is_met_and_then_the_first() {
+fn of_surfaces_in_one_plane_the_area_light_is_met_and_then_the_first() {
     let wall = |corner: &str, u: &str, v: &str, material: &str| {
         format!("[[rectangle]]\ncorner = {corner}\nedge_u = {u}\nedge_v = {v}\nmaterial = \"{material}\"\n")
     };
@@ -177,8 +179,8 @@ fn of_surfaces_in_one_plane_the_lamp_is_met_and_then_the_first() {
                 met[hit.material as usize] += 1;
             }
         }
-        let [first, second, lamp] = ["first", "second", "lamp"]
+        let [first, second, area_light] = ["first", "second", "lamp"]
             .map(|name| met[scene.materials.iter().position(|material| material.name == name).unwrap()]);
-        assert!(first > 10_000 && second == 0 && lamp > 500, "{met:?}");
+        assert!(first > 10_000 && second == 0 && area_light > 500, "{met:?}");
     }
 }

@@ -1,13 +1,13 @@
-//! The path tracer on the GPU is the twin of the CPU's: rays meet the same surfaces at the same places, pictures agree pixel
-//! by pixel, and their means within their errors, through Vulkan and through OpenGL.
+//! The path tracer on the GPU is the twin of the CPU's: rays meet the same surfaces at the same places, pictures agree
+//! pixel by pixel, and their means within their errors, through Vulkan and through OpenGL.
 
+use film::Film;
 use gpu::{Gpu, wgpu};
-use pathtrace::geometry::Ray;
 use pathtrace::gpu::GpuTracer;
-use pathtrace::{
-    Estimator, GlassShadows, PathSettings, Roulette, SamplerKind, Stats, Tracer, WhittedSettings, rng, sampling,
-};
-use scene::{Camera, Film, Scene, Vec3, builtin};
+use pathtrace::intersect::Ray;
+use pathtrace::sampling::{self, rng};
+use pathtrace::{Estimator, GlassShadows, PathSettings, Roulette, SamplerKind, Stats, Tracer, WhittedSettings};
+use scene::{Camera, Scene, Vec3, builtin};
 use std::path::Path;
 
 const EVERYTHING: &str = include_str!("scenes/everything.toml");
@@ -67,8 +67,8 @@ fn rays_meet_the_same_surfaces_at_the_same_places_among_few_shapes() {
     rays_meet_the_same_surfaces_at_the_same_places(&crowd(21));
 }
 
-/// Rays from everywhere to everywhere, and rays that leave what they met: the same surface on both machines for all but 1 in
-/// 100,000, at the same place.
+/// Rays from everywhere to everywhere, and rays that leave what they met: the same surface on both machines for all but
+/// 1 in 100,000, at the same place.
 fn rays_meet_the_same_surfaces_at_the_same_places(scene: &Scene) {
     let cpu = Tracer::new(scene);
     let aimed = |i: u32| direction(i, 2) * (2.0 * rng::unit_float(rng::pcg4d([i, 4, 5, 1])[0]));
@@ -227,7 +227,7 @@ fn films_go_on_stop_and_are_read_without_waiting() {
     assert!(off < 1e-6, "{off}");
 
     let mut on_device = tracer.film(Film::new(48, 40)).unwrap();
-    tracer.expose(&mut on_device, &scene.camera, &settings, 6, &|| false).unwrap();
+    tracer.accumulate(&mut on_device, &scene.camera, &settings, 6, &|| false).unwrap();
     on_device.begin_reading(&gpu).unwrap();
     let (film, stats) = loop {
         if let Some(read) = on_device.poll_reading(&gpu).unwrap() {
@@ -249,12 +249,12 @@ fn films_go_on_stop_and_are_read_without_waiting() {
     let mut tracer = GpuTracer::new(&gpu, &scene).unwrap();
     tracer.set_budget(1e-3);
     let [mut whole, mut halting] = [(); 2].map(|()| tracer.film(Film::new(203, 120)).unwrap());
-    tracer.expose(&mut whole, &scene.camera, &settings, 3, &|| false).unwrap();
+    tracer.accumulate(&mut whole, &scene.camera, &settings, 3, &|| false).unwrap();
     let mut stops = 0;
     while halting.samples_per_pixel() < 3 {
         let asked = std::cell::Cell::new(0);
         let stop = || asked.replace(asked.get() + 1) >= 1;
-        tracer.expose(&mut halting, &scene.camera, &settings, 3, &stop).unwrap();
+        tracer.accumulate(&mut halting, &scene.camera, &settings, 3, &stop).unwrap();
         stops += 1;
     }
     // one that is asked for less than it began is begun anew, for those who lack it
@@ -262,8 +262,8 @@ fn films_go_on_stop_and_are_read_without_waiting() {
     tracer.set_budget(1e-3);
     let mut less = tracer.film(Film::new(203, 120)).unwrap();
     let once = std::cell::Cell::new(0);
-    tracer.expose(&mut less, &scene.camera, &settings, 3, &|| once.replace(once.get() + 1) >= 2).unwrap();
-    tracer.expose(&mut less, &scene.camera, &settings, 2, &|| false).unwrap();
+    tracer.accumulate(&mut less, &scene.camera, &settings, 3, &|| once.replace(once.get() + 1) >= 2).unwrap();
+    tracer.accumulate(&mut less, &scene.camera, &settings, 2, &|| false).unwrap();
     let (less, _) = less.read(&gpu).unwrap();
     assert!(less.samples_per_pixel() == 2 && less.pixels().iter().all(|pixel| pixel.samples <= 3));
     let [(whole, stats), (halted, halted_stats)] = [whole, halting].map(|mut film| film.read(&gpu).unwrap());

@@ -1,11 +1,12 @@
-//! The fake as taught, pixel by pixel, against a twin on the CPU that knows nothing of passes and pipelines: it casts rays at
-//! the triangles, looks up texels that it casts itself, and rounds where bytes were kept.
+//! The fake as taught, pixel by pixel, against a twin on the CPU that knows nothing of passes and pipelines: it casts
+//! rays at the triangles, looks up texels that it casts itself, and rounds where bytes were kept.
 
+use film::DisplayTransform;
+use film::Film;
 use gpu::Gpu;
 use raster::{Fake, FakeKnobs, Raster, RasterSettings, shading};
-use scene::display::DisplayTransform;
 use scene::glam::Vec2;
-use scene::{Bsdf, Camera, Film, Geometry, Material, Scene, Shape, Texture, Vec3, builtin};
+use scene::{Bsdf, Camera, Geometry, Material, Scene, Shape, Texture, Vec3, builtin};
 use std::f32::consts::{PI, TAU};
 
 /// Positions of the 4 samples of a pixel, in pixels from its top left corner.

@@ -1,9 +1,10 @@
 //! The knobs of the fake, the maps that can be looked at in place of the picture, and what must not make it stumble.
 
+use film::DisplayTransform;
+use film::{Film, colour};
 use gpu::Gpu;
 use raster::{Fake, FakeKnobs, MOST_CUBE_MAPS, Raster, RasterError, RasterSettings, Shading, ShadowFilter, Show, maps};
-use scene::display::DisplayTransform;
-use scene::{Bsdf, Camera, Film, Geometry, Scene, Shape, Vec3, builtin, colour};
+use scene::{Bsdf, Camera, Geometry, Scene, Shape, Vec3, builtin};
 
 struct Studio {
     gpu: Gpu,
@@ -285,11 +286,11 @@ fn the_suns_map_is_a_square_with_two_discs_near_ones_brighter() {
 }
 
 #[test]
-fn the_lamps_map_is_a_cross_with_the_boxes_below() {
+fn the_area_lights_map_is_a_cross_with_the_boxes_below() {
     let (mut studio, scene) = (Studio::new(), builtin::named("cornell").unwrap());
     let film = studio.film(&scene, shown(Show::ShadowMap, Fake::Fair, (256, 192), FakeKnobs::default()));
-    // in the cell -y the top is -z and the right is +x; the tall box, at greater x and z, reaches nearer to the lamp, and the
-    // floor casts on nothing
+    // in the cell -y the top is -z and the right is +x; the tall box, at greater x and z, reaches nearer to the area
+    // light, and the floor casts on nothing
     let [tall, short, floor] = [(0.66, 0.7), (0.38, 0.36), (0.5, 0.1)].map(|(s, t)| cell(&film, 1, 2, s, t).x);
     assert!(tall > 1.2 * short && short >= maps::DARKEST && floor == 0.0, "{tall}, {short}, {floor}");
     assert_eq!(cell(&film, 3, 0, 0.5, 0.5).x, maps::BACKGROUND);

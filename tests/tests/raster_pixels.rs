@@ -1,10 +1,11 @@
 //! Pixels of the whole fake against closed forms: what is seen where, in which units, through which map.
 
+use film::DisplayTransform;
+use film::{Film, colour};
 use gpu::Gpu;
 use raster::{Fake, Raster, RasterSettings, Shading, shading};
-use scene::display::DisplayTransform;
 use scene::glam::Vec2;
-use scene::{Bsdf, Camera, Film, Geometry, Scene, Sun, Texture, Vec3, builtin, colour};
+use scene::{Bsdf, Camera, Geometry, Scene, Sun, Texture, Vec3, builtin};
 use std::f32::consts::PI;
 
 const WIDTH: u32 = 1280;
@@ -100,8 +101,8 @@ fn floor_through_glass(scene: &Scene, d: Vec3) -> Option<Vec3> {
     (half_chord > 0.2 && looked_up.y < -0.02).then(|| on_plane(center, looked_up, 0.0))
 }
 
-/// Pixels that see the middle part of a lit cell through the glass: the pixel and the point of the floor. Beside the metal
-/// sphere and its shadow; the glass's own shadow, about (2.2, -3.8), is hidden from its cube map.
+/// Pixels that see the middle part of a lit cell through the glass: the pixel and the point of the floor. Beside the
+/// metal sphere and its shadow; the glass's own shadow, about (2.2, -3.8), is hidden from its cube map.
 fn floor_pixels_through_glass(scene: &Scene, film: &Film) -> Vec<((u32, u32), Vec3)> {
     let board = board(scene);
     let pixels = (0..film.height()).flat_map(|y| (0..film.width()).map(move |x| (x, y)));
@@ -169,19 +170,19 @@ fn fair_floor_is_sun_times_cosine_plus_sky_plus_highlight() {
 }
 
 #[test]
-fn fair_lamp_is_the_one_sample_direct_light() {
+fn fair_area_light_is_the_one_sample_direct_light() {
     let scene = builtin::named("cornell").unwrap();
     let film = rendered(&scene, RasterSettings { shading: Shading::Phong, ..RasterSettings::new(256, 256) });
-    let (radiance, area, lamp) = (30.0, 130.0 * 105.0, Vec3::new(278.0, 554.5, 278.0));
+    let (radiance, area, area_light) = (30.0, 130.0 * 105.0, Vec3::new(278.0, 554.5, 278.0));
     // the middle of the floor, and the top of the short box, which casts shadows but none on itself
     for point in [Vec3::new(278.0, 1.0, 277.5), Vec3::new(180.0, 165.0, 140.0)] {
         let (x, y) = pixel_of(&scene.camera, &film, point);
         let d = direction(&scene.camera, &film, Vec2::new(x as f32 + 0.5, y as f32 + 0.5));
-        let to_lamp = lamp - on_plane(scene.camera.eye, d, point.y);
-        let l = to_lamp.normalize();
-        let irradiance_facing_the_lamp = Vec3::splat(radiance * area * l.y / to_lamp.length_squared());
+        let to_area_light = area_light - on_plane(scene.camera.eye, d, point.y);
+        let l = to_area_light.normalize();
+        let irradiance_facing_the_area_light = Vec3::splat(radiance * area * l.y / to_area_light.length_squared());
         let kd = Vec3::splat(0.5);
-        let expected = shading::phong(Vec3::Y, l, -d, kd, 17.0 / 255.0, 30.0, irradiance_facing_the_lamp / PI);
+        let expected = shading::phong(Vec3::Y, l, -d, kd, 17.0 / 255.0, 30.0, irradiance_facing_the_area_light / PI);
         let found = film.at(x, y);
         assert!(((found - expected) / expected).abs().max_element() < 1e-3, "{point}: {found} is not {expected}");
     }

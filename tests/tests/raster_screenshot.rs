@@ -1,12 +1,13 @@
 //! The fake as taught against the tutorial's own picture: colours read from a screenshot of the course's viewer.
 //!
-//! Its 4841 points on edges of the checkerboard fit a camera to .08 pixels. It is the scene's own, at the middle of 1876 x 978
-//! pixels of which rows 51 to 865 were kept. The silhouettes then give the metal sphere as the scene has it, and a glass of
-//! radius .96 at the scene's place, not 1; so does its shadow. The screenshot's palette has 127 colours: 4 of 255 are allowed.
+//! Its 4841 points on edges of the checkerboard fit a camera to .08 pixels. It is the scene's own, at the middle of
+//! 1876 x 978 pixels of which rows 51 to 865 were kept. The silhouettes then give the metal sphere as the scene has it,
+//! and a glass of radius .96 at the scene's place, not 1; so does its shadow. The screenshot's palette has 127 colours:
+//! 4 of 255 are allowed.
 
+use film::DisplayTransform;
 use gpu::Gpu;
 use raster::{Fake, Raster, RasterSettings};
-use scene::display::DisplayTransform;
 use scene::{Geometry, Scene, builtin};
 
 const WIDTH: u32 = 1876;

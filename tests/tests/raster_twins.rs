@@ -33,8 +33,8 @@ impl Random {
     }
 }
 
-/// Runs `body`, which turns the numbers from `in_at` on into a vec3f, for each item of `width` numbers. `map` is a square
-/// shadow map.
+/// Runs `body`, which turns the numbers from `in_at` on into a vec3f, for each item of `width` numbers. `map` is a
+/// square shadow map.
 fn run(import: &str, body: &str, width: usize, input: &[f32], map: &[f32]) -> Vec<Vec3> {
     let shader = format!(
         "//#import {import}\n
@@ -185,7 +185,7 @@ fn illumination_models_agree() {
         input.extend([random.between(0.0, 2.0), random.between(0.0, 2.0), random.between(0.0, 2.0)]);
     }
     for (name, model) in MODELS {
-        let on_gpu = run("lib/shading.wgsl", &shading_body(name), 17, &input, &[1.0]);
+        let on_gpu = run("raster/shading.wgsl", &shading_body(name), 17, &input, &[1.0]);
         let at = |x: &[f32], i: usize| Vec3::from_slice(&x[i..i + 3]);
         let twin = |x: &[f32]| model(at(x, 0), at(x, 3), at(x, 6), at(x, 9), x[12], x[13], at(x, 14));
         let on_cpu: Vec<_> = input.chunks_exact(17).map(twin).collect();
@@ -204,7 +204,7 @@ fn phong_and_blinn_phong_have_their_closed_form_values() {
     for ((name, model), expected) in MODELS.into_iter().zip([0.579_854_7, 0.722_189_5]) {
         let ambient = 0.1;
         let on_cpu = ambient + model(n, l, v, Vec3::splat(0.6), 0.3, 32.0, Vec3::ONE).y;
-        let on_gpu = ambient + run("lib/shading.wgsl", &shading_body(name), 17, &input, &[1.0])[0].y;
+        let on_gpu = ambient + run("raster/shading.wgsl", &shading_body(name), 17, &input, &[1.0])[0].y;
         assert!((on_cpu - expected).abs() < 1e-4, "{name} on the CPU: {on_cpu}");
         assert!((on_gpu - expected).abs() < 1e-4, "{name} on the GPU: {on_gpu}");
     }
@@ -228,7 +228,7 @@ fn refraction_agrees_on_both_sides_of_the_critical_angle() {
     }
     assert!(mirrored > ITEMS / 10 && mirrored < ITEMS * 9 / 10);
     let body = "return refract(vec(at), vec(at + 3u), numbers[at + 6u]);";
-    let on_gpu = run("lib/refraction.wgsl", body, 7, &input, &[1.0]);
+    let on_gpu = run("raster/refraction.wgsl", body, 7, &input, &[1.0]);
     let at = |x: &[f32], i: usize| Vec3::from_slice(&x[i..i + 3]);
     let on_cpu: Vec<_> = input.chunks_exact(7).map(|x| shading::refract(at(x, 0), at(x, 3), x[6])).collect();
     let apart = apart(&on_gpu, &on_cpu);
@@ -249,7 +249,7 @@ fn checkerboards_agree_away_from_their_edges() {
     let input: Vec<f32> = points.iter().flat_map(|p| p.to_array()).collect();
     let body = "let board = Checkerboard(vec3f(0.8, 0.8, 0.0), vec3f(0.8, 0.0, 0.1), vec3f(-23.0, 0.0, -7.5), vec3f(1.0, 0.0, 2.0));
         return checkerboard(board, vec(at));";
-    let on_gpu = run("lib/checkerboard.wgsl", body, 3, &input, &[1.0]);
+    let on_gpu = run("shared/checkerboard.wgsl", body, 3, &input, &[1.0]);
     let on_cpu: Vec<_> = points.iter().map(|&p| shading::checkerboard(&board, p)).collect();
     assert_eq!(apart(&on_gpu, &on_cpu), 0.0);
     let even = on_cpu.iter().filter(|c| **c == board.even).count();
@@ -274,7 +274,7 @@ fn shadow_kernels_agree_inside_and_at_the_border() {
     for (code, twin) in twins.into_iter().enumerate() {
         let at = "vec2f(numbers[at], numbers[at + 1u]), numbers[at + 2u]";
         let on_gpu =
-            run("lib/shadow.wgsl", &format!("return vec3f(lit_share({code}u, map, 1u, {at}));"), 3, &input, &map);
+            run("raster/shadow.wgsl", &format!("return vec3f(lit_share({code}u, map, 1u, {at}));"), 3, &input, &map);
         let on_cpu: Vec<_> = input.chunks_exact(3).map(|x| Vec3::splat(twin(x))).collect();
         let apart = apart(&on_gpu, &on_cpu);
         assert!(apart < 1e-5, "filter {code}: {apart}");

@@ -1,5 +1,5 @@
-//! The reference: its claim about its own error holds, making it in parts is making it at once, and the store gives back
-//! what it was given and takes no more room than it may.
+//! The reference: its claim about its own error holds, making it in parts is making it at once, and the store gives
+//! back what it was given and takes no more room than it may.
 
 use reference::{Goal, Key, Maker, Reference, SAMPLES_PER_REPLICATE, Store, Subject};
 use scene::{Scene, Vec3};
@@ -27,18 +27,19 @@ fn made(scene: &Scene, pictures: u32, begun: Option<&Reference>) -> Reference {
     maker.reference()
 }
 
-/// Against a picture of four times as many samples, the squared differences are what the standard errors claim: pixel by
-/// pixel, and summed over the picture, which is the noise that is told. The truth's own noise adds 1/4; a mean of squared
-/// Student's t of 31 degrees of freedom is 31/29. The 576 pixels' channels go together, so that chance alone makes about 7 %
-/// of the one; a few of the noisiest pixels rule the other. With 16 pictures the first is about 1.5 instead of 1: some
-/// pixels have not met their rare bright samples yet and claim too little, while the sum is right already.
+/// Against a picture of four times as many samples, the squared differences are what the standard errors claim: pixel
+/// by pixel, and summed over the picture, which is the noise that is told. The truth's own noise adds 1/4; a mean of
+/// squared Student's t of 31 degrees of freedom is 31/29. The 576 pixels' channels go together, so that chance alone
+/// makes about 7 % of the one; a few of the noisiest pixels rule the other. With 16 pictures the first is about 1.5
+/// instead of 1: some pixels have not met their rare bright samples yet and claim too little, while the sum is right
+/// already.
 #[test]
 fn the_standard_error_of_a_reference_is_calibrated() {
     let scene = cornell();
     let reference = made(&scene, 32, None);
     let tracer = pathtrace::Tracer::new(&scene);
     let settings = pathtrace::PathSettings { seed: 1000, ..Maker::settings(0) };
-    let mut truth = scene::Film::new(SIZE.0, SIZE.1);
+    let mut truth = film::Film::new(SIZE.0, SIZE.1);
     tracer.render(&mut truth, &scene.camera, &settings, 4 * 32 * SAMPLES_PER_REPLICATE, &|| false);
 
     let errors = reference.standard_errors.as_ref().unwrap();
@@ -46,7 +47,7 @@ fn the_standard_error_of_a_reference_is_calibrated() {
     let (mut standardised, mut count, mut claimed, mut found) = (0.0, 0, 0.0, 0.0);
     for ((mean, error), truth) in reference.radiances.iter().zip(errors).zip(truth.radiances()) {
         for ((mean, error), truth) in channels(mean).into_iter().zip(channels(error)).zip(channels(&truth)) {
-            // a pixel that is wholly lamp or background does not vary
+            // a pixel that is wholly area light or background does not vary
             if error > 1e-5 * (1.0 + mean) {
                 standardised += ((mean - truth) / error).powi(2);
                 count += 1;
@@ -103,7 +104,7 @@ fn no_usual_picture_shares_its_seed_with_a_reference() {
     let reference = made(&scene, 2, None);
     for seed in (0..32).chain([Maker::settings(1).seed]) {
         let settings = Maker::settings(seed);
-        let mut usual = scene::Film::new(SIZE.0, SIZE.1);
+        let mut usual = film::Film::new(SIZE.0, SIZE.1);
         tracer.render(&mut usual, &scene.camera, &settings, SAMPLES_PER_REPLICATE, &|| false);
         // the two pictures of the reference, from their mean and their spread
         let pairs = usual.radiances().zip(&reference.radiances).zip(reference.standard_errors.as_ref().unwrap());
@@ -135,11 +136,11 @@ fn a_file_keeps_every_bit() {
     let reference = sketched(16);
     std::fs::write(&file, reference.encode(vec![("scene", "cornell".into())]).unwrap()).unwrap();
     assert_eq!(Reference::load(&file).unwrap(), reference);
-    let records = picture_file::records(&file).unwrap();
+    let records = image_file::records(&file).unwrap();
     assert!(records.contains(&("scene".into(), "cornell".into())) && records.contains(&("spp".into(), "1024".into())));
     // any other picture is one without an error
-    let plain = picture_file::Linear { width: 4, height: 3, radiances: &reference.radiances };
-    let bytes = picture_file::encode(picture_file::Kind::Exr, plain, &Default::default(), &Vec::new()).unwrap();
+    let plain = image_file::Linear { width: 4, height: 3, radiances: &reference.radiances };
+    let bytes = image_file::encode(image_file::Kind::Exr, plain, &Default::default(), &Vec::new()).unwrap();
     std::fs::write(&file, bytes).unwrap();
     let loaded = Reference::load(&file).unwrap();
     assert_eq!((loaded.standard_errors, loaded.replicates, loaded.radiances), (None, 0, reference.radiances));

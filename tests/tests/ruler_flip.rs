@@ -1,9 +1,9 @@
 //! The ruler against NVIDIA's FLIP evaluator and numpy, on pictures that both sides compute: see `tests/data/flip.py`.
 
 use compare::flip::{PIXELS_PER_DEGREE, flip, hdr_flip};
-use compare::{ErrorMap, errors_of_radiances};
+use compare::{ErrorMetric, errors_of_radiances};
+use film::DisplayTransform;
 use scene::Vec3;
-use scene::display::DisplayTransform;
 use serde_json::Value;
 
 const WIDTH: i32 = 128;
@@ -130,12 +130,12 @@ fn the_other_metrics_equal_numpys_and_the_means_of_their_maps() {
     for (pair, of) in PAIRS {
         let film = picture(of);
         let e = errors_of_radiances(&film, &truth);
-        let map = |map: ErrorMap| mean(&map.of_radiances(&film, &truth, WIDTH as u32, &display).unwrap());
+        let map = |map: ErrorMetric| mean(&map.of_radiances(&film, &truth, WIDTH as u32, &display).unwrap());
         for (number, measured, of_map) in [
             ("rmse", e.rmse, None),
-            ("rel_mse", e.rel_mse, Some(ErrorMap::SquaredRelative)),
-            ("mae", e.mae, Some(ErrorMap::Absolute)),
-            ("bias", e.bias, Some(ErrorMap::Signed)),
+            ("rel_mse", e.rel_mse, Some(ErrorMetric::SquaredRelative)),
+            ("mae", e.mae, Some(ErrorMetric::Absolute)),
+            ("bias", e.bias, Some(ErrorMetric::Signed)),
         ] {
             assert_near(pair, number, measured, 1e-12);
             if let Some(of_map) = of_map {

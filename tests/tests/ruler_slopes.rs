@@ -1,9 +1,9 @@
-//! The bench's own claims, on fixed seeds and sizes: independent numbers make errors fall like samples^-0.50, Sobol points
-//! faster, and a limit of bounces leaves a bias that no number of samples takes away.
+//! The bench's own claims, on fixed seeds and sizes: independent numbers make errors fall like samples^-0.50, Sobol
+//! points faster, and a limit of bounces leaves a bias that no number of samples takes away.
 //!
-//! Power: at these sizes the standard errors of slopes of the root of the relMSE are below 0.01, so that 0.05 is more than
-//! five of them; samples of which every second one repeats the one before move them by 0.08. The RMSE of the Cornell box is
-//! made by the few pixels at its lamp's edge: its slope is known to 0.03 only, and held to 0.1.
+//! Power: at these sizes the standard errors of slopes of the root of the relMSE are below 0.01, so that 0.05 is more
+//! than five of them; samples of which every second one repeats the one before move them by 0.08. The RMSE of the
+//! Cornell box is made by the few pixels at its area light's edge: its slope is known to 0.03 only, and held to 0.1.
 
 use bench::measure::{Measurement, traced};
 use bench::plan::{Part, Speed};
@@ -83,7 +83,8 @@ fn few_bounces_flatten_at_their_bias_and_roulette_does_not() {
     assert!(ends[0].abs() < 0.05 && ends[1] > -0.35 && (ends[2] + 0.5).abs() < 0.08, "{ends:?}");
 
     let test = |curve: &Curve| curve.last().unwrap().bias_test.unwrap().relative;
-    // direct light alone loses more than a fifth of most pixels; what roulette might lose is below what would be noticed
+    // direct light alone loses more than a fifth of most pixels; what roulette might lose is below what would be
+    // noticed
     assert!(test(&direct).found() && test(&direct).bias() > 0.2, "{:?}", test(&direct));
     assert!(test(&one).found(), "{:?}", test(&one));
     assert!(!test(&roulette).found() && test(&roulette).power() < 0.03, "{:?}", test(&roulette));

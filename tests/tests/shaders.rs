@@ -1,7 +1,7 @@
 //! Every shader that ships is valid WGSL, and every struct that Rust and WGSL share has the same layout on both sides.
 
 use gpu::wgsl;
-use pathtrace::gpu::film_data::{Exposure, PictureFrame, Pixel};
+use pathtrace::gpu::film_data::{PictureFrame, Pixel, RenderParams};
 use pathtrace::gpu::rays::{RayAnswer, RayQuery};
 use pathtrace::gpu::scene_data::{Checkerboard, Header, Light, Material};
 use pathtrace::gpu::shape_data::{FewShape as Shape, Node, ShapeData as Primitive, Surface};
@@ -21,11 +21,15 @@ fn every_shader_composes_and_validates() {
 fn every_shader_file_is_embedded() {
     let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../shaders");
     let mut found = Vec::new();
-    for part in std::fs::read_dir(&folder).unwrap() {
-        let part = part.unwrap().path();
-        for file in std::fs::read_dir(&part).unwrap() {
-            let path = file.unwrap().path();
-            found.push(path.strip_prefix(&folder).unwrap().to_string_lossy().replace('\\', "/"));
+    let mut folders = vec![folder.clone()];
+    while let Some(part) = folders.pop() {
+        for entry in std::fs::read_dir(&part).unwrap() {
+            let path = entry.unwrap().path();
+            if path.is_dir() {
+                folders.push(path);
+            } else {
+                found.push(path.strip_prefix(&folder).unwrap().to_string_lossy().replace('\\', "/"));
+            }
         }
     }
     found.sort();
@@ -65,10 +69,10 @@ fn mirrors_have_the_layout_of_their_structs() {
             shading,
             sun_incident,
             refracts_per_vertex,
-            lamp_position,
-            lamp_pattern,
-            lamp_normal,
-            lamp_incident,
+            area_light_position,
+            area_light_pattern,
+            area_light_normal,
+            area_light_incident,
             shadow_bias,
             ambient,
             sky,
@@ -99,29 +103,33 @@ fn mirrors_have_the_layout_of_their_structs() {
 #[test]
 fn mirrors_of_the_path_tracer_have_the_layout_of_their_structs() {
     assert_same_layout!(
-        "lib/scene.wgsl",
+        "pathtrace/scene.wgsl",
         Header,
         [sky, primitives, sun_towards, sun_chord_squared, sun_radiance, sun_pdf, lights, zero, seen, shading]
     );
-    assert_same_layout!("lib/scene.wgsl", Node, [low, contents, high, unused]);
-    assert_same_layout!("lib/scene.wgsl", Primitive, [a, normal_x, b, normal_y, c, normal_z, normal_low, tag]);
+    assert_same_layout!("pathtrace/scene.wgsl", Node, [low, contents, high, unused]);
+    assert_same_layout!("pathtrace/scene.wgsl", Primitive, [a, normal_x, b, normal_y, c, normal_z, normal_low, tag]);
     assert_same_layout!(
-        "lib/scene.wgsl",
+        "pathtrace/scene.wgsl",
         Shape,
         [a, normal_x, b, normal_y, c, normal_z, d, id, normal_low, flatness, plane_point]
     );
-    assert_same_layout!("lib/scene.wgsl", Surface, [normal, material, light]);
-    assert_same_layout!("lib/scene.wgsl", Checkerboard, [even, odd, origin, cells_per_unit]);
-    assert_same_layout!("lib/scene.wgsl", Material, [colour, emission, emitting_sides, bsdf, ior, root, root_low]);
+    assert_same_layout!("pathtrace/scene.wgsl", Surface, [normal, material, light]);
+    assert_same_layout!("pathtrace/scene.wgsl", Checkerboard, [even, odd, origin, cells_per_unit]);
     assert_same_layout!(
-        "lib/scene.wgsl",
+        "pathtrace/scene.wgsl",
+        Material,
+        [colour, emission, emitting_sides, bsdf, ior, root, root_low]
+    );
+    assert_same_layout!(
+        "pathtrace/scene.wgsl",
         Light,
         [position, outline, u, area, v, square, normal, two_sided, radiance, probability, cumulative]
     );
-    assert_same_layout!("pathtrace/film.wgsl", PictureFrame, [eye, forward, right, up]);
+    assert_same_layout!("pathtrace/drive/film.wgsl", PictureFrame, [eye, forward, right, up]);
     assert_same_layout!(
-        "pathtrace/film.wgsl",
-        Exposure,
+        "pathtrace/drive/film.wgsl",
+        RenderParams,
         [
             frame,
             size,
@@ -143,13 +151,13 @@ fn mirrors_of_the_path_tracer_have_the_layout_of_their_structs() {
         ]
     );
     assert_same_layout!(
-        "pathtrace/film.wgsl",
+        "pathtrace/drive/film.wgsl",
         Pixel,
         [sum, samples, sum_of_squares, largest, sum_low, rays, squares_low, faults]
     );
-    assert_same_layout!("pathtrace/rays.wgsl", RayQuery, [origin, tmax, direction, unused]);
+    assert_same_layout!("pathtrace/drive/rays.wgsl", RayQuery, [origin, tmax, direction, unused]);
     assert_same_layout!(
-        "pathtrace/rays.wgsl",
+        "pathtrace/drive/rays.wgsl",
         RayAnswer,
         [position, t, error, material, normal, occluded, refracted, reflectance]
     );

@@ -1,16 +1,15 @@
 //! Visavis: the rasterised fake of a scene face to face with its path-traced truth.
 //!
 //! [`run`] reads the command line ([`cli`]): headless commands, or the viewer. The viewer is three layers: [`ui`] draws
-//! controls and pictures into egui and knows no window; [`workers`] render beside it; [`window`] is the shell around
-//! both, the only place that knows winit.
+//! controls and pictures into egui and knows no window; the [`engine`] renders beside it; [`window`] is the shell
+//! around both, the only place that knows winit.
 
 pub mod cli;
-mod fuse;
+pub mod engine;
 pub mod ruler;
 pub mod technique;
 pub mod ui;
 pub mod window;
-pub mod workers;
 
 use std::ffi::OsString;
 use std::process::ExitCode;

@@ -6,14 +6,14 @@ use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT, Queryable};
 use std::cell::RefCell;
 use std::rc::Rc;
-use visavis::technique::{Adapter, Adapters, Device, Technique};
-use visavis::ui::{Dump, Request, Theme, Viewer, Wall};
+use visavis::technique::{Adapter, Adapters, DeviceChoice, Technique};
+use visavis::ui::{Dump, Theme, UiCommand, ViewModel, Viewer};
 
 /// A viewer on a scene, its panels drawn at 1280 x 720.
 struct Panels {
     harness: Harness<'static>,
     viewer: Rc<RefCell<Viewer>>,
-    requests: Rc<RefCell<Vec<Request>>>,
+    requests: Rc<RefCell<Vec<UiCommand>>>,
 }
 
 impl Panels {
@@ -23,7 +23,7 @@ impl Panels {
     }
 
     /// The same beside an adapter.
-    fn beside_an_adapter(scene: &str, device: Device) -> Self {
+    fn beside_an_adapter(scene: &str, device: DeviceChoice) -> Self {
         let opened = scene::builtin::named(scene).expect("a built-in scene");
         let adapters = Adapters(vec![Adapter { name: "an adapter, an interface".into(), software: true }]);
         Self::showing(Viewer::new(opened, scene.into(), Theme::Dark).beside(adapters, device))
@@ -34,7 +34,7 @@ impl Panels {
         let requests = Rc::new(RefCell::new(Vec::new()));
         let (shared, asked) = (viewer.clone(), requests.clone());
         let harness = Harness::builder().with_size([1280.0, 720.0]).build_ui(move |ui| {
-            asked.borrow_mut().extend(shared.borrow_mut().ui(ui, &Wall::default(), &mut Dump::default()));
+            asked.borrow_mut().extend(shared.borrow_mut().ui(ui, &ViewModel::default(), &mut Dump::default()));
         });
         Panels { harness, viewer, requests }
     }
@@ -89,20 +89,20 @@ fn where_rays_are_traced_is_chosen_where_there_is_a_choice() {
     let mut without = Panels::of("cornell");
     without.click("More", 1);
     assert!(without.shows("Seed") && !without.shows("the GPU"));
-    let mut panels = Panels::beside_an_adapter("cornell", Device::Gpu);
+    let mut panels = Panels::beside_an_adapter("cornell", DeviceChoice::Gpu);
     panels.click("More", 1);
     assert!(panels.shows("the GPU is an adapter, an interface"));
     let device = |panels: &Panels| panels.viewer.borrow().settings.panes.map(|pane| pane.device);
-    assert_eq!(device(&panels), [Device::Gpu; 2]);
+    assert_eq!(device(&panels), [DeviceChoice::Gpu; 2]);
     panels.click("auto", 0);
-    assert_eq!(device(&panels), [Device::Gpu, Device::Auto]);
+    assert_eq!(device(&panels), [DeviceChoice::Gpu, DeviceChoice::Auto]);
     assert!(!panels.shows("the GPU is"), "where the processor plays the adapter, auto is the processor");
     panels.click("Undo", 0);
-    assert_eq!(device(&panels), [Device::Gpu; 2]);
+    assert_eq!(device(&panels), [DeviceChoice::Gpu; 2]);
     panels.count_named();
     panels.click("Whitted", 1);
     panels.click("the CPU", 0);
-    assert_eq!(device(&panels), [Device::Gpu, Device::Cpu], "Whitted's trees are traced there too");
+    assert_eq!(device(&panels), [DeviceChoice::Gpu, DeviceChoice::Cpu], "Whitted's trees are traced there too");
 }
 
 #[test]
@@ -136,7 +136,7 @@ fn what_the_map_and_the_reference_need_is_there_with_them_alone() {
     assert!(of_both.iter().all(|label| panels.shows(label)));
     panels.click("B - reference", 0);
     let wish = panels.viewer.borrow().comparison().map.expect("a map to draw");
-    assert_eq!((wish.of, wish.map), (visavis::workers::Side::B, compare::ErrorMap::SquaredRelative));
+    assert_eq!((wish.of, wish.map), (visavis::engine::Side::B, compare::ErrorMetric::SquaredRelative));
     assert_eq!(wish.held, Some(1.0), "there was no picture to fit it to");
     // each map has a scale of its own
     panels.click("relative", 0);
@@ -198,5 +198,5 @@ fn keys_and_menus_ask_the_shell() {
     panels.harness.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::Q);
     panels.harness.run_steps(2);
     let asked = panels.requests.borrow().clone();
-    assert!(matches!(asked[..], [Request::Export { .. }, Request::Quit]), "{asked:?}");
+    assert!(matches!(asked[..], [UiCommand::Export { .. }, UiCommand::Quit]), "{asked:?}");
 }

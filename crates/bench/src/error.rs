@@ -1,8 +1,8 @@
 //! Why a bench cannot go on: one line each, the path last.
 
 use compare::CompareError;
+use image_file::ImageFileError;
 use pathtrace::gpu::GpuTraceError;
-use picture_file::PictureError;
 use scene::SceneError;
 use std::path::{Path, PathBuf};
 
@@ -19,7 +19,7 @@ pub enum BenchError {
     },
     /// The disk is full, or the folder may not be written.
     #[error(transparent)]
-    File(#[from] PictureError),
+    File(#[from] ImageFileError),
     /// The journal cannot be read or written.
     #[error("cannot {what} the journal ({why}); what was measured before stays in it: {}", path.display())]
     Journal {

@@ -72,7 +72,8 @@ pub fn today() -> String {
     format!("{year}-{month:02}-{day:02}")
 }
 
-/// Days since 1970 to year, month, day: Howard Hinnant, "chrono-compatible low-level date algorithms", `civil_from_days`.
+/// Days since 1970 to year, month, day: Howard Hinnant, "chrono-compatible low-level date algorithms",
+/// `civil_from_days`.
 fn civil(days: u64) -> (u64, u64, u64) {
     let z = days + 719_468;
     let (era, day_of_era) = (z / 146_097, z % 146_097);

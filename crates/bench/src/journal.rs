@@ -42,8 +42,8 @@ pub struct Journal {
 }
 
 impl Journal {
-    /// Opens that of the folder, or begins one with a plan that `plan` makes. Returns the plan that holds: the one it was
-    /// begun with.
+    /// Opens that of the folder, or begins one with a plan that `plan` makes. Returns the plan that holds: the one it
+    /// was begun with.
     ///
     /// # Errors
     /// [`BenchError::OtherRun`] if it belongs to another program, machine or other options; [`BenchError::Damaged`];

@@ -5,12 +5,13 @@ use crate::BenchError;
 use crate::plan::{Part, SEEDS};
 use crate::references::{Truth, Worth};
 use crate::way::{Line, Way};
-use compare::{ErrorMap, Errors, REL_MSE_FLOOR, finite_mean, split_error};
+use compare::{ErrorMetric, Errors, REL_MSE_FLOOR, finite_mean, split_error};
+use film::DisplayTransform;
+use film::Film;
 use pathtrace::gpu::GpuTracer;
 use pathtrace::{Stats, Tracer};
 use raster::{Fake, Raster, RasterSettings};
-use scene::display::DisplayTransform;
-use scene::{Film, Scene};
+use scene::Scene;
 use serde::{Deserialize, Serialize};
 use std::time::Instant;
 
@@ -46,7 +47,8 @@ pub struct Picture {
     pub tail_weight: f64,
 }
 
-/// What all seeds of a measurement have in common against the truth: the mean over pixels and channels of a squared bias.
+/// What all seeds of a measurement have in common against the truth: the mean over pixels and channels of a squared
+/// bias.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct BiasTest {
     /// Below 0 by chance where there is no bias.
@@ -61,7 +63,8 @@ impl BiasTest {
         self.bias_squared > SIGMAS * self.standard_error
     }
 
-    /// The bias (root of its mean square) that is noticed every other time; one and a half times as large, nearly always.
+    /// The bias (root of its mean square) that is noticed every other time; one and a half times as large, nearly
+    /// always.
     pub fn power(&self) -> f64 {
         (SIGMAS * self.standard_error).sqrt()
     }
@@ -80,7 +83,7 @@ impl BiasTest {
 /// The two tests of a measurement's bias.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Bias {
-    /// In radiance squared: a part of the RMSE's square. The noise at a bright lamp's edge drowns it.
+    /// In radiance squared: a part of the RMSE's square. The noise at a bright area light's edge drowns it.
     pub absolute: BiasTest,
     /// Of each pixel as a share of its truth, the floor as in the relMSE: a part of the relMSE.
     pub relative: BiasTest,
@@ -131,8 +134,8 @@ pub fn traced(
     })
 }
 
-/// As [`traced`] on the graphics device, once its pipelines are built. Seconds are the device's own, without its film on its way
-/// there and back.
+/// As [`traced`] on the graphics device, once its pipelines are built. Seconds are the device's own, without its film
+/// on its way there and back.
 ///
 /// # Errors
 /// As [`traced`], and [`BenchError::Gpu`].
@@ -216,8 +219,8 @@ pub fn drawn(
     }))
 }
 
-/// A film with each value divided by the root of `r^2 + 0.01`, r being the truth there: its mean squared errors are relative
-/// ones.
+/// A film with each value divided by the root of `r^2 + 0.01`, r being the truth there: its mean squared errors are
+/// relative ones.
 fn as_shares(film: &Film, truth: &Film) -> Film {
     let mut shares = film.clone();
     for (pixel, truth) in shares.pixels_mut().iter_mut().zip(truth.pixels()) {
@@ -230,7 +233,7 @@ fn as_shares(film: &Film, truth: &Film) -> Film {
 
 fn judged(film: &Film, seed: u32, seconds: f64, stats: Stats, truth: &Truth) -> Result<Picture, BenchError> {
     let Errors { rmse, rel_mse, mae, bias, nonfinite, .. } = compare::errors(film, &truth.film)?;
-    let flip = ErrorMap::Flip.of(film, &truth.film, &DisplayTransform::default())?;
+    let flip = ErrorMetric::Flip.of(film, &truth.film, &DisplayTransform::default())?;
     Ok(Picture {
         seed,
         seconds,

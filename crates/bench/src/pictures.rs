@@ -4,12 +4,13 @@ use crate::BenchError;
 use crate::plan::Part;
 use crate::references::Truth;
 use crate::way::{WHITTED_SPP, Way};
-use compare::{ColourScale, ErrorMap, Tick};
+use compare::{ColourScale, ErrorMetric, Tick};
+use film::DisplayTransform;
+use film::Film;
+use image_file::{Records, encode_rgba8};
 use pathtrace::Tracer;
-use picture_file::{Records, encode_rgba8};
 use raster::{Fake, Raster, RasterSettings};
-use scene::display::DisplayTransform;
-use scene::{Film, Scene};
+use scene::Scene;
 
 /// One technique beside the truth.
 pub struct Exhibit {
@@ -64,8 +65,8 @@ fn exhibit(title: String, film: &Film, truth: &Truth) -> Result<Exhibit, BenchEr
     let display = DisplayTransform::default();
     let (width, height) = (film.width(), film.height());
     let png = |rgba: &[u8], (width, height)| encode_rgba8(width, height, rgba, &Records::new());
-    let values = ErrorMap::Signed.of(film, &truth.film, &display)?;
-    let scale = ColourScale::fitted(ErrorMap::Signed, &values);
+    let values = ErrorMetric::Signed.of(film, &truth.film, &display)?;
+    let scale = ColourScale::fitted(ErrorMetric::Signed, &values);
     Ok(Exhibit {
         title,
         picture: png(&display.film_to_rgba8(film), (width, height))?,

@@ -1,14 +1,16 @@
-//! What is measured, and how much of it: parts (a scene under one sun), their pictures' size, and the ladder of samples.
+//! What is measured, and how much of it: parts (a scene under one sun), their pictures' size, and the ladder of
+//! samples.
 //!
 //! A bench within so many seconds is planned from a speed that is measured first, so that it holds on slower machines
 //! too. The plan is kept in the journal: what is interrupted goes on by the same plan.
 
 use crate::way::{Line, VARIANT_SPP, Variant, WHITTED_SPP, Way};
 use crate::{BenchError, Options};
+use film::Film;
 use pathtrace::{Estimator, FEWEST_REPLICATES, PathSettings, SamplerKind, Tracer};
 use raster::Fake;
 use reference::{Maker, SAMPLES_PER_REPLICATE};
-use scene::{Film, Scene, builtin};
+use scene::{Scene, builtin};
 use serde::{Deserialize, Serialize};
 use std::time::Instant;
 

@@ -2,17 +2,18 @@
 
 use crate::BenchError;
 use crate::plan::Part;
+use film::Film;
 use pathtrace::{FEWEST_REPLICATES, Tracer};
 use reference::{Key, Maker, Reference, SAMPLES_PER_REPLICATE, Store, Subject};
-use scene::{Film, Scene};
+use scene::Scene;
 use serde::{Deserialize, Serialize};
 use std::time::{Duration, Instant};
 
 /// Seconds after which a reference in the making is kept, so that little is lost when it is interrupted.
 const KEPT_EVERY: Duration = Duration::from_secs(20);
 
-/// A channel whose standard error is more than this share of its mean owes its light to fewer than 16 replicates' worth of
-/// bright paths, whose number is too small to be known.
+/// A channel whose standard error is more than this share of its mean owes its light to fewer than 16 replicates' worth
+/// of bright paths, whose number is too small to be known.
 const RARE: f64 = 0.25;
 
 /// Largest share of the summed squared standard errors that such channels may hold before their sum is doubted.

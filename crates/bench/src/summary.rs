@@ -29,7 +29,7 @@ pub struct Curve {
     /// Of the RMSE against samples per pixel, noise of the reference taken away, over all seeds; `None` of levels, and
     /// where too little stands clear of the reference's noise.
     pub slope: Option<Fit>,
-    /// The same of the root of the relMSE: less at the mercy of the few pixels at a bright lamp's edge.
+    /// The same of the root of the relMSE: less at the mercy of the few pixels at a bright area light's edge.
     pub relative_slope: Option<Fit>,
     /// That between the last two rungs, from medians: near 0 where only a bias is left.
     pub last_slope: Option<f64>,

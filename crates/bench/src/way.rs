@@ -1,4 +1,5 @@
-//! What is measured: ways to make a picture of a scene, each with the name that tables, plots and the journal know it by.
+//! What is measured: ways to make a picture of a scene, each with the name that tables, plots and the journal know it
+//! by.
 
 use gpu::Gpu;
 use pathtrace::gpu::{GpuTraceError, GpuTracer};
@@ -223,7 +224,8 @@ fn with_variant(name: String, variant: &Variant) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use scene::{Film, builtin};
+    use film::Film;
+    use scene::builtin;
 
     #[test]
     fn variants_differ_in_speed_alone() {

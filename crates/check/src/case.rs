@@ -2,7 +2,7 @@
 
 use crate::measure::{Effort, Trial};
 use crate::row::Row;
-use crate::{dielectrics, energy, estimators, fake, lamps, leaks, offsets, robustness, samplers, sums};
+use crate::{area_lights, dielectrics, energy, estimators, fake, leaks, offsets, robustness, samplers, sums};
 use std::sync::atomic::AtomicBool;
 
 /// A hard case.
@@ -28,12 +28,12 @@ cases! {
     1 energy::white_furnace, "White furnace, open box", "depth caps, biased roulette, a lost cosine or pi, leaks at edges";
     2 energy::closed_box, "Closed emissive box", "off-by-one bounce, emission counted twice, roulette bias";
     3 energy::point_light, "Point light in a diffuse sphere", "a wrong 1/d^2, self-shadowing of concave walls";
-    4 lamps::rectangle, "Rectangle light, Lambert's polygon formula",
+    4 area_lights::rectangle, "Rectangle light, Lambert's polygon formula",
         "area and solid-angle densities mixed up, a wrong cosine, two-sided emission";
-    5 lamps::edge_on, "Light seen edge-on", "0/0 from area to solid angle, arc cosines beyond 1";
-    6 lamps::disk, "Disk light almost touching", "the singularity of 1/d^2, missing MIS, firefly clamps";
-    7 lamps::sphere, "Sphere light", "a wrong cone density, receivers just outside the light, sampling its far side";
-    8 lamps::touching_wall, "Light touching a wall", "lights shadowed by their own wall, leaks behind the corner";
+    5 area_lights::edge_on, "Light seen edge-on", "0/0 from area to solid angle, arc cosines beyond 1";
+    6 area_lights::disk, "Disk light almost touching", "the singularity of 1/d^2, missing MIS, firefly clamps";
+    7 area_lights::sphere, "Sphere light", "a wrong cone density, receivers just outside the light, sampling its far side";
+    8 area_lights::touching_wall, "Light touching a wall", "lights shadowed by their own wall, leaks behind the corner";
     9 estimators::three_of_one, "Estimators of one integral",
         "MIS weights that do not add up to 1, a light counted twice";
     10 dielectrics::fresnel, "Fresnel table, n = 1.5", "roots of negatives, an inverted ratio, Schlick's approximation";
@@ -54,8 +54,8 @@ cases! {
     24 fake::closed_forms, "Closed-form pixels of the fake", "wrong exponents, half vectors, ratios, encodings";
 }
 
-/// Runs `cases`, one after the other. `on_rows` gets each case with its rows as soon as it is done, and says whether to go
-/// on. `stop`, once true, ends the case at hand too; its rows are dropped.
+/// Runs `cases`, one after the other. `on_rows` gets each case with its rows as soon as it is done, and says whether to
+/// go on. `stop`, once true, ends the case at hand too; its rows are dropped.
 pub fn run(
     cases: &[Case],
     effort: Effort,

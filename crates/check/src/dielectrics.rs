@@ -2,10 +2,11 @@
 
 use crate::hard::{known, spot, with_geometry};
 use crate::measure::{Trial, farthest, independent};
+use film::Film;
 use pathtrace::bsdf::Interface;
-use pathtrace::geometry::{Accel, Ray};
+use pathtrace::intersect::{Accel, Ray};
 use pathtrace::{Estimator, PathSettings, Roulette, SamplerKind, Tracer, WhittedSettings};
-use scene::{Camera, Film, Geometry, Scene, Vec3};
+use scene::{Camera, Geometry, Scene, Vec3};
 
 const INTO_GLASS: Interface = Interface { ior: 1.5, entering: true };
 const OUT_OF_GLASS: Interface = Interface { ior: 1.5, entering: false };
@@ -125,8 +126,8 @@ pub fn apart(a: &Film, b: &Film) -> f64 {
     f64::from(off)
 }
 
-/// Against light that meets a surface of normal +z: with cosines down to grazing, where the textbook's form of Snell's law
-/// is off by 1.65e-4.
+/// Against light that meets a surface of normal +z: with cosines down to grazing, where the textbook's form of Snell's
+/// law is off by 1.65e-4.
 pub fn down_to_grazing() -> impl Iterator<Item = Vec3> {
     (0..20_000).map(|i| {
         let cosine = (i as f32 + 0.5) / 20_000.0;

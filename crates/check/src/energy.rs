@@ -11,8 +11,8 @@ pub fn with(estimator: Estimator, bounces: Option<u32>, roulette: Roulette) -> P
     PathSettings { estimator, bounces, roulette, ..independent() }
 }
 
-/// Light that paths have lost at the middle of the floor when they stop after so many scatterings: a random walk in f64,
-/// known to .001.
+/// Light that paths have lost at the middle of the floor when they stop after so many scatterings: a random walk in
+/// f64, known to .001.
 pub const LOST: [(u32, f64); 5] = [(1, 0.759), (2, 0.621), (4, 0.408), (8, 0.185), (16, 0.038)];
 
 /// What sees nothing but the middle of the floor.
@@ -67,8 +67,8 @@ pub fn shining(mut scene: Scene, share: f32, emission: f32) -> Scene {
     scene
 }
 
-/// Those whose weights have a small variance between walls of this albedo: of uniform directions they have a finite one only
-/// while albedo^2 4/3 < 1, and a small one well below.
+/// Those whose weights have a small variance between walls of this albedo: of uniform directions they have a finite one
+/// only while albedo^2 4/3 < 1, and a small one well below.
 pub fn estimators_of_walls(albedo: f32) -> impl Iterator<Item = Estimator> {
     let uniform = |estimator: &Estimator| estimator.directions == Estimator::UNIFORM.directions;
     Estimator::EVERY.into_iter().filter(move |estimator| albedo <= 0.5 || !uniform(estimator))

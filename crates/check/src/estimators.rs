@@ -1,10 +1,11 @@
 //! Several estimators of one integral: their means, their variances, and how fast their errors fall.
 
+use crate::area_lights::{RECTANGLE, direct, from_above};
 use crate::hard::known;
-use crate::lamps::{RECTANGLE, direct, from_above};
 use crate::measure::{Trial, paths};
+use film::Film;
 use pathtrace::{Estimator, PathSettings, SamplerKind, Tracer, estimate_with_replicates};
-use scene::{Camera, Film};
+use scene::Camera;
 use std::convert::Infallible;
 use std::sync::atomic::Ordering;
 
@@ -51,8 +52,8 @@ pub fn variance_of_a_sample(film: &Film) -> f64 {
     film.pixels().iter().map(|p| p.variance_of_mean()[0] * samples).sum::<f64>() / film.pixels().len() as f64
 }
 
-/// The power of the number of samples with which the error falls, from 16 samples to 2^`last`, over the spread of pixels
-/// that all see one point; `render` makes a film of so many samples.
+/// The power of the number of samples with which the error falls, from 16 samples to 2^`last`, over the spread of
+/// pixels that all see one point; `render` makes a film of so many samples.
 ///
 /// # Errors
 /// Those of `render`.
@@ -119,8 +120,8 @@ fn replicates(trial: &mut Trial, tracer: &Tracer, expected: f64) {
     trial.information("film", "standard error over spread, Sobol without replicates", 1.0, told_and_true(alone, 16));
 }
 
-/// The standard error that the first of 32 films of `side` pixels a side tells, over the spread of all: mean squares over
-/// the pixels.
+/// The standard error that the first of 32 films of `side` pixels a side tells, over the spread of all: mean squares
+/// over the pixels.
 fn told_and_true(film: impl Fn(u32) -> Film, side: u32) -> f64 {
     let films: Vec<Film> = (0..32).map(film).collect();
     let pixels = f64::from(side * side);

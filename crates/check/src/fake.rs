@@ -1,8 +1,9 @@
 //! Pixels of the rasterised fake that are known in closed form, by the CPU twins of its shaders.
 
 use crate::measure::Trial;
+use film::colour;
 use raster::shading::{blinn_phong, phong, refract};
-use scene::{Vec3, colour};
+use scene::Vec3;
 use std::f64::consts::PI;
 
 pub fn closed_forms(trial: &mut Trial) {

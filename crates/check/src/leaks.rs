@@ -3,11 +3,12 @@
 use crate::hard::known;
 use crate::measure::{Trial, independent};
 use crate::meshes::{Mesh, any_direction};
-use pathtrace::geometry::Ray;
-use pathtrace::sampler::Sampler;
+use film::Film;
+use pathtrace::intersect::Ray;
+use pathtrace::sampling::sampler::Sampler;
 use pathtrace::{Estimator, PathSettings, Tracer};
 use rayon::prelude::*;
-use scene::{Camera, Film, Scene, Vec3};
+use scene::{Camera, Scene, Vec3};
 use std::sync::atomic::{AtomicU64, Ordering};
 
 /// Where a ray of the leak test is aimed.
@@ -42,13 +43,13 @@ pub fn closed_meshes() -> [(&'static str, Mesh); 2] {
 }
 
 impl Aim {
-    /// Origin and unit direction of ray number `i`, from the inner half of a mesh, or from its middle plane along an axis
-    /// with both zeros of the others; `None` where that starts too close to the surface.
+    /// Origin and unit direction of ray number `i`, from the inner half of a mesh, or from its middle plane along an
+    /// axis with both zeros of the others; `None` where that starts too close to the surface.
     pub fn ray(self, mesh: &Mesh, i: u32, (scale, shift): (f32, f32)) -> Option<(Vec3, Vec3)> {
         let corner = |i: u32| mesh.positions[(u64::from(i) % mesh.positions.len() as u64) as usize];
         let [u, v, w, x] = Sampler::independent(self as u32, i, 16).unit4(0);
         let origin = any_direction([u, v]) * (0.5 * scale * w.cbrt()) + Vec3::splat(shift);
-        let pick = pathtrace::rng::pcg4d([i, 1, 2, 3]);
+        let pick = pathtrace::sampling::rng::pcg4d([i, 1, 2, 3]);
         let (origin, direction) = match self {
             Aim::Anywhere => (origin, any_direction([x, v])),
             Aim::Corner => (origin, corner(pick[0]) - origin),

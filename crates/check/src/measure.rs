@@ -1,9 +1,10 @@
 //! Measuring: exact comparisons, bounds, and means of independently seeded pictures.
 
 use crate::row::{Device, Relation, Row, Verdict};
+use film::Film;
 use pathtrace::{PathSettings, SamplerKind, Tracer, WhittedSettings};
 use rayon::prelude::*;
-use scene::{Camera, Film};
+use scene::Camera;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 /// How thoroughly to look.

@@ -1,7 +1,7 @@
 //! Meshes for the geometry cases, and random rays at them.
 
 use crate::hard::{known, with_geometry};
-use pathtrace::sampler::Sampler;
+use pathtrace::sampling::sampler::Sampler;
 use pathtrace::{Tracer, sampling};
 use scene::glam::{DVec3, EulerRot, Quat};
 use scene::{Geometry, Scene, Vec3};

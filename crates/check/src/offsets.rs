@@ -2,10 +2,10 @@
 
 use crate::measure::Trial;
 use crate::meshes::{Mesh, any_direction};
-use pathtrace::geometry::Ray;
-use pathtrace::geometry::sphere::Sphere;
-use pathtrace::sampler::Sampler;
+use pathtrace::intersect::Ray;
+use pathtrace::intersect::sphere::Sphere;
 use pathtrace::sampling;
+use pathtrace::sampling::sampler::Sampler;
 use scene::Vec3;
 
 /// Translation, size and distance of the camera in sizes.

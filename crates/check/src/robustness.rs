@@ -1,10 +1,10 @@
 //! Scenes scaled and moved, and geometry that is not what it should be.
 
+use crate::area_lights::{RECTANGLE, direct};
 use crate::hard::{known, spot};
-use crate::lamps::{RECTANGLE, direct};
 use crate::measure::{Trial, independent};
 use crate::meshes::Mesh;
-use pathtrace::geometry::Ray;
+use pathtrace::intersect::Ray;
 use pathtrace::{Estimator, PathSettings, Tracer, WhittedSettings};
 use scene::{Bsdf, Camera, Geometry, Scene, Shape, Texture, Vec3};
 use std::path::Path;
@@ -41,8 +41,8 @@ pub struct Invariant {
     pub expected: f64,
 }
 
-/// Scale, shift along every axis, and the relative difference that rounding of the coordinates allows. The first is where
-/// scenes stand by themselves.
+/// Scale, shift along every axis, and the relative difference that rounding of the coordinates allows. The first is
+/// where scenes stand by themselves.
 pub const PLACEMENTS: [(f32, f32, f64); 6] =
     [(1.0, 0.0, 0.0), (1e-4, 0.0, 1e-4), (1e4, 0.0, 1e-4), (1.0, 1e3, 3e-3), (1.0, 1e4, 5e-2), (1e3, 1e6, 3e-3)];
 
@@ -117,7 +117,7 @@ pub fn flat_triangles() -> Mesh {
     let mut positions = BAD_CORNERS.map(Vec3::from_array).to_vec();
     let mut triangles = vec![[0u32, 1, 2]];
     for i in 0..1000u32 {
-        let u = pathtrace::sampler::Sampler::independent(i, 0, 21).unit4(0);
+        let u = pathtrace::sampling::sampler::Sampler::independent(i, 0, 21).unit4(0);
         let (a, along) = (Vec3::new(u[0], u[1], u[2]), Vec3::new(u[1], u[2], u[3]));
         let first = positions.len() as u32;
         // a repeated corner, or three in a row: exactly so in f32, by powers of two of an 8-bit vector
@@ -160,7 +160,8 @@ fn refused(trial: &mut Trial) {
     trial.equal("scene file", "corners not finite that are accepted", 0.0, f64::from(accepted), 0.0);
 }
 
-/// Triangles a millionth wide, between lamp and floor but beside the point that is looked at; and what it looks like.
+/// Triangles a millionth wide, between area light and floor but beside the point that is looked at; and what it looks
+/// like.
 pub fn under_slivers() -> (Scene, Camera, f64) {
     let mut scene = known("rectangle-light");
     let (mut positions, mut triangles) = (Vec::new(), Vec::new());

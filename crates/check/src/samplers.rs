@@ -5,10 +5,11 @@ use crate::measure::Trial;
 use crate::meshes::any_direction;
 use crate::warps::{COLUMNS, Histogram, ROWS, alike};
 use pathtrace::bsdf::Interface;
-use pathtrace::geometry::Ray;
+use pathtrace::intersect::Ray;
 use pathtrace::light::{ShadowEnd, SphericalRectangle};
-use pathtrace::sampler::Sampler;
-use pathtrace::{SamplerKind, Tracer, rng, sampling};
+use pathtrace::sampling::sampler::Sampler;
+use pathtrace::sampling::{self, rng};
+use pathtrace::{SamplerKind, Tracer};
 use scene::{Geometry, Scene, Vec3};
 use std::f64::consts::TAU;
 
@@ -160,13 +161,13 @@ fn choices(trial: &mut Trial) {
     trial.at_most("sampling", "chi-square, Fresnel's choice", MOST_DEVIATION, deviation);
 }
 
-/// Scenes of one lamp, and a point that sees it.
-fn lamps() -> Vec<(&'static str, Scene, Vec3)> {
+/// Scenes of one area light, and a point that sees it.
+fn area_lights() -> Vec<(&'static str, Scene, Vec3)> {
     let point = Vec3::new(0.3, 0.2, 0.0);
-    let only_lamp = |name: &str, geometry: Option<Geometry>| {
+    let only_area_light = |name: &str, geometry: Option<Geometry>| {
         let mut scene = known(name);
-        let lamp = |shape: &&scene::Shape| scene.material_of(shape).emission.is_some();
-        scene.shapes = scene.shapes.iter().filter(lamp).cloned().collect();
+        let area_light = |shape: &&scene::Shape| scene.material_of(shape).emission.is_some();
+        scene.shapes = scene.shapes.iter().filter(area_light).cloned().collect();
         match geometry {
             None => scene,
             Some(geometry) => with_geometry(scene, |_, old| *old = geometry.clone()),
@@ -175,26 +176,26 @@ fn lamps() -> Vec<(&'static str, Scene, Vec3)> {
     let near = Geometry::Rectangle { corner: Vec3::new(-1.0, -0.5, 0.4), edge_u: Vec3::Y, edge_v: Vec3::X * 2.0 };
     let (positions, triangles) = near.flat_triangles();
     vec![
-        ("rectangle by area", only_lamp("rectangle-light", None), point),
-        ("rectangle by solid angle", only_lamp("rectangle-light", Some(near)), point),
-        ("mesh", only_lamp("rectangle-light", Some(Geometry::Mesh { positions, triangles })), point),
+        ("rectangle by area", only_area_light("rectangle-light", None), point),
+        ("rectangle by solid angle", only_area_light("rectangle-light", Some(near)), point),
+        ("mesh", only_area_light("rectangle-light", Some(Geometry::Mesh { positions, triangles })), point),
         (
             "disk",
-            only_lamp("disk-touching", Some(Geometry::Disk { center: Vec3::Z, normal: -Vec3::Z, radius: 1.0 })),
+            only_area_light("disk-touching", Some(Geometry::Disk { center: Vec3::Z, normal: -Vec3::Z, radius: 1.0 })),
             point,
         ),
-        ("sphere", only_lamp("sphere-light", None), point),
+        ("sphere", only_area_light("sphere-light", None), point),
         (
             "sphere almost touching",
-            only_lamp("sphere-light", Some(Geometry::Sphere { center: Vec3::new(0.3, 0.2, 1.001), radius: 1.0 })),
+            only_area_light("sphere-light", Some(Geometry::Sphere { center: Vec3::new(0.3, 0.2, 1.001), radius: 1.0 })),
             point,
         ),
     ]
 }
 
-/// The density integrates to 1 over the directions that meet a lamp, and is the one that samples come with.
+/// The density integrates to 1 over the directions that meet an area light, and is the one that samples come with.
 fn densities(trial: &mut Trial) {
-    for (name, scene, point) in lamps() {
+    for (name, scene, point) in area_lights() {
         let tracer = Tracer::new(&scene);
         let side = trial.pick(700, 1500);
         let mut integral = 0.0;
@@ -216,9 +217,9 @@ fn densities(trial: &mut Trial) {
         for i in 0..samples {
             let u = Sampler::independent(22, i, 2).unit4(0);
             let Some(sample) = tracer.lights().sample(point, u[2], [u[0], u[1]]) else { continue };
-            let ShadowEnd::Lamp(end) = sample.end else { continue };
+            let ShadowEnd::AreaLight(end) = sample.end else { continue };
             match tracer.accel().closest(&Ray::new(point, sample.wi)) {
-                // at the rim of a lamp, rounding may find the other side or nothing
+                // at the rim of an area light, rounding may find the other side or nothing
                 Some(hit) if (hit.point.position - end.position).length() < 1e-3 => {
                     let pdf = tracer.lights().pdf(hit.light, point, &hit.point);
                     off = off.max(f64::from((pdf / sample.pdf - 1.0).abs()));

@@ -1,9 +1,9 @@
 //! Many samples in one pixel.
 
 use crate::measure::Trial;
-use pathtrace::sampler::Sampler;
+use film::Pixel;
+use pathtrace::sampling::sampler::Sampler;
 use scene::Vec3;
-use scene::film::Pixel;
 
 pub fn million_samples(trial: &mut Trial) {
     let uniform = |i: u32| Sampler::independent(23, i, 1).unit4(0)[0];

@@ -1,6 +1,6 @@
 //! Chi-square tests of what maps random numbers to samples.
 
-use pathtrace::sampler::Sampler;
+use pathtrace::sampling::sampler::Sampler;
 
 /// Bins of a two-dimensional domain, as pbrt tests its BSDFs.
 pub const ROWS: usize = 10;
@@ -14,8 +14,8 @@ pub struct Histogram {
 }
 
 impl Histogram {
-    /// `samples` points of the unit square from `place`, which gets four random numbers; cells of equal probability unless
-    /// `probability` of (row, column) says else.
+    /// `samples` points of the unit square from `place`, which gets four random numbers; cells of equal probability
+    /// unless `probability` of (row, column) says else.
     pub fn of_square(
         samples: u32,
         place: impl Fn([f32; 4]) -> [f64; 2],

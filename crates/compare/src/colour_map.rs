@@ -1,5 +1,5 @@
-//! Numbers to colours, the same bytes in a pane, a legend and an export: viridis for magnitude, magma for FLIP, blue over
-//! white to orange for sign; what is not finite is hatched.
+//! Numbers to colours, the same bytes in a pane, a legend and an export: viridis for magnitude, magma for FLIP, blue
+//! over white to orange for sign; what is not finite is hatched.
 //!
 //! Viridis and magma are by Stefan van der Walt and Nathaniel Smith (and Eric Firing), made for matplotlib and given to
 //! the public domain under CC0; the tables are theirs, rounded to bytes. Blue and orange are Okabe and Ito's, as the
@@ -55,8 +55,8 @@ impl ColourMap {
     }
 }
 
-/// sRGB bytes of a pixel that has no number, at column `x`, row `y`: diagonal stripes of [`HATCH`], recognisable next to
-/// any map.
+/// sRGB bytes of a pixel that has no number, at column `x`, row `y`: diagonal stripes of [`HATCH`], recognisable next
+/// to any map.
 pub fn hatched(x: u32, y: u32) -> [u8; 3] {
     HATCH[(x.wrapping_add(y) / STRIPE % 2) as usize]
 }
@@ -122,7 +122,7 @@ const MAGMA: [[u8; 3]; 256] = table(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use scene::colour::{luminance, srgb_decode};
+    use film::colour::{luminance, srgb_decode};
 
     #[test]
     fn the_ends_and_the_middle_are_the_published_colours() {

@@ -1,6 +1,6 @@
 //! What a coloured error map means: its range, its label, its colour bar and the bar's ticks.
 
-use crate::ErrorMap;
+use crate::ErrorMetric;
 use crate::colour_map::{ColourMap, hatched};
 
 /// A colour map over a range of values.
@@ -33,17 +33,19 @@ const COVERED: f32 = 0.99;
 impl ColourScale {
     /// The usual scale of a map, fitted to its values: FLIP from 0 to 1, a sign about 0, magnitudes from 0; to the 99th
     /// percentile of the finite magnitudes, or their largest where that is 0, or 1 where all are 0.
-    pub fn fitted(of: ErrorMap, values: &[f32]) -> Self {
+    pub fn fitted(of: ErrorMetric, values: &[f32]) -> Self {
         Self::up_to(of, most_of(values))
     }
 
-    /// The usual scale of a map up to a given value, above 0: two pictures under one scale can be compared by eye. FLIP has
-    /// its own.
-    pub fn up_to(of: ErrorMap, high: f32) -> Self {
+    /// The usual scale of a map up to a given value, above 0: two pictures under one scale can be compared by eye. FLIP
+    /// has its own.
+    pub fn up_to(of: ErrorMetric, high: f32) -> Self {
         let (map, low, high) = match of {
-            ErrorMap::Flip => (ColourMap::Magma, 0.0, 1.0),
-            ErrorMap::Signed => (ColourMap::BlueWhiteOrange, -high, high),
-            ErrorMap::Absolute | ErrorMap::Relative | ErrorMap::SquaredRelative => (ColourMap::Viridis, 0.0, high),
+            ErrorMetric::Flip => (ColourMap::Magma, 0.0, 1.0),
+            ErrorMetric::Signed => (ColourMap::BlueWhiteOrange, -high, high),
+            ErrorMetric::Absolute | ErrorMetric::Relative | ErrorMetric::SquaredRelative => {
+                (ColourMap::Viridis, 0.0, high)
+            }
         };
         ColourScale { map, low, high, label: of.label() }
     }
@@ -146,22 +148,22 @@ mod tests {
         let mut values = vec![0.5; 200];
         (values[0], values[1], values[2]) = (1e9, f32::NAN, f32::INFINITY);
         let of = |map| ColourScale::fitted(map, &values);
-        assert_eq!((of(ErrorMap::Absolute).low, of(ErrorMap::Absolute).high), (0.0, 0.5));
-        assert_eq!((of(ErrorMap::Signed).low, of(ErrorMap::Signed).high), (-0.5, 0.5));
-        assert_eq!((of(ErrorMap::Flip).low, of(ErrorMap::Flip).high), (0.0, 1.0));
-        assert_eq!(of(ErrorMap::Signed).map, ColourMap::BlueWhiteOrange);
+        assert_eq!((of(ErrorMetric::Absolute).low, of(ErrorMetric::Absolute).high), (0.0, 0.5));
+        assert_eq!((of(ErrorMetric::Signed).low, of(ErrorMetric::Signed).high), (-0.5, 0.5));
+        assert_eq!((of(ErrorMetric::Flip).low, of(ErrorMetric::Flip).high), (0.0, 1.0));
+        assert_eq!(of(ErrorMetric::Signed).map, ColourMap::BlueWhiteOrange);
     }
 
     #[test]
     fn a_scale_that_is_held_is_the_same_whatever_the_values() {
-        let scale = ColourScale::up_to(ErrorMap::Signed, 0.25);
+        let scale = ColourScale::up_to(ErrorMetric::Signed, 0.25);
         assert_eq!((scale.low, scale.high, scale.map), (-0.25, 0.25, ColourMap::BlueWhiteOrange));
-        assert_eq!(ColourScale::up_to(ErrorMap::Flip, 0.25), ColourScale::fitted(ErrorMap::Flip, &[]));
+        assert_eq!(ColourScale::up_to(ErrorMetric::Flip, 0.25), ColourScale::fitted(ErrorMetric::Flip, &[]));
     }
 
     #[test]
     fn nothing_and_next_to_nothing_have_a_scale() {
-        let high = |values: &[f32]| ColourScale::fitted(ErrorMap::Absolute, values).high;
+        let high = |values: &[f32]| ColourScale::fitted(ErrorMetric::Absolute, values).high;
         assert_eq!([high(&[]), high(&[0.0; 9]), high(&[f32::NAN; 9])], [1.0; 3]);
         let mut rare = [0.0; 300];
         rare[7] = 3.0;
@@ -171,7 +173,7 @@ mod tests {
     #[test]
     fn the_sign_is_blue_below_and_orange_above() {
         let values = [-2.0, 0.0, 2.0, f32::NAN];
-        let image = ColourScale::fitted(ErrorMap::Signed, &values).image(&values, 2);
+        let image = ColourScale::fitted(ErrorMetric::Signed, &values).image(&values, 2);
         let expected = [[0, 114, 178, 255], [255; 4], [213, 94, 0, 255], [0, 0, 0, 255]];
         assert_eq!(image, expected.concat());
         assert!(scale(0.0, 1.0).image(&values, 0).is_empty());

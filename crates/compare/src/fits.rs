@@ -1,9 +1,9 @@
-//! What several measurements say together: a power law through points, what an error is worth per second, and an error's
-//! split into bias and noise.
+//! What several measurements say together: a power law through points, what an error is worth per second, and an
+//! error's split into bias and noise.
 
 use crate::CompareError;
 use crate::metrics::same_size;
-use scene::Film;
+use film::Film;
 
 /// A power law `y = 10^intercept x^slope`.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -43,8 +43,8 @@ pub fn fit(points: &[(f64, f64)]) -> Option<Fit> {
     (sxx > 1e-20).then_some(Fit { slope, slope_error, intercept })
 }
 
-/// Monte Carlo efficiency `1 / (mse * seconds)`: for one estimator the same at any number of samples, so that two can be
-/// compared. Infinite where there is no error.
+/// Monte Carlo efficiency `1 / (mse * seconds)`: for one estimator the same at any number of samples, so that two can
+/// be compared. Infinite where there is no error.
 pub fn efficiency(mse: f64, seconds: f64) -> f64 {
     1.0 / (mse * seconds)
 }
@@ -69,11 +69,12 @@ pub struct ErrorSplit {
 /// Splits the error of films that differ in nothing but independent seeds. With mean m and sample variance s^2 over K
 /// films, `(m - r)^2` exceeds `bias^2` by `s^2 / K` and by the variance of the reference r: both are taken away.
 ///
-/// `reference_noise` is the reference's own mean squared error, such as [`crate::mean_squared_standard_error`]; 0 for an
-/// exact one. The reference must not share its seeds with the films.
+/// `reference_noise` is the reference's own mean squared error, such as [`crate::mean_squared_standard_error`]; 0 for
+/// an exact one. The reference must not share its seeds with the films.
 ///
 /// # Errors
-/// [`CompareError::Films`] of fewer than two films, [`CompareError::Sizes`] if one does not have the reference's pixels.
+/// [`CompareError::Films`] of fewer than two films, [`CompareError::Sizes`] if one does not have the reference's
+/// pixels.
 pub fn split_error(films: &[&Film], reference: &Film, reference_noise: f64) -> Result<ErrorSplit, CompareError> {
     if films.len() < 2 {
         return Err(CompareError::Films(films.len()));
@@ -117,7 +118,7 @@ pub fn split_error(films: &[&Film], reference: &Film, reference_noise: f64) -> R
 mod tests {
     use super::*;
     use crate::mean_squared_standard_error;
-    use scene::Vec3;
+    use film::Vec3;
 
     #[test]
     fn a_power_law_is_found_exactly() {

@@ -1,6 +1,6 @@
 //! Error metrics between two films.
 
-use scene::{Film, Vec3};
+use film::{Film, Vec3};
 
 /// Why two films cannot be compared.
 #[derive(Debug, thiserror::Error, PartialEq, Eq)]
@@ -29,7 +29,7 @@ pub const REL_MSE_FLOOR: f64 = 0.01;
 /// How far a film is from a reference; means over all pixels that are finite in both, and the three channels.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Errors {
-    /// Root of the mean squared difference, in radiance. A bright lamp's edge dominates it.
+    /// Root of the mean squared difference, in radiance. A bright area light's edge dominates it.
     pub rmse: f64,
     /// Mean of `(a - r)^2 / (r^2 + 0.01)`: relative, with a floor that keeps black pixels from dominating. Not trimmed.
     pub rel_mse: f64,

@@ -60,8 +60,8 @@ pub struct AdapterReport {
 }
 
 impl AdapterReport {
-    /// Name and interface, by which [`crate::Gpu::headless_on`] finds it: as in "llvmpipe (LLVM 19.1, 256 bits), Vulkan"; of
-    /// several that are alike each has its number.
+    /// Name and interface, by which [`crate::Gpu::headless_on`] finds it: as in "llvmpipe (LLVM 19.1, 256 bits),
+    /// Vulkan"; of several that are alike each has its number.
     pub fn describe(&self) -> String {
         let name = format!("{}, {}", self.name, self.backend);
         if self.twins_before > 0 { format!("{name} ({})", self.twins_before + 1) } else { name }

@@ -5,6 +5,7 @@
 
 mod adapter;
 mod error;
+mod fault_injection;
 pub mod readback;
 pub mod upload;
 pub mod waiting;
@@ -12,6 +13,7 @@ pub mod wgsl;
 
 pub use adapter::{AdapterReport, Rank, choose};
 pub use error::GpuError;
+pub use fault_injection::FaultInjection;
 pub use wgpu;
 
 use std::sync::{Arc, Mutex, PoisonError};
@@ -74,8 +76,8 @@ impl Gpu {
         Gpu::open(instance, only.into_iter().collect(), GpuError::NoSuchAdapter(described.to_owned()))
     }
 
-    /// The best device that can present on `surface`, which `instance` made, and every adapter there is, whether it can or
-    /// not.
+    /// The best device that can present on `surface`, which `instance` made, and every adapter there is, whether it can
+    /// or not.
     ///
     /// # Errors
     /// [`GpuError::NoAdapterForWindow`] if there is none, [`GpuError::Device`] if it refuses.

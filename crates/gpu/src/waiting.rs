@@ -9,8 +9,8 @@ use std::time::{Duration, Instant};
 pub const PATIENCE: Duration = Duration::from_secs(60);
 
 impl Gpu {
-    /// Waits until everything that was submitted up to `until` is done, or everything there is; at most `patience`. Returns
-    /// whether it is. `what` names the work in errors.
+    /// Waits until everything that was submitted up to `until` is done, or everything there is; at most `patience`.
+    /// Returns whether it is. `what` names the work in errors.
     ///
     /// # Errors
     /// [`GpuError::Lost`] if the device fails.

@@ -1,20 +1,21 @@
-//! How many paths and rays a second each graphics device traces, and the processor: in the Cornell box, among the spheres,
-//! and over a mesh of a million triangles. A path is complete: light is sampled at every vertex, roulette goes by the
-//! throughput, and there is no limit of bounces.
+//! How many paths and rays a second each graphics device traces, and the processor: in the Cornell box, among the
+//! spheres, and over a mesh of a million triangles. A path is complete: light is sampled at every vertex, roulette goes
+//! by the throughput, and there is no limit of bounces.
 //!
 //!     cargo run --release -p pathtrace --example device_rates [WIDTH HEIGHT SPP]
 //!
 //! Seconds are the device's own where it has a clock, without reading the film back; a first pass, in which shaders are
-//! compiled and the pace is learned, does not count. Also said: what it saves to meet few shapes one by one, and to leave
-//! out what a scene does not need.
+//! compiled and the pace is learned, does not count. Also said: what it saves to meet few shapes one by one, and to
+//! leave out what a scene does not need.
 
 mod meshes;
 
+use film::Film;
 use gpu::{Gpu, wgpu};
 use meshes::hills_and_sphere;
 use pathtrace::gpu::{GpuTraceError, GpuTracer};
 use pathtrace::{PathSettings, Stats, Tracer};
-use scene::{Film, Scene, Shape};
+use scene::{Scene, Shape};
 use std::error::Error;
 use std::path::Path;
 use std::time::Instant;
@@ -70,7 +71,7 @@ fn tell(scene: &str, by: &str, stats: Stats, seconds: f64) {
     println!("{scene:10} {by:60} {:9.2} {:9.2}", rate(stats.samples), rate(stats.rays));
 }
 
-/// The mesh under a bright sky and a lamp.
+/// The mesh under a bright sky and an area light.
 fn mesh() -> Result<Scene, scene::SceneError> {
     let text = r#"
 [camera]

@@ -2,16 +2,17 @@
 //!
 //!     cargo run --release -p pathtrace --example ray_rates [MESH.obj]
 //!
-//! Without a mesh: a bumpy sphere over hills, about a million triangles. Three kinds of rays: primary ones from a camera,
-//! one bounce of them in cosine-weighted directions, and shadow rays to points on a square above. One thread traces; all
-//! build. Best of five, in millions of rays a second of wall-clock time: compare within a run, and on an idle machine.
+//! Without a mesh: a bumpy sphere over hills, about a million triangles. Three kinds of rays: primary ones from a
+//! camera, one bounce of them in cosine-weighted directions, and shadow rays to points on a square above. One thread
+//! traces; all build. Best of five, in millions of rays a second of wall-clock time: compare within a run, and on an
+//! idle machine.
 
 mod meshes;
 
 use meshes::hills_and_sphere;
-use pathtrace::geometry::{Accel, Ray};
+use pathtrace::intersect::{Accel, Ray};
 use pathtrace::light::Lights;
-use pathtrace::sampler::Sampler;
+use pathtrace::sampling::sampler::Sampler;
 use pathtrace::sampling::{cosine_hemisphere, to_world};
 use scene::{Geometry, Scene, Vec3};
 use simd::Lanes;

@@ -1,16 +1,18 @@
 //! Errors of pictures whose samples are not independent of each other.
 
-use crate::render::Tracer;
-use crate::settings::PathSettings;
-use scene::{Camera, Film, Vec3};
+use crate::integrator::settings::PathSettings;
+use crate::tracer::Tracer;
+use film::Film;
+use scene::{Camera, Vec3};
 
 /// Fewest replicates that a standard error may be read from: with 16 it is itself known to about 18 %.
 pub const FEWEST_REPLICATES: u32 = 16;
 
 /// A film of `size` (width, height) from `replicates` pictures of `samples` each, of seeds `settings.seed`,
-/// `settings.seed + 1` and so on; at least [`FEWEST_REPLICATES`] are made. Each pixel's samples are the replicates' means, so
-/// that [`Film::standard_error`] is right for every sampler: those of [`crate::SamplerKind::Sobol`] within one picture are
-/// not independent, but two scramblings are. `stop` as in [`Tracer::render`]; a replicate that it interrupts is left out.
+/// `settings.seed + 1` and so on; at least [`FEWEST_REPLICATES`] are made. Each pixel's samples are the replicates'
+/// means, so that [`Film::standard_error`] is right for every sampler: those of [`crate::SamplerKind::Sobol`] within
+/// one picture are not independent, but two scramblings are. `stop` as in [`Tracer::render`]; a replicate that it
+/// interrupts is left out.
 pub fn estimate_with_replicates(
     tracer: &Tracer,
     camera: &Camera,

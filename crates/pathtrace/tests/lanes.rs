@@ -2,8 +2,9 @@
 
 #![expect(clippy::expect_used, reason = "a scene that does not load is a failure")]
 
+use film::Film;
 use pathtrace::{Estimator, GlassShadows, Lanes, PathSettings, Roulette, SamplerKind, Stats, Tracer, WhittedSettings};
-use scene::{Film, Scene, builtin};
+use scene::{Scene, builtin};
 use std::f64::consts::{PI, TAU};
 use std::path::Path;
 use std::sync::Mutex;
@@ -13,8 +14,8 @@ use std::time::{Duration, Instant};
 /// Not a multiple of any number of lanes, and more than one chunk of pixels.
 const SIZE: (u32, u32) = (37, 29);
 
-/// What the built-in scenes lack: lamps of each outline and shapes that lie in one plane, beside glass, a mirror, a point
-/// light, a sun with a disc and a sky.
+/// What the built-in scenes lack: area lights of each outline and shapes that lie in one plane, beside glass, a mirror,
+/// a point light, a sun with a disc and a sky.
 const EVERYTHING: &str = r#"
 [camera]
 eye = [0.3, 1.2, 4]
@@ -256,8 +257,8 @@ fn a_stop_is_obeyed_within_five_milliseconds() {
     }
 }
 
-/// A floor with a lamp close below it, which shines upwards, and a ball above: nothing is lit.
-fn a_lamp_behind_a_floor(side: f32, below: f32) -> Scene {
+/// A floor with an area light close below it, which shines upwards, and a ball above: nothing is lit.
+fn an_area_light_behind_a_floor(side: f32, below: f32) -> Scene {
     let above = "[camera]\neye = [0, 1, 5]\ntarget = [0, 1, 0]\nfov_y = 30\n\
          [material.grey]\ndiffuse = { albedo = [0.5, 0.5, 0.5] }\n\
          [material.lamp]\nemissive = { radiance = [10, 8, 6] }\n\
@@ -274,9 +275,9 @@ fn a_lamp_behind_a_floor(side: f32, below: f32) -> Scene {
 }
 
 #[test]
-fn a_lamp_just_behind_a_wall_is_in_its_shadow() {
+fn an_area_light_just_behind_a_wall_is_in_its_shadow() {
     for (side, below) in [(2e4, 2e-3), (2e6, 0.2), (10.0, 1e-5), (10.0, 1e-3)] {
-        let scene = a_lamp_behind_a_floor(side, below);
+        let scene = an_area_light_behind_a_floor(side, below);
         let tracer = Tracer::new(&scene);
         for estimator in [Estimator::LIGHT, Estimator::MIS] {
             let (film, _) = path(&tracer, &scene, &PathSettings { estimator, ..PathSettings::default() }, 16);

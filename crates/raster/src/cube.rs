@@ -1,8 +1,8 @@
-//! Six cameras that look along the axes: for the cube maps of glass and for the shadows of a lamp.
+//! Six cameras that look along the axes: for the cube maps of glass and for the shadows of an area light.
 //!
-//! Cube maps are left-handed: the texel at (s, t), both in [-1, 1] and t downwards, of face +x lies in direction
-//! (1, -t, -s), of +y in (s, 1, t), of +z in (s, -t, 1). Right-handed cameras can't draw that. They draw the world mirrored in
-//! x instead, by looking the other way along x, and the shader's lookup mirrors x too.
+//! Cube maps are left-handed: the texel at (s, t), both in [-1, 1] and t downwards, of face +x lies in direction (1,
+//! -t, -s), of +y in (s, 1, t), of +z in (s, -t, 1). Right-handed cameras can't draw that. They draw the world mirrored
+//! in x instead, by looking the other way along x, and the shader's lookup mirrors x too.
 
 use scene::Vec3;
 use scene::glam::{Mat4, camera::rh};

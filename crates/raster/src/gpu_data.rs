@@ -35,16 +35,16 @@ pub struct Lights {
     pub sun_incident: Vec3,
     /// 1 if refraction is interpolated between vertices.
     pub refracts_per_vertex: u32,
-    /// Middle of the lamp.
-    pub lamp_position: Vec3,
-    /// How the lamp's light spreads, 0 for no lamp; compiled in too.
-    pub lamp_pattern: u32,
-    /// Unit normal of a flat lamp.
-    pub lamp_normal: Vec3,
+    /// Middle of the area light.
+    pub area_light_position: Vec3,
+    /// How the area light's light spreads, 0 for no area light; compiled in too.
+    pub area_light_pattern: u32,
+    /// Unit normal of a flat area light.
+    pub area_light_normal: Vec3,
     /// Padding.
     pub unused0: u32,
-    /// What a white Lambert surface facing the lamp sends back, at distance 1 if it decays.
-    pub lamp_incident: Vec3,
+    /// What a white Lambert surface facing the area light sends back, at distance 1 if it decays.
+    pub area_light_incident: Vec3,
     /// Added to depths before they are compared with the shadow map's.
     pub shadow_bias: f32,
     /// Light from everywhere.
@@ -55,7 +55,7 @@ pub struct Lights {
     pub sky: Vec3,
     /// Padding.
     pub unused2: u32,
-    /// The shadow map's layers: the sun's, then six of the lamp.
+    /// The shadow map's layers: the sun's, then six of the area light.
     pub shadow_views: [View; 7],
 }
 

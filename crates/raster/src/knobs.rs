@@ -9,9 +9,10 @@ use std::ops::RangeInclusive;
 pub struct FakeKnobs {
     /// Exponent of every highlight, in [`FakeKnobs::SHININESS`].
     pub shininess: Option<f32>,
-    /// Ambient light, in [`FakeKnobs::AMBIENT`]. As taught it is the grey that a surface's colour is multiplied by. Fair, the
-    /// sky's radiance takes its place, scaled as the grey was: half the scene's number is half the sky's light, so that one
-    /// number means the same change in both fakes. Where the scene's number is 0, it is the share of the sky.
+    /// Ambient light, in [`FakeKnobs::AMBIENT`]. As taught it is the grey that a surface's colour is multiplied by.
+    /// Fair, the sky's radiance takes its place, scaled as the grey was: half the scene's number is half the sky's
+    /// light, so that one number means the same change in both fakes. Where the scene's number is 0, it is the share of
+    /// the sky.
     pub ambient: Option<f32>,
     /// Texels along a side of each face of the cube maps, in [`FakeKnobs::CUBE_MAP`].
     pub cube_map: Option<u32>,
@@ -19,8 +20,8 @@ pub struct FakeKnobs {
     pub shadow_map: Option<u32>,
     /// How the shadow map is looked up.
     pub filter: ShadowFilter,
-    /// Added to a point's depth before it is compared, in [`FakeKnobs::BIAS`] of the shadow map's range from near to far:
-    /// negative lights what shadows itself, positive darkens.
+    /// Added to a point's depth before it is compared, in [`FakeKnobs::BIAS`] of the shadow map's range from near to
+    /// far: negative lights what shadows itself, positive darkens.
     pub bias: f32,
     /// Segments of every sphere, around and from pole to pole, in [`FakeKnobs::SEGMENTS`].
     pub segments: Option<u32>,
@@ -64,7 +65,7 @@ impl ShadowFilter {
         }
     }
 
-    /// The number by which `shaders/lib/shadow.wgsl` knows it.
+    /// The number by which `shaders/raster/shadow.wgsl` knows it.
     pub(crate) fn code(self) -> u32 {
         match self {
             ShadowFilter::Hard => 0,

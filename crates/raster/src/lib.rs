@@ -1,21 +1,21 @@
 //! The fake: what a rasteriser shows of a scene. Three passes per frame:
 //!
-//! 1. **shadow map** ([`lights`]): depths nearest to the sun, and to the brightest lamp on the six faces of a cube;
+//! 1. **shadow map** ([`lights`]): depths nearest to the sun, and to the brightest area light on the six faces of a cube;
 //! 2. **cube maps** ([`cube`]): what surrounds each piece of glass, seen from its middle, without it and its shadow;
 //! 3. **forward**: every shape, shaded with its lights' shadows; glass looks up its cube map along a direction that is
 //!    refracted once.
 //!
-//! Two fakes share these passes. [`Fake::AsTaught`] is what three.js r115 draws in the tutorial's viewer, number for number:
-//! bytes, clamped light, 4 samples a pixel in hardware; its film holds the light that those bytes emit on an sRGB display.
-//! [`Fake::Fair`] is the same fake on the truth's data: linear, unclamped `f32`, sun, lamp and ambient light in the truth's
-//! units, the mean of 4 passes a pixel.
+//! Two fakes share these passes. [`Fake::AsTaught`] is what three.js r115 draws in the tutorial's viewer, number for
+//! number: bytes, clamped light, 4 samples a pixel in hardware; its film holds the light that those bytes emit on an
+//! sRGB display. [`Fake::Fair`] is the same fake on the truth's data: linear, unclamped `f32`, sun, area light and
+//! ambient light in the truth's units, the mean of 4 passes a pixel.
 //!
-//! A picture may take its own numbers instead of the scene's ([`FakeKnobs`]), and the maps of passes 1 and 2 can be looked at
-//! in place of the picture ([`Show`]).
+//! A picture may take its own numbers instead of the scene's ([`FakeKnobs`]), and the maps of passes 1 and 2 can be
+//! looked at in place of the picture ([`Show`]).
 //!
-//! What it can't do is said, not hidden: at most [`MOST_CUBE_MAPS`] pieces of glass have a cube map, others show the plain
-//! sky, as does glass seen in a cube map; of several lamps only the one of greatest power sheds light; as taught, a sun puts
-//! out all lamps.
+//! What it can't do is said, not hidden: at most [`MOST_CUBE_MAPS`] pieces of glass have a cube map, others show the
+//! plain sky, as does glass seen in a cube map; of several area lights only the one of greatest power sheds light; as
+//! taught, a sun puts out all area lights.
 
 pub mod cube;
 mod error;
@@ -36,12 +36,13 @@ pub use knobs::{FakeKnobs, ShadowFilter};
 pub use plan::MOST_CUBE_MAPS;
 pub use settings::{Fake, RasterSettings, Shading, Show};
 
+use film::Pixel;
+use film::{Film, colour};
 use gpu::{Gpu, GpuError};
 use passes::{Maps, Uniforms};
 use pipelines::Pipelines;
 use plan::Plan;
-use scene::film::Pixel;
-use scene::{Camera, Film, Scene, Vec3, colour};
+use scene::{Camera, Scene, Vec3};
 use targets::{Colours, Kept};
 use tessellation::World;
 
@@ -101,7 +102,7 @@ impl Raster {
             return maps::film(&self.gpu, targets, &plan, settings);
         }
         let bytes = self.gpu.read_texture("the picture", targets.picture.resolved.texture())?;
-        develop(&bytes, settings)
+        resolve(&bytes, settings)
     }
 
     /// Refuses a picture that could be drawn but not read back, before its memory is taken.
@@ -116,7 +117,7 @@ impl Raster {
     }
 }
 
-fn develop(bytes: &[u8], settings: &RasterSettings) -> Result<Film, RasterError> {
+fn resolve(bytes: &[u8], settings: &RasterSettings) -> Result<Film, RasterError> {
     let &RasterSettings { width, height, fake, .. } = settings;
     let (texel, radiance): (usize, fn(&[u8]) -> Vec3) = match fake {
         Fake::AsTaught => (4, emitted_light),

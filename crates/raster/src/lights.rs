@@ -1,40 +1,41 @@
-//! The fake's lights: a sun with one shadow view, and the lamp of greatest power as a point with six.
+//! The fake's lights: a sun with one shadow view, and the area light of greatest power as a point with six.
 //!
-//! Fair lamps stand for the one-sample direct light: a flat lamp of radiance L and area A gives the irradiance
-//! `L A cos' cos / d^2`, others, seen as convex, `L A/4 cos / d^2` all around (a convex body's mean silhouette is a quarter
-//! of its surface: Cauchy). As taught it is three.js' PointLight: it does not decay.
+//! Fair area lights stand for the one-sample direct light: a flat area light of radiance L and area A gives the
+//! irradiance `L A cos' cos / d^2`, others, seen as convex, `L A/4 cos / d^2` all around (a convex body's mean
+//! silhouette is a quarter of its surface: Cauchy). As taught it is three.js' PointLight: it does not decay.
 
 use crate::cube;
 use crate::gpu_data::{Lights, View};
 use crate::settings::{Fake, RasterSettings, Shading};
 use bytemuck::Zeroable;
+use film::colour;
 use scene::glam::{Mat4, Vec2, Vec4, camera::rh};
-use scene::{Geometry, Scene, Shape, Sun, Vec3, colour};
+use scene::{Geometry, Scene, Shape, Sun, Vec3};
 use std::f32::consts::{FRAC_1_PI, PI};
 
 /// Texels that the shadow kernel reaches from its middle, along an axis.
 const KERNEL_REACH: f32 = 2.0;
 
-/// The lamp that sheds light.
+/// The area light that sheds light.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Lamp {
+pub struct AreaLight {
     /// Middle of its bounds.
     pub position: Vec3,
-    /// Unit normal of a flat lamp.
+    /// Unit normal of a flat area light.
     pub normal: Vec3,
     /// Radiant flux over pi: radiance times shining area.
     pub power: Vec3,
     pattern: u32,
 }
 
-impl Lamp {
-    /// The lamp of greatest power in `scene`, by luminance.
-    pub fn brightest(scene: &Scene) -> Option<Lamp> {
-        let lamps = scene.shapes.iter().filter_map(|shape| Lamp::of(scene, shape));
-        lamps.max_by(|a, b| colour::luminance(a.power).total_cmp(&colour::luminance(b.power)))
+impl AreaLight {
+    /// The area light of greatest power in `scene`, by luminance.
+    pub fn brightest(scene: &Scene) -> Option<AreaLight> {
+        let area_lights = scene.shapes.iter().filter_map(|shape| AreaLight::of(scene, shape));
+        area_lights.max_by(|a, b| colour::luminance(a.power).total_cmp(&colour::luminance(b.power)))
     }
 
-    fn of(scene: &Scene, shape: &Shape) -> Option<Lamp> {
+    fn of(scene: &Scene, shape: &Shape) -> Option<AreaLight> {
         let emission = scene.material_of(shape).emission.filter(|e| e.radiance.max_element() > 0.0)?;
         let (normal, pattern) = match &shape.geometry {
             Geometry::Rectangle { edge_u, edge_v, .. } => {
@@ -44,10 +45,10 @@ impl Lamp {
         };
         let sides = if pattern == 4 { 2.0 } else { 1.0 };
         let power = emission.radiance * (area(&shape.geometry) * sides);
-        Some(Lamp { position: shape.geometry.center(), normal, power, pattern })
+        Some(AreaLight { position: shape.geometry.center(), normal, power, pattern })
     }
 
-    /// What a white Lambert surface at distance 1, facing the lamp, sends back: irradiance / pi.
+    /// What a white Lambert surface at distance 1, facing the area light, sends back: irradiance / pi.
     fn incident(&self) -> Vec3 {
         let silhouette = match self.pattern {
             2 => 0.25,
@@ -67,16 +68,17 @@ fn area(geometry: &Geometry) -> f32 {
     triangles.iter().map(|t| area(t.map(|i| positions[i as usize]))).sum()
 }
 
-/// The sun of `scene`, the lamp that is lit beside it, and the place that light comes from for deciding who casts shadows.
-pub fn lit(scene: &Scene, fake: Fake) -> (Option<Sun>, Option<Lamp>) {
-    let lamp = Lamp::brightest(scene).filter(|_| fake == Fake::Fair || scene.sun.is_none());
-    (scene.sun, lamp)
+/// The sun of `scene`, the area light that is lit beside it, and the place that light comes from for deciding who casts
+/// shadows.
+pub fn lit(scene: &Scene, fake: Fake) -> (Option<Sun>, Option<AreaLight>) {
+    let area_light = AreaLight::brightest(scene).filter(|_| fake == Fake::Fair || scene.sun.is_none());
+    (scene.sun, area_light)
 }
 
 /// The lights' uniforms. `casts` tells the shapes that throw shadows.
 pub fn lights(scene: &Scene, settings: &RasterSettings, casts: impl Fn(usize) -> bool) -> Lights {
     let as_taught = settings.fake == Fake::AsTaught;
-    let (sun, lamp) = lit(scene, settings.fake);
+    let (sun, area_light) = lit(scene, settings.fake);
     let intensity = Vec3::splat(scene.fake.intensity);
     let mut lights = Lights {
         shading: match settings.shading {
@@ -95,13 +97,13 @@ pub fn lights(scene: &Scene, settings: &RasterSettings, casts: impl Fn(usize) ->
         lights.sun_incident = if as_taught { intensity } else { sun.irradiance * FRAC_1_PI };
         lights.shadow_views[0] = sun_view(scene, settings.fake, lights.sun_towards, casts);
     }
-    if let Some(lamp) = lamp {
-        lights.lamp_position = lamp.position;
-        lights.lamp_normal = lamp.normal;
-        lights.lamp_pattern = if as_taught { 1 } else { lamp.pattern };
-        lights.lamp_incident = if as_taught { intensity } else { lamp.incident() };
+    if let Some(area_light) = area_light {
+        lights.area_light_position = area_light.position;
+        lights.area_light_normal = area_light.normal;
+        lights.area_light_pattern = if as_taught { 1 } else { area_light.pattern };
+        lights.area_light_incident = if as_taught { intensity } else { area_light.incident() };
         for axis in 0..6 {
-            lights.shadow_views[1 + axis] = lamp_view(scene, lamp.position, axis);
+            lights.shadow_views[1 + axis] = area_light_view(scene, area_light.position, axis);
         }
     }
     lights
@@ -145,17 +147,17 @@ fn sun_view(scene: &Scene, fake: Fake, towards: Vec3, casts: impl Fn(usize) -> b
     }
 }
 
-/// Tangent of half the field of view of a lamp's view of `size` texels a side.
-pub fn lamp_reach(size: u32) -> f32 {
+/// Tangent of half the field of view of an area light's view of `size` texels a side.
+pub fn area_light_reach(size: u32) -> f32 {
     let size = size as f32;
     size / (size - 2.0 * KERNEL_REACH).max(1.0)
 }
 
-/// A lamp's view along an axis: wider than a cube's face by the kernel's reach, so that no lookup leaves its face. The depth
-/// that it keeps is linear, because the kernel compares depths of neighbouring texels.
-fn lamp_view(scene: &Scene, position: Vec3, axis: usize) -> View {
+/// An area light's view along an axis: wider than a cube's face by the kernel's reach, so that no lookup leaves its
+/// face. The depth that it keeps is linear, because the kernel compares depths of neighbouring texels.
+fn area_light_view(scene: &Scene, position: Vec3, axis: usize) -> View {
     let size = scene.fake.shadow_map as f32;
-    let reach = lamp_reach(scene.fake.shadow_map);
+    let reach = area_light_reach(scene.fake.shadow_map);
     let distances = corners(scene.bounds()).map(|corner| (corner - position).length());
     let far = (1.001 * distances.into_iter().fold(0.0, f32::max)).max(f32::MIN_POSITIVE);
     let plane = cube::forward(axis) / far;

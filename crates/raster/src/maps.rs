@@ -14,10 +14,11 @@ use crate::lights;
 use crate::plan::Plan;
 use crate::settings::{Fake, RasterSettings, Show};
 use crate::targets::{Layers, Targets};
+use film::Pixel;
+use film::{Film, colour};
 use gpu::upload::TexturePlan;
 use gpu::{Gpu, GpuError};
-use scene::film::Pixel;
-use scene::{Film, Vec3, colour};
+use scene::Vec3;
 use wgpu::TextureUsages;
 
 /// Linear grey around an unfolded map.
@@ -66,7 +67,7 @@ pub(crate) fn film(
     let faces: Vec<_> = faces.iter().map(|face| face.decoded(depth)).collect();
     let drawn = || faces.iter().flat_map(|face| &face.texels).copied().filter(|depth| *depth < 1.0);
     let (nearest, farthest) = (drawn().fold(1.0, f32::min), drawn().fold(0.0, f32::max));
-    let reach = if with_sun { 1.0 } else { lights::lamp_reach(plan.shadow_size) };
+    let reach = if with_sun { 1.0 } else { lights::area_light_reach(plan.shadow_size) };
     let faces = faces.into_iter().map(|face| face.map(|depth| Vec3::splat(grey(depth, nearest, farthest)))).collect();
     let map = Map { faces, reach };
     if with_sun {
@@ -138,8 +139,8 @@ impl Map {
     }
 }
 
-/// A film of what `at` finds at each pixel's middle, in faces from the top left corner of the largest shape of that many
-/// columns and rows that fits into its middle.
+/// A film of what `at` finds at each pixel's middle, in faces from the top left corner of the largest shape of that
+/// many columns and rows that fits into its middle.
 fn unfolded(
     settings: &RasterSettings,
     (columns, rows): (f32, f32),
@@ -201,7 +202,8 @@ fn cube_radiance(texel: &[u8], fake: Fake) -> Vec3 {
     }
 }
 
-/// The value of a finite half float: its exponent and mantissa are those of an f32, shifted and 112 powers of two too low.
+/// The value of a finite half float: its exponent and mantissa are those of an f32, shifted and 112 powers of two too
+/// low.
 fn half(bits: u16) -> f32 {
     let magnitude = f32::from_bits(u32::from(bits & 0x7fff) << 13) * 2f32.powi(112);
     if bits >> 15 == 1 { -magnitude } else { magnitude }

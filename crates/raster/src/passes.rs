@@ -1,6 +1,6 @@
 //! The frame on the device: uniforms are written once, then one command buffer draws shadow map, cube maps and picture.
-//! A cube map is drawn without its glass, and without the shadow of it; so each has its own shadow map before it, in the
-//! same texture.
+//! A cube map is drawn without its glass, and without the shadow of it; so each has its own shadow map before it, in
+//! the same texture.
 
 use crate::error::RasterError;
 use crate::gpu_data::Object;
@@ -98,7 +98,8 @@ impl Maps {
     }
 }
 
-/// Submits a frame, or nothing before its pipelines are prepared. `maps_stay` says that shadow map and cube maps are still those of the last one.
+/// Submits a frame, or nothing before its pipelines are prepared. `maps_stay` says that shadow map and cube maps are
+/// still those of the last one.
 pub fn draw(
     gpu: &Gpu,
     pipelines: &Pipelines,

@@ -30,8 +30,8 @@ pub struct ForwardPasses {
     pub picture: Forward,
 }
 
-/// What is compiled into the forward passes: a software device would run the branches that are not taken too, or compile
-/// them anew for every draw.
+/// What is compiled into the forward passes: a software device would run the branches that are not taken too, or
+/// compile them anew for every draw.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Choice {
     /// Decides the targets' formats.
@@ -40,8 +40,8 @@ pub struct Choice {
     pub filter: ShadowFilter,
     /// Whether a sun shines.
     pub sun: bool,
-    /// As in [`Lights::lamp_pattern`].
-    pub lamp: u32,
+    /// As in [`Lights::area_light_pattern`].
+    pub area_light: u32,
     /// As in [`Lights::shading`].
     pub shading: u32,
 }
@@ -50,7 +50,7 @@ impl Choice {
     /// What a picture under `lights` needs.
     pub fn of(fake: Fake, filter: ShadowFilter, lights: &Lights) -> Choice {
         let sun = lights.sun_incident.cmpgt(Vec3::ZERO).any();
-        Choice { fake, filter, sun, lamp: lights.lamp_pattern, shading: lights.shading }
+        Choice { fake, filter, sun, area_light: lights.area_light_pattern, shading: lights.shading }
     }
 }
 
@@ -110,7 +110,7 @@ impl Pipelines {
                 ("SHADOW_FILTER", f64::from(choice.filter.code())),
                 ("GLASS", f64::from(u8::from(glass))),
                 ("SUN", f64::from(u8::from(choice.sun))),
-                ("LAMP", f64::from(choice.lamp)),
+                ("AREA_LIGHT", f64::from(choice.area_light)),
                 ("SHADING", f64::from(choice.shading)),
             ]
         };

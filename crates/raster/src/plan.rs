@@ -15,7 +15,7 @@ use std::ops::Range;
 /// How many pieces of glass get a cube map; each costs six more views of the scene.
 pub const MOST_CUBE_MAPS: usize = 8;
 
-/// Views of the shadow map: the sun's and six of the lamp.
+/// Views of the shadow map: the sun's and six of the area light.
 pub const SHADOW_VIEWS: usize = 7;
 
 /// Sub-pixel positions of the fair fake's passes, in pixels from the middle: the rotated grid of 4x multisampling.
@@ -107,7 +107,7 @@ impl Plan {
     pub fn target_plan(&self, scene: &Scene, settings: &RasterSettings) -> TargetPlan {
         let &RasterSettings { width, height, fake, .. } = settings;
         TargetPlan {
-            shadow: ShadowPlan { size: self.shadow_size, with_lamp: self.shadow_layers.end > 1 },
+            shadow: ShadowPlan { size: self.shadow_size, with_area_light: self.shadow_layers.end > 1 },
             cubes: CubePlan { size: scene.fake.cube_map, count: self.cube_maps.len(), fake },
             picture: PicturePlan { width, height, fake },
         }
@@ -120,9 +120,9 @@ impl Plan {
 }
 
 fn shadow_layers(scene: &Scene, fake: Fake) -> Range<usize> {
-    let (sun, lamp) = lights::lit(scene, fake);
+    let (sun, area_light) = lights::lit(scene, fake);
     let first = if sun.is_some() { 0 } else { 1 };
-    let end = if lamp.is_some() { SHADOW_VIEWS } else { 1 };
+    let end = if area_light.is_some() { SHADOW_VIEWS } else { 1 };
     first..end
 }
 
@@ -154,9 +154,9 @@ fn cube_map_views(scene: &Scene, glass: &Geometry, fake: Fake) -> [View; 6] {
     })
 }
 
-/// As taught: rectangles (the floor) only receive; `shadowSide` draws back faces of front-sided materials, and front faces
-/// of the glass, whose material is back-sided. Fair: a rectangle casts if something lies behind it, and flat shapes cast
-/// their lit side too, or light would leak in along the foot of a box.
+/// As taught: rectangles (the floor) only receive; `shadowSide` draws back faces of front-sided materials, and front
+/// faces of the glass, whose material is back-sided. Fair: a rectangle casts if something lies behind it, and flat
+/// shapes cast their lit side too, or light would leak in along the foot of a box.
 fn casting(scene: &Scene, index: usize, fake: Fake) -> Casting {
     let shape = &scene.shapes[index];
     let material = scene.material_of(shape);
@@ -176,13 +176,14 @@ fn casting(scene: &Scene, index: usize, fake: Fake) -> Casting {
     }
 }
 
-/// Whether another shape reaches behind a plane as a light sees it; by less than a hundredth of the scene's size does not
-/// count, so that a box that sinks into its floor leaves the floor out.
+/// Whether another shape reaches behind a plane as a light sees it; by less than a hundredth of the scene's size does
+/// not count, so that a box that sinks into its floor leaves the floor out.
 fn hides_something(scene: &Scene, index: usize, corner: Vec3, normal: Vec3) -> bool {
     let (low, high) = scene.bounds();
     let depth = 0.01 * (high - low).length();
-    let (sun, lamp) = lights::lit(scene, Fake::Fair);
-    let sides = [sun.map(|sun| normal.dot(sun.towards)), lamp.map(|lamp| normal.dot(lamp.position - corner))];
+    let (sun, area_light) = lights::lit(scene, Fake::Fair);
+    let sides =
+        [sun.map(|sun| normal.dot(sun.towards)), area_light.map(|area_light| normal.dot(area_light.position - corner))];
     sides.into_iter().flatten().any(|side| {
         let dark = -normal * side.signum();
         let others = scene.shapes.iter().enumerate().filter(|(other, _)| *other != index);

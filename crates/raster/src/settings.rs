@@ -41,11 +41,12 @@ pub enum Show {
     /// The scene.
     #[default]
     Picture,
-    /// The cube map of the scene's first glass, unfolded to a cross that is seen from inside: -z in the middle, -x, +x and +z
-    /// beside it, +y above and -y below. What the texels hold, each as a square: radiance; as taught, the light of its bytes.
+    /// The cube map of the scene's first glass, unfolded to a cross that is seen from inside: -z in the middle, -x, +x
+    /// and +z beside it, +y above and -y below. What the texels hold, each as a square: radiance; as taught, the light
+    /// of its bytes.
     CubeFaces,
-    /// What the shadow map keeps, of the sun or else of the lamp as a cross: grey from white (nearest to the light) to
-    /// [`crate::maps::DARKEST`] (farthest), even steps of display brightness; black where nothing was drawn.
+    /// What the shadow map keeps, of the sun or else of the area light as a cross: grey from white (nearest to the
+    /// light) to [`crate::maps::DARKEST`] (farthest), even steps of display brightness; black where nothing was drawn.
     ShadowMap,
 }
 
@@ -67,14 +68,14 @@ impl Show {
         Show::ALL.into_iter().find(|show| show.name() == name)
     }
 
-    /// Whether `scene` has it: there are no cube maps without glass and no shadow map without sun and lamp.
+    /// Whether `scene` has it: there are no cube maps without glass and no shadow map without sun and area light.
     pub fn available(self, scene: &Scene) -> bool {
         match self {
             Show::Picture => true,
             Show::CubeFaces => {
                 scene.shapes.iter().any(|s| matches!(scene.material_of(s).bsdf, scene::Bsdf::Dielectric { .. }))
             }
-            Show::ShadowMap => scene.sun.is_some() || lights::Lamp::brightest(scene).is_some(),
+            Show::ShadowMap => scene.sun.is_some() || lights::AreaLight::brightest(scene).is_some(),
         }
     }
 }

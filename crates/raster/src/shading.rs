@@ -1,13 +1,13 @@
-//! The fake's formulas on the CPU: twins, by name and parameters, of the functions in `shaders/lib/`. Tests hold the two
-//! against each other, and closed forms are computed with them.
+//! The fake's formulas on the CPU: twins, by name and parameters, of the functions in `shaders/lib/`. Tests hold the
+//! two against each other, and closed forms are computed with them.
 //!
-//! `n` unit normal, `l` unit direction to the light, `v` unit direction to the viewer, `incident` the light that a white
-//! Lambert surface facing the light would send back. Ambient light, `kd * ambient`, is the caller's.
+//! `n` unit normal, `l` unit direction to the light, `v` unit direction to the viewer, `incident` the light that a
+//! white Lambert surface facing the light would send back. Ambient light, `kd * ambient`, is the caller's.
 
 use scene::Vec3;
 use scene::material::Checkerboard;
 
-/// See the same name in `shaders/lib/shading.wgsl`.
+/// See the same name in `shaders/raster/shading.wgsl`.
 const SMALLEST: f32 = 1e-37;
 
 fn power(base: f32, exponent: f32) -> f32 {
@@ -19,8 +19,8 @@ fn half_vector(l: Vec3, v: Vec3) -> Vec3 {
     h / h.dot(h).max(SMALLEST).sqrt()
 }
 
-/// Phong 1975 as on the slides: `kd max(0, N.L) + ks max(0, R.V)^p`, dark where the light is behind the surface. The lobe's
-/// integral `2 pi / (p + 2)` shrinks with `p`: this model is not energy-conserving.
+/// Phong 1975 as on the slides: `kd max(0, N.L) + ks max(0, R.V)^p`, dark where the light is behind the surface. The
+/// lobe's integral `2 pi / (p + 2)` shrinks with `p`: this model is not energy-conserving.
 pub fn phong(n: Vec3, l: Vec3, v: Vec3, kd: Vec3, ks: f32, p: f32, incident: Vec3) -> Vec3 {
     let cosine = n.dot(l);
     if cosine <= 0.0 {
@@ -39,8 +39,8 @@ pub fn blinn_phong(n: Vec3, l: Vec3, v: Vec3, kd: Vec3, ks: f32, p: f32, inciden
     incident * (kd * cosine + ks * power(n.dot(half_vector(l, v)).max(0.0), p))
 }
 
-/// What three.js r115 calls MeshPhong: `max(0, N.L) (kd + F .25 (s/2 + 1) (N.H)^s)`, F Schlick's term about L.H in Lagarde's
-/// spherical Gaussian form, as that version computes it. `f0` is the specular colour, `s` the shininess.
+/// What three.js r115 calls MeshPhong: `max(0, N.L) (kd + F .25 (s/2 + 1) (N.H)^s)`, F Schlick's term about L.H in
+/// Lagarde's spherical Gaussian form, as that version computes it. `f0` is the specular colour, `s` the shininess.
 pub fn three_blinn_phong(n: Vec3, l: Vec3, v: Vec3, kd: Vec3, f0: f32, s: f32, incident: Vec3) -> Vec3 {
     let h = half_vector(l, v);
     let l_dot_h = l.dot(h).clamp(0.0, 1.0);
@@ -49,8 +49,8 @@ pub fn three_blinn_phong(n: Vec3, l: Vec3, v: Vec3, kd: Vec3, f0: f32, s: f32, i
     incident * n.dot(l).max(0.0) * (kd + fresnel * lobe)
 }
 
-/// Unit direction behind a surface of unit normal `n` (against `d`) for light along the unit direction `d`; `ratio` is the
-/// index of refraction in front over the one behind. Beyond the critical angle: the mirrored direction.
+/// Unit direction behind a surface of unit normal `n` (against `d`) for light along the unit direction `d`; `ratio` is
+/// the index of refraction in front over the one behind. Beyond the critical angle: the mirrored direction.
 pub fn refract(d: Vec3, n: Vec3, ratio: f32) -> Vec3 {
     let cosine = n.dot(d);
     let k = 1.0 - ratio * ratio * (1.0 - cosine * cosine);
@@ -83,8 +83,8 @@ pub fn pcf(nearest: impl Fn(u32, u32) -> f32, size: u32, uv: [f32; 2], depth: f3
     (lit(0.0, 0.0) + ring(0.5) + ring(1.0)) / 17.0
 }
 
-/// The lit share of 3 x 3 texels about `uv` in `[0, 1]^2` of a square shadow map of `size` texels a side; `nearest(x, y)` is
-/// its depth there. The kernel of three.js' PCFSoftShadowMap.
+/// The lit share of 3 x 3 texels about `uv` in `[0, 1]^2` of a square shadow map of `size` texels a side; `nearest(x,
+/// y)` is its depth there. The kernel of three.js' PCFSoftShadowMap.
 pub fn pcf_soft(nearest: impl Fn(u32, u32) -> f32, size: u32, uv: [f32; 2], depth: f32) -> f32 {
     let at = uv.map(|x| x * size as f32 + 0.5);
     let f = at.map(|x| x - x.floor());

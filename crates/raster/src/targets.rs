@@ -28,7 +28,8 @@ pub struct Colours {
 }
 
 impl Colours {
-    /// The colours of a fake. A device that can't draw half floats (OpenGL's core profile) keeps fair cube maps in bytes.
+    /// The colours of a fake. A device that can't draw half floats (OpenGL's core profile) keeps fair cube maps in
+    /// bytes.
     pub fn of(fake: Fake, gpu: &Gpu) -> Colours {
         match fake {
             Fake::AsTaught => Colours {
@@ -68,8 +69,8 @@ pub struct TargetPlan {
 pub struct ShadowPlan {
     /// Texels along a side.
     pub size: u32,
-    /// Whether it has the lamp's six layers.
-    pub with_lamp: bool,
+    /// Whether it has the area light's six layers.
+    pub with_area_light: bool,
 }
 
 /// What the cube maps depend on.
@@ -106,7 +107,7 @@ pub struct Layers {
 /// The shadow map.
 #[derive(Debug)]
 pub struct ShadowTargets {
-    /// Nearest depths: the sun's layer, then the lamp's.
+    /// Nearest depths: the sun's layer, then the area light's.
     pub map: Layers,
     /// Depth buffer beside it.
     pub depth: TextureView,
@@ -185,7 +186,7 @@ fn square(size: u32, layers: u32, format: TextureFormat) -> TexturePlan {
 
 fn shadow_targets(gpu: &Gpu, plan: ShadowPlan) -> Result<ShadowTargets, GpuError> {
     // GL takes an array of one layer for a plain texture and one of six for a cube: neither 1 nor 6
-    let map = gpu.texture("a shadow map", &square(plan.size, if plan.with_lamp { 7 } else { 2 }, SHADOW))?;
+    let map = gpu.texture("a shadow map", &square(plan.size, if plan.with_area_light { 7 } else { 2 }, SHADOW))?;
     let depth = gpu.texture("a shadow map", &square(plan.size, 1, DEPTH))?;
     Ok(ShadowTargets { map: layers(&map, TextureViewDimension::D2Array), depth: whole(&depth) })
 }

@@ -22,8 +22,8 @@ pub struct Key(u128);
 const VERSION: u32 = 1;
 
 impl Key {
-    /// Of everything in the scene, down to the last bit of every number; but for its own camera, which does not matter to
-    /// one who looks from elsewhere.
+    /// Of everything in the scene, down to the last bit of every number; but for its own camera, which does not matter
+    /// to one who looks from elsewhere.
     pub fn of(subject: &Subject) -> Self {
         let scene = Scene { camera: *subject.camera, ..subject.scene.clone() };
         let mut hash = Fnv1a(0x6c62_272e_07bb_0142_62b8_2175_6295_c58d);

@@ -1,8 +1,10 @@
-//! The reference: the truth of a scene as well as this program knows it, with an error bar of its own, to judge pictures by.
+//! The reference: the truth of a scene as well as this program knows it, with an error bar of its own, to judge
+//! pictures by.
 //!
 //! A [`Maker`] averages independently scrambled pictures by the estimator that is bounded everywhere, with seeds that
-//! pictures have only if they are asked for (from 0x5eed0000 on); their spread is the [`Reference`]'s standard error. A [`Store`] keeps references on disk by the
-//! [`Key`] of what they show, so that one that was made once is there at once, and can be made finer later.
+//! pictures have only if they are asked for (from 0x5eed0000 on); their spread is the [`Reference`]'s standard error. A
+//! [`Store`] keeps references on disk by the [`Key`] of what they show, so that one that was made once is there at
+//! once, and can be made finer later.
 
 mod key;
 mod maker;
@@ -13,8 +15,9 @@ pub use maker::{Goal, Maker, SAMPLES_PER_REPLICATE};
 pub use store::{Store, StoreError, Usage};
 
 use compare::{Errors, errors_of_radiances};
-use picture_file::{Layer, LayerValues, PictureError, Radiances, Records};
-use scene::{Film, Vec3, film::Pixel};
+use film::{Film, Pixel};
+use image_file::{ImageFileError, Layer, LayerValues, Radiances, Records};
+use scene::Vec3;
 use std::path::Path;
 
 /// Layers of a reference's file beside the first, which holds the radiance.
@@ -43,12 +46,12 @@ impl Reference {
     /// Reads an .exr: one of this program with its standard error, or any picture without. A .png is read as well.
     ///
     /// # Errors
-    /// [`PictureError`]: one line that says why and names the path.
-    pub fn load(path: &Path) -> Result<Self, PictureError> {
-        let Radiances { width, height, radiances } = picture_file::load(path)?;
-        let exr = picture_file::Kind::of(path) == Some(picture_file::Kind::Exr);
-        let errors = if exr { picture_file::load_layer(path, STANDARD_ERROR)? } else { None };
-        let records = picture_file::records(path)?;
+    /// [`ImageFileError`]: one line that says why and names the path.
+    pub fn load(path: &Path) -> Result<Self, ImageFileError> {
+        let Radiances { width, height, radiances } = image_file::load(path)?;
+        let exr = image_file::Kind::of(path) == Some(image_file::Kind::Exr);
+        let errors = if exr { image_file::load_layer(path, STANDARD_ERROR)? } else { None };
+        let records = image_file::records(path)?;
         let number = |name: &str| records.iter().find(|(known, _)| known == name).and_then(|(_, v)| v.parse().ok());
         Ok(Reference {
             width,
@@ -64,8 +67,8 @@ impl Reference {
     /// The bytes of an EXR that [`Reference::load`] reads; `records` stand in its header too.
     ///
     /// # Errors
-    /// [`PictureError::Encode`].
-    pub fn encode(&self, mut records: Records) -> Result<Vec<u8>, PictureError> {
+    /// [`ImageFileError::Encode`].
+    pub fn encode(&self, mut records: Records) -> Result<Vec<u8>, ImageFileError> {
         records.extend([
             ("replicates", self.replicates.to_string()),
             ("spp", (u64::from(self.replicates) * u64::from(SAMPLES_PER_REPLICATE)).to_string()),
@@ -76,7 +79,7 @@ impl Reference {
         if let Some(errors) = &self.standard_errors {
             layers.push(Layer { name: STANDARD_ERROR, values: LayerValues::Rgb(errors) });
         }
-        picture_file::encode_layers(self.width, self.height, &layers, &records)
+        image_file::encode_layers(self.width, self.height, &layers, &records)
     }
 
     /// Its own mean squared error, in radiance squared, by its standard errors; `None` if they are not known.

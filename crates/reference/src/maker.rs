@@ -1,8 +1,9 @@
 //! Making a reference, replicate by replicate, until it is good enough.
 
 use crate::{Reference, Subject};
+use film::Film;
 use pathtrace::{Estimator, FEWEST_REPLICATES, PathSettings, Tracer};
-use scene::{Camera, Film, Vec3};
+use scene::{Camera, Vec3};
 use std::time::Instant;
 
 /// Samples per pixel of each of a reference's independent pictures.
@@ -36,8 +37,8 @@ pub struct Maker<'a> {
 }
 
 impl<'a> Maker<'a> {
-    /// Begins one, or goes on with one that is there. `tracer` is that of the subject's scene. `None` if there is no memory
-    /// for it.
+    /// Begins one, or goes on with one that is there. `tracer` is that of the subject's scene. `None` if there is no
+    /// memory for it.
     pub fn new(tracer: &'a Tracer, subject: &Subject, begun: Option<&Reference>) -> Option<Self> {
         let begun = begun.filter(|r| (r.width, r.height) == subject.size && r.replicates > 0);
         let film = match begun {
@@ -48,7 +49,8 @@ impl<'a> Maker<'a> {
         Some(Maker { tracer, camera: *subject.camera, film, seconds })
     }
 
-    /// How references are traced: both ways to find light, weighted, so that no sample is unbounded; no limit of bounces.
+    /// How references are traced: both ways to find light, weighted, so that no sample is unbounded; no limit of
+    /// bounces.
     pub fn settings(seed: u32) -> PathSettings {
         PathSettings { estimator: Estimator::MIS, seed, ..PathSettings::default() }
     }

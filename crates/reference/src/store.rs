@@ -1,7 +1,8 @@
-//! References on disk: one file each in the user's cache folder, the ones not used for longest going when there are too many.
+//! References on disk: one file each in the user's cache folder, the ones not used for longest going when there are too
+//! many.
 
 use crate::{Key, Reference};
-use picture_file::{PictureError, Records};
+use image_file::{ImageFileError, Records};
 use std::path::{Path, PathBuf};
 use std::time::SystemTime;
 
@@ -31,7 +32,7 @@ pub enum StoreError {
     },
     /// A reference cannot be written.
     #[error(transparent)]
-    Picture(#[from] PictureError),
+    Picture(#[from] ImageFileError),
 }
 
 /// What a store holds.
@@ -102,7 +103,7 @@ impl Store {
     /// [`StoreError::Folder`] or [`StoreError::Picture`], with what is there untouched.
     pub fn put(&self, key: Key, reference: &Reference, records: Records) -> Result<(), StoreError> {
         std::fs::create_dir_all(&self.folder).map_err(|why| self.fault(why))?;
-        picture_file::write_whole(&self.path(key), &reference.encode(records)?)?;
+        image_file::write_whole(&self.path(key), &reference.encode(records)?)?;
         let mut entries = self.entries()?;
         entries.sort_by_key(|entry| entry.used);
         let mut bytes: u64 = entries.iter().map(|entry| entry.bytes).sum();

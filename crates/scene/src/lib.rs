@@ -1,31 +1,27 @@
-//! What is seen, without saying how: camera, shapes, materials and lights of a [`Scene`], the TOML file that holds one,
-//! the [`Film`] that every technique fills, and the one [`display`] transform that every picture goes through.
+//! What is seen, without saying how: camera, shapes, materials and lights of a [`Scene`], and the TOML file that holds
+//! one.
 //!
 //! Right-handed, y up, lengths in scene units, colours linear RGB (Rec. 709 primaries). No GPU and no window here.
 
 pub mod builtin;
 pub mod camera;
-pub mod colour;
-pub mod display;
-pub mod fake;
 pub mod file;
-pub mod film;
-pub mod glass;
 pub mod light;
 pub mod material;
 mod needs;
+pub mod nesting;
 pub mod shape;
+pub mod stand_ins;
 
 pub use camera::Camera;
 pub use file::{SceneError, load, parse};
-pub use film::Film;
 pub use glam::{self, Vec3};
 pub use light::{PointLight, Sun};
 pub use material::{Bsdf, Material, Texture};
 pub use needs::Needs;
 pub use shape::{Geometry, Shape};
 
-use fake::FakeNumbers;
+use stand_ins::FakeNumbers;
 use std::sync::Arc;
 
 /// Everything a technique may look at. Written once, physically; the fake's and Whitted's views are derived from it.

@@ -1,4 +1,5 @@
-//! Lights that are not shapes: the sun and point lights. Emissive shapes are lights through their material, the sky is a number.
+//! Lights that are not shapes: the sun and point lights. Emissive shapes are lights through their material, the sky is
+//! a number.
 
 use glam::Vec3;
 

@@ -1,6 +1,6 @@
-//! Materials, written once and physically. What the fake sees of one is derived in [`crate::fake`].
+//! Materials, written once and physically. What the fake sees of one is derived in [`crate::stand_ins`].
 
-use crate::fake::FakeMaterial;
+use crate::stand_ins::FakeMaterial;
 use glam::Vec3;
 
 /// How a surface looks.
@@ -19,7 +19,7 @@ pub struct Material {
 /// How a surface scatters light.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Bsdf {
-    /// Lambert's law on both sides: BRDF = albedo / pi. Black for a lamp that scatters nothing.
+    /// Lambert's law on both sides: BRDF = albedo / pi. Black for an area light that scatters nothing.
     Diffuse {
         /// Share of the light that is reflected, each channel in [0, 1].
         albedo: Texture,
@@ -32,8 +32,8 @@ pub enum Bsdf {
     /// Smooth clear glass inside a closed shape.
     Dielectric {
         /// Index of refraction of the inside over what is around the shape, > 0: 1.5 for glass in air, 1 / 1.5 for a
-        /// bubble of air inside that glass. Stated per surface, so that no technique needs to know what medium a ray is in,
-        /// and a camera inside glass sees rightly; see [`crate::glass`] for what that asks of the shapes.
+        /// bubble of air inside that glass. Stated per surface, so that no technique needs to know what medium a ray is
+        /// in, and a camera inside glass sees rightly; see [`crate::nesting`] for what that asks of the shapes.
         ior: f32,
     },
 }

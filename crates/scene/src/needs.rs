@@ -18,7 +18,7 @@ pub struct Needs {
     /// Glass.
     pub dielectric: bool,
     /// A shape that shines.
-    pub lamps: bool,
+    pub area_lights: bool,
     /// A point light.
     pub point_lights: bool,
     /// A sun.
@@ -43,7 +43,7 @@ impl Scene {
             needs.disks |= disk;
             needs.triangles |= !sphere && !disk;
             let material = self.material_of(shape);
-            needs.lamps |= material.emission.is_some();
+            needs.area_lights |= material.emission.is_some();
             match material.bsdf {
                 Bsdf::Diffuse { albedo } => needs.checkerboard |= matches!(albedo, Texture::Checkerboard(_)),
                 Bsdf::Mirror { .. } => needs.mirror = true,

@@ -21,8 +21,8 @@ pub enum Lanes {
 pub trait Kernel {
     /// What it gives.
     type Output;
-    /// Runs it. To be marked `#[inline(always)]`, as all that it calls with lanes: instructions beyond the baseline exist
-    /// only inside the function that [`Lanes::run`] enters.
+    /// Runs it. To be marked `#[inline(always)]`, as all that it calls with lanes: instructions beyond the baseline
+    /// exist only inside the function that [`Lanes::run`] enters.
     fn run<F: Float>(self) -> Self::Output;
 }
 

@@ -1,15 +1,15 @@
-//! Lane types: an algorithm is written once over [`Float`], its words and masks, and runs on as many lanes as the machine
-//! has: 16 with AVX-512, 8 with AVX2, 4 in plain arrays anywhere, and one, which is `f32` itself.
+//! Lane types: an algorithm is written once over [`Float`], its words and masks, and runs on as many lanes as the
+//! machine has: 16 with AVX-512, 8 with AVX2, 4 in plain arrays anywhere, and one, which is `f32` itself.
 //!
-//! What runs is a [`Kernel`]; [`Lanes::run`] picks its instantiation at run time. Every operation is IEEE 754's or integer
-//! arithmetic and none is fused, so all backends give the same bits.
+//! What runs is a [`Kernel`]; [`Lanes::run`] picks its instantiation at run time. Every operation is IEEE 754's or
+//! integer arithmetic and none is fused, so all backends give the same bits.
 //!
-//! Unsafe code lives in this crate alone, in two places. The x86 backends call intrinsics: their types are private, values
-//! of them exist only inside a kernel that [`Lanes::run`] started, and it starts none whose instructions the machine was
-//! not seen to have. And [`Lanes::run`] enters the function that carries these instructions.
+//! Unsafe code lives in this crate alone, in two places. The x86 backends call intrinsics: their types are private,
+//! values of them exist only inside a kernel that [`Lanes::run`] started, and it starts none whose instructions the
+//! machine was not seen to have. And [`Lanes::run`] enters the function that carries these instructions.
 //!
-//! Own wrappers, because `std::simd` is unstable, `wide` chooses by `target-cpu` alone, and `pulp` has neither the table
-//! look-ups nor the conversions between floats and words that the tracer needs.
+//! Own wrappers, because `std::simd` is unstable, `wide` chooses by `target-cpu` alone, and `pulp` has neither the
+//! table look-ups nor the conversions between floats and words that the tracer needs.
 
 mod array;
 #[cfg(target_arch = "x86_64")]

@@ -1,9 +1,9 @@
 //! Large pages.
 
-/// Asks the system to back memory by large pages where it lends them only to those who ask (Linux: `madvise`): of the tens
-/// of megabytes of a large scene's hierarchy a ray touches a few lines here and there, and each page of 4 KiB that it has
-/// not touched lately costs a walk through the page table. To be asked before the memory is first written to. A wish: nothing
-/// happens where it is not granted.
+/// Asks the system to back memory by large pages where it lends them only to those who ask (Linux: `madvise`): of the
+/// tens of megabytes of a large scene's hierarchy a ray touches a few lines here and there, and each page of 4 KiB that
+/// it has not touched lately costs a walk through the page table. To be asked before the memory is first written to. A
+/// wish: nothing happens where it is not granted.
 pub fn ask_for_large_pages(memory: &mut [f32]) {
     #[cfg(target_os = "linux")]
     {

@@ -1,5 +1,5 @@
-//! Rows of four and of eight floats: for one ray against several boxes or triangles at once, where the width is the data's
-//! and not the machine's.
+//! Rows of four and of eight floats: for one ray against several boxes or triangles at once, where the width is the
+//! data's and not the machine's.
 //!
 //! What runs is a [`RowKernel`]; [`RowLanes`] picks its instantiation at run time. All operations but
 //! [`Row::mul_add`] are IEEE 754's, so all backends give the same bits.
@@ -18,7 +18,8 @@ pub trait Row<const N: usize>: Copy + Add<Output = Self> + Sub<Output = Self> + 
     fn load(from: &[f32; N]) -> Self;
     /// To memory.
     fn to_array(self) -> [f32; N];
-    /// `self * factor + term`, rounded once or twice: for bounds with a margin, not for what must be the same everywhere.
+    /// `self * factor + term`, rounded once or twice: for bounds with a margin, not for what must be the same
+    /// everywhere.
     fn mul_add(self, factor: Self, term: Self) -> Self;
     /// `self < other ? self : other`; so `other` if either is NaN.
     fn min(self, other: Self) -> Self;

@@ -1,7 +1,7 @@
 //! What lanes look up: columns of values, and matrices over the field of two elements.
 
-/// Values that lanes look up by their index. Up to 32 of them fit into two registers of 16 lanes, and up to 16 into two of 8:
-/// then a look-up is a permutation or two, else it is a load for each lane.
+/// Values that lanes look up by their index. Up to 32 of them fit into two registers of 16 lanes, and up to 16 into two
+/// of 8: then a look-up is a permutation or two, else it is a load for each lane.
 #[derive(Debug, Clone, Default)]
 pub struct Column(Padded<f32>);
 
@@ -55,7 +55,8 @@ impl WordColumn {
     }
 }
 
-/// A 32 x 32 matrix over the field of two elements, unrolled into tables of its products with three, four and eight bits.
+/// A 32 x 32 matrix over the field of two elements, unrolled into tables of its products with three, four and eight
+/// bits.
 #[derive(Debug)]
 #[cfg_attr(not(target_arch = "x86_64"), expect(dead_code, reason = "the smaller tables are for registers of x86"))]
 pub struct BitMatrix {

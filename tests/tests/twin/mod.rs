@@ -2,7 +2,7 @@
 
 use gpu::{Gpu, wgpu, wgsl};
 use pathtrace::gpu::GpuTracer;
-use pathtrace::{rng, sampling};
+use pathtrace::sampling::{self, rng};
 use scene::{Scene, Vec3};
 
 pub const ITEMS: u32 = 4096;
@@ -36,7 +36,7 @@ pub fn run(
     input: &[[u32; 8]],
 ) -> Vec<[u32; 4]> {
     let shader = format!(
-        "//#import lib/scene.wgsl\n//#import {imports}\n
+        "//#import pathtrace/scene.wgsl\n//#import {imports}\n
         @group(1) @binding(0) var<storage, read> numbers: array<u32>;
         @group(1) @binding(1) var<storage, read_write> results: array<vec4u>;
         fn f(at: u32) -> f32 {{ return bitcast<f32>(numbers[at]); }}

@@ -1,4 +1,5 @@
-//! `visavis compare`: how far one picture is from another, or from the reference of what it shows, in numbers and as a map.
+//! `visavis compare`: how far one picture is from another, or from the reference of what it shows, in numbers and as a
+//! map.
 
 use super::args::made_by;
 use super::{CompareArgs, reference};
@@ -6,9 +7,9 @@ use crate::ruler::{HeatMap, Pair, noise_line};
 use ::reference::Reference;
 use anyhow::ensure;
 use compare::flip::{PIXELS_PER_DEGREE, hdr_flip};
-use compare::{ErrorMap, Errors, finite_mean};
-use picture_file::{Kind, Radiances, Records};
-use scene::display::DisplayTransform;
+use compare::{ErrorMetric, Errors, finite_mean};
+use film::DisplayTransform;
+use image_file::{Kind, Radiances, Records};
 use serde_json::json;
 use std::path::Path;
 
@@ -22,10 +23,10 @@ struct Comparison {
 }
 
 pub fn run(args: &CompareArgs) -> anyhow::Result<()> {
-    let a = picture_file::load(&args.film)?;
+    let a = image_file::load(&args.film)?;
     if let Some(out) = &args.heatmap {
         refuse_to_overwrite(args, out)?;
-        picture_file::check_writable(out)?;
+        image_file::check_writable(out)?;
     }
     let r = match &args.reference {
         Some(file) => Reference::load(file)?,
@@ -81,7 +82,7 @@ fn reference_of(file: &Path, picture: &Radiances) -> anyhow::Result<Reference> {
 
 fn measure(pair: &Pair, reference: &Reference) -> anyhow::Result<Comparison> {
     let [film, _] = pair.radiances;
-    let shown = ErrorMap::Flip.of_radiances(film, &reference.radiances, pair.width, &pair.display)?;
+    let shown = ErrorMetric::Flip.of_radiances(film, &reference.radiances, pair.width, &pair.display)?;
     let swept = hdr_flip(film, &reference.radiances, pair.width, PIXELS_PER_DEGREE)?;
     Ok(Comparison {
         errors: reference.errors(film)?,
@@ -93,7 +94,7 @@ fn measure(pair: &Pair, reference: &Reference) -> anyhow::Result<Comparison> {
 fn draw(args: &CompareArgs, pair: &Pair, out: &Path) -> anyhow::Result<HeatMap> {
     let map = HeatMap::of(pair, args.map, args.scale)?;
     let kind = Kind::of(out).unwrap_or(Kind::Png);
-    picture_file::write_whole(out, &map.encode(kind, pair, Records::new())?)?;
+    image_file::write_whole(out, &map.encode(kind, pair, Records::new())?)?;
     Ok(map)
 }
 

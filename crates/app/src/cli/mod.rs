@@ -1,5 +1,5 @@
-//! The command line, a contract that scripts depend on. Words become a [`Command`] (in `args`); a command runs and either
-//! is done or fails with one line.
+//! The command line, a contract that scripts depend on. Words become a [`Command`] (in `args`); a command runs and
+//! either is done or fails with one line.
 
 /// A line on stderr, in the manner of `eprintln!` but without its panic where stderr is full or closed.
 macro_rules! note {

@@ -30,9 +30,9 @@ pub fn run(args: &ReferenceArgs) -> anyhow::Result<()> {
         }
         ReferenceArgs::Make { scene, out, seen, goal } => {
             let sought = seen.of(scene)?;
-            picture_file::check_writable(out)?;
+            image_file::check_writable(out)?;
             let reference = obtain(&sought, Some(*goal))?;
-            picture_file::write_whole(out, &reference.encode(sought.records())?)?;
+            image_file::write_whole(out, &reference.encode(sought.records())?)?;
             note!(
                 "reference of {} at {}x{}: {}: {}",
                 scene,
@@ -52,8 +52,8 @@ fn course(reference: &Reference) -> String {
     format!("{} pictures, noise (relMSE) {noise}, {:.1} s", reference.replicates, reference.seconds)
 }
 
-/// The reference of what is sought. One from the store is taken as it is, unless there is a goal that it does not meet; what
-/// is made here is kept there. A store that cannot be used is told and does no harm.
+/// The reference of what is sought. One from the store is taken as it is, unless there is a goal that it does not meet;
+/// what is made here is kept there. A store that cannot be used is told and does no harm.
 ///
 /// # Errors
 /// If there is no memory for it.
@@ -80,8 +80,8 @@ pub fn obtain(sought: &Sought, goal: Option<Goal>) -> anyhow::Result<Reference> 
     Ok(made)
 }
 
-/// Makes a reference, or goes on with one, until it is good enough. Every doubling is handed to `keep`: hours of work do not
-/// go with a power cut.
+/// Makes a reference, or goes on with one, until it is good enough. Every doubling is handed to `keep`: hours of work
+/// do not go with a power cut.
 fn make(
     sought: &Sought,
     goal: &Goal,

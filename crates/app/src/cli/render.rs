@@ -3,15 +3,16 @@
 use super::tracing::{self, Traced, Tracing};
 use super::{RenderArgs, reference};
 use crate::ruler::{Sought, brief, error_records, noise_line};
-use crate::technique::{FakeSettings, Machine, Made, Provenance, RaySettings, Recipe, Technique};
+use crate::technique::{Device, FakeSettings, Made, Provenance, RaySettings, Recipe, Technique};
 use anyhow::Context;
 use compare::Errors;
+use film::DisplayTransform;
+use film::Film;
 use gpu::Gpu;
+use image_file::{self, Kind, Linear};
 use pathtrace::{SamplerKind, Stats};
-use picture_file::{self, Kind, Linear};
 use raster::Raster;
-use scene::display::DisplayTransform;
-use scene::{Film, Scene, Vec3, builtin};
+use scene::{Scene, Vec3, builtin};
 use serde_json::json;
 use std::io::IsTerminal;
 use std::time::{Duration, Instant};
@@ -25,7 +26,7 @@ struct Rendered {
     seconds: f64,
     stats: Stats,
     /// Where it was made, at the end.
-    machine: Machine,
+    machine: Device,
     /// Name of the GPU, or of the CPU renderer's threads.
     adapter: String,
 }
@@ -39,7 +40,7 @@ pub fn run(args: &RenderArgs) -> anyhow::Result<()> {
         !args.errors || recipe.shows_the_scene(),
         "a map of the fake has no errors: --errors needs --show picture"
     );
-    picture_file::check_writable(&args.out)?;
+    image_file::check_writable(&args.out)?;
     let rendered = match recipe {
         Recipe::Fake(fake) => raster(args, &fake.applied_to(&scene), fake)?,
         Recipe::Rays(rays) => trace(args, &scene, rays)?,
@@ -102,8 +103,8 @@ fn save(args: &RenderArgs, scene: &Scene, rendered: &Rendered, errors: Option<&E
     let radiances: Vec<Vec3> = rendered.film.radiances().collect();
     let picture = Linear { width: args.seen.size.0, height: args.seen.size.1, radiances: &radiances };
     let kind = Kind::of(&args.out).context("a picture's name must end in .png or .exr")?;
-    let bytes = picture_file::encode(kind, picture, &DisplayTransform { exposure: args.exposure }, &records)?;
-    Ok(picture_file::write_whole(&args.out, &bytes)?)
+    let bytes = image_file::encode(kind, picture, &DisplayTransform { exposure: args.exposure }, &records)?;
+    Ok(image_file::write_whole(&args.out, &bytes)?)
 }
 
 fn tell_what_has_no_effect(args: &RenderArgs, scene: &Scene) {
@@ -129,7 +130,7 @@ fn raster(args: &RenderArgs, scene: &Scene, fake: FakeSettings) -> anyhow::Resul
     let mut raster = Raster::new(&gpu)?;
     let start = Instant::now();
     let film = raster.render(scene, &scene.camera, &fake.sized(args.seen.size.0, args.seen.size.1))?;
-    let (seconds, machine) = (start.elapsed().as_secs_f64(), Machine::Gpu);
+    let (seconds, machine) = (start.elapsed().as_secs_f64(), Device::Gpu);
     Ok(Rendered { film, seconds, stats: Stats::default(), machine, adapter: gpu.describe() })
 }
 

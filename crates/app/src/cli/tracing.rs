@@ -1,13 +1,14 @@
-//! Tracing rays without a window, on either machine: the processor takes over from a graphics device that fails, and goes on
-//! from the last film that came back.
+//! Tracing rays without a window, on either machine: the processor takes over from a graphics device that fails, and
+//! goes on from the last film that came back.
 
-use crate::fuse::Fuse;
-use crate::technique::{Device, Machine, Method, RaySettings};
+use crate::technique::{Device, DeviceChoice, Method, RaySettings};
 use anyhow::Context;
+use film::Film;
+use gpu::FaultInjection;
 use gpu::Gpu;
 use pathtrace::gpu::{GpuFilm, GpuTraceError, GpuTracer};
 use pathtrace::{Stats, Tracer};
-use scene::{Film, Scene};
+use scene::Scene;
 use std::time::{Duration, Instant};
 
 /// Samples that are not worth opening a graphics device for: a second of an ordinary processor.
@@ -22,10 +23,10 @@ const INSTEAD: &str = "the graphics device does not trace this; --device cpu doe
 ///
 /// # Errors
 /// If the user wants one and there is none.
-pub fn device(wish: Device, samples: u64) -> anyhow::Result<Option<Gpu>> {
+pub fn device(wish: DeviceChoice, samples: u64) -> anyhow::Result<Option<Gpu>> {
     let there_is_hardware = || Gpu::adapters().iter().any(|adapter| adapter.chosen && !adapter.software);
     match wish {
-        Device::Gpu => Gpu::headless().context(INSTEAD).map(Some),
+        DeviceChoice::Gpu => Gpu::headless().context(INSTEAD).map(Some),
         // what does not open is not faster
         _ if is_for_a_device(wish, samples, there_is_hardware) => Ok(Gpu::headless().ok()),
         _ => Ok(None),
@@ -33,11 +34,11 @@ pub fn device(wish: Device, samples: u64) -> anyhow::Result<Option<Gpu>> {
 }
 
 /// Where the processor plays the device it is faster as itself, and also where there is little to do.
-fn is_for_a_device(wish: Device, samples: u64, there_is_hardware: impl FnOnce() -> bool) -> bool {
+fn is_for_a_device(wish: DeviceChoice, samples: u64, there_is_hardware: impl FnOnce() -> bool) -> bool {
     match wish {
-        Device::Cpu => false,
-        Device::Gpu => true,
-        Device::Auto => samples >= LITTLE_WORK && there_is_hardware(),
+        DeviceChoice::Cpu => false,
+        DeviceChoice::Gpu => true,
+        DeviceChoice::Auto => samples >= LITTLE_WORK && there_is_hardware(),
     }
 }
 
@@ -52,7 +53,7 @@ pub struct Tracing<'a> {
 
 enum On {
     Processor { tracer: Box<Tracer>, film: Film, stats: Stats, spp: u32 },
-    Device(Box<OnDevice>),
+    DeviceChoice(Box<OnDevice>),
 }
 
 struct OnDevice {
@@ -61,7 +62,7 @@ struct OnDevice {
     /// As last read.
     read: (Film, Stats),
     read_at: Instant,
-    fuse: Option<Fuse>,
+    fault: Option<FaultInjection>,
 }
 
 /// A film that is done.
@@ -69,7 +70,7 @@ pub struct Traced {
     pub film: Film,
     pub stats: Stats,
     /// What it was made by in the end.
-    pub machine: Machine,
+    pub machine: Device,
     /// Names of all that has made it.
     pub adapter: String,
 }
@@ -84,12 +85,12 @@ impl<'a> Tracing<'a> {
         scene: &'a Scene,
         rays: RaySettings,
         film: Film,
-        wish: Device,
+        wish: DeviceChoice,
     ) -> anyhow::Result<Self> {
         let on_device = gpu.map(|gpu| OnDevice::new(&gpu, scene, film.clone()).map(|on| (on, gpu.describe())));
         let (on, maker) = match on_device {
-            Some(Ok((on, name))) => (On::Device(Box::new(on)), name),
-            Some(Err(fault)) if wish == Device::Gpu => return Err(fault).context(INSTEAD),
+            Some(Ok((on, name))) => (On::DeviceChoice(Box::new(on)), name),
+            Some(Err(fault)) if wish == DeviceChoice::Gpu => return Err(fault).context(INSTEAD),
             Some(Err(fault)) => {
                 note!("note: the processor traces this, the graphics device does not: {fault}");
                 (On::processor(scene, film, Stats::default()), threads())
@@ -103,15 +104,15 @@ impl<'a> Tracing<'a> {
     pub fn spp(&self) -> u32 {
         match &self.on {
             On::Processor { spp, .. } => *spp,
-            On::Device(on) => on.film.samples_per_pixel(),
+            On::DeviceChoice(on) => on.film.samples_per_pixel(),
         }
     }
 
     /// What traces now.
-    pub fn machine(&self) -> Machine {
+    pub fn machine(&self) -> Device {
         match self.on {
-            On::Processor { .. } => Machine::Cpu,
-            On::Device(_) => Machine::Gpu,
+            On::Processor { .. } => Device::Cpu,
+            On::DeviceChoice(_) => Device::Gpu,
         }
     }
 
@@ -122,7 +123,7 @@ impl<'a> Tracing<'a> {
                 *stats = stats.plus(self.rays.render(tracer, film, &self.scene.camera, samples, &|| false));
                 *spp += samples;
             }
-            On::Device(on) => {
+            On::DeviceChoice(on) => {
                 if let Err(fault) = on.add(self.scene, &self.rays, samples) {
                     self.take_over(&fault);
                 }
@@ -132,7 +133,7 @@ impl<'a> Tracing<'a> {
 
     /// Brings home what the device has done. If it fails the processor takes over as in [`Tracing::add`].
     pub fn read(&mut self) {
-        if let On::Device(on) = &mut self.on
+        if let On::DeviceChoice(on) = &mut self.on
             && let Err(fault) = on.read()
         {
             self.take_over(&fault);
@@ -144,12 +145,12 @@ impl<'a> Tracing<'a> {
         let (machine, adapter) = (self.machine(), self.makers.join(", then "));
         match self.on {
             On::Processor { film, stats, .. } => Traced { film, stats, machine, adapter },
-            On::Device(on) => Traced { film: on.read.0, stats: on.read.1, machine, adapter },
+            On::DeviceChoice(on) => Traced { film: on.read.0, stats: on.read.1, machine, adapter },
         }
     }
 
     fn take_over(&mut self, fault: &GpuTraceError) {
-        let On::Device(on) = &mut self.on else { return };
+        let On::DeviceChoice(on) = &mut self.on else { return };
         let (film, stats) = std::mem::replace(&mut on.read, (Film::new(1, 1), Stats::default()));
         let spp = film.samples_per_pixel();
         let failed = std::mem::replace(&mut self.on, On::processor(self.scene, film, stats));
@@ -180,24 +181,24 @@ impl OnDevice {
             tracer,
             read: (film, Stats::default()),
             read_at: Instant::now(),
-            fuse: Fuse::of_rays(),
+            fault: FaultInjection::of_rays(),
         })
     }
 
     fn add(&mut self, scene: &Scene, rays: &RaySettings, samples: u32) -> Result<(), GpuTraceError> {
-        let OnDevice { tracer, film, fuse, .. } = self;
+        let OnDevice { tracer, film, fault, .. } = self;
         let until = film.samples_per_pixel() + samples;
         let gpu = tracer.gpu().clone();
         let stop = || {
-            fuse.iter().for_each(|fuse| fuse.burn(&gpu));
+            fault.iter().for_each(|fault| fault.count(&gpu));
             false
         };
         match &rays.method {
-            Method::Path(path) => tracer.expose(film, &scene.camera, path, until, &stop)?,
-            Method::Whitted(tree) => tracer.expose_whitted(film, &scene.camera, tree, until, &stop)?,
+            Method::Path(path) => tracer.accumulate(film, &scene.camera, path, until, &stop)?,
+            Method::Whitted(tree) => tracer.accumulate_whitted(film, &scene.camera, tree, until, &stop)?,
         }
         // a test does not wait for seconds
-        if self.read_at.elapsed() > AT_RISK || self.fuse.is_some() {
+        if self.read_at.elapsed() > AT_RISK || self.fault.is_some() {
             self.read()?;
         }
         Ok(())
@@ -221,8 +222,8 @@ mod tests {
     #[test]
     fn auto_takes_hardware_where_there_is_enough_to_do() {
         let of = |wish, samples, hardware| is_for_a_device(wish, samples, || hardware);
-        assert!(of(Device::Auto, LITTLE_WORK, true) && !of(Device::Auto, LITTLE_WORK - 1, true));
-        assert!(!of(Device::Auto, u64::MAX, false));
-        assert!(of(Device::Gpu, 0, false) && !of(Device::Cpu, u64::MAX, true));
+        assert!(of(DeviceChoice::Auto, LITTLE_WORK, true) && !of(DeviceChoice::Auto, LITTLE_WORK - 1, true));
+        assert!(!of(DeviceChoice::Auto, u64::MAX, false));
+        assert!(of(DeviceChoice::Gpu, 0, false) && !of(DeviceChoice::Cpu, u64::MAX, true));
     }
 }

@@ -1,7 +1,7 @@
 //! Errors in words, and as what files keep.
 
 use compare::Errors;
-use picture_file::Records;
+use image_file::Records;
 
 /// An error for people: three decimals, more where they would be all zeros.
 pub fn brief(value: f64) -> String {

@@ -1,10 +1,10 @@
 //! Errors pixel by pixel in colour: computed, scaled, and as files. PNG for people, with the colour bar below; EXR for
 //! other programs, with both pictures and every map as layers of numbers.
 
-use compare::{ColourScale, CompareError, ErrorMap, finite_mean};
-use picture_file::{Kind, Layer, LayerValues, PictureError, Records};
+use compare::{ColourScale, CompareError, ErrorMetric, finite_mean};
+use film::DisplayTransform;
+use image_file::{ImageFileError, Kind, Layer, LayerValues, Records};
 use scene::Vec3;
-use scene::display::DisplayTransform;
 
 /// Two pictures of one size; the first is judged by the second.
 #[derive(Debug, Clone, Copy)]
@@ -20,7 +20,7 @@ pub struct Pair<'a> {
 }
 
 impl Pair<'_> {
-    fn values(&self, map: ErrorMap) -> Result<Vec<f32>, CompareError> {
+    fn values(&self, map: ErrorMetric) -> Result<Vec<f32>, CompareError> {
         map.of_radiances(self.radiances[0], self.radiances[1], self.width, &self.display)
     }
 }
@@ -29,7 +29,7 @@ impl Pair<'_> {
 #[derive(Debug, Clone, PartialEq)]
 pub struct HeatMap {
     /// What is mapped.
-    pub map: ErrorMap,
+    pub map: ErrorMetric,
     /// With its sign, by the pictures' names: "A - B".
     pub label: String,
     /// Its colours.
@@ -52,7 +52,7 @@ impl HeatMap {
     ///
     /// # Errors
     /// If the pictures do not have the same pixels.
-    pub fn of(pair: &Pair, map: ErrorMap, held: Option<f32>) -> Result<Self, CompareError> {
+    pub fn of(pair: &Pair, map: ErrorMetric, held: Option<f32>) -> Result<Self, CompareError> {
         let values = pair.values(map)?;
         let (mean, nonfinite) = finite_mean(&values);
         let scale = held.map_or_else(|| ColourScale::fitted(map, &values), |high| ColourScale::up_to(map, high));
@@ -92,26 +92,26 @@ impl HeatMap {
     ///
     /// # Errors
     /// If it cannot be encoded.
-    pub fn encode(&self, kind: Kind, pair: &Pair, more: Records) -> Result<Vec<u8>, PictureError> {
+    pub fn encode(&self, kind: Kind, pair: &Pair, more: Records) -> Result<Vec<u8>, ImageFileError> {
         let records: Records = self.records().into_iter().chain(more).collect();
         match kind {
             Kind::Png => {
                 let (width, height, rgba) = self.with_bar();
-                picture_file::encode_rgba8(width, height, &rgba, &records)
+                image_file::encode_rgba8(width, height, &rgba, &records)
             }
             Kind::Exr => {
                 let picture = |i: usize| Layer { name: pair.names[i], values: LayerValues::Rgb(pair.radiances[i]) };
                 let mut layers = vec![picture(0), picture(1)];
-                for map in ErrorMap::ALL {
+                for map in ErrorMetric::ALL {
                     let values = if map == self.map { self.values.clone() } else { values_of(pair, map)? };
                     layers.push(Layer { name: map.name(), values: LayerValues::Numbers(values) });
                 }
-                picture_file::encode_layers(self.width, self.height(), &layers, &records)
+                image_file::encode_layers(self.width, self.height(), &layers, &records)
             }
         }
     }
 }
 
-fn values_of(pair: &Pair, map: ErrorMap) -> Result<Vec<f32>, PictureError> {
-    pair.values(map).map_err(|e| PictureError::Encode("EXR", e.to_string()))
+fn values_of(pair: &Pair, map: ErrorMetric) -> Result<Vec<f32>, ImageFileError> {
+    pair.values(map).map_err(|e| ImageFileError::Encode("EXR", e.to_string()))
 }

@@ -1,12 +1,12 @@
-//! The ruler as window and command line hold it: what a picture is compared with, the figures and maps of that, and what
-//! files keep of them. The figures themselves are made by the crates `compare` and `reference`.
+//! The ruler as window and command line hold it: what a picture is compared with, the figures and maps of that, and
+//! what files keep of them. The figures themselves are made by the crates `compare` and `reference`.
 
 mod figures;
 mod heat_map;
+mod reference_image;
 mod sought;
-mod yardstick;
 
 pub use figures::{brief, error_records, noise_line};
 pub use heat_map::{HeatMap, Pair};
+pub use reference_image::{Against, ReferenceImage};
 pub use sought::Sought;
-pub use yardstick::{Against, Yardstick};

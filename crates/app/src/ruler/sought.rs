@@ -1,7 +1,7 @@
 //! The reference that a picture asks for: what it shows, by which name it is kept, and what its file says about itself.
 
 use crate::technique::{SceneChanges, point, quoted};
-use picture_file::Records;
+use image_file::Records;
 use reference::{Key, Maker, Subject};
 use scene::{Camera, Scene};
 use std::sync::Arc;

@@ -4,7 +4,7 @@ use gpu::AdapterReport;
 
 /// What the user wishes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Device {
+pub enum DeviceChoice {
     /// Where it is faster.
     #[default]
     Auto,
@@ -43,23 +43,23 @@ impl Adapters {
 
 /// What traces.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Machine {
+pub enum Device {
     /// The processor.
     Cpu,
     /// The graphics device.
     Gpu,
 }
 
-impl Device {
+impl DeviceChoice {
     /// All, the usual one first.
-    pub const ALL: [Device; 3] = [Device::Auto, Device::Cpu, Device::Gpu];
+    pub const ALL: [DeviceChoice; 3] = [DeviceChoice::Auto, DeviceChoice::Cpu, DeviceChoice::Gpu];
 
     /// The name on the command line.
     pub fn name(self) -> &'static str {
         match self {
-            Device::Auto => "auto",
-            Device::Cpu => "cpu",
-            Device::Gpu => "gpu",
+            DeviceChoice::Auto => "auto",
+            DeviceChoice::Cpu => "cpu",
+            DeviceChoice::Gpu => "gpu",
         }
     }
 
@@ -69,21 +69,21 @@ impl Device {
     }
 
     /// What it is beside the best adapter: where the processor only plays the graphics device, it is faster as itself.
-    pub fn beside(self, software_adapter: bool) -> Machine {
+    pub fn beside(self, software_adapter: bool) -> Device {
         match self {
-            Device::Cpu => Machine::Cpu,
-            Device::Auto if software_adapter => Machine::Cpu,
-            Device::Auto | Device::Gpu => Machine::Gpu,
+            DeviceChoice::Cpu => Device::Cpu,
+            DeviceChoice::Auto if software_adapter => Device::Cpu,
+            DeviceChoice::Auto | DeviceChoice::Gpu => Device::Gpu,
         }
     }
 }
 
-impl Machine {
+impl Device {
     /// The name of the device that asks for it.
     pub fn name(self) -> &'static str {
         match self {
-            Machine::Cpu => "cpu",
-            Machine::Gpu => "gpu",
+            Device::Cpu => "cpu",
+            Device::Gpu => "gpu",
         }
     }
 }
@@ -94,10 +94,10 @@ mod tests {
 
     #[test]
     fn auto_is_the_faster_machine_and_a_wish_is_a_wish() {
-        assert_eq!(Device::Auto.beside(true), Machine::Cpu);
-        assert_eq!(Device::Auto.beside(false), Machine::Gpu);
-        assert_eq!([true, false].map(|software| Device::Gpu.beside(software)), [Machine::Gpu; 2]);
-        assert_eq!([true, false].map(|software| Device::Cpu.beside(software)), [Machine::Cpu; 2]);
-        assert_eq!(Device::ALL.map(|device| Device::named(device.name())), Device::ALL.map(Some));
+        assert_eq!(DeviceChoice::Auto.beside(true), Device::Cpu);
+        assert_eq!(DeviceChoice::Auto.beside(false), Device::Gpu);
+        assert_eq!([true, false].map(|software| DeviceChoice::Gpu.beside(software)), [Device::Gpu; 2]);
+        assert_eq!([true, false].map(|software| DeviceChoice::Cpu.beside(software)), [Device::Cpu; 2]);
+        assert_eq!(DeviceChoice::ALL.map(|device| DeviceChoice::named(device.name())), DeviceChoice::ALL.map(Some));
     }
 }

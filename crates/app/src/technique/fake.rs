@@ -1,6 +1,6 @@
 //! The settings of the fake.
 
-use picture_file::Records;
+use image_file::Records;
 use raster::{Fake, FakeKnobs, RasterSettings, Shading, ShadowFilter, Show};
 use scene::Scene;
 

@@ -5,7 +5,7 @@ mod fake;
 mod provenance;
 mod rays;
 
-pub use device::{Adapter, Adapters, Device, Machine};
+pub use device::{Adapter, Adapters, Device, DeviceChoice};
 pub use fake::FakeSettings;
 pub use provenance::{Made, Provenance, made_from, point, quoted};
 pub use rays::{Method, RaySettings, TreeSettings, TruthSettings, bounces_name, roulette_name};
@@ -37,10 +37,10 @@ impl Technique {
     }
 
     /// What runs it if nobody says otherwise.
-    pub fn usual_machine(self) -> Machine {
+    pub fn usual_machine(self) -> Device {
         match self {
-            Technique::Raster => Machine::Gpu,
-            Technique::Whitted | Technique::Path => Machine::Cpu,
+            Technique::Raster => Device::Gpu,
+            Technique::Whitted | Technique::Path => Device::Cpu,
         }
     }
 
@@ -65,7 +65,7 @@ pub struct PaneSettings {
     /// The technique that is used.
     pub technique: Technique,
     /// Where its rays are traced.
-    pub device: Device,
+    pub device: DeviceChoice,
     /// By which of the adapters, where by one.
     pub adapter: u8,
     /// The settings of the fake.
@@ -81,7 +81,7 @@ impl PaneSettings {
     pub fn of(technique: Technique) -> Self {
         PaneSettings {
             technique,
-            device: Device::default(),
+            device: DeviceChoice::default(),
             adapter: 0,
             fake: FakeSettings::default(),
             whitted: TreeSettings::default(),

@@ -1,7 +1,7 @@
 //! Where a picture comes from: everything that makes it again, as records to keep in its file and as a command to type.
 
-use super::{Machine, Recipe, SceneChanges, Technique};
-use picture_file::Records;
+use super::{Device, Recipe, SceneChanges, Technique};
+use image_file::Records;
 use scene::{Camera, Vec3};
 
 /// All that a picture depends on.
@@ -18,7 +18,7 @@ pub struct Provenance {
     /// Width and height in pixels.
     pub size: (u32, u32),
     /// On what.
-    pub device: Machine,
+    pub device: Device,
 }
 
 /// What a picture took, and how it is shown.
@@ -43,8 +43,8 @@ const NO_OPTIONS: [&str; 6] = ["records", "version", "scene", "adapter", "second
 /// Records that say how far a picture is from another begin with this.
 const MEASURED: &str = "error.";
 
-/// What makes a picture with these records again: the scene, and options of `visavis render`. `None` if they are not those
-/// of one pane's picture.
+/// What makes a picture with these records again: the scene, and options of `visavis render`. `None` if they are not
+/// those of one pane's picture.
 ///
 /// # Errors
 /// If the records are of a later version.
@@ -91,7 +91,8 @@ impl Provenance {
         records
     }
 
-    /// The `visavis render` line that makes the same picture with `spp` samples per pixel, for a shell of the POSIX kind.
+    /// The `visavis render` line that makes the same picture with `spp` samples per pixel, for a shell of the POSIX
+    /// kind.
     pub fn command(&self, spp: u32, exposure: f32, out: &str) -> String {
         let mut words = vec!["visavis".into(), "render".into(), quoted(&self.source), "-o".into(), quoted(out)];
         let mut option = |name: &str, value: String| words.extend([format!("--{name}"), value]);

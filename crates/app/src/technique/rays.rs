@@ -1,9 +1,10 @@
 //! The settings of what is traced by rays: the truth, and Whitted's step towards it.
 
-use super::Device;
-use pathtrace::{GlassShadows, LightSearch, PathSettings, Roulette, SamplerKind, Stats, Tracer, WhittedSettings};
-use picture_file::Records;
-use scene::{Camera, Film, Scene};
+use super::DeviceChoice;
+use film::Film;
+use image_file::Records;
+use pathtrace::{GlassShadows, LightSampling, PathSettings, Roulette, SamplerKind, Stats, Tracer, WhittedSettings};
+use scene::{Camera, Scene};
 
 /// How rays are followed.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -20,7 +21,7 @@ pub struct RaySettings {
     /// How.
     pub method: Method,
     /// Where.
-    pub device: Device,
+    pub device: DeviceChoice,
     /// By which of the adapters, where by one: the best is 0.
     pub adapter: u8,
     /// Samples per pixel at which rendering stops.
@@ -60,13 +61,13 @@ impl Default for TreeSettings {
 
 impl From<TruthSettings> for RaySettings {
     fn from(TruthSettings { path, spp }: TruthSettings) -> Self {
-        RaySettings { method: Method::Path(path), device: Device::default(), adapter: 0, spp }
+        RaySettings { method: Method::Path(path), device: DeviceChoice::default(), adapter: 0, spp }
     }
 }
 
 impl From<TreeSettings> for RaySettings {
     fn from(TreeSettings { tree, spp }: TreeSettings) -> Self {
-        RaySettings { method: Method::Whitted(tree), device: Device::default(), adapter: 0, spp }
+        RaySettings { method: Method::Whitted(tree), device: DeviceChoice::default(), adapter: 0, spp }
     }
 }
 
@@ -135,7 +136,7 @@ impl RaySettings {
                 Some("light passes glass straight on: no caustic; mirrors send none on")
             }
             Method::Whitted(_) => Some("light from one surface on another is missing: ambient light stands for it"),
-            Method::Path(path) if path.estimator.light == LightSearch::Chance => {
+            Method::Path(path) if path.estimator.light == LightSampling::BsdfOnly => {
                 let points = !scene.point_lights.is_empty();
                 match (delta_sun, points) {
                     (true, _) => Some("a sun of radius 0 cannot be hit by chance: its light is missing"),

@@ -1,11 +1,11 @@
 //! The export menu: the picture as seen or one pane, to a file or the clipboard, or as a command to type.
 
 use super::top_bar::{self, framed};
-use super::{Dump, Pane, Request, View, Viewer, Wall};
-use crate::workers::Side;
-use crate::workers::exporter::Destination;
+use super::{Dump, Pane, UiCommand, View, ViewModel, Viewer};
+use crate::engine::Side;
+use crate::engine::export::Destination;
 use egui::Ui;
-use picture_file::{self, Kind};
+use image_file::{self, Kind};
 use std::path::{Path, PathBuf};
 
 /// What is exported.
@@ -45,7 +45,7 @@ impl What {
 impl ExportMenu {
     /// The file for the picture as seen: in the folder that was typed, or the default one.
     pub fn seen_file(&self, viewer: &Viewer) -> PathBuf {
-        let typed = picture_file::typed_path(&self.file, &default_folder());
+        let typed = image_file::typed_path(&self.file, &default_folder());
         let folder = if typed.is_dir() { typed } else { typed.parent().map_or_else(default_folder, Path::to_owned) };
         folder.join(format!("{}.png", stem(viewer, What::Seen)))
     }
@@ -53,14 +53,14 @@ impl ExportMenu {
 
 /// The folder of pictures; where there is none at all, the current one.
 fn default_folder() -> PathBuf {
-    picture_file::default_folder().unwrap_or_default()
+    image_file::default_folder().unwrap_or_default()
 }
 
 /// "visavis-whitted-wipe", "visavis-whitted-path".
 fn stem(viewer: &Viewer, what: What) -> String {
     let of = match (what, viewer.view) {
         (What::Pane(side), _) => viewer.settings.panes[side as usize].technique.name().to_owned(),
-        (What::Map, _) => format!("error-{}", viewer.measuring.map.name()),
+        (What::Map, _) => format!("error-{}", viewer.comparison.map.name()),
         (What::Seen, View::A) => "a".into(),
         (What::Seen, View::B) => "b".into(),
         (What::Seen, view) => view.name().to_lowercase().replace(' ', "-"),
@@ -70,17 +70,17 @@ fn stem(viewer: &Viewer, what: What) -> String {
     format!("visavis-{scene}-{of}")
 }
 
-pub fn show(viewer: &mut Viewer, ui: &mut Ui, wall: &Wall, dump: &mut Dump, requests: &mut Vec<Request>) {
+pub fn show(viewer: &mut Viewer, ui: &mut Ui, model: &ViewModel, dump: &mut Dump, commands: &mut Vec<UiCommand>) {
     // a map that is not looked at is not there
-    if wall.map.is_none() && viewer.export.what == What::Map {
+    if model.map.is_none() && viewer.export.what == What::Map {
         viewer.export.what = What::Seen;
     }
     let (response, _) = top_bar::menu("Export").ui(ui, |ui| {
         ui.set_min_width(300.0);
-        choice(viewer, ui, wall.map.is_some(), dump);
-        file(viewer, ui, dump, requests);
+        choice(viewer, ui, model.map.is_some(), dump);
+        file(viewer, ui, dump, commands);
         ui.separator();
-        for (side, pane) in [Side::A, Side::B].into_iter().zip(&wall.panes) {
+        for (side, pane) in [Side::A, Side::B].into_iter().zip(&model.panes) {
             let Some(command) = command(viewer, side, pane) else { continue };
             let text = format!("Copy {side:?} as command");
             let button = ui.add(framed(&text, ui)).on_hover_text(&command);
@@ -116,7 +116,7 @@ fn choice(viewer: &mut Viewer, ui: &mut Ui, with_map: bool, dump: &mut Dump) {
     }
 }
 
-fn file(viewer: &mut Viewer, ui: &mut Ui, dump: &mut Dump, requests: &mut Vec<Request>) {
+fn file(viewer: &mut Viewer, ui: &mut Ui, dump: &mut Dump, commands: &mut Vec<UiCommand>) {
     let what = viewer.export.what;
     let menu = &mut viewer.export;
     // a name that says its kind has chosen it
@@ -134,13 +134,13 @@ fn file(viewer: &mut Viewer, ui: &mut Ui, dump: &mut Dump, requests: &mut Vec<Re
         let save = dump.note("save", "", ui.add(framed("Save", ui)).on_hover_text("Ctrl+S saves as seen"));
         if save.clicked() || entered {
             let to = Destination::File(typed_file(&viewer.export.file, proposal));
-            requests.push(Request::Export { what, to });
+            commands.push(UiCommand::Export { what, to });
             ui.close();
         }
         let copy =
             dump.note("copy picture", "", ui.add(framed("Copy picture", ui)).on_hover_text("Ctrl+C copies as seen"));
         if copy.clicked() {
-            requests.push(Request::Export { what, to: Destination::Clipboard });
+            commands.push(UiCommand::Export { what, to: Destination::Clipboard });
             ui.close();
         }
     });
@@ -151,7 +151,7 @@ fn typed_file(typed: &str, proposal: PathBuf) -> PathBuf {
     if typed.trim().is_empty() {
         return proposal;
     }
-    let path = picture_file::typed_path(typed, proposal.parent().unwrap_or(Path::new("")));
+    let path = image_file::typed_path(typed, proposal.parent().unwrap_or(Path::new("")));
     if path.is_dir() {
         return path.join(proposal.file_name().unwrap_or_default());
     }

@@ -1,8 +1,8 @@
 //! The keys of the whole window. Letters are ignored while typing; Tab, arrows, space and enter belong to the widgets;
 //! PageUp, PageDown, '.', F5 and Esc stay free for a presenter's remote.
 
-use super::{Request, View, Viewer, What};
-use crate::workers::exporter::Destination;
+use super::{UiCommand, View, Viewer, What};
+use crate::engine::export::Destination;
 use egui::{Event, Key, Modifiers};
 
 /// What the keys do, for the help.
@@ -24,20 +24,20 @@ pub const KEYS: [(&str, &str); 15] = [
     ("?", "this help"),
 ];
 
-pub fn listen(viewer: &mut Viewer, ctx: &egui::Context, requests: &mut Vec<Request>) {
+pub fn listen(viewer: &mut Viewer, ctx: &egui::Context, commands: &mut Vec<UiCommand>) {
     let command = |key| pressed(ctx, key, Modifiers::COMMAND) > 0;
     if command(Key::S) {
         let to = Destination::File(viewer.export.seen_file(viewer));
-        requests.push(Request::Export { what: What::Seen, to });
+        commands.push(UiCommand::Export { what: What::Seen, to });
     }
     if command(Key::Q) {
-        requests.push(Request::Quit);
+        commands.push(UiCommand::Quit);
     }
     if ctx.text_edit_focused() {
         return;
     }
     if ctx.input(|i| i.events.contains(&Event::Copy)) {
-        requests.push(Request::Export { what: What::Seen, to: Destination::Clipboard });
+        commands.push(UiCommand::Export { what: What::Seen, to: Destination::Clipboard });
     }
     for _ in 0..pressed(ctx, Key::Z, Modifiers::COMMAND) {
         viewer.undo();
@@ -48,8 +48,8 @@ pub fn listen(viewer: &mut Viewer, ctx: &egui::Context, requests: &mut Vec<Reque
     letters(viewer, ctx);
 }
 
-/// How often a key went down with just these modifiers since the last frame. Two presses within one slow frame are two; a
-/// key that is held is one.
+/// How often a key went down with just these modifiers since the last frame. Two presses within one slow frame are two;
+/// a key that is held is one.
 fn pressed(ctx: &egui::Context, wanted: Key, with: Modifiers) -> usize {
     let is_wanted = |event: &&Event| match event {
         Event::Key { key, pressed: true, repeat: false, modifiers, .. } => {

@@ -1,12 +1,13 @@
-//! What the window shows: [`Viewer`] holds all that the user can change, and draws itself into egui. It knows no window,
-//! no GPU and no thread: it is told what there is to show ([`Wall`]) and says what it wants ([`Request`]).
+//! What the window shows: [`Viewer`] holds all that the user can change, and draws itself into egui. It knows no
+//! window, no GPU and no thread: it is told what there is to show ([`ViewModel`]) and says what it wants
+//! ([`UiCommand`]).
 
+mod comparison;
 mod controls;
 mod dump;
 mod export_menu;
 mod help;
 mod keys;
-mod measuring;
 mod message;
 mod picture;
 mod settings;
@@ -15,25 +16,25 @@ mod top_bar;
 mod view;
 mod viewer;
 
+pub use comparison::ComparisonSettings;
 pub use dump::{Dump, Widget};
 pub use export_menu::What;
-pub use measuring::Measuring;
 pub use message::Message;
 pub use settings::{History, Resolution, Settings};
 pub use theme::Theme;
 pub use view::{Line, View};
-pub use viewer::{Request, Viewer};
+pub use viewer::{UiCommand, Viewer};
 
+use crate::engine::error_map::ErrorMap;
+use crate::engine::reference::Progress;
 use crate::ruler::Against;
 use crate::technique::Provenance;
-use crate::workers::referee::Progress;
-use crate::workers::surveyor::Surveyed;
 use compare::Errors;
 use std::sync::Arc;
 
 /// All that there is to show.
 #[derive(Debug, Clone, Default)]
-pub struct Wall {
+pub struct ViewModel {
     /// Both sides.
     pub panes: [Pane; 2],
     /// Where the errors are, while that is looked at.
@@ -48,7 +49,7 @@ pub struct MapPane {
     /// Its colours.
     pub texture: egui::TextureId,
     /// Its numbers, and what they are of.
-    pub drawn: Arc<Surveyed>,
+    pub drawn: Arc<ErrorMap>,
 }
 
 /// What there is to show of one side.

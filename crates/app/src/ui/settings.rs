@@ -1,7 +1,7 @@
 //! What undo gives back: the settings of both panes, the scene's sliders and the display.
 
 use crate::technique::{PaneSettings, SceneChanges, Technique};
-use scene::display::DisplayTransform;
+use film::DisplayTransform;
 
 /// Everything that a slider or a choice changes. Camera, view and line are not part of it: moving them loses nothing.
 #[derive(Debug, Clone, Copy, PartialEq)]

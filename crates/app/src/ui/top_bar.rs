@@ -1,6 +1,6 @@
 //! The bar above the picture: scene, view, export, look. It wraps where the window is narrow.
 
-use super::{Dump, Request, Theme, View, Viewer, Wall, export_menu};
+use super::{Dump, Theme, UiCommand, View, ViewModel, Viewer, export_menu};
 use egui::containers::menu::{MenuButton, MenuConfig};
 use egui::{Button, PopupCloseBehavior, Ui};
 use scene::builtin;
@@ -12,14 +12,14 @@ const NARROW: f32 = 740.0;
 /// The most letters of a scene's name that the bar shows.
 const MOST_LETTERS: usize = 18;
 
-pub fn show(viewer: &mut Viewer, ui: &mut Ui, wall: &Wall, dump: &mut Dump, requests: &mut Vec<Request>) {
+pub fn show(viewer: &mut Viewer, ui: &mut Ui, model: &ViewModel, dump: &mut Dump, commands: &mut Vec<UiCommand>) {
     ui.horizontal_wrapped(|ui| {
         if ui.available_width() < NARROW {
             // closer together, so that it all stays in one row
             ui.spacing_mut().item_spacing.x = 2.0;
             ui.spacing_mut().button_padding.x = 4.0;
         }
-        scene_menu(viewer, ui, dump, requests);
+        scene_menu(viewer, ui, dump, commands);
         ui.separator();
         for view in View::ALL {
             let chosen = viewer.view == view;
@@ -29,7 +29,7 @@ pub fn show(viewer: &mut Viewer, ui: &mut Ui, wall: &Wall, dump: &mut Dump, requ
             }
         }
         ui.separator();
-        export_menu::show(viewer, ui, wall, dump, requests);
+        export_menu::show(viewer, ui, model, dump, commands);
         look_menu(viewer, ui, dump);
         steps(viewer, ui, dump);
         let panel = ui.selectable_label(viewer.panel, "Controls").on_hover_text("Show or hide the controls (H)");
@@ -77,7 +77,7 @@ pub fn framed<'a>(text: &'a str, ui: &Ui) -> Button<'a> {
     Button::new(text).fill(inside_menus_too)
 }
 
-fn scene_menu(viewer: &mut Viewer, ui: &mut Ui, dump: &mut Dump, requests: &mut Vec<Request>) {
+fn scene_menu(viewer: &mut Viewer, ui: &mut Ui, dump: &mut Dump, commands: &mut Vec<UiCommand>) {
     let name = &viewer.scene.name;
     let short: String = name.chars().take(MOST_LETTERS).collect();
     let title = if short == *name { format!("Scene: {name}") } else { format!("Scene: {short}…") };
@@ -85,14 +85,14 @@ fn scene_menu(viewer: &mut Viewer, ui: &mut Ui, dump: &mut Dump, requests: &mut 
         for name in builtin::names() {
             let item = ui.selectable_label(viewer.scene.name == name, name);
             if dump.note(&format!("scene {name}"), "", item).clicked() {
-                requests.push(Request::Open(name.into()));
+                commands.push(UiCommand::Open(name.into()));
                 ui.close();
             }
         }
         let hard = ui.menu_button("Hard cases", |ui| {
             for name in builtin::hard_names() {
                 if dump.note(&format!("scene {name}"), "", ui.button(name)).clicked() {
-                    requests.push(Request::Open(name.into()));
+                    commands.push(UiCommand::Open(name.into()));
                     ui.close();
                 }
             }
@@ -108,8 +108,8 @@ fn scene_menu(viewer: &mut Viewer, ui: &mut Ui, dump: &mut Dump, requests: &mut 
         let typed = viewer.memory.file_name.trim();
         if (open.clicked() || entered) && !typed.is_empty() {
             let built_in = builtin::text(typed).is_some();
-            let path = picture_file::typed_path(typed, Path::new(""));
-            requests.push(Request::Open(if built_in { typed.to_owned() } else { path.display().to_string() }));
+            let path = image_file::typed_path(typed, Path::new(""));
+            commands.push(UiCommand::Open(if built_in { typed.to_owned() } else { path.display().to_string() }));
             ui.close();
         }
     });

@@ -2,19 +2,21 @@
 
 use super::export_menu::ExportMenu;
 use super::settings::{History, Settings};
-use super::{Dump, Line, Measuring, Message, Theme, View, Wall, What, controls, help, keys, picture, top_bar};
+use super::{
+    ComparisonSettings, Dump, Line, Message, Theme, View, ViewModel, What, controls, help, keys, picture, top_bar,
+};
+use crate::engine::Side;
+use crate::engine::export::Destination;
+use crate::engine::post_process::Comparison;
 use crate::ruler::Against;
-use crate::technique::{Adapters, Device};
-use crate::workers::Side;
-use crate::workers::darkroom::Comparison;
-use crate::workers::exporter::Destination;
+use crate::technique::{Adapters, DeviceChoice};
 use scene::{Camera, Scene};
 use std::path::PathBuf;
 use std::sync::Arc;
 
-/// What only the shell around the viewer can do.
+/// What only the window around the viewer can do.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub enum Request {
+pub enum UiCommand {
     /// Write a picture to a file or the clipboard.
     Export {
         /// Which.
@@ -51,7 +53,7 @@ pub struct Viewer {
     /// How the wipe's line stands.
     pub line: Line,
     /// What is compared with what, and how it is drawn.
-    pub measuring: Measuring,
+    pub comparison: ComparisonSettings,
     /// Whether the truth waits.
     pub paused: bool,
     /// How often the user began the pictures anew.
@@ -107,7 +109,7 @@ impl Viewer {
             view: View::Wipe,
             wipe: 0.5,
             line: Line::Vertical,
-            measuring: Measuring::default(),
+            comparison: ComparisonSettings::default(),
             paused: false,
             restarts: 0,
             theme,
@@ -133,14 +135,15 @@ impl Viewer {
     }
 
     /// The same beside graphics devices, and with rays traced where `device` says.
-    pub fn beside(mut self, adapters: Adapters, device: Device) -> Self {
+    pub fn beside(mut self, adapters: Adapters, device: DeviceChoice) -> Self {
         self.adapters = adapters;
         self.settings.panes.iter_mut().for_each(|pane| pane.device = device);
         self.history = History::new(self.settings);
         self
     }
 
-    /// Shows another scene from its own camera. What was set against the scene before goes; techniques and their ways stay.
+    /// Shows another scene from its own camera. What was set against the scene before goes; techniques and their ways
+    /// stay.
     pub fn open(&mut self, scene: Scene, source: String) {
         self.camera = scene.camera;
         self.scene = Arc::new(scene);
@@ -157,31 +160,31 @@ impl Viewer {
         self.message = Some(Message::new(outcome));
     }
 
-    /// Draws everything and returns what the user wants of the shell.
-    pub fn ui(&mut self, ui: &mut egui::Ui, wall: &Wall, dump: &mut Dump) -> Vec<Request> {
-        let mut requests = Vec::new();
+    /// Draws everything and returns what the user wants of the window.
+    pub fn ui(&mut self, ui: &mut egui::Ui, model: &ViewModel, dump: &mut Dump) -> Vec<UiCommand> {
+        let mut commands = Vec::new();
         if self.dressed != Some(self.theme) {
             self.theme.apply(ui.ctx());
             self.dressed = Some(self.theme);
             ui.ctx().request_repaint();
         }
-        keys::listen(self, ui.ctx(), &mut requests);
-        egui::Panel::top("top bar").show(ui, |ui| top_bar::show(self, ui, wall, dump, &mut requests));
+        keys::listen(self, ui.ctx(), &mut commands);
+        egui::Panel::top("top bar").show(ui, |ui| top_bar::show(self, ui, model, dump, &mut commands));
         if self.panel {
             let width = controls::width(ui.available_width());
             egui::Panel::right("controls").resizable(false).exact_size(width).show(ui, |ui| {
                 egui::ScrollArea::vertical()
                     .auto_shrink(false)
-                    .show(ui, |ui| controls::show(self, ui, wall, dump, &mut requests));
+                    .show(ui, |ui| controls::show(self, ui, model, dump, &mut commands));
             });
         }
         // no ground under the pictures, which cover it: where the processor draws, every layer is paid for
         let bare = egui::CentralPanel::default().frame(egui::Frame::NONE);
-        bare.show(ui, |ui| picture::show(self, ui, wall, dump));
+        bare.show(ui, |ui| picture::show(self, ui, model, dump));
         help::show(self, ui, dump);
         let busy = ui.input(|i| i.pointer.any_down()) || ui.ctx().text_edit_focused();
         self.history.note(&self.settings, busy);
-        requests
+        commands
     }
 
     pub(super) fn undo(&mut self) {
@@ -194,26 +197,27 @@ impl Viewer {
 
     /// How errors are measured, and whether they are drawn.
     pub fn comparison(&self) -> Comparison {
-        let map = (self.view == View::ErrorMap).then(|| self.measuring.wish());
-        Comparison { against: self.measuring.against, map }
+        let map = (self.view == View::ErrorMap).then(|| self.comparison.wish());
+        Comparison { against: self.comparison.against, map }
     }
 
     /// A becomes B and B becomes A; from a view of both it goes to A. Maps against the reference take turns too.
     pub(super) fn toggle(&mut self) {
         self.hint = false;
-        match (self.view, self.measuring.against) {
-            (View::ErrorMap, Against::Reference) => self.measuring.of = self.measuring.of.other(),
+        match (self.view, self.comparison.against) {
+            (View::ErrorMap, Against::Reference) => self.comparison.of = self.comparison.of.other(),
             (View::A, _) => self.view = View::B,
             _ => self.view = View::A,
         }
     }
 
-    /// Shows a view; choosing the wipe once more turns its line. From one pane it goes to the map of that pane's errors.
+    /// Shows a view; choosing the wipe once more turns its line. From one pane it goes to the map of that pane's
+    /// errors.
     pub(super) fn choose(&mut self, view: View) {
         match (self.view, view) {
             (View::Wipe, View::Wipe) => self.line = self.line.turned(),
-            (View::A, View::ErrorMap) => self.measuring.of = Side::A,
-            (View::B, View::ErrorMap) => self.measuring.of = Side::B,
+            (View::A, View::ErrorMap) => self.comparison.of = Side::A,
+            (View::B, View::ErrorMap) => self.comparison.of = Side::B,
             _ => {}
         }
         self.view = view;

@@ -1,5 +1,5 @@
-//! What a frame costs the UI thread: running egui, tessellation and uploads, but not waiting for the screen or drawing. And
-//! how long it is from one frame to the next while the user drags: all of it.
+//! What a frame costs the UI thread: running egui, tessellation and uploads, but not waiting for the screen or drawing.
+//! And how long it is from one frame to the next while the user drags: all of it.
 
 use crate::ui::View;
 use std::fmt;
@@ -39,7 +39,7 @@ fn thread_time() -> Duration {
     Duration::new(time.tv_sec.unsigned_abs(), u32::try_from(time.tv_nsec).unwrap_or(0))
 }
 
-/// Where the system does not tell the processor time of a thread, the clock on the wall.
+/// Where the system does not tell the processor time of a thread, the clock on the view.
 #[cfg(not(unix))]
 fn thread_time() -> Duration {
     use std::sync::LazyLock;

@@ -1,13 +1,13 @@
-//! The shell around the viewer: one winit window, one egui context, one wgpu device that the window and the fake share.
+//! The app around the viewer: one winit window, one egui context, one wgpu device that the window and the fake share.
 
-mod exhibit;
+mod app;
 mod frame_stats;
-mod revival;
-mod shell;
+mod presentation;
+mod recovery;
 mod stopwatch;
 mod surface;
 mod textures;
-mod viewer_window;
+mod window_state;
 
 use crate::cli::ViewArgs;
 use anyhow::Context;
@@ -17,16 +17,16 @@ use winit::event_loop::EventLoop;
 
 /// Something happened beside the UI thread that it should look at.
 #[derive(Debug)]
-pub enum Happened {
+pub enum UserEvent {
     /// A worker has something.
-    News,
+    PaneUpdate,
     /// A screen reader wants something.
     Accessibility(accesskit_winit::Event),
 }
 
-impl From<accesskit_winit::Event> for Happened {
+impl From<accesskit_winit::Event> for UserEvent {
     fn from(event: accesskit_winit::Event) -> Self {
-        Happened::Accessibility(event)
+        UserEvent::Accessibility(event)
     }
 }
 
@@ -37,13 +37,13 @@ impl From<accesskit_winit::Event> for Happened {
 pub fn open(args: &ViewArgs) -> anyhow::Result<()> {
     let started = std::time::Instant::now();
     let scene = builtin::named(&args.scene)?;
-    let events = EventLoop::<Happened>::with_user_event().build().map_err(|e| {
+    let events = EventLoop::<UserEvent>::with_user_event().build().map_err(|e| {
         anyhow::anyhow!(
             "no window can be opened here ({e}); without a display, use: visavis render {} -o out.png",
             args.scene
         )
     })?;
-    let mut shell = shell::Shell::new(scene, args.clone(), events.create_proxy(), started);
-    events.run_app(&mut shell).context("the window stopped")?;
-    shell.outcome()
+    let mut app = app::App::new(scene, args.clone(), events.create_proxy(), started);
+    events.run_app(&mut app).context("the window stopped")?;
+    app.outcome()
 }

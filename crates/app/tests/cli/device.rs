@@ -12,7 +12,8 @@ fn render(folder: &TestFolder, fails_after: Option<&str>, options: &[&str]) -> s
     command.output().expect("the program")
 }
 
-/// The device is destroyed at once, and before anything was read: the picture is the processor's, whole, and a line says so.
+/// The device is destroyed at once, and before anything was read: the picture is the processor's, whole, and a line
+/// says so.
 #[test]
 fn the_processor_takes_over_where_the_device_fails() {
     let folder = TestFolder::new();
@@ -25,7 +26,7 @@ fn the_processor_takes_over_where_the_device_fails() {
         let mean = report["mean"][0].as_f64().expect("a number");
         assert!((mean - 0.2517).abs() < 0.02, "{mean}");
         let out = folder.file("out.exr");
-        let records = picture_file::records(&out).expect("records");
+        let records = image_file::records(&out).expect("records");
         assert!(records.iter().any(|(name, value)| name == "device" && value == "cpu"), "{records:?}");
     }
 }

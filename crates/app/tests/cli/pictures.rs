@@ -18,7 +18,7 @@ fn a_picture_is_made_again_from_its_own_records() {
         assert!(visavis(&[&common, extra].concat()).status.success());
         let made = visavis(&["render", "--from", &first, "-o", &again]);
         assert!(made.status.success(), "{}", String::from_utf8_lossy(&made.stderr));
-        let film = |path: &str| picture_file::load(std::path::Path::new(path)).expect("an EXR");
+        let film = |path: &str| image_file::load(std::path::Path::new(path)).expect("an EXR");
         assert!(film(&first) == film(&again), "{extra:?}");
         // a PNG keeps them as well, and other options change them
         assert!(visavis(&["render", "--from", &first, "-o", &other, "--size", "24x14"]).status.success());
@@ -47,7 +47,7 @@ material = "diamond"
     assert!(visavis(&["render", &scene, "-o", &first, "--size", "48x27", "--spp", "4"]).status.success());
     let from = format!("--from={first}");
     assert!(visavis(&["render", &from, "-o", &again]).status.success());
-    let load = |path: &str| picture_file::load(std::path::Path::new(path)).expect("an EXR");
+    let load = |path: &str| image_file::load(std::path::Path::new(path)).expect("an EXR");
     assert!(load(&first) == load(&again), "two kinds of glass");
     std::fs::write(folder.file("odd.png"), "no picture").expect("a file");
     assert_refused(&["render", "--from", &file("odd.png"), "-o", &again], 1, &["cannot read the picture", "odd.png"]);
@@ -71,7 +71,7 @@ fn the_gpu_traces_the_picture_of_the_cpu() {
             (out, report["rays"].as_u64())
         });
         assert_eq!(cpu.1, gpu.1, "{technique}");
-        let records = picture_file::records(std::path::Path::new(&gpu.0)).expect("its records");
+        let records = image_file::records(std::path::Path::new(&gpu.0)).expect("its records");
         let command = records.iter().find(|(name, _)| name == "command").map(|(_, command)| command.as_str());
         assert!(command.is_some_and(|command| command.contains("--device gpu")), "{command:?}");
         let again = file("again.exr");

@@ -7,11 +7,11 @@ use std::process::{Command, Output};
 use visavis_tests::TestFolder;
 
 /// A folder with a store of its own.
-struct Desk(TestFolder);
+struct Workplace(TestFolder);
 
-impl Desk {
+impl Workplace {
     fn new() -> Self {
-        Desk(TestFolder::new())
+        Workplace(TestFolder::new())
     }
 
     fn file(&self, name: &str) -> String {
@@ -39,117 +39,118 @@ impl Desk {
 const SMALL: [&str; 2] = ["--size", "16x12"];
 
 fn record(file: &str, name: &str) -> Option<String> {
-    let records = picture_file::records(Path::new(file)).expect("records");
+    let records = image_file::records(Path::new(file)).expect("records");
     records.into_iter().find(|(known, _)| known == name).map(|(_, value)| value)
 }
 
 #[test]
 fn a_reference_is_made_once_and_finer_only_if_asked() {
-    let desk = Desk::new();
-    let reference = desk.reference("cornell");
+    let workplace = Workplace::new();
+    let reference = workplace.reference("cornell");
     let loaded = |file: &str| reference::Reference::load(Path::new(file)).expect("a reference");
     let first = loaded(&reference);
     assert_eq!((first.replicates, first.width, first.height), (16, 16, 12));
     assert!(first.rel_mse() < Some(1.0) && first.standard_errors.is_some());
     assert_eq!(record(&reference, "scene").as_deref(), Some("cornell"));
     // the same again is fetched, to the last bit and with the seconds of the first time
-    assert_eq!(loaded(&desk.reference("cornell")), first);
-    assert!(desk.done(&["reference"]).contains("count   1\n"));
+    assert_eq!(loaded(&workplace.reference("cornell")), first);
+    assert!(workplace.done(&["reference"]).contains("count   1\n"));
     let finer = (0.5 * first.rel_mse().expect("noise")).to_string();
-    desk.done(&[&["reference", "cornell", "-o", &reference, "--noise", &finer], &SMALL[..]].concat());
+    workplace.done(&[&["reference", "cornell", "-o", &reference, "--noise", &finer], &SMALL[..]].concat());
     assert!(loaded(&reference).replicates > 16 && loaded(&reference).seconds > first.seconds);
     // another camera is another one
-    let moved = desk.file("moved.exr");
-    desk.done(&[&["reference", "cornell", "-o", &moved, "--noise", "1", "--fov", "30"], &SMALL[..]].concat());
-    assert!(desk.done(&["reference"]).contains("count   2\n"));
-    assert!(desk.done(&["reference", "--clear"]).starts_with("removed 2 references"));
-    assert!(desk.done(&["reference"]).contains("count   0\n"));
+    let moved = workplace.file("moved.exr");
+    workplace.done(&[&["reference", "cornell", "-o", &moved, "--noise", "1", "--fov", "30"], &SMALL[..]].concat());
+    assert!(workplace.done(&["reference"]).contains("count   2\n"));
+    assert!(workplace.done(&["reference", "--clear"]).starts_with("removed 2 references"));
+    assert!(workplace.done(&["reference"]).contains("count   0\n"));
 }
 
 #[test]
 fn a_picture_is_judged_by_its_reference_in_three_ways() {
-    let desk = Desk::new();
-    let reference = desk.reference("cornell");
-    let picture = desk.file("picture.exr");
+    let workplace = Workplace::new();
+    let reference = workplace.reference("cornell");
+    let picture = workplace.file("picture.exr");
     let rendered: Value = json(
-        &desk.run(&[&["render", "cornell", "-o", &picture, "--spp", "4", "--errors", "--json"], &SMALL[..]].concat()),
+        &workplace
+            .run(&[&["render", "cornell", "-o", &picture, "--spp", "4", "--errors", "--json"], &SMALL[..]].concat()),
     );
     let errors = &rendered["errors"];
     assert_eq!((&errors["against"], &errors["below_reference_noise"]), (&"reference".into(), &false.into()));
-    let alone = json(&desk.run(&["compare", &picture, "--json"]));
-    let by_file = json(&desk.run(&["compare", &picture, &reference, "--json"]));
+    let alone = json(&workplace.run(&["compare", &picture, "--json"]));
+    let by_file = json(&workplace.run(&["compare", &picture, &reference, "--json"]));
     for figure in ["rmse", "relmse", "mae", "bias", "reference_noise"] {
         assert_eq!(errors[figure], alone[figure], "{figure}");
         assert_eq!(errors[figure], by_file[figure], "{figure}");
         assert_eq!(record(&picture, &format!("error.{figure}")), Some(errors[figure].to_string()), "{figure}");
     }
     assert_eq!(record(&picture, "error.against").as_deref(), Some("reference"));
-    let words = desk.done(&["compare", &reference, &reference]);
+    let words = workplace.done(&["compare", &reference, &reference]);
     assert!(words.contains("below the reference's noise"), "{words}");
-    assert!(!desk.done(&["compare", &picture]).contains("below the reference's noise"));
+    assert!(!workplace.done(&["compare", &picture]).contains("below the reference's noise"));
 
     // what was measured is no option: the picture is made again
-    let again = desk.file("again.exr");
-    desk.done(&["render", "--from", &picture, "-o", &again]);
-    let film = |file: &str| picture_file::load(Path::new(file)).expect("an EXR");
+    let again = workplace.file("again.exr");
+    workplace.done(&["render", "--from", &picture, "-o", &again]);
+    let film = |file: &str| image_file::load(Path::new(file)).expect("an EXR");
     assert!(film(&picture) == film(&again));
     assert_eq!(record(&again, "error.relmse"), None);
-    let png = desk.file("picture.png");
-    desk.done(&["render", "--from", &picture, "-o", &png, "--errors"]);
-    desk.done(&["render", "--from", &png, "-o", &again]);
+    let png = workplace.file("picture.png");
+    workplace.done(&["render", "--from", &picture, "-o", &png, "--errors"]);
+    workplace.done(&["render", "--from", &png, "-o", &again]);
     assert!(film(&picture) == film(&again));
 }
 
 /// The fake does not see how large the sun is, but its reference does.
 #[test]
 fn the_reference_of_a_fake_has_the_sun_that_was_asked_for() {
-    let desk = Desk::new();
-    let fake = desk.file("fake.png");
+    let workplace = Workplace::new();
+    let fake = workplace.file("fake.png");
     let sun = ["--sun-radius", "4", "--refraction-ratio", "0.8"];
-    let out = desk.file("reference.exr");
-    desk.done(&[&["reference", "whitted", "-o", &out, "--noise", "1"], &SMALL[..], &sun].concat());
-    desk.done(&[&["render", "whitted", "-o", &fake, "--technique", "raster"], &SMALL[..], &sun].concat());
-    let alone = json(&desk.run(&["compare", &fake, "--json"]));
-    assert_eq!(alone["rmse"], json(&desk.run(&["compare", &fake, &out, "--json"]))["rmse"]);
-    assert!(desk.done(&["reference"]).contains("count   1\n"), "another one was made");
-    let again = desk.run(&["render", "--from", &fake, "-o", &desk.file("again.png")]);
+    let out = workplace.file("reference.exr");
+    workplace.done(&[&["reference", "whitted", "-o", &out, "--noise", "1"], &SMALL[..], &sun].concat());
+    workplace.done(&[&["render", "whitted", "-o", &fake, "--technique", "raster"], &SMALL[..], &sun].concat());
+    let alone = json(&workplace.run(&["compare", &fake, "--json"]));
+    assert_eq!(alone["rmse"], json(&workplace.run(&["compare", &fake, &out, "--json"]))["rmse"]);
+    assert!(workplace.done(&["reference"]).contains("count   1\n"), "another one was made");
+    let again = workplace.run(&["render", "--from", &fake, "-o", &workplace.file("again.png")]);
     assert!(!String::from_utf8_lossy(&again.stderr).contains("no effect"));
 }
 
 #[test]
 fn what_cannot_be_judged_is_one_line() {
-    let desk = Desk::new();
-    let reference = desk.reference("cornell");
-    let failed = |arguments: &[&str], words: &[&str]| assert_failed(arguments, &desk.run(arguments), 1, words);
-    let (other, map) = (desk.file("other.exr"), desk.file("map.png"));
-    desk.done(&["render", "cornell", "-o", &other, "--size", "8x8", "--spp", "1"]);
+    let workplace = Workplace::new();
+    let reference = workplace.reference("cornell");
+    let failed = |arguments: &[&str], words: &[&str]| assert_failed(arguments, &workplace.run(arguments), 1, words);
+    let (other, map) = (workplace.file("other.exr"), workplace.file("map.png"));
+    workplace.done(&["render", "cornell", "-o", &other, "--size", "8x8", "--spp", "1"]);
     failed(&["compare", &other, &reference], &["differ in size", "8x8", "16x12"]);
     let whole = std::fs::read(&reference).expect("the file");
     for length in [30, whole.len() / 2, whole.len() - 1] {
-        let cut = desk.file("cut.exr");
+        let cut = workplace.file("cut.exr");
         std::fs::write(&cut, &whole[..length]).expect("a file");
         failed(&["compare", &reference, &cut], &["cannot read the picture", "cut.exr"]);
     }
-    desk.done(&["compare", &reference, &reference, "--heatmap", &map]);
+    workplace.done(&["compare", &reference, &reference, "--heatmap", &map]);
     failed(&["compare", &map], &["does not say how it was made", "map.png"]);
     let depths = ["--technique", "raster", "--show", "shadow-map"];
-    desk.done(&[&["render", "whitted", "-o", &map], &SMALL[..], &depths].concat());
+    workplace.done(&[&["render", "whitted", "-o", &map], &SMALL[..], &depths].concat());
     failed(&["compare", &map], &["a map of the fake"]);
     failed(&[&["render", "whitted", "-o", &map, "--errors"], &SMALL[..], &depths].concat(), &["--errors needs"]);
 }
 
 #[test]
 fn a_store_that_refuses_is_told_and_does_no_harm() {
-    let desk = Desk::new();
-    std::fs::write(desk.0.file("store"), "no folder").expect("a file");
-    let out = desk.file("reference.exr");
-    let made = desk.run(&[&["reference", "cornell", "-o", &out, "--noise", "1"], &SMALL[..]].concat());
+    let workplace = Workplace::new();
+    std::fs::write(workplace.0.file("store"), "no folder").expect("a file");
+    let out = workplace.file("reference.exr");
+    let made = workplace.run(&[&["reference", "cornell", "-o", &out, "--noise", "1"], &SMALL[..]].concat());
     let said = String::from_utf8_lossy(&made.stderr);
     assert!(made.status.success(), "{said}");
     assert!(said.lines().filter(|line| line.starts_with("note: cannot keep references")).count() == 1, "{said}");
     assert!(reference::Reference::load(Path::new(&out)).is_ok());
     for arguments in [&["reference"][..], &["reference", "--clear"]] {
-        assert_failed(arguments, &desk.run(arguments), 1, &["cannot keep references", "store"]);
+        assert_failed(arguments, &workplace.run(arguments), 1, &["cannot keep references", "store"]);
     }
     let limit = program().args(["reference"]).env("VISAVIS_CACHE_MIB", "much").output().expect("the program");
     assert_failed(&["reference"], &limit, 1, &["VISAVIS_CACHE_MIB much", "whole number"]);
@@ -158,24 +159,24 @@ fn a_store_that_refuses_is_told_and_does_no_harm() {
 /// A disk that is full, as a limit on the size of files: the same error of the same call.
 #[test]
 fn a_full_disk_is_one_line_and_no_half_a_file() {
-    let desk = Desk::new();
-    desk.reference("cornell");
-    let out = desk.file("large.exr");
-    let kept = desk.0.names();
+    let workplace = Workplace::new();
+    workplace.reference("cornell");
+    let out = workplace.file("large.exr");
+    let kept = workplace.0.names();
     // four blocks of 512 bytes: the picture's file does not fit, and the signal that would end the program is ignored
     let line = "trap '' XFSZ; ulimit -f 4; exec \"$0\" \"$@\"";
     let mut shell = Command::new("/bin/sh");
     shell.args(["-c", line, env!("CARGO_BIN_EXE_visavis"), "render", "cornell", "--size", "200x200", "--spp", "1"]);
     let output = shell.args(["-o", &out]).output().expect("a shell");
     assert_failed(&["render"], &output, 1, &["cannot write the file", "large.exr"]);
-    assert_eq!(desk.0.names(), kept);
+    assert_eq!(workplace.0.names(), kept);
 
     let mut shell = Command::new("/bin/sh");
     shell.args(["-c", line, env!("CARGO_BIN_EXE_visavis"), "reference", "cornell", "--size", "40x40", "--noise", "1"]);
-    let output = shell.args(["-o", &out]).env("VISAVIS_CACHE", desk.0.file("store")).output().expect("a shell");
+    let output = shell.args(["-o", &out]).env("VISAVIS_CACHE", workplace.0.file("store")).output().expect("a shell");
     let said = String::from_utf8_lossy(&output.stderr);
     assert_eq!(output.status.code(), Some(1), "{said}");
     assert!(said.lines().count() == 2 && said.contains("note: cannot write the file"), "{said}");
-    assert_eq!(desk.0.names(), kept);
-    assert_eq!(std::fs::read_dir(desk.0.file("store")).expect("the store").count(), 1);
+    assert_eq!(workplace.0.names(), kept);
+    assert_eq!(std::fs::read_dir(workplace.0.file("store")).expect("the store").count(), 1);
 }

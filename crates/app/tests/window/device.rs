@@ -27,7 +27,7 @@ fn the_gpu_traces_b_says_so_and_is_recorded() {
     assert!(traced.state("b")["refused"].is_null() && traced.state("b")["fault"].is_null());
     let file = viewer.home().join("b.exr");
     export(&screen, &mut viewer, &["export B alone", "format EXR linear"], &file);
-    let records = picture_file::records(&file).expect("records");
+    let records = image_file::records(&file).expect("records");
     let value = |name: &str| records.iter().find(|(known, _)| known == name).map(|(_, value)| value.as_str());
     assert_eq!(value("device"), Some("gpu"));
     assert!(value("command").is_some_and(|command| command.contains("--device gpu")), "{records:?}");
@@ -162,8 +162,8 @@ fn an_adapter_is_chosen_by_its_name() {
     });
 }
 
-/// With what one gets by default where the processor draws the window too. A tenth of a second is the goal for 99 of 100
-/// frames; the bound is for machines that have more to do.
+/// With what one gets by default where the processor draws the window too. A tenth of a second is the goal for 99 of
+/// 100 frames; the bound is for machines that have more to do.
 #[test]
 fn the_window_follows_the_mouse_while_rays_are_traced() {
     the_window_follows_the_mouse(&[]);

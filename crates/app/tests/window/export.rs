@@ -76,7 +76,7 @@ fn a_pane_its_film_and_its_command_are_one_picture() {
         let made = again.output().expect("the program");
         assert!(made.status.success(), "{}", String::from_utf8_lossy(&made.stderr));
         for kept in [file(".png"), file(".exr")] {
-            let records = picture_file::records(&kept).expect("records");
+            let records = image_file::records(&kept).expect("records");
             let value = |name: &str| records.iter().find(|(known, _)| known == name).map(|(_, value)| value.as_str());
             let other =
                 if side == "A" { "B: visavis render whitted -o b.png" } else { "A: visavis render whitted -o a.png" };
@@ -85,11 +85,11 @@ fn a_pane_its_film_and_its_command_are_one_picture() {
         }
         let pixels = |path: PathBuf| image::open(&path).expect("a picture").to_rgb8();
         assert!(pixels(file(".png")) == pixels(file("-again.png")), "{side}: {command}");
-        let film = |path: PathBuf| picture_file::load(&path).expect("an EXR");
+        let film = |path: PathBuf| image_file::load(&path).expect("an EXR");
         let (once, again) = (film(file(".exr")), film(file("-again.exr")));
         assert!(once == again, "{side}: the films differ: {command}");
 
-        let display = scene::display::DisplayTransform::default();
+        let display = film::DisplayTransform::default();
         let developed = display.to_rgba8(once.radiances.iter().copied());
         let stored: Vec<u8> = pixels(file(".png")).pixels().flat_map(|p| [p[0], p[1], p[2], 255]).collect();
         assert!(developed == stored, "{side}: the PNG is not the film through the display transform");

@@ -174,7 +174,7 @@ fn a_change_drops_the_picture_in_hand_and_brings_a_rough_one_at_once() {
     });
     let latency = changed.state("latency_ms").as_u64().expect("a measured latency");
     println!("{latency} ms from the change to its first picture on the screen");
-    // a tenth of a second is the goal and about what an idle machine prints here; a busy one may take its time, but not so
-    // long as the picture in hand would go on, which is a minute and more
+    // a tenth of a second is the goal and about what an idle machine prints here; a busy one may take its time, but not
+    // so long as the picture in hand would go on, which is a minute and more
     assert!(latency < 3000, "{latency} ms from the change to the first picture");
 }

@@ -40,7 +40,7 @@ fn the_error_map_has_a_scale_that_can_be_held_and_is_exported_with_it() {
     let (png, exr) = (viewer.home().join("map.png"), viewer.home().join("map.exr"));
     export(&screen, &mut viewer, &["export The error map"], &png);
     export(&screen, &mut viewer, &["export The error map"], &exr);
-    let records = picture_file::records(&png).expect("records");
+    let records = image_file::records(&png).expect("records");
     let value =
         |name: &str| records.iter().find(|(known, _)| known == name).map(|(_, v)| v.clone()).unwrap_or_default();
     assert_eq!([value("map"), value("colours")], ["A - B", "blue-white-orange"]);
@@ -72,7 +72,8 @@ fn almost_done(size: (u32, u32)) -> Reference {
     }
 }
 
-/// Chooses the reference for two fakes, which are done at once, and makes the window small: its reference takes less time.
+/// Chooses the reference for two fakes, which are done at once, and makes the window small: its reference takes less
+/// time.
 fn choose_the_reference(screen: &Screen, viewer: &mut ViewerUnderTest) -> Frame {
     let first = viewer.wait_for("both pictures", both_whole);
     let window = screen.focus("Visavis");

@@ -1,4 +1,5 @@
-//! What windows suffer: storms of sizes, being hidden, camera and wheel, slow software drawing. And how fast they answer.
+//! What windows suffer: storms of sizes, being hidden, camera and wheel, slow software drawing. And how fast they
+//! answer.
 
 use super::{alone, both_ready, both_whole, ready};
 use std::time::Duration;
@@ -81,8 +82,8 @@ fn either_pane_holds_any_technique() {
     assert!(swapped.shows("B fake as-taught") && !swapped.shows("B spp"));
 }
 
-/// From a slider's event to the first frame with a picture of it. A tenth of a second is the goal, of which two frames of
-/// the window drawn in software take most; the bound only tells it from waiting for the picture in hand, which takes
+/// From a slider's event to the first frame with a picture of it. A tenth of a second is the goal, of which two frames
+/// of the window drawn in software take most; the bound only tells it from waiting for the picture in hand, which takes
 /// seconds: a busy machine may take its time. The best of several is what the program can do, the rest is the machine.
 #[test]
 fn a_slider_brings_a_new_picture_at_once() {

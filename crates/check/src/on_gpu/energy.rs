@@ -1,15 +1,16 @@
 //! Closed scenes that keep all their light, and many samples in one pixel.
 
 use super::{Bench, Outcome};
+use crate::area_lights::direct;
 use crate::energy::{
     CLOSED, LOST, SPHERES, after, direct_part, estimators_of_walls, floor_centre, lit_sphere, power_between_walls,
     shining, with,
 };
 use crate::hard::known;
-use crate::lamps::direct;
 use crate::measure::farthest;
+use film::Film;
 use pathtrace::{Estimator, PathSettings, Roulette, WhittedSettings};
-use scene::{Film, Vec3};
+use scene::Vec3;
 
 fn without_ambient(depth: u32) -> WhittedSettings {
     WhittedSettings { depth, ambient: Some(0.0), ..WhittedSettings::default() }

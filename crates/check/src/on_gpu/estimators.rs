@@ -1,16 +1,17 @@
 //! Several estimators of one integral: their means, their variances, and how fast their errors fall.
 
 use super::{Bench, Outcome};
+use crate::area_lights::direct;
 use crate::estimators::{VARIANCES, far_point, slope, variance_of_a_sample};
 use crate::hard::known;
-use crate::lamps::direct;
 use pathtrace::{Estimator, PathSettings, SamplerKind};
 
 /// Samples a pixel of the picture that tells the variance, which has 4096.
 const SAMPLES: [u32; 2] = [128, 1024];
 
-/// Pixels along each side of the pictures whose errors are compared. Over 1024 of them an error is known to 2.2 %, and the
-/// slope from 16 to 1024 samples to .007. A software device traces a million samples a second: four slopes take 3.5 million.
+/// Pixels along each side of the pictures whose errors are compared. Over 1024 of them an error is known to 2.2 %, and
+/// the slope from 16 to 1024 samples to .007. A software device traces a million samples a second: four slopes take 3.5
+/// million.
 const SIDE: u32 = 32;
 
 pub fn three_of_one(bench: &mut Bench) -> Outcome {

@@ -8,8 +8,8 @@ use crate::dielectrics::{
 };
 use crate::hard::known;
 use crate::measure::independent;
-use pathtrace::geometry::Ray;
 use pathtrace::gpu::{GpuTraceError, GpuTracer};
+use pathtrace::intersect::Ray;
 use pathtrace::{Estimator, PathSettings, Roulette, SamplerKind};
 use scene::{Bsdf, Scene, Vec3};
 

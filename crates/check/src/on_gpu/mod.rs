@@ -1,24 +1,25 @@
-//! The hard cases on a graphics device: the same scenes and closed forms as on the processor, as far as a device renders
-//! them. Case 22 is left out: random numbers are compared with the processor's bit for bit, and what is made of them
-//! number for number, by the twins' tests. So is case 24: the fake has tests of its own.
+//! The hard cases on a graphics device: the same scenes and closed forms as on the processor, as far as a device
+//! renders them. Case 22 is left out: random numbers are compared with the processor's bit for bit, and what is made of
+//! them number for number, by the twins' tests. So is case 24: the fake has tests of its own.
 //!
 //! A software device takes a second to compile for a scene's needs and settings, longer than for most pictures: where
 //! scenes differ in numbers alone, one tracer takes one after the other.
 
+mod area_lights;
 mod energy;
 mod estimators;
 mod glass;
-mod lamps;
 mod rays;
 mod robustness;
 
 use crate::case::Case;
 use crate::measure::{Effort, Mean, Trial, farthest};
 use crate::row::{Device, Row};
+use film::Film;
 use gpu::Gpu;
 use pathtrace::gpu::{GpuTraceError, GpuTracer};
-use pathtrace::{LightSearch, PathSettings, WhittedSettings};
-use scene::{Camera, Film, Scene};
+use pathtrace::{LightSampling, PathSettings, WhittedSettings};
+use scene::{Camera, Scene};
 use std::sync::atomic::{AtomicBool, Ordering};
 
 type Outcome = Result<(), GpuTraceError>;
@@ -63,11 +64,11 @@ fn of_number(case: u32) -> Option<fn(&mut Bench) -> Outcome> {
         1 => energy::white_furnace,
         2 => energy::closed_box,
         3 => energy::point_light,
-        4 => lamps::rectangle,
-        5 => lamps::edge_on,
-        6 => lamps::disk,
-        7 => lamps::sphere,
-        8 => lamps::touching_wall,
+        4 => area_lights::rectangle,
+        5 => area_lights::edge_on,
+        6 => area_lights::disk,
+        7 => area_lights::sphere,
+        8 => area_lights::touching_wall,
         9 => estimators::three_of_one,
         10 => glass::fresnel,
         11 => glass::index_one,
@@ -149,8 +150,9 @@ impl Bench<'_, '_> {
         seen: Seen,
         settings: &PathSettings,
     ) -> Result<Mean, GpuTraceError> {
-        // a density that is off by a twentieth moves a weighted mean by less than a hundredth, and its samples spread little
-        let power = if settings.estimator.light == LightSearch::Mis { 0.001 } else { self.trial.power() };
+        // a density that is off by a twentieth moves a weighted mean by less than a hundredth, and its samples spread
+        // little
+        let power = if settings.estimator.light == LightSampling::Mis { 0.001 } else { self.trial.power() };
         self.mean_to(power, quantity, expected, seen, settings)
     }
 

@@ -1,5 +1,5 @@
-//! Rays by themselves: closed meshes that let none out, surfaces that do not meet the rays that leave them, and spheres far
-//! away.
+//! Rays by themselves: closed meshes that let none out, surfaces that do not meet the rays that leave them, and spheres
+//! far away.
 
 use super::{Bench, Outcome};
 use crate::energy::with;
@@ -7,9 +7,9 @@ use crate::hard::{known, with_geometry};
 use crate::leaks::{AIMS, MESH_PLACES, brightest, closed_meshes, rays_at, tight_boxes};
 use crate::meshes::{Mesh, any_direction};
 use crate::offsets::{FAR_SPHERES, PLACES, central_ray, moved};
-use pathtrace::geometry::Ray;
 use pathtrace::gpu::GpuTracer;
-use pathtrace::sampler::Sampler;
+use pathtrace::intersect::Ray;
+use pathtrace::sampling::sampler::Sampler;
 use pathtrace::{Estimator, Roulette, sampling};
 use scene::{Geometry, Scene, Vec3};
 
@@ -56,7 +56,7 @@ pub fn self_intersection(bench: &mut Bench) -> Outcome {
         });
         let points: Vec<_> = tracer.meet(&first.collect::<Vec<_>>())?.iter().filter_map(|a| a.point()).collect();
         let leave = |sign: f32| {
-            let one = |(i, point): (u32, &pathtrace::geometry::SurfacePoint)| {
+            let one = |(i, point): (u32, &pathtrace::intersect::SurfacePoint)| {
                 let [u, v, ..] = Sampler::independent(18, i, 1).unit4(1);
                 let out = sign * sampling::to_world(sampling::cosine_hemisphere([u, v]), point.normal);
                 Ray::new(point.leaving_towards(out), out)

@@ -1,7 +1,7 @@
 //! Scenes scaled and moved, and geometry that is not what it should be. Files that are refused never come to a device.
 
 use super::{Bench, Outcome};
-use crate::lamps::direct;
+use crate::area_lights::direct;
 use crate::robustness::{Invariant, PLACEMENTS, flat_triangles, invariants, placed, rays_at_corners, under_slivers};
 use pathtrace::Estimator;
 use pathtrace::gpu::{GpuTraceError, GpuTracer};

@@ -1,8 +1,8 @@
-//! The colour spaces FLIP measures in: sRGB to YCxCz (a linear opponent space in which contrast sensitivity is filtered)
-//! and linear RGB to CIELAB, D65 white; the Hunt adjustment and the HyAB distance. Andersson et al. 2020, section 4.1;
-//! HyAB from Abasi et al. 2020, "Distance metrics for very large color differences".
+//! The colour spaces FLIP measures in: sRGB to YCxCz (a linear opponent space in which contrast sensitivity is
+//! filtered) and linear RGB to CIELAB, D65 white; the Hunt adjustment and the HyAB distance. Andersson et al. 2020,
+//! section 4.1; HyAB from Abasi et al. 2020, "Distance metrics for very large color differences".
 
-use scene::colour::srgb_decode;
+use film::colour::srgb_decode;
 
 type Matrix = [[f32; 3]; 3];
 

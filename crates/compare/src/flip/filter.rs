@@ -1,6 +1,6 @@
 //! FLIP's filters, all separable, the picture continued past its edges by its edge pixels. Andersson et al. 2020,
-//! sections 4.1.1 (contrast sensitivity) and 4.2 (edges and points); the sum of two Gaussians of the blue-yellow channel
-//! is filtered as two separable terms.
+//! sections 4.1.1 (contrast sensitivity) and 4.2 (edges and points); the sum of two Gaussians of the blue-yellow
+//! channel is filtered as two separable terms.
 
 use rayon::prelude::*;
 use std::f32::consts::PI;

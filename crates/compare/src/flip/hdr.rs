@@ -1,10 +1,10 @@
-//! HDR-FLIP: the largest FLIP over a sweep of exposures, so that an error in a lamp counts as one in a shadow does.
-//! Andersson et al. 2021, sections 4 and 5, with the ACES curve as Narkowicz fitted it.
+//! HDR-FLIP: the largest FLIP over a sweep of exposures, so that an error in an area light counts as one in a shadow
+//! does. Andersson et al. 2021, sections 4 and 5, with the ACES curve as Narkowicz fitted it.
 
 use super::{Evaluator, finite_or_black, mark_nonfinite};
 use crate::{CompareError, metrics::same_pixels};
-use scene::Vec3;
-use scene::colour::{luminance, srgb_encode};
+use film::Vec3;
+use film::colour::{luminance, srgb_encode};
 
 /// What [`hdr_flip`] found.
 #[derive(Debug, Clone, PartialEq)]

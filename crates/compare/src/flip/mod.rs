@@ -10,11 +10,12 @@ mod hdr;
 pub use hdr::{HdrFlip, hdr_flip};
 
 use crate::{CompareError, metrics::same_pixels};
+use film::Vec3;
 use filter::{Features, Sensitivity, along_columns, along_rows};
 use rayon::prelude::*;
-use scene::Vec3;
 
-/// Pixels in a degree of visual angle that FLIP assumes unless told: a screen 0.7 m wide of 3840 pixels, seen from 0.7 m.
+/// Pixels in a degree of visual angle that FLIP assumes unless told: a screen 0.7 m wide of 3840 pixels, seen from 0.7
+/// m.
 pub const PIXELS_PER_DEGREE: f32 = 67.020_64;
 
 /// Exponent of the colour difference.

@@ -1,9 +1,9 @@
-//! A sphere as a lamp: uniform in the cone that it fills as seen from a point outside; from inside, where only a two-sided
-//! lamp shines, uniform in all directions.
+//! A sphere as an area light: uniform in the cone that it fills as seen from a point outside; from inside, where only a
+//! two-sided area light shines, uniform in all directions.
 
-use crate::geometry::gamma;
-use crate::geometry::lanes::{SphereLanes, SurfacePoints};
-use crate::warp;
+use crate::intersect::gamma;
+use crate::intersect::lanes::{SphereLanes, SurfacePoints};
+use crate::sampling::warp;
 use simd::{Float, Vector};
 
 /// `1 - cos` of the cone of all directions.
@@ -12,7 +12,7 @@ const ALL_DIRECTIONS: f32 = 2.0;
 /// A sample of a ball in each lane.
 #[derive(Debug, Clone, Copy)]
 pub struct BallSamples<F: Float> {
-    /// Where the lamp shines.
+    /// Where the area light shines.
     pub shines: F::M,
     /// Unit direction towards it.
     pub wi: Vector<F>,
@@ -21,11 +21,11 @@ pub struct BallSamples<F: Float> {
     pub point: SurfacePoints<F>,
 }
 
-/// `1 - cos` of the half angle of the cone that the sphere fills as seen from `x`, and where `x` is outside. Exact for a
-/// sphere tiny or far away, and where the point almost touches it. From inside, the cone of all directions.
+/// `1 - cos` of the half angle of the cone that the sphere fills as seen from `x`, and where `x` is outside. Exact for
+/// a sphere tiny or far away, and where the point almost touches it. From inside, the cone of all directions.
 ///
-/// A point on the sphere itself counts as inside: which side it was rounded to says nothing, from inside it sees the whole
-/// sphere, and outside nothing of it.
+/// A point on the sphere itself counts as inside: which side it was rounded to says nothing, from inside it sees the
+/// whole sphere, and outside nothing of it.
 #[inline(always)]
 fn cone<F: Float>(x: Vector<F>, ball: &SphereLanes<F>) -> (F, F::M) {
     let (radius, distance) = (ball.radius, (ball.center - x).length_squared().sqrt());

@@ -1,15 +1,16 @@
-//! A flat lamp: the tutorial's `L cos' S / |x - x'|^2`, a point uniform on the lamp and its density `1 / S` turned into
-//! solid angle. From nearby that weight has no bound; a rectangle is then sampled uniformly in solid angle instead.
+//! A flat area light: the tutorial's `L cos' S / |x - x'|^2`, a point uniform on the area light and its density `1 / S`
+//! turned into solid angle. From nearby that weight has no bound; a rectangle is then sampled uniformly in solid angle
+//! instead.
 
 use super::spherical_rectangle::SphericalRectangles;
-use crate::geometry::lanes::SurfacePoints;
-use crate::warp;
+use crate::intersect::lanes::SurfacePoints;
+use crate::sampling::warp;
 use scene::Vec3;
 use scene::glam::DVec3;
 use simd::{Float, Mask, Vector};
 use std::f32::consts::PI;
 
-/// What a flat lamp looks like.
+/// What a flat area light looks like.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Outline {
     /// All of the parallelogram of its edges.
@@ -22,7 +23,7 @@ pub enum Outline {
     Disk,
 }
 
-/// A flat lamp.
+/// A flat area light.
 #[derive(Debug, Clone, Copy)]
 pub struct Flat {
     pub outline: Outline,
@@ -65,7 +66,7 @@ impl Flat {
     }
 }
 
-/// A flat lamp in each lane.
+/// A flat area light in each lane.
 #[derive(Debug, Clone, Copy)]
 pub struct Flats<F: Float> {
     pub corner: Vector<F>,
@@ -79,10 +80,10 @@ pub struct Flats<F: Float> {
     pub is_disk: F::M,
 }
 
-/// A sample of a flat lamp in each lane.
+/// A sample of a flat area light in each lane.
 #[derive(Debug, Clone, Copy)]
 pub struct FlatSamples<F: Float> {
-    /// Where the lamp shines.
+    /// Where the area light shines.
     pub shines: F::M,
     /// Unit direction towards it.
     pub wi: Vector<F>,
@@ -92,7 +93,7 @@ pub struct FlatSamples<F: Float> {
 }
 
 impl<F: Float> Flats<F> {
-    /// Light from the lamps at `x`.
+    /// Light from the area lights at `x`.
     #[inline(always)]
     pub fn sample(&self, x: Vector<F>, u: [F; 2]) -> FlatSamples<F> {
         let mut place = u;
@@ -119,12 +120,12 @@ impl<F: Float> Flats<F> {
         let wi = to_light * (F::splat(1.0) / distance_squared.sqrt());
         let cos_light = self.cosine(wi);
         let inverse_pdf = F::select(by_angle, solid_angle, cos_light * self.area / distance_squared);
-        // also refuses x on the lamp itself, where wi is NaN
+        // also refuses x on the area light itself, where wi is NaN
         FlatSamples { shines: cos_light.gt(F::splat(0.0)), wi, inverse_pdf, point }
     }
 
-    /// Density per solid angle of the direction from `x` to the point `on` the lamp; infinite for an edge that no sample
-    /// sees.
+    /// Density per solid angle of the direction from `x` to the point `on` the area light; infinite for an edge that no
+    /// sample sees.
     #[inline(always)]
     pub fn pdf(&self, x: Vector<F>, on: Vector<F>) -> F {
         let to_light = on - x;

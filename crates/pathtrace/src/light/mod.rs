@@ -1,5 +1,6 @@
-//! What shines, as light sampling sees it: lamps (emissive shapes), point lights and the sun. Task 2 c), "Sampling Area
-//! Light". One light is chosen, then a direction to it; [`Lights::pdf`] is the density of doing so, as MIS needs it.
+//! What shines, as light sampling sees it: area lights (emissive shapes), point lights and the sun. Task 2 c),
+//! "Sampling Area Light". One light is chosen, then a direction to it; [`Lights::pdf`] is the density of doing so, as
+//! MIS needs it.
 
 mod ball;
 pub(crate) mod flat;
@@ -11,13 +12,14 @@ pub use spherical_rectangle::SphericalRectangle;
 pub use sun::SunDisc;
 pub use table::LightSamples;
 
-use crate::geometry::sphere::Sphere;
-use crate::geometry::{SurfacePoint, triangle_normal};
+use crate::intersect::sphere::Sphere;
+use crate::intersect::{SurfacePoint, triangle_normal};
+use crate::sampling::warp;
 use crate::vectors::{glam_vector, lane_vector};
-use crate::warp;
+use film::colour;
 use flat::Flat;
 use scene::material::Emission;
-use scene::{Geometry, PointLight, Scene, Shape, Sun, Vec3, colour};
+use scene::{Geometry, PointLight, Scene, Shape, Sun, Vec3};
 use std::f32::consts::PI;
 use table::Table;
 
@@ -62,8 +64,8 @@ pub struct LightSample {
 /// The far end of a shadow ray.
 #[derive(Debug, Clone, Copy)]
 pub enum ShadowEnd {
-    /// A point on a lamp.
-    Lamp(SurfacePoint),
+    /// A point on an area light.
+    AreaLight(SurfacePoint),
     /// A point in the air.
     Point(Vec3),
     /// The sun.
@@ -71,15 +73,15 @@ pub enum ShadowEnd {
 }
 
 impl Lights {
-    /// Collects the lights. Half of the choices go by power and half to all alike, so that a small lamp beside a strong
-    /// sun still gets its samples.
+    /// Collects the lights. Half of the choices go by power and half to all alike, so that a small area light beside a
+    /// strong sun still gets its samples.
     pub fn new(scene: &Scene) -> Self {
         let mut lights = Vec::new();
         let mut first_of_shape = Vec::new();
         for shape in scene.shapes.iter() {
             let emission = scene.material_of(shape).emission.filter(|e| e.radiance.max_element() > 0.0);
             let first = lights.len();
-            emission.into_iter().for_each(|emission| push_lamps(shape, emission, &mut lights));
+            emission.into_iter().for_each(|emission| push_area_lights(shape, emission, &mut lights));
             first_of_shape.push((lights.len() > first).then_some(first as u32));
         }
         let shines = |point: &&PointLight| point.intensity.max_element() > 0.0;
@@ -114,7 +116,8 @@ impl Lights {
         self.lights.is_empty()
     }
 
-    /// Index of the first light of a shape: its triangles with area are lights in their order, other shapes are one light.
+    /// Index of the first light of a shape: its triangles with area are lights in their order, other shapes are one
+    /// light.
     pub fn first_of_shape(&self, shape: usize) -> Option<u32> {
         self.first_of_shape[shape]
     }
@@ -143,7 +146,7 @@ impl Lights {
         }
         let sample = self.table.sample(lane_vector(x), u_light, u);
         let end = match self.lights[self.choose(u_light)] {
-            Light::Flat(..) | Light::Sphere(..) => ShadowEnd::Lamp(SurfacePoint {
+            Light::Flat(..) | Light::Sphere(..) => ShadowEnd::AreaLight(SurfacePoint {
                 position: glam_vector(sample.point.position),
                 error: glam_vector(sample.point.error),
                 normal: glam_vector(sample.point.normal),
@@ -185,7 +188,7 @@ fn mixed_probabilities(powers: &[f64]) -> Vec<f64> {
     powers.iter().map(|power| 0.5 * (alike + by_power(power))).collect()
 }
 
-fn push_lamps(shape: &Shape, emission: Emission, lights: &mut Vec<Light>) {
+fn push_area_lights(shape: &Shape, emission: Emission, lights: &mut Vec<Light>) {
     let mut push = |flat: Option<Flat>| lights.extend(flat.map(|flat| Light::Flat(flat, emission)));
     match shape.geometry {
         Geometry::Sphere { center, radius } => lights.push(Light::Sphere(Sphere { center, radius }, emission)),

@@ -1,8 +1,8 @@
 //! A rectangle sampled uniformly in the solid angle that it fills: Ureña, Fajardo and King, "An Area-Preserving
 //! Parametrization for Spherical Rectangles" (EGSR 2013).
 
+use crate::sampling::warp::{angle_of_upper, sin_cos_2pi};
 use crate::vectors::lane_vector;
-use crate::warp::{angle_of_upper, sin_cos_2pi};
 use scene::Vec3;
 use simd::{Float, Vector};
 use std::f32::consts::TAU;
@@ -74,8 +74,8 @@ fn slope<F: Float>(y: F, d: F) -> F {
     y / (d * d + y * y).sqrt()
 }
 
-/// Inner angle at the corner (x, y, z): the arc cosine of `xy / sqrt((x^2 + z^2) (y^2 + z^2))`, as an arc tangent because
-/// close to the plane that cosine is 1 but for its last bits. `cos` is `xy`, its sign by the corner.
+/// Inner angle at the corner (x, y, z): the arc cosine of `xy / sqrt((x^2 + z^2) (y^2 + z^2))`, as an arc tangent
+/// because close to the plane that cosine is 1 but for its last bits. `cos` is `xy`, its sign by the corner.
 #[inline(always)]
 fn inner_angle<F: Float>(x: F, y: F, z: F, cos: F) -> F {
     angle_of_upper(-z * (x * x + y * y + z * z).sqrt(), cos)
@@ -112,7 +112,7 @@ impl SphericalRectangle {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::sampler::Sampler;
+    use crate::sampling::sampler::Sampler;
 
     /// Eyes in front of, beside, close to and almost in the plane of a rectangle of 2 by 1.
     const EYES: [[f32; 3]; 10] = [
@@ -128,8 +128,9 @@ mod tests {
         [-1e-3, 0.5, 0.2],
     ];
 
-    /// The solid angle is what the sum of cos / d^2 over a fine grid says, and each of 10 x 20 cells of the rectangle gets
-    /// its share of the samples: chi-square of 200,000 with cells below 5 merged, 99.99 % quantile by Wilson and Hilferty.
+    /// The solid angle is what the sum of cos / d^2 over a fine grid says, and each of 10 x 20 cells of the rectangle
+    /// gets its share of the samples: chi-square of 200,000 with cells below 5 merged, 99.99 % quantile by Wilson and
+    /// Hilferty.
     #[test]
     fn samples_are_uniform_in_solid_angle() {
         for eye in EYES.map(Vec3::from_array) {

@@ -24,8 +24,8 @@ impl SunDisc {
         })
     }
 
-    /// The disc's radiance where rays of these directions meet it, else zero. Measured by the chord between unit vectors,
-    /// which stays exact for a small sun where a cosine does not.
+    /// The disc's radiance where rays of these directions meet it, else zero. Measured by the chord between unit
+    /// vectors, which stays exact for a small sun where a cosine does not.
     #[inline(always)]
     pub fn radiance<F: Float>(&self, direction: Vector<F>) -> Vector<F> {
         let chord = direction - in_all_lanes(self.towards);

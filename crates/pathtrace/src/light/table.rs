@@ -3,16 +3,16 @@
 use super::Light;
 use super::ball;
 use super::flat::{Flats, Outline};
-use crate::geometry::lanes::{SphereLanes, SurfacePoints};
+use crate::intersect::lanes::{SphereLanes, SurfacePoints};
+use crate::sampling::warp;
 use crate::vectors::VectorColumn;
-use crate::warp;
 use scene::Vec3;
 use simd::{Column, Float, Mask, Vector, Word, WordColumn};
 
 /// All lights.
 #[derive(Debug, Clone, Default)]
 pub struct Table {
-    /// Corner or centre of a lamp, place of a point, direction towards the sun.
+    /// Corner or centre of an area light, place of a point, direction towards the sun.
     position: VectorColumn,
     edge_u: VectorColumn,
     edge_v: VectorColumn,
@@ -62,7 +62,7 @@ pub struct LightSamples<F: Float> {
     pub radiance_over_pdf: Vector<F>,
     /// Density per solid angle; infinite for a point and a delta sun.
     pub pdf: F,
-    /// Where the shadow ray ends: on a lamp, or in the air at a point without a normal.
+    /// Where the shadow ray ends: on an area light, or in the air at a point without a normal.
     pub point: SurfacePoints<F>,
     /// Where it does not end.
     pub endless: F::M,
@@ -156,7 +156,8 @@ impl Table {
         below
     }
 
-    /// Samples the light that reaches the points `x`: one number in [0, 1) to choose a light, two to choose a point on it.
+    /// Samples the light that reaches the points `x`: one number in [0, 1) to choose a light, two to choose a point on
+    /// it.
     #[inline(always)]
     pub fn sample<F: Float>(&self, x: Vector<F>, u_light: F, u: [F; 2]) -> LightSamples<F> {
         let light = self.choose(u_light);
@@ -233,8 +234,8 @@ impl Table {
         sample
     }
 
-    /// Density per solid angle with which [`Table::sample`] at `x` draws the direction that met a lamp at the point `on`
-    /// it.
+    /// Density per solid angle with which [`Table::sample`] at `x` draws the direction that met an area light at the
+    /// point `on` it.
     #[inline(always)]
     pub fn pdf<F: Float>(&self, light: F::U, x: Vector<F>, on: Vector<F>) -> F {
         let kind = light.look_up_word(&self.kind);

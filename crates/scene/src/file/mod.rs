@@ -4,9 +4,9 @@
 mod number;
 mod raw;
 
-use crate::fake::{FakeMaterial, FakeNumbers};
 use crate::material::{Checkerboard, Emission};
-use crate::{Bsdf, Camera, Geometry, Material, PointLight, Scene, Shape, Sun, Texture, glass};
+use crate::stand_ins::{FakeMaterial, FakeNumbers};
+use crate::{Bsdf, Camera, Geometry, Material, PointLight, Scene, Shape, Sun, Texture, nesting};
 use glam::Vec3;
 use raw::{RawMaterial, RawScene, RawTexture};
 use std::ops::Range;
@@ -149,7 +149,7 @@ fn build(raw: RawScene, name: &str) -> Result<Scene, Fault> {
         let positions = m.positions.into_iter().map(Vec3::from).collect();
         add(Geometry::Mesh { positions, triangles: m.triangles.into_inner() }, m.material)?;
     }
-    if let Some((first, second)) = glass::overlap(&shapes, &materials) {
+    if let Some((first, second)) = nesting::overlap(&shapes, &materials) {
         let other = shapes[first].geometry.center();
         return fault(
             places[second].clone(),

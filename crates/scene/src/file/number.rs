@@ -1,5 +1,5 @@
-//! Numbers with a range. Each says in its error what it expected, and TOML adds where; so a NaN, an infinity or a number
-//! too large for f32 never gets past the file.
+//! Numbers with a range. Each says in its error what it expected, and TOML adds where; so a NaN, an infinity or a
+//! number too large for f32 never gets past the file.
 
 use glam::Vec3;
 use serde::de::{Deserialize, Deserializer, Error, Visitor};

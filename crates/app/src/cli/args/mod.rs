@@ -12,11 +12,11 @@ pub use render::{RenderArgs, made_by};
 pub use seen::Seen;
 
 use super::{CliError, Command, help};
-use crate::technique::Device;
+use crate::technique::DeviceChoice;
 use crate::ui::Theme;
-use compare::ErrorMap;
+use compare::ErrorMetric;
+use image_file::Kind;
 use lexopt::prelude::*;
-use picture_file::Kind;
 use std::ffi::OsString;
 use std::path::PathBuf;
 use values::{DEVICES, choice, lanes, number};
@@ -31,7 +31,7 @@ pub struct ViewArgs {
     /// How the window looks at first.
     pub theme: Theme,
     /// Where rays are traced at first, in both panes.
-    pub device: Device,
+    pub device: DeviceChoice,
     /// Whether to print at the end what frames cost the UI thread.
     pub frame_stats: bool,
 }
@@ -79,13 +79,13 @@ fn nothing_more(mut parser: lexopt::Parser, command: Command) -> Result<Command,
 
 fn parse_view(mut parser: lexopt::Parser) -> Result<Command, CliError> {
     let (mut scene, mut ui_dump, mut theme, mut frame_stats) = (None, None, Theme::default(), false);
-    let mut device = Device::default();
+    let mut device = DeviceChoice::default();
     while let Some(arg) = parser.next()? {
         match arg {
             Value(word) if scene.is_none() => scene = Some(word.string()?),
             Long("ui-dump") => ui_dump = Some(PathBuf::from(parser.value()?)),
             Long("theme") => theme = choice(&mut parser, "--theme", Theme::named, "dark or projector")?,
-            Long("device") => device = choice(&mut parser, "--device", Device::named, DEVICES)?,
+            Long("device") => device = choice(&mut parser, "--device", DeviceChoice::named, DEVICES)?,
             Long("frame-stats") => frame_stats = true,
             Long("help") | Short('h') => return Ok(Command::Print(help::HELP)),
             Long("version") | Short('V') => return Ok(Command::Print(help::VERSION)),
@@ -106,7 +106,7 @@ pub struct CompareArgs {
     /// Where to draw a map of the errors.
     pub heatmap: Option<PathBuf>,
     /// Which errors it shows.
-    pub map: ErrorMap,
+    pub map: ErrorMetric,
     /// The error at the end of its scale; `None` fits it.
     pub scale: Option<f32>,
     /// Stops added before FLIP looks.
@@ -120,12 +120,12 @@ const MAPS: &str = "signed, absolute, relative, squared-relative or flip";
 
 fn parse_compare(mut parser: lexopt::Parser) -> Result<Command, CliError> {
     let mut files = Vec::<PathBuf>::new();
-    let (mut heatmap, mut map, mut scale, mut exposure, mut json) = (None, ErrorMap::default(), None, 0.0, false);
+    let (mut heatmap, mut map, mut scale, mut exposure, mut json) = (None, ErrorMetric::default(), None, 0.0, false);
     while let Some(arg) = parser.next()? {
         match arg {
             Value(file) if files.len() < 2 => files.push(file.into()),
             Long("heatmap") => heatmap = Some(PathBuf::from(parser.value()?)),
-            Long("map") => map = choice(&mut parser, "--map", ErrorMap::named, MAPS)?,
+            Long("map") => map = choice(&mut parser, "--map", ErrorMetric::named, MAPS)?,
             Long("scale") => scale = Some(number(&mut parser, "--scale", "a number above 0", |v| v > 0.0)?),
             Long("exposure") => {
                 exposure = number(&mut parser, "--exposure", "stops from -30 to 30", |v| v.abs() <= 30.0)?;

@@ -4,8 +4,8 @@ use super::seen::{Seen, parse_seen};
 use super::usage;
 use super::values::{seconds, text};
 use crate::cli::{CliError, Command, help};
+use image_file::Kind;
 use lexopt::prelude::*;
-use picture_file::Kind;
 use reference::Goal;
 use std::path::PathBuf;
 

@@ -4,11 +4,11 @@ use super::seen::{Seen, parse_seen};
 use super::usage;
 use super::values::{DEVICES, choice, lanes, number, parse_finite, parse_whole, seconds, text, whole, within};
 use crate::cli::{CliError, Command, help};
-use crate::technique::{Device, PaneSettings, Technique, made_from};
+use crate::technique::{DeviceChoice, PaneSettings, Technique, made_from};
 use anyhow::Context;
+use image_file::{self, Kind};
 use lexopt::prelude::*;
 use pathtrace::{Estimator, GlassShadows, Roulette, SamplerKind, WhittedSettings};
-use picture_file::{self, Kind};
 use raster::{Fake, FakeKnobs, Shading, ShadowFilter, Show};
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
@@ -23,7 +23,7 @@ pub struct RenderArgs {
     pub pane: PaneSettings,
     pub seen: Seen,
     /// Where rays are traced.
-    pub device: Device,
+    pub device: DeviceChoice,
     pub spp: Option<u32>,
     pub seconds: Option<f64>,
     pub exposure: f32,
@@ -77,7 +77,7 @@ pub fn made_by(file: &Path) -> anyhow::Result<RenderArgs> {
 
 /// What a picture was made by, read and as words.
 fn read_records(file: &Path) -> anyhow::Result<(RenderArgs, Vec<OsString>)> {
-    let records = picture_file::records(file)?;
+    let records = image_file::records(file)?;
     let made = made_from(&records).with_context(|| format!("cannot read how it was made: {}", file.display()))?;
     let Some((scene, words)) = made else {
         anyhow::bail!("this picture does not say how it was made: {}", file.display());
@@ -102,7 +102,7 @@ fn parse_words(words: Vec<OsString>, scene: Option<String>) -> Result<Command, C
         out: PathBuf::new(),
         pane: PaneSettings::of(Technique::Path),
         seen: Seen::default(),
-        device: Device::Auto,
+        device: DeviceChoice::Auto,
         spp: None,
         seconds: None,
         exposure: 0.0,
@@ -115,7 +115,7 @@ fn parse_words(words: Vec<OsString>, scene: Option<String>) -> Result<Command, C
             Value(word) if scene.is_none() => scene = Some(word.string()?),
             Short('o') => out = Some(PathBuf::from(parser.value()?)),
             Long("help") => return Ok(Command::Print(help::HELP)),
-            Long("device") => r.device = choice(&mut parser, "--device", Device::named, DEVICES)?,
+            Long("device") => r.device = choice(&mut parser, "--device", DeviceChoice::named, DEVICES)?,
             Long(option) => {
                 let option = option.to_owned();
                 if !of_all(&option, &mut parser, &mut r)? {
@@ -135,12 +135,12 @@ fn parse_words(words: Vec<OsString>, scene: Option<String>) -> Result<Command, C
         return usage(format!("-o must end in .png or .exr: {}", out.display()));
     }
     let technique = r.pane.technique;
-    if technique == Technique::Raster && r.device == Device::Cpu {
+    if technique == Technique::Raster && r.device == DeviceChoice::Cpu {
         return usage(format!("--technique {} runs on the gpu only", technique.name()));
     }
     // only the processor has lanes
-    if r.device == Device::Auto && read.iter().any(|(option, _)| *option == "--lanes") {
-        r.device = Device::Cpu;
+    if r.device == DeviceChoice::Auto && read.iter().any(|(option, _)| *option == "--lanes") {
+        r.device = DeviceChoice::Cpu;
     }
     if let (Technique::Path, Err(fault)) = (technique, r.pane.truth.path.check()) {
         return usage(fault.to_string());

@@ -1,4 +1,5 @@
-//! The options that say what is seen: size, camera and what is changed in the scene. Pictures and references share them.
+//! The options that say what is seen: size, camera and what is changed in the scene. Pictures and references share
+//! them.
 
 use super::values::{number, point, size, text};
 use crate::cli::CliError;

@@ -2,8 +2,8 @@
 
 use super::usage;
 use crate::cli::CliError;
+use image_file::MOST_PIXELS;
 use lexopt::ValueExt;
-use picture_file::MOST_PIXELS;
 use scene::Vec3;
 use std::ops::RangeInclusive;
 use std::str::FromStr;

@@ -1,20 +1,20 @@
 //! Where a pane's rays are traced. Absent where there is no adapter to choose.
 
 use super::widgets::choice;
-use crate::technique::{Device, Machine};
+use crate::engine::Side;
+use crate::technique::{Device, DeviceChoice};
 use crate::ui::{Dump, Viewer};
-use crate::workers::Side;
 use egui::{ComboBox, Ui};
 
 pub fn show(viewer: &mut Viewer, side: Side, ui: &mut Ui, dump: &mut Dump) {
     let Some(best) = viewer.adapters.0.first() else { return };
     let pane = &mut viewer.settings.panes[side as usize];
     ui.label("Rays are traced by");
-    let words = Device::ALL.map(|d| (title(d).to_owned(), explain(d, best.software), pane.device == d));
+    let words = DeviceChoice::ALL.map(|d| (title(d).to_owned(), explain(d, best.software), pane.device == d));
     if let Some(index) = choice(&format!("{side:?} device"), words, ui, dump) {
-        pane.device = Device::ALL[index];
+        pane.device = DeviceChoice::ALL[index];
     }
-    if pane.device.beside(best.software) == Machine::Cpu {
+    if pane.device.beside(best.software) == Device::Cpu {
         return;
     }
     let adapters = &viewer.adapters.0;
@@ -38,19 +38,19 @@ pub fn show(viewer: &mut Viewer, side: Side, ui: &mut Ui, dump: &mut Dump) {
     dump.note(&name, &chosen.name, response);
 }
 
-fn title(device: Device) -> &'static str {
+fn title(device: DeviceChoice) -> &'static str {
     match device {
-        Device::Auto => "auto",
-        Device::Cpu => "the CPU",
-        Device::Gpu => "the GPU",
+        DeviceChoice::Auto => "auto",
+        DeviceChoice::Cpu => "the CPU",
+        DeviceChoice::Gpu => "the GPU",
     }
 }
 
-fn explain(device: Device, software: bool) -> &'static str {
+fn explain(device: DeviceChoice, software: bool) -> &'static str {
     match device {
-        Device::Auto if software => "The CPU, which is faster here: it only plays the GPU",
-        Device::Auto => "The GPU, and the CPU where that fails",
-        Device::Cpu => "The processor's cores but one",
-        Device::Gpu => "The graphics device; the CPU takes over if it fails",
+        DeviceChoice::Auto if software => "The CPU, which is faster here: it only plays the GPU",
+        DeviceChoice::Auto => "The GPU, and the CPU where that fails",
+        DeviceChoice::Cpu => "The processor's cores but one",
+        DeviceChoice::Gpu => "The graphics device; the CPU takes over if it fails",
     }
 }

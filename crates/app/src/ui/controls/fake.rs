@@ -1,9 +1,9 @@
 //! The settings of a fake.
 
 use super::widgets::{Stepped, choice, doubling, whole};
+use crate::engine::Side;
 use crate::technique::FakeSettings;
 use crate::ui::{Dump, Viewer};
-use crate::workers::Side;
 use egui::{CollapsingHeader, Ui};
 use raster::{Fake, FakeKnobs, Shading, ShadowFilter, Show};
 use scene::Scene;

@@ -1,20 +1,20 @@
 //! The panel of controls, grouped by what they change. What the scene or the technique cannot use is absent.
 
 mod camera;
+mod comparison;
 mod device;
 mod display;
 mod fake;
-mod measuring;
 mod scene;
 mod truth;
 mod whitted;
 mod widgets;
 
-pub use measuring::state as reference_state;
+pub use comparison::state as reference_state;
 
-use super::{Dump, Request, View, Viewer, Wall};
+use super::{Dump, UiCommand, View, ViewModel, Viewer};
+use crate::engine::Side;
 use crate::technique::Technique;
-use crate::workers::Side;
 use egui::collapsing_header::CollapsingState;
 use egui::{CollapsingHeader, RichText, Ui};
 
@@ -26,11 +26,11 @@ pub fn width(window: f32) -> f32 {
 /// Windows lower than this, in points, open with fewer groups unfolded.
 const LOW: f32 = 600.0;
 
-pub fn show(viewer: &mut Viewer, ui: &mut Ui, wall: &Wall, dump: &mut Dump, requests: &mut Vec<Request>) {
+pub fn show(viewer: &mut Viewer, ui: &mut Ui, model: &ViewModel, dump: &mut Dump, commands: &mut Vec<UiCommand>) {
     let low = ui.ctx().content_rect().height() < LOW;
     if viewer.view == View::ErrorMap {
-        let fitted = wall.map.as_ref().map(|map| map.drawn.map.scale.high);
-        group(ui, dump, "Error map", true, |ui, dump| measuring::map(viewer, ui, fitted, dump));
+        let fitted = model.map.as_ref().map(|map| map.drawn.map.scale.high);
+        group(ui, dump, "Error map", true, |ui, dump| comparison::map(viewer, ui, fitted, dump));
     }
     if viewer.scene.refraction_ratio().is_some() || viewer.scene.sun.is_some() {
         group(ui, dump, "Scene (both)", true, |ui, dump| scene::show(viewer, ui, dump));
@@ -40,7 +40,7 @@ pub fn show(viewer: &mut Viewer, ui: &mut Ui, wall: &Wall, dump: &mut Dump, requ
     }
     group(ui, dump, "Display (both)", true, |ui, dump| display::show(viewer, ui, dump));
     group(ui, dump, "Compare with", false, |ui, dump| {
-        measuring::against(viewer, ui, wall, dump, requests);
+        comparison::against(viewer, ui, model, dump, commands);
     });
     group(ui, dump, "Camera (both)", false, |ui, dump| camera::show(viewer, ui, dump));
 }

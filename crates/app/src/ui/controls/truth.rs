@@ -2,11 +2,11 @@
 
 use super::device;
 use super::widgets::{Stepped, choice, doubling, fit};
+use crate::engine::Side;
 use crate::technique::Recipe;
 use crate::ui::{Dump, Viewer};
-use crate::workers::Side;
 use egui::{CollapsingHeader, DragValue, Slider, SliderClamping, Ui};
-use pathtrace::{Directions, Estimator, LightSearch, PathSettings, Roulette, SamplerKind};
+use pathtrace::{Directions, Estimator, LightSampling, PathSettings, Roulette, SamplerKind};
 
 /// The most samples that the slider offers: 2^16.
 const MOST_SPP_EXPONENT: u32 = 16;
@@ -75,14 +75,16 @@ pub fn blind_spot(viewer: &Viewer, side: Side, ui: &mut Ui) {
 
 fn explain(estimator: Estimator) -> &'static str {
     match (estimator.directions, estimator.light) {
-        (Directions::Uniform, LightSearch::Chance) => "Directions uniform on the hemisphere, light found by chance",
-        (Directions::Cosine, LightSearch::Chance) => "Directions cosine-weighted, light found by chance",
-        (Directions::Cosine, LightSearch::Sampling) => "Light sampled at every vertex, indirect light cosine-weighted",
-        (Directions::Cosine, LightSearch::Mis) => {
+        (Directions::Uniform, LightSampling::BsdfOnly) => "Directions uniform on the hemisphere, light found by chance",
+        (Directions::Cosine, LightSampling::BsdfOnly) => "Directions cosine-weighted, light found by chance",
+        (Directions::Cosine, LightSampling::NextEvent) => {
+            "Light sampled at every vertex, indirect light cosine-weighted"
+        }
+        (Directions::Cosine, LightSampling::Mis) => {
             "Light sampled and met by chance, weighted; cosine-weighted directions"
         }
-        (Directions::Uniform, LightSearch::Sampling) => "Light sampled at every vertex, indirect light uniform",
-        (Directions::Uniform, LightSearch::Mis) => "Light sampled and met by chance, weighted; uniform directions",
+        (Directions::Uniform, LightSampling::NextEvent) => "Light sampled at every vertex, indirect light uniform",
+        (Directions::Uniform, LightSampling::Mis) => "Light sampled and met by chance, weighted; uniform directions",
     }
 }
 

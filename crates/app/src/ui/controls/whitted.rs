@@ -3,8 +3,8 @@
 use super::device;
 use super::truth::{blind_spot, sampling};
 use super::widgets::{Stepped, choice, doubling, whole};
+use crate::engine::Side;
 use crate::ui::{Dump, Viewer};
-use crate::workers::Side;
 use egui::{CollapsingHeader, Ui};
 use pathtrace::{GlassShadows, WhittedSettings};
 use raster::FakeKnobs;

@@ -23,9 +23,9 @@ pub struct Stepped<'a> {
 impl Stepped<'_> {
     /// Shows it and returns whether the user has changed `value`.
     ///
-    /// It changes only when the user does it. egui's own default rounds and clamps whatever it is shown, in every frame:
-    /// a scene's number between two steps would be altered by looking at it, and one that does not survive the way there
-    /// and back, as 1 / (1 / ratio), would never come to rest.
+    /// It changes only when the user does it. egui's own default rounds and clamps whatever it is shown, in every
+    /// frame: a scene's number between two steps would be altered by looking at it, and one that does not survive the
+    /// way there and back, as 1 / (1 / ratio), would never come to rest.
     pub fn show(self, value: &mut f32, ui: &mut Ui, dump: &mut Dump) -> bool {
         let label = dump.note(&format!("text {}", self.name), self.label, ui.label(self.label));
         let slider = Slider::new(value, self.range).step_by(self.step).clamping(SliderClamping::Edits);

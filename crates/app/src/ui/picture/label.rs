@@ -1,10 +1,10 @@
 //! Name, cost and error of a pane, on the picture: in a corner of what is seen of it.
 
 use super::{Dump, Pane, View, Viewer, spoken, text_box};
+use crate::engine::Side;
 use crate::ruler::{Against, brief};
-use crate::technique::Machine;
+use crate::technique::Device;
 use crate::ui::Line;
-use crate::workers::Side;
 use egui::{Align2, Color32, Rect, Ui, vec2};
 
 pub fn show(viewer: &Viewer, ui: &Ui, clip: Rect, side: Side, pane: &Pane, dump: &mut Dump) {
@@ -50,7 +50,7 @@ fn text(viewer: &Viewer, side: Side, pane: &Pane) -> String {
 fn progress(viewer: &Viewer, side: Side, pane: &Pane) -> String {
     let wished = viewer.settings.panes[side as usize].wished_spp().unwrap_or(0);
     let paused = if viewer.paused && pane.unfinished { ", paused" } else { "" };
-    let by = if pane.provenance.as_ref().is_some_and(|made| made.device == Machine::Gpu) { " on the GPU" } else { "" };
+    let by = if pane.provenance.as_ref().is_some_and(|made| made.device == Device::Gpu) { " on the GPU" } else { "" };
     match pane.spp {
         Some(spp) if pane.rough => format!("{spp} spp{}", resolution(pane)),
         Some(spp) => format!("{spp} of {wished} spp, {:.1} s{by}{paused}{}", pane.seconds, resolution(pane)),

@@ -1,10 +1,10 @@
-//! The map of errors, and on it what its colours mean: its name, a colour bar with ticks, its mean, what is not finite, and
-//! the numbers under the mouse.
+//! The map of errors, and on it what its colours mean: its name, a colour bar with ticks, its mean, what is not finite,
+//! and the numbers under the mouse.
 
 use super::{WHOLE, spoken, text_box};
 use crate::ruler::{Against, HeatMap, brief};
 use crate::ui::controls::reference_state;
-use crate::ui::{Dump, MapPane, Viewer, Wall};
+use crate::ui::{Dump, MapPane, ViewModel, Viewer};
 use compare::ColourScale;
 use egui::{Align2, Color32, FontId, Galley, Mesh, Pos2, Rect, Stroke, Ui, pos2, vec2};
 use scene::Vec3;
@@ -13,13 +13,13 @@ use std::sync::Arc;
 /// Steps of colour along the bar.
 const STEPS: u32 = 128;
 
-pub fn show(viewer: &Viewer, ui: &Ui, rect: Rect, wall: &Wall, hover: Option<Pos2>, dump: &mut Dump) {
-    let Some(map) = &wall.map else {
+pub fn show(viewer: &Viewer, ui: &Ui, rect: Rect, model: &ViewModel, hover: Option<Pos2>, dump: &mut Dump) {
+    let Some(map) = &model.map else {
         // what there will be a map of
-        if let Some(texture) = wall.panes[viewer.measuring.side() as usize].texture {
+        if let Some(texture) = model.panes[viewer.comparison.side() as usize].texture {
             ui.painter().with_clip_rect(rect).image(texture, rect, WHOLE, Color32::WHITE);
         }
-        let text = why_not(viewer, wall);
+        let text = why_not(viewer, model);
         let place = text_box(viewer, ui, rect, rect.center(), Align2::CENTER_CENTER, &text, Color32::WHITE);
         dump.note_text("label no map", &text, place, rect);
         spoken(ui, "label no map", &text, place, false);
@@ -31,11 +31,11 @@ pub fn show(viewer: &Viewer, ui: &Ui, rect: Rect, wall: &Wall, hover: Option<Pos
 }
 
 /// Why there is nothing to see.
-fn why_not(viewer: &Viewer, wall: &Wall) -> String {
-    let side = viewer.measuring.side();
-    let judged = if viewer.measuring.against == Against::Reference { vec![side] } else { vec![side, side.other()] };
+fn why_not(viewer: &Viewer, model: &ViewModel) -> String {
+    let side = viewer.comparison.side();
+    let judged = if viewer.comparison.against == Against::Reference { vec![side] } else { vec![side, side.other()] };
     for side in judged {
-        let pane = &wall.panes[side as usize];
+        let pane = &model.panes[side as usize];
         if let Some(fault) = &pane.fault {
             return fault.clone();
         }
@@ -43,9 +43,9 @@ fn why_not(viewer: &Viewer, wall: &Wall) -> String {
             return format!("{} shows a map, not the scene: it has no errors", side.name());
         }
     }
-    match viewer.measuring.against {
+    match viewer.comparison.against {
         Against::EachOther => "rendering ...".into(),
-        Against::Reference => format!("{}\ntwo pictures make a map", reference_state(wall, viewer.paused)),
+        Against::Reference => format!("{}\ntwo pictures make a map", reference_state(model, viewer.paused)),
     }
 }
 
@@ -57,10 +57,10 @@ fn numbers_at(map: &MapPane, rect: Rect, at: Pos2) -> Option<String> {
     let (x, y) = ((share.x * *width as f32) as u32, (share.y * height as f32) as u32);
     let index = (x < *width && y < height).then_some(y as usize * *width as usize + x as usize)?;
     let channels = |v: &Vec3| v.to_array().map(|channel| brief(f64::from(channel))).join(" ");
-    let survey = &map.drawn.survey;
-    let [a, r] = [0, 1].map(|i| survey.radiances[i].get(index).map(channels));
+    let map_job = &map.drawn.map_job;
+    let [a, r] = [0, 1].map(|i| map_job.radiances[i].get(index).map(channels));
     let error = brief(f64::from(*values.get(index)?));
-    Some(format!("x {x}, y {y}: {error}\n{} {}\n{} {}", survey.names[0], a?, survey.names[1], r?))
+    Some(format!("x {x}, y {y}: {error}\n{} {}\n{} {}", map_job.names[0], a?, map_job.names[1], r?))
 }
 
 /// The box in the corner, from top to bottom: name, bar, ticks, and the rest in words.

@@ -5,8 +5,8 @@ mod label;
 mod map;
 mod mouse;
 
-use super::{Dump, Line, Message, Pane, View, Viewer, Wall};
-use crate::workers::Side;
+use super::{Dump, Line, Message, Pane, View, ViewModel, Viewer};
+use crate::engine::Side;
 use egui::accesskit;
 use egui::{Align2, Color32, FontId, Pos2, Rect, Sense, Stroke, Ui, pos2, vec2};
 
@@ -21,8 +21,8 @@ struct Shown {
     clip: Rect,
 }
 
-pub fn show(viewer: &mut Viewer, ui: &mut Ui, wall: &Wall, dump: &mut Dump) {
-    let panes = &wall.panes;
+pub fn show(viewer: &mut Viewer, ui: &mut Ui, model: &ViewModel, dump: &mut Dump) {
+    let panes = &model.panes;
     let scale = ui.ctx().pixels_per_point();
     let rect = whole_pixels(ui.max_rect(), scale);
     viewer.picture_rect = rect;
@@ -42,7 +42,7 @@ pub fn show(viewer: &mut Viewer, ui: &mut Ui, wall: &Wall, dump: &mut Dump) {
         line(ui, rect, viewer.line, viewer.wipe);
     }
     if viewer.view == View::ErrorMap {
-        map::show(viewer, ui, rect, wall, response.hover_pos(), dump);
+        map::show(viewer, ui, rect, model, response.hover_pos(), dump);
     }
     for Shown { side, clip, .. } in &shown {
         label::show(viewer, ui, *clip, *side, &panes[*side as usize], dump);

@@ -1,0 +1,75 @@
+//! The workers of one pane, made when the pane first asks for their technique.
+
+use super::fake::FakeWorker;
+use super::post_process::PostProcess;
+use super::rays::RayWorker;
+use super::{Job, Order, Side};
+use crate::technique::{Adapters, Recipe};
+use anyhow::Context;
+use gpu::Gpu;
+use std::sync::Arc;
+
+/// One pane's workers; dropping it ends their threads.
+pub struct PaneWorkers {
+    side: Side,
+    gpu: Gpu,
+    adapters: Adapters,
+    post_process: Arc<PostProcess>,
+    fake: Option<FakeWorker>,
+    rays: Option<RayWorker>,
+    held: bool,
+}
+
+impl PaneWorkers {
+    /// A pane_workers without workers yet. `gpu` is the window's, `adapters` can trace rays.
+    pub fn new(side: Side, gpu: Gpu, adapters: Adapters, post_process: Arc<PostProcess>) -> Self {
+        PaneWorkers { side, gpu, adapters, post_process, fake: None, rays: None, held: false }
+    }
+
+    /// Draws the fake on another device of the window's from now on.
+    pub fn move_to(&mut self, gpu: Gpu) {
+        (self.gpu, self.fake) = (gpu, None);
+    }
+
+    /// Asks for a picture; whatever this pane was making stops.
+    pub fn submit(&mut self, recipe: Recipe, order: Order) {
+        let begun = match recipe {
+            Recipe::Fake(settings) => {
+                self.rays.iter_mut().for_each(RayWorker::cancel);
+                self.fake().map(|worker| worker.submit(Job { settings, order: order.clone() }))
+            }
+            Recipe::Rays(settings) => {
+                self.fake.iter().for_each(FakeWorker::cancel);
+                self.rays().map(|worker| worker.submit(Job { settings, order: order.clone() }))
+            }
+        };
+        if let Err(fault) = begun {
+            self.post_process.report(self.side, order, format!("{fault:#}"));
+        }
+    }
+
+    /// Holds the tracing of rays, or lets it go on.
+    pub fn hold(&mut self, held: bool) {
+        self.held = held;
+        self.rays.iter().for_each(|worker| worker.hold(held));
+    }
+
+    fn fake(&mut self) -> anyhow::Result<&FakeWorker> {
+        if self.fake.is_none() {
+            let worker = FakeWorker::start(self.side, self.gpu.clone(), self.post_process.clone());
+            let worker = worker.context("no thread for the fake")?;
+            self.fake = Some(worker);
+        }
+        self.fake.as_ref().context("no thread for the fake")
+    }
+
+    fn rays(&mut self) -> anyhow::Result<&mut RayWorker> {
+        if self.rays.is_none() {
+            let worker = RayWorker::start(self.side, self.adapters.clone(), self.post_process.clone())
+                .context("no threads for tracing rays")?;
+            worker.hold(self.held);
+            self.rays = Some(worker);
+        }
+        self.rays.as_mut().context("no threads for tracing rays")
+    }
+}

@@ -1,0 +1,50 @@
+//! Why a picture cannot be read or written: one line, the path last.
+
+use std::path::{Path, PathBuf};
+
+/// Why a file could not be read or written.
+#[derive(Debug, Clone, thiserror::Error)]
+pub enum ImageFileError {
+    /// It is damaged, missing, too large, or not what its name says.
+    #[error("cannot read the picture ({why}): {}", path.display())]
+    Read {
+        /// What stands in the way.
+        why: String,
+        /// The file.
+        path: PathBuf,
+    },
+    /// The disk is full, the folder is missing, it may not be written.
+    #[error("cannot write the file ({why}): {}", path.display())]
+    Write {
+        /// What stands in the way.
+        why: String,
+        /// The file.
+        path: PathBuf,
+    },
+    /// The name tells no kind of picture.
+    #[error("cannot read the picture: its name must end in .png or .exr: {}", .0.display())]
+    Kind(PathBuf),
+    /// The pixels make no file of this kind.
+    #[error("cannot encode the picture as {0}: {1}")]
+    Encode(&'static str, String),
+    /// There is nowhere to save to.
+    #[error("there is no home folder and no current folder to save to: {0}")]
+    NoFolder(String),
+    /// Every numbered name is taken.
+    #[error("too many pictures of this name: {}", .0.display())]
+    Names(PathBuf),
+}
+
+impl ImageFileError {
+    pub(crate) fn read(path: &Path, why: impl ToString) -> Self {
+        ImageFileError::Read { why: one_line(why), path: path.to_owned() }
+    }
+
+    pub(crate) fn write(path: &Path, why: impl ToString) -> Self {
+        ImageFileError::Write { why: one_line(why), path: path.to_owned() }
+    }
+}
+
+fn one_line(why: impl ToString) -> String {
+    why.to_string().lines().collect::<Vec<_>>().join(", ")
+}

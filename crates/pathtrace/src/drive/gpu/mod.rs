@@ -1,0 +1,327 @@
+//! The same paths on a graphics device: twins of this crate's functions in `shaders/lib/` and `shaders/pathtrace/`,
+//! under the same names, with the same random numbers bit for bit.
+//!
+//! A [`GpuTracer`] is a scene made ready on a device. It adds samples to a [`GpuFilm`], which sums them where they are
+//! made and is read when someone looks; [`GpuTracer::render`] does both for a [`film::Film`]. Nothing here panics when
+//! the device fails: every fault is a [`GpuTraceError`], and the processor's [`crate::Tracer`] can take over.
+
+mod dispatch;
+mod error;
+mod film;
+pub mod film_data;
+mod pipelines;
+pub mod rays;
+pub mod scene_data;
+pub mod shape_data;
+mod timing;
+
+pub use error::GpuTraceError;
+pub use film::GpuFilm;
+pub use pipelines::{Choice, SceneNeeds};
+
+use crate::integrator::settings::PathSettings;
+use crate::integrator::whitted::WhittedSettings;
+use crate::light::Lights;
+use crate::tracer::Stats;
+use ::film::Film;
+use bytemuck::Zeroable;
+use dispatch::Dispatcher;
+use film_data::RenderParams;
+use gpu::{Gpu, GpuError, wgpu};
+use pipelines::Pipelines;
+use scene::{Camera, Scene};
+use shape_data::{FewShape, MOST_SHAPES, Shapes};
+use timing::{BUDGET_SECONDS, Pace, Stopwatch};
+use wgpu::BufferUsages;
+
+/// A scene on a device, ready for rays. Camera and settings come with each call.
+#[derive(Debug)]
+pub struct GpuTracer {
+    gpu: Gpu,
+    pipelines: Pipelines,
+    scene: wgpu::BindGroup,
+    leaves: Leaves,
+    ambient: f32,
+    stopwatch: Stopwatch,
+    paces: Vec<(Choice, RenderParams, Pace)>,
+    budget: f64,
+    /// What dispatches have taken.
+    seconds: f64,
+}
+
+impl GpuTracer {
+    /// Builds the acceleration structure and the list of lights, and uploads them.
+    ///
+    /// # Errors
+    /// [`GpuTraceError`] if the scene is too large for the device, or the device too small for any.
+    pub fn new(gpu: &Gpu, scene: &Scene) -> Result<Self, GpuTraceError> {
+        Self::leaving_out(gpu, scene, Leaves::default())
+    }
+
+    /// As [`GpuTracer::new`], with code for everything that any scene can ask for: to measure what leaving it out
+    /// saves.
+    ///
+    /// # Errors
+    /// As [`GpuTracer::new`].
+    pub fn with_everything(gpu: &Gpu, scene: &Scene) -> Result<Self, GpuTraceError> {
+        Self::leaving_out(gpu, scene, Leaves { nothing_out: true, ..Leaves::default() })
+    }
+
+    /// As [`GpuTracer::new`], through a tree even if there are few shapes: to measure what doing without saves.
+    ///
+    /// # Errors
+    /// As [`GpuTracer::new`].
+    pub fn through_a_tree(gpu: &Gpu, scene: &Scene) -> Result<Self, GpuTraceError> {
+        Self::leaving_out(gpu, scene, Leaves { always_a_tree: true, ..Leaves::default() })
+    }
+
+    fn leaving_out(gpu: &Gpu, scene: &Scene, leaves: Leaves) -> Result<Self, GpuTraceError> {
+        let made = Made::of(scene, leaves)?;
+        let pipelines = Pipelines::new(gpu, made.needs)?;
+        Ok(GpuTracer {
+            scene: made.upload(gpu, &pipelines.scene_layout, scene)?,
+            pipelines,
+            leaves,
+            ambient: scene.fake.ambient,
+            stopwatch: Stopwatch::new(gpu),
+            paces: Vec::new(),
+            budget: BUDGET_SECONDS,
+            seconds: 0.0,
+            gpu: gpu.clone(),
+        })
+    }
+
+    /// Takes another scene. What is compiled stays where that needs nothing else: while a slider moves, say.
+    ///
+    /// # Errors
+    /// As [`GpuTracer::new`]; the scene before is then still there.
+    pub fn set_scene(&mut self, scene: &Scene) -> Result<(), GpuTraceError> {
+        let made = Made::of(scene, self.leaves)?;
+        if made.needs != self.pipelines.needs() {
+            let pipelines = Pipelines::new(&self.gpu, made.needs)?;
+            self.scene = made.upload(&self.gpu, &pipelines.scene_layout, scene)?;
+            (self.pipelines, self.paces) = (pipelines, Vec::new());
+        } else {
+            self.scene = made.upload(&self.gpu, &self.pipelines.scene_layout, scene)?;
+            self.paces.iter_mut().for_each(|(.., pace)| pace.doubt());
+        }
+        self.ambient = scene.fake.ambient;
+        Ok(())
+    }
+
+    /// The device.
+    pub fn gpu(&self) -> &Gpu {
+        &self.gpu
+    }
+
+    /// Layout and contents of bind group 0, the scene, for shaders that import `pathtrace/scene.wgsl`.
+    pub fn scene_group(&self) -> (&wgpu::BindGroupLayout, &wgpu::BindGroup) {
+        (&self.pipelines.scene_layout, &self.scene)
+    }
+
+    /// Sets how long a dispatch may take, in seconds, > 0; a twentieth at first. What shares the device, such as a
+    /// window, waits about that long, and so does `stop`.
+    pub fn set_budget(&mut self, seconds: f64) {
+        self.budget = seconds;
+    }
+
+    /// Whether rays can be traced like this at once, without compiling anything first: that takes a software device
+    /// seconds.
+    pub fn has_compiled(&self, choice: Choice) -> bool {
+        self.pipelines.has_compiled(choice)
+    }
+
+    /// Whether dispatches are timed by the device's own clock.
+    pub fn has_a_clock(&self) -> bool {
+        self.stopwatch.is_exact()
+    }
+
+    /// Seconds that dispatches have taken since the last call, see [`GpuTracer::has_a_clock`]: tracing alone, without
+    /// compiling and without films on their way.
+    pub fn take_seconds(&mut self) -> f64 {
+        std::mem::take(&mut self.seconds)
+    }
+
+    /// A film on the device that goes on from `film`.
+    ///
+    /// # Errors
+    /// [`GpuTraceError::Gpu`] if the device can't hold it.
+    pub fn film(&self, film: Film) -> Result<GpuFilm, GpuTraceError> {
+        GpuFilm::new(&self.gpu, &self.pipelines.film_layout, film)
+    }
+
+    /// Path traces into a film on the device until each of its pixels has `until` samples. `stop` is asked between
+    /// dispatches; once it says so the call returns, and pixels hold whole samples, but not
+    /// all equally many. See [`GpuTracer::set_budget`] for how long a dispatch takes.
+    ///
+    /// # Errors
+    /// [`GpuTraceError`] if the device fails; what it had done is then lost.
+    pub fn accumulate(
+        &mut self,
+        film: &mut GpuFilm,
+        camera: &Camera,
+        settings: &PathSettings,
+        until: u32,
+        stop: &impl Fn() -> bool,
+    ) -> Result<(), GpuTraceError> {
+        let params = params(film, camera).with_paths(settings);
+        self.run(film, Choice::of_paths(settings), params, until, stop)
+    }
+
+    /// As [`GpuTracer::accumulate`], by Whitted's method.
+    ///
+    /// # Errors
+    /// As [`GpuTracer::accumulate`].
+    pub fn accumulate_whitted(
+        &mut self,
+        film: &mut GpuFilm,
+        camera: &Camera,
+        settings: &WhittedSettings,
+        until: u32,
+        stop: &impl Fn() -> bool,
+    ) -> Result<(), GpuTraceError> {
+        let params = params(film, camera).with_trees(settings, self.ambient);
+        self.run(film, Choice::of_trees(settings), params, until, stop)
+    }
+
+    /// Path traces `samples` more into every pixel of `film`, as [`crate::Tracer::render`] does, and waits for them.
+    ///
+    /// # Errors
+    /// [`GpuTraceError`] if the device fails; `film` is then as it was.
+    pub fn render(
+        &mut self,
+        film: &mut Film,
+        camera: &Camera,
+        settings: &PathSettings,
+        samples: u32,
+        stop: &impl Fn() -> bool,
+    ) -> Result<Stats, GpuTraceError> {
+        let until = film.samples_per_pixel().saturating_add(samples);
+        let mut on_device = self.film(film.clone())?;
+        self.accumulate(&mut on_device, camera, settings, until, stop)?;
+        let (read, stats) = on_device.read(&self.gpu)?;
+        *film = read;
+        Ok(stats)
+    }
+
+    /// As [`GpuTracer::render`], by Whitted's method.
+    ///
+    /// # Errors
+    /// As [`GpuTracer::render`].
+    pub fn render_whitted(
+        &mut self,
+        film: &mut Film,
+        camera: &Camera,
+        settings: &WhittedSettings,
+        samples: u32,
+        stop: &impl Fn() -> bool,
+    ) -> Result<Stats, GpuTraceError> {
+        let until = film.samples_per_pixel().saturating_add(samples);
+        let mut on_device = self.film(film.clone())?;
+        self.accumulate_whitted(&mut on_device, camera, settings, until, stop)?;
+        let (read, stats) = on_device.read(&self.gpu)?;
+        *film = read;
+        Ok(stats)
+    }
+
+    fn run(
+        &mut self,
+        film: &mut GpuFilm,
+        choice: Choice,
+        params: RenderParams,
+        until: u32,
+        stop: &impl Fn() -> bool,
+    ) -> Result<(), GpuTraceError> {
+        let pipeline = self.pipelines.prepare(&self.gpu, choice)?;
+        let effort = params.effort();
+        let known = self.paces.iter().position(|(c, ..)| *c == choice).unwrap_or_else(|| {
+            self.paces.push((choice, effort, Pace::default()));
+            self.paces.len() - 1
+        });
+        let (_, known_effort, pace) = &mut self.paces[known];
+        if *known_effort != effort {
+            (*known_effort, *pace) = (effort, Pace::default());
+        }
+        let dispatcher = Dispatcher {
+            gpu: &self.gpu,
+            pipeline: &pipeline,
+            scene: &self.scene,
+            stopwatch: &mut self.stopwatch,
+            pace,
+            budget: self.budget,
+            seconds: &mut self.seconds,
+            in_flight: Vec::new(),
+            submitted: 0,
+            learning: true,
+        };
+        dispatcher.run(film, params, until, stop)
+    }
+}
+
+fn params(film: &GpuFilm, camera: &Camera) -> RenderParams {
+    let (width, height) = (film.width(), film.height());
+    RenderParams::of(&camera.frame(width as f32 / height as f32), (width, height))
+}
+
+/// What is left out of what any scene can ask for.
+#[derive(Debug, Clone, Copy, Default)]
+struct Leaves {
+    nothing_out: bool,
+    always_a_tree: bool,
+}
+
+/// A scene made ready, before it is on a device.
+struct Made {
+    lights: Lights,
+    shapes: Shapes,
+    needs: SceneNeeds,
+}
+
+impl Made {
+    fn of(scene: &Scene, leaves: Leaves) -> Result<Self, GpuTraceError> {
+        let lights = Lights::new(scene);
+        let shapes =
+            if leaves.always_a_tree { Shapes::in_a_tree(scene, &lights) } else { Shapes::new(scene, &lights) }?;
+        let needs = SceneNeeds::of(scene, &lights, shapes.kinds());
+        let needs = if leaves.nothing_out { needs.with_everything() } else { needs };
+        Ok(Made { lights, shapes, needs })
+    }
+
+    fn upload(
+        &self,
+        gpu: &Gpu,
+        layout: &wgpu::BindGroupLayout,
+        scene: &Scene,
+    ) -> Result<wgpu::BindGroup, GpuTraceError> {
+        let Made { lights, shapes, .. } = self;
+        let mut few = [FewShape::zeroed(); MOST_SHAPES];
+        few[..shapes.few.len()].copy_from_slice(&shapes.few);
+        let buffers = [
+            gpu.buffer("the scene", &[scene_data::header(scene, shapes, lights)], BufferUsages::UNIFORM)?,
+            storage(gpu, "the tree of boxes", &shapes.nodes)?,
+            storage(gpu, "the shapes", &shapes.primitives)?,
+            storage(gpu, "the surfaces", &shapes.surfaces)?,
+            storage(gpu, "the materials", &scene_data::materials(scene))?,
+            storage(gpu, "the lights", &scene_data::lights(lights))?,
+            storage(gpu, "the Sobol points", &scene_data::sobol_bytes())?,
+            gpu.buffer("the shapes", &few, BufferUsages::UNIFORM)?,
+        ];
+        let bound = buffers.iter().zip(0..).map(|(buffer, binding)| {
+            let resource = buffer.as_entire_binding();
+            wgpu::BindGroupEntry { binding, resource }
+        });
+        let entries: Vec<_> = bound.collect();
+        let descriptor = wgpu::BindGroupDescriptor { label: Some("the scene"), layout, entries: &entries };
+        Ok(gpu.checked("the scene", || gpu.device.create_bind_group(&descriptor))?)
+    }
+}
+
+/// A buffer that shaders read, of at least one element.
+fn storage<T: bytemuck::Pod>(gpu: &Gpu, what: &str, data: &[T]) -> Result<wgpu::Buffer, GpuError> {
+    let (bytes, limit) = (size_of_val(data) as u64, gpu.device.limits().max_storage_buffer_binding_size);
+    if bytes > limit {
+        return Err(GpuError::TooManyBytes { what: what.to_owned(), bytes, limit });
+    }
+    let none = [T::zeroed()];
+    gpu.buffer(what, if data.is_empty() { &none } else { data }, BufferUsages::STORAGE)
+}

@@ -1,0 +1,244 @@
+//! Pipelines, compiled for what a scene needs and its settings choose, and the layouts of what is bound to them.
+
+use super::GpuTraceError;
+use super::film_data::{RenderParams, is_sobol};
+use super::scene_data::Header;
+use super::shape_data::{FewShape, MOST_SHAPES, ShapeKinds};
+use crate::integrator::settings::{Directions, LightSampling, PathSettings};
+use crate::integrator::whitted::{GlassShadows, WhittedSettings};
+use crate::light::flat::Outline;
+use crate::light::{Light, Lights};
+use gpu::{Gpu, wgpu, wgsl};
+use scene::{Needs, Scene};
+use std::num::NonZeroU64;
+use wgpu::{BindGroupLayout, BindingType, BufferBindingType, ComputePipeline};
+
+/// Which shader is run.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Technique {
+    Path,
+    Whitted,
+}
+
+/// What is compiled into a pipeline.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Choice {
+    technique: Technique,
+    sobol: bool,
+    uniform_directions: bool,
+    light_search: u32,
+    branching: bool,
+    clear_glass: bool,
+}
+
+impl Choice {
+    /// For paths.
+    pub fn of_paths(settings: &PathSettings) -> Self {
+        Choice {
+            technique: Technique::Path,
+            sobol: is_sobol(settings.sampler),
+            uniform_directions: settings.estimator.directions == Directions::Uniform,
+            light_search: match settings.estimator.light {
+                LightSampling::BsdfOnly => 0,
+                LightSampling::NextEvent => 1,
+                LightSampling::Mis => 2,
+            },
+            branching: settings.branches > 1,
+            clear_glass: false,
+        }
+    }
+
+    /// For Whitted's trees.
+    pub fn of_trees(settings: &WhittedSettings) -> Self {
+        Choice {
+            technique: Technique::Whitted,
+            sobol: is_sobol(settings.sampler),
+            uniform_directions: false,
+            light_search: 1,
+            branching: false,
+            clear_glass: settings.glass_shadows == GlassShadows::Clear,
+        }
+    }
+}
+
+/// Kinds of what is sampled as a light.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+struct LightKinds {
+    rectangles: bool,
+    triangles: bool,
+    disks: bool,
+    balls: bool,
+    points: bool,
+}
+
+impl LightKinds {
+    fn of(lights: &Lights) -> Self {
+        let mut kinds = Self::default();
+        for light in &lights.lights {
+            match light {
+                Light::Flat(flat, _) => match flat.outline {
+                    Outline::Rectangle | Outline::Parallelogram => kinds.rectangles = true,
+                    Outline::Triangle => kinds.triangles = true,
+                    Outline::Disk => kinds.disks = true,
+                },
+                Light::Sphere(..) => kinds.balls = true,
+                Light::Point(_) => kinds.points = true,
+                Light::Sun(_) => {}
+            }
+        }
+        kinds
+    }
+}
+
+/// What a scene needs of a shader.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct SceneNeeds {
+    needs: Needs,
+    shapes: ShapeKinds,
+    lights: LightKinds,
+    /// Everything is compiled in, as if the scene had some of it.
+    everything: bool,
+}
+
+impl SceneNeeds {
+    /// What this scene needs.
+    pub(crate) fn of(scene: &Scene, lights: &Lights, shapes: ShapeKinds) -> Self {
+        SceneNeeds { needs: scene.needs(), shapes, lights: LightKinds::of(lights), everything: false }
+    }
+
+    /// The same, with code for all that any scene can ask for: to measure what leaving it out saves.
+    pub fn with_everything(self) -> Self {
+        SceneNeeds { everything: true, ..self }
+    }
+
+    /// Values of the overrides in `shaders/pathtrace/needs.wgsl` that say which shapes there are.
+    pub fn shape_constants(&self) -> [(&'static str, f64); 5] {
+        [
+            ("FEW_SHAPES", f64::from(u8::from(self.shapes.few))),
+            ("QUADRILATERALS", self.flag(self.shapes.quadrilaterals)),
+            ("TRIANGLES", self.flag(self.shapes.triangles)),
+            ("SPHERES", self.flag(self.shapes.spheres)),
+            ("DISKS", self.flag(self.shapes.disks)),
+        ]
+    }
+
+    /// Values of all the overrides.
+    pub fn constants(&self, choice: Choice) -> Vec<(&'static str, f64)> {
+        let exactly = |set: bool| f64::from(u8::from(set));
+        let mut constants = self.shape_constants().to_vec();
+        constants.extend([
+            ("CHECKERBOARD", self.flag(self.needs.checkerboard)),
+            ("MIRROR", self.flag(self.needs.mirror)),
+            ("DIELECTRIC", self.flag(self.needs.dielectric)),
+            ("RECTANGLE_LIGHTS", self.flag(self.lights.rectangles)),
+            ("TRIANGLE_LIGHTS", self.flag(self.lights.triangles)),
+            ("DISK_LIGHTS", self.flag(self.lights.disks)),
+            ("BALL_LIGHTS", self.flag(self.lights.balls)),
+            ("POINT_LIGHTS", self.flag(self.lights.points)),
+            ("SUN", self.flag(self.needs.sun)),
+            ("SOBOL", exactly(choice.sobol)),
+            ("UNIFORM_DIRECTIONS", exactly(choice.uniform_directions)),
+            ("LIGHT_SEARCH", f64::from(choice.light_search)),
+            ("BRANCHING", self.flag(choice.branching)),
+            ("CLEAR_GLASS", exactly(choice.clear_glass)),
+        ]);
+        constants
+    }
+
+    fn flag(&self, needed: bool) -> f64 {
+        f64::from(u8::from(needed || self.everything))
+    }
+}
+
+/// All pipelines of a scene, each compiled when it is first asked for.
+#[derive(Debug)]
+pub struct Pipelines {
+    /// Group 0: the scene.
+    pub scene_layout: BindGroupLayout,
+    /// Group 1: what is asked for, and the film.
+    pub film_layout: BindGroupLayout,
+    needs: SceneNeeds,
+    compiled: Vec<(Choice, ComputePipeline)>,
+}
+
+impl Pipelines {
+    /// The layouts; no pipeline yet.
+    ///
+    /// # Errors
+    /// [`GpuTraceError::Unable`] if the device has too few bindings for storage or no compute shaders.
+    pub fn new(gpu: &Gpu, needs: SceneNeeds) -> Result<Self, GpuTraceError> {
+        let limits = gpu.device.limits();
+        let enough = |what, has: u32, needs: u32| {
+            if has >= needs { Ok(()) } else { Err(GpuTraceError::Unable { adapter: gpu.describe(), what, has, needs }) }
+        };
+        enough("storage buffers in a shader", limits.max_storage_buffers_per_shader_stage, 7)?;
+        enough("threads in a group", limits.max_compute_invocations_per_workgroup, 64)?;
+        let (scene_layout, film_layout) = gpu.checked("the path tracer's bindings", || {
+            let read = BufferBindingType::Storage { read_only: true };
+            let mut scene = vec![(BufferBindingType::Uniform, size_of::<Header>())];
+            scene.extend([(read, 0); 6]);
+            scene.push((BufferBindingType::Uniform, MOST_SHAPES * size_of::<FewShape>()));
+            let written = (BufferBindingType::Storage { read_only: false }, 0);
+            let film = [(BufferBindingType::Uniform, size_of::<RenderParams>()), written];
+            (layout(gpu, &scene), layout(gpu, &film))
+        })?;
+        Ok(Pipelines { scene_layout, film_layout, needs, compiled: Vec::new() })
+    }
+
+    /// What they are compiled for.
+    pub fn needs(&self) -> SceneNeeds {
+        self.needs
+    }
+
+    /// Whether the pipeline of a choice is there already.
+    pub fn has_compiled(&self, choice: Choice) -> bool {
+        self.compiled.iter().any(|(compiled, _)| *compiled == choice)
+    }
+
+    /// The pipeline of a choice.
+    ///
+    /// # Errors
+    /// [`gpu::GpuError::Refused`] if the device can't take it.
+    pub fn prepare(&mut self, gpu: &Gpu, choice: Choice) -> Result<ComputePipeline, GpuTraceError> {
+        if let Some((_, pipeline)) = self.compiled.iter().find(|(compiled, _)| *compiled == choice) {
+            return Ok(pipeline.clone());
+        }
+        let module = wgsl::compose(match choice.technique {
+            Technique::Path => "pathtrace/integrator/path.wgsl",
+            Technique::Whitted => "pathtrace/integrator/whitted.wgsl",
+        })?
+        .create(gpu)?;
+        let pipeline = gpu.checked("the path tracer's pipeline", || {
+            let layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+                label: None,
+                bind_group_layouts: &[Some(&self.scene_layout), Some(&self.film_layout)],
+                immediate_size: 0,
+            });
+            gpu.device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+                label: Some("path tracer"),
+                layout: Some(&layout),
+                module: &module,
+                entry_point: Some("trace"),
+                compilation_options: wgpu::PipelineCompilationOptions {
+                    constants: &self.needs.constants(choice),
+                    ..wgpu::PipelineCompilationOptions::default()
+                },
+                cache: None,
+            })
+        })?;
+        self.compiled.push((choice, pipeline.clone()));
+        Ok(pipeline)
+    }
+}
+
+/// Bindings 0, 1, 2 ... of a group, each of at least so many bytes.
+fn layout(gpu: &Gpu, bindings: &[(BufferBindingType, usize)]) -> BindGroupLayout {
+    let entry = |(binding, &(ty, size)): (usize, &(BufferBindingType, usize))| wgpu::BindGroupLayoutEntry {
+        binding: binding as u32,
+        visibility: wgpu::ShaderStages::COMPUTE,
+        ty: BindingType::Buffer { ty, has_dynamic_offset: false, min_binding_size: NonZeroU64::new(size as u64) },
+        count: None,
+    };
+    let entries: Vec<_> = bindings.iter().enumerate().map(entry).collect();
+    gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label: None, entries: &entries })
+}

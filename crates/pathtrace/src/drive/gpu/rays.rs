@@ -1,0 +1,150 @@
+//! Rays by themselves: what each of a list meets on the device.
+
+use super::{GpuTraceError, GpuTracer};
+use crate::intersect::{Ray, SurfacePoint};
+use bytemuck::{Pod, Zeroable};
+use gpu::{Gpu, wgpu, wgsl};
+use scene::Vec3;
+use wgpu::{BindGroupEntry, BufferUsages};
+
+/// `RayQuery` in `shaders/pathtrace/drive/rays.wgsl`.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
+pub struct RayQuery {
+    /// Where it starts.
+    pub origin: Vec3,
+    /// Hits must lie before this.
+    pub tmax: f32,
+    /// Where it goes.
+    pub direction: Vec3,
+    /// Padding.
+    pub unused: u32,
+}
+
+/// `RayAnswer` in `shaders/pathtrace/drive/rays.wgsl`.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
+pub struct RayAnswer {
+    /// Where the ray meets the nearest surface.
+    pub position: Vec3,
+    /// Distance in lengths of the ray's direction, 0 where nothing is met.
+    pub t: f32,
+    /// Bound on the rounding error of the position.
+    pub error: Vec3,
+    /// Index into the scene's materials.
+    pub material: u32,
+    /// Unit outward normal.
+    pub normal: Vec3,
+    /// 1 if anything at all is met, asked as shadow rays ask.
+    pub occluded: u32,
+    /// Unit direction in which the ray goes on behind a dielectric surface; zero where there is none.
+    pub refracted: Vec3,
+    /// Share of unpolarised light that a dielectric surface reflects, 1 beyond the critical angle; 0 of other surfaces.
+    pub reflectance: f32,
+}
+
+impl RayAnswer {
+    /// Where the nearest surface is met, if any is.
+    pub fn point(&self) -> Option<SurfacePoint> {
+        let Self { position, error, normal, .. } = *self;
+        (self.t > 0.0).then_some(SurfacePoint { position, error, normal })
+    }
+
+    /// The ray that goes on behind a dielectric surface, if one is met and refracts it.
+    pub fn behind(&self) -> Option<Ray> {
+        let point = self.point().filter(|_| self.refracted != Vec3::ZERO)?;
+        Some(Ray::new(point.leaving_towards(self.refracted), self.refracted))
+    }
+}
+
+/// Rays in one dispatch.
+const MOST_RAYS: usize = 1 << 16;
+
+impl GpuTracer {
+    /// What each ray meets. Waits for the answers.
+    ///
+    /// # Errors
+    /// [`GpuTraceError`] if the device fails.
+    pub fn meet(&self, rays: &[Ray]) -> Result<Vec<RayAnswer>, GpuTraceError> {
+        let pipeline = self.rays_pipeline()?;
+        let mut answers = Vec::with_capacity(rays.len());
+        for rays in rays.chunks(MOST_RAYS) {
+            answers.extend(self.meet_some(&pipeline, rays)?);
+        }
+        Ok(answers)
+    }
+
+    fn meet_some(&self, pipeline: &wgpu::ComputePipeline, rays: &[Ray]) -> Result<Vec<RayAnswer>, GpuTraceError> {
+        let gpu = self.gpu();
+        // shaders may take infinity away
+        let query = |ray: &Ray| RayQuery {
+            origin: ray.origin,
+            tmax: ray.tmax.min(f32::MAX),
+            direction: ray.direction,
+            unused: 0,
+        };
+        let queries: Vec<RayQuery> = rays.iter().map(query).collect();
+        let empty = vec![RayAnswer::zeroed(); rays.len()];
+        let queries = gpu.buffer("rays", &queries, BufferUsages::STORAGE)?;
+        let answers = gpu.buffer("what rays meet", &empty, BufferUsages::STORAGE | BufferUsages::COPY_SRC)?;
+        gpu.checked("rays", || {
+            let group = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
+                label: None,
+                layout: &pipeline.get_bind_group_layout(1),
+                entries: &[
+                    BindGroupEntry { binding: 0, resource: queries.as_entire_binding() },
+                    BindGroupEntry { binding: 1, resource: answers.as_entire_binding() },
+                ],
+            });
+            let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: None });
+            {
+                let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
+                pass.set_pipeline(pipeline);
+                pass.set_bind_group(0, self.scene_group().1, &[]);
+                pass.set_bind_group(1, &group, &[]);
+                pass.dispatch_workgroups(rays.len().div_ceil(64) as u32, 1, 1);
+            }
+            gpu.queue.submit([encoder.finish()]);
+        })?;
+        Ok(bytemuck::pod_collect_to_vec(&gpu.read_buffer("what rays meet", &answers)?))
+    }
+
+    fn rays_pipeline(&self) -> Result<wgpu::ComputePipeline, GpuTraceError> {
+        let gpu = self.gpu();
+        let module = wgsl::compose("pathtrace/drive/rays.wgsl")?.create(gpu)?;
+        Ok(gpu.checked("the pipeline for rays", || {
+            let groups = [Some(self.scene_group().0), Some(&rays_layout(gpu))].map(|g| g.cloned());
+            let layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+                label: None,
+                bind_group_layouts: &groups.each_ref().map(Option::as_ref),
+                immediate_size: 0,
+            });
+            gpu.device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+                label: Some("rays"),
+                layout: Some(&layout),
+                module: &module,
+                entry_point: Some("trace"),
+                compilation_options: wgpu::PipelineCompilationOptions {
+                    constants: &self.pipelines.needs().shape_constants(),
+                    ..wgpu::PipelineCompilationOptions::default()
+                },
+                cache: None,
+            })
+        })?)
+    }
+}
+
+fn rays_layout(gpu: &Gpu) -> wgpu::BindGroupLayout {
+    let storage = |binding, read_only| wgpu::BindGroupLayoutEntry {
+        binding,
+        visibility: wgpu::ShaderStages::COMPUTE,
+        ty: wgpu::BindingType::Buffer {
+            ty: wgpu::BufferBindingType::Storage { read_only },
+            has_dynamic_offset: false,
+            min_binding_size: None,
+        },
+        count: None,
+    };
+    let entries = [storage(0, true), storage(1, false)];
+    gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label: None, entries: &entries })
+}

@@ -1,0 +1,208 @@
+//! Mirrors of the structs in `shaders/pathtrace/scene.wgsl`, field for field, and what fills them. A test compares
+//! every offset with the shader compiler's. Padding is spelled out as `unused*`.
+
+use super::shape_data::Shapes;
+use crate::light::flat::Outline;
+use crate::light::{Light as HostLight, Lights, SunDisc};
+use crate::sampling::sobol::reversed_point;
+use bytemuck::{Pod, Zeroable};
+use scene::material::Emission;
+use scene::{Bsdf, Scene, Texture, Vec3};
+
+/// What the whole scene shares.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
+pub struct Header {
+    /// Radiance where nothing is hit.
+    pub sky: Vec3,
+    /// How many triangles, spheres and disks there are in the tree.
+    pub primitives: u32,
+    /// Unit direction of a sun that has a disc.
+    pub sun_towards: Vec3,
+    /// Square of the chord that spans the disc's angular radius, 0 without a disc.
+    pub sun_chord_squared: f32,
+    /// Radiance of the disc.
+    pub sun_radiance: Vec3,
+    /// Density per solid angle with which the sun's disc is sampled.
+    pub sun_pdf: f32,
+    /// What is sampled as a light.
+    pub lights: u32,
+    /// 0, which no compiler knows.
+    pub zero: u32,
+    /// Padding.
+    pub unused: [u32; 2],
+    /// Of few shapes: where among them quadrilaterals, triangles, spheres and disks end.
+    pub seen: [u32; 4],
+    /// The same of those that shadow rays may meet, which stand first in each kind.
+    pub shading: [u32; 4],
+}
+
+/// Two colours of cells that fill space; `even` alone without a pattern.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
+pub struct Checkerboard {
+    /// Colour of cells whose indices add up to an even number.
+    pub even: Vec3,
+    /// Padding.
+    pub unused0: u32,
+    /// Colour of the others.
+    pub odd: Vec3,
+    /// Padding.
+    pub unused1: u32,
+    /// A corner of cell (0, 0, 0).
+    pub origin: Vec3,
+    /// Padding.
+    pub unused2: u32,
+    /// 1 / cell size, 0 along axes without pattern.
+    pub cells_per_unit: Vec3,
+    /// Padding.
+    pub unused3: u32,
+}
+
+/// How a surface looks.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
+pub struct Material {
+    /// Albedo or reflectance.
+    pub colour: Checkerboard,
+    /// Radiance sent out.
+    pub emission: Vec3,
+    /// 0 none, 1 the one that the normal points away from, 2 both.
+    pub emitting_sides: u32,
+    /// 0 diffuse, 1 checkerboard, 2 mirror, 3 dielectric.
+    pub bsdf: u32,
+    /// Index of refraction of the inside over the outside.
+    pub ior: f32,
+    /// Root of |ior^2 - 1|.
+    pub root: f32,
+    /// What a float could not hold of it.
+    pub root_low: f32,
+}
+
+/// What is sampled as a light.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
+pub struct Light {
+    /// Corner of a flat area light, centre of a disk or ball, a point light, the direction to the sun.
+    pub position: Vec3,
+    /// 0 rectangle, 1 triangle, 2 disk, 3 ball, 4 point, 5 sun.
+    pub outline: u32,
+    /// First edge of a flat area light, a radius of a disk.
+    pub u: Vec3,
+    /// Area of a flat area light, radius of a ball, 1 - cos of the sun's angular radius.
+    pub area: f32,
+    /// Second edge of a flat area light, another radius of a disk.
+    pub v: Vec3,
+    /// 1 if a parallelogram's edges are at right angles.
+    pub square: u32,
+    /// Unit normal of a flat area light.
+    pub normal: Vec3,
+    /// 1 if both sides shine.
+    pub two_sided: u32,
+    /// Radiance; intensity of a point, irradiance of a delta sun.
+    pub radiance: Vec3,
+    /// Of being chosen.
+    pub probability: f32,
+    /// Running sum of the probabilities.
+    pub cumulative: f32,
+    /// Padding.
+    pub unused: [u32; 3],
+}
+
+/// The header of a scene.
+pub(crate) fn header(scene: &Scene, shapes: &Shapes, lights: &Lights) -> Header {
+    let disc = scene.sun.as_ref().and_then(SunDisc::new);
+    Header {
+        sky: scene.sky,
+        primitives: shapes.primitives.len() as u32,
+        sun_towards: disc.map_or(Vec3::Y, |d| d.towards),
+        sun_chord_squared: disc.map_or(0.0, |d| d.chord_squared),
+        sun_radiance: disc.map_or(Vec3::ZERO, |d| d.radiance),
+        // a delta sun is never met
+        sun_pdf: disc.map_or(0.0, |_| lights.sun_pdf()),
+        lights: lights.len() as u32,
+        zero: 0,
+        unused: [0; 2],
+        seen: shapes.seen,
+        shading: shapes.shading,
+    }
+}
+
+/// The scene's materials.
+pub fn materials(scene: &Scene) -> Vec<Material> {
+    scene.materials.iter().map(material).collect()
+}
+
+fn material(from: &scene::Material) -> Material {
+    let mut to = Material::zeroed();
+    match from.bsdf {
+        Bsdf::Diffuse { albedo: Texture::Constant(albedo) } => to.colour.even = albedo,
+        Bsdf::Diffuse { albedo: Texture::Checkerboard(board) } => {
+            to.bsdf = 1;
+            to.colour.even = board.even;
+            to.colour.odd = board.odd;
+            to.colour.origin = board.origin;
+            to.colour.cells_per_unit = board.cells_per_unit();
+        }
+        Bsdf::Mirror { reflectance } => {
+            to.bsdf = 2;
+            to.colour.even = reflectance;
+        }
+        Bsdf::Dielectric { ior } => {
+            let n = f64::from(ior);
+            let root = ((n - 1.0) * (n + 1.0)).abs().sqrt();
+            to.bsdf = 3;
+            to.ior = ior;
+            to.root = root as f32;
+            to.root_low = (root - f64::from(to.root)) as f32;
+        }
+    }
+    if let Some(emission) = from.emission {
+        to.emission = emission.radiance;
+        to.emitting_sides = 1 + u32::from(emission.two_sided);
+    }
+    to
+}
+
+/// What is sampled as a light.
+pub fn lights(lights: &Lights) -> Vec<Light> {
+    let chances = lights.probabilities.iter().zip(&lights.cumulative);
+    let one = |(from, (&probability, &cumulative))| Light { probability, cumulative, ..light(from) };
+    lights.lights.iter().zip(chances).map(one).collect()
+}
+
+fn light(from: &HostLight) -> Light {
+    let none = Light::zeroed();
+    let area_light =
+        |emission: &Emission| Light { radiance: emission.radiance, two_sided: u32::from(emission.two_sided), ..none };
+    match from {
+        HostLight::Flat(flat, emission) => {
+            let (outline, square) = match flat.outline {
+                Outline::Rectangle => (0, 1),
+                Outline::Parallelogram => (0, 0),
+                Outline::Triangle => (1, 0),
+                Outline::Disk => (2, 0),
+            };
+            let (position, u, v) = (flat.corner, flat.edge_u, flat.edge_v);
+            Light { position, u, v, outline, square, area: flat.area, normal: flat.normal, ..area_light(emission) }
+        }
+        HostLight::Sphere(sphere, emission) => {
+            Light { position: sphere.center, area: sphere.radius, outline: 3, ..area_light(emission) }
+        }
+        HostLight::Point(point) => Light { position: point.position, radiance: point.intensity, outline: 4, ..none },
+        HostLight::Sun(sun) => {
+            let area = sun.one_minus_cos();
+            let radiance = if area > 0.0 { sun.radiance() } else { sun.irradiance };
+            Light { position: sun.towards, area, radiance, outline: 5, ..none }
+        }
+    }
+}
+
+/// What each byte of an index adds to dimensions 1 to 3 of a Sobol point: four tables of 256.
+pub fn sobol_bytes() -> Vec<[u32; 4]> {
+    let entry = |i: u32| {
+        let index = (i & 255) << (8 * (i >> 8));
+        [reversed_point(index, 1), reversed_point(index, 2), reversed_point(index, 3), 0]
+    };
+    (0..1024).map(entry).collect()
+}

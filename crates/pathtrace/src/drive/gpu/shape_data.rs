@@ -1,0 +1,301 @@
+//! Mirrors of what `shaders/pathtrace/scene.wgsl` says of shapes, field for field, and what fills them: few shapes one
+//! by one, many in a tree. A test compares every offset with the shader compiler's.
+
+use super::GpuTraceError;
+use crate::intersect::accel::{Binary, Primitive};
+use crate::intersect::shape_list::{PacketForm, PacketPlane, ShapeList};
+use crate::intersect::triangle::{in_order, sorted};
+use crate::light::Lights;
+use bytemuck::{Pod, Zeroable};
+use scene::glam::DVec3;
+use scene::{Scene, Vec3};
+
+/// A node of the BVH; two children lie side by side, the root's are 0 and 1.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
+pub struct Node {
+    /// Corner of the box.
+    pub low: Vec3,
+    /// Index of an inner node's first child, or of a leaf's first primitive with their number above.
+    pub contents: u32,
+    /// Other corner of the box.
+    pub high: Vec3,
+    /// Padding.
+    pub unused: u32,
+}
+
+/// A triangle, sphere or disk of the tree: `Primitive` in the shader.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
+pub struct ShapeData {
+    /// Corner or centre.
+    pub a: Vec3,
+    /// Of the normal, or a radius.
+    pub normal_x: f32,
+    /// Corner, or normal of a disk.
+    pub b: Vec3,
+    /// Of the normal.
+    pub normal_y: f32,
+    /// Corner.
+    pub c: Vec3,
+    /// Of the normal.
+    pub normal_z: f32,
+    /// What a float could not hold of the normal.
+    pub normal_low: Vec3,
+    /// Place in the scene's order, the kind above.
+    pub tag: u32,
+}
+
+/// What shading needs of a primitive, in the order of the leaves; of few shapes in the order of their ids.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
+pub struct Surface {
+    /// Unit normal of a flat one.
+    pub normal: Vec3,
+    /// Index into the materials.
+    pub material: u32,
+    /// Index into the lights, or [`crate::intersect::NO_LIGHT`].
+    pub light: u32,
+    /// Padding.
+    pub unused: [u32; 3],
+}
+
+/// One of few shapes: `Shape` in the shader.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
+pub struct FewShape {
+    /// Corner or centre.
+    pub a: Vec3,
+    /// Of the normal, or a radius.
+    pub normal_x: f32,
+    /// Corner, or normal of a disk.
+    pub b: Vec3,
+    /// Of the normal.
+    pub normal_y: f32,
+    /// Corner.
+    pub c: Vec3,
+    /// Of the normal.
+    pub normal_z: f32,
+    /// Corner of a quadrilateral.
+    pub d: Vec3,
+    /// Place in the scene's order.
+    pub id: u32,
+    /// What a float could not hold of the normal.
+    pub normal_low: Vec3,
+    /// How far from its plane its points may lie.
+    pub flatness: f32,
+    /// Of its plane.
+    pub plane_point: Vec3,
+    /// Padding.
+    pub unused: u32,
+}
+
+/// Shapes that the shader's list has room for.
+pub const MOST_SHAPES: usize = 64;
+
+/// Most shapes that are met one by one. With boxes added to the Cornell box a tree is faster beyond about 35 of them on
+/// Mesa's llvmpipe; on hardware it was not measured. Twice as many find room, should each be split.
+const FEW: usize = MOST_SHAPES / 2;
+
+const KIND_SHIFT: u32 = 30;
+const COUNT_SHIFT: u32 = 27;
+/// Inner nodes that can wait in a traversal.
+const MOST_WAITING: usize = 64;
+
+/// A scene's shapes as the device holds them.
+#[derive(Debug, Default)]
+pub(crate) struct Shapes {
+    /// Few shapes, by kinds; else empty.
+    pub few: Vec<FewShape>,
+    pub seen: [u32; 4],
+    pub shading: [u32; 4],
+    /// Of the tree; else empty.
+    pub nodes: Vec<Node>,
+    pub primitives: Vec<ShapeData>,
+    pub surfaces: Vec<Surface>,
+}
+
+/// Which shapes there are, and how rays find them.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(crate) struct ShapeKinds {
+    /// One by one, without a tree.
+    pub few: bool,
+    pub quadrilaterals: bool,
+    pub triangles: bool,
+    pub spheres: bool,
+    pub disks: bool,
+}
+
+impl Shapes {
+    /// One by one if they are few, else in a tree.
+    ///
+    /// # Errors
+    /// [`GpuTraceError::TooDeep`] and [`GpuTraceError::TooMany`] where the shader's stack or a node's bits do not
+    /// suffice.
+    pub fn new(scene: &Scene, lights: &Lights) -> Result<Self, GpuTraceError> {
+        match ShapeList::new(scene, lights) {
+            Some(shape_list) if shape_list.len()[0] <= FEW => Ok(Shapes::few(&shape_list)),
+            _ => Shapes::in_a_tree(scene, lights),
+        }
+    }
+
+    /// In a tree, however few.
+    ///
+    /// # Errors
+    /// As [`Shapes::new`].
+    pub fn in_a_tree(scene: &Scene, lights: &Lights) -> Result<Self, GpuTraceError> {
+        let tree = Binary::of(scene, lights);
+        let (nodes, primitives, surfaces) = (nodes(&tree)?, primitives(&tree), surfaces(&tree.surfaces));
+        Ok(Shapes { nodes, primitives, surfaces, ..Shapes::default() })
+    }
+
+    fn few(shape_list: &ShapeList) -> Self {
+        // by kind, those that shade before those that do not
+        let mut lists: [Vec<FewShape>; 8] = Default::default();
+        for shape in shape_list.shapes() {
+            let mut add = |kind: usize, form: FewShape| {
+                lists[2 * kind + usize::from(!shape.shades)].push(FewShape { id: shape.id, ..form });
+            };
+            let none = FewShape::zeroed();
+            match shape.form {
+                PacketForm::Quadrilateral(corners, plane) => match sorted_quadrilateral(corners) {
+                    Some([a, b, c, d]) => add(0, FewShape { a, b, c, d, ..in_plane(plane) }),
+                    None => {
+                        let [a, b, c, d] = corners;
+                        for [a, b, c] in [[a, b, c], [a, c, d]].map(sorted) {
+                            add(1, FewShape { a, b, c, ..in_plane(plane) });
+                        }
+                    }
+                },
+                PacketForm::Triangle(corners, plane) => {
+                    let [a, b, c] = sorted(corners);
+                    add(1, FewShape { a, b, c, ..in_plane(plane) });
+                }
+                PacketForm::Sphere { center, radius } => add(2, FewShape { a: center, normal_x: radius, ..none }),
+                PacketForm::Disk { center, normal, radius } => {
+                    add(3, FewShape { a: center, b: normal, normal_x: radius, ..none });
+                }
+            }
+        }
+        let mut shapes = Shapes { surfaces: surfaces(&shape_list.surfaces()), ..Shapes::default() };
+        for kind in 0..4 {
+            let [shading, others] = [2 * kind, 2 * kind + 1].map(|list| std::mem::take(&mut lists[list]));
+            shapes.few.extend(shading);
+            shapes.shading[kind] = shapes.few.len() as u32;
+            shapes.few.extend(others);
+            shapes.seen[kind] = shapes.few.len() as u32;
+        }
+        shapes
+    }
+
+    /// Which of them there are.
+    pub fn kinds(&self) -> ShapeKinds {
+        let has = |kind: u32| self.primitives.iter().any(|primitive| primitive.tag >> KIND_SHIFT == kind);
+        let [quadrilaterals, triangles, spheres, disks] = self.seen;
+        ShapeKinds {
+            few: self.primitives.is_empty(),
+            quadrilaterals: quadrilaterals > 0,
+            triangles: triangles > quadrilaterals || has(0),
+            spheres: spheres > triangles || has(1),
+            disks: disks > spheres || has(2),
+        }
+    }
+}
+
+/// The corners from the first in lexicographic order on, if the one across from it comes last: neighbours then evaluate
+/// the same expression for their common edge.
+fn sorted_quadrilateral(corners: [Vec3; 4]) -> Option<[Vec3; 4]> {
+    let before = |p: Vec3, q: Vec3| in_order(&p, &q).is_lt();
+    let first = (0..4).find(|&i| (0..4).all(|j| i == j || before(corners[i], corners[j])))?;
+    let [a, b, c, d] = [0, 1, 2, 3].map(|i| corners[(first + i) % 4]);
+    (before(b, c) && before(d, c)).then_some([a, b, c, d])
+}
+
+fn in_plane(plane: PacketPlane) -> FewShape {
+    let PacketPlane { point, normal, flatness } = plane;
+    let (normal, normal_low) = two_floats(normal / normal.abs().max_element());
+    let [normal_x, normal_y, normal_z] = normal.to_array();
+    FewShape { normal_x, normal_y, normal_z, normal_low, flatness, plane_point: point, ..FewShape::zeroed() }
+}
+
+/// The tree, breadth first, with the root left out: its box is what its children's are.
+///
+/// # Errors
+/// [`GpuTraceError::TooDeep`] and [`GpuTraceError::TooMany`] where the shader's stack or a node's bits do not suffice.
+fn nodes(tree: &Binary) -> Result<Vec<Node>, GpuTraceError> {
+    let boxes = &tree.bvh.nodes;
+    if boxes.is_empty() {
+        return Ok(vec![Node::zeroed(); 2]);
+    }
+    let depth = tree.bvh.depth(0);
+    if depth > MOST_WAITING {
+        return Err(GpuTraceError::TooDeep { depth, limit: MOST_WAITING });
+    }
+    let node = |index: u32, contents: u32| {
+        let bounds = boxes[index as usize].aabb();
+        let (low, high) = (Vec3::from(bounds.min), Vec3::from(bounds.max));
+        Node { low, contents, high, unused: 0 }
+    };
+    // a lone leaf stands on both sides of the root: what it holds is met twice at one distance
+    let first = if boxes[0].is_leaf() { [0, 0] } else { [boxes[0].first_index, boxes[0].first_index + 1] };
+    let mut order: Vec<u32> = first.to_vec();
+    let mut nodes = Vec::with_capacity(boxes.len());
+    let mut next = 0;
+    while let Some(&index) = order.get(next) {
+        next += 1;
+        let from = &boxes[index as usize];
+        let contents = if from.is_leaf() {
+            if from.prim_count >= 1 << (32 - COUNT_SHIFT) {
+                return Err(GpuTraceError::TooMany { what: "shapes at one place" });
+            }
+            from.first_index | from.prim_count << COUNT_SHIFT
+        } else {
+            let children = order.len() as u32;
+            order.extend([from.first_index, from.first_index + 1]);
+            children
+        };
+        nodes.push(node(index, contents));
+    }
+    if order.len().max(tree.len()) >= 1 << COUNT_SHIFT {
+        return Err(GpuTraceError::TooMany { what: "triangles" });
+    }
+    Ok(nodes)
+}
+
+/// The primitives in the order of the leaves.
+fn primitives(tree: &Binary) -> Vec<ShapeData> {
+    let tagged = tree.primitives.iter().zip(&tree.ids);
+    let one = |(primitive, &id): (&Primitive, &u32)| match primitive {
+        Primitive::Triangle(triangle) => {
+            let [a, b, c] = triangle.corners;
+            let (normal, normal_low) = two_floats(triangle.normal / triangle.normal.abs().max_element());
+            let [normal_x, normal_y, normal_z] = normal.to_array();
+            ShapeData { a, normal_x, b, normal_y, c, normal_z, normal_low, tag: id }
+        }
+        Primitive::Sphere(sphere) => {
+            let (a, normal_x, tag) = (sphere.center, sphere.radius, id | 1 << KIND_SHIFT);
+            ShapeData { a, normal_x, tag, ..ShapeData::zeroed() }
+        }
+        Primitive::Disk(disk) => {
+            let (a, b, normal_x, tag) = (disk.center, disk.normal, disk.radius, id | 2 << KIND_SHIFT);
+            ShapeData { a, b, normal_x, tag, ..ShapeData::zeroed() }
+        }
+    };
+    tagged.map(one).collect()
+}
+
+/// A vector as the sum of one rounded to f32 and what that left, rounded again.
+fn two_floats(v: DVec3) -> (Vec3, Vec3) {
+    let rounded = v.as_vec3();
+    (rounded, (v - rounded.as_dvec3()).as_vec3())
+}
+
+fn surfaces(all: &[crate::intersect::accel::Surface]) -> Vec<Surface> {
+    let one = |s: &crate::intersect::accel::Surface| Surface {
+        normal: s.normal,
+        material: s.material,
+        light: s.light,
+        unused: [0; 3],
+    };
+    all.iter().map(one).collect()
+}

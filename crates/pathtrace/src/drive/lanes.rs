@@ -1,0 +1,182 @@
+//! The driver of lanes that fill a film: a lane owns a pixel, and starts its next sample, or its next pixel, in the
+//! same turn in which the last one ended. There are no queues, and lanes stay busy up to the end of a chunk.
+
+use crate::integrator::settings::SamplerKind;
+use crate::intersect::aggregate::lanes_of;
+use crate::intersect::lanes::Rays;
+use crate::prepared::Outcomes;
+use crate::sampling::sampler::Sampler;
+use crate::tracer::Stats;
+use crate::vectors::{each_lane, in_all_lanes};
+use film::Film;
+use film::Pixel;
+use scene::camera::PictureFrame;
+use scene::{Camera, Vec3};
+use simd::{Float, MOST_LANES, Mask, Word};
+
+/// Walks of rays, one in each lane.
+pub trait LaneIntegrator<F: Float> {
+    /// Starts along camera rays where `here` says so.
+    fn begin(&mut self, here: F::M, rays: &Rays<F>);
+    /// One segment in the lanes `taken`; where samples are complete.
+    fn segment(&mut self, taken: F::M, sampler: &Sampler<F::U>) -> F::M;
+    /// What the samples have brought home.
+    fn outcomes(&self) -> &Outcomes<F>;
+    /// Rays traced so far.
+    fn rays(&self) -> u64;
+}
+
+/// A film to be filled.
+#[derive(Debug, Clone, Copy)]
+pub struct Order {
+    /// What the camera sees.
+    pub frame: PictureFrame,
+    /// Width and height.
+    pub size: [u32; 2],
+    /// Samples that every pixel shall have.
+    pub until: u32,
+    /// Where random numbers come from.
+    pub sampler: (SamplerKind, u32),
+}
+
+impl Order {
+    /// An order for `samples` more than the film has anywhere.
+    pub fn new(film: &Film, camera: &Camera, samples: u32, sampler: (SamplerKind, u32)) -> Self {
+        let size = [film.width(), film.height()];
+        let until = film.samples_per_pixel().saturating_add(samples);
+        Order { frame: camera.frame(size[0] as f32 / size[1] as f32), size, until, sampler }
+    }
+}
+
+/// Pixels in the order of the film.
+pub struct Chunk<'a> {
+    /// Index of the first.
+    pub first: u32,
+    /// The pixels.
+    pub pixels: &'a mut [Pixel],
+}
+
+/// What a chunk took, and how many of its samples were not finite.
+pub type Tally = (Stats, u64);
+
+/// Fills a chunk of the film; `stop` leaves pixels with whole samples.
+#[inline(always)]
+pub fn fill<F: Float>(
+    order: &Order,
+    chunk: Chunk,
+    mut integrator: impl LaneIntegrator<F>,
+    stop: &dyn Fn() -> bool,
+) -> Tally {
+    let mut driver = LaneDriver::<F>::new(order, chunk);
+    while driver.taken.any() && !stop() {
+        let sampler = driver.sampler(order);
+        integrator.begin(driver.fresh, &driver.camera_rays(order, &sampler));
+        let complete = integrator.segment(driver.taken, &sampler);
+        driver.fresh = complete;
+        if complete.any() {
+            driver.record(order, complete, integrator.outcomes());
+        }
+    }
+    driver.tally.0.rays += integrator.rays();
+    driver.tally
+}
+
+/// Which pixel and sample each lane has.
+struct LaneDriver<'a, F: Float> {
+    pixels: &'a mut [Pixel],
+    first: u32,
+    /// The next pixel that no lane has had, with its column and row.
+    next: [u32; 3],
+    /// Place of each lane's pixel in the chunk.
+    place: [u32; MOST_LANES],
+    sample: [u32; MOST_LANES],
+    column: [f32; MOST_LANES],
+    row: [f32; MOST_LANES],
+    /// Lanes that have a pixel.
+    taken: F::M,
+    /// Lanes that begin a sample.
+    fresh: F::M,
+    tally: Tally,
+}
+
+impl<'a, F: Float> LaneDriver<'a, F> {
+    #[inline(always)]
+    fn new(order: &Order, chunk: Chunk<'a>) -> Self {
+        let width = order.size[0];
+        let mut driver = LaneDriver {
+            pixels: chunk.pixels,
+            first: chunk.first,
+            next: [0, chunk.first % width, chunk.first / width],
+            place: [0; MOST_LANES],
+            sample: [0; MOST_LANES],
+            column: [0.0; MOST_LANES],
+            row: [0.0; MOST_LANES],
+            taken: F::M::splat(false),
+            fresh: F::M::splat(false),
+            tally: Tally::default(),
+        };
+        let assigned = (0..F::LANES).filter(|&lane| driver.assign(order, lane)).fold(0, |bits, lane| bits | 1 << lane);
+        driver.taken = F::M::from_bits(assigned);
+        driver.fresh = driver.taken;
+        driver
+    }
+
+    /// Gives a lane the next pixel that wants samples; false if there is none.
+    #[inline(always)]
+    fn assign(&mut self, order: &Order, lane: usize) -> bool {
+        loop {
+            let [place, column, row] = self.next;
+            let Some(pixel) = self.pixels.get(place as usize) else { return false };
+            self.next =
+                if column + 1 == order.size[0] { [place + 1, 0, row + 1] } else { [place + 1, column + 1, row] };
+            if pixel.samples < order.until {
+                (self.place[lane], self.sample[lane]) = (place, pixel.samples);
+                (self.column[lane], self.row[lane]) = (column as f32, row as f32);
+                return true;
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn sampler(&self, order: &Order) -> Sampler<F::U> {
+        let (kind, seed) = order.sampler;
+        let pixel = F::U::load(&self.place).wrapping_add(F::U::splat(self.first));
+        Sampler { kind, pixel, sample: F::U::load(&self.sample), seed }
+    }
+
+    /// The rays through the lanes' pixels, each at its sample's place.
+    #[inline(always)]
+    fn camera_rays(&self, order: &Order, sampler: &Sampler<F::U>) -> Rays<F> {
+        let [jitter_x, jitter_y, _, _] = sampler.unit4(F::U::splat(0));
+        let (width, height) = (order.size[0] as f32, order.size[1] as f32);
+        let x = (F::load(&self.column) + jitter_x) / width * 2.0 - 1.0;
+        let y = F::splat(1.0) - (F::load(&self.row) + jitter_y) / height * 2.0;
+        let frame = &order.frame;
+        let (right, up) = (in_all_lanes::<F>(frame.right), in_all_lanes::<F>(frame.up));
+        let through = in_all_lanes::<F>(frame.forward) + right * x + up * y;
+        Rays::new(in_all_lanes(frame.eye), through.normalize())
+    }
+
+    /// Adds complete samples to their pixels, and moves lanes on.
+    #[inline(always)]
+    fn record(&mut self, order: &Order, complete: F::M, outcomes: &Outcomes<F>) {
+        let radiance = each_lane(outcomes.radiance);
+        let finite = outcomes.radiance.is_finite().bits();
+        let (stats, nonfinite) = &mut self.tally;
+        stats.samples += u64::from(complete.count());
+        stats.cut_paths += u64::from((complete & outcomes.cut).count());
+        *nonfinite += u64::from((complete.bits() & !finite).count_ones());
+        let mut left = 0;
+        for lane in lanes_of(complete) {
+            let pixel = &mut self.pixels[self.place[lane] as usize];
+            pixel.add(if finite >> lane & 1 != 0 { radiance[lane] } else { Vec3::ZERO });
+            self.sample[lane] = pixel.samples;
+            if pixel.samples >= order.until && !self.assign(order, lane) {
+                left |= 1 << lane;
+            }
+        }
+        if left != 0 {
+            self.taken = self.taken & !F::M::from_bits(left);
+        }
+    }
+}

@@ -1,0 +1,303 @@
+//! Paths, one in each lane: the tutorial's `shade`, turned from recursion into a state that moves from vertex to vertex
+//! (Task 2 d).
+//!
+//! Each [`segment`](crate::drive::lanes::LaneIntegrator::segment) is one segment of every path: meet a surface, take
+//! its emission, sample a light, draw a direction, play roulette. What only some lanes do is computed for all and
+//! selected by a mask; what none does is skipped. The state is all there is: no recursion, no allocation. A bounce
+//! limit of N lets N + 1 vertices scatter; what is found by chance is found one segment later, by the last one.
+//!
+//! With more than one branch ("When N>1: Distributed ray tracing") a diffuse vertex is kept on a small stack, and the
+//! path comes back to it until it has left in N directions; each sees the lights anew and counts 1 / N.
+
+use crate::bsdf::{Interfaces, reflected};
+use crate::integrator::forks::{Forks, MOST_FORKS, child};
+use crate::integrator::path_state::{ALREADY_COUNTED, DiffuseVertices, MET_BY_CHANCE, PathStates, balance};
+use crate::integrator::roulette::survivors;
+use crate::integrator::settings::{Directions, LightSampling, PathSettings, Roulette};
+use crate::intersect::NO_LIGHT;
+use crate::intersect::lanes::{Hits, Rays, SurfacePoints};
+use crate::intersect::shape_list::Scratch;
+use crate::prepared::{Outcomes, PreparedScene, facing};
+use crate::sampling::UNIFORM_HEMISPHERE_PDF;
+use crate::sampling::sampler::Sampler;
+use crate::sampling::warp::{cosine_hemisphere, to_world, uniform_hemisphere};
+use scene::Vec3;
+use simd::{Column, Float, Mask, Vector, Word};
+use std::f32::consts::FRAC_1_PI;
+
+/// Paths that one sample may branch into.
+pub const MOST_BRANCHES: u32 = 65_536;
+
+/// Settings as the walk reads them.
+pub struct Plan {
+    directions: Directions,
+    light: LightSampling,
+    roulette: Roulette,
+    /// Vertices at which a path may scatter.
+    limit: u32,
+    /// Whether that is the hard cap rather than the user's wish.
+    capped: bool,
+    branches: u32,
+    /// Diffuse vertices of a path that may branch.
+    branching_vertices: u32,
+    /// `branches` to the power of the vertices that branched.
+    paths_after: Column,
+}
+
+impl Plan {
+    /// Reads the settings.
+    pub fn new(settings: &PathSettings) -> Self {
+        let branches = settings.branches.max(1);
+        let forks = 0..=MOST_FORKS as i32;
+        Plan {
+            directions: settings.estimator.directions,
+            light: settings.estimator.light,
+            roulette: settings.roulette,
+            limit: settings.scattering_vertices(),
+            capped: settings.bounces.is_none(),
+            branches,
+            branching_vertices: settings.branching_vertices().min(MOST_FORKS as u32),
+            paths_after: Column::new(forks.map(|forks| (branches as f32).powi(forks))),
+        }
+    }
+}
+
+/// Paths, where they walk and what they bring.
+pub struct PathLanes<'a, F: Float> {
+    scene: &'a PreparedScene,
+    plan: &'a Plan,
+    path: PathStates<F>,
+    /// Where a path comes back to a vertex that waits for more branches, and to which.
+    resumed: F::M,
+    vertex: DiffuseVertices<F>,
+    forks: Forks<F>,
+    scratch: Scratch<F>,
+    outcome: Outcomes<F>,
+    /// Rays traced.
+    rays: u64,
+}
+
+impl<'a, F: Float> crate::drive::lanes::LaneIntegrator<F> for PathLanes<'a, F> {
+    /// Starts paths along camera rays where `here` says so.
+    #[inline(always)]
+    fn begin(&mut self, here: F::M, rays: &Rays<F>) {
+        self.path = PathStates::select(here, PathStates::leaving_camera(rays), self.path);
+        self.outcome.radiance = Vector::select(here, Vector::zero(), self.outcome.radiance);
+        self.outcome.cut = self.outcome.cut & !here;
+    }
+
+    /// One segment of the paths in the lanes `taken`; where these, and all their branches, have come to their ends.
+    #[inline(always)]
+    fn segment(&mut self, taken: F::M, sampler: &Sampler<F::U>) -> F::M {
+        let walking = taken & !self.resumed;
+        self.rays += u64::from(walking.count());
+        let hit = self.scene.closest(&self.path.rays, walking, &mut self.scratch);
+        let missed = walking & !hit.met;
+        let met = walking & hit.met;
+        if self.scene.has_environment() && missed.any() {
+            let weight = self.path.weight_of_meeting(F::splat(self.scene.sun_pdf));
+            self.receive(missed, self.scene.environment(self.path.rays.direction, weight));
+        }
+        let kinds = self.scene.materials.kinds(hit.material);
+        let shining = met & kinds.area_light();
+        if self.scene.materials.has().area_lights && shining.any() {
+            let mis = self.plan.light == LightSampling::Mis;
+            let weight = self.path.weight_of_meeting(if mis { self.light_pdf(&hit) } else { F::splat(0.0) });
+            let normal = hit.point.normal;
+            let emitted = self.scene.materials.emitted(hit.material, kinds, normal, self.path.rays.direction);
+            self.receive(shining, emitted * weight);
+        }
+        let at_limit = met & self.path.vertices.eq(F::U::splat(self.plan.limit));
+        self.cut(at_limit);
+        let scattering = met & !at_limit;
+
+        let wo = -self.path.rays.direction;
+        let normal = facing(hit.point.normal, wo);
+        let colour = self.scene.materials.colour(hit.material, kinds, hit.point.position);
+        let mut vertex = DiffuseVertices { point: hit.point, normal, albedo: colour };
+        let mut diffuse = scattering & kinds.diffuse() & !colour.is_zero();
+        if self.plan.branching_vertices > 0 {
+            self.fork(diffuse, &vertex);
+            vertex = DiffuseVertices::select(self.resumed, self.vertex, vertex);
+            diffuse = diffuse | self.resumed;
+        }
+        let u = sampler.unit4(self.path.direction_dimension());
+        let mut alive = diffuse;
+        let mirrors = scattering & kinds.mirror();
+        if self.scene.materials.has().mirrors && mirrors.any() {
+            let throughput = self.path.throughput;
+            self.path.throughput = Vector::select(mirrors, throughput * colour, throughput);
+            self.path.leave(mirrors, &hit.point, reflected(wo, normal));
+            alive = alive | mirrors;
+        }
+        let glass = scattering & kinds.glass();
+        if self.scene.materials.has().glass && glass.any() {
+            let ior = self.scene.materials.ior(hit.material);
+            let wi = scatter_dielectric(&hit.point, wo, ior, u[3]);
+            self.path.leave(glass, &hit.point, wi);
+            alive = alive | glass;
+        }
+        if diffuse.any() {
+            self.leave_diffuse(diffuse, &vertex, sampler, [u[0], u[1]]);
+        }
+        alive = self.goes_on(alive, u[2]);
+        let ended = taken & !alive;
+        if self.plan.branching_vertices > 0 {
+            self.resumed = self.forks.next(ended, self.plan.branches, &mut self.vertex, &mut self.path);
+            return ended & !self.resumed;
+        }
+        ended
+    }
+
+    #[inline(always)]
+    fn outcomes(&self) -> &Outcomes<F> {
+        &self.outcome
+    }
+
+    fn rays(&self) -> u64 {
+        self.rays
+    }
+}
+
+impl<'a, F: Float> PathLanes<'a, F> {
+    /// No path yet.
+    #[inline(always)]
+    pub fn new(scene: &'a PreparedScene, plan: &'a Plan) -> Self {
+        let (zero, nowhere) = (Vector::zero(), Vector::zero());
+        let point = SurfacePoints { position: nowhere, error: zero, normal: zero };
+        PathLanes {
+            scene,
+            plan,
+            path: PathStates::leaving_camera(&Rays::new(nowhere, Vector::splat([0.0, 0.0, 1.0]))),
+            resumed: F::M::splat(false),
+            vertex: DiffuseVertices { point, normal: zero, albedo: zero },
+            forks: Forks::default(),
+            scratch: Scratch::new(scene.aggregate.shape_list()),
+            outcome: Outcomes { radiance: zero, cut: F::M::splat(false) },
+            rays: 0,
+        }
+    }
+
+    /// Adds radiance that came along the path, where `here` says so.
+    #[inline(always)]
+    fn receive(&mut self, here: F::M, radiance: Vector<F>) {
+        let sum = self.outcome.radiance + self.path.throughput * radiance;
+        self.outcome.radiance = Vector::select(here, sum, self.outcome.radiance);
+    }
+
+    /// Notes paths that end although no setting asked for it.
+    #[inline(always)]
+    fn cut(&mut self, here: F::M) {
+        if self.plan.capped {
+            self.outcome.cut = self.outcome.cut | here;
+        }
+    }
+
+    /// Lets diffuse vertices wait for more branches, and goes on with the first.
+    #[inline(always)]
+    fn fork(&mut self, diffuse: F::M, vertex: &DiffuseVertices<F>) {
+        let here = diffuse & self.path.forked.lt(F::U::splat(self.plan.branching_vertices));
+        if !here.any() {
+            return;
+        }
+        let mut path = self.path;
+        path.forked = path.forked.wrapping_add(F::U::splat(1));
+        path.throughput = path.throughput.divided_by(F::splat(self.plan.branches as f32));
+        self.forks.push(here, vertex, &path, self.plan.branches - 1);
+        path.branch = child::<F>(path.branch, self.plan.branches, F::U::splat(0));
+        self.path = PathStates::select(here, path, self.path);
+    }
+
+    /// Samples a light and takes the directions in which paths leave diffuse vertices, from two random numbers.
+    #[inline(always)]
+    fn leave_diffuse(&mut self, here: F::M, vertex: &DiffuseVertices<F>, sampler: &Sampler<F::U>, u: [F; 2]) {
+        if self.plan.light != LightSampling::BsdfOnly && !self.scene.lights.is_empty() {
+            let u = sampler.unit4(self.path.light_dimension());
+            let (lit, direct) = self.sample_lights(here, &vertex.point, vertex.normal, u);
+            self.receive(lit, vertex.albedo * direct * F::splat(FRAC_1_PI));
+        }
+        let mut throughput = self.path.throughput * vertex.albedo;
+        // Lambert: `f cos / pdf` is the albedo for cosine-weighted directions and `2 albedo cos` for uniform ones
+        let (local, pdf) = match self.plan.directions {
+            Directions::Uniform => {
+                let local = uniform_hemisphere(u);
+                throughput = throughput * (local.z * (FRAC_1_PI / UNIFORM_HEMISPHERE_PDF));
+                (local, F::splat(UNIFORM_HEMISPHERE_PDF))
+            }
+            Directions::Cosine => {
+                let local = cosine_hemisphere(u);
+                (local, local.z * FRAC_1_PI)
+            }
+        };
+        let direction_pdf = match self.plan.light {
+            LightSampling::BsdfOnly => F::splat(MET_BY_CHANCE),
+            LightSampling::NextEvent => F::splat(ALREADY_COUNTED),
+            LightSampling::Mis => pdf,
+        };
+        let wi = to_world(local, vertex.normal);
+        let rays = Rays::new(vertex.point.leaving_towards(wi), wi);
+        let left = PathStates { rays, throughput, from: vertex.point.position, direction_pdf, ..self.path };
+        self.path = PathStates::select(here, left, self.path);
+    }
+
+    /// Counts the vertex and plays roulette; where paths go on.
+    #[inline(always)]
+    fn goes_on(&mut self, alive: F::M, u_roulette: F) -> F::M {
+        let path = &mut self.path;
+        path.vertices = F::U::select(alive, path.vertices.wrapping_add(F::U::splat(1)), path.vertices);
+        let mut alive = alive;
+        if self.scene.sky == Vec3::ZERO {
+            let all_counted = path.direction_pdf.eq(F::splat(ALREADY_COUNTED));
+            let at_limit = alive & path.vertices.eq(F::U::splat(self.plan.limit)) & all_counted;
+            if self.plan.capped {
+                self.outcome.cut = self.outcome.cut | at_limit;
+            }
+            alive = alive & !at_limit;
+        }
+        let mut branches = F::splat(1.0);
+        if self.plan.branching_vertices > 0 {
+            branches = path.forked.look_up(&self.plan.paths_after);
+        }
+        let (survives, throughput) = survivors(path.throughput, branches, self.plan.roulette, u_roulette);
+        path.throughput = throughput;
+        alive & survives
+    }
+
+    /// Where light arrives, and its incoming radiance times cosine over density, from one sample of the lights: not in
+    /// shadow. Under MIS weighted against meeting the same light by chance.
+    #[inline(always)]
+    fn sample_lights(&mut self, here: F::M, at: &SurfacePoints<F>, normal: Vector<F>, u: [F; 4]) -> (F::M, Vector<F>) {
+        let sample = self.scene.lights.table().sample(at.position, u[2], [u[0], u[1]]);
+        let cosine = normal.dot(sample.wi);
+        let faced = here & sample.shines & cosine.gt(F::splat(0.0));
+        self.rays += u64::from(faced.count());
+        if !faced.any() {
+            return (faced, Vector::zero());
+        }
+        let shadowed = self.scene.in_shadow(at, &sample, faced, false, &mut self.scratch);
+        let weighted = match (self.plan.light, self.plan.directions) {
+            (LightSampling::Mis, Directions::Cosine) => cosine * balance(sample.pdf, cosine * FRAC_1_PI),
+            (LightSampling::Mis, Directions::Uniform) => cosine * balance(sample.pdf, F::splat(UNIFORM_HEMISPHERE_PDF)),
+            _ => cosine,
+        };
+        (faced & !shadowed, sample.radiance_over_pdf * weighted)
+    }
+
+    /// Density with which light sampling at the paths' last vertices draws the directions to these hits.
+    #[inline(always)]
+    fn light_pdf(&self, hit: &Hits<F>) -> F {
+        let pdf = self.scene.lights.table().pdf(hit.light, self.path.from, hit.point.position);
+        F::select(hit.light.eq(F::U::splat(NO_LIGHT)), F::splat(0.0), pdf)
+    }
+}
+
+/// Reflects with the probability that Fresnel gives, else refracts; the weights cancel. No scaling of radiance by the
+/// square of the index: a camera outside sees the same either way.
+#[inline(always)]
+fn scatter_dielectric<F: Float>(at: &SurfacePoints<F>, wo: Vector<F>, ior: F, u: F) -> Vector<F> {
+    let normal = facing(at.normal, wo);
+    let interface = Interfaces { ior, entering: at.normal.dot(wo).ge(F::splat(0.0)) };
+    let reflects = u.lt(interface.fresnel(normal.dot(wo)));
+    let (refracted, refracts) = interface.refract(wo, normal);
+    Vector::select(refracts & !reflects, refracted, reflected(wo, normal)).normalize()
+}

@@ -1,0 +1,339 @@
+//! Whitted-style ray tracing, "An improved illumination model for shaded display" (1980), as on the slides:
+//! `L = ka La + kd Id N.L + ks S + kt T`.
+//!
+//! Diffuse surfaces are lit locally: ambient light times the surface's colour, and for each light Lambert's term behind
+//! a shadow ray; there the ray stops. Mirrors and glass always send rays on. Glass splits a ray in two, with Fresnel's
+//! shares as `ks` and `kt`: the reflected branch waits on a small stack while the refracted one is followed. Units are
+//! the truth's: a surface under irradiance E has radiance `albedo E / pi`.
+//!
+//! What it cannot do, by design: light from diffuse surfaces on others, blurred reflections, caustics. The sky is seen
+//! but does not light; ambient light stands for it.
+
+use crate::bsdf::materials::Kinds;
+use crate::bsdf::{Interfaces, reflected};
+use crate::integrator::settings::SamplerKind;
+use crate::intersect::lanes::{Hits, Rays, SurfacePoints};
+use crate::intersect::shape_list::Scratch;
+use crate::prepared::{Outcomes, PreparedScene, facing};
+use crate::sampling::sampler::Sampler;
+use simd::{Float, Mask, Vector, Word};
+use std::f32::consts::FRAC_1_PI;
+
+/// Whether glass stops the light on its way to a diffuse surface.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+pub enum GlassShadows {
+    /// Glass throws a black shadow.
+    #[default]
+    Opaque,
+    /// Glass throws none: light passes it straight on and undimmed.
+    Clear,
+}
+
+impl GlassShadows {
+    /// All, the default first.
+    pub const ALL: [Self; 2] = [Self::Opaque, Self::Clear];
+
+    /// The name on the command line and in the window.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Opaque => "opaque",
+            Self::Clear => "clear",
+        }
+    }
+
+    /// The choice of that name.
+    pub fn named(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|g| g.name() == name)
+    }
+}
+
+/// The settings of one Whitted picture.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct WhittedSettings {
+    /// Specular scatterings along a branch, at most [`WhittedSettings::MOST_DEPTH`]; 0 leaves mirrors and glass black.
+    /// What deeper branches would bring is missing.
+    pub depth: u32,
+    /// Whether glass stops light.
+    pub glass_shadows: GlassShadows,
+    /// Shadow rays to each area light and to a sun with a disc, at least 1; a point or a delta sun needs one.
+    pub shadow_rays: u32,
+    /// Radiance of the ambient light that diffuse surfaces send back, at least 0, grey; `None` is the scene's
+    /// [`scene::stand_ins::FakeNumbers::ambient`].
+    pub ambient: Option<f32>,
+    /// Where random numbers come from.
+    pub sampler: SamplerKind,
+    /// Selects one of 2^32 independent pictures.
+    pub seed: u32,
+}
+
+impl WhittedSettings {
+    /// Largest depth.
+    pub const MOST_DEPTH: u32 = 64;
+}
+
+impl Default for WhittedSettings {
+    fn default() -> Self {
+        WhittedSettings {
+            depth: 8,
+            glass_shadows: GlassShadows::Opaque,
+            shadow_rays: 1,
+            ambient: None,
+            sampler: SamplerKind::default(),
+            seed: 1,
+        }
+    }
+}
+
+/// Branches of one sample before its other ones are cut, and the sample counted in [`crate::Stats::cut_paths`]: between
+/// facing pieces of glass each level doubles the rays.
+pub const MOST_BRANCHES: u32 = 65_536;
+
+/// Lights up to which each is sampled; of more, this many are chosen by power.
+const MOST_LIGHTS: usize = 16;
+
+/// A ray on its way, or waiting, in each lane.
+#[derive(Clone, Copy)]
+struct Branches<F: Float> {
+    rays: Rays<F>,
+    /// What radiance met now is worth at the camera.
+    weight: Vector<F>,
+    /// Specular scatterings so far.
+    depth: F::U,
+}
+
+impl<F: Float> Branches<F> {
+    /// As they leave the camera.
+    #[inline(always)]
+    fn leaving_camera(rays: &Rays<F>) -> Self {
+        Branches { rays: *rays, weight: Vector::along_all(F::splat(1.0)), depth: F::U::splat(0) }
+    }
+
+    #[inline(always)]
+    fn select(mask: F::M, yes: Self, no: Self) -> Self {
+        Branches {
+            rays: Rays::select(mask, yes.rays, no.rays),
+            weight: Vector::select(mask, yes.weight, no.weight),
+            depth: F::U::select(mask, yes.depth, no.depth),
+        }
+    }
+
+    /// The branch that leaves a surface in the unit direction `wi`.
+    #[inline(always)]
+    fn leave(&self, from: &SurfacePoints<F>, wi: Vector<F>, weight: Vector<F>) -> Self {
+        let depth = self.depth.wrapping_add(F::U::splat(1));
+        Branches { rays: Rays::new(from.leaving_towards(wi), wi), weight, depth }
+    }
+}
+
+/// Reflected branches that wait, deepest last, in each lane: at most one for each level.
+struct Waiting<F: Float> {
+    branches: Vec<Branches<F>>,
+    count: F::U,
+}
+
+impl<F: Float> Waiting<F> {
+    #[inline(always)]
+    fn push(&mut self, here: F::M, branch: &Branches<F>) {
+        for depth in 0..(self.branches.len() + 1).min(WhittedSettings::MOST_DEPTH as usize) {
+            let at = here & self.count.eq(F::U::splat(depth as u32));
+            if at.any() {
+                if depth == self.branches.len() {
+                    self.branches.push(*branch);
+                }
+                self.branches[depth] = Branches::select(at, *branch, self.branches[depth]);
+            }
+        }
+        self.count = F::U::select(here, self.count.wrapping_add(F::U::splat(1)), self.count);
+    }
+
+    /// Takes the deepest where `here` says so and one waits, and says where.
+    #[inline(always)]
+    fn pop(&mut self, here: F::M, branch: &mut Branches<F>) -> F::M {
+        let mut found = F::M::splat(false);
+        for (depth, waiting) in (0..).zip(&self.branches) {
+            let at = here & self.count.eq(F::U::splat(depth + 1));
+            if at.any() {
+                *branch = Branches::select(at, *waiting, *branch);
+                found = found | at;
+            }
+        }
+        self.count = F::U::select(found, self.count.wrapping_sub(F::U::splat(1)), self.count);
+        found
+    }
+}
+
+/// A tree of rays in each lane, and where they grow.
+pub struct WhittedLanes<'a, F: Float> {
+    scene: &'a PreparedScene,
+    settings: &'a WhittedSettings,
+    /// Ambient radiance.
+    ambient: f32,
+    branch: Branches<F>,
+    waiting: Waiting<F>,
+    /// The next block of random numbers; the camera took block 0.
+    dimension: F::U,
+    /// Branches followed so far.
+    followed: F::U,
+    scratch: Scratch<F>,
+    outcome: Outcomes<F>,
+    /// Rays traced.
+    rays: u64,
+}
+
+impl<'a, F: Float> crate::drive::lanes::LaneIntegrator<F> for WhittedLanes<'a, F> {
+    /// Starts trees with camera rays where `here` says so.
+    #[inline(always)]
+    fn begin(&mut self, here: F::M, rays: &Rays<F>) {
+        self.branch = Branches::select(here, Branches::leaving_camera(rays), self.branch);
+        self.outcome.radiance = Vector::select(here, Vector::zero(), self.outcome.radiance);
+        self.outcome.cut = self.outcome.cut & !here;
+        let (none, one) = (F::U::splat(0), F::U::splat(1));
+        self.dimension = F::U::select(here, one, self.dimension);
+        self.followed = F::U::select(here, none, self.followed);
+        self.waiting.count = F::U::select(here, none, self.waiting.count);
+    }
+
+    /// Follows a branch of each tree to the next surface; where trees are complete.
+    #[inline(always)]
+    fn segment(&mut self, taken: F::M, sampler: &Sampler<F::U>) -> F::M {
+        self.rays += u64::from(taken.count());
+        self.followed = self.followed.wrapping_add(F::U::splat(1));
+        let hit = self.scene.closest(&self.branch.rays, taken, &mut self.scratch);
+        let (missed, met) = (taken & !hit.met, taken & hit.met);
+        let direction = self.branch.rays.direction;
+        if self.scene.has_environment() && missed.any() {
+            self.receive(missed, self.scene.environment(direction, F::splat(1.0)));
+        }
+        let kinds = self.scene.materials.kinds(hit.material);
+        let shining = met & kinds.area_light();
+        if self.scene.materials.has().area_lights && shining.any() {
+            self.receive(shining, self.scene.materials.emitted(hit.material, kinds, hit.point.normal, direction));
+        }
+        let alive = self.scatter(met, &hit, kinds, sampler);
+        let ended = taken & !alive;
+        let alive = alive | self.waiting.pop(ended, &mut self.branch);
+        let too_many = alive & !self.followed.lt(F::U::splat(MOST_BRANCHES));
+        self.outcome.cut = self.outcome.cut | too_many;
+        (taken & !alive) | too_many
+    }
+
+    #[inline(always)]
+    fn outcomes(&self) -> &Outcomes<F> {
+        &self.outcome
+    }
+
+    fn rays(&self) -> u64 {
+        self.rays
+    }
+}
+
+impl<'a, F: Float> WhittedLanes<'a, F> {
+    /// No tree yet.
+    #[inline(always)]
+    pub fn new(scene: &'a PreparedScene, settings: &'a WhittedSettings, ambient: f32) -> Self {
+        let none = F::U::splat(0);
+        WhittedLanes {
+            scene,
+            settings,
+            ambient,
+            branch: Branches::leaving_camera(&Rays::new(Vector::zero(), Vector::splat([0.0, 0.0, 1.0]))),
+            waiting: Waiting { branches: Vec::new(), count: none },
+            dimension: none,
+            followed: none,
+            scratch: Scratch::new(scene.aggregate.shape_list()),
+            outcome: Outcomes { radiance: Vector::zero(), cut: F::M::splat(false) },
+            rays: 0,
+        }
+    }
+
+    /// Adds radiance that came along the branch, where `here` says so.
+    #[inline(always)]
+    fn receive(&mut self, here: F::M, radiance: Vector<F>) {
+        let sum = self.outcome.radiance + self.branch.weight * radiance;
+        self.outcome.radiance = Vector::select(here, sum, self.outcome.radiance);
+    }
+
+    /// Lights diffuse surfaces, and sends branches on from others; where they go on.
+    #[inline(always)]
+    fn scatter(&mut self, met: F::M, hit: &Hits<F>, kinds: Kinds<F::U>, sampler: &Sampler<F::U>) -> F::M {
+        let (scene, has) = (self.scene, self.scene.materials.has());
+        let wo = -self.branch.rays.direction;
+        let normal = facing(hit.point.normal, wo);
+        let colour = scene.materials.colour(hit.material, kinds, hit.point.position);
+        let lit = met & kinds.diffuse() & !colour.is_zero();
+        if lit.any() {
+            let direct = self.irradiance(lit, &hit.point, normal, sampler);
+            let ambient = Vector::along_all(F::splat(self.ambient));
+            self.receive(lit, colour * (direct * F::splat(FRAC_1_PI) + ambient));
+        }
+        let most_depth = self.settings.depth.min(WhittedSettings::MOST_DEPTH);
+        let deeper = met & self.branch.depth.lt(F::U::splat(most_depth));
+        let mut alive = F::M::splat(false);
+        let (came, mirrored) = (self.branch, reflected(wo, normal));
+        let mirrors = deeper & kinds.mirror();
+        if has.mirrors && mirrors.any() {
+            let weight = came.weight * colour;
+            let goes_on = mirrors & !weight.is_zero();
+            self.branch = Branches::select(goes_on, came.leave(&hit.point, mirrored, weight), self.branch);
+            alive = alive | goes_on;
+        }
+        let glass = deeper & kinds.glass();
+        if has.glass && glass.any() {
+            let (zero, one) = (F::splat(0.0), F::splat(1.0));
+            let entering = hit.point.normal.dot(wo).ge(zero);
+            let interface = Interfaces { ior: scene.materials.ior(hit.material), entering };
+            let share = interface.fresnel(normal.dot(wo));
+            let (wi, refracts) = interface.refract(wo, normal);
+            let refracts = refracts & share.lt(one);
+            let mirrored = came.leave(&hit.point, mirrored, came.weight * share);
+            let refracted = came.leave(&hit.point, wi.normalize(), came.weight * (one - share));
+            self.waiting.push(glass & refracts & share.gt(zero), &mirrored);
+            self.branch = Branches::select(glass, Branches::select(refracts, refracted, mirrored), self.branch);
+            alive = alive | glass;
+        }
+        alive
+    }
+
+    /// Light that arrives at surfaces: every light by itself, or of very many a choice.
+    #[inline(always)]
+    fn irradiance(
+        &mut self,
+        here: F::M,
+        at: &SurfacePoints<F>,
+        normal: Vector<F>,
+        sampler: &Sampler<F::U>,
+    ) -> Vector<F> {
+        let lights = &self.scene.lights;
+        let rays = self.settings.shadow_rays.max(1);
+        let opaque = self.settings.glass_shadows == GlassShadows::Clear;
+        let mut sum = Vector::zero();
+        for turn in 0..lights.len().min(MOST_LIGHTS) {
+            let each = lights.len() <= MOST_LIGHTS;
+            let delta = each && lights.is_delta(turn);
+            let rays = if delta { 1 } else { rays };
+            let mut of_light = Vector::zero();
+            for _ in 0..rays {
+                // of a delta light there is nothing to choose
+                let u = if delta { [F::splat(0.0); 4] } else { sampler.unit4(self.dimension) };
+                let next = self.dimension.wrapping_add(F::U::splat(1));
+                self.dimension = F::U::select(here, next, self.dimension);
+                let sample = if each {
+                    lights.table().sample_one(F::U::splat(turn as u32), at.position, [u[0], u[1]])
+                } else {
+                    lights.table().sample(at.position, u[2], [u[0], u[1]])
+                };
+                let cosine = normal.dot(sample.wi);
+                let faced = here & sample.shines & cosine.gt(F::splat(0.0));
+                self.rays += u64::from(faced.count());
+                if faced.any() {
+                    let shadow = self.scene.in_shadow(at, &sample, faced, opaque, &mut self.scratch);
+                    let arrives = of_light + sample.radiance_over_pdf * cosine;
+                    of_light = Vector::select(faced & !shadow, arrives, of_light);
+                }
+            }
+            let share = if each { 1.0 } else { 1.0 / MOST_LIGHTS as f32 };
+            sum = sum + of_light * F::splat(share / rays as f32);
+        }
+        sum
+    }
+}

@@ -1,0 +1,85 @@
+//! What every walk of rays needs: the scene made ready, and what rays meet in it.
+
+use crate::bsdf::materials::Materials;
+use crate::intersect::SHADOW_END;
+use crate::intersect::aggregate::Aggregate;
+use crate::intersect::lanes::{Hits, Rays, SurfacePoints};
+use crate::intersect::shape_list::Scratch;
+use crate::light::{LightSamples, Lights, SunDisc};
+use crate::vectors::in_all_lanes;
+use scene::Vec3;
+use simd::{Float, Vector};
+
+/// What a path walks through.
+pub struct PreparedScene {
+    /// The shapes.
+    pub aggregate: Aggregate,
+    /// What they are made of.
+    pub materials: Materials,
+    /// What shines and is sampled.
+    pub lights: Lights,
+    /// Radiance where nothing is hit.
+    pub sky: Vec3,
+    /// The sun that a ray can hit.
+    pub sun_disc: Option<SunDisc>,
+    /// Density per solid angle with which the sun's disc is sampled.
+    pub sun_pdf: f32,
+}
+
+/// What the samples in the lanes have brought home so far.
+#[derive(Debug, Clone, Copy)]
+pub struct Outcomes<F: Float> {
+    /// Radiance along the camera ray.
+    pub radiance: Vector<F>,
+    /// Whether rays were left out that no setting asked to leave out: beyond [`crate::PathSettings::HARD_CAP`], or
+    /// beyond [`crate::integrator::whitted::MOST_BRANCHES`].
+    pub cut: F::M,
+}
+
+impl PreparedScene {
+    /// The nearest hits of the `wanted` rays.
+    #[inline(always)]
+    pub fn closest<F: Float>(&self, rays: &Rays<F>, wanted: F::M, scratch: &mut Scratch<F>) -> Hits<F> {
+        self.aggregate.closest(rays, wanted, scratch)
+    }
+
+    /// Where something stands between the `wanted` points and what shines on them; if `opaque`, glass does not count.
+    #[inline(always)]
+    pub fn in_shadow<F: Float>(
+        &self,
+        at: &SurfacePoints<F>,
+        sample: &LightSamples<F>,
+        wanted: F::M,
+        opaque: bool,
+        scratch: &mut Scratch<F>,
+    ) -> F::M {
+        // both ends off their surfaces
+        let from = at.leaving_towards(sample.wi);
+        let to = sample.point.leaving_towards(-sample.wi);
+        let between = Rays { origin: from, direction: to - from, tmax: F::splat(SHADOW_END) };
+        let rays = Rays::select(sample.endless, Rays::new(from, sample.wi), between);
+        self.aggregate.occluded(&rays, wanted, opaque, scratch)
+    }
+
+    /// Radiance that rays find where they hit nothing: the sky, and `sun_weight` times the sun's disc unless it is a
+    /// delta light.
+    #[inline(always)]
+    pub fn environment<F: Float>(&self, direction: Vector<F>, sun_weight: F) -> Vector<F> {
+        let sky = in_all_lanes(self.sky);
+        match &self.sun_disc {
+            Some(disc) => sky + disc.radiance(direction) * sun_weight,
+            None => sky,
+        }
+    }
+
+    /// Whether rays that hit nothing may find light.
+    pub fn has_environment(&self) -> bool {
+        self.sky != Vec3::ZERO || self.sun_disc.is_some()
+    }
+}
+
+/// The normal on the side of `wo`.
+#[inline(always)]
+pub fn facing<F: Float>(normal: Vector<F>, wo: Vector<F>) -> Vector<F> {
+    Vector::select(normal.dot(wo).lt(F::splat(0.0)), -normal, normal)
+}

@@ -1,0 +1,214 @@
+//! Which glass may stand where. A dielectric's index is stated against what surrounds its surface, so every surface is
+//! right by itself as long as no two glass shapes overlap: there neither surface's "outside" would be what it says. A
+//! scene file with overlapping glass is refused.
+//!
+//! Allowed are shapes that lie apart, round ones that touch, and one wholly inside another. Flat faces must not touch:
+//! of two faces in one place a ray meets only one. Meshes are judged by their bounding box, but for lying inside
+//! another shape. Open shapes (rectangles, disks) are not looked at; glass of index 1 is, for a slider may give it
+//! another.
+
+use crate::{Bsdf, Geometry, Material, Shape};
+use glam::{DVec2, DVec3};
+
+/// Gap, relative to the size of the shapes, that keeps flat faces apart.
+const SMALLEST_GAP: f64 = 1e-6;
+
+/// A closed shape, in f64.
+struct Solid {
+    index: usize,
+    lo: DVec3,
+    hi: DVec3,
+    form: Form,
+}
+
+enum Form {
+    Ball { center: DVec3, radius: f64 },
+    Block(Block),
+    Mesh { corners: Vec<DVec3> },
+}
+
+/// A box turned about the vertical.
+struct Block {
+    center: DVec3,
+    half: DVec3,
+    /// Unit direction of its own x in the plane (x, z).
+    x: DVec2,
+}
+
+/// The first two shapes whose glass overlaps, by index: (earlier, later).
+pub fn overlap(shapes: &[Shape], materials: &[Material]) -> Option<(usize, usize)> {
+    let refracts = |s: &Shape| matches!(materials[s.material].bsdf, Bsdf::Dielectric { .. });
+    let glass = shapes.iter().enumerate().filter(|(_, shape)| refracts(shape));
+    let mut solids: Vec<Solid> = glass.filter_map(|(index, shape)| Solid::new(index, &shape.geometry)).collect();
+    solids.sort_by(|a, b| a.lo.x.total_cmp(&b.lo.x));
+    let mut found: Option<(usize, usize)> = None;
+    for (i, a) in solids.iter().enumerate() {
+        let near = solids[i + 1..].iter().take_while(|b| b.lo.x <= a.hi.x);
+        for b in near.filter(|b| !apart(a, b) && !inside(a, b) && !inside(b, a)) {
+            let pair = (a.index.min(b.index), a.index.max(b.index));
+            found = Some(found.map_or(pair, |other| other.min(pair)));
+        }
+    }
+    found
+}
+
+impl Solid {
+    fn new(index: usize, geometry: &Geometry) -> Option<Self> {
+        let form = match geometry {
+            Geometry::Rectangle { .. } | Geometry::Disk { .. } => return None,
+            Geometry::Sphere { center, radius } => Form::Ball { center: center.as_dvec3(), radius: f64::from(*radius) },
+            Geometry::Box { corner, size, turn_y } => {
+                let half = 0.5 * size.as_dvec3();
+                let (sin, cos) = f64::from(*turn_y).to_radians().sin_cos();
+                let x = DVec2::new(cos, sin);
+                let middle = x * half.x + x.perp() * half.z;
+                let center = corner.as_dvec3() + DVec3::new(middle.x, half.y, middle.y);
+                Form::Block(Block { center, half, x })
+            }
+            Geometry::Mesh { positions, .. } => {
+                Form::Mesh { corners: positions.iter().map(|p| p.as_dvec3()).collect() }
+            }
+        };
+        let (lo, hi) = geometry.bounds();
+        Some(Solid { index, lo: lo.as_dvec3(), hi: hi.as_dvec3(), form })
+    }
+
+    fn gap(&self) -> f64 {
+        SMALLEST_GAP * (self.hi - self.lo).max_element()
+    }
+
+    /// Itself, or for a mesh its bounding box.
+    fn block(&self) -> Block {
+        match &self.form {
+            Form::Block(Block { center, half, x }) => Block { center: *center, half: *half, x: *x },
+            _ => Block { center: 0.5 * (self.lo + self.hi), half: 0.5 * (self.hi - self.lo), x: DVec2::X },
+        }
+    }
+}
+
+impl Block {
+    /// A point in the block's own axes, from its centre.
+    fn local(&self, point: DVec3) -> DVec3 {
+        let d = point - self.center;
+        let flat = DVec2::new(d.x, d.z);
+        DVec3::new(flat.dot(self.x), d.y, flat.dot(self.x.perp()))
+    }
+
+    fn corners(&self) -> impl Iterator<Item = DVec3> + '_ {
+        (0..8u8).map(|i| {
+            let sign = |bit: u8| if i >> bit & 1 == 0 { -1.0 } else { 1.0 };
+            let flat = self.x * (sign(0) * self.half.x) + self.x.perp() * (sign(2) * self.half.z);
+            self.center + DVec3::new(flat.x, sign(1) * self.half.y, flat.y)
+        })
+    }
+
+    /// Half the block's width along a unit direction of the plane (x, z).
+    fn reach(&self, along: DVec2) -> f64 {
+        self.half.x * self.x.dot(along).abs() + self.half.z * self.x.perp().dot(along).abs()
+    }
+}
+
+fn apart(a: &Solid, b: &Solid) -> bool {
+    match (&a.form, &b.form) {
+        (Form::Ball { center: c, radius: r }, Form::Ball { center: d, radius: s }) => {
+            c.distance(*d) >= (r + s) * (1.0 - SMALLEST_GAP)
+        }
+        (Form::Ball { center, radius }, _) => ball_apart_from(*center, *radius, &b.block()),
+        (_, Form::Ball { center, radius }) => ball_apart_from(*center, *radius, &a.block()),
+        _ => blocks_apart(&a.block(), &b.block(), a.gap().max(b.gap())),
+    }
+}
+
+fn ball_apart_from(center: DVec3, radius: f64, block: &Block) -> bool {
+    (block.local(center).abs() - block.half).max(DVec3::ZERO).length() >= radius * (1.0 - SMALLEST_GAP)
+}
+
+/// By separating axes: both stand upright, so the vertical and their horizontal axes are all there are.
+fn blocks_apart(a: &Block, b: &Block, gap: f64) -> bool {
+    let between = b.center - a.center;
+    let flat = DVec2::new(between.x, between.z);
+    let sideways = [a.x, a.x.perp(), b.x, b.x.perp()];
+    between.y.abs() > a.half.y + b.half.y + gap
+        || sideways.iter().any(|&axis| flat.dot(axis).abs() > a.reach(axis) + b.reach(axis) + gap)
+}
+
+/// Whether `a` lies wholly inside `b`.
+fn inside(a: &Solid, b: &Solid) -> bool {
+    let holds = |point: DVec3, margin: f64| match &b.form {
+        Form::Ball { center, radius } => point.distance(*center) + margin <= *radius,
+        Form::Block(block) => (block.local(point).abs() + margin).cmple(block.half).all(),
+        Form::Mesh { .. } => false,
+    };
+    match &a.form {
+        Form::Ball { center, radius } => holds(*center, radius + a.gap()),
+        Form::Block(block) => block.corners().all(|corner| holds(corner, a.gap())),
+        Form::Mesh { corners } => corners.iter().all(|&corner| holds(corner, a.gap())),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::stand_ins::FakeMaterial;
+    use glam::Vec3;
+
+    fn overlap_of(geometry: [Geometry; 2]) -> bool {
+        let glass = Material {
+            name: "glass".into(),
+            bsdf: Bsdf::Dielectric { ior: 1.5 },
+            emission: None,
+            fake: FakeMaterial::default(),
+        };
+        let shapes = geometry.map(|geometry| Shape { geometry, material: 0 });
+        let found = overlap(&shapes, &[glass]);
+        assert!(found.is_none_or(|pair| pair == (0, 1)));
+        found.is_some()
+    }
+
+    fn ball(x: f32, radius: f32) -> Geometry {
+        Geometry::Sphere { center: Vec3::new(x, 0.0, 0.0), radius }
+    }
+
+    fn block(x: f32, size: f32, turn_y: f32) -> Geometry {
+        Geometry::Box { corner: Vec3::new(x, -0.5 * size, -0.5 * size), size: Vec3::splat(size), turn_y }
+    }
+
+    #[test]
+    fn balls_may_touch_or_nest_but_not_overlap() {
+        assert!(!overlap_of([ball(0.0, 1.0), ball(2.0, 1.0)]));
+        assert!(!overlap_of([ball(0.0, 1.0), ball(0.3, 0.5)]));
+        assert!(!overlap_of([ball(0.3, 0.5), ball(0.0, 1.0)]));
+        assert!(overlap_of([ball(0.0, 1.0), ball(1.9, 1.0)]));
+        assert!(overlap_of([ball(0.0, 1.0), ball(0.0, 1.0)]));
+    }
+
+    #[test]
+    fn blocks_need_a_gap_and_their_turn_counts() {
+        assert!(!overlap_of([block(0.0, 1.0, 0.0), block(1.001, 1.0, 0.0)]));
+        assert!(overlap_of([block(0.0, 1.0, 0.0), block(1.0, 1.0, 0.0)]));
+        assert!(!overlap_of([block(0.0, 2.0, 0.0), block(0.5, 0.5, 0.0)]));
+        // a diamond whose corner would lie in the other's bounding box
+        let diamond = Geometry::Box { corner: Vec3::new(0.0, -0.5, 0.0), size: Vec3::ONE, turn_y: 45.0 };
+        let beside = Geometry::Box { corner: Vec3::new(0.5, -0.5, -0.4), size: Vec3::splat(0.6), turn_y: 0.0 };
+        assert!(!overlap_of([diamond, beside]));
+    }
+
+    #[test]
+    fn balls_and_blocks() {
+        assert!(!overlap_of([ball(0.0, 1.0), block(1.0, 3.0, 0.0)]));
+        assert!(overlap_of([ball(0.0, 1.0), block(0.9, 3.0, 0.0)]));
+        assert!(!overlap_of([ball(0.0, 1.0), block(-0.3, 0.6, 0.0)]));
+        assert!(!overlap_of([ball(0.0, 1.0), block(-1.5, 3.0, 0.0)]));
+    }
+
+    #[test]
+    fn a_mesh_is_its_box_unless_it_lies_inside() {
+        let mesh = |scale: f32, x: f32| Geometry::Mesh {
+            positions: [Vec3::ZERO, Vec3::X, Vec3::Y, Vec3::Z].map(|p| p * scale + Vec3::X * x).to_vec(),
+            triangles: vec![[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]],
+        };
+        assert!(!overlap_of([ball(0.0, 1.0), mesh(0.5, 0.0)]));
+        assert!(!overlap_of([mesh(0.5, 1.5), ball(0.0, 1.0)]));
+        assert!(overlap_of([mesh(0.5, 0.8), ball(0.0, 1.0)]));
+    }
+}

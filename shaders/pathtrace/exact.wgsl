@@ -1,0 +1,52 @@
+//#import pathtrace/scene.wgsl
+// Arithmetic with more bits than a float has, where the processor uses f64. A shader's compiler may fuse, reorder and
+// cancel sums, which breaks the usual algorithms. Here products have few enough bits to be exact, fused or not, and
+// every rounded sum passes through `opaque`, which no compiler sees through.
+
+// The same vector, as far as a compiler knows another one.
+fn opaque(x: vec3f) -> vec3f {
+    return bitcast<vec3f>(bitcast<vec3u>(x) ^ vec3u(header.zero));
+}
+
+// Sums of two floats each, rounded and the rest.
+struct TwoSum {
+    sum: vec3f,
+    rest: vec3f,
+}
+
+// Dekker, "A floating-point technique for extending the available precision" (1971).
+fn two_sum(a: vec3f, b: vec3f) -> TwoSum {
+    let a_is_larger = abs(a) >= abs(b);
+    let larger = select(b, a, a_is_larger);
+    let smaller = select(a, b, a_is_larger);
+    let sum = opaque(larger + smaller);
+    return TwoSum(sum, smaller - opaque(sum - larger));
+}
+
+// The upper half of the bits: products of halves are exact.
+fn upper_half(x: vec3f) -> vec3f {
+    return bitcast<vec3f>(bitcast<vec3u>(x) & vec3u(0xfffff000u));
+}
+
+// (a + a_low) . (b + b_low), off by about 2^-34 of the sum of |a_i b_i|.
+fn exact_dot(a: vec3f, a_low: vec3f, b: vec3f, b_low: vec3f) -> f32 {
+    let a1 = upper_half(a);
+    let b1 = upper_half(b);
+    let a2 = a - a1;
+    let b2 = b - b1;
+    let first = a1 * b1;
+    let second = a1 * b2 + a2 * b1;
+    let third = a2 * b2 + a_low * b + a * b_low;
+    let two = two_sum(vec3f(first.x, second.x, third.x), vec3f(first.y, second.y, third.y));
+    let three = two_sum(two.sum, vec3f(first.z, second.z, third.z));
+    let rest = two.rest + three.rest;
+    return three.sum.x + (three.sum.y + (rest.x + (three.sum.z + rest.y)));
+}
+
+// Below this share of the sum of |a_i b_i| a plain dot product is not good to 20 bits.
+const CANCELLED: f32 = 0.25;
+
+// `size` with the sign of `sign_of`.
+fn copysign(size: f32, sign_of: f32) -> f32 {
+    return bitcast<f32>((bitcast<u32>(size) & 0x7fffffffu) | (bitcast<u32>(sign_of) & 0x80000000u));
+}

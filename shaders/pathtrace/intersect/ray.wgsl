@@ -1,0 +1,23 @@
+// Rays. Twin: crates/pathtrace/src/intersect/mod.rs.
+
+struct Ray {
+    // where it starts, world space
+    origin: vec3f,
+    // where it goes; unit length but for shadow rays to a point
+    direction: vec3f,
+    // hits must lie before this
+    tmax: f32,
+}
+
+// Farther than anything: shaders may take infinity away.
+const FAR: f32 = 3.4028234e38;
+
+// A shadow ray ends at 1, which is rounded with its direction, distances to planes are good to 20 bits, and divisions
+// may be off by 2.5 ulp: the area light at its end must not shadow itself.
+const SHADOW_END: f32 = 1.0 - 1e-6;
+
+// Higham's bound on the relative error of n roundings in a row, f32.
+fn gamma(n: f32) -> f32 {
+    let error = n * 5.9604645e-8;
+    return error / (1.0 - error);
+}

@@ -1,0 +1,70 @@
+//#import pathtrace/light/flat.wgsl
+//#import pathtrace/light/ball.wgsl
+//#import pathtrace/light/sun.wgsl
+// What shines, as light sampling sees it: area lights, point lights and the sun. Task 2 c), "Sampling Area Light". One
+// light is chosen, then a direction to it. Twin: crates/pathtrace/src/light/mod.rs.
+
+// The light that u in [0, 1) chooses: the first whose running sum exceeds it.
+fn choose(u: f32) -> u32 {
+    var low = 0u;
+    var high = header.lights - 1u;
+    while low < high {
+        let middle = (low + high) / 2u;
+        if lights[middle].cumulative <= u {
+            low = middle + 1u;
+        } else {
+            high = middle;
+        }
+    }
+    return low;
+}
+
+// Samples the light that reaches the point x: one number in [0, 1) to choose a light, two to choose a point on it.
+fn sample_light(x: vec3f, u_light: f32, u: vec2f) -> LightSample {
+    let light = choose(u_light);
+    var sample = sample_one(light, x, u);
+    sample.radiance_over_pdf /= lights[light].probability;
+    sample.pdf *= lights[light].probability;
+    return sample;
+}
+
+// As sample_light, but of one light of the caller's choice, whose probability is not in the densities.
+fn sample_one(light: u32, x: vec3f, u: vec2f) -> LightSample {
+    let area_light = lights[light];
+    if BALL_LIGHTS && area_light.outline == LIGHT_BALL {
+        return ball_sample(area_light, x, u);
+    }
+    if POINT_LIGHTS && area_light.outline == LIGHT_POINT {
+        return point_sample(area_light, x);
+    }
+    if SUN && area_light.outline == LIGHT_SUN {
+        return sun_sample(area_light, u);
+    }
+    if RECTANGLE_LIGHTS || TRIANGLE_LIGHTS || DISK_LIGHTS {
+        return flat_sample(area_light, x, u);
+    }
+    return no_light();
+}
+
+// Density per solid angle with which sample_light at x draws the direction that met `light` at `met`.
+fn light_pdf(light: u32, x: vec3f, met: vec3f) -> f32 {
+    let area_light = lights[light];
+    if BALL_LIGHTS && area_light.outline == LIGHT_BALL {
+        return ball_pdf(area_light, x) * area_light.probability;
+    }
+    if RECTANGLE_LIGHTS || TRIANGLE_LIGHTS || DISK_LIGHTS {
+        return flat_pdf(area_light, x, met) * area_light.probability;
+    }
+    return 0.0;
+}
+
+// Intensity over squared distance: the irradiance on a surface that faces the point.
+fn point_sample(light: Light, x: vec3f) -> LightSample {
+    let to_light = light.position - x;
+    let distance_squared = dot(to_light, to_light);
+    if distance_squared <= 0.0 {
+        return no_light();
+    }
+    let wi = to_light / sqrt(distance_squared);
+    return LightSample(wi, INFINITE_PDF, light.radiance / distance_squared, false, light.position);
+}

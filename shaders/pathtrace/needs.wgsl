@@ -1,0 +1,33 @@
+// What a scene and its settings ask for. Pipelines are compiled for each choice, so that what is not asked for costs
+// neither time nor registers. Twin: crates/scene/src/needs.rs and crates/pathtrace/src/integrator/settings.rs.
+
+// whether all shapes are met one by one; through a tree if not
+override FEW_SHAPES: bool = false;
+override QUADRILATERALS: bool = true;
+override TRIANGLES: bool = true;
+override SPHERES: bool = true;
+override DISKS: bool = true;
+override CHECKERBOARD: bool = true;
+override MIRROR: bool = true;
+override DIELECTRIC: bool = true;
+// shapes that shine, by outline
+override RECTANGLE_LIGHTS: bool = true;
+override TRIANGLE_LIGHTS: bool = true;
+override DISK_LIGHTS: bool = true;
+override BALL_LIGHTS: bool = true;
+override POINT_LIGHTS: bool = true;
+override SUN: bool = true;
+// whether random numbers are Sobol points; independent ones if not
+override SOBOL: bool = true;
+// whether diffuse vertices draw directions uniformly; by the cosine if not
+override UNIFORM_DIRECTIONS: bool = true;
+// how light is found: 0 by chance, 1 by sampling, 2 both, weighted
+override LIGHT_SEARCH: u32 = 2u;
+// whether a diffuse vertex may be left in more than one direction
+override BRANCHING: bool = true;
+// whether shadow rays pass glass
+override CLEAR_GLASS: bool = false;
+
+const BY_CHANCE: u32 = 0u;
+const BY_SAMPLING: u32 = 1u;
+const BY_BOTH: u32 = 2u;

@@ -1,0 +1,145 @@
+//#import shared/checkerboard.wgsl
+// The scene as the device holds it. Mirrors: crates/pathtrace/src/gpu/scene_data.rs and, of shapes, shape_data.rs.
+
+struct Header {
+    // radiance where nothing is hit
+    sky: vec3f,
+    // how many triangles, spheres and disks there are in the tree
+    primitives: u32,
+    // unit direction of a sun that has a disc
+    sun_towards: vec3f,
+    // square of the chord that spans the disc's angular radius, 0 without a disc
+    sun_chord_squared: f32,
+    sun_radiance: vec3f,
+    // density per solid angle with which the sun's disc is sampled
+    sun_pdf: f32,
+    // what is sampled as a light
+    lights: u32,
+    // 0, which no compiler knows
+    zero: u32,
+    // of few shapes: where among them quadrilaterals, triangles, spheres and disks end
+    seen: vec4u,
+    // the same of those that shadow rays may meet, which stand first in each kind
+    shading: vec4u,
+}
+
+// Two children lie side by side; the root's children are 0 and 1.
+struct Node {
+    low: vec3f,
+    // index of an inner node's first child, or of a leaf's first primitive with their number above
+    contents: u32,
+    high: vec3f,
+    unused: u32,
+}
+
+// In the order of the leaves. A sphere is `a` and a radius, a disk also has a normal in `b`.
+struct Primitive {
+    // corners in lexicographic order
+    a: vec3f,
+    // normal of the sorted corners, largest component 1, as a sum of two floats; or a radius
+    normal_x: f32,
+    b: vec3f,
+    normal_y: f32,
+    c: vec3f,
+    normal_z: f32,
+    normal_low: vec3f,
+    // place in the scene's order, area lights first, which decides ties; the kind above
+    tag: u32,
+}
+
+// One of few. A sphere is `a` and a radius, a disk also has a normal in `b`, a triangle is its first three corners.
+struct Shape {
+    // corners, see Quadrilateral and Triangle
+    a: vec3f,
+    // normal of its plane, largest component 1, as a sum of two floats; or a radius
+    normal_x: f32,
+    b: vec3f,
+    normal_y: f32,
+    c: vec3f,
+    normal_z: f32,
+    d: vec3f,
+    // place in the scene's order, area lights first, which decides ties
+    id: u32,
+    normal_low: vec3f,
+    // how far from its plane its points may lie
+    flatness: f32,
+    // of its plane, the same for all shapes in it
+    plane_point: vec3f,
+}
+
+const MOST_SHAPES: u32 = 64u;
+
+const KIND_SHIFT: u32 = 30u;
+const KIND_TRIANGLE: u32 = 0u;
+const KIND_SPHERE: u32 = 1u;
+const KIND_DISK: u32 = 2u;
+
+// What shading needs of a primitive, in the order of the leaves; of few shapes in the order of their ids.
+struct Surface {
+    // unit normal of a flat one
+    normal: vec3f,
+    material: u32,
+    // index into the lights, or NO_LIGHT
+    light: u32,
+}
+
+const NO_LIGHT: u32 = 0xffffffffu;
+
+struct Material {
+    // albedo or reflectance
+    colour: Checkerboard,
+    // radiance sent out
+    emission: vec3f,
+    // 0 none, 1 the one that the normal points away from, 2 both
+    emitting_sides: u32,
+    bsdf: u32,
+    // index of refraction of the inside over the outside
+    ior: f32,
+    // root of |ior^2 - 1| as a sum of two floats
+    root: f32,
+    root_low: f32,
+}
+
+const BSDF_DIFFUSE: u32 = 0u;
+const BSDF_CHECKERBOARD: u32 = 1u;
+const BSDF_MIRROR: u32 = 2u;
+const BSDF_DIELECTRIC: u32 = 3u;
+
+struct Light {
+    // corner of a flat area light, centre of a disk or ball, a point light, the direction to the sun
+    position: vec3f,
+    outline: u32,
+    // edges of a flat area light; radii of a disk, at right angles
+    u: vec3f,
+    // area of a flat area light, radius of a ball, 1 - cos of the sun's angular radius
+    area: f32,
+    v: vec3f,
+    // whether a parallelogram's edges are at right angles
+    square: u32,
+    // unit normal of a flat area light
+    normal: vec3f,
+    two_sided: u32,
+    // radiance; intensity of a point, irradiance of a delta sun
+    radiance: vec3f,
+    // of being chosen
+    probability: f32,
+    // running sum of the probabilities
+    cumulative: f32,
+}
+
+const LIGHT_RECTANGLE: u32 = 0u;
+const LIGHT_TRIANGLE: u32 = 1u;
+const LIGHT_DISK: u32 = 2u;
+const LIGHT_BALL: u32 = 3u;
+const LIGHT_POINT: u32 = 4u;
+const LIGHT_SUN: u32 = 5u;
+
+@group(0) @binding(0) var<uniform> header: Header;
+@group(0) @binding(1) var<storage, read> nodes: array<Node>;
+@group(0) @binding(2) var<storage, read> primitives: array<Primitive>;
+@group(0) @binding(3) var<storage, read> surfaces: array<Surface>;
+@group(0) @binding(4) var<storage, read> materials: array<Material>;
+@group(0) @binding(5) var<storage, read> lights: array<Light>;
+// what each byte of an index adds to dimensions 1 to 3 of a Sobol point
+@group(0) @binding(6) var<storage, read> sobol_bytes: array<vec4u>;
+@group(0) @binding(7) var<uniform> shapes: array<Shape, MOST_SHAPES>;
