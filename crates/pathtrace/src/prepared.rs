@@ -1,5 +1,7 @@
 //! What every walk of rays needs: the scene made ready, and what rays meet in it.
 
+use crate::bsdf::Interactions;
+use crate::bsdf::interaction::facing;
 use crate::bsdf::materials::Materials;
 use crate::intersect::SHADOW_END;
 use crate::intersect::aggregate::Aggregate;
@@ -43,6 +45,15 @@ impl PreparedScene {
         self.aggregate.closest(rays, wanted, scratch)
     }
 
+    /// The surfaces that were met, seen from `wo`.
+    #[inline(always)]
+    pub fn interaction<F: Float>(&self, hit: &Hits<F>, wo: Vector<F>) -> Interactions<F> {
+        let kinds = self.materials.kinds(hit.material);
+        let colour = self.materials.colour(hit.material, kinds, hit.point.position);
+        let normal = facing(hit.point.normal, wo);
+        Interactions { point: hit.point, normal, wo, colour, kinds, material: hit.material }
+    }
+
     /// Where something stands between the `wanted` points and what shines on them; if `opaque`, glass does not count.
     #[inline(always)]
     pub fn in_shadow<F: Float>(
@@ -76,10 +87,4 @@ impl PreparedScene {
     pub fn has_environment(&self) -> bool {
         self.sky != Vec3::ZERO || self.sun_disc.is_some()
     }
-}
-
-/// The normal on the side of `wo`.
-#[inline(always)]
-pub fn facing<F: Float>(normal: Vector<F>, wo: Vector<F>) -> Vector<F> {
-    Vector::select(normal.dot(wo).lt(F::splat(0.0)), -normal, normal)
 }

@@ -25,7 +25,7 @@ struct Hit {
 // Whether a shadow ray goes through what has this entry among the surfaces.
 fn passes(surface: u32, shadow: bool) -> bool {
     if CLEAR_GLASS {
-        return shadow && materials[surfaces[surface].material].bsdf == BSDF_DIELECTRIC;
+        return shadow && materials[surfaces[surface].material].lobe == LOBE_DIELECTRIC;
     }
     return false;
 }

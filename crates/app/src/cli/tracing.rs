@@ -1,7 +1,7 @@
 //! Tracing rays without a window, on either machine: the processor takes over from a graphics device that fails, and
 //! goes on from the last film that came back.
 
-use crate::technique::{Device, DeviceChoice, Method, RaySettings};
+use crate::technique::{Device, DeviceChoice, RaySettings};
 use anyhow::Context;
 use film::Film;
 use gpu::FaultInjection;
@@ -193,10 +193,7 @@ impl OnDevice {
             fault.iter().for_each(|fault| fault.count(&gpu));
             false
         };
-        match &rays.method {
-            Method::Path(path) => tracer.accumulate(film, &scene.camera, path, until, &stop)?,
-            Method::Whitted(tree) => tracer.accumulate_whitted(film, &scene.camera, tree, until, &stop)?,
-        }
+        tracer.accumulate(film, &scene.camera, &rays.method, until, &stop)?;
         // a test does not wait for seconds
         if self.read_at.elapsed() > AT_RISK || self.fault.is_some() {
             self.read()?;

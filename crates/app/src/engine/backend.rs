@@ -6,7 +6,7 @@ use film::Film;
 use gpu::FaultInjection;
 use gpu::Gpu;
 use pathtrace::Tracer;
-use pathtrace::gpu::{Choice, GpuFilm, GpuTraceError, GpuTracer};
+use pathtrace::gpu::{GpuFilm, GpuTraceError, GpuTracer};
 use scene::Scene;
 
 /// Seconds that a dispatch may take: a frame of the window waits about that long for the same adapter, and so does a
@@ -82,12 +82,9 @@ impl Backend {
 
     /// Whether it can begin at once: a device may have to compile first.
     pub fn has_compiled(&self, method: &Method) -> bool {
-        match (self, method) {
-            (Backend::Cpu(_), _) => true,
-            (Backend::Gpu(gpu_backend), Method::Path(path)) => gpu_backend.tracer.has_compiled(Choice::of_paths(path)),
-            (Backend::Gpu(gpu_backend), Method::Whitted(tree)) => {
-                gpu_backend.tracer.has_compiled(Choice::of_trees(tree))
-            }
+        match self {
+            Backend::Cpu(_) => true,
+            Backend::Gpu(gpu_backend) => gpu_backend.tracer.has_compiled(method),
         }
     }
 
@@ -170,10 +167,7 @@ impl GpuBackend {
             fault.iter().for_each(|fault| fault.count(&gpu));
             stop()
         };
-        match &job.settings.method {
-            Method::Path(path) => tracer.accumulate(film, job.order.camera(), path, until, &stop)?,
-            Method::Whitted(tree) => tracer.accumulate_whitted(film, job.order.camera(), tree, until, &stop)?,
-        }
+        tracer.accumulate(film, job.order.camera(), &job.settings.method, until, &stop)?;
         accumulation.spp = film.samples_per_pixel();
         let pixels = u64::from(film.width()) * u64::from(film.height());
         Ok(pixels * u64::from(accumulation.spp - before))

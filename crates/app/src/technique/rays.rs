@@ -6,14 +6,7 @@ use image_file::Records;
 use pathtrace::{GlassShadows, LightSampling, PathSettings, Roulette, SamplerKind, Stats, Tracer, WhittedSettings};
 use scene::{Camera, Scene};
 
-/// How rays are followed.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Method {
-    /// Along random paths.
-    Path(PathSettings),
-    /// In trees of mirrors and glass.
-    Whitted(WhittedSettings),
-}
+pub use pathtrace::Integrator as Method;
 
 /// A method, where and how long it goes on.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -61,13 +54,13 @@ impl Default for TreeSettings {
 
 impl From<TruthSettings> for RaySettings {
     fn from(TruthSettings { path, spp }: TruthSettings) -> Self {
-        RaySettings { method: Method::Path(path), device: DeviceChoice::default(), adapter: 0, spp }
+        RaySettings { method: path.into(), device: DeviceChoice::default(), adapter: 0, spp }
     }
 }
 
 impl From<TreeSettings> for RaySettings {
     fn from(TreeSettings { tree, spp }: TreeSettings) -> Self {
-        RaySettings { method: Method::Whitted(tree), device: DeviceChoice::default(), adapter: 0, spp }
+        RaySettings { method: tree.into(), device: DeviceChoice::default(), adapter: 0, spp }
     }
 }
 
@@ -81,18 +74,12 @@ impl RaySettings {
         samples: u32,
         stop: &(impl Fn() -> bool + Sync),
     ) -> Stats {
-        match &self.method {
-            Method::Path(path) => tracer.render(film, camera, path, samples, stop),
-            Method::Whitted(tree) => tracer.render_whitted(film, camera, tree, samples, stop),
-        }
+        tracer.render(film, camera, &self.method, samples, stop)
     }
 
     /// Where its random numbers come from.
     pub fn sampler(&self) -> SamplerKind {
-        match self.method {
-            Method::Path(path) => path.sampler,
-            Method::Whitted(tree) => tree.sampler,
-        }
+        self.method.sampler()
     }
 
     /// For a pane's label: "truth (path, light)", "Whitted (depth 8)".
