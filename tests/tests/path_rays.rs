@@ -35,7 +35,7 @@ fn tiled_floor(size: f32) -> Scene {
     };
     let triangles = (0..64 * 64).flat_map(quad).collect();
     let mut shape = scene.shapes[0].clone();
-    shape.geometry = Geometry::Mesh { positions, triangles };
+    shape.geometry = Geometry::mesh(positions, triangles);
     scene.shapes = [shape].into();
     scene
 }

@@ -327,7 +327,7 @@ fn more_triangles_than_a_binding_holds_are_refused(gpu: &Gpu, scene: &Scene, mut
     };
     let triangles = (0..(side - 1) * (side - 1)).flat_map(quad).collect();
     let mut large = scene.clone();
-    large.shapes = [scene::Shape { geometry: scene::Geometry::Mesh { positions, triangles }, material: 0 }].into();
+    large.shapes = [scene::Shape { geometry: scene::Geometry::mesh(positions, triangles), material: 0 }].into();
     let error = GpuTracer::new(gpu, &large).unwrap_err().to_string();
     assert!(error.contains("bytes, and the graphics device takes at most"), "{error}");
     // what was there before still is

@@ -129,5 +129,5 @@ fn read_obj(text: &str) -> Result<Geometry, Box<dyn Error>> {
             _ => {}
         }
     }
-    Ok(Geometry::Mesh { positions, triangles })
+    Ok(Geometry::mesh(positions, triangles))
 }

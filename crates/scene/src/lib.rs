@@ -19,7 +19,7 @@ pub use glam::{self, Vec3};
 pub use light::{PointLight, Sun};
 pub use material::{Bsdf, Material, Texture};
 pub use needs::Needs;
-pub use shape::{Geometry, Shape};
+pub use shape::{Geometry, Mesh, Shape};
 
 use stand_ins::FakeNumbers;
 use std::sync::Arc;

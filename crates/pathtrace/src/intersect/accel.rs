@@ -273,7 +273,7 @@ fn primitives(scene: &Scene, lights: &Lights) -> (Vec<Primitive>, Vec<Surface>) 
             Geometry::Disk { center, normal, radius } => {
                 add(Primitive::Disk(Disk { center, normal, radius }), normal, light);
             }
-            Geometry::Rectangle { .. } | Geometry::Box { .. } | Geometry::Mesh { .. } => {
+            Geometry::Rectangle { .. } | Geometry::Box { .. } | Geometry::Mesh(_) => {
                 let (positions, triangles) = shape.geometry.flat_triangles();
                 // the two halves of a rectangle are one light, other triangles are each their own
                 let step = u32::from(first_light.is_some() && !matches!(shape.geometry, Geometry::Rectangle { .. }));

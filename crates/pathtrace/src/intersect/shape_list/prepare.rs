@@ -83,12 +83,12 @@ fn parts(scene: &Scene, lights: &Lights) -> Option<Vec<Part>> {
             Geometry::Disk { center, normal, radius } => {
                 add(Piece::Disk { center, normal, radius }, normal, first_light.unwrap_or(NO_LIGHT));
             }
-            Geometry::Mesh { ref triangles, .. } if triangles.len() > 2 * ShapeList::MOST => return None,
-            Geometry::Rectangle { .. } | Geometry::Box { .. } | Geometry::Mesh { .. } => {
+            Geometry::Mesh(ref mesh) if mesh.triangles().len() > 2 * ShapeList::MOST => return None,
+            Geometry::Rectangle { .. } | Geometry::Box { .. } | Geometry::Mesh(_) => {
                 let rectangle = matches!(shape.geometry, Geometry::Rectangle { .. });
                 // of a box or mesh that shines, each triangle is a light
                 let halves = first_light.is_some() && !rectangle;
-                let paired = !halves && !matches!(shape.geometry, Geometry::Mesh { .. });
+                let paired = !halves && !matches!(shape.geometry, Geometry::Mesh(_));
                 for (piece, normal, at) in flat_pieces(&shape.geometry, paired) {
                     let light = first_light.map_or(NO_LIGHT, |first| first + if rectangle { 0 } else { at });
                     add(piece, normal, light);

@@ -59,13 +59,14 @@ fn closed_box(halves: bool, scale: f32, shift: f32) -> (Scene, Vec<Vec3>) {
     let corner = Vec3::splat(shift) - Vec3::new(0.3, 1.0, 1.2) * scale;
     let turned = Geometry::Box { corner, size: Vec3::splat(2.0 * scale), turn_y: -17.0 };
     let (positions, triangles) = turned.flat_triangles();
+    let (positions, triangles) = (positions.into_owned(), triangles.into_owned());
     if !halves {
         return (scene_of(&[(turned, 0)]), positions);
     }
     let middle = positions.iter().sum::<Vec3>() / 8.0;
     let turn = Quat::from_euler(EulerRot::XYZ, 0.3, 0.5, 0.8);
     let positions: Vec<Vec3> = positions.iter().map(|p| middle + turn * (p - middle)).collect();
-    (scene_of(&[(Geometry::Mesh { positions: positions.clone(), triangles }, 0)]), positions)
+    (scene_of(&[(Geometry::mesh(positions.clone(), triangles), 0)]), positions)
 }
 
 const PLACES: [(f32, f32); 5] = [(1.0, 0.0), (1.0, 1e4), (1e4, 0.0), (1e-4, 0.0), (1e3, 1e6)];
