@@ -5,6 +5,7 @@
 
 pub mod builtin;
 pub mod camera;
+pub mod canonical;
 pub mod file;
 pub mod light;
 pub mod material;
