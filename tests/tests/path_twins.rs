@@ -83,7 +83,7 @@ fn rays_meet_the_same_surfaces_at_the_same_places(scene: &Scene) {
             let (mut other, mut met) = (0, 0);
             let mut next = Vec::new();
             for (i, (ray, answer)) in (0..).zip(rays.iter().zip(&answers)) {
-                let hit = cpu.accel().closest(ray);
+                let hit = cpu.accel().first_met(ray);
                 let same = hit.map(|hit| hit.material) == answer.point().map(|_| answer.material);
                 other += u32::from(!same || cpu.accel().occluded(ray) != (answer.occluded == 1));
                 let (Some(hit), Some(point), true) = (hit, answer.point(), same) else { continue };

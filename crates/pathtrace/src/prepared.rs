@@ -1,10 +1,9 @@
 //! What every walk of rays needs: the scene made ready, and what rays meet in it.
 
 use crate::bsdf::materials::Materials;
-use crate::intersect::SHADOW_END;
 use crate::intersect::aggregate::Aggregate;
-use crate::intersect::lanes::{Hits, Rays, SurfacePoints};
 use crate::intersect::shape_list::Scratch;
+use crate::intersect::{Rays, SHADOW_END, SurfaceInteractions, SurfacePoints};
 use crate::light::{LightSamples, Lights, SunDisc};
 use crate::vectors::in_all_lanes;
 use scene::Vec3;
@@ -37,10 +36,11 @@ pub struct Outcomes<F: Float> {
 }
 
 impl PreparedScene {
-    /// The nearest hits of the `wanted` rays.
+    /// What the `wanted` rays meet first.
     #[inline(always)]
-    pub fn closest<F: Float>(&self, rays: &Rays<F>, wanted: F::M, scratch: &mut Scratch<F>) -> Hits<F> {
-        self.aggregate.closest(rays, wanted, scratch)
+    pub fn closest<F: Float>(&self, rays: &Rays<F>, wanted: F::M, scratch: &mut Scratch<F>) -> SurfaceInteractions<F> {
+        let hits = self.aggregate.closest(rays, wanted, scratch);
+        self.aggregate.interactions(rays, &hits)
     }
 
     /// Where something stands between the `wanted` points and what shines on them; if `opaque`, glass does not count.

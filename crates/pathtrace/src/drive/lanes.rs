@@ -2,8 +2,8 @@
 //! same turn in which the last one ended. There are no queues, and lanes stay busy up to the end of a chunk.
 
 use crate::integrator::settings::SamplerKind;
+use crate::intersect::Rays;
 use crate::intersect::aggregate::lanes_of;
-use crate::intersect::lanes::Rays;
 use crate::prepared::Outcomes;
 use crate::sampling::sampler::Sampler;
 use crate::tracer::Stats;

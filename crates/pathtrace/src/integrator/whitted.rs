@@ -12,8 +12,8 @@
 use crate::bsdf::materials::Kinds;
 use crate::bsdf::{Interfaces, reflected};
 use crate::integrator::settings::SamplerKind;
-use crate::intersect::lanes::{Hits, Rays, SurfacePoints};
 use crate::intersect::shape_list::Scratch;
+use crate::intersect::{Rays, SurfaceInteractions, SurfacePoints};
 use crate::prepared::{Outcomes, PreparedScene, facing};
 use crate::sampling::sampler::Sampler;
 use simd::{Float, Mask, Vector, Word};
@@ -255,7 +255,13 @@ impl<'a, F: Float> WhittedLanes<'a, F> {
 
     /// Lights diffuse surfaces, and sends branches on from others; where they go on.
     #[inline(always)]
-    fn scatter(&mut self, met: F::M, hit: &Hits<F>, kinds: Kinds<F::U>, sampler: &Sampler<F::U>) -> F::M {
+    fn scatter(
+        &mut self,
+        met: F::M,
+        hit: &SurfaceInteractions<F>,
+        kinds: Kinds<F::U>,
+        sampler: &Sampler<F::U>,
+    ) -> F::M {
         let (scene, has) = (self.scene, self.scene.materials.has());
         let wo = -self.branch.rays.direction;
         let normal = facing(hit.point.normal, wo);
