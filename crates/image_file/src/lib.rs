@@ -3,12 +3,14 @@
 
 mod error;
 mod exr;
+mod folders;
 mod names;
 mod png;
 mod whole;
 
 pub use error::ImageFileError;
-pub use names::{default_folder, free_name, typed_path};
+pub use folders::{cache_folder, default_folder, home_folder};
+pub use names::{free_name, typed_path};
 pub use whole::{check_writable, write_new, write_whole};
 
 use film::DisplayTransform;

@@ -3,10 +3,9 @@
 use crate::bsdf::Interactions;
 use crate::bsdf::interaction::facing;
 use crate::bsdf::materials::Materials;
-use crate::intersect::SHADOW_END;
 use crate::intersect::aggregate::Aggregate;
-use crate::intersect::lanes::{Hits, Rays, SurfacePoints};
 use crate::intersect::shape_list::Scratch;
+use crate::intersect::{Rays, SHADOW_END, SurfaceInteractions, SurfacePoints};
 use crate::light::{LightSamples, Lights, SunDisc};
 use crate::vectors::in_all_lanes;
 use scene::Vec3;
@@ -39,15 +38,16 @@ pub struct Outcomes<F: Float> {
 }
 
 impl PreparedScene {
-    /// The nearest hits of the `wanted` rays.
+    /// What the `wanted` rays meet first.
     #[inline(always)]
-    pub fn closest<F: Float>(&self, rays: &Rays<F>, wanted: F::M, scratch: &mut Scratch<F>) -> Hits<F> {
-        self.aggregate.closest(rays, wanted, scratch)
+    pub fn closest<F: Float>(&self, rays: &Rays<F>, wanted: F::M, scratch: &mut Scratch<F>) -> SurfaceInteractions<F> {
+        let hits = self.aggregate.closest(rays, wanted, scratch);
+        self.aggregate.interactions(rays, &hits)
     }
 
     /// The surfaces that were met, seen from `wo`.
     #[inline(always)]
-    pub fn interaction<F: Float>(&self, hit: &Hits<F>, wo: Vector<F>) -> Interactions<F> {
+    pub fn interaction<F: Float>(&self, hit: &SurfaceInteractions<F>, wo: Vector<F>) -> Interactions<F> {
         let kinds = self.materials.kinds(hit.material);
         let colour = self.materials.colour(hit.material, kinds, hit.point.position);
         let normal = facing(hit.point.normal, wo);
