@@ -1,13 +1,13 @@
 //! What traces a pane's rays, the processor or the graphics device, and the films that either adds samples to.
 
 use super::rays::RayJob;
-use crate::technique::{Device, Method};
 use film::Film;
 use gpu::FaultInjection;
 use gpu::Gpu;
 use pathtrace::Tracer;
 use pathtrace::gpu::{Choice, GpuFilm, GpuTraceError, GpuTracer};
 use scene::Scene;
+use technique::{Device, Integrator};
 
 /// Seconds that a dispatch may take: a frame of the window waits about that long for the same adapter, and so does a
 /// newer job. Where the processor plays the adapter a dispatch costs so much by itself that shorter ones would only add
@@ -81,11 +81,13 @@ impl Backend {
     }
 
     /// Whether it can begin at once: a device may have to compile first.
-    pub fn has_compiled(&self, method: &Method) -> bool {
+    pub fn has_compiled(&self, method: &Integrator) -> bool {
         match (self, method) {
             (Backend::Cpu(_), _) => true,
-            (Backend::Gpu(gpu_backend), Method::Path(path)) => gpu_backend.tracer.has_compiled(Choice::of_paths(path)),
-            (Backend::Gpu(gpu_backend), Method::Whitted(tree)) => {
+            (Backend::Gpu(gpu_backend), Integrator::Path(path)) => {
+                gpu_backend.tracer.has_compiled(Choice::of_paths(path))
+            }
+            (Backend::Gpu(gpu_backend), Integrator::Whitted(tree)) => {
                 gpu_backend.tracer.has_compiled(Choice::of_trees(tree))
             }
         }
@@ -170,9 +172,9 @@ impl GpuBackend {
             fault.iter().for_each(|fault| fault.count(&gpu));
             stop()
         };
-        match &job.settings.method {
-            Method::Path(path) => tracer.accumulate(film, job.order.camera(), path, until, &stop)?,
-            Method::Whitted(tree) => tracer.accumulate_whitted(film, job.order.camera(), tree, until, &stop)?,
+        match &job.settings.integrator {
+            Integrator::Path(path) => tracer.accumulate(film, job.order.camera(), path, until, &stop)?,
+            Integrator::Whitted(tree) => tracer.accumulate_whitted(film, job.order.camera(), tree, until, &stop)?,
         }
         accumulation.spp = film.samples_per_pixel();
         let pixels = u64::from(film.width()) * u64::from(film.height());
