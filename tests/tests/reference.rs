@@ -41,7 +41,7 @@ fn the_standard_error_of_a_reference_is_calibrated() {
     let tracer = pathtrace::Tracer::new(&scene);
     let settings = pathtrace::PathSettings { seed: 1000, ..Maker::settings(0) };
     let mut truth = film::Film::new(SIZE.0, SIZE.1);
-    tracer.render(&mut truth, &scene.camera, &settings, 4 * 32 * SAMPLES_PER_REPLICATE, &|| false);
+    tracer.render(&mut truth, &scene.camera, &settings.into(), 4 * 32 * SAMPLES_PER_REPLICATE, &|| false);
 
     let errors = reference.standard_errors.as_ref().unwrap();
     let channels = |v: &Vec3| v.to_array().map(f64::from);
@@ -106,7 +106,7 @@ fn no_usual_picture_shares_its_seed_with_a_reference() {
     for seed in (0..32).chain([Maker::settings(1).seed]) {
         let settings = Maker::settings(seed);
         let mut usual = film::Film::new(SIZE.0, SIZE.1);
-        tracer.render(&mut usual, &scene.camera, &settings, SAMPLES_PER_REPLICATE, &|| false);
+        tracer.render(&mut usual, &scene.camera, &settings.into(), SAMPLES_PER_REPLICATE, &|| false);
         // the two pictures of the reference, from their mean and their spread
         let pairs = usual.radiances().zip(&reference.radiances).zip(reference.standard_errors.as_ref().unwrap());
         let same = pairs.filter(|((u, mean), error)| ((*u - **mean).abs() - **error).abs().max_element() < 1e-6);

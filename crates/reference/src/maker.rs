@@ -61,7 +61,7 @@ impl<'a> Maker<'a> {
         let start = Instant::now();
         let settings = Self::settings(FIRST_SEED.wrapping_add(self.replicates()));
         let mut picture = Film::new(self.film.width(), self.film.height());
-        self.tracer.render(&mut picture, &self.camera, &settings, SAMPLES_PER_REPLICATE, stop);
+        self.tracer.render(&mut picture, &self.camera, &settings.into(), SAMPLES_PER_REPLICATE, stop);
         if picture.samples_per_pixel() < SAMPLES_PER_REPLICATE {
             return false;
         }

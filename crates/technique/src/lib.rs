@@ -17,9 +17,10 @@ pub use fake::FakeSettings;
 pub use pane::PaneSettings;
 pub use provenance::{Made, Provenance, made_from};
 pub use shot::{SceneChanges, Shot};
-pub use traced::{Integrator, TracedSettings, TreeSettings, TruthSettings, bounces_name, roulette_name};
+pub use traced::{TracedSettings, TreeSettings, TruthSettings, bounces_name, roulette_name};
 
 use image_file::Records;
+use pathtrace::Integrator;
 
 /// A way to turn a scene into a film, by the name on the command line.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

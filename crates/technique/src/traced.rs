@@ -1,19 +1,9 @@
 //! The settings of what is traced by rays: the truth, and Whitted's step towards it.
 
 use crate::DeviceChoice;
-use film::Film;
 use image_file::Records;
-use pathtrace::{GlassShadows, LightSampling, PathSettings, Roulette, SamplerKind, Stats, Tracer, WhittedSettings};
-use scene::{Camera, Scene};
-
-/// How rays are followed.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Integrator {
-    /// Along random paths.
-    Path(PathSettings),
-    /// In trees of mirrors and glass.
-    Whitted(WhittedSettings),
-}
+use pathtrace::{GlassShadows, Integrator, LightSampling, PathSettings, Roulette, WhittedSettings};
+use scene::Scene;
 
 /// An integrator, where and how long it goes on.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -61,40 +51,17 @@ impl Default for TreeSettings {
 
 impl From<TruthSettings> for TracedSettings {
     fn from(TruthSettings { path, spp }: TruthSettings) -> Self {
-        TracedSettings { integrator: Integrator::Path(path), device: DeviceChoice::default(), adapter: 0, spp }
+        TracedSettings { integrator: path.into(), device: DeviceChoice::default(), adapter: 0, spp }
     }
 }
 
 impl From<TreeSettings> for TracedSettings {
     fn from(TreeSettings { tree, spp }: TreeSettings) -> Self {
-        TracedSettings { integrator: Integrator::Whitted(tree), device: DeviceChoice::default(), adapter: 0, spp }
+        TracedSettings { integrator: tree.into(), device: DeviceChoice::default(), adapter: 0, spp }
     }
 }
 
 impl TracedSettings {
-    /// Adds samples to a film; `stop` as in [`Tracer::render`].
-    pub fn render(
-        &self,
-        tracer: &Tracer,
-        film: &mut Film,
-        camera: &Camera,
-        samples: u32,
-        stop: &(impl Fn() -> bool + Sync),
-    ) -> Stats {
-        match &self.integrator {
-            Integrator::Path(path) => tracer.render(film, camera, path, samples, stop),
-            Integrator::Whitted(tree) => tracer.render_whitted(film, camera, tree, samples, stop),
-        }
-    }
-
-    /// Where its random numbers come from.
-    pub fn sampler(&self) -> SamplerKind {
-        match self.integrator {
-            Integrator::Path(path) => path.sampler,
-            Integrator::Whitted(tree) => tree.sampler,
-        }
-    }
-
     /// For a pane's label: "truth (path, light)", "Whitted (depth 8)".
     pub fn label(&self) -> String {
         match self.integrator {
@@ -105,7 +72,7 @@ impl TracedSettings {
 
     /// The options of `visavis render` that say the same, with this many samples.
     pub fn options(&self, spp: u32) -> Records {
-        let mut options = vec![("spp", spp.to_string()), ("sampler", self.sampler().name().into())];
+        let mut options = vec![("spp", spp.to_string()), ("sampler", self.integrator.sampler().name().into())];
         match self.integrator {
             Integrator::Path(path) => options.extend([
                 ("bounces", bounces_name(path.bounces)),

@@ -230,7 +230,7 @@ fn report(args: &RenderArgs, scene: &Scene, rendered: &Rendered, errors: Option<
             report["rays"] = json!(rendered.stats.rays);
             report["cut_paths"] = json!(rendered.stats.cut_paths);
             report["standard_error"] = json!(rendered.film.standard_error());
-            let independent = rays.sampler() == SamplerKind::Independent;
+            let independent = rays.integrator.sampler() == SamplerKind::Independent;
             let reliable = independent && rendered.film.standard_error_is_reliable();
             report["standard_error_reliable"] = json!(reliable);
         }

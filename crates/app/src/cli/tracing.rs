@@ -9,7 +9,7 @@ use pathtrace::gpu::{GpuFilm, GpuTraceError, GpuTracer};
 use pathtrace::{Stats, Tracer};
 use scene::Scene;
 use std::time::{Duration, Instant};
-use technique::{Device, DeviceChoice, Integrator, TracedSettings};
+use technique::{Device, DeviceChoice, TracedSettings};
 
 /// Samples that are not worth opening a graphics device for: a second of an ordinary processor.
 const LITTLE_WORK: u64 = 1 << 24;
@@ -120,7 +120,7 @@ impl<'a> Tracing<'a> {
     pub fn add(&mut self, samples: u32) {
         match &mut self.on {
             On::Processor { tracer, film, stats, spp } => {
-                *stats = stats.plus(self.rays.render(tracer, film, &self.scene.camera, samples, &|| false));
+                *stats = stats.plus(tracer.render(film, &self.scene.camera, &self.rays.integrator, samples, &|| false));
                 *spp += samples;
             }
             On::Gpu(on) => {
@@ -193,10 +193,7 @@ impl OnDevice {
             fault.iter().for_each(|fault| fault.count(&gpu));
             false
         };
-        match &rays.integrator {
-            Integrator::Path(path) => tracer.accumulate(film, &scene.camera, path, until, &stop)?,
-            Integrator::Whitted(tree) => tracer.accumulate_whitted(film, &scene.camera, tree, until, &stop)?,
-        }
+        tracer.accumulate(film, &scene.camera, &rays.integrator, until, &stop)?;
         // a test does not wait for seconds
         if self.read_at.elapsed() > AT_RISK || self.fault.is_some() {
             self.read()?;
