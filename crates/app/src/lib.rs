@@ -7,7 +7,6 @@
 pub mod cli;
 pub mod engine;
 pub mod ruler;
-pub mod technique;
 pub mod ui;
 pub mod window;
 

@@ -6,7 +6,7 @@ use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT, Queryable};
 use std::cell::RefCell;
 use std::rc::Rc;
-use visavis::technique::{Adapter, Adapters, DeviceChoice, Technique};
+use technique::{Adapter, Adapters, DeviceChoice, TechniqueName};
 use visavis::ui::{Dump, Theme, UiCommand, ViewModel, Viewer};
 
 /// A viewer on a scene, its panels drawn at 1280 x 720.
@@ -80,7 +80,7 @@ fn settings_that_cannot_apply_are_absent() {
     let mut two_fakes = Panels::of("cornell");
     assert!(two_fakes.shows("Samples per pixel"));
     two_fakes.click("Fake", 1);
-    assert_eq!(two_fakes.viewer.borrow().settings.panes[1].technique, Technique::Raster);
+    assert_eq!(two_fakes.viewer.borrow().settings.panes[1].technique, TechniqueName::Raster);
     assert!(!two_fakes.shows("Samples per pixel") && !two_fakes.shows("throughput"));
 }
 

@@ -98,8 +98,8 @@ pub fn invariance(trial: &mut Trial) {
             let (scene, camera) = placed(invariant.scene.clone(), invariant.camera, scale, shift);
             let seen = (&Tracer::new(&scene), &camera);
             let film = match &invariant.trees {
-                Some(trees) => trial.whitted_film(seen, trees, 8, 4),
-                None => trial.path_film(seen, &invariant.settings, 32, trial.pick(64, 512)),
+                Some(trees) => trial.film(seen, *trees, 8, 4),
+                None => trial.film(seen, invariant.settings, 32, trial.pick(64, 512)),
             };
             film.mean()[0]
         });
@@ -186,6 +186,6 @@ fn slivers(trial: &mut Trial) {
     let tracer = Tracer::new(&scene);
     for estimator in [Estimator::LIGHT, Estimator::MIS] {
         let settings = direct(estimator);
-        trial.path("under slivers 1e-6 wide", expected, (&tracer, &camera), &settings);
+        trial.traced("under slivers 1e-6 wide", expected, (&tracer, &camera), settings);
     }
 }

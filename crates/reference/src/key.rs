@@ -1,21 +1,10 @@
 //! What a reference shows, as a number that is the same whenever the same is asked for.
 
 use scene::canonical::Canonical;
-use scene::{Camera, Scene};
 use std::fmt;
+use technique::Shot;
 
-/// What a reference shows.
-#[derive(Debug, Clone, Copy)]
-pub struct Subject<'a> {
-    /// The scene, sliders applied.
-    pub scene: &'a Scene,
-    /// From where.
-    pub camera: &'a Camera,
-    /// Width and height in pixels.
-    pub size: (u32, u32),
-}
-
-/// A hash of a [`Subject`] and of how references are made: equal for equal ones, in every run of the program and on
+/// A hash of what a [`Shot`] shows and of how references are made: equal for equal ones, in every run of the program and on
 /// every machine.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub struct Key(u128);
@@ -27,8 +16,8 @@ const VERSION: u32 = 2;
 impl Key {
     /// Of what the truth of a scene depends on, down to the last bit of every number, and of nothing else: the fake's
     /// numbers may move, and the scene's file may have a new name.
-    pub fn of(subject: &Subject) -> Self {
-        let Subject { scene, camera, size } = *subject;
+    pub fn of(shot: &Shot) -> Self {
+        let Shot { scene, camera, size, .. } = shot;
         let mut hasher = blake3::Hasher::new();
         let mut take = |bytes: &[u8]| _ = hasher.update(bytes);
         let mut canonical = Canonical(&mut take);
@@ -49,9 +38,10 @@ impl fmt::Display for Key {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use scene::{Camera, Scene};
 
     fn key(scene: &Scene, camera: &Camera, size: (u32, u32)) -> Key {
-        Key::of(&Subject { scene, camera, size })
+        Key::of(&Shot { camera: *camera, ..Shot::of(scene.clone(), size) })
     }
 
     #[test]

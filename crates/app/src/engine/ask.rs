@@ -7,8 +7,7 @@ use super::pane_workers::PaneWorkers;
 use super::post_process::{Comparison, PaneUpdate, PaneUpdates, PostProcess};
 use super::reference::{Origin, ReferenceUpdate, ReferenceWorker, Wish};
 use super::{Order, Side, Wake};
-use crate::ruler::{Against, Sought};
-use crate::technique::{Adapters, Provenance, Recipe, SceneChanges};
+use crate::ruler::Against;
 use crate::ui::Viewer;
 use anyhow::Context;
 use film::DisplayTransform;
@@ -17,6 +16,7 @@ use scene::{Camera, Scene};
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::thread::JoinHandle;
+use technique::{Adapters, Provenance, SceneChanges, Shot, Technique};
 
 /// The workers; dropping it ends their threads.
 pub struct Engine {
@@ -38,7 +38,7 @@ struct Asked {
     scene: Option<(u64, SceneChanges, Arc<Scene>)>,
     view: Option<View>,
     /// For each pane.
-    made: [Option<(u64, u64, Recipe)>; 2],
+    made: [Option<(u64, u64, Technique)>; 2],
     /// For each pane its job, until its last picture has come.
     unfinished: [Option<u64>; 2],
     display: Option<DisplayTransform>,
@@ -89,7 +89,7 @@ impl Engine {
     pub fn move_to(&mut self, window: &Gpu) {
         for (pane_workers, made) in self.pane_workers.iter_mut().zip(&mut self.asked.made) {
             pane_workers.move_to(window.clone());
-            made.take_if(|(.., recipe)| matches!(recipe, Recipe::Fake(_)));
+            made.take_if(|(.., technique)| matches!(technique, Technique::Fake(_)));
         }
         self.asked.display = None;
         self.post_process.set_comparison(self.asked.comparison);
@@ -141,13 +141,13 @@ impl Engine {
         }
         let mut jobs = [None; 2];
         for (side, pane_workers) in self.pane_workers.iter_mut().enumerate() {
-            let recipe = viewer.settings.panes[side].recipe();
-            let wish = Some((asked.views, viewer.restarts, recipe));
+            let technique = viewer.settings.panes[side].in_use();
+            let wish = Some((asked.views, viewer.restarts, technique));
             if asked.made[side] == wish {
                 continue;
             }
             asked.made[side] = wish;
-            pane_workers.submit(recipe, asked.order(viewer, scene.clone(), recipe));
+            pane_workers.submit(technique, asked.order(viewer, scene.clone(), technique));
             jobs[side] = Some(asked.jobs);
             asked.unfinished[side] = Some(asked.jobs);
         }
@@ -195,16 +195,10 @@ impl Engine {
             self.reference_worker = ReferenceWorker::start(self.post_process.clone(), self.wake.clone()).ok();
         }
         self.asked.reference = wish;
-        let sought = Sought {
-            source: viewer.source.clone(),
-            changes: viewer.settings.changes,
-            scene: scene.clone(),
-            camera: viewer.camera,
-            size: viewer.picture_size,
-        };
+        let shot = shot_of(viewer, scene.clone());
         let view = self.asked.views;
         self.reference_worker.iter_mut().for_each(|reference_worker| {
-            reference_worker.submit(Wish { view, sought: sought.clone(), origin: origin.clone() })
+            reference_worker.submit(Wish { view, shot: shot.clone(), origin: origin.clone() })
         });
     }
 
@@ -261,18 +255,23 @@ impl Asked {
         other_scene
     }
 
-    fn order(&mut self, viewer: &Viewer, scene: Arc<Scene>, recipe: Recipe) -> Order {
+    fn order(&mut self, viewer: &Viewer, scene: Arc<Scene>, technique: Technique) -> Order {
         self.jobs += 1;
-        let provenance = Arc::new(Provenance {
-            source: viewer.source.clone(),
-            changes: viewer.settings.changes,
-            camera: viewer.camera,
-            recipe,
-            size: viewer.picture_size,
-            device: recipe.technique().usual_machine(),
-        });
+        let (shot, device) = (shot_of(viewer, scene), technique.name().usual_device());
+        let provenance = Arc::new(Provenance { shot, technique, device });
         let shrink = viewer.settings.resolution.shrink();
-        Order { job: self.jobs, view: self.views, shrink, restarts: viewer.restarts, scene, provenance }
+        Order { job: self.jobs, view: self.views, shrink, restarts: viewer.restarts, provenance }
+    }
+}
+
+/// What is seen in both panes; `scene` is the viewer's with its changes.
+fn shot_of(viewer: &Viewer, scene: Arc<Scene>) -> Shot {
+    Shot {
+        source: viewer.source.clone(),
+        changes: viewer.settings.changes,
+        scene,
+        camera: viewer.camera,
+        size: viewer.picture_size,
     }
 }
 

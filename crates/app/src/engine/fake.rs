@@ -3,7 +3,6 @@
 
 use super::post_process::PostProcess;
 use super::{Inbox, Job, Picture, Side, step_back};
-use crate::technique::FakeSettings;
 use film::Film;
 use gpu::FaultInjection;
 use gpu::{Gpu, GpuError};
@@ -11,6 +10,7 @@ use raster::{Raster, RasterError};
 use std::sync::Arc;
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
+use technique::FakeSettings;
 
 /// A picture to make.
 pub type FakeJob = Job<FakeSettings>;
@@ -154,5 +154,5 @@ fn render_job(
 fn render(raster: &mut Raster, job: &FakeJob, shrink: u32) -> Result<Film, RasterError> {
     let (width, height) = job.order.size();
     let settings = job.settings.sized(width.div_ceil(shrink), height.div_ceil(shrink));
-    raster.render(&job.settings.applied_to(&job.order.scene), job.order.camera(), &settings)
+    raster.render(&job.settings.applied_to(job.order.scene()), job.order.camera(), &settings)
 }

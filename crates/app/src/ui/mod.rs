@@ -28,9 +28,9 @@ pub use viewer::{UiCommand, Viewer};
 use crate::engine::error_map::ErrorMap;
 use crate::engine::reference::Progress;
 use crate::ruler::Against;
-use crate::technique::Provenance;
 use compare::Errors;
 use std::sync::Arc;
+use technique::Provenance;
 
 /// All that there is to show.
 #[derive(Debug, Clone, Default)]

@@ -1,7 +1,7 @@
 //! What undo gives back: the settings of both panes, the scene's sliders and the display.
 
-use crate::technique::{PaneSettings, SceneChanges, Technique};
 use film::DisplayTransform;
+use technique::{PaneSettings, SceneChanges, TechniqueName};
 
 /// Everything that a slider or a choice changes. Camera, view and line are not part of it: moving them loses nothing.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -56,7 +56,7 @@ impl Default for Settings {
     fn default() -> Self {
         Settings {
             changes: SceneChanges::default(),
-            panes: [PaneSettings::of(Technique::Raster), PaneSettings::of(Technique::Path)],
+            panes: [PaneSettings::of(TechniqueName::Raster), PaneSettings::of(TechniqueName::Path)],
             display: DisplayTransform::default(),
             resolution: Resolution::default(),
         }

@@ -9,10 +9,10 @@ use crate::engine::Side;
 use crate::engine::export::Destination;
 use crate::engine::post_process::Comparison;
 use crate::ruler::Against;
-use crate::technique::{Adapters, DeviceChoice};
 use scene::{Camera, Scene};
 use std::path::PathBuf;
 use std::sync::Arc;
+use technique::{Adapters, DeviceChoice};
 
 /// What only the window around the viewer can do.
 #[derive(Debug, Clone, PartialEq, Eq)]

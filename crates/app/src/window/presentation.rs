@@ -7,12 +7,12 @@ use crate::engine::export::Content;
 use crate::engine::post_process::{PaneUpdate, PaneUpdates};
 use crate::engine::{Picture, Side};
 use crate::ruler::{Against, error_records};
-use crate::technique::Made;
 use crate::ui::{MapPane, Pane, ViewModel, Viewer};
 use film::DisplayTransform;
 use gpu::Gpu;
 use image_file::Records;
 use std::sync::Arc;
+use technique::Made;
 
 /// Both panes and the map.
 #[derive(Default)]

@@ -322,7 +322,7 @@ impl WindowState {
             .map(|pane| {
                 serde_json::json!({
                     "ready": pane.texture.is_some(),
-                    "label": pane.provenance.as_ref().map(|p| p.recipe.label()),
+                    "label": pane.provenance.as_ref().map(|p| p.technique.label()),
                     "spp": pane.spp,
                     "rough": pane.rough,
                     "unfinished": pane.unfinished,

@@ -12,13 +12,13 @@ pub use render::{RenderArgs, made_by};
 pub use seen::Seen;
 
 use super::{CliError, Command, help};
-use crate::technique::DeviceChoice;
 use crate::ui::Theme;
 use compare::ErrorMetric;
 use image_file::Kind;
 use lexopt::prelude::*;
 use std::ffi::OsString;
 use std::path::PathBuf;
+use technique::DeviceChoice;
 use values::{DEVICES, choice, lanes, number};
 
 /// `visavis [SCENE]`.

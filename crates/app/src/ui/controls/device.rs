@@ -2,9 +2,9 @@
 
 use super::widgets::choice;
 use crate::engine::Side;
-use crate::technique::{Device, DeviceChoice};
 use crate::ui::{Dump, Viewer};
 use egui::{ComboBox, Ui};
+use technique::{Device, DeviceChoice};
 
 pub fn show(viewer: &mut Viewer, side: Side, ui: &mut Ui, dump: &mut Dump) {
     let Some(best) = viewer.adapters.0.first() else { return };

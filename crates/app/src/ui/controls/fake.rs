@@ -2,11 +2,11 @@
 
 use super::widgets::{Stepped, choice, doubling, whole};
 use crate::engine::Side;
-use crate::technique::FakeSettings;
 use crate::ui::{Dump, Viewer};
 use egui::{CollapsingHeader, Ui};
 use raster::{Fake, FakeKnobs, Shading, ShadowFilter, Show};
 use scene::Scene;
+use technique::FakeSettings;
 
 pub fn show(viewer: &mut Viewer, side: Side, ui: &mut Ui, dump: &mut Dump) {
     let scene = viewer.scene.clone();

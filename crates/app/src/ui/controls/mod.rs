@@ -14,9 +14,9 @@ pub use comparison::state as reference_state;
 
 use super::{Dump, UiCommand, View, ViewModel, Viewer};
 use crate::engine::Side;
-use crate::technique::Technique;
 use egui::collapsing_header::CollapsingState;
 use egui::{CollapsingHeader, RichText, Ui};
+use technique::TechniqueName;
 
 /// Width of the panel in points: never more than 30 % of the window.
 pub fn width(window: f32) -> f32 {
@@ -67,9 +67,9 @@ fn pane(viewer: &mut Viewer, side: Side, open: bool, ui: &mut Ui, dump: &mut Dum
                 node.set_label(format!("Settings of {side:?}"));
             });
             match viewer.settings.panes[side as usize].technique {
-                Technique::Raster => fake::show(viewer, side, ui, dump),
-                Technique::Whitted => whitted::show(viewer, side, ui, dump),
-                Technique::Path => truth::show(viewer, side, ui, dump),
+                TechniqueName::Raster => fake::show(viewer, side, ui, dump),
+                TechniqueName::Whitted => whitted::show(viewer, side, ui, dump),
+                TechniqueName::Path => truth::show(viewer, side, ui, dump),
             }
         });
     dump.note(&format!("group {side:?}"), "", toggle.accessible_name(format!("Settings of {side:?}")));
@@ -79,12 +79,12 @@ fn techniques(viewer: &mut Viewer, side: Side, ui: &mut Ui, dump: &mut Dump) {
     // three words and the side in one row, also where the panel is narrow
     ui.spacing_mut().item_spacing.x = 1.0;
     ui.spacing_mut().button_padding.x = 3.0;
-    for technique in Technique::ALL {
+    for technique in TechniqueName::ALL {
         let chosen = viewer.settings.panes[side as usize].technique == technique;
         let hover = match technique {
-            Technique::Raster => "Rasterised: shadow map, cube map, local shading",
-            Technique::Whitted => "Whitted: trees of rays at mirrors and glass, local light elsewhere",
-            Technique::Path => "Path traced: light itself, by Monte Carlo",
+            TechniqueName::Raster => "Rasterised: shadow map, cube map, local shading",
+            TechniqueName::Whitted => "Whitted: trees of rays at mirrors and glass, local light elsewhere",
+            TechniqueName::Path => "Path traced: light itself, by Monte Carlo",
         };
         let button = ui.selectable_label(chosen, technique.title()).on_hover_text(hover);
         if dump.note(&format!("{side:?} {}", technique.name()), chosen, button).clicked() {

@@ -3,10 +3,10 @@
 use super::device;
 use super::widgets::{Stepped, choice, doubling, fit};
 use crate::engine::Side;
-use crate::technique::Recipe;
 use crate::ui::{Dump, Viewer};
 use egui::{CollapsingHeader, DragValue, Slider, SliderClamping, Ui};
 use pathtrace::{Directions, Estimator, LightSampling, PathSettings, Roulette, SamplerKind};
+use technique::Technique;
 
 /// The most samples that the slider offers: 2^16.
 const MOST_SPP_EXPONENT: u32 = 16;
@@ -66,7 +66,7 @@ fn describe(kind: SamplerKind) -> &'static str {
 /// Says what the pane's settings cannot see.
 pub fn blind_spot(viewer: &Viewer, side: Side, ui: &mut Ui) {
     let scene = viewer.settings.changes.applied_to(&viewer.scene);
-    if let Recipe::Rays(rays) = viewer.settings.panes[side as usize].recipe()
+    if let Technique::Traced(rays) = viewer.settings.panes[side as usize].in_use()
         && let Some(blind) = rays.blind_spot(&scene)
     {
         ui.label(blind);

@@ -3,9 +3,9 @@
 use super::{Dump, Pane, View, Viewer, spoken, text_box};
 use crate::engine::Side;
 use crate::ruler::{Against, brief};
-use crate::technique::Device;
 use crate::ui::Line;
 use egui::{Align2, Color32, Rect, Ui, vec2};
+use technique::Device;
 
 pub fn show(viewer: &Viewer, ui: &Ui, clip: Rect, side: Side, pane: &Pane, dump: &mut Dump) {
     if pane.texture.is_none() {
@@ -27,7 +27,7 @@ pub fn show(viewer: &Viewer, ui: &Ui, clip: Rect, side: Side, pane: &Pane, dump:
 }
 
 fn text(viewer: &Viewer, side: Side, pane: &Pane) -> String {
-    let name = pane.provenance.as_ref().map_or(String::new(), |p| p.recipe.label());
+    let name = pane.provenance.as_ref().map_or(String::new(), |p| p.technique.label());
     let mut text = format!("{side:?}: {name}\n{}", progress(viewer, side, pane));
     if let Some(why) = &pane.refused {
         text += &format!("\non the CPU: the GPU failed: {why}");

@@ -39,7 +39,7 @@ fn why_not(viewer: &Viewer, model: &ViewModel) -> String {
         if let Some(fault) = &pane.fault {
             return fault.clone();
         }
-        if pane.provenance.as_ref().is_some_and(|provenance| !provenance.recipe.shows_the_scene()) {
+        if pane.provenance.as_ref().is_some_and(|provenance| !provenance.technique.shows_the_scene()) {
             return format!("{} shows a map, not the scene: it has no errors", side.name());
         }
     }
