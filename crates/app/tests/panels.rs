@@ -6,8 +6,9 @@ use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT, Queryable};
 use std::cell::RefCell;
 use std::rc::Rc;
+use visavis::model::Theme;
 use visavis::technique::{Adapter, Adapters, DeviceChoice, Technique};
-use visavis::ui::{Dump, Theme, UiCommand, ViewModel, Viewer};
+use visavis::ui::{Dump, UiCommand, ViewModel, Viewer};
 
 /// A viewer on a scene, its panels drawn at 1280 x 720.
 struct Panels {

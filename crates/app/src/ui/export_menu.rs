@@ -1,6 +1,6 @@
 //! The export menu: the picture as seen or one pane, to a file or the clipboard, or as a command to type.
 
-use super::top_bar::{self, framed};
+use super::widgets::{framed, menu};
 use super::{Dump, Pane, UiCommand, View, ViewModel, Viewer};
 use crate::engine::Side;
 use crate::engine::export::Destination;
@@ -75,7 +75,7 @@ pub fn show(viewer: &mut Viewer, ui: &mut Ui, model: &ViewModel, dump: &mut Dump
     if model.map.is_none() && viewer.export.what == What::Map {
         viewer.export.what = What::Seen;
     }
-    let (response, _) = top_bar::menu("Export").ui(ui, |ui| {
+    let (response, _) = menu("Export").ui(ui, |ui| {
         ui.set_min_width(300.0);
         choice(viewer, ui, model.map.is_some(), dump);
         file(viewer, ui, dump, commands);

@@ -15,13 +15,13 @@ mod theme;
 mod top_bar;
 mod view;
 mod viewer;
+mod widgets;
 
 pub use comparison::ComparisonSettings;
 pub use dump::{Dump, Widget};
 pub use export_menu::What;
 pub use message::Message;
 pub use settings::{History, Resolution, Settings};
-pub use theme::Theme;
 pub use view::{Line, View};
 pub use viewer::{UiCommand, Viewer};
 

@@ -1,8 +1,9 @@
 //! The bar above the picture: scene, view, export, look. It wraps where the window is narrow.
 
-use super::{Dump, Theme, UiCommand, View, ViewModel, Viewer, export_menu};
-use egui::containers::menu::{MenuButton, MenuConfig};
-use egui::{Button, PopupCloseBehavior, Ui};
+use super::widgets::{framed, menu};
+use super::{Dump, UiCommand, View, ViewModel, Viewer, export_menu};
+use crate::model::Theme;
+use egui::{Button, Ui};
 use scene::builtin;
 use std::path::Path;
 
@@ -63,18 +64,6 @@ fn explain(view: View) -> &'static str {
         View::SideBySide => "Both whole, each in half of the window (4)",
         View::ErrorMap => "Where the errors are, and how large (5)",
     }
-}
-
-/// A menu that stays open while one uses what is in it.
-pub fn menu(title: impl Into<String>) -> MenuButton<'static> {
-    let stay = MenuConfig::new().close_behavior(PopupCloseBehavior::CloseOnClickOutside);
-    MenuButton::new(title.into()).config(stay)
-}
-
-/// A button with a ground, which menus leave out: it does something, and what has none is a choice.
-pub fn framed<'a>(text: &'a str, ui: &Ui) -> Button<'a> {
-    let inside_menus_too = ui.ctx().global_style().visuals.widgets.inactive.weak_bg_fill;
-    Button::new(text).fill(inside_menus_too)
 }
 
 fn scene_menu(viewer: &mut Viewer, ui: &mut Ui, dump: &mut Dump, commands: &mut Vec<UiCommand>) {

@@ -3,11 +3,12 @@
 use super::export_menu::ExportMenu;
 use super::settings::{History, Settings};
 use super::{
-    ComparisonSettings, Dump, Line, Message, Theme, View, ViewModel, What, controls, help, keys, picture, top_bar,
+    ComparisonSettings, Dump, Line, Message, View, ViewModel, What, controls, help, keys, picture, theme, top_bar,
 };
 use crate::engine::Side;
 use crate::engine::export::Destination;
 use crate::engine::post_process::Comparison;
+use crate::model::Theme;
 use crate::ruler::Against;
 use crate::technique::{Adapters, DeviceChoice};
 use scene::{Camera, Scene};
@@ -164,7 +165,7 @@ impl Viewer {
     pub fn ui(&mut self, ui: &mut egui::Ui, model: &ViewModel, dump: &mut Dump) -> Vec<UiCommand> {
         let mut commands = Vec::new();
         if self.dressed != Some(self.theme) {
-            self.theme.apply(ui.ctx());
+            theme::apply(self.theme, ui.ctx());
             self.dressed = Some(self.theme);
             ui.ctx().request_repaint();
         }

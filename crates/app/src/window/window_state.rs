@@ -6,12 +6,12 @@ use super::presentation::Presentation;
 use super::recovery::DeviceRecovery;
 use super::stopwatch::Stopwatch;
 use super::surface::{Painting, Presented, WindowSurface};
-use crate::cli::ViewArgs;
 use crate::engine::ask::Engine;
 use crate::engine::capture::Capture;
 use crate::engine::export::{Content, Destination, Export};
 use crate::engine::post_process::PaneUpdate;
 use crate::engine::{Picture, Side, Wake};
+use crate::model::ViewArgs;
 use crate::ui::{Dump, UiCommand, View, Viewer, What};
 use anyhow::Context;
 use egui_wgpu::ScreenDescriptor;
@@ -204,7 +204,7 @@ impl WindowState {
         match self.surface.begin_again(self.display.clone()) {
             Ok(gpu) => self.gpu = gpu,
             Err(why) => {
-                crate::cli::to_stderr(format_args!(
+                crate::console::to_stderr(format_args!(
                     "visavis: the window's GPU failed ({fault}) and is gone: {why:#}\n"
                 ));
                 return;

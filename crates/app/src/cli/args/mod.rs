@@ -12,29 +12,14 @@ pub use render::{RenderArgs, made_by};
 pub use seen::Seen;
 
 use super::{CliError, Command, help};
+use crate::model::{Theme, ViewArgs};
 use crate::technique::DeviceChoice;
-use crate::ui::Theme;
 use compare::ErrorMetric;
 use image_file::Kind;
 use lexopt::prelude::*;
 use std::ffi::OsString;
 use std::path::PathBuf;
 use values::{DEVICES, choice, lanes, number};
-
-/// `visavis [SCENE]`.
-#[derive(Debug, Clone, PartialEq)]
-pub struct ViewArgs {
-    /// A built-in name or a file.
-    pub scene: String,
-    /// Where to write the names, rectangles and states of the widgets, each frame, for tests.
-    pub ui_dump: Option<PathBuf>,
-    /// How the window looks at first.
-    pub theme: Theme,
-    /// Where rays are traced at first, in both panes.
-    pub device: DeviceChoice,
-    /// Whether to print at the end what frames cost the UI thread.
-    pub frame_stats: bool,
-}
 
 fn usage<T>(line: impl Into<String>) -> Result<T, CliError> {
     Err(CliError::Usage(line.into()))

@@ -1,6 +1,6 @@
 //! The camera in numbers, how many pixels its picture has, and places to come back to.
 
-use super::widgets::number;
+use crate::ui::widgets::number;
 use crate::ui::{Dump, Resolution, Viewer};
 use egui::{DragValue, Ui};
 use scene::{Camera, Vec3};

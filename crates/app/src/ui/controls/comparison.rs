@@ -1,10 +1,9 @@
 //! What both are compared with, the reference's state, and the map of errors.
 
-use super::widgets::choice;
 use crate::engine::Side;
 use crate::engine::reference::{Origin, Progress};
 use crate::ruler::{Against, brief};
-use crate::ui::top_bar::framed;
+use crate::ui::widgets::{choice, framed};
 use crate::ui::{Dump, UiCommand, ViewModel, Viewer};
 use compare::ErrorMetric;
 use egui::{DragValue, Ui};

@@ -1,8 +1,8 @@
 //! Where a pane's rays are traced. Absent where there is no adapter to choose.
 
-use super::widgets::choice;
 use crate::engine::Side;
 use crate::technique::{Device, DeviceChoice};
+use crate::ui::widgets::choice;
 use crate::ui::{Dump, Viewer};
 use egui::{ComboBox, Ui};
 

@@ -1,6 +1,6 @@
 //! How both are shown, and the course of rendering.
 
-use super::widgets::Stepped;
+use crate::ui::widgets::Stepped;
 use crate::ui::{Dump, Viewer};
 use egui::Ui;
 

@@ -1,8 +1,8 @@
 //! The settings of a fake.
 
-use super::widgets::{Stepped, choice, doubling, whole};
 use crate::engine::Side;
 use crate::technique::FakeSettings;
+use crate::ui::widgets::{Stepped, choice, doubling, whole};
 use crate::ui::{Dump, Viewer};
 use egui::{CollapsingHeader, Ui};
 use raster::{Fake, FakeKnobs, Shading, ShadowFilter, Show};

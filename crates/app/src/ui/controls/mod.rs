@@ -8,7 +8,6 @@ mod fake;
 mod scene;
 mod truth;
 mod whitted;
-mod widgets;
 
 pub use comparison::state as reference_state;
 

@@ -1,6 +1,6 @@
 //! What is changed in the scene, for both panes at once.
 
-use super::widgets::Stepped;
+use crate::ui::widgets::Stepped;
 use crate::ui::{Dump, Viewer};
 use egui::Ui;
 

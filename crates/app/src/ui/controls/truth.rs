@@ -1,9 +1,9 @@
 //! The settings of a truth.
 
 use super::device;
-use super::widgets::{Stepped, choice, doubling, fit};
 use crate::engine::Side;
 use crate::technique::Recipe;
+use crate::ui::widgets::{Stepped, choice, doubling, fit};
 use crate::ui::{Dump, Viewer};
 use egui::{CollapsingHeader, DragValue, Slider, SliderClamping, Ui};
 use pathtrace::{Directions, Estimator, LightSampling, PathSettings, Roulette, SamplerKind};

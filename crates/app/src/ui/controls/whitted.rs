@@ -2,8 +2,8 @@
 
 use super::device;
 use super::truth::{blind_spot, sampling};
-use super::widgets::{Stepped, choice, doubling, whole};
 use crate::engine::Side;
+use crate::ui::widgets::{Stepped, choice, doubling, whole};
 use crate::ui::{Dump, Viewer};
 use egui::{CollapsingHeader, Ui};
 use pathtrace::{GlassShadows, WhittedSettings};

@@ -4,7 +4,7 @@
 use super::{WHOLE, spoken, text_box};
 use crate::ruler::{Against, HeatMap, brief};
 use crate::ui::controls::reference_state;
-use crate::ui::{Dump, MapPane, ViewModel, Viewer};
+use crate::ui::{Dump, MapPane, ViewModel, Viewer, theme};
 use compare::ColourScale;
 use egui::{Align2, Color32, FontId, Galley, Mesh, Pos2, Rect, Stroke, Ui, pos2, vec2};
 use scene::Vec3;
@@ -66,7 +66,7 @@ fn numbers_at(map: &MapPane, rect: Rect, at: Pos2) -> Option<String> {
 /// The box in the corner, from top to bottom: name, bar, ticks, and the rest in words.
 fn legend(viewer: &Viewer, ui: &Ui, rect: Rect, map: &HeatMap, pixel: Option<String>, dump: &mut Dump) {
     let painter = ui.painter().with_clip_rect(rect);
-    let size = viewer.theme.label_size();
+    let size = theme::label_size(viewer.theme);
     let width = (15.0 * size).min(rect.width() - 36.0).max(40.0);
     let lay = |text: String| painter.layout(text, FontId::proportional(size), Color32::WHITE, width);
     let (name, words) = (lay(map.label.clone()), lay(in_words(map, pixel)));

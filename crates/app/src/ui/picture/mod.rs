@@ -5,7 +5,7 @@ mod label;
 mod map;
 mod mouse;
 
-use super::{Dump, Line, Message, Pane, View, ViewModel, Viewer};
+use super::{Dump, Line, Message, Pane, View, ViewModel, Viewer, theme};
 use crate::engine::Side;
 use egui::accesskit;
 use egui::{Align2, Color32, FontId, Pos2, Rect, Sense, Stroke, Ui, pos2, vec2};
@@ -162,7 +162,7 @@ fn spoken(ui: &Ui, name: &str, text: &str, place: Rect, aloud: bool) {
 fn text_box(viewer: &Viewer, ui: &Ui, clip: Rect, at: Pos2, align: Align2, text: &str, colour: Color32) -> Rect {
     let painter = ui.painter().with_clip_rect(clip);
     let width = (clip.width() - 32.0).max(40.0);
-    let galley = painter.layout(text.to_owned(), FontId::proportional(viewer.theme.label_size()), colour, width);
+    let galley = painter.layout(text.to_owned(), FontId::proportional(theme::label_size(viewer.theme)), colour, width);
     let place = align.anchor_size(at, galley.size());
     painter.rect_filled(place.expand2(vec2(6.0, 3.0)), 4.0, Color32::from_black_alpha(215));
     painter.galley(place.min, galley, colour);
