@@ -8,5 +8,5 @@ mod sought;
 
 pub use figures::{brief, error_records, noise_line};
 pub use heat_map::{HeatMap, Pair};
-pub use reference_image::{Against, ReferenceImage};
+pub use reference_image::ReferenceImage;
 pub use sought::Sought;

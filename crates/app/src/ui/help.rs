@@ -1,6 +1,6 @@
 //! The help: mouse and keys on one card.
 
-use super::{Dump, Viewer, keys};
+use super::{UiContext, keys};
 use egui::Ui;
 
 const MOUSE: [(&str, &str); 5] = [
@@ -11,14 +11,14 @@ const MOUSE: [(&str, &str); 5] = [
     ("Ctrl+wheel, pinch", "zoom: narrow or widen the view"),
 ];
 
-pub fn show(viewer: &mut Viewer, ui: &mut Ui, dump: &mut Dump) {
-    if viewer.help && !viewer.memory.help_was_open {
+pub fn show(cx: &mut UiContext, ui: &mut Ui) {
+    if cx.model.state.help && !cx.model.state.help_was_open {
         // egui lays a new window out twice: once to measure it
         ui.ctx().request_discard("the help is new");
         ui.ctx().request_repaint();
     }
-    viewer.memory.help_was_open = viewer.help;
-    let mut open = viewer.help;
+    cx.model.state.help_was_open = cx.model.state.help;
+    let mut open = cx.model.state.help;
     let tallest = ui.ctx().content_rect().height() - 80.0;
     let window = egui::Window::new("Mouse and keys").open(&mut open).collapsible(false).resizable(false);
     let shown = window
@@ -35,7 +35,7 @@ pub fn show(viewer: &mut Viewer, ui: &mut Ui, dump: &mut Dump) {
             });
         });
     if let Some(shown) = shown {
-        dump.note("help", "", shown.response);
+        cx.dump.note("help", "", shown.response);
     }
-    viewer.help = open;
+    cx.model.state.help = open;
 }

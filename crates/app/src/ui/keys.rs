@@ -1,8 +1,8 @@
 //! The keys of the whole window. Letters are ignored while typing; Tab, arrows, space and enter belong to the widgets;
 //! PageUp, PageDown, '.', F5 and Esc stay free for a presenter's remote.
 
-use super::{UiCommand, View, Viewer, What};
-use crate::engine::export::Destination;
+use super::{UiCommand, UiContext, export_menu};
+use crate::model::{Destination, ExportRequest, ExportSubject, View};
 use egui::{Event, Key, Modifiers};
 
 /// What the keys do, for the help.
@@ -24,28 +24,29 @@ pub const KEYS: [(&str, &str); 15] = [
     ("?", "this help"),
 ];
 
-pub fn listen(viewer: &mut Viewer, ctx: &egui::Context, commands: &mut Vec<UiCommand>) {
+pub fn listen(cx: &mut UiContext, ctx: &egui::Context) {
     let command = |key| pressed(ctx, key, Modifiers::COMMAND) > 0;
     if command(Key::S) {
-        let to = Destination::File(viewer.export.seen_file(viewer));
-        commands.push(UiCommand::Export { what: What::Seen, to });
+        let to = Destination::File(export_menu::seen_file(cx.model));
+        cx.commands.push(UiCommand::Export(ExportRequest { subject: ExportSubject::AsSeen, to }));
     }
     if command(Key::Q) {
-        commands.push(UiCommand::Quit);
+        cx.commands.push(UiCommand::Quit);
     }
     if ctx.text_edit_focused() {
         return;
     }
     if ctx.input(|i| i.events.contains(&Event::Copy)) {
-        commands.push(UiCommand::Export { what: What::Seen, to: Destination::Clipboard });
+        cx.commands
+            .push(UiCommand::Export(ExportRequest { subject: ExportSubject::AsSeen, to: Destination::Clipboard }));
     }
     for _ in 0..pressed(ctx, Key::Z, Modifiers::COMMAND) {
-        viewer.undo();
+        cx.model.undo();
     }
     for _ in 0..pressed(ctx, Key::Z, Modifiers::COMMAND | Modifiers::SHIFT) + pressed(ctx, Key::Y, Modifiers::COMMAND) {
-        viewer.redo();
+        cx.model.redo();
     }
-    letters(viewer, ctx);
+    letters(cx, ctx);
 }
 
 /// How often a key went down with just these modifiers since the last frame. Two presses within one slow frame are two;
@@ -60,24 +61,25 @@ fn pressed(ctx: &egui::Context, wanted: Key, with: Modifiers) -> usize {
     ctx.input(|i| i.events.iter().filter(is_wanted).count())
 }
 
-fn letters(viewer: &mut Viewer, ctx: &egui::Context) {
+fn letters(cx: &mut UiContext, ctx: &egui::Context) {
     let presses = |key| pressed(ctx, key, Modifiers::NONE);
     let turned_over = |key| presses(key) % 2 == 1;
     for _ in 0..presses(Key::T) {
-        viewer.toggle();
+        cx.model.session.toggle();
+        cx.model.state.hint = false;
     }
     for (key, view) in [Key::Num1, Key::Num2, Key::Num3, Key::Num4, Key::Num5].into_iter().zip(View::ALL) {
         for _ in 0..presses(key) {
-            viewer.choose(view);
+            cx.model.session.choose(view);
         }
     }
-    viewer.paused ^= turned_over(Key::P);
-    viewer.panel ^= turned_over(Key::H);
-    viewer.restarts += presses(Key::R) as u64;
+    cx.model.state.paused ^= turned_over(Key::P);
+    cx.model.state.panel ^= turned_over(Key::H);
+    cx.model.state.restarts += presses(Key::R) as u64;
     if presses(Key::C) > 0 {
-        viewer.camera = viewer.scene.camera;
+        cx.model.document.camera = cx.model.document.scene.camera;
     }
     if ctx.input(|i| i.key_pressed(Key::Questionmark)) {
-        viewer.help = !viewer.help;
+        cx.model.state.help = !cx.model.state.help;
     }
 }

@@ -5,73 +5,73 @@ mod label;
 mod map;
 mod mouse;
 
-use super::{Dump, Line, Message, Pane, View, ViewModel, Viewer, theme};
-use crate::engine::Side;
+use super::{UiContext, theme};
+use crate::model::{Line, Message, PaneId, PictureArea, View};
 use egui::accesskit;
 use egui::{Align2, Color32, FontId, Pos2, Rect, Sense, Stroke, Ui, pos2, vec2};
 
 const WHOLE: Rect = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
 
-/// One side in the picture area.
+/// One pane in the picture area.
 struct Shown {
-    side: Side,
+    pane: PaneId,
     /// Where its picture lies.
     place: Rect,
     /// What of it is seen.
     clip: Rect,
 }
 
-pub fn show(viewer: &mut Viewer, ui: &mut Ui, model: &ViewModel, dump: &mut Dump) {
-    let panes = &model.panes;
+pub fn show(cx: &mut UiContext, ui: &mut Ui) {
     let scale = ui.ctx().pixels_per_point();
     let rect = whole_pixels(ui.max_rect(), scale);
-    viewer.picture_rect = rect;
-    let frame = if viewer.view == View::SideBySide { left_half(rect, scale) } else { rect };
+    let frame = if cx.model.session.view == View::SideBySide { left_half(rect, scale) } else { rect };
     let pixels = frame.size() * scale;
-    let shrink = viewer.settings.resolution.shrink();
+    let shrink = cx.model.session.resolution.shrink();
     let side = |pixels: f32| (pixels.round().max(1.0) as u32).div_ceil(shrink);
-    viewer.picture_size = (side(pixels.x), side(pixels.y));
+    cx.model.state.picture = PictureArea {
+        size: (side(pixels.x), side(pixels.y)),
+        corners: [rect.left(), rect.top(), rect.right(), rect.bottom()],
+    };
 
     let response = ui.allocate_rect(rect, Sense::click_and_drag());
-    mouse::listen(viewer, ui, &response, rect);
-    let shown = arranged(viewer, rect, frame);
-    for Shown { side, place, clip } in &shown {
-        pane(viewer, ui, *place, *clip, &panes[*side as usize]);
+    mouse::listen(cx, ui, &response, rect);
+    let shown = arranged(cx, rect, frame);
+    for Shown { pane, place, clip } in &shown {
+        picture(cx, ui, *place, *clip, *pane);
     }
-    if viewer.view == View::Wipe {
-        line(ui, rect, viewer.line, viewer.wipe);
+    if cx.model.session.view == View::Wipe {
+        line(ui, rect, cx.model.session.line, cx.model.session.wipe);
     }
-    if viewer.view == View::ErrorMap {
-        map::show(viewer, ui, rect, model, response.hover_pos(), dump);
+    if cx.model.session.view == View::ErrorMap {
+        map::show(cx, ui, rect, response.hover_pos());
     }
-    for Shown { side, clip, .. } in &shown {
-        label::show(viewer, ui, *clip, *side, &panes[*side as usize], dump);
+    for Shown { pane, clip, .. } in &shown {
+        label::show(cx, ui, *clip, *pane);
     }
-    if !viewer.posing {
-        say(viewer, ui, rect, dump);
+    if !cx.model.state.posing {
+        say(cx, ui, rect);
     }
-    let response = response.accessible_name(format!("Picture: {}", viewer.view.name()));
+    let response = response.accessible_name(format!("Picture: {}", cx.model.session.view.name()));
     if response.has_focus() {
         ui.painter().rect_stroke(rect, 0.0, Stroke::new(2.0, Color32::YELLOW), egui::StrokeKind::Inside);
     }
-    dump.note("picture", viewer.view.name(), response);
+    cx.dump.note("picture", cx.model.session.view.name(), response);
 }
 
-fn arranged(viewer: &Viewer, rect: Rect, frame: Rect) -> Vec<Shown> {
-    let shown = |side, place, clip| Shown { side, place, clip };
-    match viewer.view {
-        View::A => vec![shown(Side::A, rect, rect)],
-        View::B => vec![shown(Side::B, rect, rect)],
+fn arranged(cx: &UiContext, rect: Rect, frame: Rect) -> Vec<Shown> {
+    let shown = |pane, place, clip| Shown { pane, place, clip };
+    match cx.model.session.view {
+        View::Pane(pane) => vec![shown(pane, rect, rect)],
         View::Wipe => {
-            let (of_a, of_b) = match viewer.line {
-                Line::Vertical => rect.split_left_right_at_fraction(viewer.wipe),
-                Line::Horizontal => rect.split_top_bottom_at_fraction(viewer.wipe),
+            let (of_a, of_b) = match cx.model.session.line {
+                Line::Vertical => rect.split_left_right_at_fraction(cx.model.session.wipe),
+                Line::Horizontal => rect.split_top_bottom_at_fraction(cx.model.session.wipe),
             };
-            vec![shown(Side::A, rect, of_a), shown(Side::B, rect, of_b)]
+            vec![shown(PaneId::A, rect, of_a), shown(PaneId::B, rect, of_b)]
         }
         View::SideBySide => {
             let beside = frame.translate(vec2(rect.width() - frame.width(), 0.0));
-            vec![shown(Side::A, frame, frame), shown(Side::B, beside, beside)]
+            vec![shown(PaneId::A, frame, frame), shown(PaneId::B, beside, beside)]
         }
         View::ErrorMap => Vec::new(),
     }
@@ -89,15 +89,15 @@ fn left_half(rect: Rect, pixels_per_point: f32) -> Rect {
     Rect::from_min_size(rect.min, vec2(half, rect.height()))
 }
 
-fn pane(viewer: &Viewer, ui: &Ui, rect: Rect, clip: Rect, pane: &Pane) {
-    let painter = ui.painter().with_clip_rect(clip);
+fn picture(cx: &UiContext, ui: &Ui, rect: Rect, clip: Rect, pane: PaneId) {
     let in_the_middle = |text: &str, colour| {
-        text_box(viewer, ui, clip, clip.center(), Align2::CENTER_CENTER, text, colour);
+        text_box(cx, ui, clip, clip.center(), Align2::CENTER_CENTER, text, colour);
     };
-    match (&pane.fault, pane.texture) {
+    let fault = cx.shown.panes.get(pane).and_then(|shown| shown.fault.as_ref());
+    match (fault, cx.textures.panes.get(pane)) {
         (Some(fault), _) => in_the_middle(fault, Color32::from_rgb(255, 150, 150)),
         (None, Some(texture)) => {
-            painter.image(texture, rect, WHOLE, Color32::WHITE);
+            ui.painter().with_clip_rect(clip).image(*texture, rect, WHOLE, Color32::WHITE);
         }
         (None, None) => in_the_middle("rendering ...", Color32::WHITE),
     }
@@ -122,27 +122,27 @@ fn line(ui: &Ui, rect: Rect, line: Line, wipe: f32) {
 }
 
 /// The hint for a newcomer, or the last thing worth saying.
-fn say(viewer: &mut Viewer, ui: &Ui, rect: Rect, dump: &mut Dump) {
+fn say(cx: &mut UiContext, ui: &Ui, rect: Rect) {
     let expired = |message: &Message| message.remaining().is_some_and(|left| left.is_zero());
     let dismissed = ui.input(|i| {
         i.events.iter().any(|e| matches!(e, egui::Event::Key { pressed: true, .. })) || i.pointer.any_pressed()
     });
-    viewer.message.take_if(|message| expired(message) || (dismissed && message.is_old()));
-    let (name, text, colour) = match &viewer.message {
+    cx.model.state.message.take_if(|message| expired(message) || (dismissed && message.is_old()));
+    let (name, text, colour) = match &cx.model.state.message {
         Some(message) => {
             ui.ctx().request_repaint_after(message.remaining().unwrap_or(std::time::Duration::MAX));
             let colour = if message.failed { Color32::from_rgb(255, 150, 150) } else { Color32::WHITE };
             ("message", message.text.clone(), colour)
         }
-        None if viewer.hint => {
-            let line = if viewer.view == View::Wipe { "Drag the line. " } else { "" };
+        None if cx.model.state.hint => {
+            let line = if cx.model.session.view == View::Wipe { "Drag the line. " } else { "" };
             ("hint", format!("{line}T swaps A and B. Drag the picture to orbit. ? shows all keys."), Color32::WHITE)
         }
         None => return,
     };
     let at = rect.center_bottom() - vec2(0.0, 12.0);
-    let place = text_box(viewer, ui, rect, at, Align2::CENTER_BOTTOM, &text, colour);
-    dump.note_text(name, &text, place, rect);
+    let place = text_box(cx, ui, rect, at, Align2::CENTER_BOTTOM, &text, colour);
+    cx.dump.note_text(name, &text, place, rect);
     spoken(ui, name, &text, place, true);
 }
 
@@ -159,10 +159,11 @@ fn spoken(ui: &Ui, name: &str, text: &str, place: Rect, aloud: bool) {
 }
 
 /// Text on a dark ground that keeps it readable over any picture; returns where it is.
-fn text_box(viewer: &Viewer, ui: &Ui, clip: Rect, at: Pos2, align: Align2, text: &str, colour: Color32) -> Rect {
+fn text_box(cx: &UiContext, ui: &Ui, clip: Rect, at: Pos2, align: Align2, text: &str, colour: Color32) -> Rect {
     let painter = ui.painter().with_clip_rect(clip);
     let width = (clip.width() - 32.0).max(40.0);
-    let galley = painter.layout(text.to_owned(), FontId::proportional(theme::label_size(viewer.theme)), colour, width);
+    let galley =
+        painter.layout(text.to_owned(), FontId::proportional(theme::label_size(cx.model.state.theme)), colour, width);
     let place = align.anchor_size(at, galley.size());
     painter.rect_filled(place.expand2(vec2(6.0, 3.0)), 4.0, Color32::from_black_alpha(215));
     painter.galley(place.min, galley, colour);
