@@ -6,14 +6,15 @@ use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT, Queryable};
 use std::cell::RefCell;
 use std::rc::Rc;
-use visavis::model::{Against, Model, PaneId, Theme, View, ViewModel};
+use visavis::model::{Against, Model, PaneId, Theme, View, ViewModel, Wanted};
 use visavis::technique::{Adapter, Adapters, DeviceChoice, Technique};
-use visavis::ui::{self, Dump, Textures, UiCommand, UiContext};
+use visavis::ui::{self, Dump, Textures, UiCommand, UiContext, Workspaces};
 
 /// The window of a scene without its pictures, drawn at 1280 x 720.
 struct Panels {
     harness: Harness<'static>,
     model: Rc<RefCell<Model>>,
+    workspaces: Rc<RefCell<Workspaces>>,
     requests: Rc<RefCell<Vec<UiCommand>>>,
 }
 
@@ -32,8 +33,9 @@ impl Panels {
 
     fn showing(model: Model) -> Self {
         let model = Rc::new(RefCell::new(model));
+        let workspaces = Rc::new(RefCell::new(Workspaces::default()));
         let requests = Rc::new(RefCell::new(Vec::new()));
-        let (shared, asked) = (model.clone(), requests.clone());
+        let (shared, offered, asked) = (model.clone(), workspaces.clone(), requests.clone());
         let harness = Harness::builder().with_size([1280.0, 720.0]).build_ui(move |ui| {
             let mut cx = UiContext {
                 model: &mut shared.borrow_mut(),
@@ -42,13 +44,18 @@ impl Panels {
                 dump: &mut Dump::default(),
                 commands: &mut asked.borrow_mut(),
             };
-            ui::show(&mut cx, ui);
+            ui::show(&mut offered.borrow_mut(), &mut cx, ui);
         });
-        Panels { harness, model, requests }
+        Panels { harness, model, workspaces, requests }
     }
 
     fn shows(&self, label: &str) -> bool {
         self.harness.query_all_by_label_contains(label).next().is_some()
+    }
+
+    /// What shall be made of all that is chosen.
+    fn wanted(&self) -> Wanted {
+        self.workspaces.borrow().open().wanted(&self.model.borrow())
     }
 
     /// Expects that every widget has a name, and returns how many there are.
@@ -143,13 +150,13 @@ fn what_the_map_and_the_reference_need_is_there_with_them_alone() {
     panels.click("the reference", 0);
     assert!(of_both.iter().all(|label| panels.shows(label)));
     panels.click("B - reference", 0);
-    let wish = panels.model.borrow().wanted().map.expect("a map to draw");
+    let wish = panels.wanted().map.expect("a map to draw");
     assert_eq!((wish.comparison.of, wish.comparison.against), (PaneId::B, Against::Reference));
     assert_eq!(wish.metric, compare::ErrorMetric::SquaredRelative);
     assert_eq!(wish.held, Some(1.0), "there was no picture to fit it to");
     // each map has a scale of its own
     panels.click("relative", 0);
-    assert_eq!(panels.model.borrow().wanted().map.map(|wish| wish.held), Some(None));
+    assert_eq!(panels.wanted().map.map(|wish| wish.held), Some(None));
 }
 
 #[test]

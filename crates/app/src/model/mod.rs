@@ -115,19 +115,20 @@ impl Model {
         self.history.note(&settings, busy);
     }
 
-    /// What shall be made for the picture area as it was last drawn.
-    pub fn wanted(&self) -> Wanted {
+    /// These panes' pictures for the picture area as it was last drawn, without comparisons: what a workspace begins
+    /// with.
+    pub fn wanted(&self, panes: impl IntoIterator<Item = PaneId>) -> Wanted {
         let Model { document, session, state, .. } = self;
         let shot = document.shot(state.picture.size);
-        let pane = |(id, settings): (PaneId, &crate::technique::PaneSettings)| {
-            let (recipe, shrink) = (settings.recipe(), session.resolution.shrink());
-            (id, WantedPane { shot: shot.clone(), recipe, shrink })
+        let pane = |id| {
+            let (recipe, shrink) = (session.panes.get(id)?.recipe(), session.resolution.shrink());
+            Some((id, WantedPane { shot: shot.clone(), recipe, shrink }))
         };
         Wanted {
             opened: document.opened,
-            panes: session.panes.iter().map(pane).collect(),
-            comparisons: session.panes.ids().map(|id| session.comparison.comparison(id)).collect(),
-            map: (session.view == View::ErrorMap).then(|| session.comparison.map()),
+            panes: panes.into_iter().filter_map(pane).collect(),
+            comparisons: Vec::new(),
+            map: None,
             display: session.display,
             paused: state.paused,
             restarts: state.restarts,

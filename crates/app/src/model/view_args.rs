@@ -15,6 +15,8 @@ pub struct ViewArgs {
     pub theme: Theme,
     /// Where rays are traced at first, in both panes.
     pub device: DeviceChoice,
+    /// The workspace to begin with, and all others to choose from; `None` for the usual one alone.
+    pub workspace: Option<String>,
     /// Whether to print at the end what frames cost the UI thread.
     pub frame_stats: bool,
 }

@@ -1,17 +1,10 @@
 //! The help: mouse and keys on one card.
 
+use super::workspace::Workspace;
 use super::{UiContext, keys};
 use egui::Ui;
 
-const MOUSE: [(&str, &str); 5] = [
-    ("drag the line", "wipe; double click: back to the middle"),
-    ("drag the picture", "orbit about the target"),
-    ("Shift or right drag", "pan"),
-    ("wheel", "dolly: move nearer or farther"),
-    ("Ctrl+wheel, pinch", "zoom: narrow or widen the view"),
-];
-
-pub fn show(cx: &mut UiContext, ui: &mut Ui) {
+pub fn show(workspace: &dyn Workspace, cx: &mut UiContext, ui: &mut Ui) {
     if cx.model.state.help && !cx.model.state.help_was_open {
         // egui lays a new window out twice: once to measure it
         ui.ctx().request_discard("the help is new");
@@ -27,7 +20,7 @@ pub fn show(cx: &mut UiContext, ui: &mut Ui) {
         .vscroll(true)
         .show(ui.ctx(), |ui| {
             egui::Grid::new("keys").num_columns(2).spacing([16.0, 4.0]).show(ui, |ui| {
-                for (what, does) in MOUSE.iter().chain(&keys::KEYS) {
+                for (what, does) in workspace.help().iter().chain(&keys::KEYS) {
                     ui.strong(*what);
                     ui.label(*does);
                     ui.end_row();

@@ -7,12 +7,14 @@ mod dump;
 mod export_menu;
 mod help;
 mod keys;
-mod picture;
+mod overlay;
 mod theme;
 mod top_bar;
 mod widgets;
+mod workspace;
 
 pub use dump::{Dump, Widget};
+pub use workspace::{Workspace, Workspaces};
 
 use crate::model::{ExportRequest, Model, Panes, ViewModel};
 use egui::{TextureId, Ui};
@@ -55,24 +57,16 @@ pub struct UiContext<'a> {
 }
 
 /// Draws one frame.
-pub fn show(cx: &mut UiContext, ui: &mut Ui) {
+pub fn show(workspaces: &mut Workspaces, cx: &mut UiContext, ui: &mut Ui) {
     if cx.model.state.dressed != Some(cx.model.state.theme) {
         theme::apply(cx.model.state.theme, ui.ctx());
         cx.model.state.dressed = Some(cx.model.state.theme);
         ui.ctx().request_repaint();
     }
-    keys::listen(cx, ui.ctx());
-    egui::Panel::top("top bar").show(ui, |ui| top_bar::show(cx, ui));
-    if cx.model.state.panel {
-        let width = controls::width(ui.available_width());
-        egui::Panel::right("controls").resizable(false).exact_size(width).show(ui, |ui| {
-            egui::ScrollArea::vertical().auto_shrink(false).show(ui, |ui| controls::show(cx, ui));
-        });
-    }
-    // no ground under the pictures, which cover it: where the processor draws, every layer is paid for
-    let bare = egui::CentralPanel::default().frame(egui::Frame::NONE);
-    bare.show(ui, |ui| picture::show(cx, ui));
-    help::show(cx, ui);
+    keys::listen(workspaces, cx, ui.ctx());
+    egui::Panel::top("top bar").show(ui, |ui| top_bar::show(workspaces, cx, ui));
+    workspaces.open_mut().ui(cx, ui);
+    help::show(workspaces.open(), cx, ui);
     let busy = ui.input(|i| i.pointer.any_down()) || ui.ctx().text_edit_focused();
     cx.model.settle(busy);
 }

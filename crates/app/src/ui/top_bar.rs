@@ -1,8 +1,8 @@
-//! The bar above the picture: scene, view, export, look. It wraps where the window is narrow.
+//! The bar above: scene, what the workspace adds, export, look. It wraps where the window is narrow.
 
 use super::widgets::{framed, menu};
-use super::{UiCommand, UiContext, export_menu};
-use crate::model::{PaneId, Theme, View};
+use super::{UiCommand, UiContext, Workspaces, export_menu};
+use crate::model::Theme;
 use egui::{Button, Ui};
 use scene::builtin;
 use std::path::Path;
@@ -13,22 +13,17 @@ const NARROW: f32 = 740.0;
 /// The most letters of a scene's name that the bar shows.
 const MOST_LETTERS: usize = 18;
 
-pub fn show(cx: &mut UiContext, ui: &mut Ui) {
+pub fn show(workspaces: &mut Workspaces, cx: &mut UiContext, ui: &mut Ui) {
     ui.horizontal_wrapped(|ui| {
         if ui.available_width() < NARROW {
             // closer together, so that it all stays in one row
             ui.spacing_mut().item_spacing.x = 2.0;
             ui.spacing_mut().button_padding.x = 4.0;
         }
+        workspaces.tabs(cx, ui);
         scene_menu(cx, ui);
         ui.separator();
-        for view in View::ALL {
-            let chosen = cx.model.session.view == view;
-            let button = ui.selectable_label(chosen, view.name()).on_hover_text(explain(view));
-            if cx.dump.note(&format!("view {}", view.name()), chosen, button).clicked() {
-                cx.model.session.choose(view);
-            }
-        }
+        workspaces.open_mut().bar(cx, ui);
         ui.separator();
         export_menu::show(cx, ui);
         look_menu(cx, ui);
@@ -55,16 +50,6 @@ fn steps(cx: &mut UiContext, ui: &mut Ui) {
     let redo = ui.add_enabled(can_redo, Button::new("Redo"));
     if cx.dump.note("redo", can_redo, redo.on_hover_text("Change it again (Ctrl+Shift+Z)")).clicked() {
         cx.model.redo();
-    }
-}
-
-fn explain(view: View) -> &'static str {
-    match view {
-        View::Pane(PaneId::A) => "Pane A alone (1, T swaps A and B)",
-        View::Pane(_) => "Pane B alone (2, T swaps A and B)",
-        View::Wipe => "Both, with a line to drag (3; again: turn the line)",
-        View::SideBySide => "Both whole, each in half of the window (4)",
-        View::ErrorMap => "Where the errors are, and how large (5)",
     }
 }
 

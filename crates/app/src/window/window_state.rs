@@ -12,7 +12,7 @@ use crate::engine::export::{Content, Export};
 use crate::engine::post_process::PaneUpdate;
 use crate::engine::{Picture, Wake};
 use crate::model::{Destination, ExportRequest, ExportSubject, Model, PaneId, PaneView, ViewArgs};
-use crate::ui::{self, Dump, UiCommand, UiContext};
+use crate::ui::{self, Dump, UiCommand, UiContext, Workspaces};
 use anyhow::Context;
 use egui_wgpu::ScreenDescriptor;
 use egui_winit::accesskit_winit;
@@ -30,6 +30,7 @@ use winit::window::Window;
 pub struct WindowState {
     engine: Engine,
     model: Model,
+    workspaces: Workspaces,
     presentation: Presentation,
     egui: egui_winit::State,
     surface: WindowSurface,
@@ -95,6 +96,7 @@ impl WindowState {
         Ok(WindowState {
             engine: Engine::start(&gpu, &adapters, wake)?,
             model: Model::new(scene, args.scene.clone(), args.theme).beside(adapters, args.device),
+            workspaces: Workspaces::beginning_with(args.workspace.as_deref()),
             presentation: Presentation::default(),
             egui,
             surface,
@@ -172,7 +174,7 @@ impl WindowState {
                 dump: &mut self.dump,
                 commands: &mut commands,
             };
-            ui::show(&mut cx, ui);
+            ui::show(&mut self.workspaces, &mut cx, ui);
         });
         self.scale = output.pixels_per_point;
         self.egui.handle_platform_output(&self.window, output.platform_output);
@@ -182,7 +184,7 @@ impl WindowState {
         let screen = ScreenDescriptor { size_in_pixels: self.surface.size(), pixels_per_point: self.scale };
         let painting = Painting { jobs: &jobs, screen };
         commands.into_iter().for_each(|request| self.handle(request));
-        let wanted = self.model.wanted();
+        let wanted = self.workspaces.open().wanted(&self.model);
         self.presentation.keep(&wanted);
         self.engine.ask(&wanted).values().for_each(|job| self.stopwatch.asked(*job));
         self.stats.note(self.model.session.view.name(), clock.elapsed());

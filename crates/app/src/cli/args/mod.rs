@@ -14,6 +14,7 @@ pub use seen::Seen;
 use super::{CliError, Command, help};
 use crate::model::{Theme, ViewArgs};
 use crate::technique::DeviceChoice;
+use crate::ui::Workspaces;
 use compare::ErrorMetric;
 use image_file::Kind;
 use lexopt::prelude::*;
@@ -64,13 +65,15 @@ fn nothing_more(mut parser: lexopt::Parser, command: Command) -> Result<Command,
 
 fn parse_view(mut parser: lexopt::Parser) -> Result<Command, CliError> {
     let (mut scene, mut ui_dump, mut theme, mut frame_stats) = (None, None, Theme::default(), false);
-    let mut device = DeviceChoice::default();
+    let (mut device, mut workspace) = (DeviceChoice::default(), None);
     while let Some(arg) = parser.next()? {
         match arg {
             Value(word) if scene.is_none() => scene = Some(word.string()?),
             Long("ui-dump") => ui_dump = Some(PathBuf::from(parser.value()?)),
             Long("theme") => theme = choice(&mut parser, "--theme", Theme::named, "dark or projector")?,
             Long("device") => device = choice(&mut parser, "--device", DeviceChoice::named, DEVICES)?,
+            // hidden: there is one workspace to use today
+            Long("workspace") => workspace = Some(a_workspace(&mut parser)?),
             Long("frame-stats") => frame_stats = true,
             Long("help") | Short('h') => return Ok(Command::Print(help::HELP)),
             Long("version") | Short('V') => return Ok(Command::Print(help::VERSION)),
@@ -78,7 +81,13 @@ fn parse_view(mut parser: lexopt::Parser) -> Result<Command, CliError> {
         }
     }
     let scene = scene.unwrap_or_else(|| "whitted".into());
-    Ok(Command::View(ViewArgs { scene, ui_dump, theme, device, frame_stats }))
+    Ok(Command::View(ViewArgs { scene, ui_dump, theme, device, workspace, frame_stats }))
+}
+
+fn a_workspace(parser: &mut lexopt::Parser) -> Result<String, CliError> {
+    let known = Workspaces::names();
+    let named = |name: &str| known.contains(&name).then(|| name.to_owned());
+    choice(parser, "--workspace", named, &known.join(" or "))
 }
 
 /// `visavis compare A B ...`.

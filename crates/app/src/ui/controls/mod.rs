@@ -1,7 +1,6 @@
-//! The panel of controls, grouped by what they change. What the scene or the technique cannot use is absent.
+//! Controls for every workspace, grouped by what they change. What the scene or the technique cannot use is absent.
 
 mod camera;
-mod comparison;
 mod device;
 mod display;
 mod fake;
@@ -9,47 +8,61 @@ mod scene;
 mod truth;
 mod whitted;
 
-pub use comparison::state as reference_state;
-
 use super::UiContext;
-use crate::model::{PaneId, View};
+use crate::model::PaneId;
 use crate::technique::Technique;
 use egui::collapsing_header::CollapsingState;
 use egui::{CollapsingHeader, RichText, Ui};
 
 /// Width of the panel in points: never more than 30 % of the window.
-pub fn width(window: f32) -> f32 {
+fn width(window: f32) -> f32 {
     (0.285 * window).clamp(150.0, 300.0)
 }
 
 /// Windows lower than this, in points, open with fewer groups unfolded.
 const LOW: f32 = 600.0;
 
-pub fn show(cx: &mut UiContext, ui: &mut Ui) {
-    let low = ui.ctx().content_rect().height() < LOW;
-    if cx.model.session.view == View::ErrorMap {
-        group(cx, ui, "Error map", true, comparison::map);
+/// Whether fewer groups are unfolded at first.
+pub fn is_low(ui: &Ui) -> bool {
+    ui.ctx().content_rect().height() < LOW
+}
+
+/// Shows a workspace's controls at the right, unless they are hidden.
+pub fn panel(cx: &mut UiContext, ui: &mut Ui, contents: fn(&mut UiContext, &mut Ui)) {
+    if cx.model.state.panel {
+        let width = width(ui.available_width());
+        egui::Panel::right("controls").resizable(false).exact_size(width).show(ui, |ui| {
+            egui::ScrollArea::vertical().auto_shrink(false).show(ui, |ui| contents(cx, ui));
+        });
     }
+}
+
+/// What is changed in the scene; absent where nothing can be.
+pub fn scene(cx: &mut UiContext, ui: &mut Ui) {
     if cx.model.document.scene.refraction_ratio().is_some() || cx.model.document.scene.sun.is_some() {
         group(cx, ui, "Scene (both)", true, scene::show);
     }
-    let panes: Vec<PaneId> = cx.model.session.panes.ids().collect();
-    for id in panes {
-        pane(cx, id, !low || id != PaneId::A, ui);
-    }
+}
+
+/// How pictures are shown, and the course of rendering.
+pub fn display(cx: &mut UiContext, ui: &mut Ui) {
     group(cx, ui, "Display (both)", true, display::show);
-    group(cx, ui, "Compare with", false, comparison::against);
+}
+
+/// The camera in numbers.
+pub fn camera(cx: &mut UiContext, ui: &mut Ui) {
     group(cx, ui, "Camera (both)", false, camera::show);
 }
 
-fn group(cx: &mut UiContext, ui: &mut Ui, title: &str, open: bool, contents: fn(&mut UiContext, &mut Ui)) {
+/// Controls under a title that folds them.
+pub fn group(cx: &mut UiContext, ui: &mut Ui, title: &str, open: bool, contents: fn(&mut UiContext, &mut Ui)) {
     let header = CollapsingHeader::new(RichText::new(title).strong()).id_salt(title).default_open(open);
     let shown = header.show_unindented(ui, |ui| contents(cx, ui));
     cx.dump.note(&format!("group {title}"), shown.fully_open(), shown.header_response);
 }
 
 /// The technique of one pane in the header, and its settings below.
-fn pane(cx: &mut UiContext, pane: PaneId, open: bool, ui: &mut Ui) {
+pub fn pane(cx: &mut UiContext, pane: PaneId, open: bool, ui: &mut Ui) {
     let id = ui.make_persistent_id(("pane", pane));
     let state = CollapsingState::load_with_default_open(ui.ctx(), id, open);
     let (toggle, _, _) = state

@@ -15,14 +15,14 @@ pub fn against(cx: &mut UiContext, ui: &mut Ui) {
         cx.model.session.comparison.with = CompareWith::ALL[index];
     }
     if cx.model.session.comparison.with == CompareWith::Reference {
-        let state = state(cx);
+        let state = reference_state(cx);
         cx.dump.note("text reference", &state, ui.label(&state));
         load(cx, ui);
     }
 }
 
 /// How far the reference has come.
-pub fn state(cx: &UiContext) -> String {
+pub fn reference_state(cx: &UiContext) -> String {
     let Some(Progress { origin, pictures, noise, seconds, done, .. }) = &cx.shown.reference else {
         return "reference: ...".into();
     };

@@ -1,10 +1,10 @@
 //! Name, cost and error of a pane, on the picture: in a corner of what is seen of it.
 
-use super::{spoken, text_box};
 use crate::model::{Line, PaneId, PaneView, View};
 use crate::ruler::brief;
 use crate::technique::Device;
 use crate::ui::UiContext;
+use crate::ui::overlay::{spoken, text_box};
 use egui::{Align2, Color32, Rect, Ui, vec2};
 
 pub fn show(cx: &mut UiContext, ui: &Ui, clip: Rect, pane: PaneId) {

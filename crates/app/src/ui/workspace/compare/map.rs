@@ -1,10 +1,11 @@
 //! The map of errors, and on it what its colours mean: its name, a colour bar with ticks, its mean, what is not finite,
 //! and the numbers under the mouse.
 
-use super::{WHOLE, spoken, text_box};
+use super::comparison::reference_state;
+use super::picture::WHOLE;
 use crate::model::{Against, Comparison, ErrorMap};
 use crate::ruler::{HeatMap, brief};
-use crate::ui::controls::reference_state;
+use crate::ui::overlay::{spoken, text_box};
 use crate::ui::{UiContext, theme};
 use compare::ColourScale;
 use egui::{Align2, Color32, FontId, Galley, Mesh, Pos2, Rect, Stroke, Ui, pos2, vec2};

@@ -1,16 +1,14 @@
 //! The picture area: one pane, both under the wipe or both side by side, or the map of their errors, and what is known
 //! about each on top.
 
-mod label;
-mod map;
-mod mouse;
+use super::{label, map, mouse};
+use crate::model::{Line, PaneId, PictureArea, View};
+use crate::ui::UiContext;
+use crate::ui::overlay::{say, text_box};
+use egui::{Align2, Color32, Rect, Sense, Stroke, Ui, pos2, vec2};
 
-use super::{UiContext, theme};
-use crate::model::{Line, Message, PaneId, PictureArea, View};
-use egui::accesskit;
-use egui::{Align2, Color32, FontId, Pos2, Rect, Sense, Stroke, Ui, pos2, vec2};
-
-const WHOLE: Rect = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
+/// All of a texture.
+pub const WHOLE: Rect = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
 
 /// One pane in the picture area.
 struct Shown {
@@ -49,7 +47,9 @@ pub fn show(cx: &mut UiContext, ui: &mut Ui) {
         label::show(cx, ui, *clip, *pane);
     }
     if !cx.model.state.posing {
-        say(cx, ui, rect);
+        let line = if cx.model.session.view == View::Wipe { "Drag the line. " } else { "" };
+        let hint = format!("{line}T swaps A and B. Drag the picture to orbit. ? shows all keys.");
+        say(cx, ui, rect, &hint);
     }
     let response = response.accessible_name(format!("Picture: {}", cx.model.session.view.name()));
     if response.has_focus() {
@@ -119,53 +119,4 @@ fn line(ui: &Ui, rect: Rect, line: Line, wipe: f32) {
     }
     let handle = Rect::from_center_size(middle, handle);
     painter.rect(handle, 6.0, Color32::WHITE, ends(1.0, Color32::BLACK), egui::StrokeKind::Outside);
-}
-
-/// The hint for a newcomer, or the last thing worth saying.
-fn say(cx: &mut UiContext, ui: &Ui, rect: Rect) {
-    let expired = |message: &Message| message.remaining().is_some_and(|left| left.is_zero());
-    let dismissed = ui.input(|i| {
-        i.events.iter().any(|e| matches!(e, egui::Event::Key { pressed: true, .. })) || i.pointer.any_pressed()
-    });
-    cx.model.state.message.take_if(|message| expired(message) || (dismissed && message.is_old()));
-    let (name, text, colour) = match &cx.model.state.message {
-        Some(message) => {
-            ui.ctx().request_repaint_after(message.remaining().unwrap_or(std::time::Duration::MAX));
-            let colour = if message.failed { Color32::from_rgb(255, 150, 150) } else { Color32::WHITE };
-            ("message", message.text.clone(), colour)
-        }
-        None if cx.model.state.hint => {
-            let line = if cx.model.session.view == View::Wipe { "Drag the line. " } else { "" };
-            ("hint", format!("{line}T swaps A and B. Drag the picture to orbit. ? shows all keys."), Color32::WHITE)
-        }
-        None => return,
-    };
-    let at = rect.center_bottom() - vec2(0.0, 12.0);
-    let place = text_box(cx, ui, rect, at, Align2::CENTER_BOTTOM, &text, colour);
-    cx.dump.note_text(name, &text, place, rect);
-    spoken(ui, name, &text, place, true);
-}
-
-/// Gives painted text to screen readers; `aloud` is read out as soon as it changes.
-fn spoken(ui: &Ui, name: &str, text: &str, place: Rect, aloud: bool) {
-    let response = ui.interact(place, ui.scope_id().with(name), Sense::hover());
-    ui.ctx().accesskit_node_builder(response.id, |node| {
-        node.set_role(accesskit::Role::Status);
-        node.set_label(text.to_owned());
-        if aloud {
-            node.set_live(accesskit::Live::Polite);
-        }
-    });
-}
-
-/// Text on a dark ground that keeps it readable over any picture; returns where it is.
-fn text_box(cx: &UiContext, ui: &Ui, clip: Rect, at: Pos2, align: Align2, text: &str, colour: Color32) -> Rect {
-    let painter = ui.painter().with_clip_rect(clip);
-    let width = (clip.width() - 32.0).max(40.0);
-    let galley =
-        painter.layout(text.to_owned(), FontId::proportional(theme::label_size(cx.model.state.theme)), colour, width);
-    let place = align.anchor_size(at, galley.size());
-    painter.rect_filled(place.expand2(vec2(6.0, 3.0)), 4.0, Color32::from_black_alpha(215));
-    painter.galley(place.min, galley, colour);
-    place
 }
