@@ -32,8 +32,12 @@ impl Panels {
     }
 
     fn showing(model: Model) -> Self {
+        Self::in_workspaces(model, Workspaces::default())
+    }
+
+    fn in_workspaces(model: Model, workspaces: Workspaces) -> Self {
         let model = Rc::new(RefCell::new(model));
-        let workspaces = Rc::new(RefCell::new(Workspaces::default()));
+        let workspaces = Rc::new(RefCell::new(workspaces));
         let requests = Rc::new(RefCell::new(Vec::new()));
         let (shared, offered, asked) = (model.clone(), workspaces.clone(), requests.clone());
         let harness = Harness::builder().with_size([1280.0, 720.0]).build_ui(move |ui| {
@@ -215,4 +219,21 @@ fn keys_and_menus_ask_the_shell() {
     panels.harness.run_steps(2);
     let asked = panels.requests.borrow().clone();
     assert!(matches!(asked[..], [UiCommand::Export { .. }, UiCommand::Quit]), "{asked:?}");
+}
+
+#[test]
+fn a_second_workspace_has_a_tab_where_it_is_asked_for_and_wants_pictures_of_its_own() {
+    let usual = Panels::of("whitted");
+    assert!(!usual.shows("Empty") && !usual.shows("Compare"), "there is nothing to choose from");
+    let cornell = scene::builtin::named("cornell").expect("a built-in scene");
+    let model = Model::new(cornell, "cornell".into(), Theme::Dark);
+    let mut panels = Panels::in_workspaces(model, Workspaces::beginning_with(Some("empty")));
+    assert_eq!(panels.wanted().panes.ids().count(), 0);
+    assert!(!panels.shows("Side by side"), "the views belong to the comparison");
+    panels.click("Compare", 0);
+    assert_eq!(panels.wanted().panes.ids().collect::<Vec<_>>(), [PaneId::A, PaneId::B]);
+    assert_eq!(panels.wanted().comparisons.len(), 2);
+    panels.click("Side by side", 0);
+    assert_eq!(panels.model.borrow().session.view, View::SideBySide);
+    panels.count_named();
 }

@@ -2,12 +2,14 @@
 //! made for it; scene, session, engine and bar are everybody's.
 
 mod compare;
+mod empty;
 
 use super::UiContext;
 use super::keys::Keys;
 use crate::model::{Model, Wanted};
 use compare::Compare;
 use egui::Ui;
+use empty::Empty;
 
 /// A line of the help: what one does, and what that does.
 pub type HelpLine = (&'static str, &'static str);
@@ -40,7 +42,7 @@ pub trait Workspace {
 
 /// All that there are, in the order of their tabs; the first one is the usual one.
 fn registry() -> Vec<Box<dyn Workspace>> {
-    vec![Box::new(Compare)]
+    vec![Box::new(Compare), Box::new(Empty)]
 }
 
 /// Those that the window offers, and the one that is open.
