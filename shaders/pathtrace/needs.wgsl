@@ -1,5 +1,5 @@
 // What a scene and its settings ask for. Pipelines are compiled for each choice, so that what is not asked for costs
-// neither time nor registers. Twin: crates/scene/src/needs.rs and crates/pathtrace/src/integrator/settings.rs.
+// neither time nor registers; what one integrator alone asks is beside it. Twin: crates/scene/src/needs.rs.
 
 // whether all shapes are met one by one; through a tree if not
 override FEW_SHAPES: bool = false;
@@ -19,15 +19,5 @@ override POINT_LIGHTS: bool = true;
 override SUN: bool = true;
 // whether random numbers are Sobol points; independent ones if not
 override SOBOL: bool = true;
-// whether diffuse vertices draw directions uniformly; by the cosine if not
-override UNIFORM_DIRECTIONS: bool = true;
-// how light is found: 0 by chance, 1 by sampling, 2 both, weighted
-override LIGHT_SEARCH: u32 = 2u;
-// whether a diffuse vertex may be left in more than one direction
-override BRANCHING: bool = true;
 // whether shadow rays pass glass
 override CLEAR_GLASS: bool = false;
-
-const BY_CHANCE: u32 = 0u;
-const BY_SAMPLING: u32 = 1u;
-const BY_BOTH: u32 = 2u;

@@ -1,10 +1,11 @@
 //! The reference: its claim about its own error holds, making it in parts is making it at once, and the store gives
 //! back what it was given and takes no more room than it may.
 
-use reference::{Goal, Key, Maker, Reference, SAMPLES_PER_REPLICATE, Store, Subject};
+use reference::{Goal, Key, Maker, Reference, SAMPLES_PER_REPLICATE, Store};
 use scene::{Scene, Vec3};
 use std::path::Path;
 use std::time::{Duration, SystemTime};
+use technique::Shot;
 use visavis_tests::TestFolder;
 
 const SIZE: (u32, u32) = (24, 24);
@@ -13,14 +14,14 @@ fn cornell() -> Scene {
     scene::builtin::named("cornell").unwrap()
 }
 
-fn subject(scene: &Scene, size: (u32, u32)) -> Subject<'_> {
-    Subject { scene, camera: &scene.camera, size }
+fn shot(scene: &Scene, size: (u32, u32)) -> Shot {
+    Shot::of(scene.clone(), size)
 }
 
 /// A reference of so many pictures, going on with one that is there.
 fn made(scene: &Scene, pictures: u32, begun: Option<&Reference>) -> Reference {
     let tracer = pathtrace::Tracer::new(scene);
-    let mut maker = Maker::new(&tracer, &subject(scene, SIZE), begun).unwrap();
+    let mut maker = Maker::new(&tracer, &shot(scene, SIZE), begun).unwrap();
     while maker.replicates() < pictures {
         assert!(maker.step(&|| false));
     }
@@ -40,7 +41,7 @@ fn the_standard_error_of_a_reference_is_calibrated() {
     let tracer = pathtrace::Tracer::new(&scene);
     let settings = pathtrace::PathSettings { seed: 1000, ..Maker::settings(0) };
     let mut truth = film::Film::new(SIZE.0, SIZE.1);
-    tracer.render(&mut truth, &scene.camera, &settings, 4 * 32 * SAMPLES_PER_REPLICATE, &|| false);
+    tracer.render(&mut truth, &scene.camera, &settings.into(), 4 * 32 * SAMPLES_PER_REPLICATE, &|| false);
 
     let errors = reference.standard_errors.as_ref().unwrap();
     let channels = |v: &Vec3| v.to_array().map(f64::from);
@@ -88,7 +89,7 @@ fn going_on_with_a_reference_is_making_it_at_once() {
 fn one_that_is_stopped_has_only_whole_pictures() {
     let scene = cornell();
     let tracer = pathtrace::Tracer::new(&scene);
-    let mut maker = Maker::new(&tracer, &subject(&scene, SIZE), None).unwrap();
+    let mut maker = Maker::new(&tracer, &shot(&scene, SIZE), None).unwrap();
     assert!(maker.step(&|| false));
     let before = maker.reference();
     assert!(!maker.step(&|| true));
@@ -105,7 +106,7 @@ fn no_usual_picture_shares_its_seed_with_a_reference() {
     for seed in (0..32).chain([Maker::settings(1).seed]) {
         let settings = Maker::settings(seed);
         let mut usual = film::Film::new(SIZE.0, SIZE.1);
-        tracer.render(&mut usual, &scene.camera, &settings, SAMPLES_PER_REPLICATE, &|| false);
+        tracer.render(&mut usual, &scene.camera, &settings.into(), SAMPLES_PER_REPLICATE, &|| false);
         // the two pictures of the reference, from their mean and their spread
         let pairs = usual.radiances().zip(&reference.radiances).zip(reference.standard_errors.as_ref().unwrap());
         let same = pairs.filter(|((u, mean), error)| ((*u - **mean).abs() - **error).abs().max_element() < 1e-6);
@@ -148,7 +149,7 @@ fn a_file_keeps_every_bit() {
 
 fn keys(count: u32) -> Vec<Key> {
     let scene = cornell();
-    (1..=count).map(|width| Key::of(&subject(&scene, (width, 3)))).collect()
+    (1..=count).map(|width| Key::of(&shot(&scene, (width, 3)))).collect()
 }
 
 #[test]

@@ -11,7 +11,6 @@ pub mod cli;
 pub mod engine;
 pub mod model;
 pub mod ruler;
-pub mod technique;
 pub mod ui;
 pub mod window;
 

@@ -6,8 +6,8 @@ use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT, Queryable};
 use std::cell::RefCell;
 use std::rc::Rc;
+use technique::{Adapter, Adapters, DeviceChoice, TechniqueName};
 use visavis::model::{Against, Model, PaneId, Theme, View, ViewModel, Wanted};
-use visavis::technique::{Adapter, Adapters, DeviceChoice, Technique};
 use visavis::ui::{self, Dump, Textures, UiCommand, UiContext, Workspaces};
 
 /// The window of a scene without its pictures, drawn at 1280 x 720.
@@ -99,7 +99,7 @@ fn settings_that_cannot_apply_are_absent() {
     let mut two_fakes = Panels::of("cornell");
     assert!(two_fakes.shows("Samples per pixel"));
     two_fakes.click("Fake", 1);
-    assert_eq!(two_fakes.model.borrow().session.panes[PaneId::B].technique, Technique::Raster);
+    assert_eq!(two_fakes.model.borrow().session.panes[PaneId::B].technique, TechniqueName::Raster);
     assert!(!two_fakes.shows("Samples per pixel") && !two_fakes.shows("throughput"));
 }
 

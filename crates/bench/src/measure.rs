@@ -126,10 +126,7 @@ pub fn traced(
 ) -> Result<Measurement, BenchError> {
     exposed(part, line, rung, truth, |film, seed, spp| {
         let start = Instant::now();
-        let stats = match line.way.path_settings(seed) {
-            Some(path) => tracer.render(film, &scene.camera, &path, spp, &|| false),
-            None => tracer.render_whitted(film, &scene.camera, &Way::whitted_settings(seed), spp, &|| false),
-        };
+        let stats = tracer.render(film, &scene.camera, &line.way.integrator(seed), spp, &|| false);
         Ok((stats, start.elapsed().as_secs_f64()))
     })
 }
@@ -147,10 +144,7 @@ pub fn traced_on_gpu(
     truth: &Truth,
 ) -> Result<Measurement, BenchError> {
     let mut trace = |film: &mut Film, seed: u32, spp: u32| {
-        let stats = match line.way.path_settings(seed) {
-            Some(path) => tracer.render(film, &scene.camera, &path, spp, &|| false)?,
-            None => tracer.render_whitted(film, &scene.camera, &Way::whitted_settings(seed), spp, &|| false)?,
-        };
+        let stats = tracer.render(film, &scene.camera, &line.way.integrator(seed), spp, &|| false)?;
         Ok((stats, tracer.take_seconds()))
     };
     trace(&mut Film::new(part.width, part.height), 0, 1)?;

@@ -56,7 +56,7 @@ pub fn of(
         }
     }
     let mut film = Film::try_new(part.width, part.height).ok_or(BenchError::Memory(part.width, part.height))?;
-    tracer.render_whitted(&mut film, &scene.camera, &Way::whitted_settings(1), WHITTED_SPP, &|| false);
+    tracer.render(&mut film, &scene.camera, &Way::whitted_settings(1).into(), WHITTED_SPP, &|| false);
     exhibits.push(exhibit(format!("Whitted, {WHITTED_SPP} samples per pixel"), &film, truth)?);
     Ok(exhibits)
 }

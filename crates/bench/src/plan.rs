@@ -271,8 +271,9 @@ fn samples_per_second(tracer: &Tracer, scene: &Scene, ways: &[PathSettings]) -> 
     const SIDE: u32 = 48;
     const LEAST_SECONDS: f64 = 0.2;
     let mut film = Film::new(SIDE, SIDE);
-    let mut all =
-        |spp| ways.iter().map(|way| tracer.render(&mut film, &scene.camera, way, spp, &|| false).samples).sum();
+    let mut all = |spp| {
+        ways.iter().map(|way| tracer.render(&mut film, &scene.camera, &(*way).into(), spp, &|| false).samples).sum()
+    };
     // threads and caches awake before the clock runs
     let _: u64 = all(1);
     let (start, mut samples) = (Instant::now(), 0u64);

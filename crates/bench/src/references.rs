@@ -4,10 +4,11 @@ use crate::BenchError;
 use crate::plan::Part;
 use film::Film;
 use pathtrace::{FEWEST_REPLICATES, Tracer};
-use reference::{Key, Maker, Reference, SAMPLES_PER_REPLICATE, Store, Subject};
+use reference::{Key, Maker, Reference, SAMPLES_PER_REPLICATE, Store};
 use scene::Scene;
 use serde::{Deserialize, Serialize};
 use std::time::{Duration, Instant};
+use technique::Shot;
 
 /// Seconds after which a reference in the making is kept, so that little is lost when it is interrupted.
 const KEPT_EVERY: Duration = Duration::from_secs(20);
@@ -89,11 +90,11 @@ pub fn make(
     progress: &mut dyn FnMut(f64),
 ) -> Result<(Truth, Option<String>), BenchError> {
     let size = (part.width, part.height);
-    let subject = Subject { scene, camera: &scene.camera, size };
-    let key = Key::of(&subject);
+    let shot = Shot::of(scene.clone(), size);
+    let key = Key::of(&shot);
     let begun = store.and_then(|store| store.get(key));
     let no_memory = || BenchError::Memory(size.0, size.1);
-    let mut maker = Maker::new(tracer, &subject, begun.as_ref()).ok_or_else(no_memory)?;
+    let mut maker = Maker::new(tracer, &shot, begun.as_ref()).ok_or_else(no_memory)?;
     let before = maker.replicates();
     let enough = |maker: &Maker| {
         maker.replicates() >= part.replicates()

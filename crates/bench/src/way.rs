@@ -3,7 +3,7 @@
 
 use gpu::Gpu;
 use pathtrace::gpu::{GpuTraceError, GpuTracer};
-use pathtrace::{Estimator, Lanes, PathSettings, Roulette, SamplerKind, Tracer, WhittedSettings};
+use pathtrace::{Estimator, Integrator, Lanes, PathSettings, Roulette, SamplerKind, Tracer, WhittedSettings};
 use raster::Fake;
 use scene::Scene;
 
@@ -180,6 +180,11 @@ impl Way {
         }
     }
 
+    /// Its integrator with a seed: Whitted's method where it is not of paths.
+    pub fn integrator(&self, seed: u32) -> Integrator {
+        self.path_settings(seed).map_or_else(|| Way::whitted_settings(seed).into(), Integrator::from)
+    }
+
     /// Settings of Whitted's method with a seed.
     pub fn whitted_settings(seed: u32) -> WhittedSettings {
         WhittedSettings { seed, ..WhittedSettings::default() }
@@ -233,7 +238,7 @@ mod tests {
             let scene = builtin::named(name).unwrap();
             let picture = |variant: &Variant| {
                 let mut film = Film::new(48, 27);
-                let settings = Way::USUAL.path_settings(1).unwrap();
+                let settings = Way::USUAL.integrator(1);
                 let MakeTracer::Cpu(tracer) = variant.tracer else { return None };
                 tracer(&scene).render(&mut film, &scene.camera, &settings, 4, &|| false);
                 Some(film)

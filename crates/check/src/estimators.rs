@@ -28,7 +28,7 @@ pub fn three_of_one(trial: &mut Trial) {
         let settings = direct(estimator);
         trial.path("mean", expected, seen, &settings);
         let mut film = Film::new(64, 64);
-        tracer.render(&mut film, &camera, &settings, trial.pick(128, 1024), &|| trial.stopped());
+        tracer.render(&mut film, &camera, &settings.into(), trial.pick(128, 1024), &|| trial.stopped());
         trial.count_nonfinite(&film);
         let subject = format!("path {}", estimator.name());
         let measured = variance_of_a_sample(&film) / (expected * expected);
@@ -76,7 +76,7 @@ fn slope_on_the_processor(
     let side = f64::from(pictures).sqrt() as u32;
     let Ok(slope) = slope(RECTANGLE[2].2, trial.pick(10, 14), |samples| {
         let mut film = Film::new(side, side);
-        tracer.render(&mut film, camera, settings, samples, &|| trial.stopped());
+        tracer.render(&mut film, camera, &(*settings).into(), samples, &|| trial.stopped());
         Ok::<_, Infallible>(film)
     });
     slope
@@ -105,7 +105,7 @@ fn replicates(trial: &mut Trial, tracer: &Tracer, expected: f64) {
     trial.equal("film", "standard error over spread, independent", 1.0, ratio, 0.1);
     let sobol = PathSettings { sampler: SamplerKind::Sobol, ..settings };
     let replicated = |seed: u32| {
-        let settings = PathSettings { seed: seed * 100, ..sobol };
+        let settings = PathSettings { seed: seed * 100, ..sobol }.into();
         estimate_with_replicates(tracer, &camera, &settings, (16, 16), 16, 16, &|| stop.load(Ordering::Relaxed))
     };
     let ratio = told_and_true(replicated, 16);

@@ -229,7 +229,7 @@ impl<'a> Trial<'a> {
         samples: u32,
     ) -> Film {
         let mut film = Film::new(size, size);
-        tracer.render(&mut film, camera, settings, samples, &|| self.stopped());
+        tracer.render(&mut film, camera, &(*settings).into(), samples, &|| self.stopped());
         self.count_nonfinite(&film);
         film
     }
@@ -243,7 +243,7 @@ impl<'a> Trial<'a> {
         samples: u32,
     ) -> Film {
         let mut film = Film::new(size, size);
-        tracer.render_whitted(&mut film, camera, settings, samples, &|| self.stopped());
+        tracer.render(&mut film, camera, &(*settings).into(), samples, &|| self.stopped());
         self.count_nonfinite(&film);
         film
     }
@@ -262,7 +262,7 @@ pub fn paths<'a>(
 ) -> impl Fn(&mut Film, u32, u32, &AtomicBool) + Sync + 'a {
     |film, seed, samples, stop| {
         let stop = || stop.load(Ordering::Relaxed);
-        tracer.render(film, camera, &PathSettings { seed, ..*settings }, samples, &stop);
+        tracer.render(film, camera, &PathSettings { seed, ..*settings }.into(), samples, &stop);
     }
 }
 
@@ -274,7 +274,7 @@ pub fn whitted_trees<'a>(
 ) -> impl Fn(&mut Film, u32, u32, &AtomicBool) + Sync + 'a {
     |film, seed, samples, stop| {
         let stop = || stop.load(Ordering::Relaxed);
-        tracer.render_whitted(film, camera, &WhittedSettings { seed, ..*settings }, samples, &stop);
+        tracer.render(film, camera, &WhittedSettings { seed, ..*settings }.into(), samples, &stop);
     }
 }
 

@@ -8,6 +8,7 @@ pub const FILES: &[(&str, &str)] = &[
     ("pathtrace/bsdf/bsdf.wgsl", include_str!("../../../shaders/pathtrace/bsdf/bsdf.wgsl")),
     ("pathtrace/camera.wgsl", include_str!("../../../shaders/pathtrace/camera.wgsl")),
     ("pathtrace/drive/film.wgsl", include_str!("../../../shaders/pathtrace/drive/film.wgsl")),
+    ("pathtrace/drive/pixels.wgsl", include_str!("../../../shaders/pathtrace/drive/pixels.wgsl")),
     ("pathtrace/drive/rays.wgsl", include_str!("../../../shaders/pathtrace/drive/rays.wgsl")),
     ("pathtrace/exact.wgsl", include_str!("../../../shaders/pathtrace/exact.wgsl")),
     ("pathtrace/integrator/path.wgsl", include_str!("../../../shaders/pathtrace/integrator/path.wgsl")),

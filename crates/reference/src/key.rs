@@ -1,20 +1,10 @@
 //! What a reference shows, as a number that is the same whenever the same is asked for.
 
-use scene::{Camera, Scene};
+use scene::Scene;
 use std::fmt::{self, Write};
+use technique::Shot;
 
-/// What a reference shows.
-#[derive(Debug, Clone, Copy)]
-pub struct Subject<'a> {
-    /// The scene, sliders applied.
-    pub scene: &'a Scene,
-    /// From where.
-    pub camera: &'a Camera,
-    /// Width and height in pixels.
-    pub size: (u32, u32),
-}
-
-/// A hash of a [`Subject`] and of how references are made: equal for equal ones, in every run of the program.
+/// A hash of what a [`Shot`] shows and of how references are made: equal for equal ones, in every run of the program.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub struct Key(u128);
 
@@ -24,11 +14,11 @@ const VERSION: u32 = 1;
 impl Key {
     /// Of everything in the scene, down to the last bit of every number; but for its own camera, which does not matter
     /// to one who looks from elsewhere.
-    pub fn of(subject: &Subject) -> Self {
-        let scene = Scene { camera: *subject.camera, ..subject.scene.clone() };
+    pub fn of(shot: &Shot) -> Self {
+        let scene = Scene { camera: shot.camera, ..(*shot.scene).clone() };
         let mut hash = Fnv1a(0x6c62_272e_07bb_0142_62b8_2175_6295_c58d);
         // numbers are written so that reading them back gives the same ones
-        let words = write!(hash, "{VERSION} {} {:?} {scene:?}", super::SAMPLES_PER_REPLICATE, subject.size);
+        let words = write!(hash, "{VERSION} {} {:?} {scene:?}", super::SAMPLES_PER_REPLICATE, shot.size);
         debug_assert!(words.is_ok(), "hashing does not fail");
         Key(hash.0)
     }
@@ -55,6 +45,7 @@ impl Write for Fnv1a {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use scene::Camera;
 
     fn hash_of(words: &str) -> u128 {
         let mut hash = Fnv1a(0x6c62_272e_07bb_0142_62b8_2175_6295_c58d);
@@ -72,7 +63,8 @@ mod tests {
     #[test]
     fn the_last_bit_of_any_number_changes_the_key() {
         let scene = scene::builtin::named("whitted").unwrap();
-        let key = |scene: &Scene, camera: &Camera, size| Key::of(&Subject { scene, camera, size });
+        let key =
+            |scene: &Scene, camera: &Camera, size| Key::of(&Shot { camera: *camera, ..Shot::of(scene.clone(), size) });
         let plain = key(&scene, &scene.camera, (64, 36));
         assert_eq!(plain, key(&scene.clone(), &scene.camera, (64, 36)));
         assert_ne!(plain, key(&scene, &scene.camera, (36, 64)));

@@ -10,7 +10,7 @@ mod key;
 mod maker;
 mod store;
 
-pub use key::{Key, Subject};
+pub use key::Key;
 pub use maker::{Goal, Maker, SAMPLES_PER_REPLICATE};
 pub use store::{Store, StoreError, Usage};
 
@@ -19,6 +19,7 @@ use film::{Film, Pixel};
 use image_file::{ImageFileError, Layer, LayerValues, Radiances, Records};
 use scene::Vec3;
 use std::path::Path;
+use technique::Shot;
 
 /// Layers of a reference's file beside the first, which holds the radiance.
 const STANDARD_ERROR: &str = "standard error";
@@ -40,6 +41,11 @@ pub struct Reference {
     pub seconds: f64,
     /// Samples that were not finite and are left out.
     pub nonfinite: u64,
+}
+
+/// What the file of a shot's reference says about it, beside what [`Reference::encode`] adds.
+pub fn records(shot: &Shot) -> Records {
+    shot.reference_records(Maker::settings(0).estimator.name())
 }
 
 impl Reference {

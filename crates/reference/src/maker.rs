@@ -1,10 +1,11 @@
 //! Making a reference, replicate by replicate, until it is good enough.
 
-use crate::{Reference, Subject};
+use crate::Reference;
 use film::Film;
 use pathtrace::{Estimator, FEWEST_REPLICATES, PathSettings, Tracer};
 use scene::{Camera, Vec3};
 use std::time::Instant;
+use technique::Shot;
 
 /// Samples per pixel of each of a reference's independent pictures.
 pub const SAMPLES_PER_REPLICATE: u32 = 64;
@@ -37,16 +38,16 @@ pub struct Maker<'a> {
 }
 
 impl<'a> Maker<'a> {
-    /// Begins one, or goes on with one that is there. `tracer` is that of the subject's scene. `None` if there is no
+    /// Begins one, or goes on with one that is there. `tracer` is that of the shot's scene. `None` if there is no
     /// memory for it.
-    pub fn new(tracer: &'a Tracer, subject: &Subject, begun: Option<&Reference>) -> Option<Self> {
-        let begun = begun.filter(|r| (r.width, r.height) == subject.size && r.replicates > 0);
+    pub fn new(tracer: &'a Tracer, shot: &Shot, begun: Option<&Reference>) -> Option<Self> {
+        let begun = begun.filter(|r| (r.width, r.height) == shot.size && r.replicates > 0);
         let film = match begun {
             Some(reference) => reference.film()?,
-            None => Film::try_new(subject.size.0, subject.size.1)?,
+            None => Film::try_new(shot.size.0, shot.size.1)?,
         };
         let seconds = begun.map_or(0.0, |reference| reference.seconds);
-        Some(Maker { tracer, camera: *subject.camera, film, seconds })
+        Some(Maker { tracer, camera: shot.camera, film, seconds })
     }
 
     /// How references are traced: both ways to find light, weighted, so that no sample is unbounded; no limit of
@@ -60,7 +61,7 @@ impl<'a> Maker<'a> {
         let start = Instant::now();
         let settings = Self::settings(FIRST_SEED.wrapping_add(self.replicates()));
         let mut picture = Film::new(self.film.width(), self.film.height());
-        self.tracer.render(&mut picture, &self.camera, &settings, SAMPLES_PER_REPLICATE, stop);
+        self.tracer.render(&mut picture, &self.camera, &settings.into(), SAMPLES_PER_REPLICATE, stop);
         if picture.samples_per_pixel() < SAMPLES_PER_REPLICATE {
             return false;
         }

@@ -1,11 +1,21 @@
 //#import pathtrace/prepared.wgsl
 //#import pathtrace/bsdf/bsdf.wgsl
-//#import pathtrace/drive/film.wgsl
+//#import pathtrace/drive/pixels.wgsl
 // One path: the tutorial's `shade`, turned from recursion into a state that moves from vertex to vertex (Task 2 d).
 // Twin: crates/pathtrace/src/integrator/path.rs.
 //
-// A thread is a pixel. Each iteration of its one loop is one segment: meet a surface, take its emission, sample a
-// light, draw a direction, play roulette; a thread whose path has ended begins its next sample in the same iteration.
+// Each step is one segment: meet a surface, take its emission, sample a light, draw a direction, play roulette.
+
+// whether diffuse vertices draw directions uniformly; by the cosine if not
+override UNIFORM_DIRECTIONS: bool = true;
+// how light is found: 0 by chance, 1 by sampling, 2 both, weighted
+override LIGHT_SEARCH: u32 = 2u;
+// whether a diffuse vertex may be left in more than one direction
+override BRANCHING: bool = true;
+
+const BY_CHANCE: u32 = 0u;
+const BY_SAMPLING: u32 = 1u;
+const BY_BOTH: u32 = 2u;
 
 struct PathState {
     ray: Ray,
@@ -44,9 +54,7 @@ const PATH_ENDS: u32 = 0u;
 const PATH_GOES_ON: u32 = 1u;
 const PATH_IS_AT_DIFFUSE: u32 = 2u;
 
-var<private> sampler_: Sampler;
 var<private> path: PathState;
-var<private> outcome: Outcome;
 var<private> vertex: DiffuseVertex;
 // vertices that more branches will leave, and the path as it arrived there: one list for each part, because compilers
 // take long over lists of structures
@@ -61,36 +69,9 @@ var<private> fork_throughputs: array<vec3f, MOST_FORKS>;
 var<private> fork_counts: array<vec4u, MOST_FORKS>;
 var<private> waiting: u32;
 
-@compute @workgroup_size(8, 8)
-fn trace(@builtin(global_invocation_id) id: vec3u) {
-    let place = id.xy + vec2u(params.first_column, params.first_row);
-    let width = u32(params.size.x);
-    if place.x >= params.end_column || place.y >= params.end_row {
-        return;
-    }
-    let index = (place.y - params.film_row) * width + place.x;
-    var pixel = film[index];
-    sampler_ = Sampler(place.y * width + place.x, pixel.samples, params.seed);
-    begin(place);
-    loop {
-        if pixel.samples >= params.until {
-            break;
-        }
-        if step_on() {
-            continue;
-        }
-        record(&pixel, outcome);
-        sampler_.sample = pixel.samples;
-        begin(place);
-    }
-    film[index] = pixel;
-}
-
 // Begins a sample.
-fn begin(place: vec2u) {
-    let ray = sample_ray(place, sampler_);
+fn begin(ray: Ray) {
     path = PathState(ray, vec3f(1.0), 0u, 0u, 0u, ray.origin, MET_BY_CHANCE);
-    outcome = Outcome(vec3f(0.0), 0u, false);
     waiting = 0u;
 }
 

@@ -1,11 +1,11 @@
 //#import pathtrace/prepared.wgsl
 //#import pathtrace/bsdf/bsdf.wgsl
-//#import pathtrace/drive/film.wgsl
+//#import pathtrace/drive/pixels.wgsl
 // Whitted-style ray tracing, "An improved illumination model for shaded display" (1980), as on the slides: L = ka La +
 // kd Id N.L + ks S + kt T. Twin: crates/pathtrace/src/integrator/whitted.rs.
 //
-// A thread is a pixel. Each iteration of its one loop follows one branch to the next surface; where glass splits a ray
-// the reflected branch waits on a small stack.
+// Each step follows one branch to the next surface; where glass splits a ray the reflected branch waits on a small
+// stack.
 
 // A ray on its way, or waiting.
 struct Branch {
@@ -25,9 +25,7 @@ const MOST_BRANCHES: u32 = 65536u;
 // Lights up to which each is sampled; of more, this many are chosen by power.
 const MOST_LIGHTS: u32 = 16u;
 
-var<private> sampler_: Sampler;
 var<private> branch: Branch;
-var<private> outcome: Outcome;
 // reflected branches that wait, one list for each of their parts: compilers take long over lists of structures
 var<private> waiting_origins: array<vec3f, MOST_DEPTH>;
 var<private> waiting_directions: array<vec3f, MOST_DEPTH>;
@@ -39,35 +37,9 @@ var<private> dimension: u32;
 // branches followed so far
 var<private> followed: u32;
 
-@compute @workgroup_size(8, 8)
-fn trace(@builtin(global_invocation_id) id: vec3u) {
-    let place = id.xy + vec2u(params.first_column, params.first_row);
-    let width = u32(params.size.x);
-    if place.x >= params.end_column || place.y >= params.end_row {
-        return;
-    }
-    let index = (place.y - params.film_row) * width + place.x;
-    var pixel = film[index];
-    sampler_ = Sampler(place.y * width + place.x, pixel.samples, params.seed);
-    begin(place);
-    loop {
-        if pixel.samples >= params.until {
-            break;
-        }
-        if step_on() {
-            continue;
-        }
-        record(&pixel, outcome);
-        sampler_.sample = pixel.samples;
-        begin(place);
-    }
-    film[index] = pixel;
-}
-
 // Begins a sample.
-fn begin(place: vec2u) {
-    branch = Branch(sample_ray(place, sampler_), vec3f(1.0), 0u);
-    outcome = Outcome(vec3f(0.0), 0u, false);
+fn begin(ray: Ray) {
+    branch = Branch(ray, vec3f(1.0), 0u);
     waiting = 0u;
     dimension = 1u;
     followed = 0u;

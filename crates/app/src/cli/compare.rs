@@ -66,7 +66,7 @@ fn refuse_to_overwrite(args: &CompareArgs, out: &Path) -> anyhow::Result<()> {
 fn reference_of(file: &Path, picture: &Radiances) -> anyhow::Result<Reference> {
     let made = made_by(file)?;
     ensure!(
-        made.pane.recipe().shows_the_scene(),
+        made.pane.in_use().shows_the_scene(),
         "this is a map of the fake, not a picture of the scene: {}",
         file.display()
     );

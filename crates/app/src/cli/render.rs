@@ -2,8 +2,7 @@
 
 use super::tracing::{self, Traced, Tracing};
 use super::{RenderArgs, reference};
-use crate::ruler::{Sought, brief, error_records, noise_line};
-use crate::technique::{Device, FakeSettings, Made, Provenance, RaySettings, Recipe, Technique};
+use crate::ruler::{brief, error_records, noise_line};
 use anyhow::Context;
 use compare::Errors;
 use film::DisplayTransform;
@@ -16,6 +15,7 @@ use scene::{Scene, Vec3, builtin};
 use serde_json::json;
 use std::io::IsTerminal;
 use std::time::{Duration, Instant};
+use technique::{Device, FakeSettings, Made, Provenance, Shot, Technique, TechniqueName, TracedSettings};
 
 /// Samples per pixel where neither --spp nor --time says how many.
 const DEFAULT_SPP: u32 = 64;
@@ -26,27 +26,27 @@ struct Rendered {
     seconds: f64,
     stats: Stats,
     /// Where it was made, at the end.
-    machine: Device,
+    device: Device,
     /// Name of the GPU, or of the CPU renderer's threads.
     adapter: String,
 }
 
 pub fn run(args: &RenderArgs) -> anyhow::Result<()> {
     tell_what_has_no_effect(args, &builtin::named(&args.scene)?);
-    let sought = args.seen.of(&args.scene)?;
-    let scene = sought.scene.clone();
-    let recipe = args.pane.recipe();
+    let shot = args.seen.of(&args.scene)?;
+    let scene = shot.scene.clone();
+    let technique = args.pane.in_use();
     anyhow::ensure!(
-        !args.errors || recipe.shows_the_scene(),
+        !args.errors || technique.shows_the_scene(),
         "a map of the fake has no errors: --errors needs --show picture"
     );
     image_file::check_writable(&args.out)?;
-    let rendered = match recipe {
-        Recipe::Fake(fake) => raster(args, &fake.applied_to(&scene), fake)?,
-        Recipe::Rays(rays) => trace(args, &scene, rays)?,
+    let rendered = match technique {
+        Technique::Fake(fake) => raster(args, &fake.applied_to(&scene), fake)?,
+        Technique::Traced(rays) => trace(args, &scene, rays)?,
     };
-    let errors = if args.errors { Some(measure(&sought, &rendered.film)?) } else { None };
-    save(args, &scene, &rendered, errors.as_ref())?;
+    let errors = if args.errors { Some(measure(&shot, &rendered.film)?) } else { None };
+    save(args, shot, &rendered, errors.as_ref())?;
     if rendered.film.nonfinite > 0 {
         note!(
             "visavis: {} samples were not finite and are left out: please report this scene",
@@ -78,20 +78,13 @@ pub fn run(args: &RenderArgs) -> anyhow::Result<()> {
 }
 
 /// How far a finished picture is from the reference of what it shows.
-fn measure(sought: &Sought, film: &Film) -> anyhow::Result<Errors> {
-    let reference = reference::obtain(sought, None)?;
+fn measure(shot: &Shot, film: &Film) -> anyhow::Result<Errors> {
+    let reference = reference::obtain(shot, None)?;
     Ok(reference.errors(&film.radiances().collect::<Vec<_>>())?)
 }
 
-fn save(args: &RenderArgs, scene: &Scene, rendered: &Rendered, errors: Option<&Errors>) -> anyhow::Result<()> {
-    let provenance = Provenance {
-        source: args.scene.clone(),
-        changes: args.seen.changes,
-        camera: scene.camera,
-        recipe: args.pane.recipe(),
-        size: args.seen.size,
-        device: rendered.machine,
-    };
+fn save(args: &RenderArgs, shot: Shot, rendered: &Rendered, errors: Option<&Errors>) -> anyhow::Result<()> {
+    let provenance = Provenance { shot, technique: args.pane.in_use(), device: rendered.device };
     let made = Made {
         spp: rendered.film.samples_per_pixel(),
         seconds: rendered.seconds,
@@ -111,7 +104,7 @@ fn tell_what_has_no_effect(args: &RenderArgs, scene: &Scene) {
     for option in &args.without_effect {
         note!("note: {option} has no effect with --technique {}", args.pane.technique.name());
     }
-    let fake = args.pane.recipe().technique() == Technique::Raster;
+    let fake = args.pane.in_use().name() == TechniqueName::Raster;
     if scene.refraction_ratio().is_none() {
         if args.seen.changes.refraction_ratio.is_some() {
             note!("note: --refraction-ratio has no effect: {} has no glass", scene.name);
@@ -130,11 +123,11 @@ fn raster(args: &RenderArgs, scene: &Scene, fake: FakeSettings) -> anyhow::Resul
     let mut raster = Raster::new(&gpu)?;
     let start = Instant::now();
     let film = raster.render(scene, &scene.camera, &fake.sized(args.seen.size.0, args.seen.size.1))?;
-    let (seconds, machine) = (start.elapsed().as_secs_f64(), Device::Gpu);
-    Ok(Rendered { film, seconds, stats: Stats::default(), machine, adapter: gpu.describe() })
+    let (seconds, device) = (start.elapsed().as_secs_f64(), Device::Gpu);
+    Ok(Rendered { film, seconds, stats: Stats::default(), device, adapter: gpu.describe() })
 }
 
-fn trace(args: &RenderArgs, scene: &Scene, rays: RaySettings) -> anyhow::Result<Rendered> {
+fn trace(args: &RenderArgs, scene: &Scene, rays: TracedSettings) -> anyhow::Result<Rendered> {
     if let Some(blind) = rays.blind_spot(scene) {
         note!("note: {blind}");
     }
@@ -143,7 +136,7 @@ fn trace(args: &RenderArgs, scene: &Scene, rays: RaySettings) -> anyhow::Result<
     let film = Film::try_new(width, height)
         .with_context(|| format!("not enough memory for {width}x{height} pixels; ask for a smaller --size"))?;
     let work = u64::from(width) * u64::from(height) * u64::from(spp);
-    let gpu = tracing::device(args.device, work)?;
+    let gpu = tracing::device_for(args.device, work)?;
     let start = Instant::now();
     let mut tracing = Tracing::begin(gpu, scene, rays, film, args.device)?;
     let limit = args.seconds.map(Duration::from_secs_f64);
@@ -155,25 +148,25 @@ fn trace(args: &RenderArgs, scene: &Scene, rays: RaySettings) -> anyhow::Result<
         let batch_start = Instant::now();
         let samples = batch.min(spp.saturating_sub(tracing.spp()));
         // what is not read yet may be lost, and is then made up for
-        let machine = tracing.machine();
+        let device = tracing.device();
         if samples == 0 || is_late(&tracing) {
             tracing.read();
-            if tracing.machine() == machine || is_late(&tracing) {
+            if tracing.device() == device || is_late(&tracing) {
                 break;
             }
         } else {
             tracing.add(samples);
         }
         progress.show(tracing.spp(), start.elapsed());
-        batch = if tracing.machine() == machine {
+        batch = if tracing.device() == device {
             next_batch(samples, batch_start.elapsed(), limit.map(|l| l.saturating_sub(start.elapsed())))
         } else {
             1
         };
     }
     progress.finish();
-    let Traced { film, stats, machine, adapter } = tracing.finish();
-    Ok(Rendered { film, seconds: start.elapsed().as_secs_f64(), stats, machine, adapter })
+    let Traced { film, stats, device, adapter } = tracing.finish();
+    Ok(Rendered { film, seconds: start.elapsed().as_secs_f64(), stats, device, adapter })
 }
 
 /// How many samples fill a quarter of a second, or what is left of the time, at the speed of the last batch.
@@ -214,7 +207,7 @@ fn report(args: &RenderArgs, scene: &Scene, rendered: &Rendered, errors: Option<
     let mut report = json!({
         "scene": scene.name,
         "technique": technique.name(),
-        "device": rendered.machine.name(),
+        "device": rendered.device.name(),
         "adapter": rendered.adapter,
         "width": args.seen.size.0,
         "height": args.seen.size.1,
@@ -225,9 +218,9 @@ fn report(args: &RenderArgs, scene: &Scene, rendered: &Rendered, errors: Option<
         "mean": rendered.film.mean(),
         "nonfinite": rendered.film.nonfinite,
     });
-    match args.pane.recipe() {
-        Recipe::Fake(fake) => report["fake"] = json!(fake.fake.name()),
-        Recipe::Rays(rays) => {
+    match args.pane.in_use() {
+        Technique::Fake(fake) => report["fake"] = json!(fake.fake.name()),
+        Technique::Traced(rays) => {
             for (name, value) in rays.options(rendered.film.samples_per_pixel()).into_iter().skip(1) {
                 let counts = ["seed", "branches", "depth", "shadow-rays"].contains(&name);
                 let number = value.parse::<u64>().ok().filter(|_| counts);
@@ -237,7 +230,7 @@ fn report(args: &RenderArgs, scene: &Scene, rendered: &Rendered, errors: Option<
             report["rays"] = json!(rendered.stats.rays);
             report["cut_paths"] = json!(rendered.stats.cut_paths);
             report["standard_error"] = json!(rendered.film.standard_error());
-            let independent = rays.sampler() == SamplerKind::Independent;
+            let independent = rays.integrator.sampler() == SamplerKind::Independent;
             let reliable = independent && rendered.film.standard_error_is_reliable();
             report["standard_error_reliable"] = json!(reliable);
         }

@@ -1,7 +1,6 @@
 //! Tracing rays without a window, on either machine: the processor takes over from a graphics device that fails, and
 //! goes on from the last film that came back.
 
-use crate::technique::{Device, DeviceChoice, Method, RaySettings};
 use anyhow::Context;
 use film::Film;
 use gpu::FaultInjection;
@@ -10,6 +9,7 @@ use pathtrace::gpu::{GpuFilm, GpuTraceError, GpuTracer};
 use pathtrace::{Stats, Tracer};
 use scene::Scene;
 use std::time::{Duration, Instant};
+use technique::{Device, DeviceChoice, TracedSettings};
 
 /// Samples that are not worth opening a graphics device for: a second of an ordinary processor.
 const LITTLE_WORK: u64 = 1 << 24;
@@ -23,7 +23,7 @@ const INSTEAD: &str = "the graphics device does not trace this; --device cpu doe
 ///
 /// # Errors
 /// If the user wants one and there is none.
-pub fn device(wish: DeviceChoice, samples: u64) -> anyhow::Result<Option<Gpu>> {
+pub fn device_for(wish: DeviceChoice, samples: u64) -> anyhow::Result<Option<Gpu>> {
     let there_is_hardware = || Gpu::adapters().iter().any(|adapter| adapter.chosen && !adapter.software);
     match wish {
         DeviceChoice::Gpu => Gpu::headless().context(INSTEAD).map(Some),
@@ -45,7 +45,7 @@ fn is_for_a_device(wish: DeviceChoice, samples: u64, there_is_hardware: impl FnO
 /// A film on its way.
 pub struct Tracing<'a> {
     scene: &'a Scene,
-    rays: RaySettings,
+    rays: TracedSettings,
     on: On,
     /// What has added to it, one after the other.
     makers: Vec<String>,
@@ -53,7 +53,7 @@ pub struct Tracing<'a> {
 
 enum On {
     Processor { tracer: Box<Tracer>, film: Film, stats: Stats, spp: u32 },
-    DeviceChoice(Box<OnDevice>),
+    Gpu(Box<OnDevice>),
 }
 
 struct OnDevice {
@@ -70,7 +70,7 @@ pub struct Traced {
     pub film: Film,
     pub stats: Stats,
     /// What it was made by in the end.
-    pub machine: Device,
+    pub device: Device,
     /// Names of all that has made it.
     pub adapter: String,
 }
@@ -83,13 +83,13 @@ impl<'a> Tracing<'a> {
     pub fn begin(
         gpu: Option<Gpu>,
         scene: &'a Scene,
-        rays: RaySettings,
+        rays: TracedSettings,
         film: Film,
         wish: DeviceChoice,
     ) -> anyhow::Result<Self> {
         let on_device = gpu.map(|gpu| OnDevice::new(&gpu, scene, film.clone()).map(|on| (on, gpu.describe())));
         let (on, maker) = match on_device {
-            Some(Ok((on, name))) => (On::DeviceChoice(Box::new(on)), name),
+            Some(Ok((on, name))) => (On::Gpu(Box::new(on)), name),
             Some(Err(fault)) if wish == DeviceChoice::Gpu => return Err(fault).context(INSTEAD),
             Some(Err(fault)) => {
                 note!("note: the processor traces this, the graphics device does not: {fault}");
@@ -104,15 +104,15 @@ impl<'a> Tracing<'a> {
     pub fn spp(&self) -> u32 {
         match &self.on {
             On::Processor { spp, .. } => *spp,
-            On::DeviceChoice(on) => on.film.samples_per_pixel(),
+            On::Gpu(on) => on.film.samples_per_pixel(),
         }
     }
 
     /// What traces now.
-    pub fn machine(&self) -> Device {
+    pub fn device(&self) -> Device {
         match self.on {
             On::Processor { .. } => Device::Cpu,
-            On::DeviceChoice(_) => Device::Gpu,
+            On::Gpu(_) => Device::Gpu,
         }
     }
 
@@ -120,10 +120,10 @@ impl<'a> Tracing<'a> {
     pub fn add(&mut self, samples: u32) {
         match &mut self.on {
             On::Processor { tracer, film, stats, spp } => {
-                *stats = stats.plus(self.rays.render(tracer, film, &self.scene.camera, samples, &|| false));
+                *stats = stats.plus(tracer.render(film, &self.scene.camera, &self.rays.integrator, samples, &|| false));
                 *spp += samples;
             }
-            On::DeviceChoice(on) => {
+            On::Gpu(on) => {
                 if let Err(fault) = on.add(self.scene, &self.rays, samples) {
                     self.take_over(&fault);
                 }
@@ -133,7 +133,7 @@ impl<'a> Tracing<'a> {
 
     /// Brings home what the device has done. If it fails the processor takes over as in [`Tracing::add`].
     pub fn read(&mut self) {
-        if let On::DeviceChoice(on) = &mut self.on
+        if let On::Gpu(on) = &mut self.on
             && let Err(fault) = on.read()
         {
             self.take_over(&fault);
@@ -142,15 +142,15 @@ impl<'a> Tracing<'a> {
 
     /// The film, as last read.
     pub fn finish(self) -> Traced {
-        let (machine, adapter) = (self.machine(), self.makers.join(", then "));
+        let (device, adapter) = (self.device(), self.makers.join(", then "));
         match self.on {
-            On::Processor { film, stats, .. } => Traced { film, stats, machine, adapter },
-            On::DeviceChoice(on) => Traced { film: on.read.0, stats: on.read.1, machine, adapter },
+            On::Processor { film, stats, .. } => Traced { film, stats, device, adapter },
+            On::Gpu(on) => Traced { film: on.read.0, stats: on.read.1, device, adapter },
         }
     }
 
     fn take_over(&mut self, fault: &GpuTraceError) {
-        let On::DeviceChoice(on) = &mut self.on else { return };
+        let On::Gpu(on) = &mut self.on else { return };
         let (film, stats) = std::mem::replace(&mut on.read, (Film::new(1, 1), Stats::default()));
         let spp = film.samples_per_pixel();
         let failed = std::mem::replace(&mut self.on, On::processor(self.scene, film, stats));
@@ -185,7 +185,7 @@ impl OnDevice {
         })
     }
 
-    fn add(&mut self, scene: &Scene, rays: &RaySettings, samples: u32) -> Result<(), GpuTraceError> {
+    fn add(&mut self, scene: &Scene, rays: &TracedSettings, samples: u32) -> Result<(), GpuTraceError> {
         let OnDevice { tracer, film, fault, .. } = self;
         let until = film.samples_per_pixel() + samples;
         let gpu = tracer.gpu().clone();
@@ -193,10 +193,7 @@ impl OnDevice {
             fault.iter().for_each(|fault| fault.count(&gpu));
             false
         };
-        match &rays.method {
-            Method::Path(path) => tracer.accumulate(film, &scene.camera, path, until, &stop)?,
-            Method::Whitted(tree) => tracer.accumulate_whitted(film, &scene.camera, tree, until, &stop)?,
-        }
+        tracer.accumulate(film, &scene.camera, &rays.integrator, until, &stop)?;
         // a test does not wait for seconds
         if self.read_at.elapsed() > AT_RISK || self.fault.is_some() {
             self.read()?;

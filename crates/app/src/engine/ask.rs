@@ -8,14 +8,13 @@ use super::post_process::{PaneUpdate, PaneUpdates, PostProcess};
 use super::reference::{ReferenceUpdate, ReferenceWorker, Wish};
 use super::{Order, Wake};
 use crate::model::{Against, Comparison, ErrorMap, MapWish, Origin, PaneId, Panes, Wanted, WantedPane};
-use crate::ruler::Sought;
-use crate::technique::{Adapters, Provenance, Recipe};
 use anyhow::Context;
 use film::DisplayTransform;
 use gpu::Gpu;
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::thread::JoinHandle;
+use technique::{Adapters, Provenance, Shot, Technique};
 
 /// The workers; dropping it ends their threads.
 pub struct Engine {
@@ -40,7 +39,7 @@ pub struct Engine {
 struct Asked {
     opened: u64,
     /// What is seen, and the number of each: panes that show the same share it.
-    views: Vec<(u64, Sought)>,
+    views: Vec<(u64, Shot)>,
     panes: Panes<AskedPane>,
     display: Option<DisplayTransform>,
     comparisons: Vec<Comparison>,
@@ -60,7 +59,7 @@ struct Asked {
 struct AskedPane {
     view: u64,
     /// The number of restarts and how it is made; `None` to make it once more.
-    made: Option<(u64, Recipe)>,
+    made: Option<(u64, Technique)>,
     /// Its job, until its last picture has come.
     unfinished: Option<u64>,
 }
@@ -94,7 +93,7 @@ impl Engine {
         self.gpu = window.clone();
         self.pane_workers.values_mut().for_each(|workers| workers.move_to(window.clone()));
         for pane in self.asked.panes.values_mut() {
-            pane.made.take_if(|(_, recipe)| matches!(recipe, Recipe::Fake(_)));
+            pane.made.take_if(|(_, technique)| matches!(technique, Technique::Fake(_)));
         }
         self.asked.display = None;
         self.post_process.set_comparisons(self.asked.comparisons.clone(), self.asked.map);
@@ -149,7 +148,7 @@ impl Engine {
         for (id, pane) in wanted.panes.iter() {
             if let Some(order) = self.asked.order(id, pane, wanted.restarts) {
                 jobs.insert(id, order.job);
-                self.workers(id).submit(pane.recipe, order);
+                self.workers(id).submit(pane.technique, order);
             }
         }
         self.compare(wanted);
@@ -212,11 +211,11 @@ impl Engine {
 
     fn refer(&mut self, view: u64, origin: Origin) {
         let wish = Some((view, origin.clone()));
-        let Some((_, sought)) = self.asked.views.iter().find(|(number, _)| *number == view) else { return };
+        let Some((_, shot)) = self.asked.views.iter().find(|(number, _)| *number == view) else { return };
         if self.asked.reference == wish {
             return;
         }
-        let sought = sought.clone();
+        let shot = shot.clone();
         if self.reference_worker.is_none() {
             // without threads there is no reference; the next wish tries again
             self.reference_worker = ReferenceWorker::start(self.post_process.clone(), self.wake.clone()).ok();
@@ -224,7 +223,7 @@ impl Engine {
         self.asked.reference = wish;
         self.reference_worker
             .iter_mut()
-            .for_each(|worker| worker.submit(Wish { view, sought: sought.clone(), origin: origin.clone() }));
+            .for_each(|worker| worker.submit(Wish { view, shot: shot.clone(), origin: origin.clone() }));
     }
 
     /// Reads a scene beside the UI.
@@ -261,7 +260,7 @@ impl Asked {
         let mut before = std::mem::take(&mut self.views);
         before.retain(|(number, _)| *number >= oldest_view);
         for (id, pane) in wanted.panes.iter() {
-            let shows = |(_, shot): &&(u64, Sought)| same_shot(shot, &pane.shot);
+            let shows = |(_, shot): &&(u64, Shot)| same_shot(shot, &pane.shot);
             let known = self.views.iter().find(shows).or_else(|| before.iter().find(shows)).map(|(number, _)| *number);
             let view = known.unwrap_or_else(|| {
                 self.newest_view += 1;
@@ -281,20 +280,19 @@ impl Asked {
     /// What a pane's workers are to make, if that is not what they were asked for.
     fn order(&mut self, id: PaneId, pane: &WantedPane, restarts: u64) -> Option<Order> {
         let asked = self.panes.entry(id);
-        if asked.made == Some((restarts, pane.recipe)) {
+        if asked.made == Some((restarts, pane.technique)) {
             return None;
         }
         self.jobs += 1;
-        (asked.made, asked.unfinished) = (Some((restarts, pane.recipe)), Some(self.jobs));
-        let Sought { source, changes, scene, camera, size } = pane.shot.clone();
-        let device = pane.recipe.technique().usual_machine();
-        let provenance = Arc::new(Provenance { source, changes, camera, recipe: pane.recipe, size, device });
-        Some(Order { job: self.jobs, view: asked.view, shrink: pane.shrink, restarts, scene, provenance })
+        (asked.made, asked.unfinished) = (Some((restarts, pane.technique)), Some(self.jobs));
+        let (shot, technique) = (pane.shot.clone(), pane.technique);
+        let provenance = Arc::new(Provenance { shot, technique, device: technique.name().usual_device() });
+        Some(Order { job: self.jobs, view: asked.view, shrink: pane.shrink, restarts, provenance })
     }
 }
 
 /// Whether two pictures show the same, so that they can be compared.
-fn same_shot(a: &Sought, b: &Sought) -> bool {
+fn same_shot(a: &Shot, b: &Shot) -> bool {
     Arc::ptr_eq(&a.scene, &b.scene) && (a.camera, a.size) == (b.camera, b.size)
 }
 

@@ -1,13 +1,13 @@
 //! What traces a pane's rays, the processor or the graphics device, and the films that either adds samples to.
 
 use super::rays::RayJob;
-use crate::technique::{Device, Method};
 use film::Film;
 use gpu::FaultInjection;
 use gpu::Gpu;
-use pathtrace::Tracer;
-use pathtrace::gpu::{Choice, GpuFilm, GpuTraceError, GpuTracer};
+use pathtrace::gpu::{GpuFilm, GpuTraceError, GpuTracer};
+use pathtrace::{Integrator, Tracer};
 use scene::Scene;
+use technique::Device;
 
 /// Seconds that a dispatch may take: a frame of the window waits about that long for the same adapter, and so does a
 /// newer job. Where the processor plays the adapter a dispatch costs so much by itself that shorter ones would only add
@@ -81,13 +81,10 @@ impl Backend {
     }
 
     /// Whether it can begin at once: a device may have to compile first.
-    pub fn has_compiled(&self, method: &Method) -> bool {
-        match (self, method) {
-            (Backend::Cpu(_), _) => true,
-            (Backend::Gpu(gpu_backend), Method::Path(path)) => gpu_backend.tracer.has_compiled(Choice::of_paths(path)),
-            (Backend::Gpu(gpu_backend), Method::Whitted(tree)) => {
-                gpu_backend.tracer.has_compiled(Choice::of_trees(tree))
-            }
+    pub fn has_compiled(&self, integrator: &Integrator) -> bool {
+        match self {
+            Backend::Cpu(_) => true,
+            Backend::Gpu(gpu_backend) => gpu_backend.tracer.has_compiled(integrator),
         }
     }
 
@@ -111,7 +108,8 @@ impl Backend {
         }
         match self {
             Backend::Cpu(tracer) => {
-                let stats = job.settings.render(tracer, &mut accumulation.film, job.order.camera(), samples, stop);
+                let stats =
+                    tracer.render(&mut accumulation.film, job.order.camera(), &job.settings.integrator, samples, stop);
                 accumulation.resolved_by = accumulation.makers.len();
                 if !stop() {
                     accumulation.spp = until;
@@ -170,10 +168,7 @@ impl GpuBackend {
             fault.iter().for_each(|fault| fault.count(&gpu));
             stop()
         };
-        match &job.settings.method {
-            Method::Path(path) => tracer.accumulate(film, job.order.camera(), path, until, &stop)?,
-            Method::Whitted(tree) => tracer.accumulate_whitted(film, job.order.camera(), tree, until, &stop)?,
-        }
+        tracer.accumulate(film, job.order.camera(), &job.settings.integrator, until, &stop)?;
         accumulation.spp = film.samples_per_pixel();
         let pixels = u64::from(film.width()) * u64::from(film.height());
         Ok(pixels * u64::from(accumulation.spp - before))

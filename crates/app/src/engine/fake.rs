@@ -4,7 +4,6 @@
 use super::post_process::PostProcess;
 use super::{Inbox, Job, Picture, step_back};
 use crate::model::PaneId;
-use crate::technique::FakeSettings;
 use film::Film;
 use gpu::FaultInjection;
 use gpu::{Gpu, GpuError};
@@ -12,6 +11,7 @@ use raster::{Raster, RasterError};
 use std::sync::Arc;
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
+use technique::FakeSettings;
 
 /// A picture to make.
 pub type FakeJob = Job<FakeSettings>;
@@ -155,5 +155,5 @@ fn render_job(
 fn render(raster: &mut Raster, job: &FakeJob, shrink: u32) -> Result<Film, RasterError> {
     let (width, height) = job.order.size();
     let settings = job.settings.sized(width.div_ceil(shrink), height.div_ceil(shrink));
-    raster.render(&job.settings.applied_to(&job.order.scene), job.order.camera(), &settings)
+    raster.render(&job.settings.applied_to(job.order.scene()), job.order.camera(), &settings)
 }

@@ -18,9 +18,9 @@ pub mod progressive;
 pub mod rays;
 pub mod reference;
 
-use crate::technique::{Device, Provenance};
 use scene::{Camera, Scene, Vec3};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
+use technique::{Device, Provenance};
 
 /// What a technique has made so far, in linear radiance.
 #[derive(Debug, Clone)]
@@ -69,8 +69,6 @@ pub struct Order {
     pub shrink: u32,
     /// How often the user began the truth anew.
     pub restarts: u64,
-    /// The scene that is seen.
-    pub scene: Arc<Scene>,
     /// All that the picture depends on.
     pub provenance: Arc<Provenance>,
 }
@@ -87,12 +85,17 @@ impl Order {
 
     /// From where.
     pub fn camera(&self) -> &Camera {
-        &self.provenance.camera
+        &self.provenance.shot.camera
     }
 
     /// Width and height in pixels.
     pub fn size(&self) -> (u32, u32) {
-        self.provenance.size
+        self.provenance.shot.size
+    }
+
+    /// The scene that is seen.
+    pub fn scene(&self) -> &Arc<Scene> {
+        &self.provenance.shot.scene
     }
 }
 

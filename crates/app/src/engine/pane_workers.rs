@@ -5,10 +5,10 @@ use super::post_process::PostProcess;
 use super::rays::RayWorker;
 use super::{Job, Order};
 use crate::model::PaneId;
-use crate::technique::{Adapters, Recipe};
 use anyhow::Context;
 use gpu::Gpu;
 use std::sync::Arc;
+use technique::{Adapters, Technique};
 
 /// One pane's workers; dropping it ends their threads.
 pub struct PaneWorkers {
@@ -33,13 +33,13 @@ impl PaneWorkers {
     }
 
     /// Asks for a picture; whatever this pane was making stops.
-    pub fn submit(&mut self, recipe: Recipe, order: Order) {
-        let begun = match recipe {
-            Recipe::Fake(settings) => {
+    pub fn submit(&mut self, technique: Technique, order: Order) {
+        let begun = match technique {
+            Technique::Fake(settings) => {
                 self.rays.iter_mut().for_each(RayWorker::cancel);
                 self.fake().map(|worker| worker.submit(Job { settings, order: order.clone() }))
             }
-            Recipe::Rays(settings) => {
+            Technique::Traced(settings) => {
                 self.fake.iter().for_each(FakeWorker::cancel);
                 self.rays().map(|worker| worker.submit(Job { settings, order: order.clone() }))
             }

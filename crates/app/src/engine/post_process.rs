@@ -218,7 +218,7 @@ impl Latest {
     fn reference_of(&self, picture: &Picture) -> Option<&ReferenceImage> {
         let (view, reference_image) = self.reference.as_ref()?;
         let fits = *view == picture.order.view && reference_image.size == (picture.width, picture.height);
-        (fits && picture.order.provenance.recipe.shows_the_scene()).then_some(reference_image)
+        (fits && picture.order.provenance.technique.shows_the_scene()).then_some(reference_image)
     }
 
     /// What to draw; `None` to leave the map as it is, where it only has to wait for a picture on its way.
@@ -268,7 +268,7 @@ fn shelve(updates: &mut PaneUpdates, pane: PaneId, mut new: DisplayFrame) {
 }
 
 fn comparable(a: &Picture, b: &Picture) -> bool {
-    let shows_the_scene = |picture: &Picture| picture.order.provenance.recipe.shows_the_scene();
+    let shows_the_scene = |picture: &Picture| picture.order.provenance.technique.shows_the_scene();
     (a.width, a.height, a.order.view) == (b.width, b.height, b.order.view) && shows_the_scene(a) && shows_the_scene(b)
 }
 

@@ -1,20 +1,14 @@
 //! What comes out of the post_process, and what does not.
 
 use super::*;
-use crate::technique::{Device, PaneSettings, Provenance, SceneChanges, Technique};
 use scene::Vec3;
+use technique::{Device, PaneSettings, Provenance, Shot, TechniqueName};
 
 fn order(job: u64, view: u64) -> Order {
-    let scene = Arc::new(scene::builtin::named("cornell").unwrap());
-    let provenance = Arc::new(Provenance {
-        source: "cornell".into(),
-        changes: SceneChanges::default(),
-        camera: scene.camera,
-        recipe: PaneSettings::of(Technique::Path).recipe(),
-        size: (1, 1),
-        device: Device::Cpu,
-    });
-    Order { job, view, shrink: 1, restarts: 0, scene, provenance }
+    let shot = Shot::of(scene::builtin::named("cornell").unwrap(), (1, 1));
+    let technique = PaneSettings::of(TechniqueName::Path).in_use();
+    let provenance = Arc::new(Provenance { shot, technique, device: Device::Cpu });
+    Order { job, view, shrink: 1, restarts: 0, provenance }
 }
 
 fn picture(view: u64) -> Picture {

@@ -6,11 +6,11 @@ use super::post_process::PostProcess;
 use super::rays::{Gate, RayJob, Stop};
 use super::{Order, Picture};
 use crate::model::PaneId;
-use crate::technique::{Adapters, Device};
 use pathtrace::gpu::GpuTraceError;
 use scene::{Geometry, Scene, Shape};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
+use technique::{Adapters, Device};
 
 /// Time that a job may go on after a newer one came, if it has not shown anything yet: else a drag would never show
 /// anything.
@@ -99,13 +99,13 @@ impl ProgressiveRenderer {
         if self.kept.len() > MOST_KEPT {
             self.kept.remove(0);
         }
-        self.ready = Some((job.order.scene.clone(), backend));
+        self.ready = Some((job.order.scene().clone(), backend));
     }
 
     /// The scene on the machine that the job wants, or on the processor. Where that takes its time and a `rough`
     /// picture is wanted, it is shown before.
     fn make_ready(&mut self, job: &RayJob, rough: &mut bool, stop: &Stop) -> Backend {
-        let scene = &job.order.scene;
+        let scene = job.order.scene();
         let machine = self.machine_for(job);
         let adapter = self.adapter_for(job);
         let before = self.ready.take();
@@ -146,7 +146,7 @@ impl ProgressiveRenderer {
     fn machine_for(&mut self, job: &RayJob) -> Device {
         let wish = job.settings.device.beside(self.adapters.only_software());
         let Order { restarts, provenance, .. } = &job.order;
-        let stands = |of: &Refusal| of.source == provenance.source && of.restarts == *restarts;
+        let stands = |of: &Refusal| of.source == provenance.shot.source && of.restarts == *restarts;
         self.refusal.take_if(|refusal| wish == Device::Cpu || !stands(refusal));
         if self.refusal.is_some() { Device::Cpu } else { wish }
     }
@@ -159,14 +159,14 @@ impl ProgressiveRenderer {
     }
 
     fn refuse(&mut self, job: &RayJob, fault: &GpuTraceError) {
-        let (why, source) = (fault.to_string().into(), job.order.provenance.source.clone());
+        let (why, source) = (fault.to_string().into(), job.order.provenance.shot.source.clone());
         self.refusal = Some(Refusal { why, source, restarts: job.order.restarts });
     }
 
     /// The processor takes over from a device that has failed.
     fn replace(&mut self, backend: &mut Backend, accumulation: &mut Accumulation, job: &RayJob, fault: &GpuTraceError) {
         self.refuse(job, fault);
-        let failed = std::mem::replace(backend, Backend::on_the_processor(&job.order.scene));
+        let failed = std::mem::replace(backend, Backend::on_the_processor(job.order.scene()));
         if matches!(fault, GpuTraceError::Hangs(_)) {
             // to let go of a device that does not answer is to wait for its answer
             std::mem::forget(failed);
@@ -206,11 +206,11 @@ impl ProgressiveRenderer {
             _ => 0,
         };
         // where the processor would take as long to make the scene ready, nothing is won
-        let large = job.order.scene.shapes.iter().map(triangles).sum::<usize>() > LARGE;
-        if large || backend.has_compiled(&job.settings.method) {
+        let large = job.order.scene().shapes.iter().map(triangles).sum::<usize>() > LARGE;
+        if large || backend.has_compiled(&job.settings.integrator) {
             self.rough(backend, job, stop);
         } else {
-            self.rough(&mut Backend::on_the_processor(&job.order.scene), job, stop);
+            self.rough(&mut Backend::on_the_processor(job.order.scene()), job, stop);
         }
     }
 
@@ -352,7 +352,7 @@ impl ProgressiveRenderer {
 
 /// Whether two jobs differ in the wished number of samples alone.
 pub fn same_picture(a: &RayJob, b: &RayJob) -> bool {
-    let how = |job: &RayJob| (job.settings.method, job.settings.device, job.settings.adapter);
+    let how = |job: &RayJob| (job.settings.integrator, job.settings.device, job.settings.adapter);
     let seen = |job: &RayJob| (*job.order.camera(), job.order.size(), job.order.restarts);
-    how(a) == how(b) && seen(a) == seen(b) && Arc::ptr_eq(&a.order.scene, &b.order.scene)
+    how(a) == how(b) && seen(a) == seen(b) && Arc::ptr_eq(a.order.scene(), b.order.scene())
 }

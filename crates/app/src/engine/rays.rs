@@ -6,14 +6,14 @@ use super::post_process::PostProcess;
 use super::progressive::{ProgressiveRenderer, same_picture};
 use super::{Inbox, Job, step_back};
 use crate::model::PaneId;
-use crate::technique::{Adapters, RaySettings};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Condvar, Mutex, PoisonError};
 use std::thread::JoinHandle;
+use technique::{Adapters, TracedSettings};
 
 /// A picture to make.
-pub type RayJob = Job<RaySettings>;
+pub type RayJob = Job<TracedSettings>;
 
 /// A job, and the flag that stops it.
 type Commission = (RayJob, Arc<AtomicBool>);

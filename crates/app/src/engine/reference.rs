@@ -5,7 +5,7 @@
 use super::post_process::PostProcess;
 use super::{Inbox, Wake, step_back};
 use crate::model::{Origin, Progress};
-use crate::ruler::{ReferenceImage, Sought};
+use crate::ruler::ReferenceImage;
 use pathtrace::{FEWEST_REPLICATES, Tracer};
 use reference::{Goal, Key, Maker, Reference, Store};
 use scene::Scene;
@@ -13,6 +13,7 @@ use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Condvar, Mutex, PoisonError};
 use std::thread::JoinHandle;
+use technique::Shot;
 
 /// A reference to come by.
 #[derive(Debug, Clone)]
@@ -20,7 +21,7 @@ pub struct Wish {
     /// Counts views as [`super::Order::view`] does.
     pub view: u64,
     /// What it shall show.
-    pub sought: Sought,
+    pub shot: Shot,
     /// Where from.
     pub origin: Origin,
 }
@@ -161,7 +162,7 @@ struct Bench {
 impl Bench {
     fn serve(&mut self, wish: &Wish, cancel: &AtomicBool) {
         let Origin::File(file) = &wish.origin else { return self.make(wish, cancel) };
-        match load(file, wish.sought.size) {
+        match load(file, wish.shot.size) {
             Ok(reference) => self.show(wish, &reference, true),
             Err(fault) => {
                 self.fail(fault);
@@ -171,7 +172,7 @@ impl Bench {
     }
 
     fn make(&mut self, wish: &Wish, cancel: &AtomicBool) {
-        let key = wish.sought.key();
+        let key = Key::of(&wish.shot);
         let store = Store::of_the_user().map_err(|fault| self.fail(fault.to_string())).ok();
         let kept = store.as_ref().and_then(|store| store.get(key));
         match &kept {
@@ -179,15 +180,15 @@ impl Bench {
             None => self.tell(wish, (0, None, 0.0), false),
         }
         let tracer = match self.tracer.take() {
-            Some((scene, tracer)) if Arc::ptr_eq(&scene, &wish.sought.scene) => tracer,
-            _ => Tracer::new(&wish.sought.scene),
+            Some((scene, tracer)) if Arc::ptr_eq(&scene, &wish.shot.scene) => tracer,
+            _ => Tracer::new(&wish.shot.scene),
         };
         let mut keeper = Keeper { store, key, wish, kept: kept.as_ref().map_or(0, |kept| kept.replicates) };
-        match Maker::new(&tracer, &wish.sought.subject(), kept.as_ref()) {
+        match Maker::new(&tracer, &wish.shot, kept.as_ref()) {
             Some(mut maker) => self.work(&mut maker, &Goal::default(), &mut keeper, cancel),
             None => self.fail("not enough memory for a reference; make the window smaller".into()),
         }
-        self.tracer = Some((wish.sought.scene.clone(), tracer));
+        self.tracer = Some((wish.shot.scene.clone(), tracer));
     }
 
     fn work(&self, maker: &mut Maker, goal: &Goal, keeper: &mut Keeper, cancel: &AtomicBool) {
@@ -261,7 +262,7 @@ impl Keeper<'_> {
         }
         // a store that failed once is not tried again: one line is enough
         let Some(store) = self.store.take() else { return Ok(()) };
-        store.put(self.key, reference, self.wish.sought.records()).map_err(|fault| fault.to_string())?;
+        store.put(self.key, reference, reference::records(&self.wish.shot)).map_err(|fault| fault.to_string())?;
         self.kept = reference.replicates;
         self.store = Some(store);
         Ok(())

@@ -1,9 +1,9 @@
 //! What is looked at: a scene, what is changed in it, and from where.
 
-use crate::ruler::Sought;
-use crate::technique::SceneChanges;
 use scene::{Camera, Scene};
 use std::sync::Arc;
+use technique::SceneChanges;
+use technique::Shot;
 
 /// The scene that is open.
 #[derive(Debug, Clone)]
@@ -53,8 +53,8 @@ impl Document {
     }
 
     /// What a picture of `size` pixels shows, after [`Document::apply_changes`].
-    pub fn shot(&self, size: (u32, u32)) -> Sought {
+    pub fn shot(&self, size: (u32, u32)) -> Shot {
         let (changes, scene) = self.changed.clone();
-        Sought { source: self.source.clone(), changes, scene, camera: self.camera, size }
+        Shot { source: self.source.clone(), changes, scene, camera: self.camera, size }
     }
 }

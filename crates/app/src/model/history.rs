@@ -1,8 +1,8 @@
 //! What undo gives back: the settings of all panes, the scene's sliders and the display.
 
 use super::{Document, Panes, Resolution, Session};
-use crate::technique::{PaneSettings, SceneChanges};
 use film::DisplayTransform;
+use technique::{PaneSettings, SceneChanges};
 
 /// Everything that a slider or a choice changes. Camera, view and line are not part of it: moving them loses nothing.
 #[derive(Debug, Clone, PartialEq)]

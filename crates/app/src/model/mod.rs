@@ -38,8 +38,8 @@ pub use view_args::ViewArgs;
 pub use view_model::{PaneView, ViewModel};
 pub use wanted::{Wanted, WantedPane};
 
-use crate::technique::{Adapters, DeviceChoice};
 use scene::Scene;
+use technique::{Adapters, DeviceChoice};
 
 /// All that the user can change.
 #[derive(Debug)]
@@ -121,8 +121,8 @@ impl Model {
         let Model { document, session, state, .. } = self;
         let shot = document.shot(state.picture.size);
         let pane = |id| {
-            let (recipe, shrink) = (session.panes.get(id)?.recipe(), session.resolution.shrink());
-            Some((id, WantedPane { shot: shot.clone(), recipe, shrink }))
+            let (technique, shrink) = (session.panes.get(id)?.in_use(), session.resolution.shrink());
+            Some((id, WantedPane { shot: shot.clone(), technique, shrink }))
         };
         Wanted {
             opened: document.opened,

@@ -1,9 +1,9 @@
 //! How it is looked at: what one would want to find again after a pause.
 
 use super::{CompareWith, ComparisonSettings, Line, PaneId, Panes, View};
-use crate::technique::{DeviceChoice, PaneSettings, Technique};
 use film::DisplayTransform;
 use scene::Scene;
+use technique::{DeviceChoice, PaneSettings, TechniqueName};
 
 /// The panes and how they are shown.
 #[derive(Debug, Clone, PartialEq)]
@@ -62,7 +62,7 @@ impl Resolution {
 impl Default for Session {
     /// The fake against the truth.
     fn default() -> Self {
-        let panes = [(PaneId::A, Technique::Raster), (PaneId::B, Technique::Path)];
+        let panes = [(PaneId::A, TechniqueName::Raster), (PaneId::B, TechniqueName::Path)];
         Session {
             panes: panes.into_iter().map(|(id, technique)| (id, PaneSettings::of(technique))).collect(),
             display: DisplayTransform::default(),

@@ -1,8 +1,8 @@
 //! What the window is opened with.
 
 use super::Theme;
-use crate::technique::DeviceChoice;
 use std::path::PathBuf;
+use technique::DeviceChoice;
 
 /// `visavis [SCENE]`.
 #[derive(Debug, Clone, PartialEq)]

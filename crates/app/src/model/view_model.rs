@@ -1,9 +1,9 @@
 //! What there is to show: results, as those who draw them take them.
 
 use super::{Against, ErrorHistory, ErrorMap, ErrorPoint, PaneId, Panes, Progress};
-use crate::technique::{Provenance, Recipe};
 use compare::Errors;
 use std::sync::Arc;
+use technique::{Provenance, Technique};
 
 /// All that there is to show, beside the pictures' pixels.
 #[derive(Debug, Clone, Default)]
@@ -87,7 +87,7 @@ impl ViewModel {
 /// A picture of more samples is still the same one.
 fn without_spp(provenance: &Provenance) -> Provenance {
     let mut provenance = provenance.clone();
-    if let Recipe::Rays(rays) = &mut provenance.recipe {
+    if let Technique::Traced(rays) = &mut provenance.technique {
         rays.spp = 0;
     }
     provenance
@@ -96,26 +96,20 @@ fn without_spp(provenance: &Provenance) -> Provenance {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::technique::{Device, PaneSettings, SceneChanges, Technique};
+    use technique::{Device, PaneSettings, Shot, TechniqueName};
 
-    fn pane(technique: Technique, wished: u32, spp: u32) -> PaneView {
+    fn pane(technique: TechniqueName, wished: u32, spp: u32) -> PaneView {
         let mut settings = PaneSettings::of(technique);
         settings.truth.spp = wished;
-        let provenance = Provenance {
-            source: "cornell".into(),
-            changes: SceneChanges::default(),
-            camera: scene::builtin::named("cornell").unwrap().camera,
-            recipe: settings.recipe(),
-            size: (1, 1),
-            device: Device::Cpu,
-        };
+        let shot = Shot::of(scene::builtin::named("cornell").unwrap(), (1, 1));
+        let provenance = Provenance { shot, technique: settings.in_use(), device: Device::Cpu };
         let errors = compare::errors_of_radiances(&[scene::Vec3::ONE], &[scene::Vec3::splat(spp as f32)]);
         let errors = Some((Against::Pane(PaneId::A), errors));
         PaneView { provenance: Some(Arc::new(provenance)), spp: Some(spp), errors, ..PaneView::default() }
     }
 
     /// Shows pictures of B one after the other, A's technique beside each, and returns the samples in B's history.
-    fn history(shown: &[(Technique, PaneView)]) -> Vec<u32> {
+    fn history(shown: &[(TechniqueName, PaneView)]) -> Vec<u32> {
         let mut model = ViewModel::default();
         for (technique_of_a, b) in shown {
             model.panes.insert(PaneId::A, pane(*technique_of_a, 256, 1));
@@ -128,7 +122,7 @@ mod tests {
 
     #[test]
     fn a_history_goes_on_with_more_samples_and_begins_anew_with_another_picture() {
-        use Technique::{Path, Raster, Whitted};
+        use TechniqueName::{Path, Raster, Whitted};
         let path = |wished, spp| (Raster, pane(Path, wished, spp));
         assert_eq!(
             history(&[path(256, 1), path(256, 2), path(512, 4)]),

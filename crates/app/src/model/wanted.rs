@@ -1,9 +1,9 @@
 //! What shall be made: a plain value, stated anew in every frame. Who makes it compares it with what was wanted before.
 
 use super::{Comparison, MapWish, Panes};
-use crate::ruler::Sought;
-use crate::technique::Recipe;
 use film::DisplayTransform;
+use technique::Shot;
+use technique::Technique;
 
 /// All pictures that are wanted, and what is to be known of them.
 #[derive(Debug, Clone, Default)]
@@ -28,9 +28,9 @@ pub struct Wanted {
 #[derive(Debug, Clone)]
 pub struct WantedPane {
     /// Scene, camera and size.
-    pub shot: Sought,
+    pub shot: Shot,
     /// The technique with its settings.
-    pub recipe: Recipe,
+    pub technique: Technique,
     /// Pixels of the picture area along a side of one of the picture.
     pub shrink: u32,
 }

@@ -7,12 +7,12 @@ use crate::engine::export::Content;
 use crate::engine::post_process::{DisplayFrame, PaneUpdate, PaneUpdates};
 use crate::model::{Against, ErrorMap, Model, PaneId, PaneView, Panes, ViewModel, Wanted};
 use crate::ruler::error_records;
-use crate::technique::Made;
 use crate::ui::Textures;
 use film::DisplayTransform;
 use gpu::Gpu;
 use image_file::Records;
 use std::sync::Arc;
+use technique::Made;
 
 /// All panes and the map.
 #[derive(Default)]

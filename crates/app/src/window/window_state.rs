@@ -357,7 +357,7 @@ impl WindowState {
 fn dumped(pane: &PaneView, ready: bool) -> serde_json::Value {
     serde_json::json!({
         "ready": ready,
-        "label": pane.provenance.as_ref().map(|p| p.recipe.label()),
+        "label": pane.provenance.as_ref().map(|p| p.technique.label()),
         "spp": pane.spp,
         "rough": pane.rough,
         "unfinished": pane.unfinished,

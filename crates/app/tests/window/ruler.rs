@@ -2,7 +2,7 @@
 
 use super::export::export;
 use super::{alone, both_whole, ready, says};
-use reference::{Key, Reference, Store, Subject};
+use reference::{Key, Reference, Store};
 use scene::Vec3;
 use std::path::Path;
 use std::time::Duration;
@@ -107,7 +107,7 @@ fn a_reference_is_made_while_the_panes_rest_kept_and_there_at_once_the_second_ti
     let side = |i: usize| small.state("picture_size")[i].as_u64().expect("a size") as u32;
     let scene = scene::builtin::named("hard/light-touching-wall").expect("a scene");
     let size = (side(0), side(1));
-    let key = Key::of(&Subject { scene: &scene, camera: &scene.camera, size });
+    let key = Key::of(&technique::Shot::of(scene.clone(), size));
     store.put(key, &almost_done(size), Vec::new()).expect("a store");
 
     // another view and back: what is looked up now is there, and is gone on with once the panes are done

@@ -105,7 +105,7 @@ pub fn million_samples(bench: &mut Bench) -> Outcome {
     let mut film = Film::new(8, 1);
     let samples = bench.trial.pick(125_000, 1_000_000);
     let trial = &*bench.trial;
-    tracer.render(&mut film, &scene.camera, &direct(Estimator::COSINE), samples, &|| trial.stopped())?;
+    tracer.render(&mut film, &scene.camera, &direct(Estimator::COSINE).into(), samples, &|| trial.stopped())?;
     bench.trial.count_nonfinite(&film);
     let expected = f64::from(0.1f32);
     bench.trial.equal("film", "mean, constant .1", expected, farthest(&film, expected), 1e-6 * expected);

@@ -108,7 +108,7 @@ impl Bench<'_, '_> {
     ) -> Result<Film, GpuTraceError> {
         let mut film = Film::new(size, size);
         let trial = &*self.trial;
-        tracer.render(&mut film, camera, settings, samples, &|| trial.stopped())?;
+        tracer.render(&mut film, camera, &(*settings).into(), samples, &|| trial.stopped())?;
         self.trial.count_nonfinite(&film);
         Ok(film)
     }
@@ -123,7 +123,7 @@ impl Bench<'_, '_> {
     ) -> Result<Film, GpuTraceError> {
         let mut film = Film::new(size, size);
         let trial = &*self.trial;
-        tracer.render_whitted(&mut film, camera, settings, samples, &|| trial.stopped())?;
+        tracer.render(&mut film, camera, &(*settings).into(), samples, &|| trial.stopped())?;
         self.trial.count_nonfinite(&film);
         Ok(film)
     }
@@ -181,7 +181,7 @@ impl Bench<'_, '_> {
     ) -> Outcome {
         let (power, stop) = (self.trial.power(), self.trial.stop_flag());
         let found = self.gathered(expected, power, |film, samples| {
-            tracer.render_whitted(film, camera, settings, samples, &|| stop.load(Ordering::Relaxed)).map(drop)
+            tracer.render(film, camera, &(*settings).into(), samples, &|| stop.load(Ordering::Relaxed)).map(drop)
         })?;
         self.trial.mean_and_error("whitted", quantity, expected, (found.mean, found.standard_error), power);
         Ok(())
@@ -197,7 +197,7 @@ impl Bench<'_, '_> {
     ) -> Result<Mean, GpuTraceError> {
         let stop = self.trial.stop_flag();
         self.gathered(expected, power, |film, samples| {
-            tracer.render(film, camera, settings, samples, &|| stop.load(Ordering::Relaxed)).map(drop)
+            tracer.render(film, camera, &(*settings).into(), samples, &|| stop.load(Ordering::Relaxed)).map(drop)
         })
     }
 

@@ -1,15 +1,20 @@
 //! Paths, one in each lane: the tutorial's `shade`, turned from recursion into a state that moves from vertex to vertex
 //! (Task 2 d).
 //!
-//! Each [`segment`](crate::drive::lanes::LaneIntegrator::segment) is one segment of every path: meet a surface, take
+//! Each [`segment`](LaneIntegrator::segment) is one segment of every path: meet a surface, take
 //! its emission, sample a light, draw a direction, play roulette. What only some lanes do is computed for all and
 //! selected by a mask; what none does is skipped. The state is all there is: no recursion, no allocation. A bounce
 //! limit of N lets N + 1 vertices scatter; what is found by chance is found one segment later, by the last one.
 //!
 //! With more than one branch ("When N>1: Distributed ray tracing") a diffuse vertex is kept on a small stack, and the
 //! path comes back to it until it has left in N directions; each sees the lights anew and counts 1 / N.
+//!
+//! Twin: `shaders/pathtrace/integrator/path.wgsl`.
 
 use crate::bsdf::{Interfaces, reflected};
+use crate::drive::gpu::film_data::RenderParams;
+use crate::drive::gpu::{PipelineKey, flag};
+use crate::drive::lanes::{LaneIntegrator, LanePlan};
 use crate::integrator::forks::{Forks, MOST_FORKS, child};
 use crate::integrator::path_state::{ALREADY_COUNTED, DiffuseVertices, MET_BY_CHANCE, PathStates, balance};
 use crate::integrator::roulette::survivors;
@@ -62,6 +67,43 @@ impl Plan {
     }
 }
 
+impl LanePlan for Plan {
+    type Walk<'a, F: Float> = PathLanes<'a, F>;
+
+    #[inline(always)]
+    fn walk<'a, F: Float>(&'a self, scene: &'a PreparedScene) -> PathLanes<'a, F> {
+        PathLanes::new(scene, self)
+    }
+}
+
+impl PathSettings {
+    pub(super) fn pipeline_key(&self, everything: bool) -> PipelineKey {
+        let light_search = match self.estimator.light {
+            LightSampling::BsdfOnly => 0.0,
+            LightSampling::NextEvent => 1.0,
+            LightSampling::Mis => 2.0,
+        };
+        let constants = [
+            ("UNIFORM_DIRECTIONS", flag(self.estimator.directions == Directions::Uniform)),
+            ("LIGHT_SEARCH", light_search),
+            ("BRANCHING", flag(self.branches > 1 || everything)),
+        ];
+        PipelineKey::new("pathtrace/integrator/path.wgsl", self.sampler, &constants)
+    }
+
+    pub(super) fn render_params(&self, params: RenderParams) -> RenderParams {
+        RenderParams {
+            limit: self.scattering_vertices(),
+            capped: u32::from(self.bounces.is_none()),
+            branches: self.branches.max(1),
+            branching_vertices: self.branching_vertices().min(MOST_FORKS as u32),
+            by_throughput: u32::from(self.roulette.throughput),
+            probability: self.roulette.probability.unwrap_or(1.0),
+            ..params
+        }
+    }
+}
+
 /// Paths, where they walk and what they bring.
 pub struct PathLanes<'a, F: Float> {
     scene: &'a PreparedScene,
@@ -77,7 +119,7 @@ pub struct PathLanes<'a, F: Float> {
     rays: u64,
 }
 
-impl<'a, F: Float> crate::drive::lanes::LaneIntegrator<F> for PathLanes<'a, F> {
+impl<'a, F: Float> LaneIntegrator<F> for PathLanes<'a, F> {
     /// Starts paths along camera rays where `here` says so.
     #[inline(always)]
     fn begin(&mut self, here: F::M, rays: &Rays<F>) {

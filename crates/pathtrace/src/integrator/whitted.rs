@@ -8,14 +8,20 @@
 //!
 //! What it cannot do, by design: light from diffuse surfaces on others, blurred reflections, caustics. The sky is seen
 //! but does not light; ambient light stands for it.
+//!
+//! Twin: `shaders/pathtrace/integrator/whitted.wgsl`.
 
 use crate::bsdf::materials::Kinds;
 use crate::bsdf::{Interfaces, reflected};
+use crate::drive::gpu::film_data::RenderParams;
+use crate::drive::gpu::{PipelineKey, flag};
+use crate::drive::lanes::{LaneIntegrator, LanePlan};
 use crate::integrator::settings::SamplerKind;
 use crate::intersect::lanes::{Hits, Rays, SurfacePoints};
 use crate::intersect::shape_list::Scratch;
 use crate::prepared::{Outcomes, PreparedScene, facing};
 use crate::sampling::sampler::Sampler;
+use scene::stand_ins::FakeNumbers;
 use simd::{Float, Mask, Vector, Word};
 use std::f32::consts::FRAC_1_PI;
 
@@ -81,6 +87,50 @@ impl Default for WhittedSettings {
             sampler: SamplerKind::default(),
             seed: 1,
         }
+    }
+}
+
+impl WhittedSettings {
+    /// Radiance of the ambient light, in a scene with these stand-ins.
+    fn ambient_radiance(&self, stand_ins: &FakeNumbers) -> f32 {
+        self.ambient.unwrap_or(stand_ins.ambient)
+    }
+
+    pub(super) fn pipeline_key(&self) -> PipelineKey {
+        let constants = [("CLEAR_GLASS", flag(self.glass_shadows == GlassShadows::Clear))];
+        PipelineKey::new("pathtrace/integrator/whitted.wgsl", self.sampler, &constants)
+    }
+
+    pub(super) fn render_params(&self, params: RenderParams, stand_ins: &FakeNumbers) -> RenderParams {
+        RenderParams {
+            limit: self.depth.min(Self::MOST_DEPTH),
+            shadow_rays: self.shadow_rays.max(1),
+            ambient: self.ambient_radiance(stand_ins),
+            ..params
+        }
+    }
+}
+
+/// Settings as the walk reads them.
+pub struct Plan {
+    settings: WhittedSettings,
+    /// Ambient radiance.
+    ambient: f32,
+}
+
+impl Plan {
+    /// Reads the settings, and what stands in for them in the scene.
+    pub fn new(settings: &WhittedSettings, stand_ins: &FakeNumbers) -> Self {
+        Plan { settings: *settings, ambient: settings.ambient_radiance(stand_ins) }
+    }
+}
+
+impl LanePlan for Plan {
+    type Walk<'a, F: Float> = WhittedLanes<'a, F>;
+
+    #[inline(always)]
+    fn walk<'a, F: Float>(&'a self, scene: &'a PreparedScene) -> WhittedLanes<'a, F> {
+        WhittedLanes::new(scene, &self.settings, self.ambient)
     }
 }
 
@@ -180,7 +230,7 @@ pub struct WhittedLanes<'a, F: Float> {
     rays: u64,
 }
 
-impl<'a, F: Float> crate::drive::lanes::LaneIntegrator<F> for WhittedLanes<'a, F> {
+impl<'a, F: Float> LaneIntegrator<F> for WhittedLanes<'a, F> {
     /// Starts trees with camera rays where `here` says so.
     #[inline(always)]
     fn begin(&mut self, here: F::M, rays: &Rays<F>) {

@@ -13,13 +13,13 @@ pub use seen::Seen;
 
 use super::{CliError, Command, help};
 use crate::model::{Theme, ViewArgs};
-use crate::technique::DeviceChoice;
 use crate::ui::Workspaces;
 use compare::ErrorMetric;
 use image_file::Kind;
 use lexopt::prelude::*;
 use std::ffi::OsString;
 use std::path::PathBuf;
+use technique::DeviceChoice;
 use values::{DEVICES, choice, lanes, number};
 
 fn usage<T>(line: impl Into<String>) -> Result<T, CliError> {

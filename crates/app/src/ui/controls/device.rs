@@ -1,10 +1,10 @@
 //! Where a pane's rays are traced. Absent where there is no adapter to choose.
 
 use crate::model::PaneId;
-use crate::technique::{Device, DeviceChoice};
 use crate::ui::UiContext;
 use crate::ui::widgets::choice;
 use egui::{ComboBox, Ui};
+use technique::{Device, DeviceChoice};
 
 pub fn show(cx: &mut UiContext, pane: PaneId, ui: &mut Ui) {
     let Some(best) = cx.model.adapters.0.first() else { return };

@@ -1,12 +1,12 @@
 //! The settings of a fake.
 
 use crate::model::PaneId;
-use crate::technique::FakeSettings;
 use crate::ui::widgets::{Stepped, choice, doubling, whole};
 use crate::ui::{Dump, UiContext};
 use egui::{CollapsingHeader, Ui};
 use raster::{Fake, FakeKnobs, Shading, ShadowFilter, Show};
 use scene::Scene;
+use technique::FakeSettings;
 
 pub fn show(cx: &mut UiContext, pane: PaneId, ui: &mut Ui) {
     let scene = cx.model.document.scene.clone();

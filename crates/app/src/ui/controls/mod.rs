@@ -10,9 +10,9 @@ mod whitted;
 
 use super::UiContext;
 use crate::model::PaneId;
-use crate::technique::Technique;
 use egui::collapsing_header::CollapsingState;
 use egui::{CollapsingHeader, RichText, Ui};
+use technique::TechniqueName;
 
 /// Width of the panel in points: never more than 30 % of the window.
 fn width(window: f32) -> f32 {
@@ -77,9 +77,9 @@ pub fn pane(cx: &mut UiContext, pane: PaneId, open: bool, ui: &mut Ui) {
                 node.set_label(format!("Settings of {pane}"));
             });
             match cx.model.session.panes[pane].technique {
-                Technique::Raster => fake::show(cx, pane, ui),
-                Technique::Whitted => whitted::show(cx, pane, ui),
-                Technique::Path => truth::show(cx, pane, ui),
+                TechniqueName::Raster => fake::show(cx, pane, ui),
+                TechniqueName::Whitted => whitted::show(cx, pane, ui),
+                TechniqueName::Path => truth::show(cx, pane, ui),
             }
         });
     cx.dump.note(&format!("group {pane}"), "", toggle.accessible_name(format!("Settings of {pane}")));
@@ -89,12 +89,12 @@ fn techniques(cx: &mut UiContext, pane: PaneId, ui: &mut Ui) {
     // three words and the letter in one row, also where the panel is narrow
     ui.spacing_mut().item_spacing.x = 1.0;
     ui.spacing_mut().button_padding.x = 3.0;
-    for technique in Technique::ALL {
+    for technique in TechniqueName::ALL {
         let chosen = cx.model.session.panes[pane].technique == technique;
         let hover = match technique {
-            Technique::Raster => "Rasterised: shadow map, cube map, local shading",
-            Technique::Whitted => "Whitted: trees of rays at mirrors and glass, local light elsewhere",
-            Technique::Path => "Path traced: light itself, by Monte Carlo",
+            TechniqueName::Raster => "Rasterised: shadow map, cube map, local shading",
+            TechniqueName::Whitted => "Whitted: trees of rays at mirrors and glass, local light elsewhere",
+            TechniqueName::Path => "Path traced: light itself, by Monte Carlo",
         };
         let button = ui.selectable_label(chosen, technique.title()).on_hover_text(hover);
         if cx.dump.note(&format!("{pane} {}", technique.name()), chosen, button).clicked() {

@@ -2,11 +2,11 @@
 
 use super::device;
 use crate::model::PaneId;
-use crate::technique::Recipe;
 use crate::ui::widgets::{Stepped, choice, doubling, fit};
 use crate::ui::{Dump, UiContext};
 use egui::{CollapsingHeader, DragValue, Slider, SliderClamping, Ui};
 use pathtrace::{Directions, Estimator, LightSampling, PathSettings, Roulette, SamplerKind};
+use technique::Technique;
 
 /// The most samples that the slider offers: 2^16.
 const MOST_SPP_EXPONENT: u32 = 16;
@@ -66,7 +66,7 @@ fn describe(kind: SamplerKind) -> &'static str {
 /// Says what the pane's settings cannot see.
 pub fn blind_spot(cx: &UiContext, pane: PaneId, ui: &mut Ui) {
     let scene = cx.model.document.changes.applied_to(&cx.model.document.scene);
-    if let Recipe::Rays(rays) = cx.model.session.panes[pane].recipe()
+    if let Technique::Traced(rays) = cx.model.session.panes[pane].in_use()
         && let Some(blind) = rays.blind_spot(&scene)
     {
         ui.label(blind);

@@ -2,10 +2,10 @@
 
 use crate::model::{Line, PaneId, PaneView, View};
 use crate::ruler::brief;
-use crate::technique::Device;
 use crate::ui::UiContext;
 use crate::ui::overlay::{spoken, text_box};
 use egui::{Align2, Color32, Rect, Ui, vec2};
+use technique::Device;
 
 pub fn show(cx: &mut UiContext, ui: &Ui, clip: Rect, pane: PaneId) {
     let Some(shown) = cx.shown.panes.get(pane).filter(|_| cx.textures.panes.get(pane).is_some()) else { return };
@@ -33,7 +33,7 @@ fn colour(pane: PaneId) -> Color32 {
 }
 
 fn text(cx: &UiContext, pane: PaneId, shown: &PaneView) -> String {
-    let name = shown.provenance.as_ref().map_or(String::new(), |p| p.recipe.label());
+    let name = shown.provenance.as_ref().map_or(String::new(), |p| p.technique.label());
     let mut text = format!("{pane}: {name}\n{}", progress(cx, pane, shown));
     if let Some(why) = &shown.refused {
         text += &format!("\non the CPU: the GPU failed: {why}");

@@ -45,7 +45,7 @@ fn why_not(cx: &UiContext) -> String {
         if let Some(fault) = &shown.fault {
             return fault.clone();
         }
-        if shown.provenance.as_ref().is_some_and(|provenance| !provenance.recipe.shows_the_scene()) {
+        if shown.provenance.as_ref().is_some_and(|provenance| !provenance.technique.shows_the_scene()) {
             return format!("{pane} shows a map, not the scene: it has no errors");
         }
     }

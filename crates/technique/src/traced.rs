@@ -1,25 +1,15 @@
 //! The settings of what is traced by rays: the truth, and Whitted's step towards it.
 
-use super::DeviceChoice;
-use film::Film;
+use crate::DeviceChoice;
 use image_file::Records;
-use pathtrace::{GlassShadows, LightSampling, PathSettings, Roulette, SamplerKind, Stats, Tracer, WhittedSettings};
-use scene::{Camera, Scene};
+use pathtrace::{GlassShadows, Integrator, LightSampling, PathSettings, Roulette, WhittedSettings};
+use scene::Scene;
 
-/// How rays are followed.
+/// An integrator, where and how long it goes on.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Method {
-    /// Along random paths.
-    Path(PathSettings),
-    /// In trees of mirrors and glass.
-    Whitted(WhittedSettings),
-}
-
-/// A method, where and how long it goes on.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct RaySettings {
+pub struct TracedSettings {
     /// How.
-    pub method: Method,
+    pub integrator: Integrator,
     /// Where.
     pub device: DeviceChoice,
     /// By which of the adapters, where by one: the best is 0.
@@ -59,62 +49,39 @@ impl Default for TreeSettings {
     }
 }
 
-impl From<TruthSettings> for RaySettings {
+impl From<TruthSettings> for TracedSettings {
     fn from(TruthSettings { path, spp }: TruthSettings) -> Self {
-        RaySettings { method: Method::Path(path), device: DeviceChoice::default(), adapter: 0, spp }
+        TracedSettings { integrator: path.into(), device: DeviceChoice::default(), adapter: 0, spp }
     }
 }
 
-impl From<TreeSettings> for RaySettings {
+impl From<TreeSettings> for TracedSettings {
     fn from(TreeSettings { tree, spp }: TreeSettings) -> Self {
-        RaySettings { method: Method::Whitted(tree), device: DeviceChoice::default(), adapter: 0, spp }
+        TracedSettings { integrator: tree.into(), device: DeviceChoice::default(), adapter: 0, spp }
     }
 }
 
-impl RaySettings {
-    /// Adds samples to a film; `stop` as in [`Tracer::render`].
-    pub fn render(
-        &self,
-        tracer: &Tracer,
-        film: &mut Film,
-        camera: &Camera,
-        samples: u32,
-        stop: &(impl Fn() -> bool + Sync),
-    ) -> Stats {
-        match &self.method {
-            Method::Path(path) => tracer.render(film, camera, path, samples, stop),
-            Method::Whitted(tree) => tracer.render_whitted(film, camera, tree, samples, stop),
-        }
-    }
-
-    /// Where its random numbers come from.
-    pub fn sampler(&self) -> SamplerKind {
-        match self.method {
-            Method::Path(path) => path.sampler,
-            Method::Whitted(tree) => tree.sampler,
-        }
-    }
-
+impl TracedSettings {
     /// For a pane's label: "truth (path, light)", "Whitted (depth 8)".
     pub fn label(&self) -> String {
-        match self.method {
-            Method::Path(path) => format!("truth (path, {})", path.estimator.name()),
-            Method::Whitted(tree) => format!("Whitted (depth {})", tree.depth),
+        match self.integrator {
+            Integrator::Path(path) => format!("truth (path, {})", path.estimator.name()),
+            Integrator::Whitted(tree) => format!("Whitted (depth {})", tree.depth),
         }
     }
 
     /// The options of `visavis render` that say the same, with this many samples.
     pub fn options(&self, spp: u32) -> Records {
-        let mut options = vec![("spp", spp.to_string()), ("sampler", self.sampler().name().into())];
-        match self.method {
-            Method::Path(path) => options.extend([
+        let mut options = vec![("spp", spp.to_string()), ("sampler", self.integrator.sampler().name().into())];
+        match self.integrator {
+            Integrator::Path(path) => options.extend([
                 ("bounces", bounces_name(path.bounces)),
                 ("roulette", roulette_name(path.roulette)),
                 ("estimator", path.estimator.name().into()),
                 ("branches", path.branches.to_string()),
                 ("seed", path.seed.to_string()),
             ]),
-            Method::Whitted(tree) => {
+            Integrator::Whitted(tree) => {
                 options.extend([
                     ("depth", tree.depth.to_string()),
                     ("glass-shadows", tree.glass_shadows.name().into()),
@@ -131,12 +98,12 @@ impl RaySettings {
     pub fn blind_spot(&self, scene: &Scene) -> Option<&'static str> {
         let delta_sun = scene.sun.is_some_and(|sun| sun.angular_radius == 0.0);
         let specular = scene.needs().dielectric || scene.needs().mirror;
-        match self.method {
-            Method::Whitted(tree) if specular && tree.glass_shadows == GlassShadows::Clear => {
+        match self.integrator {
+            Integrator::Whitted(tree) if specular && tree.glass_shadows == GlassShadows::Clear => {
                 Some("light passes glass straight on: no caustic; mirrors send none on")
             }
-            Method::Whitted(_) => Some("light from one surface on another is missing: ambient light stands for it"),
-            Method::Path(path) if path.estimator.light == LightSampling::BsdfOnly => {
+            Integrator::Whitted(_) => Some("light from one surface on another is missing: ambient light stands for it"),
+            Integrator::Path(path) if path.estimator.light == LightSampling::BsdfOnly => {
                 let points = !scene.point_lights.is_empty();
                 match (delta_sun, points) {
                     (true, _) => Some("a sun of radius 0 cannot be hit by chance: its light is missing"),
@@ -144,13 +111,13 @@ impl RaySettings {
                     (false, false) => None,
                 }
             }
-            Method::Path(_) if specular && delta_sun => {
+            Integrator::Path(_) if specular && delta_sun => {
                 Some("a sun of radius 0 casts no caustic: no path can find it behind glass or mirror")
             }
-            Method::Path(_) if specular && !scene.point_lights.is_empty() => {
+            Integrator::Path(_) if specular && !scene.point_lights.is_empty() => {
                 Some("a point light casts no caustic: no path can find it behind glass or mirror")
             }
-            Method::Path(_) => None,
+            Integrator::Path(_) => None,
         }
     }
 }
