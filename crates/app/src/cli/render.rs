@@ -190,13 +190,13 @@ impl Progress {
     fn show(&self, done: u32, elapsed: Duration) {
         if self.shown {
             let of = if self.spp == u32::MAX { String::new() } else { format!(" of {}", self.spp) };
-            super::to_stderr(format_args!("\r{done}{of} spp, {:.1} s ", elapsed.as_secs_f64()));
+            crate::console::to_stderr(format_args!("\r{done}{of} spp, {:.1} s ", elapsed.as_secs_f64()));
         }
     }
 
     fn finish(&self) {
         if self.shown {
-            super::to_stderr(format_args!("\r\x1b[K"));
+            crate::console::to_stderr(format_args!("\r\x1b[K"));
         }
     }
 }

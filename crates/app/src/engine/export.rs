@@ -1,8 +1,8 @@
 //! The thread that writes pictures and fills the clipboard: encoding, disk and other programs take their time.
 
 use super::capture::{Capture, Pixels};
-use super::error_map::ErrorMap;
 use super::{Inbox, Picture, Wake};
+use crate::model::{Destination, ErrorMap};
 use anyhow::Context;
 use film::DisplayTransform;
 use image_file::Records;
@@ -20,15 +20,6 @@ pub enum Content {
     Pane(Picture, DisplayTransform),
     /// A map of errors.
     Map(Arc<ErrorMap>),
-}
-
-/// Where to.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub enum Destination {
-    /// A file; if there is one already, another name beside it.
-    File(PathBuf),
-    /// The clipboard.
-    Clipboard,
 }
 
 /// Something to export.

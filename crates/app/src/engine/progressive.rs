@@ -4,7 +4,8 @@
 use super::backend::{Accumulation, Backend};
 use super::post_process::PostProcess;
 use super::rays::{Gate, RayJob, Stop};
-use super::{Order, Picture, Side};
+use super::{Order, Picture};
+use crate::model::PaneId;
 use pathtrace::gpu::GpuTraceError;
 use scene::{Geometry, Scene, Shape};
 use std::sync::Arc;
@@ -46,7 +47,7 @@ struct Refusal {
 
 /// The one who paints.
 pub struct ProgressiveRenderer {
-    side: Side,
+    side: PaneId,
     /// What can trace rays beside the processor.
     adapters: Adapters,
     post_process: Arc<PostProcess>,
@@ -64,7 +65,7 @@ pub struct ProgressiveRenderer {
 
 impl ProgressiveRenderer {
     /// A renderer for one side.
-    pub fn new(side: Side, adapters: Adapters, post_process: Arc<PostProcess>, gate: Arc<Gate>) -> Self {
+    pub fn new(side: PaneId, adapters: Adapters, post_process: Arc<PostProcess>, gate: Arc<Gate>) -> Self {
         ProgressiveRenderer {
             side,
             adapters,

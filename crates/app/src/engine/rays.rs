@@ -4,7 +4,8 @@
 
 use super::post_process::PostProcess;
 use super::progressive::{ProgressiveRenderer, same_picture};
-use super::{Inbox, Job, Side, step_back};
+use super::{Inbox, Job, step_back};
+use crate::model::PaneId;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Condvar, Mutex, PoisonError};
@@ -33,7 +34,7 @@ impl RayWorker {
     ///
     /// # Errors
     /// If the system gives no threads.
-    pub fn start(side: Side, adapters: Adapters, post_process: Arc<PostProcess>) -> anyhow::Result<Self> {
+    pub fn start(side: PaneId, adapters: Adapters, post_process: Arc<PostProcess>) -> anyhow::Result<Self> {
         let cores = std::thread::available_parallelism().map_or(1, usize::from);
         let pool = rayon::ThreadPoolBuilder::new()
             .num_threads(cores.saturating_sub(1).max(1))

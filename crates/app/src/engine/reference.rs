@@ -4,24 +4,16 @@
 
 use super::post_process::PostProcess;
 use super::{Inbox, Wake, step_back};
+use crate::model::{Origin, Progress};
 use crate::ruler::ReferenceImage;
 use pathtrace::{FEWEST_REPLICATES, Tracer};
 use reference::{Goal, Key, Maker, Reference, Store};
 use scene::Scene;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Condvar, Mutex, PoisonError};
 use std::thread::JoinHandle;
 use technique::Shot;
-
-/// Where a reference comes from.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub enum Origin {
-    /// Made here, or in the store because it was made before.
-    Made,
-    /// A file that the user has chosen.
-    File(PathBuf),
-}
 
 /// A reference to come by.
 #[derive(Debug, Clone)]
@@ -32,23 +24,6 @@ pub struct Wish {
     pub shot: Shot,
     /// Where from.
     pub origin: Origin,
-}
-
-/// How far the reference has come.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Progress {
-    /// The view that it belongs to.
-    pub view: u64,
-    /// Where it comes from.
-    pub origin: Origin,
-    /// Pictures that it is the mean of.
-    pub pictures: u32,
-    /// Its own relMSE, if that is known.
-    pub noise: Option<f64>,
-    /// Seconds that were spent on it.
-    pub seconds: f64,
-    /// Whether no more will come.
-    pub done: bool,
 }
 
 /// What the UI collects: the latest progress, and what went wrong, a line each.

@@ -5,29 +5,6 @@ use reference::Reference;
 use scene::Vec3;
 use std::sync::Arc;
 
-/// What pictures are compared with.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Against {
-    /// The other pane.
-    #[default]
-    EachOther,
-    /// The reference of what they show.
-    Reference,
-}
-
-impl Against {
-    /// Both, the default first.
-    pub const ALL: [Against; 2] = [Against::EachOther, Against::Reference];
-
-    /// The name on its button.
-    pub fn name(self) -> &'static str {
-        match self {
-            Against::EachOther => "each other",
-            Against::Reference => "the reference",
-        }
-    }
-}
-
 /// A reference as it is held against one picture after the other.
 #[derive(Debug, Clone)]
 pub struct ReferenceImage {
