@@ -40,7 +40,7 @@ impl<'a> Maker<'a> {
     /// Begins one, or goes on with one that is there. `tracer` is that of the subject's scene. `None` if there is no
     /// memory for it.
     pub fn new(tracer: &'a Tracer, subject: &Subject, begun: Option<&Reference>) -> Option<Self> {
-        let begun = begun.filter(|r| (r.width, r.height) == subject.size && r.replicates > 0);
+        let begun = begun.filter(|r| r.image.size() == subject.size && r.replicates > 0);
         let film = match begun {
             Some(reference) => reference.film()?,
             None => Film::try_new(subject.size.0, subject.size.1)?,

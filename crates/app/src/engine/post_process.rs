@@ -5,8 +5,8 @@
 
 use super::error_map::{ErrorMapJob, ErrorMapWorker};
 use super::{Inbox, Order, Picture, Side, Wake};
-use crate::ruler::{Against, ReferenceImage};
-use compare::{ErrorMetric, Errors, errors_of_radiances};
+use crate::ruler::{Against, Pair, ReferenceImage};
+use compare::{ErrorMetric, Errors, errors};
 use film::DisplayTransform;
 use std::sync::Arc;
 use std::thread::JoinHandle;
@@ -155,8 +155,7 @@ impl PostProcess {
             let errors = latest.errors();
             let resolve = |side: usize| {
                 let picture = latest.latest[side].clone()?;
-                let radiances = picture.radiances.iter().copied();
-                let rgba = (redevelop || fresh[side]).then(|| latest.display.to_rgba8(radiances));
+                let rgba = (redevelop || fresh[side]).then(|| latest.display.rgba8_of(&picture.image));
                 Some(DisplayFrame { picture, rgba, errors: errors[side], against: latest.comparison.against })
             };
             // both at once: the error of one belongs to the picture of the other
@@ -210,12 +209,12 @@ impl Latest {
     fn errors(&self) -> [Option<Errors>; 2] {
         match (self.comparison.against, &self.latest) {
             (Against::EachOther, [Some(a), Some(b)]) if comparable(a, b) => {
-                [(a, b), (b, a)].map(|(film, other)| Some(errors_of_radiances(&film.radiances, &other.radiances)))
+                [(a, b), (b, a)].map(|(picture, other)| errors(&picture.image, &other.image).ok())
             }
             (Against::EachOther, _) => [None, None],
             (Against::Reference, sides) => [0, 1].map(|side| {
                 let picture = sides[side].as_ref()?;
-                Some(self.reference_of(picture)?.errors(&picture.radiances))
+                self.reference_of(picture)?.errors(&picture.image).ok()
             }),
         }
     }
@@ -223,7 +222,7 @@ impl Latest {
     /// The reference, if it is that of this picture.
     fn reference_of(&self, picture: &Picture) -> Option<&ReferenceImage> {
         let (view, reference_image) = self.reference.as_ref()?;
-        let fits = *view == picture.order.view && reference_image.size == (picture.width, picture.height);
+        let fits = *view == picture.order.view && reference_image.image.size() == picture.image.size();
         (fits && picture.order.provenance.recipe.shows_the_scene()).then_some(reference_image)
     }
 
@@ -235,11 +234,11 @@ impl Latest {
             Against::EachOther => {
                 let other = self.latest[of.other() as usize].as_ref();
                 let other = other.filter(|other| film.is_some_and(|film| comparable(film, other)));
-                (of.other().name(), other.map(|other| other.radiances.clone()))
+                (of.other().name(), other.map(|other| other.image.clone()))
             }
             Against::Reference => {
                 let reference_image = film.and_then(|film| self.reference_of(film));
-                ("reference", reference_image.map(|reference_image| reference_image.radiances.clone()))
+                ("reference", reference_image.map(|reference_image| reference_image.image.clone()))
             }
         };
         let rough = |picture: &Picture| picture.rough;
@@ -251,10 +250,7 @@ impl Latest {
         };
         match (film, against) {
             (Some(film), Some(against)) => Some(Some(ErrorMapJob {
-                names: [of.name(), name],
-                width: film.width,
-                radiances: [film.radiances.clone(), against],
-                display: self.display,
+                pair: Pair { names: [of.name(), name], images: [film.image.clone(), against], display: self.display },
                 map,
                 held,
             })),
@@ -279,7 +275,7 @@ fn shelve(place: &mut Option<PaneUpdate>, mut new: DisplayFrame) {
 
 fn comparable(a: &Picture, b: &Picture) -> bool {
     let shows_the_scene = |picture: &Picture| picture.order.provenance.recipe.shows_the_scene();
-    (a.width, a.height, a.order.view) == (b.width, b.height, b.order.view) && shows_the_scene(a) && shows_the_scene(b)
+    (a.image.size(), a.order.view) == (b.image.size(), b.order.view) && shows_the_scene(a) && shows_the_scene(b)
 }
 
 #[cfg(test)]

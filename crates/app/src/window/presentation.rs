@@ -52,7 +52,8 @@ impl Presentation {
                     let picture = frame.picture;
                     if let Some(rgba) = &frame.rgba {
                         let texture = &mut self.textures[side];
-                        pane.texture = Some(texture.upload(gpu, renderer, picture.width, picture.height, rgba));
+                        pane.texture =
+                            Some(texture.upload(gpu, renderer, picture.image.width(), picture.image.height(), rgba));
                         pane.fault = None;
                     }
                     pane.provenance = Some(picture.order.provenance.clone());
@@ -60,7 +61,7 @@ impl Presentation {
                     pane.refused = picture.refused.clone();
                     pane.adapter = Some(picture.adapter.clone());
                     (pane.rough, pane.unfinished) = (picture.rough, picture.unfinished);
-                    pane.shrink = picture.order.size().0.div_ceil(picture.width.max(1)) * picture.order.shrink;
+                    pane.shrink = picture.order.size().0.div_ceil(picture.image.width().max(1)) * picture.order.shrink;
                     (pane.errors, pane.against) = (frame.errors, frame.against);
                     self.pictures[side] = Some(picture);
                 }

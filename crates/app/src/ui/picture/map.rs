@@ -2,7 +2,7 @@
 //! and the numbers under the mouse.
 
 use super::{WHOLE, spoken, text_box};
-use crate::ruler::{Against, HeatMap, brief};
+use crate::ruler::{Against, HeatMap, Pair, brief};
 use crate::ui::controls::reference_state;
 use crate::ui::{Dump, MapPane, ViewModel, Viewer};
 use compare::ColourScale;
@@ -56,11 +56,11 @@ fn numbers_at(map: &MapPane, rect: Rect, at: Pos2) -> Option<String> {
     let share = (at - rect.min) / rect.size();
     let (x, y) = ((share.x * *width as f32) as u32, (share.y * height as f32) as u32);
     let index = (x < *width && y < height).then_some(y as usize * *width as usize + x as usize)?;
-    let channels = |v: &Vec3| v.to_array().map(|channel| brief(f64::from(channel))).join(" ");
-    let map_job = &map.drawn.map_job;
-    let [a, r] = [0, 1].map(|i| map_job.radiances[i].get(index).map(channels));
+    let channels = |v: Vec3| v.to_array().map(|channel| brief(f64::from(channel))).join(" ");
+    let Pair { names, images, .. } = &map.drawn.map_job.pair;
+    let [a, r] = images.each_ref().map(|image| image.at(x, y).map(channels));
     let error = brief(f64::from(*values.get(index)?));
-    Some(format!("x {x}, y {y}: {error}\n{} {}\n{} {}", map_job.names[0], a?, map_job.names[1], r?))
+    Some(format!("x {x}, y {y}: {error}\n{} {}\n{} {}", names[0], a?, names[1], r?))
 }
 
 /// The box in the corner, from top to bottom: name, bar, ticks, and the rest in words.
