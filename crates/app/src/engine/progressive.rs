@@ -334,9 +334,7 @@ impl ProgressiveRenderer {
         self.post_process.deliver(
             self.side,
             Picture {
-                width: film.width(),
-                height: film.height(),
-                radiances: film.radiances().collect(),
+                image: film.image(),
                 spp: Some(film.samples_per_pixel()),
                 seconds: spent.as_secs_f64(),
                 nonfinite: film.nonfinite,

@@ -62,7 +62,9 @@ impl Presentation {
         let shown = self.shown.panes.entry(pane);
         if let Some(rgba) = &rgba {
             let texture = self.pane_textures.entry(pane);
-            self.textures.panes.insert(pane, texture.upload(gpu, renderer, picture.width, picture.height, rgba));
+            self.textures
+                .panes
+                .insert(pane, texture.upload(gpu, renderer, picture.image.width(), picture.image.height(), rgba));
             shown.fault = None;
         }
         shown.provenance = Some(picture.order.provenance.clone());
@@ -70,7 +72,7 @@ impl Presentation {
         shown.refused = picture.refused.clone();
         shown.adapter = Some(picture.adapter.clone());
         (shown.rough, shown.unfinished) = (picture.rough, picture.unfinished);
-        shown.shrink = picture.order.size().0.div_ceil(picture.width.max(1)) * picture.order.shrink;
+        shown.shrink = picture.order.size().0.div_ceil(picture.image.width().max(1)) * picture.order.shrink;
         shown.errors = errors;
         self.pictures.insert(pane, picture);
     }
