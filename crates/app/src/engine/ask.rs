@@ -6,7 +6,7 @@ use super::load::{Loader, Opened};
 use super::pane_workers::PaneWorkers;
 use super::post_process::{Comparison, PaneUpdate, PaneUpdates, PostProcess};
 use super::reference::{Origin, ReferenceUpdate, ReferenceWorker, Wish};
-use super::{Order, Side, Wake};
+use super::{Order, Side, Wake, step_back};
 use crate::ruler::Against;
 use crate::ui::Viewer;
 use anyhow::Context;
@@ -16,7 +16,7 @@ use scene::{Camera, Scene};
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::thread::JoinHandle;
-use technique::{Adapters, Provenance, SceneChanges, Shot, Technique};
+use technique::{Adapters, Provenance, SceneChanges, Shot, Technique, Threads};
 
 /// The workers; dropping it ends their threads.
 pub struct Engine {
@@ -26,6 +26,8 @@ pub struct Engine {
     error_map_worker: Arc<ErrorMapWorker>,
     /// Made when it is first asked for.
     reference_worker: Option<ReferenceWorker>,
+    /// Shared by all who trace rays.
+    threads: Arc<Threads>,
     exporter: Exporter,
     loader: Loader,
     wake: Wake,
@@ -71,13 +73,16 @@ impl Engine {
         let error_map_worker = Arc::new(ErrorMapWorker::start(wake.clone()).context("no thread for maps")?);
         let (post_process, thread) =
             PostProcess::start(wake.clone(), error_map_worker.clone()).context("no thread for the post_process")?;
+        let threads = Arc::new(Threads::beside_the_ui(step_back).context("no threads for tracing rays")?);
+        let panes =
+            |side| PaneWorkers::new(side, window.clone(), (adapters.clone(), threads.clone()), post_process.clone());
         Ok(Engine {
-            pane_workers: [Side::A, Side::B]
-                .map(|side| PaneWorkers::new(side, window.clone(), adapters.clone(), post_process.clone())),
+            pane_workers: Side::ALL.map(panes),
             post_process,
             post_process_thread: Some(thread),
             error_map_worker,
             reference_worker: None,
+            threads,
             exporter: Exporter::start(wake.clone()).context("no thread for exports")?,
             loader: Loader::new(wake.clone()),
             wake,
@@ -192,7 +197,8 @@ impl Engine {
             return;
         }
         if self.reference_worker.is_none() {
-            self.reference_worker = ReferenceWorker::start(self.post_process.clone(), self.wake.clone()).ok();
+            self.reference_worker =
+                ReferenceWorker::start(self.threads.clone(), self.post_process.clone(), self.wake.clone()).ok();
         }
         self.asked.reference = wish;
         let shot = shot_of(viewer, scene.clone());

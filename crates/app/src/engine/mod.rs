@@ -1,12 +1,11 @@
-//! Rendering beside the UI. Each pane has a [`pane_workers`] with a thread for each technique it has used ([`fake`],
-//! and [`rays`] with its [`progressive`], who holds a [`backend`] for the processor or for the graphics device); they
-//! turn jobs into [`Picture`]s. The [`post_process`] turns pictures into bytes for the screen and measures how far
+//! Rendering beside the UI. Each pane has a [`pane_workers`] with a thread for each technique it has used: [`fake`],
+//! and [`rays`] with its [`technique::ProgressiveRenderer`]. They turn jobs into [`Picture`]s. All who trace share one
+//! pool of threads, in turns. The [`post_process`] turns pictures into bytes for the screen and measures how far
 //! apart they are, from each other or from what the [`reference`] makes, and the [`error_map`] draws where; the
 //! [`export`] writes files and fills the clipboard. Every thread is fed through an [`Inbox`] in which newer wishes
 //! replace older ones. The UI thread only posts and collects.
 
 pub mod ask;
-pub mod backend;
 pub mod capture;
 pub mod error_map;
 pub mod export;
@@ -14,7 +13,6 @@ pub mod fake;
 pub mod load;
 pub mod pane_workers;
 pub mod post_process;
-pub mod progressive;
 pub mod rays;
 pub mod reference;
 

@@ -5,14 +5,13 @@
 use super::post_process::PostProcess;
 use super::{Inbox, Wake, step_back};
 use crate::ruler::ReferenceImage;
-use pathtrace::{FEWEST_REPLICATES, Tracer};
+use pathtrace::FEWEST_REPLICATES;
 use reference::{Goal, Key, Maker, Reference, Store};
-use scene::Scene;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Condvar, Mutex, PoisonError};
 use std::thread::JoinHandle;
-use technique::Shot;
+use technique::{Rank, Renderer, Shot, Threads};
 
 /// Where a reference comes from.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -74,28 +73,23 @@ pub struct ReferenceWorker {
 type Commission = (Wish, Arc<AtomicBool>);
 
 impl ReferenceWorker {
-    /// Starts the thread and its pool, which leaves one core to the UI; `wake` is called whenever
+    /// Starts the thread, which traces on `threads`; `wake` is called whenever
     /// [`ReferenceWorker::update`] has something.
     ///
     /// # Errors
-    /// If the system gives no threads.
-    pub fn start(post_process: Arc<PostProcess>, wake: Wake) -> anyhow::Result<Self> {
-        let cores = std::thread::available_parallelism().map_or(1, usize::from);
-        let threads = cores.saturating_sub(1).max(1);
-        let pool = rayon::ThreadPoolBuilder::new()
-            .num_threads(threads)
-            .thread_name(|i| format!("reference_worker {i}"))
-            .start_handler(|_| step_back())
-            .build()?;
+    /// If the system gives no thread.
+    pub fn start(threads: Arc<Threads>, post_process: Arc<PostProcess>, wake: Wake) -> std::io::Result<Self> {
         let inbox = Arc::new(Inbox::<Option<Commission>>::default());
         let (update, gate) = (Arc::new(Inbox::default()), Arc::new(Gate::default()));
-        let mut bench = Bench { post_process, wake, update: update.clone(), gate: gate.clone(), tracer: None };
+        let mut bench =
+            Bench { post_process, wake, update: update.clone(), gate: gate.clone(), threads, renderer: None };
         let thread = std::thread::Builder::new().name("reference_worker".into()).spawn({
             let commissions = inbox.clone();
             move || {
+                step_back();
                 while let Some(commission) = commissions.take() {
                     if let Some((wish, cancel)) = commission {
-                        pool.install(|| bench.serve(&wish, &cancel));
+                        bench.serve(&wish, &cancel);
                     }
                 }
             }
@@ -162,11 +156,15 @@ impl Gate {
         self.changed.notify_all();
     }
 
+    fn is_held(&self) -> bool {
+        self.held.load(Ordering::Relaxed)
+    }
+
     /// Waits until the gate is open or the work is cancelled, and returns whether it is.
     fn stops(&self, cancel: &AtomicBool) -> bool {
-        if self.held.load(Ordering::Relaxed) {
+        if self.is_held() {
             let mut guard = self.lock.lock().unwrap_or_else(PoisonError::into_inner);
-            while self.held.load(Ordering::Relaxed) && !cancel.load(Ordering::Relaxed) {
+            while self.is_held() && !cancel.load(Ordering::Relaxed) {
                 guard = self.changed.wait(guard).unwrap_or_else(PoisonError::into_inner);
             }
         }
@@ -181,7 +179,8 @@ struct Bench {
     update: Arc<Inbox<ReferenceUpdate>>,
     gate: Arc<Gate>,
     /// The scene of the last wish, ready for rays.
-    tracer: Option<(Arc<Scene>, Tracer)>,
+    renderer: Option<Renderer>,
+    threads: Arc<Threads>,
 }
 
 impl Bench {
@@ -204,20 +203,28 @@ impl Bench {
             Some(kept) => self.show(wish, kept, false),
             None => self.tell(wish, (0, None, 0.0), false),
         }
-        let tracer = match self.tracer.take() {
-            Some((scene, tracer)) if Arc::ptr_eq(&scene, &wish.shot.scene) => tracer,
-            _ => Tracer::new(&wish.shot.scene),
+        let scene = &wish.shot.scene;
+        let mut renderer = match self.renderer.take() {
+            Some(renderer) if Arc::ptr_eq(renderer.scene(), scene) => renderer,
+            _ => Renderer::on_the_processor(scene.clone(), self.threads.clone()),
         };
+        // panes go first
+        renderer.rank = Rank::Background;
         let mut keeper = Keeper { store, key, wish, kept: kept.as_ref().map_or(0, |kept| kept.replicates) };
-        match Maker::new(&tracer, &wish.shot, kept.as_ref()) {
+        match Maker::new(&mut renderer, &wish.shot, kept.as_ref()) {
             Some(mut maker) => self.work(&mut maker, &Goal::default(), &mut keeper, cancel),
             None => self.fail("not enough memory for a reference; make the window smaller".into()),
         }
-        self.tracer = Some((wish.shot.scene.clone(), tracer));
+        self.renderer = Some(renderer);
     }
 
     fn work(&self, maker: &mut Maker, goal: &Goal, keeper: &mut Keeper, cancel: &AtomicBool) {
-        while !maker.is_done(goal) && maker.step(&|| self.gate.stops(cancel)) {
+        let gate = &*self.gate;
+        while !maker.is_done(goal) && !gate.stops(cancel) {
+            // who waits holds no threads
+            if !maker.step(&|| gate.is_held() || cancel.load(Ordering::Relaxed)) {
+                continue;
+            }
             let reference = maker.reference();
             let done = maker.is_done(goal);
             self.show(keeper.wish, &reference, done);
