@@ -4,8 +4,12 @@
 //! controls and pictures into egui and knows no window; the [`engine`] renders beside it; [`window`] is the shell
 //! around both, the only place that knows winit.
 
+#[macro_use]
+mod console;
+
 pub mod cli;
 pub mod engine;
+pub mod model;
 pub mod ruler;
 pub mod ui;
 pub mod window;
@@ -19,7 +23,7 @@ pub fn run(args: impl IntoIterator<Item = OsString>) -> ExitCode {
     match cli::Command::parse(args).and_then(cli::Command::execute) {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
-            cli::to_stderr(format_args!("visavis: {}\n", error.line()));
+            console::to_stderr(format_args!("visavis: {}\n", error.line()));
             ExitCode::from(error.exit_code())
         }
     }

@@ -205,8 +205,9 @@ fn as_shares(film: &Film, truth: &Film) -> Film {
 }
 
 fn judged(film: &Film, seed: u32, seconds: f64, stats: Stats, truth: &Truth) -> Result<Picture, BenchError> {
-    let Errors { rmse, rel_mse, mae, bias, nonfinite, .. } = compare::errors(film, &truth.film)?;
-    let flip = ErrorMetric::Flip.of(film, &truth.film, &DisplayTransform::default())?;
+    let image = film.image();
+    let Errors { rmse, rel_mse, mae, bias, nonfinite, .. } = compare::errors(&image, &truth.reference.image)?;
+    let flip = ErrorMetric::Flip.of(&image, &truth.reference.image, &DisplayTransform::default())?;
     Ok(Picture {
         seed,
         seconds,
@@ -214,7 +215,7 @@ fn judged(film: &Film, seed: u32, seconds: f64, stats: Stats, truth: &Truth) -> 
         rays: stats.rays,
         cut_paths: stats.cut_paths,
         // those of the reference are told with it
-        nonfinite: nonfinite - truth.worth.nonfinite.min(nonfinite),
+        nonfinite: film.nonfinite + nonfinite,
         rmse,
         rel_mse,
         mae,
@@ -222,4 +223,21 @@ fn judged(film: &Film, seed: u32, seconds: f64, stats: Stats, truth: &Truth) -> 
         flip: finite_mean(&flip).0,
         tail_weight: film.tail_weight(),
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use film::Vec3;
+    use reference::Reference;
+
+    #[test]
+    fn a_pictures_own_samples_that_are_not_finite_are_counted_and_the_references_are_not() {
+        let reference = Reference { image: Film::new(2, 1).image(), replicates: 16, seconds: 1.0, nonfinite: 3 };
+        let worth =
+            Worth { spp: 1024, seconds: 1.0, mean: 0.0, mse: 0.0, rel_mse: 0.0, tail_weight: 0.0, nonfinite: 3 };
+        let truth = Truth { film: reference.film().unwrap(), worth, reference };
+        let film = Film::from_radiances(2, 1, [Vec3::NAN, Vec3::ONE]).unwrap();
+        assert_eq!(judged(&film, 1, 1.0, Stats::default(), &truth).unwrap().nonfinite, 1);
+    }
 }

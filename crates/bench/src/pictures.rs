@@ -5,8 +5,7 @@ use crate::line::title;
 use crate::plan::Part;
 use crate::references::Truth;
 use compare::{ColourScale, ErrorMetric, Tick};
-use film::DisplayTransform;
-use film::Film;
+use film::{DisplayTransform, Image};
 use image_file::{Records, encode_rgba8};
 use raster::{Fake, Raster};
 use technique::{Accumulation, FakeSettings, Renderer, Technique, TreeSettings};
@@ -49,7 +48,7 @@ pub fn of(
             let settings = FakeSettings { fake, ..FakeSettings::default() };
             // a device that fails was told of where the fake was measured
             if let Ok(film) = raster.render(&scene, &scene.camera, &settings.sized(part.width, part.height)) {
-                exhibits.push(exhibit(title(&Technique::Fake(settings)), &film, truth)?);
+                exhibits.push(exhibit(title(&Technique::Fake(settings)), &film.image(), truth)?);
             }
         }
     }
@@ -57,20 +56,20 @@ pub fn of(
     let mut accumulation = Accumulation::blank(size).ok_or(BenchError::Memory(size.0, size.1))?;
     let TreeSettings { tree, spp } = TreeSettings::default();
     renderer.add(&mut accumulation, &scene.camera, &tree.into(), spp, &|| false)?;
-    exhibits.push(exhibit(format!("Whitted, {spp} samples per pixel"), accumulation.film(), truth)?);
+    exhibits.push(exhibit(format!("Whitted, {spp} samples per pixel"), &accumulation.film().image(), truth)?);
     Ok(exhibits)
 }
 
-fn exhibit(title: String, film: &Film, truth: &Truth) -> Result<Exhibit, BenchError> {
+fn exhibit(title: String, image: &Image, truth: &Truth) -> Result<Exhibit, BenchError> {
     let display = DisplayTransform::default();
-    let (width, height) = (film.width(), film.height());
+    let (width, height) = image.size();
     let png = |rgba: &[u8], (width, height)| encode_rgba8(width, height, rgba, &Records::new());
-    let values = ErrorMetric::Signed.of(film, &truth.film, &display)?;
+    let values = ErrorMetric::Signed.of(image, &truth.reference.image, &display)?;
     let scale = ColourScale::fitted(ErrorMetric::Signed, &values);
     Ok(Exhibit {
         title,
-        picture: png(&display.film_to_rgba8(film), (width, height))?,
-        truth: png(&display.film_to_rgba8(&truth.film), (width, height))?,
+        picture: png(&display.rgba8_of(image), (width, height))?,
+        truth: png(&display.rgba8_of(&truth.reference.image), (width, height))?,
         map: png(&scale.image(&values, width), (width, height))?,
         bar: png(&scale.bar(BAR.0, BAR.1), BAR)?,
         ticks: scale.ticks(6),

@@ -54,7 +54,7 @@ pub fn rectangle(trial: &mut Trial) {
 pub fn mesh_area_light(scene: Scene) -> Scene {
     with_geometry(scene, |_, geometry| {
         let (positions, triangles) = geometry.flat_triangles();
-        *geometry = Geometry::Mesh { positions, triangles };
+        *geometry = Geometry::mesh(positions.into_owned(), triangles.into_owned());
     })
 }
 

@@ -252,7 +252,7 @@ pub const NOWHERE: Ray = Ray { origin: Vec3::NAN, direction: Vec3::NAN, tmax: 0.
 /// A ray that enters glass of index 1.5 and leaves it again, without reflections; it starts where it left.
 fn refracted_through(accel: &Accel, mut ray: Ray) -> Ray {
     for interface in [INTO_GLASS, OUT_OF_GLASS] {
-        let Some(hit) = accel.closest(&ray) else { return NOWHERE };
+        let Some(hit) = accel.first_met(&ray) else { return NOWHERE };
         let wo = -ray.direction;
         let normal = if interface.entering { hit.point.normal } else { -hit.point.normal };
         let wi = interface.refract(wo, normal).unwrap_or(Vec3::NAN).normalize();

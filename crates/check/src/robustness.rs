@@ -22,7 +22,10 @@ pub fn placed(mut scene: Scene, camera: Camera, scale: f32, shift: f32) -> (Scen
                 (*corner, *edge_u, *edge_v) = (point(*corner), *edge_u * scale, *edge_v * scale);
             }
             Geometry::Box { corner, size, .. } => (*corner, *size) = (point(*corner), *size * scale),
-            Geometry::Mesh { positions, .. } => positions.iter_mut().for_each(|p| *p = point(*p)),
+            Geometry::Mesh(mesh) => {
+                let positions = mesh.positions().iter().map(|p| point(*p)).collect();
+                shape.geometry = Geometry::mesh(positions, mesh.triangles().to_vec());
+            }
         }
     }
     scene.shapes = shapes.into();
@@ -172,7 +175,7 @@ pub fn under_slivers() -> (Scene, Camera, f64) {
         triangles.push([first, first + 1, first + 2]);
     }
     scene.materials[0].bsdf = Bsdf::Diffuse { albedo: Texture::Constant(Vec3::splat(0.5)) };
-    let thin = Shape { geometry: Geometry::Mesh { positions, triangles }, material: 0 };
+    let thin = Shape { geometry: Geometry::mesh(positions, triangles), material: 0 };
     scene.shapes = scene.shapes.iter().cloned().chain([thin]).collect();
     let (x, y, expected) = RECTANGLE[2];
     (scene, spot(Vec3::new(x + 0.3, y, 0.1), Vec3::new(x, y, 0.0)), expected)

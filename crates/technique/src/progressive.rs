@@ -230,7 +230,7 @@ impl ProgressiveRenderer {
     /// look at the last picture.
     fn rough_by_whoever_is_ready(&mut self, renderer: &mut Renderer, request: &Request, watch: &impl Watch) {
         let triangles = |shape: &Shape| match &shape.geometry {
-            Geometry::Mesh { triangles, .. } => triangles.len(),
+            Geometry::Mesh(mesh) => mesh.triangles().len(),
             _ => 0,
         };
         // where the processor would take as long to make the scene ready, nothing is won

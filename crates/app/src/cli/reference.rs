@@ -121,13 +121,16 @@ impl Progress {
             let left = time_left(self.before, maker.progress(goal), self.start.elapsed());
             let left = left.map_or_else(String::new, |left| format!(", about {:.0} s left", left.as_secs_f64()));
             let made = maker.replicates();
-            super::to_stderr(format_args!("\r\x1b[Kreference: {made} pictures, {:.1} s{left} ", maker.seconds()));
+            crate::console::to_stderr(format_args!(
+                "\r\x1b[Kreference: {made} pictures, {:.1} s{left} ",
+                maker.seconds()
+            ));
         }
     }
 
     fn finish(&self) {
         if self.shown {
-            super::to_stderr(format_args!("\r\x1b[K"));
+            crate::console::to_stderr(format_args!("\r\x1b[K"));
         }
     }
 }

@@ -4,14 +4,13 @@ use super::{RenderArgs, reference};
 use crate::ruler::{brief, error_records, noise_line};
 use anyhow::Context;
 use compare::Errors;
-use film::DisplayTransform;
-use film::Film;
+use film::{DisplayTransform, Image};
 use gpu::Gpu;
-use image_file::{self, Kind, Linear};
+use image_file::{self, Kind};
 use pathtrace::gpu::GpuTraceError;
 use pathtrace::{SamplerKind, Stats};
 use raster::Raster;
-use scene::{Scene, Vec3, builtin};
+use scene::{Scene, builtin};
 use serde_json::json;
 use std::io::IsTerminal;
 use std::sync::Arc;
@@ -47,8 +46,9 @@ pub fn run(args: &RenderArgs) -> anyhow::Result<()> {
         Technique::Fake(fake) => raster(args, &fake.applied_to(&scene), fake)?,
         Technique::Traced(traced) => trace(args, &shot, traced)?,
     };
-    let errors = if args.errors { Some(measure(&shot, &rendered.film)?) } else { None };
-    save(args, shot, (&rendered, seconds), errors.as_ref())?;
+    let image = rendered.film.image();
+    let errors = if args.errors { Some(measure(&shot, &image)?) } else { None };
+    save(args, shot, (&rendered, seconds), &image, errors.as_ref())?;
     if rendered.film.nonfinite > 0 {
         note!(
             "visavis: {} samples were not finite and are left out: please report this scene",
@@ -80,15 +80,15 @@ pub fn run(args: &RenderArgs) -> anyhow::Result<()> {
 }
 
 /// How far a finished picture is from the reference of what it shows.
-fn measure(shot: &Shot, film: &Film) -> anyhow::Result<Errors> {
-    let reference = reference::obtain(shot, None)?;
-    Ok(reference.errors(&film.radiances().collect::<Vec<_>>())?)
+fn measure(shot: &Shot, image: &Image) -> anyhow::Result<Errors> {
+    Ok(reference::obtain(shot, None)?.errors(image)?)
 }
 
 fn save(
     args: &RenderArgs,
     shot: Shot,
     (rendered, seconds): (&Rendered, f64),
+    image: &Image,
     errors: Option<&Errors>,
 ) -> anyhow::Result<()> {
     let provenance = Provenance { shot, technique: args.pane.in_use(), device: rendered.device };
@@ -96,10 +96,8 @@ fn save(
         Made { spp: rendered.film.samples_per_pixel(), seconds, adapter: &rendered.made_by, exposure: args.exposure };
     let mut records = provenance.records(made);
     records.extend(errors.into_iter().flat_map(|e| error_records(e, "reference".into())));
-    let radiances: Vec<Vec3> = rendered.film.radiances().collect();
-    let picture = Linear { width: args.seen.size.0, height: args.seen.size.1, radiances: &radiances };
     let kind = Kind::of(&args.out).context("a picture's name must end in .png or .exr")?;
-    let bytes = image_file::encode(kind, picture, &DisplayTransform { exposure: args.exposure }, &records)?;
+    let bytes = image_file::encode(kind, image, &DisplayTransform { exposure: args.exposure }, &records)?;
     Ok(image_file::write_whole(&args.out, &bytes)?)
 }
 
@@ -192,7 +190,7 @@ impl Watch for Terminal {
     fn count(&self, spp: u32) {
         if self.shown {
             let of = if self.spp == u32::MAX { String::new() } else { format!(" of {}", self.spp) };
-            super::to_stderr(format_args!("\r{spp}{of} spp, {:.1} s ", self.start.elapsed().as_secs_f64()));
+            crate::console::to_stderr(format_args!("\r{spp}{of} spp, {:.1} s ", self.start.elapsed().as_secs_f64()));
         }
     }
 
@@ -204,7 +202,7 @@ impl Watch for Terminal {
 impl Terminal {
     fn clear(&self) {
         if self.shown {
-            super::to_stderr(format_args!("\r\x1b[K"));
+            crate::console::to_stderr(format_args!("\r\x1b[K"));
         }
     }
 }

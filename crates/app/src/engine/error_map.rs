@@ -2,54 +2,16 @@
 //! wait for a map; a newer wish replaces one that was not begun.
 
 use super::{Inbox, Wake, step_back};
-use crate::ruler::{HeatMap, Pair};
-use compare::ErrorMetric;
-use film::DisplayTransform;
-use scene::Vec3;
+use crate::model::{ErrorMap, ErrorMapJob};
+use crate::ruler::HeatMap;
 use std::sync::{Arc, Mutex, PoisonError};
 use std::thread::JoinHandle;
-
-/// Two pictures of one size and what to draw of them.
-#[derive(Debug, Clone)]
-pub struct ErrorMapJob {
-    /// What they are called.
-    pub names: [&'static str; 2],
-    /// Pixels in a row of both.
-    pub width: u32,
-    /// Linear radiances, rows from the top; the first is judged by the second.
-    pub radiances: [Arc<[Vec3]>; 2],
-    /// How FLIP sees them.
-    pub display: DisplayTransform,
-    /// What to map.
-    pub map: ErrorMetric,
-    /// Where the scale ends; `None` to fit it.
-    pub held: Option<f32>,
-}
-
-/// A map that is drawn.
-#[derive(Debug)]
-pub struct ErrorMap {
-    /// What it is of.
-    pub map_job: ErrorMapJob,
-    /// The numbers and their colours.
-    pub map: HeatMap,
-    /// Its bytes, four a pixel, without the bar.
-    pub rgba: Vec<u8>,
-}
 
 /// The worker; [`ErrorMapWorker::close`] ends its thread.
 pub struct ErrorMapWorker {
     inbox: Arc<Inbox<Option<ErrorMapJob>>>,
     updates: Arc<Inbox<Option<ErrorMap>>>,
     thread: Mutex<Option<JoinHandle<()>>>,
-}
-
-impl ErrorMapJob {
-    /// The two pictures.
-    pub fn pair(&self) -> Pair<'_> {
-        let [film, reference] = &self.radiances;
-        Pair { names: self.names, width: self.width, radiances: [film, reference], display: self.display }
-    }
 }
 
 impl ErrorMapWorker {
@@ -96,7 +58,7 @@ impl ErrorMapWorker {
 }
 
 fn draw(map_job: ErrorMapJob) -> Option<ErrorMap> {
-    let map = HeatMap::of(&map_job.pair(), map_job.map, map_job.held).ok()?;
+    let map = HeatMap::of(&map_job.pair, map_job.map, map_job.held).ok()?;
     let rgba = map.rgba();
     Some(ErrorMap { map_job, map, rgba })
 }

@@ -1,12 +1,12 @@
 //! The thread that writes pictures and fills the clipboard: encoding, disk and other programs take their time.
 
 use super::capture::{Capture, Pixels};
-use super::error_map::ErrorMap;
 use super::{Inbox, Picture, Wake};
+use crate::model::{Destination, ErrorMap};
 use anyhow::Context;
 use film::DisplayTransform;
 use image_file::Records;
-use image_file::{self, Kind, Linear};
+use image_file::{self, Kind};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::thread::JoinHandle;
@@ -20,15 +20,6 @@ pub enum Content {
     Pane(Picture, DisplayTransform),
     /// A map of errors.
     Map(Arc<ErrorMap>),
-}
-
-/// Where to.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub enum Destination {
-    /// A file; if there is one already, another name beside it.
-    File(PathBuf),
-    /// The clipboard.
-    Clipboard,
 }
 
 /// Something to export.
@@ -116,11 +107,8 @@ fn save(export: &Export, path: &Path) -> anyhow::Result<PathBuf> {
             let Pixels { width, height, rgba } = capture.pixels()?;
             image_file::encode_rgba8(width, height, &rgba, &export.records)?
         }
-        (Content::Map(drawn), kind) => drawn.map.encode(kind, &drawn.map_job.pair(), export.records.clone())?,
-        (Content::Pane(picture, display), kind) => {
-            let linear = Linear { width: picture.width, height: picture.height, radiances: &picture.radiances };
-            image_file::encode(kind, linear, display, &export.records)?
-        }
+        (Content::Map(drawn), kind) => drawn.map.encode(kind, &drawn.map_job.pair, export.records.clone())?,
+        (Content::Pane(picture, display), kind) => image_file::encode(kind, &picture.image, display, &export.records)?,
     };
     Ok(image_file::write_new(path, &bytes)?)
 }
@@ -129,8 +117,8 @@ fn copy(export: &Export, clipboard: &mut Option<arboard::Clipboard>) -> anyhow::
     let Pixels { width, height, rgba } = match &export.content {
         Content::Seen(capture) => capture.pixels()?,
         Content::Pane(picture, display) => {
-            let rgba = display.to_rgba8(picture.radiances.iter().copied());
-            Pixels { width: picture.width, height: picture.height, rgba }
+            let (width, height) = picture.image.size();
+            Pixels { width, height, rgba: display.rgba8_of(&picture.image) }
         }
         Content::Map(drawn) => {
             let (width, height, rgba) = drawn.map.with_bar();

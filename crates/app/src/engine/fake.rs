@@ -2,7 +2,8 @@
 //! too.
 
 use super::post_process::PostProcess;
-use super::{Inbox, Job, Picture, Side, step_back};
+use super::{Inbox, Job, Picture, step_back};
+use crate::model::PaneId;
 use film::Film;
 use gpu::FaultInjection;
 use gpu::{Gpu, GpuError};
@@ -29,7 +30,7 @@ impl FakeWorker {
     ///
     /// # Errors
     /// If the system gives no thread.
-    pub fn start(side: Side, window: Gpu, post_process: Arc<PostProcess>) -> std::io::Result<Self> {
+    pub fn start(side: PaneId, window: Gpu, post_process: Arc<PostProcess>) -> std::io::Result<Self> {
         let inbox = Arc::new(Inbox::default());
         let jobs = inbox.clone();
         let thread = std::thread::Builder::new()
@@ -84,7 +85,7 @@ impl Stage {
     }
 }
 
-fn work(side: Side, window: &Gpu, jobs: &Inbox<Option<FakeJob>>, post_process: &PostProcess) {
+fn work(side: PaneId, window: &Gpu, jobs: &Inbox<Option<FakeJob>>, post_process: &PostProcess) {
     let mut stage = Stage::on(device_beside(window));
     let fault = FaultInjection::of_fakes();
     let mut seconds_per_pixel = 0.0;
@@ -122,7 +123,7 @@ fn work(side: Side, window: &Gpu, jobs: &Inbox<Option<FakeJob>>, post_process: &
 
 /// Makes one picture at `1 / shrink` of the size and delivers it, or why there is none.
 fn render_job(
-    side: Side,
+    side: PaneId,
     raster: &mut Raster,
     post_process: &PostProcess,
     job: &FakeJob,
@@ -134,9 +135,7 @@ fn render_job(
         Ok(film) => post_process.deliver(
             side,
             Picture {
-                width: film.width(),
-                height: film.height(),
-                radiances: film.radiances().collect(),
+                image: film.image(),
                 spp: None,
                 seconds: start.elapsed().as_secs_f64(),
                 nonfinite: film.nonfinite,

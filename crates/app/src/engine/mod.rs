@@ -16,49 +16,16 @@ pub mod post_process;
 pub mod rays;
 pub mod reference;
 
-use scene::{Camera, Scene, Vec3};
+use film::Image;
+use scene::{Camera, Scene};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use technique::{Device, Provenance};
-
-/// A side of the comparison.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Side {
-    /// Left of the wipe.
-    A,
-    /// Right of it.
-    B,
-}
-
-impl Side {
-    /// Both, A first.
-    pub const ALL: [Side; 2] = [Side::A, Side::B];
-
-    /// "A" or "B".
-    pub fn name(self) -> &'static str {
-        match self {
-            Side::A => "A",
-            Side::B => "B",
-        }
-    }
-
-    /// The one on the other side of the wipe.
-    pub fn other(self) -> Self {
-        match self {
-            Side::A => Side::B,
-            Side::B => Side::A,
-        }
-    }
-}
 
 /// What a technique has made so far, in linear radiance.
 #[derive(Debug, Clone)]
 pub struct Picture {
-    /// Width in pixels; smaller than asked for in a rough first picture.
-    pub width: u32,
-    /// Height in pixels.
-    pub height: u32,
-    /// Rows from the top.
-    pub radiances: Arc<[Vec3]>,
+    /// Smaller than asked for in a rough first picture.
+    pub image: Image,
     /// Samples per pixel; `None` for a technique that does not sample.
     pub spp: Option<u32>,
     /// Seconds of rendering.
@@ -91,7 +58,7 @@ pub struct Job<S> {
 pub struct Order {
     /// Counts all jobs.
     pub job: u64,
-    /// Counts what both sides share: scene, camera and size. Only pictures of one view can be compared.
+    /// Counts what is seen: scene, camera and size. Only pictures of one view can be compared.
     pub view: u64,
     /// Pixels of the picture area along a side of one of the picture.
     pub shrink: u32,

@@ -1,7 +1,8 @@
 //! The thread that traces rays for one pane. Its [`ProgressiveRenderer`] makes one job's picture after the other.
 
 use super::post_process::PostProcess;
-use super::{Inbox, Job, Order, Picture, Side, step_back};
+use super::{Inbox, Job, Order, Picture, step_back};
+use crate::model::PaneId;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Condvar, Mutex, PoisonError};
@@ -36,7 +37,7 @@ impl RayWorker {
     /// # Errors
     /// If the system gives no thread.
     pub fn start(
-        side: Side,
+        side: PaneId,
         (adapters, threads): (Adapters, Arc<Threads>),
         post_process: Arc<PostProcess>,
     ) -> std::io::Result<Self> {
@@ -121,7 +122,7 @@ fn request_of(job: &RayJob) -> Request {
 
 /// A pane that waits for a job's pictures.
 struct Pane<'a> {
-    side: Side,
+    side: PaneId,
     order: &'a Order,
     stop: Stop<'a>,
     gate: &'a Gate,
@@ -153,9 +154,7 @@ impl Watch for Pane<'_> {
     fn show(&self, frame: Frame) {
         let film = frame.film;
         let picture = Picture {
-            width: film.width(),
-            height: film.height(),
-            radiances: film.radiances().collect(),
+            image: film.image(),
             spp: Some(film.samples_per_pixel()),
             seconds: frame.seconds,
             nonfinite: film.nonfinite,

@@ -4,23 +4,15 @@
 
 use super::post_process::PostProcess;
 use super::{Inbox, Wake, step_back};
+use crate::model::{Origin, Progress};
 use crate::ruler::ReferenceImage;
 use pathtrace::FEWEST_REPLICATES;
 use reference::{Goal, Key, Maker, Reference, Store};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Condvar, Mutex, PoisonError};
 use std::thread::JoinHandle;
 use technique::{Rank, Renderer, Shot, Threads};
-
-/// Where a reference comes from.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub enum Origin {
-    /// Made here, or in the store because it was made before.
-    Made,
-    /// A file that the user has chosen.
-    File(PathBuf),
-}
 
 /// A reference to come by.
 #[derive(Debug, Clone)]
@@ -31,23 +23,6 @@ pub struct Wish {
     pub shot: Shot,
     /// Where from.
     pub origin: Origin,
-}
-
-/// How far the reference has come.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Progress {
-    /// The view that it belongs to.
-    pub view: u64,
-    /// Where it comes from.
-    pub origin: Origin,
-    /// Pictures that it is the mean of.
-    pub pictures: u32,
-    /// Its own relMSE, if that is known.
-    pub noise: Option<f64>,
-    /// Seconds that were spent on it.
-    pub seconds: f64,
-    /// Whether no more will come.
-    pub done: bool,
 }
 
 /// What the UI collects: the latest progress, and what went wrong, a line each.
@@ -265,10 +240,10 @@ impl Bench {
 /// A reference from a file, of the size of the picture.
 fn load(file: &Path, (width, height): (u32, u32)) -> Result<Reference, String> {
     let reference = Reference::load(file).map_err(|fault| fault.to_string())?;
-    if (reference.width, reference.height) == (width, height) {
+    let (w, h) = reference.image.size();
+    if (w, h) == (width, height) {
         return Ok(reference);
     }
-    let (w, h) = (reference.width, reference.height);
     Err(format!("the reference has {w}x{h} pixels, the picture {width}x{height}: {}", file.display()))
 }
 

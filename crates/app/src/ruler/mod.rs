@@ -7,4 +7,4 @@ mod reference_image;
 
 pub use figures::{brief, error_records, noise_line};
 pub use heat_map::{HeatMap, Pair};
-pub use reference_image::{Against, ReferenceImage};
+pub use reference_image::ReferenceImage;

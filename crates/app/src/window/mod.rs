@@ -9,7 +9,7 @@ mod surface;
 mod textures;
 mod window_state;
 
-use crate::cli::ViewArgs;
+use crate::model::ViewArgs;
 use anyhow::Context;
 use egui_winit::accesskit_winit;
 use scene::builtin;

@@ -2,90 +2,111 @@
 //! export; and the map of errors.
 
 use super::textures::PaneTexture;
-use crate::engine::error_map::ErrorMap;
+use crate::engine::Picture;
 use crate::engine::export::Content;
-use crate::engine::post_process::{PaneUpdate, PaneUpdates};
-use crate::engine::{Picture, Side};
-use crate::ruler::{Against, error_records};
-use crate::ui::{MapPane, Pane, ViewModel, Viewer};
+use crate::engine::post_process::{DisplayFrame, PaneUpdate, PaneUpdates};
+use crate::model::{Against, ErrorMap, Model, PaneId, PaneView, Panes, ViewModel, Wanted};
+use crate::ruler::error_records;
+use crate::ui::Textures;
 use film::DisplayTransform;
 use gpu::Gpu;
 use image_file::Records;
 use std::sync::Arc;
 use technique::Made;
 
-/// Both panes and the map.
+/// All panes and the map.
 #[derive(Default)]
 pub struct Presentation {
     /// What the UI is told.
-    pub model: ViewModel,
-    pictures: [Option<Picture>; 2],
-    textures: [PaneTexture; 2],
+    pub shown: ViewModel,
+    /// The pixels of that.
+    pub textures: Textures,
+    pictures: Panes<Picture>,
+    pane_textures: Panes<PaneTexture>,
     map_texture: PaneTexture,
 }
 
 impl Presentation {
     /// Takes everything down; the textures stay for the next.
     pub fn clear(&mut self) {
-        self.model = ViewModel::default();
-        self.pictures = Default::default();
+        (self.shown, self.textures) = Default::default();
+        self.pictures = Panes::default();
     }
 
     /// Takes all textures down, whose device has failed; the pictures stay for the next device.
     pub fn lose_textures(&mut self) {
-        (self.textures, self.map_texture) = Default::default();
-        self.model.panes.iter_mut().for_each(|pane| pane.texture = None);
-        self.model.map = None;
+        (self.pane_textures, self.map_texture) = Default::default();
+        self.textures = Textures::default();
+        self.shown.map = None;
     }
 
     /// Puts up what is new.
     pub fn update(&mut self, updates: PaneUpdates, gpu: &Gpu, renderer: &mut egui_wgpu::Renderer) {
-        for (side, update) in updates.into_iter().enumerate() {
-            let pane = &mut self.model.panes[side];
+        let changed: Vec<PaneId> = updates.ids().collect();
+        for (pane, update) in updates {
             match update {
-                None => {}
-                Some(PaneUpdate::Fault(fault)) => {
-                    *pane = Pane { fault: Some(fault), ..Pane::default() };
-                    self.pictures[side] = None;
+                PaneUpdate::Fault(fault) => {
+                    self.shown.panes.insert(pane, PaneView::failed(fault));
+                    self.textures.panes.remove(pane);
+                    self.pictures.remove(pane);
                 }
-                Some(PaneUpdate::Picture(frame)) => {
-                    let picture = frame.picture;
-                    if let Some(rgba) = &frame.rgba {
-                        let texture = &mut self.textures[side];
-                        pane.texture = Some(texture.upload(gpu, renderer, picture.width, picture.height, rgba));
-                        pane.fault = None;
-                    }
-                    pane.provenance = Some(picture.order.provenance.clone());
-                    (pane.spp, pane.seconds, pane.nonfinite) = (picture.spp, picture.seconds, picture.nonfinite);
-                    pane.refused = picture.refused.clone();
-                    pane.adapter = Some(picture.adapter.clone());
-                    (pane.rough, pane.unfinished) = (picture.rough, picture.unfinished);
-                    pane.shrink = picture.order.size().0.div_ceil(picture.width.max(1)) * picture.order.shrink;
-                    (pane.errors, pane.against) = (frame.errors, frame.against);
-                    self.pictures[side] = Some(picture);
-                }
+                PaneUpdate::Picture(frame) => self.put_up(pane, *frame, gpu, renderer),
             }
+        }
+        // the error of one belongs to the picture of the other
+        changed.into_iter().for_each(|pane| self.shown.note_errors(pane));
+    }
+
+    fn put_up(&mut self, pane: PaneId, frame: DisplayFrame, gpu: &Gpu, renderer: &mut egui_wgpu::Renderer) {
+        let DisplayFrame { picture, rgba, errors } = frame;
+        let shown = self.shown.panes.entry(pane);
+        if let Some(rgba) = &rgba {
+            let texture = self.pane_textures.entry(pane);
+            self.textures
+                .panes
+                .insert(pane, texture.upload(gpu, renderer, picture.image.width(), picture.image.height(), rgba));
+            shown.fault = None;
+        }
+        shown.provenance = Some(picture.order.provenance.clone());
+        (shown.spp, shown.seconds, shown.nonfinite) = (picture.spp, picture.seconds, picture.nonfinite);
+        shown.refused = picture.refused.clone();
+        shown.adapter = Some(picture.adapter.clone());
+        (shown.rough, shown.unfinished) = (picture.rough, picture.unfinished);
+        shown.shrink = picture.order.size().0.div_ceil(picture.image.width().max(1)) * picture.order.shrink;
+        shown.errors = errors;
+        self.pictures.insert(pane, picture);
+    }
+
+    /// Takes down what is no longer wanted: it is not made again, and would grow old.
+    pub fn keep(&mut self, wanted: &Wanted) {
+        let is_wanted = |pane| wanted.panes.get(pane).is_some();
+        self.shown.panes.retain(|pane, _| is_wanted(pane));
+        self.textures.panes.retain(|pane, _| is_wanted(pane));
+        self.pictures.retain(|pane, _| is_wanted(pane));
+        self.pane_textures.retain(|pane, _| is_wanted(pane));
+        if wanted.map.is_none() {
+            (self.shown.map, self.textures.map) = (None, None);
         }
     }
 
     /// Puts up a map of errors, or takes it down.
     pub fn update_map(&mut self, drawn: Option<ErrorMap>, gpu: &Gpu, renderer: &mut egui_wgpu::Renderer) {
-        self.model.map = drawn.map(|drawn| {
+        self.textures.map = drawn.as_ref().map(|drawn| {
             let (width, height) = (drawn.map.width, drawn.map.height());
-            let texture = self.map_texture.upload(gpu, renderer, width, height, &drawn.rgba);
-            MapPane { texture, drawn: Arc::new(drawn) }
+            self.map_texture.upload(gpu, renderer, width, height, &drawn.rgba)
         });
+        self.shown.map = drawn.map(Arc::new);
     }
 
     /// The map for export, if there is one.
-    pub fn map(&self, viewer: &Viewer) -> Option<(Content, Records)> {
-        let drawn = self.model.map.as_ref()?.drawn.clone();
-        Some((Content::Map(drawn), self.records_of_both(viewer)))
+    pub fn map(&self, model: &Model) -> Option<(Content, Records)> {
+        let drawn = self.shown.map.clone()?;
+        Some((Content::Map(drawn), self.records_of_all(model)))
     }
 
     /// One pane for export; `None` while there is nothing but a rough picture.
-    pub fn pane(&self, side: Side, display: DisplayTransform) -> Option<(Content, Records)> {
-        let picture = self.pictures[side as usize].as_ref().filter(|picture| !picture.rough)?;
+    pub fn pane(&self, pane: PaneId, display: DisplayTransform) -> Option<(Content, Records)> {
+        let picture = self.pictures.get(pane).filter(|picture| !picture.rough)?;
         let made = Made {
             spp: picture.spp.unwrap_or(1),
             seconds: picture.seconds,
@@ -93,39 +114,40 @@ impl Presentation {
             exposure: display.exposure,
         };
         let mut records = picture.order.provenance.records(made);
-        let pane = &self.model.panes[side as usize];
-        if let (Some(errors), Some(against)) = (pane.errors, self.name_of_what_judges(side, display)) {
-            records.extend(error_records(&errors, against));
+        if let Some((against, errors)) = self.shown.panes.get(pane).and_then(|shown| shown.errors)
+            && let Some(judge) = self.name_of_what_judges(against, display)
+        {
+            records.extend(error_records(&errors, judge));
         }
         Some((Content::Pane(picture.clone(), display), records))
     }
 
     /// "B: the command that makes it", or "reference".
-    fn name_of_what_judges(&self, side: Side, display: DisplayTransform) -> Option<String> {
-        if self.model.panes[side as usize].against == Against::Reference {
-            return Some("reference".into());
-        }
-        let other = self.pictures[side.other() as usize].as_ref()?;
-        let name = side.other().name();
-        let out = format!("{}.png", name.to_lowercase());
-        let command = other.order.provenance.command(other.spp.unwrap_or(1), display.exposure, &out);
-        Some(format!("{name}: {command}"))
+    fn name_of_what_judges(&self, against: Against, display: DisplayTransform) -> Option<String> {
+        let Against::Pane(judge) = against else { return Some(against.name().into()) };
+        let picture = self.pictures.get(judge)?;
+        let command = picture.order.provenance.command(picture.spp.unwrap_or(1), display.exposure, &file_of(judge));
+        Some(format!("{judge}: {command}"))
     }
 
     /// What a file keeps about the picture as seen: the view, and for each pane the command that makes it.
-    pub fn records_of_both(&self, viewer: &Viewer) -> Records {
-        let exposure = viewer.settings.display.exposure;
+    pub fn records_of_all(&self, model: &Model) -> Records {
+        let session = &model.session;
+        let exposure = session.display.exposure;
         let mut records = vec![
-            ("view", viewer.view.name().to_owned()),
-            ("line", format!("{} at {}", viewer.line.name(), viewer.wipe)),
+            ("view", session.view.name().to_owned()),
+            ("line", format!("{} at {}", session.line.name(), session.wipe)),
             ("exposure", exposure.to_string()),
         ];
-        for ((name, out), picture) in [("A", "a.png"), ("B", "b.png")].into_iter().zip(&self.pictures) {
-            if let Some(picture) = picture {
-                let command = picture.order.provenance.command(picture.spp.unwrap_or(1), exposure, out);
-                records.push((name, if picture.rough { format!("rough, in full: {command}") } else { command }));
-            }
+        for (pane, picture) in self.pictures.iter() {
+            let command = picture.order.provenance.command(picture.spp.unwrap_or(1), exposure, &file_of(pane));
+            records.push((pane.name(), if picture.rough { format!("rough, in full: {command}") } else { command }));
         }
         records
     }
+}
+
+/// "a.png".
+fn file_of(pane: PaneId) -> String {
+    format!("{}.png", pane.name().to_lowercase())
 }

@@ -90,7 +90,7 @@ fn a_pane_its_film_and_its_command_are_one_picture() {
         assert!(once == again, "{side}: the films differ: {command}");
 
         let display = film::DisplayTransform::default();
-        let developed = display.to_rgba8(once.radiances.iter().copied());
+        let developed = display.rgba8_of(&once);
         let stored: Vec<u8> = pixels(file(".png")).pixels().flat_map(|p| [p[0], p[1], p[2], 255]).collect();
         assert!(developed == stored, "{side}: the PNG is not the film through the display transform");
     }

@@ -1,31 +1,29 @@
 //! What both are compared with, the reference's state, and the map of errors.
 
-use super::widgets::choice;
-use crate::engine::Side;
-use crate::engine::reference::{Origin, Progress};
-use crate::ruler::{Against, brief};
-use crate::ui::top_bar::framed;
-use crate::ui::{Dump, UiCommand, ViewModel, Viewer};
+use crate::model::{CompareWith, Origin, PaneId, Progress};
+use crate::ruler::brief;
+use crate::ui::widgets::{choice, framed};
+use crate::ui::{Dump, UiCommand, UiContext};
 use compare::ErrorMetric;
 use egui::{DragValue, Ui};
 use pathtrace::FEWEST_REPLICATES;
 use std::path::Path;
 
-pub fn against(viewer: &mut Viewer, ui: &mut Ui, model: &ViewModel, dump: &mut Dump, commands: &mut Vec<UiCommand>) {
-    let words = Against::ALL.map(|a| (a.name().to_owned(), explain(a), viewer.comparison.against == a));
-    if let Some(index) = choice("compare with", words, ui, dump) {
-        viewer.comparison.against = Against::ALL[index];
+pub fn against(cx: &mut UiContext, ui: &mut Ui) {
+    let words = CompareWith::ALL.map(|a| (a.name().to_owned(), explain(a), cx.model.session.comparison.with == a));
+    if let Some(index) = choice("compare with", words, ui, cx.dump) {
+        cx.model.session.comparison.with = CompareWith::ALL[index];
     }
-    if viewer.comparison.against == Against::Reference {
-        let state = state(model, viewer.paused);
-        dump.note("text reference", &state, ui.label(&state));
-        load(viewer, ui, dump, commands);
+    if cx.model.session.comparison.with == CompareWith::Reference {
+        let state = reference_state(cx);
+        cx.dump.note("text reference", &state, ui.label(&state));
+        load(cx, ui);
     }
 }
 
 /// How far the reference has come.
-pub fn state(model: &ViewModel, paused: bool) -> String {
-    let Some(Progress { origin, pictures, noise, seconds, done, .. }) = &model.reference else {
+pub fn reference_state(cx: &UiContext) -> String {
+    let Some(Progress { origin, pictures, noise, seconds, done, .. }) = &cx.shown.reference else {
         return "reference: ...".into();
     };
     let noise = noise.map_or_else(String::new, |noise| format!(", noise (relMSE) {}", brief(noise)));
@@ -36,7 +34,7 @@ pub fn state(model: &ViewModel, paused: bool) -> String {
         }
         Origin::Made => {
             let of = if *pictures < FEWEST_REPLICATES { format!(" of {FEWEST_REPLICATES}") } else { String::new() };
-            let course = match (done, paused, model.panes.iter().any(|pane| pane.unfinished)) {
+            let course = match (done, cx.model.state.paused, cx.shown.panes.values().any(|pane| pane.unfinished)) {
                 (true, ..) => "",
                 (false, true, _) => ", paused",
                 (false, false, true) => ", waits for A and B",
@@ -47,34 +45,36 @@ pub fn state(model: &ViewModel, paused: bool) -> String {
     }
 }
 
-fn load(viewer: &mut Viewer, ui: &mut Ui, dump: &mut Dump, commands: &mut Vec<UiCommand>) {
+fn load(cx: &mut UiContext, ui: &mut Ui) {
     let label = ui.label("Load a reference (.exr):");
-    let typed = &mut viewer.comparison.file_name;
+    let typed = &mut cx.model.state.reference_file;
     let edit = egui::TextEdit::singleline(typed).hint_text("folder/reference.exr").desired_width(f32::INFINITY);
-    let (width, height) = viewer.picture_size;
+    let (width, height) = cx.model.state.picture.size;
     let line = ui.add(edit).labelled_by(label.id).on_hover_text(format!("A picture of {width}x{height} pixels"));
     let entered = line.lost_focus() && ui.input(|i| i.key_pressed(egui::Key::Enter));
-    dump.note("reference file", &*typed, line);
-    let button = dump.note("load reference", "", ui.add(framed("Load", ui)).accessible_name("Load the reference"));
+    cx.dump.note("reference file", &*typed, line);
+    let button = cx.dump.note("load reference", "", ui.add(framed("Load", ui)).accessible_name("Load the reference"));
     if (button.clicked() || entered) && !typed.trim().is_empty() {
-        commands.push(UiCommand::LoadReference(image_file::typed_path(typed, Path::new(""))));
+        cx.commands.push(UiCommand::LoadReference(image_file::typed_path(typed, Path::new(""))));
     }
 }
 
-pub fn map(viewer: &mut Viewer, ui: &mut Ui, fitted: Option<f32>, dump: &mut Dump) {
-    let comparison = &mut viewer.comparison;
-    if comparison.against == Against::Reference {
-        let words = Side::ALL.map(|side| (format!("{} - reference", side.name()), whose(side), comparison.of == side));
-        if let Some(index) = choice("map of", words, ui, dump) {
-            comparison.of = Side::ALL[index];
+pub fn map(cx: &mut UiContext, ui: &mut Ui) {
+    let fitted = cx.shown.map.as_ref().map(|map| map.map.scale.high);
+    let comparison = &mut cx.model.session.comparison;
+    if comparison.with == CompareWith::Reference {
+        let panes: Vec<PaneId> = cx.model.session.panes.ids().collect();
+        let words = panes.iter().map(|&pane| (format!("{pane} - reference"), whose(pane), comparison.of == pane));
+        if let Some(index) = choice("map of", words, ui, cx.dump) {
+            comparison.of = panes[index];
         }
     }
-    let words = ErrorMetric::ALL.map(|map| (title(map), describe(map), comparison.map == map));
-    if let Some(index) = choice("map", words, ui, dump) {
-        comparison.map = ErrorMetric::ALL[index];
+    let words = ErrorMetric::ALL.map(|map| (title(map), describe(map), comparison.metric == map));
+    if let Some(index) = choice("map", words, ui, cx.dump) {
+        comparison.metric = ErrorMetric::ALL[index];
     }
     if let Some(held) = comparison.held_mut() {
-        scale(held, ui, fitted, dump);
+        scale(held, ui, fitted, cx.dump);
     }
 }
 
@@ -97,19 +97,19 @@ fn scale(held: &mut Option<f32>, ui: &mut Ui, fitted: Option<f32>, dump: &mut Du
     });
 }
 
-fn explain(against: Against) -> &'static str {
-    match against {
-        Against::EachOther => "The errors of A against B, and of B against A",
-        Against::Reference => {
+fn explain(with: CompareWith) -> &'static str {
+    match with {
+        CompareWith::EachOther => "The errors of A against B, and of B against A",
+        CompareWith::Reference => {
             "The errors of both against the truth as well as it can be known, with its own noise told"
         }
     }
 }
 
-fn whose(side: Side) -> &'static str {
-    match side {
-        Side::A => "The errors of A against the reference (T changes to B)",
-        Side::B => "The errors of B against the reference (T changes to A)",
+fn whose(pane: PaneId) -> &'static str {
+    match pane {
+        PaneId::A => "The errors of A against the reference (T changes to B)",
+        _ => "The errors of B against the reference (T changes to A)",
     }
 }
 

@@ -1,7 +1,8 @@
-//! Sliders and choices with their names: a visible one, one for screen readers and one for the dump.
+//! Sliders, choices and menus with their names: a visible one, one for screen readers and one for the dump.
 
-use crate::ui::Dump;
-use egui::{DragValue, Response, Slider, SliderClamping, Ui};
+use super::Dump;
+use egui::containers::menu::{MenuButton, MenuConfig};
+use egui::{Button, DragValue, PopupCloseBehavior, Response, Slider, SliderClamping, Ui};
 use std::ops::RangeInclusive;
 
 /// A slider over real numbers.
@@ -126,6 +127,18 @@ pub fn choice(
         }
     });
     clicked
+}
+
+/// A menu that stays open while one uses what is in it.
+pub fn menu(title: impl Into<String>) -> MenuButton<'static> {
+    let stay = MenuConfig::new().close_behavior(PopupCloseBehavior::CloseOnClickOutside);
+    MenuButton::new(title.into()).config(stay)
+}
+
+/// A button with a ground, which menus leave out: it does something, and what has none is a choice.
+pub fn framed<'a>(text: &'a str, ui: &Ui) -> Button<'a> {
+    let inside_menus_too = ui.ctx().global_style().visuals.widgets.inactive.weak_bg_fill;
+    Button::new(text).fill(inside_menus_too)
 }
 
 #[cfg(test)]

@@ -1,12 +1,12 @@
 //! Which picture is shown, and how two share the window.
 
+use super::PaneId;
+
 /// Which picture is shown.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum View {
-    /// Pane A alone.
-    A,
-    /// Pane B alone.
-    B,
+    /// One pane alone.
+    Pane(PaneId),
     /// Both, under a line that the mouse drags.
     Wipe,
     /// Both whole, A left and B right.
@@ -26,13 +26,13 @@ pub enum Line {
 
 impl View {
     /// All, in the order of their keys 1 to 5.
-    pub const ALL: [View; 5] = [View::A, View::B, View::Wipe, View::SideBySide, View::ErrorMap];
+    pub const ALL: [View; 5] =
+        [View::Pane(PaneId::A), View::Pane(PaneId::B), View::Wipe, View::SideBySide, View::ErrorMap];
 
     /// The name on its button.
     pub fn name(self) -> &'static str {
         match self {
-            View::A => "A",
-            View::B => "B",
+            View::Pane(pane) => pane.name(),
             View::Wipe => "Wipe",
             View::SideBySide => "Side by side",
             View::ErrorMap => "Error map",

@@ -1,10 +1,12 @@
 //! The map of errors, and on it what its colours mean: its name, a colour bar with ticks, its mean, what is not finite,
 //! and the numbers under the mouse.
 
-use super::{WHOLE, spoken, text_box};
-use crate::ruler::{Against, HeatMap, brief};
-use crate::ui::controls::reference_state;
-use crate::ui::{Dump, MapPane, ViewModel, Viewer};
+use super::comparison::reference_state;
+use super::picture::WHOLE;
+use crate::model::{Against, Comparison, ErrorMap};
+use crate::ruler::{HeatMap, Pair, brief};
+use crate::ui::overlay::{spoken, text_box};
+use crate::ui::{UiContext, theme};
 use compare::ColourScale;
 use egui::{Align2, Color32, FontId, Galley, Mesh, Pos2, Rect, Stroke, Ui, pos2, vec2};
 use scene::Vec3;
@@ -13,60 +15,64 @@ use std::sync::Arc;
 /// Steps of colour along the bar.
 const STEPS: u32 = 128;
 
-pub fn show(viewer: &Viewer, ui: &Ui, rect: Rect, model: &ViewModel, hover: Option<Pos2>, dump: &mut Dump) {
-    let Some(map) = &model.map else {
+pub fn show(cx: &mut UiContext, ui: &Ui, rect: Rect, hover: Option<Pos2>) {
+    let painter = ui.painter().with_clip_rect(rect);
+    let (Some(map), Some(texture)) = (&cx.shown.map, cx.textures.map) else {
         // what there will be a map of
-        if let Some(texture) = model.panes[viewer.comparison.side() as usize].texture {
-            ui.painter().with_clip_rect(rect).image(texture, rect, WHOLE, Color32::WHITE);
+        if let Some(texture) = cx.textures.panes.get(cx.model.session.comparison.mapped().of) {
+            painter.image(*texture, rect, WHOLE, Color32::WHITE);
         }
-        let text = why_not(viewer, model);
-        let place = text_box(viewer, ui, rect, rect.center(), Align2::CENTER_CENTER, &text, Color32::WHITE);
-        dump.note_text("label no map", &text, place, rect);
+        let text = why_not(cx);
+        let place = text_box(cx, ui, rect, rect.center(), Align2::CENTER_CENTER, &text, Color32::WHITE);
+        cx.dump.note_text("label no map", &text, place, rect);
         spoken(ui, "label no map", &text, place, false);
         return;
     };
-    ui.painter().with_clip_rect(rect).image(map.texture, rect, WHOLE, Color32::WHITE);
-    let under_the_mouse = hover.filter(|_| !viewer.posing).and_then(|at| numbers_at(map, rect, at));
-    legend(viewer, ui, rect, &map.drawn.map, under_the_mouse, dump);
+    painter.image(texture, rect, WHOLE, Color32::WHITE);
+    let under_the_mouse = hover.filter(|_| !cx.model.state.posing).and_then(|at| numbers_at(map, rect, at));
+    legend(cx, ui, rect, &map.map, under_the_mouse);
 }
 
 /// Why there is nothing to see.
-fn why_not(viewer: &Viewer, model: &ViewModel) -> String {
-    let side = viewer.comparison.side();
-    let judged = if viewer.comparison.against == Against::Reference { vec![side] } else { vec![side, side.other()] };
-    for side in judged {
-        let pane = &model.panes[side as usize];
-        if let Some(fault) = &pane.fault {
+fn why_not(cx: &UiContext) -> String {
+    let Comparison { of, against } = cx.model.session.comparison.mapped();
+    let judge = match against {
+        Against::Pane(judge) => Some(judge),
+        Against::Reference => None,
+    };
+    for pane in std::iter::once(of).chain(judge) {
+        let Some(shown) = cx.shown.panes.get(pane) else { continue };
+        if let Some(fault) = &shown.fault {
             return fault.clone();
         }
-        if pane.provenance.as_ref().is_some_and(|provenance| !provenance.technique.shows_the_scene()) {
-            return format!("{} shows a map, not the scene: it has no errors", side.name());
+        if shown.provenance.as_ref().is_some_and(|provenance| !provenance.technique.shows_the_scene()) {
+            return format!("{pane} shows a map, not the scene: it has no errors");
         }
     }
-    match viewer.comparison.against {
-        Against::EachOther => "rendering ...".into(),
-        Against::Reference => format!("{}\ntwo pictures make a map", reference_state(model, viewer.paused)),
+    match against {
+        Against::Pane(_) => "rendering ...".into(),
+        Against::Reference => format!("{}\ntwo pictures make a map", reference_state(cx)),
     }
 }
 
 /// "x 12, y 34: A 0.1 0.2 0.3, reference 0.1 0.2 0.3: 0.004".
-fn numbers_at(map: &MapPane, rect: Rect, at: Pos2) -> Option<String> {
-    let HeatMap { width, values, .. } = &map.drawn.map;
-    let height = map.drawn.map.height();
+fn numbers_at(map: &ErrorMap, rect: Rect, at: Pos2) -> Option<String> {
+    let HeatMap { width, values, .. } = &map.map;
+    let height = map.map.height();
     let share = (at - rect.min) / rect.size();
     let (x, y) = ((share.x * *width as f32) as u32, (share.y * height as f32) as u32);
     let index = (x < *width && y < height).then_some(y as usize * *width as usize + x as usize)?;
-    let channels = |v: &Vec3| v.to_array().map(|channel| brief(f64::from(channel))).join(" ");
-    let map_job = &map.drawn.map_job;
-    let [a, r] = [0, 1].map(|i| map_job.radiances[i].get(index).map(channels));
+    let channels = |v: Vec3| v.to_array().map(|channel| brief(f64::from(channel))).join(" ");
+    let Pair { names, images, .. } = &map.map_job.pair;
+    let [a, r] = images.each_ref().map(|image| image.at(x, y).map(channels));
     let error = brief(f64::from(*values.get(index)?));
-    Some(format!("x {x}, y {y}: {error}\n{} {}\n{} {}", map_job.names[0], a?, map_job.names[1], r?))
+    Some(format!("x {x}, y {y}: {error}\n{} {}\n{} {}", names[0], a?, names[1], r?))
 }
 
 /// The box in the corner, from top to bottom: name, bar, ticks, and the rest in words.
-fn legend(viewer: &Viewer, ui: &Ui, rect: Rect, map: &HeatMap, pixel: Option<String>, dump: &mut Dump) {
+fn legend(cx: &mut UiContext, ui: &Ui, rect: Rect, map: &HeatMap, pixel: Option<String>) {
     let painter = ui.painter().with_clip_rect(rect);
-    let size = viewer.theme.label_size();
+    let size = theme::label_size(cx.model.state.theme);
     let width = (15.0 * size).min(rect.width() - 36.0).max(40.0);
     let lay = |text: String| painter.layout(text, FontId::proportional(size), Color32::WHITE, width);
     let (name, words) = (lay(map.label.clone()), lay(in_words(map, pixel)));
@@ -84,14 +90,14 @@ fn legend(viewer: &Viewer, ui: &Ui, rect: Rect, map: &HeatMap, pixel: Option<Str
         painter.line_segment([foot, foot - vec2(0.0, 0.35 * bar_height)], Stroke::new(1.0, Color32::WHITE));
         let left = (at - 0.5 * galley.size().x).clamp(bar.left(), bar.right() - galley.size().x);
         let corner = pos2(left, bar.bottom() + gap);
-        dump.note_text(&format!("label tick {text}"), &text, Rect::from_min_size(corner, galley.size()), rect);
+        cx.dump.note_text(&format!("label tick {text}"), &text, Rect::from_min_size(corner, galley.size()), rect);
         painter.galley(corner, galley, Color32::WHITE);
     }
     let below = place.bottom() - words.size().y;
     let text = format!("{}\n{}", name.text(), words.text());
     painter.galley(pos2(place.left(), below), words, Color32::WHITE);
-    dump.note_text("label map", &text, place, rect);
-    dump.note_text("bar map", map.scale.map.name(), bar, rect);
+    cx.dump.note_text("label map", &text, place, rect);
+    cx.dump.note_text("bar map", map.scale.map.name(), bar, rect);
     spoken(ui, "label map", &text, place, false);
 }
 

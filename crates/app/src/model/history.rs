@@ -1,65 +1,33 @@
-//! What undo gives back: the settings of both panes, the scene's sliders and the display.
+//! What undo gives back: the settings of all panes, the scene's sliders and the display.
 
+use super::{Document, Panes, Resolution, Session};
 use film::DisplayTransform;
-use technique::{PaneSettings, SceneChanges, TechniqueName};
+use technique::{PaneSettings, SceneChanges};
 
 /// Everything that a slider or a choice changes. Camera, view and line are not part of it: moving them loses nothing.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Settings {
-    /// What is changed in the scene, for both panes.
+    /// What is changed in the scene, for all panes.
     pub changes: SceneChanges,
-    /// How A and B are made.
-    pub panes: [PaneSettings; 2],
-    /// How both are shown.
+    /// How each is made.
+    pub panes: Panes<PaneSettings>,
+    /// How all are shown.
     pub display: DisplayTransform,
-    /// Of both.
+    /// Of all.
     pub resolution: Resolution,
 }
 
-/// How many pixels a picture has.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Resolution {
-    /// As many as the picture area. While something changes, pictures that take too long for that begin coarser.
-    #[default]
-    Full,
-    /// One for two by two.
-    Half,
-    /// One for four by four.
-    Quarter,
-}
-
-impl Resolution {
-    /// All, the finest first.
-    pub const ALL: [Resolution; 3] = [Resolution::Full, Resolution::Half, Resolution::Quarter];
-
-    /// Pixels of the picture area along a side of one of the picture.
-    pub fn shrink(self) -> u32 {
-        match self {
-            Resolution::Full => 1,
-            Resolution::Half => 2,
-            Resolution::Quarter => 4,
-        }
+impl Settings {
+    /// As they stand.
+    pub fn of(document: &Document, session: &Session) -> Self {
+        let Session { panes, display, resolution, .. } = session;
+        Settings { changes: document.changes, panes: panes.clone(), display: *display, resolution: *resolution }
     }
 
-    /// "full", "1/2", "1/4".
-    pub fn name(self) -> &'static str {
-        match self {
-            Resolution::Full => "full",
-            Resolution::Half => "1/2",
-            Resolution::Quarter => "1/4",
-        }
-    }
-}
-
-impl Default for Settings {
-    /// The fake against the truth.
-    fn default() -> Self {
-        Settings {
-            changes: SceneChanges::default(),
-            panes: [PaneSettings::of(TechniqueName::Raster), PaneSettings::of(TechniqueName::Path)],
-            display: DisplayTransform::default(),
-            resolution: Resolution::default(),
-        }
+    /// Puts them back.
+    pub fn restore(self, document: &mut Document, session: &mut Session) {
+        document.changes = self.changes;
+        (session.panes, session.display, session.resolution) = (self.panes, self.display, self.resolution);
     }
 }
 
@@ -85,7 +53,7 @@ impl History {
         if busy || *settings == self.settled {
             return;
         }
-        self.earlier.push(std::mem::replace(&mut self.settled, *settings));
+        self.earlier.push(std::mem::replace(&mut self.settled, settings.clone()));
         self.undone.clear();
         if self.earlier.len() > MOST_STEPS {
             self.earlier.remove(0);
@@ -106,7 +74,7 @@ impl History {
     pub fn undo(&mut self, settings: &Settings) -> Option<Settings> {
         self.note(settings, false);
         let earlier = self.earlier.pop()?;
-        self.undone.push(std::mem::replace(&mut self.settled, earlier));
+        self.undone.push(std::mem::replace(&mut self.settled, earlier.clone()));
         Some(earlier)
     }
 
@@ -114,7 +82,7 @@ impl History {
     pub fn redo(&mut self, settings: &Settings) -> Option<Settings> {
         self.note(settings, false);
         let later = self.undone.pop()?;
-        self.earlier.push(std::mem::replace(&mut self.settled, later));
+        self.earlier.push(std::mem::replace(&mut self.settled, later.clone()));
         Some(later)
     }
 }
@@ -124,7 +92,9 @@ mod tests {
     use super::*;
 
     fn exposed(exposure: f32) -> Settings {
-        Settings { display: DisplayTransform { exposure }, ..Settings::default() }
+        let session = Session { display: DisplayTransform { exposure }, ..Session::default() };
+        let cornell = scene::builtin::named("cornell").unwrap();
+        Settings::of(&Document::new(cornell, "cornell".into()), &session)
     }
 
     #[test]
