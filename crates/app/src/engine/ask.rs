@@ -13,7 +13,6 @@ use film::DisplayTransform;
 use gpu::Gpu;
 use std::path::PathBuf;
 use std::sync::Arc;
-use std::thread::JoinHandle;
 use technique::{Adapters, Provenance, Shot, Technique, Threads};
 
 /// The workers; dropping it ends their threads.
@@ -24,7 +23,6 @@ pub struct Engine {
     /// Made when a pane is first wanted.
     pane_workers: Panes<PaneWorkers>,
     post_process: Arc<PostProcess>,
-    post_process_thread: Option<JoinHandle<()>>,
     error_map_worker: Arc<ErrorMapWorker>,
     /// Made when it is first asked for.
     reference_worker: Option<ReferenceWorker>,
@@ -73,15 +71,14 @@ impl Engine {
     /// If the system gives no threads.
     pub fn start(window: &Gpu, adapters: &Adapters, wake: Wake) -> anyhow::Result<Self> {
         let error_map_worker = Arc::new(ErrorMapWorker::start(wake.clone()).context("no thread for maps")?);
-        let (post_process, thread) =
+        let post_process =
             PostProcess::start(wake.clone(), error_map_worker.clone()).context("no thread for the post_process")?;
         let threads = Arc::new(Threads::beside_the_ui(step_back).context("no threads for tracing rays")?);
         Ok(Engine {
             gpu: window.clone(),
             adapters: adapters.clone(),
             pane_workers: Panes::default(),
-            post_process,
-            post_process_thread: Some(thread),
+            post_process: Arc::new(post_process),
             error_map_worker,
             reference_worker: None,
             threads,
@@ -320,9 +317,5 @@ impl Drop for Engine {
         self.reference_worker = None;
         self.error_map_worker.close();
         self.post_process.close();
-        if let Some(thread) = self.post_process_thread.take() {
-            // a panic there has been printed already, and the window is closing
-            let _ = thread.join();
-        }
     }
 }
