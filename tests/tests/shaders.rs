@@ -22,11 +22,15 @@ fn every_shader_composes_and_validates() {
 fn every_shader_file_is_embedded() {
     let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../shaders");
     let mut found = Vec::new();
-    for part in std::fs::read_dir(&folder).unwrap() {
-        let part = part.unwrap().path();
-        for file in std::fs::read_dir(&part).unwrap() {
-            let path = file.unwrap().path();
-            found.push(path.strip_prefix(&folder).unwrap().to_string_lossy().replace('\\', "/"));
+    let mut folders = vec![folder.clone()];
+    while let Some(part) = folders.pop() {
+        for entry in std::fs::read_dir(&part).unwrap() {
+            let path = entry.unwrap().path();
+            if path.is_dir() {
+                folders.push(path);
+            } else {
+                found.push(path.strip_prefix(&folder).unwrap().to_string_lossy().replace('\\', "/"));
+            }
         }
     }
     found.sort();
@@ -116,7 +120,7 @@ fn mirrors_of_the_path_tracer_have_the_layout_of_their_structs() {
     assert_same_layout!(
         "pathtrace/scene.wgsl",
         Material,
-        [colour, emission, emitting_sides, bsdf, ior, root, root_low]
+        [colour, emission, emitting_sides, lobe, ior, root, root_low]
     );
     assert_same_layout!(
         "pathtrace/scene.wgsl",

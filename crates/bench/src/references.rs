@@ -57,17 +57,18 @@ impl Worth {
 
     fn of(reference: &Reference) -> Self {
         let channels = |v: &scene::Vec3| v.to_array().map(f64::from);
-        let pixels = reference.standard_errors.iter().flatten().zip(&reference.radiances);
+        let radiances = reference.image.radiances();
+        let pixels = reference.standard_errors().into_iter().flatten().zip(radiances);
         let channels_of = pixels.flat_map(|(error, mean)| channels(error).into_iter().zip(channels(mean)));
         let (sum, rare) = channels_of.fold((0.0, 0.0), |(sum, rare), (error, mean)| {
             let square = error * error;
             (sum + square, if error > RARE * mean { rare + square } else { rare })
         });
-        let radiance = reference.radiances.iter().map(|v| f64::from(v.element_sum())).sum::<f64>();
+        let radiance = radiances.iter().map(|v| f64::from(v.element_sum())).sum::<f64>();
         Worth {
             spp: u64::from(reference.replicates) * u64::from(SAMPLES_PER_REPLICATE),
             seconds: reference.seconds,
-            mean: radiance / (3 * reference.radiances.len()).max(1) as f64,
+            mean: radiance / (3 * radiances.len()).max(1) as f64,
             mse: reference.mean_squared_error().unwrap_or(0.0),
             rel_mse: reference.rel_mse().unwrap_or(0.0),
             tail_weight: if sum > 0.0 { rare / sum } else { 0.0 },

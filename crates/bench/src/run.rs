@@ -3,6 +3,7 @@
 use crate::clock::{Clock, Progress};
 use crate::host::{Host, peak_memory, today};
 use crate::journal::{self, Journal, Run};
+use crate::line::Line;
 use crate::measure::{self, Measurement};
 use crate::page::Page;
 use crate::peer::{self, PeerRow};
@@ -11,16 +12,17 @@ use crate::plan::{self, Effort, Part, SEEDS};
 use crate::plots::{self, duration};
 use crate::references::{self, Truth};
 use crate::summary::{PartSummary, slope_words};
-use crate::way::{Line, MakeTracer, Way};
+use crate::variant::MakeTracer;
 use crate::{BenchError, tables};
 use gpu::Gpu;
 use image_file::{check_writable, write_whole};
-use pathtrace::Tracer;
+use pathtrace::{Integrator, Tracer};
 use raster::Raster;
 use reference::Store;
 use scene::Scene;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
+use technique::{FakeSettings, Technique, TracedSettings};
 
 /// What is asked for.
 #[derive(Debug, Clone)]
@@ -137,7 +139,7 @@ fn forecast(journal: &Journal, part: &Part, lines: &[Line]) -> f64 {
 }
 
 fn forecast_of(part: &Part, line: &Line, spp: u32) -> f64 {
-    if matches!(line.way, Way::Raster(_)) { FAKE_SECONDS } else { part.samples(spp) / part.speed.lines }
+    if matches!(line.technique, Technique::Fake(_)) { FAKE_SECONDS } else { part.samples(spp) / part.speed.lines }
 }
 
 impl Bench<'_> {
@@ -151,10 +153,9 @@ impl Bench<'_> {
         let tracer = Tracer::new(&scene);
         let truth = self.reference(part, &scene, &tracer)?;
         for line in lines {
-            let rays = line.way.converges() || line.way == Way::Whitted;
-            let tracer = match line.variant.tracer {
-                MakeTracer::Cpu(tracer) if rays => Some(tracer(&scene)),
-                MakeTracer::Cpu(_) | MakeTracer::Gpu(_) => None,
+            let tracer = match (line.technique, line.variant.tracer) {
+                (Technique::Traced(_), MakeTracer::Cpu(tracer)) => Some(tracer(&scene)),
+                _ => None,
             };
             for (rung, spp) in part.rungs(line).into_iter().enumerate() {
                 if self.journal.find(&part.name, &line.name(), spp).is_some() {
@@ -162,10 +163,14 @@ impl Bench<'_> {
                 }
                 let what = format!("{}: {}, {spp} spp", part.name, line.name());
                 (self.progress)(&self.clock.progress(&what, 0.0));
-                let measured = match (&line.way, &tracer) {
-                    (Way::Raster(fake), _) => self.fake(part, &scene, *fake, &truth)?,
-                    (_, Some(tracer)) => Some(measure::traced(part, &scene, tracer, line, rung, &truth)?),
-                    (_, None) => self.on_gpu(part, &scene, line, &truth)?,
+                let measured = match (&line.technique, &tracer) {
+                    (Technique::Fake(fake), _) => self.fake(part, &scene, line, fake, &truth)?,
+                    (Technique::Traced(TracedSettings { integrator, .. }), Some(tracer)) => {
+                        Some(measure::traced(part, &scene, tracer, (line, integrator), rung, &truth)?)
+                    }
+                    (Technique::Traced(TracedSettings { integrator, .. }), None) => {
+                        self.on_gpu(part, &scene, (line, integrator), &truth)?
+                    }
                 };
                 measured.map_or(Ok(()), |measured| self.journal.add(measured))?;
                 self.clock.done(forecast_of(part, line, spp));
@@ -198,13 +203,13 @@ impl Bench<'_> {
         &mut self,
         part: &Part,
         scene: &Scene,
-        line: &Line,
+        (line, integrator): (&Line, &Integrator),
         truth: &Truth,
     ) -> Result<Option<Measurement>, BenchError> {
         let (Some(gpu), MakeTracer::Gpu(tracer)) = (&self.gpu, line.variant.tracer) else { return Ok(None) };
         let measured = tracer(gpu, scene)
             .map_err(BenchError::from)
-            .and_then(|mut tracer| measure::traced_on_gpu(part, scene, &mut tracer, line, truth));
+            .and_then(|mut tracer| measure::traced_on_gpu(part, scene, &mut tracer, (line, integrator), truth));
         match measured {
             Err(BenchError::Gpu(why)) => {
                 self.notes.push(format!("{} of {} is left out: {why}.", line.name(), part.name));
@@ -219,14 +224,15 @@ impl Bench<'_> {
         &mut self,
         part: &Part,
         scene: &Scene,
-        fake: raster::Fake,
+        line: &Line,
+        fake: &FakeSettings,
         truth: &Truth,
     ) -> Result<Option<Measurement>, BenchError> {
         let Some(raster) = &mut self.raster else { return Ok(None) };
-        match measure::drawn(part, scene, raster, fake, truth) {
+        match measure::drawn(part, scene, raster, (line, fake), truth) {
             Ok(measured) => measured.map(Some),
             Err(why) => {
-                self.notes.push(format!("The fake ({}) of {} is left out: {why}.", fake.name(), part.name));
+                self.notes.push(format!("The fake ({}) of {} is left out: {why}.", fake.fake.name(), part.name));
                 Ok(None)
             }
         }

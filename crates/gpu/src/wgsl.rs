@@ -6,6 +6,10 @@
 pub const FILES: &[(&str, &str)] = &[
     ("film/resolve.wgsl", include_str!("../../../shaders/film/resolve.wgsl")),
     ("pathtrace/bsdf/bsdf.wgsl", include_str!("../../../shaders/pathtrace/bsdf/bsdf.wgsl")),
+    ("pathtrace/bsdf/dielectric.wgsl", include_str!("../../../shaders/pathtrace/bsdf/dielectric.wgsl")),
+    ("pathtrace/bsdf/interaction.wgsl", include_str!("../../../shaders/pathtrace/bsdf/interaction.wgsl")),
+    ("pathtrace/bsdf/lambert.wgsl", include_str!("../../../shaders/pathtrace/bsdf/lambert.wgsl")),
+    ("pathtrace/bsdf/mirror.wgsl", include_str!("../../../shaders/pathtrace/bsdf/mirror.wgsl")),
     ("pathtrace/camera.wgsl", include_str!("../../../shaders/pathtrace/camera.wgsl")),
     ("pathtrace/drive/film.wgsl", include_str!("../../../shaders/pathtrace/drive/film.wgsl")),
     ("pathtrace/drive/pixels.wgsl", include_str!("../../../shaders/pathtrace/drive/pixels.wgsl")),

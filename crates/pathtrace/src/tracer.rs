@@ -37,7 +37,7 @@ impl Tracer {
         let lights = Lights::new(scene);
         Tracer {
             scene: PreparedScene {
-                aggregate: Aggregate::new(scene, &lights),
+                aggregate: Aggregate::new(scene, lights.light_of_shape()),
                 materials: Materials::new(&scene.materials),
                 sky: scene.sky,
                 sun_disc: scene.sun.as_ref().and_then(SunDisc::new),

@@ -41,7 +41,7 @@ impl<'a> Maker<'a> {
     /// Begins one, or goes on with one that is there. `tracer` is that of the shot's scene. `None` if there is no
     /// memory for it.
     pub fn new(tracer: &'a Tracer, shot: &Shot, begun: Option<&Reference>) -> Option<Self> {
-        let begun = begun.filter(|r| (r.width, r.height) == shot.size && r.replicates > 0);
+        let begun = begun.filter(|r| r.image.size() == shot.size && r.replicates > 0);
         let film = match begun {
             Some(reference) => reference.film()?,
             None => Film::try_new(shot.size.0, shot.size.1)?,

@@ -1,7 +1,7 @@
 //#import pathtrace/needs.wgsl
 //#import pathtrace/scene.wgsl
 //#import pathtrace/intersect/surface_point.wgsl
-// What rays find, whatever the structure that they are traced through.
+// What rays find, whatever the structure that they are traced through. Twin: crates/pathtrace/src/intersect/hit.rs.
 
 // The nearest meeting so far.
 struct Nearest {
@@ -25,7 +25,7 @@ struct Hit {
 // Whether a shadow ray goes through what has this entry among the surfaces.
 fn passes(surface: u32, shadow: bool) -> bool {
     if CLEAR_GLASS {
-        return shadow && materials[surfaces[surface].material].bsdf == BSDF_DIELECTRIC;
+        return shadow && materials[surfaces[surface].material].lobe == LOBE_DIELECTRIC;
     }
     return false;
 }

@@ -5,13 +5,12 @@ use super::{RenderArgs, reference};
 use crate::ruler::{brief, error_records, noise_line};
 use anyhow::Context;
 use compare::Errors;
-use film::DisplayTransform;
-use film::Film;
+use film::{DisplayTransform, Film, Image};
 use gpu::Gpu;
-use image_file::{self, Kind, Linear};
+use image_file::{self, Kind};
 use pathtrace::{SamplerKind, Stats};
 use raster::Raster;
-use scene::{Scene, Vec3, builtin};
+use scene::{Scene, builtin};
 use serde_json::json;
 use std::io::IsTerminal;
 use std::time::{Duration, Instant};
@@ -45,8 +44,9 @@ pub fn run(args: &RenderArgs) -> anyhow::Result<()> {
         Technique::Fake(fake) => raster(args, &fake.applied_to(&scene), fake)?,
         Technique::Traced(rays) => trace(args, &scene, rays)?,
     };
-    let errors = if args.errors { Some(measure(&shot, &rendered.film)?) } else { None };
-    save(args, shot, &rendered, errors.as_ref())?;
+    let image = rendered.film.image();
+    let errors = if args.errors { Some(measure(&shot, &image)?) } else { None };
+    save(args, shot, &rendered, &image, errors.as_ref())?;
     if rendered.film.nonfinite > 0 {
         note!(
             "visavis: {} samples were not finite and are left out: please report this scene",
@@ -78,12 +78,17 @@ pub fn run(args: &RenderArgs) -> anyhow::Result<()> {
 }
 
 /// How far a finished picture is from the reference of what it shows.
-fn measure(shot: &Shot, film: &Film) -> anyhow::Result<Errors> {
-    let reference = reference::obtain(shot, None)?;
-    Ok(reference.errors(&film.radiances().collect::<Vec<_>>())?)
+fn measure(shot: &Shot, image: &Image) -> anyhow::Result<Errors> {
+    Ok(reference::obtain(shot, None)?.errors(image)?)
 }
 
-fn save(args: &RenderArgs, shot: Shot, rendered: &Rendered, errors: Option<&Errors>) -> anyhow::Result<()> {
+fn save(
+    args: &RenderArgs,
+    shot: Shot,
+    rendered: &Rendered,
+    image: &Image,
+    errors: Option<&Errors>,
+) -> anyhow::Result<()> {
     let provenance = Provenance { shot, technique: args.pane.in_use(), device: rendered.device };
     let made = Made {
         spp: rendered.film.samples_per_pixel(),
@@ -93,10 +98,8 @@ fn save(args: &RenderArgs, shot: Shot, rendered: &Rendered, errors: Option<&Erro
     };
     let mut records = provenance.records(made);
     records.extend(errors.into_iter().flat_map(|e| error_records(e, "reference".into())));
-    let radiances: Vec<Vec3> = rendered.film.radiances().collect();
-    let picture = Linear { width: args.seen.size.0, height: args.seen.size.1, radiances: &radiances };
     let kind = Kind::of(&args.out).context("a picture's name must end in .png or .exr")?;
-    let bytes = image_file::encode(kind, picture, &DisplayTransform { exposure: args.exposure }, &records)?;
+    let bytes = image_file::encode(kind, image, &DisplayTransform { exposure: args.exposure }, &records)?;
     Ok(image_file::write_whole(&args.out, &bytes)?)
 }
 

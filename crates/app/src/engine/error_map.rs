@@ -58,7 +58,7 @@ impl ErrorMapWorker {
 }
 
 fn draw(map_job: ErrorMapJob) -> Option<ErrorMap> {
-    let map = HeatMap::of(&map_job.pair(), map_job.map, map_job.held).ok()?;
+    let map = HeatMap::of(&map_job.pair, map_job.map, map_job.held).ok()?;
     let rgba = map.rgba();
     Some(ErrorMap { map_job, map, rgba })
 }

@@ -6,7 +6,7 @@ use crate::model::{Destination, ErrorMap};
 use anyhow::Context;
 use film::DisplayTransform;
 use image_file::Records;
-use image_file::{self, Kind, Linear};
+use image_file::{self, Kind};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::thread::JoinHandle;
@@ -107,11 +107,8 @@ fn save(export: &Export, path: &Path) -> anyhow::Result<PathBuf> {
             let Pixels { width, height, rgba } = capture.pixels()?;
             image_file::encode_rgba8(width, height, &rgba, &export.records)?
         }
-        (Content::Map(drawn), kind) => drawn.map.encode(kind, &drawn.map_job.pair(), export.records.clone())?,
-        (Content::Pane(picture, display), kind) => {
-            let linear = Linear { width: picture.width, height: picture.height, radiances: &picture.radiances };
-            image_file::encode(kind, linear, display, &export.records)?
-        }
+        (Content::Map(drawn), kind) => drawn.map.encode(kind, &drawn.map_job.pair, export.records.clone())?,
+        (Content::Pane(picture, display), kind) => image_file::encode(kind, &picture.image, display, &export.records)?,
     };
     Ok(image_file::write_new(path, &bytes)?)
 }
@@ -120,8 +117,8 @@ fn copy(export: &Export, clipboard: &mut Option<arboard::Clipboard>) -> anyhow::
     let Pixels { width, height, rgba } = match &export.content {
         Content::Seen(capture) => capture.pixels()?,
         Content::Pane(picture, display) => {
-            let rgba = display.to_rgba8(picture.radiances.iter().copied());
-            Pixels { width: picture.width, height: picture.height, rgba }
+            let (width, height) = picture.image.size();
+            Pixels { width, height, rgba: display.rgba8_of(&picture.image) }
         }
         Content::Map(drawn) => {
             let (width, height, rgba) = drawn.map.with_bar();

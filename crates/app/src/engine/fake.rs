@@ -135,9 +135,7 @@ fn render_job(
         Ok(film) => post_process.deliver(
             side,
             Picture {
-                width: film.width(),
-                height: film.height(),
-                radiances: film.radiances().collect(),
+                image: film.image(),
                 spp: None,
                 seconds: start.elapsed().as_secs_f64(),
                 nonfinite: film.nonfinite,

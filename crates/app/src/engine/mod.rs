@@ -18,19 +18,16 @@ pub mod progressive;
 pub mod rays;
 pub mod reference;
 
-use scene::{Camera, Scene, Vec3};
+use film::Image;
+use scene::{Camera, Scene};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use technique::{Device, Provenance};
 
 /// What a technique has made so far, in linear radiance.
 #[derive(Debug, Clone)]
 pub struct Picture {
-    /// Width in pixels; smaller than asked for in a rough first picture.
-    pub width: u32,
-    /// Height in pixels.
-    pub height: u32,
-    /// Rows from the top.
-    pub radiances: Arc<[Vec3]>,
+    /// Smaller than asked for in a rough first picture.
+    pub image: Image,
     /// Samples per pixel; `None` for a technique that does not sample.
     pub spp: Option<u32>,
     /// Seconds of rendering.

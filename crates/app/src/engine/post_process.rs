@@ -6,8 +6,8 @@
 use super::error_map::ErrorMapWorker;
 use super::{Inbox, Order, Picture, Wake};
 use crate::model::{Against, Comparison, ErrorMapJob, MapWish, PaneId, Panes};
-use crate::ruler::ReferenceImage;
-use compare::{Errors, errors_of_radiances};
+use crate::ruler::{Pair, ReferenceImage};
+use compare::{Errors, errors};
 use film::DisplayTransform;
 use std::sync::Arc;
 use std::thread::JoinHandle;
@@ -145,9 +145,8 @@ impl PostProcess {
             let (fresh, faults) = latest.sort(pending);
             let errors = latest.errors();
             let resolve = |(pane, picture): (PaneId, &Picture)| {
-                let radiances = picture.radiances.iter().copied();
                 let new = redevelop || fresh.get(pane).is_some();
-                let rgba = new.then(|| latest.display.to_rgba8(radiances));
+                let rgba = new.then(|| latest.display.rgba8_of(&picture.image));
                 (pane, DisplayFrame { picture: picture.clone(), rgba, errors: errors.get(pane).copied() })
             };
             // all at once: the error of one belongs to the picture of the other
@@ -205,9 +204,9 @@ impl Latest {
             let errors = match comparison.against {
                 Against::Pane(judge) => {
                     let judge = self.latest.get(judge).filter(|judge| comparable(picture, judge))?;
-                    errors_of_radiances(&picture.radiances, &judge.radiances)
+                    errors(&picture.image, &judge.image).ok()?
                 }
-                Against::Reference => self.reference_of(picture)?.errors(&picture.radiances),
+                Against::Reference => self.reference_of(picture)?.errors(&picture.image).ok()?,
             };
             Some((comparison.of, (comparison.against, errors)))
         };
@@ -217,7 +216,7 @@ impl Latest {
     /// The reference, if it is that of this picture.
     fn reference_of(&self, picture: &Picture) -> Option<&ReferenceImage> {
         let (view, reference_image) = self.reference.as_ref()?;
-        let fits = *view == picture.order.view && reference_image.size == (picture.width, picture.height);
+        let fits = *view == picture.order.view && reference_image.image.size() == picture.image.size();
         (fits && picture.order.provenance.technique.shows_the_scene()).then_some(reference_image)
     }
 
@@ -231,9 +230,9 @@ impl Latest {
         };
         let judged_by = match against {
             Against::Pane(_) => {
-                judge.filter(|judge| film.is_some_and(|film| comparable(film, judge))).map(|judge| &judge.radiances)
+                judge.filter(|judge| film.is_some_and(|film| comparable(film, judge))).map(|judge| &judge.image)
             }
-            Against::Reference => film.and_then(|film| self.reference_of(film)).map(|reference| &reference.radiances),
+            Against::Reference => film.and_then(|film| self.reference_of(film)).map(|reference| &reference.image),
         };
         let on_its_way = match (film, judge) {
             (Some(film), Some(judge)) => film.rough || judge.rough || film.order.view != judge.order.view,
@@ -241,10 +240,11 @@ impl Latest {
         };
         match (film, judged_by) {
             (Some(film), Some(judged_by)) => Some(Some(ErrorMapJob {
-                names: [of.name(), against.name()],
-                width: film.width,
-                radiances: [film.radiances.clone(), judged_by.clone()],
-                display: self.display,
+                pair: Pair {
+                    names: [of.name(), against.name()],
+                    images: [film.image.clone(), judged_by.clone()],
+                    display: self.display,
+                },
                 map: metric,
                 held,
             })),
@@ -269,7 +269,7 @@ fn shelve(updates: &mut PaneUpdates, pane: PaneId, mut new: DisplayFrame) {
 
 fn comparable(a: &Picture, b: &Picture) -> bool {
     let shows_the_scene = |picture: &Picture| picture.order.provenance.technique.shows_the_scene();
-    (a.width, a.height, a.order.view) == (b.width, b.height, b.order.view) && shows_the_scene(a) && shows_the_scene(b)
+    (a.image.size(), a.order.view) == (b.image.size(), b.order.view) && shows_the_scene(a) && shows_the_scene(b)
 }
 
 #[cfg(test)]

@@ -1,7 +1,7 @@
 //! What comes out of the post_process, and what does not.
 
 use super::*;
-use scene::Vec3;
+use film::{Image, Vec3};
 use technique::{Device, PaneSettings, Provenance, Shot, TechniqueName};
 
 fn order(job: u64, view: u64) -> Order {
@@ -11,13 +11,14 @@ fn order(job: u64, view: u64) -> Order {
     Order { job, view, shrink: 1, restarts: 0, provenance }
 }
 
+fn pixel(grey: f32) -> Image {
+    Image::new(1, 1, [Vec3::splat(grey)]).unwrap()
+}
+
 fn picture(view: u64) -> Picture {
     let order = order(view, view);
-    let radiances = [Vec3::splat(view as f32)].into();
     Picture {
-        width: 1,
-        height: 1,
-        radiances,
+        image: pixel(view as f32),
         spp: None,
         seconds: 0.0,
         nonfinite: 0,
@@ -71,7 +72,7 @@ fn only_pictures_of_one_view_are_compared() {
 /// The reference belongs to one view as the pictures do, and tells its noise.
 #[test]
 fn a_reference_judges_both_sides_of_its_own_view_alone() {
-    let reference_image = ReferenceImage { size: (1, 1), radiances: [Vec3::splat(0.5)].into(), noise: Some(1.0) };
+    let reference_image = ReferenceImage { image: pixel(0.5), noise: Some(1.0) };
     for (view, judged) in [(1, true), (2, false)] {
         let updates = frame(|post_process| {
             post_process.set_comparisons(both(|_| Against::Reference), None);

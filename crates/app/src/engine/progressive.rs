@@ -202,7 +202,7 @@ impl ProgressiveRenderer {
     /// look at the last picture.
     fn rough_by_whoever_is_ready(&mut self, backend: &mut Backend, job: &RayJob, stop: &Stop) {
         let triangles = |shape: &Shape| match &shape.geometry {
-            Geometry::Mesh { triangles, .. } => triangles.len(),
+            Geometry::Mesh(mesh) => mesh.triangles().len(),
             _ => 0,
         };
         // where the processor would take as long to make the scene ready, nothing is won
@@ -334,9 +334,7 @@ impl ProgressiveRenderer {
         self.post_process.deliver(
             self.side,
             Picture {
-                width: film.width(),
-                height: film.height(),
-                radiances: film.radiances().collect(),
+                image: film.image(),
                 spp: Some(film.samples_per_pixel()),
                 seconds: spent.as_secs_f64(),
                 nonfinite: film.nonfinite,

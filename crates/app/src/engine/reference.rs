@@ -233,10 +233,10 @@ impl Bench {
 /// A reference from a file, of the size of the picture.
 fn load(file: &Path, (width, height): (u32, u32)) -> Result<Reference, String> {
     let reference = Reference::load(file).map_err(|fault| fault.to_string())?;
-    if (reference.width, reference.height) == (width, height) {
+    let (w, h) = reference.image.size();
+    if (w, h) == (width, height) {
         return Ok(reference);
     }
-    let (w, h) = (reference.width, reference.height);
     Err(format!("the reference has {w}x{h} pixels, the picture {width}x{height}: {}", file.display()))
 }
 

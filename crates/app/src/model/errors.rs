@@ -79,8 +79,7 @@ mod tests {
     use super::*;
 
     fn point(spp: u32) -> ErrorPoint {
-        let errors = compare::errors_of_radiances(&[], &[]);
-        ErrorPoint { spp: Some(spp), seconds: f64::from(spp), errors }
+        ErrorPoint { spp: Some(spp), seconds: f64::from(spp), errors: compare::Errors::default() }
     }
 
     #[test]

@@ -103,7 +103,7 @@ mod tests {
         settings.truth.spp = wished;
         let shot = Shot::of(scene::builtin::named("cornell").unwrap(), (1, 1));
         let provenance = Provenance { shot, technique: settings.in_use(), device: Device::Cpu };
-        let errors = compare::errors_of_radiances(&[scene::Vec3::ONE], &[scene::Vec3::splat(spp as f32)]);
+        let errors = compare::Errors { rmse: f64::from(spp), ..compare::Errors::default() };
         let errors = Some((Against::Pane(PaneId::A), errors));
         PaneView { provenance: Some(Arc::new(provenance)), spp: Some(spp), errors, ..PaneView::default() }
     }

@@ -72,7 +72,7 @@ impl Presentation {
         let DisplayFrame { picture, rgba, errors } = frame;
         let shown = self.shown.panes.entry(pane);
         if let Some(rgba) = &rgba {
-            let texture = textures.upload(Place::Pane(pane), (picture.width, picture.height), rgba);
+            let texture = textures.upload(Place::Pane(pane), picture.image.size(), rgba);
             self.textures.panes.insert(pane, texture);
             shown.fault = None;
         }
@@ -81,7 +81,7 @@ impl Presentation {
         shown.refused = picture.refused.clone();
         shown.adapter = Some(picture.adapter.clone());
         (shown.rough, shown.unfinished) = (picture.rough, picture.unfinished);
-        shown.shrink = picture.order.size().0.div_ceil(picture.width.max(1)) * picture.order.shrink;
+        shown.shrink = picture.order.size().0.div_ceil(picture.image.width().max(1)) * picture.order.shrink;
         shown.errors = errors;
         self.pictures.insert(pane, picture);
     }

@@ -79,7 +79,7 @@ fn a_pane_its_film_and_its_command_are_one_picture() {
         assert!(once == again, "{pane}: the films differ: {command}");
 
         let display = film::DisplayTransform::default();
-        let shown = display.to_rgba8(once.radiances.iter().copied());
+        let shown = display.rgba8_of(&once);
         let stored: Vec<u8> = pixels(&png).pixels().flat_map(|p| [p[0], p[1], p[2], 255]).collect();
         assert!(shown == stored, "{pane}: the PNG is not the film through the display transform");
     }

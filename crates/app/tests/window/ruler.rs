@@ -2,8 +2,8 @@
 
 use super::export::export;
 use super::{alone, both_whole, ready, says};
-use reference::{Key, Reference, Store};
-use scene::Vec3;
+use film::{Image, LayerValues, Vec3};
+use reference::{Key, Reference, STANDARD_ERROR, Store};
 use std::path::Path;
 use std::time::Duration;
 use visavis_tests::{Frame, Screen, TestFolder, ViewerUnderTest};
@@ -61,15 +61,10 @@ fn the_error_map_has_a_scale_that_can_be_held_and_is_exported_with_it() {
 /// What the viewer would have made, but for one picture and its numbers.
 fn almost_done(size: (u32, u32)) -> Reference {
     let pixels = (size.0 * size.1) as usize;
-    Reference {
-        width: size.0,
-        height: size.1,
-        radiances: vec![Vec3::splat(0.5); pixels],
-        standard_errors: Some(vec![Vec3::splat(0.05); pixels]),
-        replicates: 15,
-        seconds: 119.999,
-        nonfinite: 0,
-    }
+    let grey = |value: f32| vec![Vec3::splat(value); pixels];
+    let image = Image::new(size.0, size.1, grey(0.5)).expect("pixels of that size");
+    let image = image.with_layer(STANDARD_ERROR, LayerValues::Rgb(grey(0.05).into()));
+    Reference { image, replicates: 15, seconds: 119.999, nonfinite: 0 }
 }
 
 /// Chooses the reference for two fakes, which are done at once, and makes the window small: its reference takes less

@@ -234,8 +234,11 @@ struct Made {
 impl Made {
     fn of(scene: &Scene, leaves: Leaves) -> Result<Self, GpuTraceError> {
         let lights = Lights::new(scene);
-        let shapes =
-            if leaves.always_a_tree { Shapes::in_a_tree(scene, &lights) } else { Shapes::new(scene, &lights) }?;
+        let shapes = if leaves.always_a_tree {
+            Shapes::in_a_tree(scene, lights.light_of_shape())
+        } else {
+            Shapes::new(scene, lights.light_of_shape())
+        }?;
         let needs = SceneNeeds::of(scene, &lights, shapes.kinds());
         let needs = if leaves.nothing_out { needs.with_everything() } else { needs };
         Ok(Made { lights, shapes, needs })

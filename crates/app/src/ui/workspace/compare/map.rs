@@ -4,7 +4,7 @@
 use super::comparison::reference_state;
 use super::picture::WHOLE;
 use crate::model::{Against, Comparison, ErrorMap};
-use crate::ruler::{HeatMap, brief};
+use crate::ruler::{HeatMap, Pair, brief};
 use crate::ui::overlay::{spoken, text_box};
 use crate::ui::{UiContext, theme};
 use compare::ColourScale;
@@ -62,11 +62,11 @@ fn numbers_at(map: &ErrorMap, rect: Rect, at: Pos2) -> Option<String> {
     let share = (at - rect.min) / rect.size();
     let (x, y) = ((share.x * *width as f32) as u32, (share.y * height as f32) as u32);
     let index = (x < *width && y < height).then_some(y as usize * *width as usize + x as usize)?;
-    let channels = |v: &Vec3| v.to_array().map(|channel| brief(f64::from(channel))).join(" ");
-    let map_job = &map.map_job;
-    let [a, r] = [0, 1].map(|i| map_job.radiances[i].get(index).map(channels));
+    let channels = |v: Vec3| v.to_array().map(|channel| brief(f64::from(channel))).join(" ");
+    let Pair { names, images, .. } = &map.map_job.pair;
+    let [a, r] = images.each_ref().map(|image| image.at(x, y).map(channels));
     let error = brief(f64::from(*values.get(index)?));
-    Some(format!("x {x}, y {y}: {error}\n{} {}\n{} {}", map_job.names[0], a?, map_job.names[1], r?))
+    Some(format!("x {x}, y {y}: {error}\n{} {}\n{} {}", names[0], a?, names[1], r?))
 }
 
 /// The box in the corner, from top to bottom: name, bar, ticks, and the rest in words.
