@@ -12,6 +12,7 @@ pub mod engine;
 pub mod model;
 pub mod ruler;
 pub mod ui;
+pub mod viewer;
 pub mod window;
 
 use std::ffi::OsString;

@@ -2,9 +2,7 @@
 
 mod app;
 mod frame_stats;
-mod presentation;
 mod recovery;
-mod stopwatch;
 mod surface;
 mod textures;
 mod window_state;

@@ -1,15 +1,14 @@
-//! What is shown in the window: for each pane its texture, what the UI says about it, and the picture itself for
+//! What is shown: for each pane its texture, what the UI says about it, and the picture itself for
 //! export; and the map of errors.
 
-use super::textures::PaneTexture;
 use crate::engine::Picture;
 use crate::engine::export::Content;
 use crate::engine::post_process::{DisplayFrame, PaneUpdate, PaneUpdates};
 use crate::model::{Against, ErrorMap, Model, PaneId, PaneView, Panes, ViewModel, Wanted};
 use crate::ruler::error_records;
 use crate::ui::Textures;
+use egui::TextureId;
 use film::DisplayTransform;
-use gpu::Gpu;
 use image_file::Records;
 use std::sync::Arc;
 use technique::Made;
@@ -22,12 +21,25 @@ pub struct Presentation {
     /// The pixels of that.
     pub textures: Textures,
     pictures: Panes<Picture>,
-    pane_textures: Panes<PaneTexture>,
-    map_texture: PaneTexture,
+}
+
+/// Where pixels are kept to be drawn: one texture for each place.
+pub trait TextureStore {
+    /// Replaces what a place shows by `size` pixels of RGBA, rows from the top.
+    fn upload(&mut self, place: Place, size: (u32, u32), rgba: &[u8]) -> TextureId;
+}
+
+/// Something that shows pixels.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Place {
+    /// The picture of a pane.
+    Pane(PaneId),
+    /// The map of errors.
+    ErrorMap,
 }
 
 impl Presentation {
-    /// Takes everything down; the textures stay for the next.
+    /// Takes everything down.
     pub fn clear(&mut self) {
         (self.shown, self.textures) = Default::default();
         self.pictures = Panes::default();
@@ -35,13 +47,12 @@ impl Presentation {
 
     /// Takes all textures down, whose device has failed; the pictures stay for the next device.
     pub fn lose_textures(&mut self) {
-        (self.pane_textures, self.map_texture) = Default::default();
         self.textures = Textures::default();
         self.shown.map = None;
     }
 
     /// Puts up what is new.
-    pub fn update(&mut self, updates: PaneUpdates, gpu: &Gpu, renderer: &mut egui_wgpu::Renderer) {
+    pub fn update(&mut self, updates: PaneUpdates, textures: &mut impl TextureStore) {
         let changed: Vec<PaneId> = updates.ids().collect();
         for (pane, update) in updates {
             match update {
@@ -50,21 +61,19 @@ impl Presentation {
                     self.textures.panes.remove(pane);
                     self.pictures.remove(pane);
                 }
-                PaneUpdate::Picture(frame) => self.put_up(pane, *frame, gpu, renderer),
+                PaneUpdate::Picture(frame) => self.put_up(pane, *frame, textures),
             }
         }
         // the error of one belongs to the picture of the other
         changed.into_iter().for_each(|pane| self.shown.note_errors(pane));
     }
 
-    fn put_up(&mut self, pane: PaneId, frame: DisplayFrame, gpu: &Gpu, renderer: &mut egui_wgpu::Renderer) {
+    fn put_up(&mut self, pane: PaneId, frame: DisplayFrame, textures: &mut impl TextureStore) {
         let DisplayFrame { picture, rgba, errors } = frame;
         let shown = self.shown.panes.entry(pane);
         if let Some(rgba) = &rgba {
-            let texture = self.pane_textures.entry(pane);
-            self.textures
-                .panes
-                .insert(pane, texture.upload(gpu, renderer, picture.image.width(), picture.image.height(), rgba));
+            let texture = textures.upload(Place::Pane(pane), picture.image.size(), rgba);
+            self.textures.panes.insert(pane, texture);
             shown.fault = None;
         }
         shown.provenance = Some(picture.order.provenance.clone());
@@ -83,18 +92,16 @@ impl Presentation {
         self.shown.panes.retain(|pane, _| is_wanted(pane));
         self.textures.panes.retain(|pane, _| is_wanted(pane));
         self.pictures.retain(|pane, _| is_wanted(pane));
-        self.pane_textures.retain(|pane, _| is_wanted(pane));
         if wanted.map.is_none() {
             (self.shown.map, self.textures.map) = (None, None);
         }
     }
 
     /// Puts up a map of errors, or takes it down.
-    pub fn update_map(&mut self, drawn: Option<ErrorMap>, gpu: &Gpu, renderer: &mut egui_wgpu::Renderer) {
-        self.textures.map = drawn.as_ref().map(|drawn| {
-            let (width, height) = (drawn.map.width, drawn.map.height());
-            self.map_texture.upload(gpu, renderer, width, height, &drawn.rgba)
-        });
+    pub fn update_map(&mut self, drawn: Option<ErrorMap>, textures: &mut impl TextureStore) {
+        self.textures.map = drawn
+            .as_ref()
+            .map(|drawn| textures.upload(Place::ErrorMap, (drawn.map.width, drawn.map.height()), &drawn.rgba));
         self.shown.map = drawn.map(Arc::new);
     }
 
