@@ -155,8 +155,8 @@ impl Engine {
         jobs
     }
 
-    /// Stops the workers of panes that are no longer wanted. They stay: what they have made is there again when the pane
-    /// is.
+    /// Stops the workers of panes that are no longer wanted. They stay: what they have made is there again with the
+    /// pane.
     fn follow_the_panes(&mut self, wanted: &Wanted) {
         let gone: Vec<PaneId> = self.asked.panes.ids().filter(|id| wanted.panes.get(*id).is_none()).collect();
         for id in gone {
