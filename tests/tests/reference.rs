@@ -5,8 +5,9 @@ use film::{Image, LayerValues, Vec3};
 use reference::{Goal, Key, Maker, Reference, SAMPLES_PER_REPLICATE, STANDARD_ERROR, Store};
 use scene::Scene;
 use std::path::Path;
+use std::sync::Arc;
 use std::time::{Duration, SystemTime};
-use technique::Shot;
+use technique::{Renderer, Shot, Threads};
 use visavis_tests::TestFolder;
 
 const SIZE: (u32, u32) = (24, 24);
@@ -19,10 +20,14 @@ fn shot(scene: &Scene, size: (u32, u32)) -> Shot {
     Shot::of(scene.clone(), size)
 }
 
+fn renderer(scene: &Scene) -> Renderer {
+    Renderer::on_the_processor(Arc::new(scene.clone()), Arc::new(Threads::all()))
+}
+
 /// A reference of so many pictures, going on with one that is there.
 fn made(scene: &Scene, pictures: u32, begun: Option<&Reference>) -> Reference {
-    let tracer = pathtrace::Tracer::new(scene);
-    let mut maker = Maker::new(&tracer, &shot(scene, SIZE), begun).unwrap();
+    let mut renderer = renderer(scene);
+    let mut maker = Maker::new(&mut renderer, &shot(scene, SIZE), begun).unwrap();
     while maker.replicates() < pictures {
         assert!(maker.step(&|| false));
     }
@@ -89,8 +94,8 @@ fn going_on_with_a_reference_is_making_it_at_once() {
 #[test]
 fn one_that_is_stopped_has_only_whole_pictures() {
     let scene = cornell();
-    let tracer = pathtrace::Tracer::new(&scene);
-    let mut maker = Maker::new(&tracer, &shot(&scene, SIZE), None).unwrap();
+    let mut renderer = renderer(&scene);
+    let mut maker = Maker::new(&mut renderer, &shot(&scene, SIZE), None).unwrap();
     assert!(maker.step(&|| false));
     let before = maker.reference();
     assert!(!maker.step(&|| true));

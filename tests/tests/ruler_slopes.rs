@@ -12,17 +12,16 @@ use bench::references::{Truth, make};
 use bench::summary::Curve;
 use bench::variant::Variant;
 use compare::Fit;
-use pathtrace::{Estimator, SamplerKind, Tracer};
+use pathtrace::{Estimator, SamplerKind};
 use scene::Scene;
-use std::sync::LazyLock;
-use technique::Technique;
+use std::sync::{Arc, LazyLock};
+use technique::{Backend, Renderer, Technique, Threads};
 
 static CORNELL: LazyLock<Subject> = LazyLock::new(|| subject("cornell", None, (64, 64)));
 
 struct Subject {
     part: Part,
     scene: Scene,
-    tracer: Tracer,
     truth: Truth,
 }
 
@@ -39,9 +38,9 @@ fn subject(scene: &str, sun_radius: Option<f32>, (width, height): (u32, u32)) ->
         speed: Speed { reference: 1.0, lines: 1.0 },
     };
     let scene = part.scene().unwrap();
-    let tracer = Tracer::new(&scene);
-    let (truth, _) = make(&part, &scene, &tracer, None, &mut |_| {}).unwrap();
-    Subject { part, scene, tracer, truth }
+    let mut renderer = Renderer::on_the_processor(Arc::new(scene.clone()), Arc::new(Threads::all()));
+    let (truth, _) = make(&part, &mut renderer, None, &mut |_| {}).unwrap();
+    Subject { part, scene, truth }
 }
 
 impl Subject {
@@ -49,8 +48,9 @@ impl Subject {
         let line = Line { technique, variant: &Variant::ALL[0] };
         let rungs = 0..self.part.ladder().len();
         let integrator = line.integrator(1).expect("it is traced");
+        let mut backend = Backend::on_the_processor(&self.scene);
         let measure =
-            |rung| traced(&self.part, &self.scene, &self.tracer, (&line, &integrator), rung, &self.truth).unwrap();
+            |rung| traced(&self.part, &self.scene, &mut backend, (&line, &integrator), rung, &self.truth).unwrap();
         let measurements: Vec<Measurement> = rungs.map(measure).collect();
         assert!(measurements.iter().flat_map(|m| &m.pictures).all(|p| p.nonfinite == 0));
         Curve::new(line, &measurements.iter().collect::<Vec<_>>())

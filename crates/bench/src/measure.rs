@@ -8,13 +8,12 @@ use crate::references::{Truth, Worth};
 use compare::{ErrorMetric, Errors, REL_MSE_FLOOR, finite_mean, split_error};
 use film::DisplayTransform;
 use film::Film;
-use pathtrace::gpu::GpuTracer;
-use pathtrace::{Integrator, Stats, Tracer};
+use pathtrace::{Integrator, Stats};
 use raster::Raster;
 use scene::Scene;
 use serde::{Deserialize, Serialize};
 use std::time::Instant;
-use technique::FakeSettings;
+use technique::{Accumulation, Backend, Device, FakeSettings};
 
 /// Standard errors beyond which a bias is believed.
 pub const SIGMAS: f64 = 4.0;
@@ -113,60 +112,39 @@ fn seed(rung: usize, i: u32) -> u32 {
     1 + rung as u32 * SEEDS + i
 }
 
-/// Measures a line that is traced, at rung number `rung` of its ladder.
+/// Measures a line that is traced, at rung number `rung` of its ladder. Seconds of a graphics device are its own, once its
+/// pipelines are built and without its film on its way there and back.
 ///
 /// # Errors
-/// [`BenchError::Memory`], [`BenchError::Compare`].
+/// [`BenchError::Memory`], [`BenchError::Compare`], [`BenchError::Gpu`].
 pub fn traced(
     part: &Part,
     scene: &Scene,
-    tracer: &Tracer,
+    backend: &mut Backend,
     (line, integrator): (&Line, &Integrator),
     rung: usize,
     truth: &Truth,
 ) -> Result<Measurement, BenchError> {
-    exposed(part, line, rung, truth, |film, seed, spp| {
+    let mut trace = |seed: u32, spp: u32| {
+        let no_memory = BenchError::Memory(part.width, part.height);
+        let mut accumulation = Accumulation::blank((part.width, part.height)).ok_or(no_memory)?;
         let start = Instant::now();
-        let stats = tracer.render(film, &scene.camera, &integrator.with_seed(seed), spp, &|| false);
-        Ok((stats, start.elapsed().as_secs_f64()))
-    })
-}
-
-/// As [`traced`] on the graphics device, once its pipelines are built. Seconds are the device's own, without its film
-/// on its way there and back.
-///
-/// # Errors
-/// As [`traced`], and [`BenchError::Gpu`].
-pub fn traced_on_gpu(
-    part: &Part,
-    scene: &Scene,
-    tracer: &mut GpuTracer,
-    (line, integrator): (&Line, &Integrator),
-    truth: &Truth,
-) -> Result<Measurement, BenchError> {
-    let mut trace = |film: &mut Film, seed: u32, spp: u32| {
-        let stats = tracer.render(film, &scene.camera, &integrator.with_seed(seed), spp, &|| false)?;
-        Ok((stats, tracer.take_seconds()))
+        backend.accumulate(&mut accumulation, &scene.camera, &integrator.with_seed(seed), spp, &|| false)?;
+        let seconds = start.elapsed().as_secs_f64();
+        let seconds = backend.take_device_seconds().unwrap_or(seconds);
+        backend.resolve(&mut accumulation)?;
+        Ok::<_, BenchError>((accumulation, seconds))
     };
-    trace(&mut Film::new(part.width, part.height), 0, 1)?;
-    exposed(part, line, 0, truth, trace)
-}
-
-fn exposed(
-    part: &Part,
-    line: &Line,
-    rung: usize,
-    truth: &Truth,
-    mut trace: impl FnMut(&mut Film, u32, u32) -> Result<(Stats, f64), BenchError>,
-) -> Result<Measurement, BenchError> {
+    if line.device() == Device::Gpu {
+        trace(0, 1)?;
+    }
     let spp = part.rungs(line).get(rung).copied().unwrap_or(1);
     let (mut pictures, mut films) = (Vec::new(), Vec::new());
     for i in 0..SEEDS {
         let seed = seed(rung, i);
-        let mut film = Film::try_new(part.width, part.height).ok_or(BenchError::Memory(part.width, part.height))?;
-        let (stats, seconds) = trace(&mut film, seed, spp)?;
-        pictures.push(judged(&film, seed, seconds, stats, truth)?);
-        films.push(film);
+        let (accumulation, seconds) = trace(seed, spp)?;
+        pictures.push(judged(accumulation.film(), seed, seconds, accumulation.stats(), truth)?);
+        films.push(accumulation.into_film());
     }
     let absolute = BiasTest::of(&films, &truth.film, truth.worth.mse)?;
     let shares: Vec<Film> = films.iter().map(|film| as_shares(film, &truth.film)).collect();

@@ -5,12 +5,10 @@ use crate::line::title;
 use crate::plan::Part;
 use crate::references::Truth;
 use compare::{ColourScale, ErrorMetric, Tick};
-use film::{DisplayTransform, Film, Image};
+use film::{DisplayTransform, Image};
 use image_file::{Records, encode_rgba8};
-use pathtrace::Tracer;
 use raster::{Fake, Raster};
-use scene::Scene;
-use technique::{FakeSettings, Technique, TreeSettings};
+use technique::{Accumulation, FakeSettings, Renderer, Technique, TreeSettings};
 
 /// One technique beside the truth.
 pub struct Exhibit {
@@ -40,25 +38,25 @@ const BAR: (u32, u32) = (256, 12);
 /// [`BenchError::Memory`], [`BenchError::File`] if a picture cannot be encoded.
 pub fn of(
     part: &Part,
-    scene: &Scene,
-    tracer: &Tracer,
+    renderer: &mut Renderer,
     raster: Option<&mut Raster>,
     truth: &Truth,
 ) -> Result<Vec<Exhibit>, BenchError> {
-    let mut exhibits = Vec::new();
+    let (mut exhibits, scene) = (Vec::new(), renderer.scene().clone());
     if let Some(raster) = raster {
         for fake in [Fake::AsTaught, Fake::Fair] {
             let settings = FakeSettings { fake, ..FakeSettings::default() };
             // a device that fails was told of where the fake was measured
-            if let Ok(film) = raster.render(scene, &scene.camera, &settings.sized(part.width, part.height)) {
+            if let Ok(film) = raster.render(&scene, &scene.camera, &settings.sized(part.width, part.height)) {
                 exhibits.push(exhibit(title(&Technique::Fake(settings)), &film.image(), truth)?);
             }
         }
     }
-    let mut film = Film::try_new(part.width, part.height).ok_or(BenchError::Memory(part.width, part.height))?;
+    let size = (part.width, part.height);
+    let mut accumulation = Accumulation::blank(size).ok_or(BenchError::Memory(size.0, size.1))?;
     let TreeSettings { tree, spp } = TreeSettings::default();
-    tracer.render(&mut film, &scene.camera, &tree.into(), spp, &|| false);
-    exhibits.push(exhibit(format!("Whitted, {spp} samples per pixel"), &film.image(), truth)?);
+    renderer.add(&mut accumulation, &scene.camera, &tree.into(), spp, &|| false)?;
+    exhibits.push(exhibit(format!("Whitted, {spp} samples per pixel"), &accumulation.film().image(), truth)?);
     Ok(exhibits)
 }
 

@@ -3,12 +3,11 @@
 use crate::BenchError;
 use crate::plan::Part;
 use film::Film;
-use pathtrace::{FEWEST_REPLICATES, Tracer};
+use pathtrace::FEWEST_REPLICATES;
 use reference::{Key, Maker, Reference, SAMPLES_PER_REPLICATE, Store};
-use scene::Scene;
 use serde::{Deserialize, Serialize};
 use std::time::{Duration, Instant};
-use technique::Shot;
+use technique::{Renderer, Shot};
 
 /// Seconds after which a reference in the making is kept, so that little is lost when it is interrupted.
 const KEPT_EVERY: Duration = Duration::from_secs(20);
@@ -85,17 +84,16 @@ impl Worth {
 /// [`BenchError::Memory`].
 pub fn make(
     part: &Part,
-    scene: &Scene,
-    tracer: &Tracer,
+    renderer: &mut Renderer,
     store: Option<&Store>,
     progress: &mut dyn FnMut(f64),
 ) -> Result<(Truth, Option<String>), BenchError> {
     let size = (part.width, part.height);
-    let shot = Shot::of(scene.clone(), size);
+    let shot = Shot::of((**renderer.scene()).clone(), size);
     let key = Key::of(&shot);
     let begun = store.and_then(|store| store.get(key));
     let no_memory = || BenchError::Memory(size.0, size.1);
-    let mut maker = Maker::new(tracer, &shot, begun.as_ref()).ok_or_else(no_memory)?;
+    let mut maker = Maker::new(renderer, &shot, begun.as_ref()).ok_or_else(no_memory)?;
     let before = maker.replicates();
     let enough = |maker: &Maker| {
         maker.replicates() >= part.replicates()

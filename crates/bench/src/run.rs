@@ -16,13 +16,14 @@ use crate::variant::MakeTracer;
 use crate::{BenchError, tables};
 use gpu::Gpu;
 use image_file::{check_writable, write_whole};
-use pathtrace::{Integrator, Tracer};
+use pathtrace::Integrator;
 use raster::Raster;
 use reference::Store;
 use scene::Scene;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use std::time::Instant;
-use technique::{FakeSettings, Technique, TracedSettings};
+use technique::{Backend, FakeSettings, Renderer, Technique, Threads, TracedSettings};
 
 /// What is asked for.
 #[derive(Debug, Clone)]
@@ -66,6 +67,7 @@ struct Bench<'a> {
     store: Store,
     raster: Option<Raster>,
     gpu: Option<Gpu>,
+    threads: Arc<Threads>,
     clock: Clock,
     notes: Vec<String>,
     progress: &'a mut dyn FnMut(&Progress),
@@ -98,7 +100,16 @@ pub fn run(options: &Options, progress: &mut dyn FnMut(&Progress)) -> Result<Out
     let planned: Vec<(Part, Vec<Line>)> = parts.iter().map(with_lines).collect::<Result<_, BenchError>>()?;
     let ahead = planned.iter().map(|(part, lines)| forecast(&journal, part, lines)).sum();
     let kept = journal.measurements().len();
-    let mut bench = Bench { journal, store, raster, gpu, clock: Clock::new(ahead), notes, progress };
+    let mut bench = Bench {
+        journal,
+        store,
+        raster,
+        gpu,
+        threads: Arc::new(Threads::all()),
+        clock: Clock::new(ahead),
+        notes,
+        progress,
+    };
     let mut exhibits = Vec::new();
     for (i, (part, lines)) in planned.iter().enumerate() {
         // the last part is the tutorial's own scene, or the only one that was asked for
@@ -149,12 +160,12 @@ impl Bench<'_> {
         if !missing && !show {
             return Ok(Vec::new());
         }
-        let scene = part.scene()?;
-        let tracer = Tracer::new(&scene);
-        let truth = self.reference(part, &scene, &tracer)?;
+        let scene = Arc::new(part.scene()?);
+        let mut renderer = Renderer::on_the_processor(scene.clone(), self.threads.clone());
+        let truth = self.reference(part, &mut renderer)?;
         for line in lines {
-            let tracer = match (line.technique, line.variant.tracer) {
-                (Technique::Traced(_), MakeTracer::Cpu(tracer)) => Some(tracer(&scene)),
+            let mut processor = match (line.technique, line.variant.tracer) {
+                (Technique::Traced(_), MakeTracer::Cpu(tracer)) => Some(Backend::from(tracer(&scene))),
                 _ => None,
             };
             for (rung, spp) in part.rungs(line).into_iter().enumerate() {
@@ -163,10 +174,10 @@ impl Bench<'_> {
                 }
                 let what = format!("{}: {}, {spp} spp", part.name, line.name());
                 (self.progress)(&self.clock.progress(&what, 0.0));
-                let measured = match (&line.technique, &tracer) {
+                let measured = match (&line.technique, &mut processor) {
                     (Technique::Fake(fake), _) => self.fake(part, &scene, line, fake, &truth)?,
-                    (Technique::Traced(TracedSettings { integrator, .. }), Some(tracer)) => {
-                        Some(measure::traced(part, &scene, tracer, (line, integrator), rung, &truth)?)
+                    (Technique::Traced(TracedSettings { integrator, .. }), Some(backend)) => {
+                        Some(measure::traced(part, &scene, backend, (line, integrator), rung, &truth)?)
                     }
                     (Technique::Traced(TracedSettings { integrator, .. }), None) => {
                         self.on_gpu(part, &scene, (line, integrator), &truth)?
@@ -176,10 +187,10 @@ impl Bench<'_> {
                 self.clock.done(forecast_of(part, line, spp));
             }
         }
-        if show { pictures::of(part, &scene, &tracer, self.raster.as_mut(), &truth) } else { Ok(Vec::new()) }
+        if show { pictures::of(part, &mut renderer, self.raster.as_mut(), &truth) } else { Ok(Vec::new()) }
     }
 
-    fn reference(&mut self, part: &Part, scene: &Scene, tracer: &Tracer) -> Result<Truth, BenchError> {
+    fn reference(&mut self, part: &Part, renderer: &mut Renderer) -> Result<Truth, BenchError> {
         let forecast = part.forecast_reference();
         let what = format!("{}: reference", part.name);
         let (clock, progress) = (&mut self.clock, &mut self.progress);
@@ -192,7 +203,7 @@ impl Bench<'_> {
             });
             progress(&clock.progress(&what, (share - there) * forecast));
         };
-        let (truth, fault) = references::make(part, scene, tracer, Some(&self.store), &mut tell)?;
+        let (truth, fault) = references::make(part, renderer, Some(&self.store), &mut tell)?;
         self.notes.extend(fault.map(|why| format!("The reference of {} is not kept: {why}.", part.name)));
         self.clock.done((1.0 - there.unwrap_or(0.0)) * forecast);
         Ok(truth)
@@ -209,7 +220,7 @@ impl Bench<'_> {
         let (Some(gpu), MakeTracer::Gpu(tracer)) = (&self.gpu, line.variant.tracer) else { return Ok(None) };
         let measured = tracer(gpu, scene)
             .map_err(BenchError::from)
-            .and_then(|mut tracer| measure::traced_on_gpu(part, scene, &mut tracer, (line, integrator), truth));
+            .and_then(|tracer| measure::traced(part, scene, &mut tracer.into(), (line, integrator), 0, truth));
         match measured {
             Err(BenchError::Gpu(why)) => {
                 self.notes.push(format!("{} of {} is left out: {why}.", line.name(), part.name));

@@ -1,6 +1,7 @@
 //! Where rays are traced: as the user wishes, and as it is then done.
 
-use gpu::AdapterReport;
+use anyhow::Context;
+use gpu::{AdapterReport, Gpu};
 
 /// What the user wishes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -78,6 +79,37 @@ impl DeviceChoice {
     }
 }
 
+/// Samples that are not worth opening a graphics device for: a second of an ordinary processor.
+const LITTLE_WORK: u64 = 1 << 24;
+
+/// What to do where the graphics device is asked for and does not trace.
+pub const INSTEAD: &str = "the graphics device does not trace this; --device cpu does";
+
+impl DeviceChoice {
+    /// Opens the graphics device that is to trace so many samples without a window; `None` for the processor.
+    ///
+    /// # Errors
+    /// If the user wants one and there is none.
+    pub fn open(self, samples: u64) -> anyhow::Result<Option<Gpu>> {
+        let there_is_hardware = || Gpu::adapters().iter().any(|adapter| adapter.chosen && !adapter.software);
+        match self {
+            DeviceChoice::Gpu => Gpu::headless().context(INSTEAD).map(Some),
+            // what does not open is not faster
+            _ if self.is_for_a_device(samples, there_is_hardware) => Ok(Gpu::headless().ok()),
+            _ => Ok(None),
+        }
+    }
+
+    /// Where the processor plays the device it is faster as itself, and also where there is little to do.
+    fn is_for_a_device(self, samples: u64, there_is_hardware: impl FnOnce() -> bool) -> bool {
+        match self {
+            DeviceChoice::Cpu => false,
+            DeviceChoice::Gpu => true,
+            DeviceChoice::Auto => samples >= LITTLE_WORK && there_is_hardware(),
+        }
+    }
+}
+
 impl Device {
     /// The name of the device that asks for it.
     pub fn name(self) -> &'static str {
@@ -91,6 +123,14 @@ impl Device {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn auto_takes_hardware_where_there_is_enough_to_do() {
+        let of = |wish: DeviceChoice, samples, hardware| wish.is_for_a_device(samples, || hardware);
+        assert!(of(DeviceChoice::Auto, LITTLE_WORK, true) && !of(DeviceChoice::Auto, LITTLE_WORK - 1, true));
+        assert!(!of(DeviceChoice::Auto, u64::MAX, false));
+        assert!(of(DeviceChoice::Gpu, 0, false) && !of(DeviceChoice::Cpu, u64::MAX, true));
+    }
 
     #[test]
     fn auto_is_the_faster_machine_and_a_wish_is_a_wish() {

@@ -3,20 +3,34 @@
 //! A [`Technique`] is the fake or what is traced, each with its settings; a [`Shot`] is what it looks at. Together with
 //! the [`Device`] that worked they are a [`Provenance`], which a picture keeps in its file and which makes it again.
 //! Window, command line, bench, check and reference name techniques by these types alone.
+//!
+//! What is traced is made by a [`Renderer`]: a scene on a [`Backend`], the processor or a graphics device, that adds
+//! samples to an [`Accumulation`] and goes on with the processor where a device fails. A [`ProgressiveRenderer`] is one
+//! for somebody who looks on and changes their mind. All who trace beside each other share [`Threads`].
 
+mod accumulation;
+mod backend;
 mod command;
 mod device;
 mod fake;
 mod pane;
+mod progressive;
 mod provenance;
+mod renderer;
 mod shot;
+mod threads;
 mod traced;
 
-pub use device::{Adapter, Adapters, Device, DeviceChoice};
+pub use accumulation::Accumulation;
+pub use backend::{Backend, GpuBackend};
+pub use device::{Adapter, Adapters, Device, DeviceChoice, INSTEAD};
 pub use fake::FakeSettings;
 pub use pane::PaneSettings;
+pub use progressive::{NoMemory, ProgressiveRenderer, Request};
 pub use provenance::{Made, Provenance, made_from};
+pub use renderer::{Frame, Pacing, Rendered, Renderer, Watch};
 pub use shot::{SceneChanges, Shot};
+pub use threads::{Rank, Threads};
 pub use traced::{TracedSettings, TreeSettings, TruthSettings, bounces_name, roulette_name};
 
 use image_file::Records;

@@ -9,7 +9,6 @@ mod help;
 mod info;
 mod reference;
 mod render;
-mod tracing;
 
 pub use args::{BenchArgs, CheckArgs, CompareArgs, ReferenceArgs, RenderArgs, Seen};
 

@@ -3,12 +3,13 @@
 use super::ReferenceArgs;
 use crate::ruler::brief;
 use anyhow::Context;
-use pathtrace::{FEWEST_REPLICATES, Tracer};
+use pathtrace::FEWEST_REPLICATES;
 use reference::{Goal, Key, Maker, Reference, Store};
 use std::cell::Cell;
 use std::io::IsTerminal;
+use std::sync::Arc;
 use std::time::{Duration, Instant};
-use technique::Shot;
+use technique::{Renderer, Shot, Threads};
 
 pub fn run(args: &ReferenceArgs) -> anyhow::Result<()> {
     match args {
@@ -84,9 +85,9 @@ pub fn obtain(shot: &Shot, goal: Option<Goal>) -> anyhow::Result<Reference> {
 /// Makes a reference, or goes on with one, until it is good enough. Every doubling is handed to `keep`: hours of work
 /// do not go with a power cut.
 fn make(shot: &Shot, goal: &Goal, begun: Option<&Reference>, keep: impl Fn(&Reference)) -> anyhow::Result<Reference> {
-    let tracer = Tracer::new(&shot.scene);
+    let mut renderer = Renderer::on_the_processor(shot.scene.clone(), Arc::new(Threads::all()));
     let (width, height) = shot.size;
-    let mut maker = Maker::new(&tracer, shot, begun)
+    let mut maker = Maker::new(&mut renderer, shot, begun)
         .with_context(|| format!("not enough memory for {width}x{height} pixels; ask for a smaller --size"))?;
     let progress = Progress::of(maker.progress(goal));
     let mut next_kept = (2 * FEWEST_REPLICATES).max(2 * maker.replicates());

@@ -1,33 +1,35 @@
 //! `visavis render`: a picture to a file, without a window.
 
-use super::tracing::{self, Traced, Tracing};
 use super::{RenderArgs, reference};
 use crate::ruler::{brief, error_records, noise_line};
 use anyhow::Context;
 use compare::Errors;
-use film::{DisplayTransform, Film, Image};
+use film::{DisplayTransform, Image};
 use gpu::Gpu;
 use image_file::{self, Kind};
+use pathtrace::gpu::GpuTraceError;
 use pathtrace::{SamplerKind, Stats};
 use raster::Raster;
 use scene::{Scene, builtin};
 use serde_json::json;
 use std::io::IsTerminal;
+use std::sync::Arc;
 use std::time::{Duration, Instant};
-use technique::{Device, FakeSettings, Made, Provenance, Shot, Technique, TechniqueName, TracedSettings};
+use technique::{
+    Accumulation, Backend, Device, DeviceChoice, FakeSettings, Frame, INSTEAD, Made, Pacing, Provenance, Rendered,
+    Renderer, Shot, Technique, TechniqueName, Threads, TracedSettings, Watch,
+};
 
 /// Samples per pixel where neither --spp nor --time says how many.
 const DEFAULT_SPP: u32 = 64;
 
+/// How long a device may work on what nobody has read yet.
+const AT_RISK: Duration = Duration::from_secs(5);
+
 /// A finished picture and what it cost.
-struct Rendered {
-    film: Film,
+struct Timed {
+    rendered: Rendered,
     seconds: f64,
-    stats: Stats,
-    /// Where it was made, at the end.
-    device: Device,
-    /// Name of the GPU, or of the CPU renderer's threads.
-    adapter: String,
 }
 
 pub fn run(args: &RenderArgs) -> anyhow::Result<()> {
@@ -40,13 +42,13 @@ pub fn run(args: &RenderArgs) -> anyhow::Result<()> {
         "a map of the fake has no errors: --errors needs --show picture"
     );
     image_file::check_writable(&args.out)?;
-    let rendered = match technique {
+    let Timed { rendered, seconds } = match technique {
         Technique::Fake(fake) => raster(args, &fake.applied_to(&scene), fake)?,
-        Technique::Traced(rays) => trace(args, &scene, rays)?,
+        Technique::Traced(traced) => trace(args, &shot, traced)?,
     };
     let image = rendered.film.image();
     let errors = if args.errors { Some(measure(&shot, &image)?) } else { None };
-    save(args, shot, &rendered, &image, errors.as_ref())?;
+    save(args, shot, (&rendered, seconds), &image, errors.as_ref())?;
     if rendered.film.nonfinite > 0 {
         note!(
             "visavis: {} samples were not finite and are left out: please report this scene",
@@ -57,7 +59,7 @@ pub fn run(args: &RenderArgs) -> anyhow::Result<()> {
         note!("note: {} samples were cut short and miss light: too many rays", rendered.stats.cut_paths);
     }
     if args.json {
-        super::print(&format!("{}\n", report(args, &scene, &rendered, errors.as_ref())))?;
+        super::print(&format!("{}\n", report(args, &scene, (&rendered, seconds), errors.as_ref())))?;
     } else {
         note!(
             "{} of {} at {}x{} in {:.2} s: {}",
@@ -65,7 +67,7 @@ pub fn run(args: &RenderArgs) -> anyhow::Result<()> {
             scene.name,
             args.seen.size.0,
             args.seen.size.1,
-            rendered.seconds,
+            seconds,
             args.out.display()
         );
         if let Some(e) = errors {
@@ -85,17 +87,13 @@ fn measure(shot: &Shot, image: &Image) -> anyhow::Result<Errors> {
 fn save(
     args: &RenderArgs,
     shot: Shot,
-    rendered: &Rendered,
+    (rendered, seconds): (&Rendered, f64),
     image: &Image,
     errors: Option<&Errors>,
 ) -> anyhow::Result<()> {
     let provenance = Provenance { shot, technique: args.pane.in_use(), device: rendered.device };
-    let made = Made {
-        spp: rendered.film.samples_per_pixel(),
-        seconds: rendered.seconds,
-        adapter: &rendered.adapter,
-        exposure: args.exposure,
-    };
+    let made =
+        Made { spp: rendered.film.samples_per_pixel(), seconds, adapter: &rendered.made_by, exposure: args.exposure };
     let mut records = provenance.records(made);
     records.extend(errors.into_iter().flat_map(|e| error_records(e, "reference".into())));
     let kind = Kind::of(&args.out).context("a picture's name must end in .png or .exr")?;
@@ -121,101 +119,111 @@ fn tell_what_has_no_effect(args: &RenderArgs, scene: &Scene) {
     }
 }
 
-fn raster(args: &RenderArgs, scene: &Scene, fake: FakeSettings) -> anyhow::Result<Rendered> {
+fn raster(args: &RenderArgs, scene: &Scene, fake: FakeSettings) -> anyhow::Result<Timed> {
     let gpu = Gpu::headless().context("the raster technique needs a GPU")?;
     let mut raster = Raster::new(&gpu)?;
     let start = Instant::now();
     let film = raster.render(scene, &scene.camera, &fake.sized(args.seen.size.0, args.seen.size.1))?;
-    let (seconds, device) = (start.elapsed().as_secs_f64(), Device::Gpu);
-    Ok(Rendered { film, seconds, stats: Stats::default(), device, adapter: gpu.describe() })
+    let rendered = Rendered { film, stats: Stats::default(), device: Device::Gpu, made_by: gpu.describe() };
+    Ok(Timed { rendered, seconds: start.elapsed().as_secs_f64() })
 }
 
-fn trace(args: &RenderArgs, scene: &Scene, rays: TracedSettings) -> anyhow::Result<Rendered> {
-    if let Some(blind) = rays.blind_spot(scene) {
+fn trace(args: &RenderArgs, shot: &Shot, traced: TracedSettings) -> anyhow::Result<Timed> {
+    if let Some(blind) = traced.blind_spot(&shot.scene) {
         note!("note: {blind}");
     }
     let spp = args.spp.unwrap_or(if args.seconds.is_some() { u32::MAX } else { DEFAULT_SPP });
-    let (width, height) = args.seen.size;
-    let film = Film::try_new(width, height)
+    let (width, height) = shot.size;
+    let blank = Accumulation::blank(shot.size)
         .with_context(|| format!("not enough memory for {width}x{height} pixels; ask for a smaller --size"))?;
-    let work = u64::from(width) * u64::from(height) * u64::from(spp);
-    let gpu = tracing::device_for(args.device, work)?;
+    let gpu = args.device.open(u64::from(width) * u64::from(height) * u64::from(spp))?;
     let start = Instant::now();
-    let mut tracing = Tracing::begin(gpu, scene, rays, film, args.device)?;
-    let limit = args.seconds.map(Duration::from_secs_f64);
-    let progress = Progress::new(spp);
-    // one sample of every pixel is made however late it is
-    let is_late = |tracing: &Tracing| tracing.spp() > 0 && limit.is_some_and(|limit| start.elapsed() >= limit);
-    let mut batch = 1;
-    loop {
-        let batch_start = Instant::now();
-        let samples = batch.min(spp.saturating_sub(tracing.spp()));
-        // what is not read yet may be lost, and is then made up for
-        let device = tracing.device();
-        if samples == 0 || is_late(&tracing) {
-            tracing.read();
-            if tracing.device() == device || is_late(&tracing) {
-                break;
-            }
-        } else {
-            tracing.add(samples);
-        }
-        progress.show(tracing.spp(), start.elapsed());
-        batch = if tracing.device() == device {
-            next_batch(samples, batch_start.elapsed(), limit.map(|l| l.saturating_sub(start.elapsed())))
-        } else {
-            1
-        };
+    let backend = backend(gpu.as_ref(), &shot.scene, args.device)?;
+    let watch = Terminal {
+        spp,
+        shown: std::io::stderr().is_terminal(),
+        start,
+        limit: args.seconds.map(Duration::from_secs_f64),
+        // a test does not wait for seconds
+        at_risk: if backend.fails_on_purpose() { Duration::ZERO } else { AT_RISK },
+    };
+    let renderer = Renderer::new(shot.scene.clone(), backend, Arc::new(Threads::all()));
+    let rendered = renderer.finish(blank, &shot.camera, (&traced.integrator, spp), &watch);
+    watch.clear();
+    Ok(Timed { rendered, seconds: start.elapsed().as_secs_f64() })
+}
+
+/// The scene made ready. What a device refuses the processor traces, unless the device is what is asked for.
+fn backend(gpu: Option<&Gpu>, scene: &Scene, choice: DeviceChoice) -> anyhow::Result<Backend> {
+    match gpu.map(|gpu| Backend::on_the_device(gpu, scene)) {
+        Some(Ok(backend)) => return Ok(backend),
+        Some(Err(fault)) if choice == DeviceChoice::Gpu => return Err(fault).context(INSTEAD),
+        Some(Err(fault)) => note!("note: the processor traces this, the graphics device does not: {fault}"),
+        None => {}
     }
-    progress.finish();
-    let Traced { film, stats, device, adapter } = tracing.finish();
-    Ok(Rendered { film, seconds: start.elapsed().as_secs_f64(), stats, device, adapter })
+    Ok(Backend::on_the_processor(scene))
 }
 
-/// How many samples fill a quarter of a second, or what is left of the time, at the speed of the last batch.
-fn next_batch(samples: u32, took: Duration, left: Option<Duration>) -> u32 {
-    let goal = left.unwrap_or(Duration::MAX).min(Duration::from_millis(250)).as_secs_f64();
-    let per_sample = took.as_secs_f64().max(1e-6) / f64::from(samples);
-    ((goal / per_sample) as u32).clamp(1, samples.saturating_mul(4))
-}
-
-/// A line on stderr that counts samples, where someone can see it.
-struct Progress {
+/// Watches the time, and counts samples on stderr where someone can see it.
+struct Terminal {
     spp: u32,
     shown: bool,
+    start: Instant,
+    limit: Option<Duration>,
+    at_risk: Duration,
 }
 
-impl Progress {
-    fn new(spp: u32) -> Self {
-        Progress { spp, shown: std::io::stderr().is_terminal() }
+impl Watch for Terminal {
+    /// One sample of every pixel is made however late it is.
+    fn ends_soon(&self, spp: u32) -> bool {
+        spp > 0 && self.limit.is_some_and(|limit| self.start.elapsed() >= limit)
     }
 
-    fn show(&self, done: u32, elapsed: Duration) {
+    /// Passes of a quarter of a second, or of what is left of the time.
+    fn pacing(&self, _spent: Duration) -> Pacing {
+        let left = self.limit.map_or(Duration::MAX, |limit| limit.saturating_sub(self.start.elapsed()));
+        Pacing { pass: left.min(Duration::from_millis(250)), show: self.at_risk, growth: 3 }
+    }
+
+    fn show(&self, _frame: Frame) {}
+
+    fn count(&self, spp: u32) {
         if self.shown {
             let of = if self.spp == u32::MAX { String::new() } else { format!(" of {}", self.spp) };
-            crate::console::to_stderr(format_args!("\r{done}{of} spp, {:.1} s ", elapsed.as_secs_f64()));
+            crate::console::to_stderr(format_args!("\r{spp}{of} spp, {:.1} s ", self.start.elapsed().as_secs_f64()));
         }
     }
 
-    fn finish(&self) {
+    fn told_of_loss(&self, fault: &GpuTraceError, spp: u32) {
+        note!("note: the processor goes on from {spp} spp, the graphics device failed: {fault}");
+    }
+}
+
+impl Terminal {
+    fn clear(&self) {
         if self.shown {
             crate::console::to_stderr(format_args!("\r\x1b[K"));
         }
     }
 }
 
-fn report(args: &RenderArgs, scene: &Scene, rendered: &Rendered, errors: Option<&Errors>) -> serde_json::Value {
+fn report(
+    args: &RenderArgs,
+    scene: &Scene,
+    (rendered, seconds): (&Rendered, f64),
+    errors: Option<&Errors>,
+) -> serde_json::Value {
     let technique = args.pane.technique;
-    let per_second = |count: u64| count as f64 / rendered.seconds;
+    let per_second = |count: u64| count as f64 / seconds;
     let mut report = json!({
         "scene": scene.name,
         "technique": technique.name(),
         "device": rendered.device.name(),
-        "adapter": rendered.adapter,
+        "adapter": rendered.made_by,
         "width": args.seen.size.0,
         "height": args.seen.size.1,
         "spp": rendered.film.samples_per_pixel(),
-        "seconds": rendered.seconds,
+        "seconds": seconds,
         "samples_per_second": per_second(rendered.stats.samples),
         "rays_per_second": per_second(rendered.stats.rays),
         "mean": rendered.film.mean(),

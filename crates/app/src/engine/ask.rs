@@ -6,15 +6,14 @@ use super::load::{Loader, Opened};
 use super::pane_workers::PaneWorkers;
 use super::post_process::{PaneUpdate, PaneUpdates, PostProcess};
 use super::reference::{ReferenceUpdate, ReferenceWorker, Wish};
-use super::{Order, Wake};
+use super::{Order, Wake, step_back};
 use crate::model::{Against, Comparison, ErrorMap, MapWish, Origin, PaneId, Panes, Wanted, WantedPane};
 use anyhow::Context;
 use film::DisplayTransform;
 use gpu::Gpu;
 use std::path::PathBuf;
 use std::sync::Arc;
-use std::thread::JoinHandle;
-use technique::{Adapters, Provenance, Shot, Technique};
+use technique::{Adapters, Provenance, Shot, Technique, Threads};
 
 /// The workers; dropping it ends their threads.
 pub struct Engine {
@@ -24,10 +23,11 @@ pub struct Engine {
     /// Made when a pane is first wanted.
     pane_workers: Panes<PaneWorkers>,
     post_process: Arc<PostProcess>,
-    post_process_thread: Option<JoinHandle<()>>,
     error_map_worker: Arc<ErrorMapWorker>,
     /// Made when it is first asked for.
     reference_worker: Option<ReferenceWorker>,
+    /// Shared by all who trace rays.
+    threads: Arc<Threads>,
     exporter: Exporter,
     loader: Loader,
     wake: Wake,
@@ -71,16 +71,17 @@ impl Engine {
     /// If the system gives no threads.
     pub fn start(window: &Gpu, adapters: &Adapters, wake: Wake) -> anyhow::Result<Self> {
         let error_map_worker = Arc::new(ErrorMapWorker::start(wake.clone()).context("no thread for maps")?);
-        let (post_process, thread) =
+        let post_process =
             PostProcess::start(wake.clone(), error_map_worker.clone()).context("no thread for the post_process")?;
+        let threads = Arc::new(Threads::beside_the_ui(step_back).context("no threads for tracing rays")?);
         Ok(Engine {
             gpu: window.clone(),
             adapters: adapters.clone(),
             pane_workers: Panes::default(),
-            post_process,
-            post_process_thread: Some(thread),
+            post_process: Arc::new(post_process),
             error_map_worker,
             reference_worker: None,
+            threads,
             exporter: Exporter::start(wake.clone()).context("no thread for exports")?,
             loader: Loader::new(wake.clone()),
             wake,
@@ -168,7 +169,8 @@ impl Engine {
 
     fn workers(&mut self, id: PaneId) -> &mut PaneWorkers {
         if self.pane_workers.get(id).is_none() {
-            let mut workers = PaneWorkers::new(id, self.gpu.clone(), self.adapters.clone(), self.post_process.clone());
+            let tracers = (self.adapters.clone(), self.threads.clone());
+            let mut workers = PaneWorkers::new(id, self.gpu.clone(), tracers, self.post_process.clone());
             workers.hold(self.asked.paused);
             self.pane_workers.insert(id, workers);
         }
@@ -218,7 +220,8 @@ impl Engine {
         let shot = shot.clone();
         if self.reference_worker.is_none() {
             // without threads there is no reference; the next wish tries again
-            self.reference_worker = ReferenceWorker::start(self.post_process.clone(), self.wake.clone()).ok();
+            self.reference_worker =
+                ReferenceWorker::start(self.threads.clone(), self.post_process.clone(), self.wake.clone()).ok();
         }
         self.asked.reference = wish;
         self.reference_worker
@@ -314,9 +317,5 @@ impl Drop for Engine {
         self.reference_worker = None;
         self.error_map_worker.close();
         self.post_process.close();
-        if let Some(thread) = self.post_process_thread.take() {
-            // a panic there has been printed already, and the window is closing
-            let _ = thread.join();
-        }
     }
 }

@@ -1,26 +1,26 @@
-//! Rendering beside the UI. Each pane has a [`pane_workers`] with a thread for each technique it has used ([`fake`],
-//! and [`rays`] with its [`progressive`], who holds a [`backend`] for the processor or for the graphics device); they
-//! turn jobs into [`Picture`]s. The [`post_process`] turns pictures into bytes for the screen and measures how far
+//! Rendering beside the UI. Each pane has a [`pane_workers`] with a thread for each technique it has used: [`fake`],
+//! and [`rays`] with its [`technique::ProgressiveRenderer`]. They turn jobs into [`Picture`]s. All who trace share one
+//! pool of threads, in turns. The [`post_process`] turns pictures into bytes for the screen and measures how far
 //! apart they are, from each other or from what the [`reference`] makes, and the [`error_map`] draws where; the
-//! [`export`] writes files and fills the clipboard. Every thread is fed through an [`Inbox`] in which newer wishes
-//! replace older ones. The UI thread only posts and collects.
+//! [`export`] writes files and fills the clipboard. Every thread is a [`worker::Worker`], fed through a
+//! [`mailbox::Mailbox`] in which newer wishes replace older ones. The UI thread only posts and collects.
 
 pub mod ask;
-pub mod backend;
 pub mod capture;
 pub mod error_map;
 pub mod export;
 pub mod fake;
 pub mod load;
+pub mod mailbox;
 pub mod pane_workers;
 pub mod post_process;
-pub mod progressive;
 pub mod rays;
 pub mod reference;
+pub mod worker;
 
 use film::Image;
 use scene::{Camera, Scene};
-use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
+use std::sync::Arc;
 use technique::{Device, Provenance};
 
 /// What a technique has made so far, in linear radiance.
@@ -104,110 +104,8 @@ pub fn step_back() {
     let _ = rustix::process::nice(10);
 }
 
+/// What a pane says where its picture was ended by a panic.
+const FAULT: &str = "the renderer stopped at a fault of its own";
+
 /// Wakes the UI thread when there is something to collect.
 pub type Wake = Arc<dyn Fn() + Send + Sync>;
-
-/// A place for the latest wish: posting changes what has not been taken yet.
-#[derive(Debug, Default)]
-pub struct Inbox<T> {
-    state: Mutex<State<T>>,
-    arrived: Condvar,
-}
-
-#[derive(Debug, Default)]
-struct State<T> {
-    content: T,
-    fresh: bool,
-    closed: bool,
-    /// Whether what is fresh is still taken after closing.
-    finish: bool,
-}
-
-impl<T: Default> Inbox<T> {
-    /// Changes the content and wakes the taker.
-    pub fn post(&self, change: impl FnOnce(&mut T)) {
-        let mut state = self.lock();
-        change(&mut state.content);
-        state.fresh = true;
-        self.arrived.notify_one();
-    }
-
-    /// Changes the content, wakes nobody and returns what `change` does.
-    pub fn change<R>(&self, change: impl FnOnce(&mut T) -> R) -> R {
-        change(&mut self.lock().content)
-    }
-
-    /// Waits for something fresh and takes it; `None` once closed, or once closed and empty.
-    pub fn take(&self) -> Option<T> {
-        let mut state = self.lock();
-        while !state.fresh && !state.closed {
-            state = self.arrived.wait(state).unwrap_or_else(PoisonError::into_inner);
-        }
-        if state.closed && !(state.finish && state.fresh) {
-            return None;
-        }
-        state.fresh = false;
-        Some(std::mem::take(&mut state.content))
-    }
-
-    /// Takes what is fresh now, without waiting.
-    pub fn take_now(&self) -> Option<T> {
-        let mut state = self.lock();
-        std::mem::take(&mut state.fresh).then(|| std::mem::take(&mut state.content))
-    }
-
-    /// Whether something waits to be taken, or the end.
-    pub fn has_fresh(&self) -> bool {
-        let state = self.lock();
-        state.fresh || state.closed
-    }
-
-    /// Ends the taker's loop.
-    pub fn close(&self) {
-        self.lock().closed = true;
-        self.arrived.notify_all();
-    }
-
-    /// Ends the taker's loop once it has taken what is there.
-    pub fn close_when_empty(&self) {
-        self.lock().finish = true;
-        self.close();
-    }
-
-    /// A thread that panicked while it held the lock left whole content behind: posting and taking do not stop midway.
-    fn lock(&self) -> MutexGuard<'_, State<T>> {
-        self.state.lock().unwrap_or_else(PoisonError::into_inner)
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn newer_wishes_replace_older_ones() {
-        let inbox = Inbox::<u32>::default();
-        inbox.post(|v| *v = 1);
-        inbox.post(|v| *v = 2);
-        assert_eq!((inbox.take(), inbox.take_now()), (Some(2), None));
-    }
-
-    #[test]
-    fn closing_when_empty_hands_out_the_rest() {
-        let inbox = Inbox::<u32>::default();
-        inbox.post(|v| *v = 3);
-        inbox.close_when_empty();
-        assert_eq!((inbox.take(), inbox.take()), (Some(3), None));
-    }
-
-    #[test]
-    fn closing_ends_a_waiting_taker() {
-        let inbox = Arc::new(Inbox::<u32>::default());
-        let taker = std::thread::spawn({
-            let inbox = inbox.clone();
-            move || inbox.take()
-        });
-        inbox.close();
-        assert_eq!(taker.join().unwrap(), None);
-    }
-}

@@ -8,13 +8,14 @@ use crate::model::PaneId;
 use anyhow::Context;
 use gpu::Gpu;
 use std::sync::Arc;
-use technique::{Adapters, Technique};
+use technique::{Adapters, Technique, Threads};
 
 /// One pane's workers; dropping it ends their threads.
 pub struct PaneWorkers {
     pane: PaneId,
     gpu: Gpu,
     adapters: Adapters,
+    threads: Arc<Threads>,
     post_process: Arc<PostProcess>,
     fake: Option<FakeWorker>,
     rays: Option<RayWorker>,
@@ -22,9 +23,14 @@ pub struct PaneWorkers {
 }
 
 impl PaneWorkers {
-    /// A pane_workers without workers yet. `gpu` is the window's, `adapters` can trace rays.
-    pub fn new(pane: PaneId, gpu: Gpu, adapters: Adapters, post_process: Arc<PostProcess>) -> Self {
-        PaneWorkers { pane, gpu, adapters, post_process, fake: None, rays: None, held: false }
+    /// A pane_workers without workers yet. `gpu` is the window's, `adapters` and `threads` can trace rays.
+    pub fn new(
+        pane: PaneId,
+        gpu: Gpu,
+        (adapters, threads): (Adapters, Arc<Threads>),
+        post_process: Arc<PostProcess>,
+    ) -> Self {
+        PaneWorkers { pane, gpu, adapters, threads, post_process, fake: None, rays: None, held: false }
     }
 
     /// Draws the fake on another device of the window's from now on.
@@ -72,11 +78,12 @@ impl PaneWorkers {
 
     fn rays(&mut self) -> anyhow::Result<&mut RayWorker> {
         if self.rays.is_none() {
-            let worker = RayWorker::start(self.pane, self.adapters.clone(), self.post_process.clone())
-                .context("no threads for tracing rays")?;
+            let worker =
+                RayWorker::start(self.pane, (self.adapters.clone(), self.threads.clone()), self.post_process.clone());
+            let worker = worker.context("no thread for tracing rays")?;
             worker.hold(self.held);
             self.rays = Some(worker);
         }
-        self.rays.as_mut().context("no threads for tracing rays")
+        self.rays.as_mut().context("no thread for tracing rays")
     }
 }

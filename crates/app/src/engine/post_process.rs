@@ -4,13 +4,13 @@
 //! may wait.
 
 use super::error_map::ErrorMapWorker;
-use super::{Inbox, Order, Picture, Wake};
+use super::worker::{Control, Service, Worker};
+use super::{Order, Picture, Wake};
 use crate::model::{Against, Comparison, ErrorMapJob, MapWish, PaneId, Panes};
 use crate::ruler::{Pair, ReferenceImage};
 use compare::{Errors, errors};
 use film::DisplayTransform;
 use std::sync::Arc;
-use std::thread::JoinHandle;
 
 /// A picture ready for the screen.
 #[derive(Debug, Clone)]
@@ -35,12 +35,8 @@ pub enum PaneUpdate {
 /// What the UI collects.
 pub type PaneUpdates = Panes<PaneUpdate>;
 
-/// Posts to the thread, which [`PostProcess::start`] began.
-#[derive(Debug, Default)]
-pub struct PostProcess {
-    inbox: Inbox<Pending>,
-    updates: Inbox<PaneUpdates>,
-}
+/// The worker; [`PostProcess::close`] ends its thread.
+pub struct PostProcess(Worker<Pending, PaneUpdates>);
 
 /// What a worker brings.
 #[derive(Debug)]
@@ -64,6 +60,8 @@ struct Pending {
 /// All that the thread has in hand.
 #[derive(Default)]
 struct Latest {
+    /// Draws maps of them.
+    error_map_worker: Option<Arc<ErrorMapWorker>>,
     latest: Panes<Picture>,
     /// The newest job that each pane has delivered.
     newest: Panes<u64>,
@@ -80,13 +78,9 @@ impl PostProcess {
     ///
     /// # Errors
     /// If the system gives no thread.
-    pub fn start(wake: Wake, error_map_worker: Arc<ErrorMapWorker>) -> std::io::Result<(Arc<Self>, JoinHandle<()>)> {
-        let post_process = Arc::new(PostProcess::default());
-        let thread = std::thread::Builder::new().name("post_process".into()).spawn({
-            let post_process = post_process.clone();
-            move || post_process.work(&wake, &error_map_worker)
-        })?;
-        Ok((post_process, thread))
+    pub fn start(wake: Wake, error_map_worker: Arc<ErrorMapWorker>) -> std::io::Result<Self> {
+        let service = || Latest { error_map_worker: Some(error_map_worker), ..Latest::default() };
+        Worker::start("post_process", wake, service).map(PostProcess)
     }
 
     /// A new picture of one pane.
@@ -105,64 +99,68 @@ impl PostProcess {
     }
 
     fn arrive(&self, pane: PaneId, arrival: Arrival) {
-        self.inbox.post(|pending| drop(pending.arrivals.insert(pane, arrival)));
+        self.0.post(|pending| drop(pending.arrivals.insert(pane, arrival)));
     }
 
     /// A new display transform for all.
     pub fn set_display(&self, display: DisplayTransform) {
-        self.inbox.post(|pending| pending.display = Some(display));
+        self.0.post(|pending| pending.display = Some(display));
     }
 
     /// Other errors to measure, and the map that is looked at.
     pub fn set_comparisons(&self, comparisons: Vec<Comparison>, map: Option<MapWish>) {
-        self.inbox.post(|pending| pending.comparisons = Some((comparisons, map)));
+        self.0.post(|pending| pending.comparisons = Some((comparisons, map)));
     }
 
     /// The reference of a view as far as it has come, or that there is none.
     pub fn set_reference(&self, reference: Option<(u64, ReferenceImage)>) {
-        self.inbox.post(|pending| pending.reference = Some(reference));
+        self.0.post(|pending| pending.reference = Some(reference));
     }
 
     /// Forgets every picture of a view before this one, whether it has come or is still on its way.
     pub fn forget_before(&self, view: u64) {
-        self.inbox.post(|pending| pending.oldest_view = Some(view));
+        self.0.post(|pending| pending.oldest_view = Some(view));
     }
 
     /// What is new since the last call.
     pub fn collect(&self) -> Option<PaneUpdates> {
-        self.updates.take_now()
+        self.0.collect()
     }
 
     /// Ends the thread.
     pub fn close(&self) {
-        self.inbox.close();
+        self.0.close();
     }
+}
 
-    fn work(&self, wake: &Wake, error_map_worker: &ErrorMapWorker) {
-        let mut latest = Latest::default();
-        while let Some(pending) = self.inbox.take() {
-            let redevelop = pending.display.is_some();
-            let (fresh, faults) = latest.sort(pending);
-            let errors = latest.errors();
-            let resolve = |(pane, picture): (PaneId, &Picture)| {
-                let new = redevelop || fresh.get(pane).is_some();
-                let rgba = new.then(|| latest.display.rgba8_of(&picture.image));
-                (pane, DisplayFrame { picture: picture.clone(), rgba, errors: errors.get(pane).copied() })
-            };
-            // all at once: the error of one belongs to the picture of the other
-            let frames: Panes<DisplayFrame> = latest.latest.iter().map(resolve).collect();
-            self.updates.post(|updates| {
-                frames.into_iter().for_each(|(pane, frame)| shelve(updates, pane, frame));
-                for (pane, fault) in faults {
-                    updates.insert(pane, PaneUpdate::Fault(fault));
-                }
-            });
-            wake();
-            if let Some(map_job) = latest.map_job() {
-                error_map_worker.submit(map_job);
+impl Service for Latest {
+    type Job = Pending;
+    type Update = PaneUpdates;
+
+    fn serve(&mut self, pending: Pending, control: &Control<Pending, PaneUpdates>) {
+        let redevelop = pending.display.is_some();
+        let (fresh, faults) = self.sort(pending);
+        let errors = self.errors();
+        let resolve = |(pane, picture): (PaneId, &Picture)| {
+            let new = redevelop || fresh.get(pane).is_some();
+            let rgba = new.then(|| self.display.rgba8_of(&picture.image));
+            (pane, DisplayFrame { picture: picture.clone(), rgba, errors: errors.get(pane).copied() })
+        };
+        // all at once: the error of one belongs to the picture of the other
+        let frames: Panes<DisplayFrame> = self.latest.iter().map(resolve).collect();
+        control.tell(|updates| {
+            frames.into_iter().for_each(|(pane, frame)| shelve(updates, pane, frame));
+            for (pane, fault) in faults {
+                updates.insert(pane, PaneUpdate::Fault(fault));
             }
+        });
+        if let (Some(worker), Some(map_job)) = (&self.error_map_worker, self.map_job()) {
+            worker.submit(map_job);
         }
     }
+
+    /// What has come is still there, and shown with the next that comes.
+    fn recover(&mut self, _control: &Control<Pending, PaneUpdates>) {}
 }
 
 impl Latest {

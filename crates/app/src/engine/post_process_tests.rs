@@ -37,7 +37,7 @@ fn both(against: impl Fn(PaneId) -> Against) -> Vec<Comparison> {
 /// Runs a post_process over what `post` posts, and returns all that it shelved.
 fn frame(post: impl Fn(&PostProcess)) -> PaneUpdates {
     let error_map_worker = Arc::new(ErrorMapWorker::start(Arc::new(|| {})).unwrap());
-    let (post_process, thread) = PostProcess::start(Arc::new(|| {}), error_map_worker).unwrap();
+    let post_process = PostProcess::start(Arc::new(|| {}), error_map_worker).unwrap();
     post(&post_process);
     let mut updates = PaneUpdates::default();
     for _ in 0..200 {
@@ -47,7 +47,6 @@ fn frame(post: impl Fn(&PostProcess)) -> PaneUpdates {
         std::thread::sleep(std::time::Duration::from_millis(1));
     }
     post_process.close();
-    thread.join().unwrap();
     updates
 }
 
