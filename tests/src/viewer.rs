@@ -33,15 +33,6 @@ impl ViewerUnderTest {
         Self::start_in(binary, screen, &[("WINIT_X11_SCALE_FACTOR", &scale.to_string())], arguments)
     }
 
-    /// The same with this folder for references.
-    ///
-    /// # Panics
-    /// If it does not start.
-    pub fn start_cached(binary: &Path, screen: &Screen, cache: &Path, arguments: &[&str]) -> Self {
-        let cache = cache.to_str().expect("a plain path");
-        Self::start_in(binary, screen, &[("VISAVIS_CACHE", cache)], arguments)
-    }
-
     /// The same with these variables in its environment.
     ///
     /// # Panics

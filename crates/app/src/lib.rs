@@ -1,8 +1,8 @@
 //! Visavis: the rasterised fake of a scene face to face with its path-traced truth.
 //!
-//! [`run`] reads the command line ([`cli`]): headless commands, or the viewer. The viewer is three layers: [`ui`] draws
-//! controls and pictures into egui and knows no window; the [`engine`] renders beside it; [`window`] is the shell
-//! around both, the only place that knows winit.
+//! [`run`] reads the command line ([`cli`]): headless commands, or the viewer. The viewer's state is a [`model`], plain
+//! values; [`ui`] draws it into egui, and the [`engine`] makes beside it what it wants; neither knows of the other. The
+//! [`viewer`] is all three in a frame, and [`window`] the only place that knows winit.
 
 #[macro_use]
 mod console;

@@ -5,7 +5,7 @@ use super::export::{Export, Exporter, Outcome};
 use super::load::{Loader, Opened};
 use super::pane_workers::PaneWorkers;
 use super::post_process::{PaneUpdate, PaneUpdates, PostProcess};
-use super::reference::{ReferenceUpdate, ReferenceWorker, Wish};
+use super::reference::{OpenStore, ReferenceUpdate, ReferenceWorker, Wish};
 use super::{Order, Wake, step_back};
 use crate::model::{Against, Comparison, ErrorMap, MapWish, Origin, PaneId, Panes, Wanted, WantedPane};
 use anyhow::Context;
@@ -26,6 +26,7 @@ pub struct Engine {
     error_map_worker: Arc<ErrorMapWorker>,
     /// Made when it is first asked for.
     reference_worker: Option<ReferenceWorker>,
+    open_store: OpenStore,
     /// Shared by all who trace rays.
     threads: Arc<Threads>,
     exporter: Exporter,
@@ -65,11 +66,12 @@ struct AskedPane {
 }
 
 impl Engine {
-    /// Starts the threads; `wake` is called whenever there is something to collect.
+    /// Starts the threads; `wake` is called whenever there is something to collect. References are kept where
+    /// `open_store` says.
     ///
     /// # Errors
     /// If the system gives no threads.
-    pub fn start(window: &Gpu, adapters: &Adapters, wake: Wake) -> anyhow::Result<Self> {
+    pub fn start(window: &Gpu, adapters: &Adapters, open_store: OpenStore, wake: Wake) -> anyhow::Result<Self> {
         let error_map_worker = Arc::new(ErrorMapWorker::start(wake.clone()).context("no thread for maps")?);
         let post_process =
             PostProcess::start(wake.clone(), error_map_worker.clone()).context("no thread for the post_process")?;
@@ -81,6 +83,7 @@ impl Engine {
             post_process: Arc::new(post_process),
             error_map_worker,
             reference_worker: None,
+            open_store,
             threads,
             exporter: Exporter::start(wake.clone()).context("no thread for exports")?,
             loader: Loader::new(wake.clone()),
@@ -156,8 +159,8 @@ impl Engine {
         jobs
     }
 
-    /// Stops the workers of panes that are no longer wanted. They stay: what they have made is there again when the pane
-    /// is.
+    /// Stops the workers of panes that are no longer wanted. They stay: what they have made is there again with the
+    /// pane.
     fn follow_the_panes(&mut self, wanted: &Wanted) {
         let gone: Vec<PaneId> = self.asked.panes.ids().filter(|id| wanted.panes.get(*id).is_none()).collect();
         for id in gone {
@@ -220,8 +223,13 @@ impl Engine {
         let shot = shot.clone();
         if self.reference_worker.is_none() {
             // without threads there is no reference; the next wish tries again
-            self.reference_worker =
-                ReferenceWorker::start(self.threads.clone(), self.post_process.clone(), self.wake.clone()).ok();
+            self.reference_worker = ReferenceWorker::start(
+                self.threads.clone(),
+                self.post_process.clone(),
+                self.open_store.clone(),
+                self.wake.clone(),
+            )
+            .ok();
         }
         self.asked.reference = wish;
         self.reference_worker

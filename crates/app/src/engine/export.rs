@@ -25,11 +25,11 @@ pub enum Content {
 /// Something to export.
 #[derive(Debug)]
 pub struct Export {
-    /// What.
+    /// The pixels, or what they are made from.
     pub content: Content,
     /// What the file keeps about it.
     pub records: Records,
-    /// Where to.
+    /// The file or the clipboard.
     pub to: Destination,
 }
 

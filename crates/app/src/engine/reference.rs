@@ -8,10 +8,13 @@ use super::{Wake, step_back};
 use crate::model::{Origin, Progress};
 use crate::ruler::ReferenceImage;
 use pathtrace::FEWEST_REPLICATES;
-use reference::{Goal, Key, Maker, Reference, Store};
+use reference::{Goal, Key, Maker, Reference, Store, StoreError};
 use std::path::Path;
 use std::sync::Arc;
 use technique::{Rank, Renderer, Shot, Threads};
+
+/// Where references are kept, looked up anew for each.
+pub type OpenStore = Arc<dyn Fn() -> Result<Store, StoreError> + Send + Sync>;
 
 /// A reference to come by.
 #[derive(Debug, Clone)]
@@ -42,10 +45,15 @@ impl ReferenceWorker {
     ///
     /// # Errors
     /// If the system gives no thread.
-    pub fn start(threads: Arc<Threads>, post_process: Arc<PostProcess>, wake: Wake) -> std::io::Result<Self> {
+    pub fn start(
+        threads: Arc<Threads>,
+        post_process: Arc<PostProcess>,
+        open_store: OpenStore,
+        wake: Wake,
+    ) -> std::io::Result<Self> {
         let service = move || {
             step_back();
-            References { post_process, threads, renderer: None }
+            References { post_process, threads, open_store, renderer: None }
         };
         Worker::start("reference_worker", wake, service).map(ReferenceWorker)
     }
@@ -78,6 +86,7 @@ type ReferenceControl = Control<Option<Wish>, ReferenceUpdate>;
 struct References {
     post_process: Arc<PostProcess>,
     threads: Arc<Threads>,
+    open_store: OpenStore,
     /// The scene of the last wish, ready for rays.
     renderer: Option<Renderer>,
 }
@@ -107,7 +116,7 @@ impl Service for References {
 impl References {
     fn make(&mut self, wish: &Wish, control: &ReferenceControl) {
         let key = Key::of(&wish.shot);
-        let store = Store::of_the_user().map_err(|fault| fail(control, fault.to_string())).ok();
+        let store = (self.open_store)().map_err(|fault| fail(control, fault.to_string())).ok();
         let kept = store.as_ref().and_then(|store| store.get(key));
         match &kept {
             Some(kept) => self.show(wish, kept, false, control),

@@ -51,7 +51,7 @@ impl Against {
 pub struct Comparison {
     /// Whose errors are measured.
     pub of: PaneId,
-    /// By what.
+    /// What it is held against.
     pub against: Against,
 }
 
@@ -60,7 +60,7 @@ pub struct Comparison {
 pub struct MapWish {
     /// Whose errors, and by what they are measured.
     pub comparison: Comparison,
-    /// Which.
+    /// The errors that its colours show.
     pub metric: ErrorMetric,
     /// Where its scale ends; `None` to fit it.
     pub held: Option<f32>,

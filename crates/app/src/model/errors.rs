@@ -58,7 +58,7 @@ impl ErrorHistory {
         self.points.iter().chain(self.latest.iter().filter(|latest| self.points.last() != Some(latest)))
     }
 
-    /// The latest.
+    /// The newest moment, kept or not.
     pub fn latest(&self) -> Option<&ErrorPoint> {
         self.latest.as_ref()
     }

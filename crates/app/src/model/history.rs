@@ -13,12 +13,12 @@ pub struct Settings {
     pub panes: Panes<PaneSettings>,
     /// How all are shown.
     pub display: DisplayTransform,
-    /// Of all.
+    /// How many pixels pictures have.
     pub resolution: Resolution,
 }
 
 impl Settings {
-    /// As they stand.
+    /// The settings as they stand now.
     pub fn of(document: &Document, session: &Session) -> Self {
         let Session { panes, display, resolution, .. } = session;
         Settings { changes: document.changes, panes: panes.clone(), display: *display, resolution: *resolution }

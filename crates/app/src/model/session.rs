@@ -12,7 +12,7 @@ pub struct Session {
     pub panes: Panes<PaneSettings>,
     /// How all are shown.
     pub display: DisplayTransform,
-    /// Of all.
+    /// How many pixels pictures have.
     pub resolution: Resolution,
     /// Which is shown.
     pub view: View,

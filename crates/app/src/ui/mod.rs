@@ -1,6 +1,6 @@
-//! What the window shows: draws a [`Model`] and what there is to show of it ([`ViewModel`]) into egui, changes the model
-//! as the user wants, and asks the window for what only that can do ([`UiCommand`]). It knows no window, no GPU and no
-//! thread.
+//! What the window shows: draws a [`Model`] and what there is to show of it ([`ViewModel`]) into egui, changes the
+//! model as the user wants, and asks the window for what only that can do ([`UiCommand`]). It knows no window, no GPU
+//! and no thread.
 
 mod controls;
 mod dump;

@@ -15,6 +15,7 @@ use anyhow::Context;
 use egui_wgpu::ScreenDescriptor;
 use egui_winit::accesskit_winit;
 use gpu::Gpu;
+use reference::Store;
 use scene::Scene;
 use std::path::Path;
 use std::sync::Arc;
@@ -87,7 +88,7 @@ impl WindowState {
         egui.init_accesskit(events, &window, proxy);
         window.set_visible(true);
         window.request_redraw();
-        let engine = Engine::start(&gpu, &adapters, wake)?;
+        let engine = Engine::start(&gpu, &adapters, Arc::new(Store::of_the_user), wake)?;
         let model = Model::new(scene, args.scene.clone(), args.theme).beside(adapters, args.device);
         let workspaces = Workspaces::beginning_with(args.workspace.as_deref());
         Ok(WindowState {

@@ -48,6 +48,9 @@ fn run(command: &str, out: &Path) {
 fn a_pane_its_film_and_its_command_are_one_picture() {
     let mut user = User::of("whitted");
     user.wait_for("both pictures", both_whole);
+    // what is changed in the scene is in film and command
+    user.set_slider("Refraction ratio (n = 1.43)", 0.6);
+    user.wait_for("both pictures of the changed scene", both_whole);
     hold(&mut user);
     for (pane, choice) in [("A", "A alone"), ("B", "B alone")] {
         let (png, exr) = (user.file(&format!("{pane}.png")), user.file(&format!("{pane}.exr")));

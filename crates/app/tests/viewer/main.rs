@@ -3,6 +3,7 @@
 #![expect(clippy::expect_used, reason = "a test stops at the first thing that is not as it must be")]
 
 mod camera;
+mod comparison;
 mod device;
 mod export;
 mod layout;
@@ -14,8 +15,10 @@ use egui::{ColorImage, Key, Modifiers, Pos2, TextureHandle, TextureOptions, Vec2
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 use gpu::Gpu;
+use reference::Store;
 use std::cell::RefCell;
 use std::collections::HashMap;
+use std::path::Path;
 use std::rc::Rc;
 use std::sync::{Arc, Mutex, MutexGuard};
 use std::time::{Duration, Instant};
@@ -57,15 +60,27 @@ impl User {
         Self::beside(scene, Vec2::new(1280.0, 720.0), 1.0, DeviceChoice::Auto)
     }
 
+    /// Of a scene, who keeps references in this folder.
+    pub fn who_keeps(scene: &str, store: &Path) -> Self {
+        Self::with(scene, Vec2::new(1280.0, 720.0), 1.0, DeviceChoice::Auto, Some(store))
+    }
+
     /// Of a scene, in a window of `size` points with `scale` pixels each, rays traced on `device`.
     pub fn beside(scene: &str, size: Vec2, scale: f32, device: DeviceChoice) -> Self {
+        Self::with(scene, size, scale, device, None)
+    }
+
+    fn with(scene: &str, size: Vec2, scale: f32, device: DeviceChoice, store: Option<&Path>) -> Self {
         static ONE: Mutex<()> = Mutex::new(());
         let alone = ONE.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
         let gpu = Gpu::headless().expect("a device that draws the fake");
         let adapters = Adapters::of(&Gpu::adapters());
         let opened = scene::builtin::named(scene).expect("a scene");
         let model = Model::new(opened, scene.into(), Theme::Dark).beside(adapters.clone(), device);
-        let engine = Engine::start(&gpu, &adapters, Arc::new(|| {})).expect("threads");
+        let folder = TestFolder::new();
+        let store = store.map_or_else(|| folder.file("store"), Path::to_owned);
+        let open_store = Arc::new(move || Ok(Store::new(store.clone(), Store::MOST_BYTES)));
+        let engine = Engine::start(&gpu, &adapters, open_store, Arc::new(|| {})).expect("threads");
         let viewer = Viewer::new(model, Workspaces::default(), engine, Instant::now());
         let viewer = Rc::new(RefCell::new(viewer));
         let (shared, mut kept) = (viewer.clone(), HashMap::new());
@@ -81,7 +96,7 @@ impl User {
             viewer.shown();
         };
         let harness = Harness::builder().with_size(size).with_pixels_per_point(scale).build_ui(app);
-        User { harness, viewer, folder: TestFolder::new(), _alone: alone }
+        User { harness, viewer, folder, _alone: alone }
     }
 
     /// A file that no test has but this one.

@@ -6,7 +6,7 @@ use crate::ui::overlay::say;
 use crate::ui::{UiContext, controls};
 use egui::Ui;
 
-/// Nothing.
+/// Has neither pictures nor state.
 pub struct Empty;
 
 impl Workspace for Empty {
