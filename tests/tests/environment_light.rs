@@ -66,9 +66,9 @@ fn settings(estimator: Estimator, seed: u32) -> PathSettings {
 /// The same on both machines.
 fn films(scene: &Scene, settings: &PathSettings, samples: u32) -> [Film; 2] {
     let [mut by_cpu, mut by_gpu] = [Film::new(32, 18), Film::new(32, 18)];
-    Tracer::new(scene).render(&mut by_cpu, &scene.camera, settings, samples, &|| false);
+    Tracer::new(scene).render(&mut by_cpu, &scene.camera, &(*settings).into(), samples, &|| false);
     let mut device = GpuTracer::new(&gpu::Gpu::headless().unwrap(), scene).unwrap();
-    device.render(&mut by_gpu, &scene.camera, settings, samples, &|| false).unwrap();
+    device.render(&mut by_gpu, &scene.camera, &(*settings).into(), samples, &|| false).unwrap();
     assert_eq!((by_cpu.nonfinite, by_gpu.nonfinite), (0, 0));
     [by_cpu, by_gpu]
 }
@@ -118,7 +118,7 @@ fn a_bright_texel_lights_a_floor_as_the_closed_form_says() {
     // a light like any other for Whitted's trees
     let trees = WhittedSettings { ambient: Some(0.0), sampler: SamplerKind::Independent, ..WhittedSettings::default() };
     let mut film = Film::new(32, 18);
-    Tracer::new(&scene).render_whitted(&mut film, &scene.camera, &trees, 64, &|| false);
+    Tracer::new(&scene).render(&mut film, &scene.camera, &trees.into(), 64, &|| false);
     compare("whitted", &film);
 }
 
