@@ -97,6 +97,12 @@ impl<'a, F: Float> crate::drive::lanes::LaneIntegrator<F> for PathLanes<'a, F> {
             let weight = self.path.weight_of_meeting(F::splat(self.scene.sun_pdf));
             self.receive(missed, self.scene.environment(self.path.rays.direction, weight));
         }
+        if let Some(environment) = self.scene.lights.environment()
+            && missed.any()
+        {
+            let (radiance, pdf) = environment.look_up(self.path.rays.direction);
+            self.receive(missed, radiance * self.path.weight_of_meeting(pdf));
+        }
         let kinds = self.scene.materials.kinds(hit.material);
         let shining = met & kinds.area_light();
         if self.scene.materials.has().area_lights && shining.any() {
