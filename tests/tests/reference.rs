@@ -140,7 +140,7 @@ fn a_file_keeps_every_bit() {
     let bytes = image_file::encode(image_file::Kind::Exr, &plain, &Default::default(), &Vec::new()).unwrap();
     std::fs::write(&file, bytes).unwrap();
     let loaded = Reference::load(&file).unwrap();
-    assert_eq!((loaded.standard_errors(), loaded.replicates, loaded.image), (None, 0, plain));
+    assert_eq!((loaded.standard_errors(), loaded.replicates, &loaded.image), (None, 0, &plain));
 }
 
 fn keys(count: u32) -> Vec<Key> {
