@@ -1,7 +1,8 @@
 //! The fake's functions in WGSL and in Rust give the same numbers: each is run on the device over random inputs.
 
 use gpu::upload::TexturePlan;
-use gpu::{Gpu, wgpu, wgsl};
+use gpu::wgsl::{self, Source};
+use gpu::{Gpu, wgpu};
 use raster::shading;
 use scene::Vec3;
 use scene::material::Checkerboard;
@@ -54,12 +55,10 @@ fn run(import: &str, body: &str, width: usize, input: &[f32], map: &[f32]) -> Ve
             results[id.x * 3u + 2u] = r.z;
         }}"
     );
-    let find = |path: &str| match path {
-        "test.wgsl" => Some(shader.as_str()),
-        _ => wgsl::FILES.iter().find(|(name, _)| *name == path).map(|(_, text)| *text),
-    };
+    let test = [Source { path: "test.wgsl", text: &shader }];
+    let [own, shared] = raster::shaders::LIBRARY;
     let gpu = Gpu::headless().unwrap();
-    let module = wgsl::compose_from("test.wgsl", &find).unwrap().create(&gpu).unwrap();
+    let module = wgsl::compose(&[&test, own, shared], "test.wgsl").unwrap().create(&gpu).unwrap();
     let items = input.len() / width;
     let storage = wgpu::BufferUsages::STORAGE;
     let numbers = gpu.buffer("numbers", input, storage).unwrap();

@@ -7,6 +7,7 @@ mod adapter;
 mod error;
 mod fault_injection;
 pub mod readback;
+pub mod shared_shaders;
 pub mod upload;
 pub mod waiting;
 pub mod wgsl;

@@ -5,9 +5,10 @@ use crate::gpu_data::Lights;
 use crate::knobs::ShadowFilter;
 use crate::plan::Casting;
 use crate::settings::Fake;
+use crate::shaders;
 use crate::targets::{Colours, DEPTH, SHADOW};
 use crate::tessellation::Vertex;
-use gpu::{Gpu, GpuError, wgsl};
+use gpu::{Gpu, GpuError};
 use scene::Vec3;
 use std::num::NonZeroU64;
 use wgpu::{BindGroupLayout, BindingType, Face, RenderPipeline, ShaderStages, TextureFormat, TextureViewDimension};
@@ -80,9 +81,9 @@ pub struct Pipelines {
 impl Pipelines {
     /// Composes and compiles all of them.
     pub fn new(gpu: &Gpu) -> Result<Pipelines, RasterError> {
-        let shadow = wgsl::compose("raster/shadow_map.wgsl")?.create(gpu)?;
-        let forward = wgsl::compose("raster/forward.wgsl")?.create(gpu)?;
-        let resolve = wgsl::compose("film/resolve.wgsl")?.create(gpu)?;
+        let shadow = shaders::compose("raster/shadow_map.wgsl")?.create(gpu)?;
+        let forward = shaders::compose("raster/forward.wgsl")?.create(gpu)?;
+        let resolve = shaders::compose("film/resolve.wgsl")?.create(gpu)?;
         Ok(gpu.checked("the fake's pipelines", || compile(gpu, &shadow, forward, &resolve))?)
     }
 

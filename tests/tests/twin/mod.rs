@@ -1,6 +1,7 @@
 //! Runs functions of the path tracer's shaders over many inputs at once.
 
-use gpu::{Gpu, wgpu, wgsl};
+use gpu::wgsl::{self, Source};
+use gpu::{Gpu, wgpu};
 use pathtrace::gpu::GpuTracer;
 use pathtrace::sampling::{self, rng};
 use scene::{Scene, Vec3};
@@ -49,12 +50,10 @@ pub fn run(
             results[id.x] = result(id.x * 8u) ^ vec4u(header.zero);
         }}"
     );
-    let find = |path: &str| match path {
-        "test.wgsl" => Some(shader.as_str()),
-        _ => wgsl::FILES.iter().find(|(name, _)| *name == path).map(|(_, text)| *text),
-    };
+    let test = [Source { path: "test.wgsl", text: &shader }];
+    let [own, shared] = pathtrace::shaders::LIBRARY;
     let gpu = tracer.gpu();
-    let module = wgsl::compose_from("test.wgsl", &find).unwrap().create(gpu).unwrap();
+    let module = wgsl::compose(&[&test, own, shared], "test.wgsl").unwrap().create(gpu).unwrap();
     let storage = wgpu::BufferUsages::STORAGE;
     let numbers = gpu.buffer("numbers", input, storage).unwrap();
     let empty = vec![[u32::MAX; 4]; input.len()];

@@ -8,7 +8,8 @@ use crate::integrator::settings::{Directions, LightSampling, PathSettings};
 use crate::integrator::whitted::{GlassShadows, WhittedSettings};
 use crate::light::flat::Outline;
 use crate::light::{Light, Lights};
-use gpu::{Gpu, wgpu, wgsl};
+use crate::shaders;
+use gpu::{Gpu, wgpu};
 use scene::{Needs, Scene};
 use std::num::NonZeroU64;
 use wgpu::{BindGroupLayout, BindingType, BufferBindingType, ComputePipeline};
@@ -203,7 +204,7 @@ impl Pipelines {
         if let Some((_, pipeline)) = self.compiled.iter().find(|(compiled, _)| *compiled == choice) {
             return Ok(pipeline.clone());
         }
-        let module = wgsl::compose(match choice.technique {
+        let module = shaders::compose(match choice.technique {
             Technique::Path => "pathtrace/integrator/path.wgsl",
             Technique::Whitted => "pathtrace/integrator/whitted.wgsl",
         })?

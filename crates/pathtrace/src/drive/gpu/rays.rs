@@ -2,8 +2,9 @@
 
 use super::{GpuTraceError, GpuTracer};
 use crate::intersect::{Ray, SurfacePoint};
+use crate::shaders;
 use bytemuck::{Pod, Zeroable};
-use gpu::{Gpu, wgpu, wgsl};
+use gpu::{Gpu, wgpu};
 use scene::Vec3;
 use wgpu::{BindGroupEntry, BufferUsages};
 
@@ -111,7 +112,7 @@ impl GpuTracer {
 
     fn rays_pipeline(&self) -> Result<wgpu::ComputePipeline, GpuTraceError> {
         let gpu = self.gpu();
-        let module = wgsl::compose("pathtrace/drive/rays.wgsl")?.create(gpu)?;
+        let module = shaders::compose("pathtrace/drive/rays.wgsl")?.create(gpu)?;
         Ok(gpu.checked("the pipeline for rays", || {
             let groups = [Some(self.scene_group().0), Some(&rays_layout(gpu))].map(|g| g.cloned());
             let layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
