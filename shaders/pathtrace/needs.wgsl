@@ -1,5 +1,6 @@
 // What a scene and its settings ask for. Pipelines are compiled for each choice, so that what is not asked for costs
-// neither time nor registers. Twin: crates/scene/src/needs.rs and crates/pathtrace/src/integrator/settings.rs.
+// neither time nor registers. Twins: crates/scene/src/needs.rs, and
+// crates/pathtrace/src/drive/gpu/pipelines.rs, which sets them.
 
 // whether all shapes are met one by one; through a tree if not
 override FEW_SHAPES: bool = false;
@@ -21,8 +22,8 @@ override SUN: bool = true;
 override SOBOL: bool = true;
 // whether diffuse vertices draw directions uniformly; by the cosine if not
 override UNIFORM_DIRECTIONS: bool = true;
-// how light is found: 0 by chance, 1 by sampling, 2 both, weighted
-override LIGHT_SEARCH: u32 = 2u;
+// how light is found: by chance, by sampling, or both, weighted
+override LIGHT_SEARCH: u32 = BY_BOTH;
 // whether a diffuse vertex may be left in more than one direction
 override BRANCHING: bool = true;
 // whether shadow rays pass glass

@@ -23,6 +23,15 @@ macro_rules! wgsl_sources {
     };
 }
 
+/// Constants by their names, as `(name, value)`, for tests that hold them against their twins in WGSL: what fits an
+/// `f64` without rounding.
+#[macro_export]
+macro_rules! named_values {
+    ($($constant:ident),* $(,)?) => {
+        vec![$((stringify!($constant), $constant as f64)),*]
+    };
+}
+
 const IMPORT: &str = "//#import ";
 
 /// Why there is no shader. Each message begins with the place.

@@ -53,6 +53,17 @@ impl Choice {
         let sun = lights.sun_incident.cmpgt(Vec3::ZERO).any();
         Choice { fake, filter, sun, area_light: lights.area_light_pattern, shading: lights.shading }
     }
+
+    /// Values of the overrides in `shaders/raster/forward.wgsl`, for glass or for everything else.
+    pub fn constants(&self, glass: bool) -> [(&'static str, f64); 5] {
+        [
+            ("SHADOW_FILTER", f64::from(self.filter.code())),
+            ("GLASS", f64::from(u8::from(glass))),
+            ("SUN", f64::from(u8::from(self.sun))),
+            ("AREA_LIGHT", f64::from(self.area_light)),
+            ("SHADING", f64::from(self.shading)),
+        ]
+    }
 }
 
 /// All pipelines.
@@ -106,21 +117,15 @@ impl Pipelines {
 
     fn compile_forward(&self, gpu: &Gpu, choice: Choice) -> ForwardPasses {
         let groups: &[_] = &[&self.frame_layout, &self.object_layout];
-        let constants = |glass| {
-            [
-                ("SHADOW_FILTER", f64::from(choice.filter.code())),
-                ("GLASS", f64::from(u8::from(glass))),
-                ("SUN", f64::from(u8::from(choice.sun))),
-                ("AREA_LIGHT", f64::from(choice.area_light)),
-                ("SHADING", f64::from(choice.shading)),
-            ]
-        };
         let into = |format, samples| {
             let module = &self.forward_module;
             let build = |cull_mode, constants: &[_]| {
                 Build { groups, module, format, samples, cull_mode, full_screen: false, constants }.pipeline(gpu)
             };
-            Forward { surface: build(None, &constants(false)), glass: build(Some(Face::Front), &constants(true)) }
+            Forward {
+                surface: build(None, &choice.constants(false)),
+                glass: build(Some(Face::Front), &choice.constants(true)),
+            }
         };
         let colours = Colours::of(choice.fake, gpu);
         ForwardPasses { cube_map: into(colours.cube_map, 1), picture: into(colours.picture, colours.samples) }

@@ -2,7 +2,7 @@
 //#import pathtrace/bsdf/bsdf.wgsl
 //#import pathtrace/drive/film.wgsl
 // One path: the tutorial's `shade`, turned from recursion into a state that moves from vertex to vertex (Task 2 d).
-// Twin: crates/pathtrace/src/integrator/path.rs.
+// Twins: crates/pathtrace/src/integrator/path.rs, path_state.rs, forks.rs and roulette.rs.
 //
 // A thread is a pixel. Each iteration of its one loop is one segment: meet a surface, take its emission, sample a
 // light, draw a direction, play roulette; a thread whose path has ended begins its next sample in the same iteration.
@@ -23,7 +23,8 @@ struct PathState {
     direction_pdf: f32,
 }
 
-// No light was sampled at the last vertex, or none could be: the camera, a mirror, glass.
+// No light was sampled at the last vertex, or none could be: the camera, a mirror, glass. Other than
+// the twin's: shaders may take infinity away.
 const MET_BY_CHANCE: f32 = -1.0;
 // Light was sampled at the last vertex: meeting it now would count it twice.
 const ALREADY_COUNTED: f32 = 0.0;
@@ -39,7 +40,7 @@ struct DiffuseVertex {
 // Vertices that can wait for more branches at a time.
 const MOST_FORKS: u32 = 16u;
 
-// What comes after a segment.
+// What comes after a segment. Here alone: lanes have masks for it.
 const PATH_ENDS: u32 = 0u;
 const PATH_GOES_ON: u32 = 1u;
 const PATH_IS_AT_DIFFUSE: u32 = 2u;

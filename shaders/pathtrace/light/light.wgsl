@@ -2,7 +2,7 @@
 //#import pathtrace/light/ball.wgsl
 //#import pathtrace/light/sun.wgsl
 // What shines, as light sampling sees it: area lights, point lights and the sun. Task 2 c), "Sampling Area Light". One
-// light is chosen, then a direction to it. Twin: crates/pathtrace/src/light/mod.rs.
+// light is chosen, then a direction to it. Twin: crates/pathtrace/src/light/table.rs, in lanes.
 
 // The light that u in [0, 1) chooses: the first whose running sum exceeds it.
 fn choose(u: f32) -> u32 {

@@ -1,4 +1,6 @@
 //! A scene's materials by columns, as lanes look them up.
+//!
+//! Twins: `shaders/pathtrace/prepared.wgsl` and `shaders/shared/checkerboard.wgsl`.
 
 use crate::vectors::VectorColumn;
 use scene::{Bsdf, Material, Texture, Vec3};

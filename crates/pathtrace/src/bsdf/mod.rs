@@ -1,4 +1,6 @@
 //! Reflection and refraction at smooth surfaces.
+//!
+//! Twin: `shaders/pathtrace/bsdf/bsdf.wgsl`.
 
 pub(crate) mod materials;
 

@@ -1,8 +1,8 @@
 //! Light transport: [`path`], the tutorial's Monte Carlo path tracer, and [`whitted`], the step before it.
 
-mod forks;
+pub(crate) mod forks;
 pub mod path;
-mod path_state;
-mod roulette;
+pub(crate) mod path_state;
+pub(crate) mod roulette;
 pub mod settings;
 pub mod whitted;

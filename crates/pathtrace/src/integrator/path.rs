@@ -8,6 +8,8 @@
 //!
 //! With more than one branch ("When N>1: Distributed ray tracing") a diffuse vertex is kept on a small stack, and the
 //! path comes back to it until it has left in N directions; each sees the lights anew and counts 1 / N.
+//!
+//! Twin: `shaders/pathtrace/integrator/path.wgsl`.
 
 use crate::bsdf::{Interfaces, reflected};
 use crate::integrator::forks::{Forks, MOST_FORKS, child};

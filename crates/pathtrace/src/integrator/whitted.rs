@@ -8,6 +8,8 @@
 //!
 //! What it cannot do, by design: light from diffuse surfaces on others, blurred reflections, caustics. The sky is seen
 //! but does not light; ambient light stands for it.
+//!
+//! Twin: `shaders/pathtrace/integrator/whitted.wgsl`.
 
 use crate::bsdf::materials::Kinds;
 use crate::bsdf::{Interfaces, reflected};
@@ -89,7 +91,7 @@ impl Default for WhittedSettings {
 pub const MOST_BRANCHES: u32 = 65_536;
 
 /// Lights up to which each is sampled; of more, this many are chosen by power.
-const MOST_LIGHTS: usize = 16;
+pub(crate) const MOST_LIGHTS: usize = 16;
 
 /// A ray on its way, or waiting, in each lane.
 #[derive(Clone, Copy)]

@@ -1,5 +1,7 @@
 //! The acceleration structure over triangles, spheres and disks: obvhs' BVH2 where they are few, eight children a node
 //! (`bvh8`) where they are many. Both give the same hits.
+//!
+//! Twin of the BVH2: `shaders/pathtrace/intersect/bvh2.wgsl`.
 
 use super::bvh8::Bvh8;
 use super::bvh8_collapse::Shapes;

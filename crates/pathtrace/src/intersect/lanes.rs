@@ -1,4 +1,6 @@
 //! Rays and what they meet, in each lane.
+//!
+//! Twins: `shaders/pathtrace/intersect/ray.wgsl`, `nearest.wgsl`, `sphere.wgsl` and `surface_point.wgsl`.
 
 use super::{SurfacePoint, gamma};
 use crate::vectors::{each_lane, in_all_lanes, lane_vector};

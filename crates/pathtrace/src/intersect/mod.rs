@@ -4,6 +4,8 @@
 //! whose boxes are padded against the rounding of its box test, [`shape_list`] tests all of a small scene against a ray
 //! in each lane, and [`aggregate`] chooses between these. [`surface_point`] says where a hit lies and how far to step
 //! off it; [`lanes`] has rays, points and hits in each lane.
+//!
+//! Twin of [`Ray`] and [`gamma`]: `shaders/pathtrace/intersect/ray.wgsl`.
 
 pub mod accel;
 pub mod aggregate;

@@ -1,4 +1,6 @@
 //! A point on a surface with a bound on its rounding error: [`SurfacePoints`] of one lane.
+//!
+//! Twin: `shaders/pathtrace/intersect/surface_point.wgsl`.
 
 use super::gamma;
 use super::lanes::SurfacePoints;

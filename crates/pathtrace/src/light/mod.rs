@@ -2,7 +2,7 @@
 //! "Sampling Area Light". One light is chosen, then a direction to it; [`Lights::pdf`] is the density of doing so, as
 //! MIS needs it.
 
-mod ball;
+pub(crate) mod ball;
 pub(crate) mod flat;
 mod spherical_rectangle;
 mod sun;

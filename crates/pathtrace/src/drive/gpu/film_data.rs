@@ -1,6 +1,7 @@
 //! Mirrors of the structs in `shaders/pathtrace/drive/film.wgsl`, field for field. A test compares every offset with
 //! the shader compiler's. Padding is spelled out as `unused*`.
 
+use crate::integrator::forks::MOST_FORKS;
 use crate::integrator::settings::{PathSettings, SamplerKind};
 use crate::integrator::whitted::WhittedSettings;
 use bytemuck::{Pod, Zeroable};
@@ -92,6 +93,9 @@ pub struct Pixel {
     pub faults: u32,
 }
 
+/// Samples cut short are counted above this bit of [`Pixel::faults`].
+pub(crate) const CUT_SHIFT: u32 = 16;
+
 /// Samples between two readings after which no counter of a pixel has overflowed.
 pub const MOST_SAMPLES: u32 = 16_384;
 
@@ -110,7 +114,7 @@ impl Pixel {
         }
         pixel.samples = self.samples;
         pixel.largest = pixel.largest.max(self.largest);
-        (u64::from(self.rays), u64::from(self.faults >> 16), u64::from(self.faults & 0xffff))
+        (u64::from(self.rays), u64::from(self.faults >> CUT_SHIFT), u64::from(self.faults & ((1 << CUT_SHIFT) - 1)))
     }
 
     fn squares(&self) -> scene::glam::DVec3 {
@@ -133,7 +137,7 @@ impl RenderParams {
             limit: settings.scattering_vertices(),
             capped: u32::from(settings.bounces.is_none()),
             branches: settings.branches.max(1),
-            branching_vertices: settings.branching_vertices().min(16),
+            branching_vertices: settings.branching_vertices().min(MOST_FORKS as u32),
             by_throughput: u32::from(settings.roulette.throughput),
             probability: settings.roulette.probability.unwrap_or(1.0),
             ..self

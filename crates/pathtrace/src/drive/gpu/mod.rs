@@ -1,5 +1,5 @@
-//! The same paths on a graphics device: twins of this crate's functions in `shaders/lib/` and `shaders/pathtrace/`,
-//! under the same names, with the same random numbers bit for bit.
+//! The same paths on a graphics device: twins of this crate's functions in `shaders/pathtrace/`, under the same names,
+//! with the same random numbers bit for bit.
 //!
 //! A [`GpuTracer`] is a scene made ready on a device. It adds samples to a [`GpuFilm`], which sums them where they are
 //! made and is read when someone looks; [`GpuTracer::render`] does both for a [`film::Film`]. Nothing here panics when
@@ -9,7 +9,7 @@ mod dispatch;
 mod error;
 mod film;
 pub mod film_data;
-mod pipelines;
+pub(crate) mod pipelines;
 pub mod rays;
 pub mod scene_data;
 pub mod shape_data;

@@ -1,4 +1,6 @@
 //! Pipelines, compiled for what a scene needs and its settings choose, and the layouts of what is bound to them.
+//!
+//! What they are compiled for is named in `shaders/pathtrace/needs.wgsl`.
 
 use super::GpuTraceError;
 use super::film_data::{RenderParams, is_sobol};
@@ -21,6 +23,11 @@ enum Technique {
     Whitted,
 }
 
+/// How light is found.
+pub(crate) const BY_CHANCE: u32 = 0;
+pub(crate) const BY_SAMPLING: u32 = 1;
+pub(crate) const BY_BOTH: u32 = 2;
+
 /// What is compiled into a pipeline.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Choice {
@@ -40,9 +47,9 @@ impl Choice {
             sobol: is_sobol(settings.sampler),
             uniform_directions: settings.estimator.directions == Directions::Uniform,
             light_search: match settings.estimator.light {
-                LightSampling::BsdfOnly => 0,
-                LightSampling::NextEvent => 1,
-                LightSampling::Mis => 2,
+                LightSampling::BsdfOnly => BY_CHANCE,
+                LightSampling::NextEvent => BY_SAMPLING,
+                LightSampling::Mis => BY_BOTH,
             },
             branching: settings.branches > 1,
             clear_glass: false,
@@ -55,7 +62,7 @@ impl Choice {
             technique: Technique::Whitted,
             sobol: is_sobol(settings.sampler),
             uniform_directions: false,
-            light_search: 1,
+            light_search: BY_SAMPLING,
             branching: false,
             clear_glass: settings.glass_shadows == GlassShadows::Clear,
         }
@@ -144,6 +151,14 @@ impl SceneNeeds {
             ("CLEAR_GLASS", exactly(choice.clear_glass)),
         ]);
         constants
+    }
+
+    /// Names of all the overrides.
+    pub(crate) fn constant_names() -> Vec<&'static str> {
+        let (needs, shapes, lights) = (Needs::default(), ShapeKinds::default(), LightKinds::default());
+        let nothing = SceneNeeds { needs, shapes, lights, everything: false };
+        let choice = Choice::of_paths(&PathSettings::default());
+        nothing.constants(choice).into_iter().map(|(name, _)| name).collect()
     }
 
     fn flag(&self, needed: bool) -> f64 {

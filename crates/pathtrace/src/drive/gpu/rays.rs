@@ -1,4 +1,6 @@
 //! Rays by themselves: what each of a list meets on the device.
+//!
+//! Mirrors of the structs in `shaders/pathtrace/drive/rays.wgsl`.
 
 use super::{GpuTraceError, GpuTracer};
 use crate::intersect::{Ray, SurfacePoint};

@@ -1,4 +1,6 @@
 //! Ray/disk intersection in each lane: the plane in f64, as for triangles, so that a disk never shadows itself.
+//!
+//! Twin: `shaders/pathtrace/intersect/disk.wgsl`.
 
 use crate::intersect::lanes::Rays;
 use scene::Vec3;
