@@ -2,7 +2,7 @@
 
 use crate::row::{Device, Relation, Row, Verdict};
 use film::Film;
-use pathtrace::{PathSettings, SamplerKind, Tracer, WhittedSettings};
+use pathtrace::{PathSettings, Tracer, WhittedSettings};
 use rayon::prelude::*;
 use scene::Camera;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -247,11 +247,6 @@ impl<'a> Trial<'a> {
         self.count_nonfinite(&film);
         film
     }
-}
-
-/// The default settings, with samples whose spread tells their error.
-pub fn independent() -> PathSettings {
-    PathSettings { sampler: SamplerKind::Independent, ..PathSettings::default() }
 }
 
 /// What adds path traced samples to a film, given a seed and their number; it can be stopped.
