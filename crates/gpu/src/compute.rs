@@ -4,9 +4,6 @@ use crate::wgsl::Composed;
 use crate::{Gpu, GpuError};
 use wgpu::{BindingResource, BindingType, BufferBindingType};
 
-/// Threads in a group: what a shader's `@workgroup_size` must say.
-pub const THREADS: usize = 64;
-
 /// What stands at a binding.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Binding {
@@ -25,6 +22,8 @@ pub struct Compute {
     pipeline: wgpu::ComputePipeline,
     /// Of the shader's own group.
     layout: wgpu::BindGroupLayout,
+    /// In a workgroup, along x.
+    threads: u32,
 }
 
 impl Compute {
@@ -42,9 +41,11 @@ impl Compute {
         constants: &[(&str, f64)],
     ) -> Result<Compute, GpuError> {
         let what = format!("{entry_point} of shaders/{}", shader.name);
+        let entry = shader.module.entry_points.iter().find(|entry| entry.name == entry_point);
+        let threads = entry.map_or(1, |entry| entry.workgroup_size[0]);
         let module = shader.create(gpu)?;
         let (pipeline, layout) = gpu.checked(&what, || {
-            let entries: Vec<_> = (0..).zip(bindings).map(entry).collect();
+            let entries: Vec<_> = (0..).zip(bindings).map(layout_entry).collect();
             let own = wgpu::BindGroupLayoutDescriptor { label: None, entries: &entries };
             let own = gpu.device.create_bind_group_layout(&own);
             let groups: Vec<_> = shared.into_iter().chain([&own]).map(Some).collect();
@@ -63,7 +64,7 @@ impl Compute {
             });
             (pipeline, own)
         })?;
-        Ok(Compute { what, pipeline, layout })
+        Ok(Compute { what, pipeline, layout, threads })
     }
 
     /// Runs it over `items`, with the shared group if it has one, and what stands at its own bindings.
@@ -90,14 +91,14 @@ impl Compute {
                 for (index, group) in (0..).zip(shared.into_iter().chain([&own])) {
                     pass.set_bind_group(index, group, &[]);
                 }
-                pass.dispatch_workgroups(items.div_ceil(THREADS) as u32, 1, 1);
+                pass.dispatch_workgroups(items.div_ceil(self.threads as usize) as u32, 1, 1);
             }
             gpu.queue.submit([encoder.finish()]);
         })
     }
 }
 
-fn entry((binding, kind): (u32, &Binding)) -> wgpu::BindGroupLayoutEntry {
+fn layout_entry((binding, kind): (u32, &Binding)) -> wgpu::BindGroupLayoutEntry {
     let storage = |read_only| BindingType::Buffer {
         ty: BufferBindingType::Storage { read_only },
         has_dynamic_offset: false,

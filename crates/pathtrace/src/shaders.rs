@@ -1,5 +1,6 @@
 //! The path tracer's shaders: every file under `shaders/pathtrace/`. A new one is one line of [`SOURCES`].
 
+use crate::drive::gpu::dispatch::GROUP;
 use crate::drive::gpu::film_data::CUT_SHIFT;
 use crate::drive::gpu::pipelines::{BY_BOTH, BY_CHANCE, BY_SAMPLING, SceneNeeds};
 use crate::drive::gpu::scene_data::*;
@@ -78,6 +79,7 @@ pub fn shared_constants() -> Vec<(&'static str, f64)> {
         COUNT_SHIFT,
         CUT_SHIFT,
         FRAC_1_PI,
+        GROUP,
         KIND_DISK,
         KIND_SHIFT,
         KIND_SPHERE,

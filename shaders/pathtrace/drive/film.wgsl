@@ -55,6 +55,9 @@ const MOST_IN_SQUARES: f32 = 1e17;
 
 const CUT_SHIFT: u32 = 16u;
 
+// Threads along each side of a group: a thread is a pixel.
+const GROUP: u32 = 8u;
+
 // What a sample of a pixel brought home.
 struct Outcome {
     radiance: vec3f,

@@ -62,7 +62,7 @@ var<private> fork_throughputs: array<vec3f, MOST_FORKS>;
 var<private> fork_counts: array<vec4u, MOST_FORKS>;
 var<private> waiting: u32;
 
-@compute @workgroup_size(8, 8)
+@compute @workgroup_size(GROUP, GROUP)
 fn trace(@builtin(global_invocation_id) id: vec3u) {
     let place = id.xy + vec2u(params.first_column, params.first_row);
     let width = u32(params.size.x);

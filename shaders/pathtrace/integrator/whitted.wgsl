@@ -39,7 +39,7 @@ var<private> dimension: u32;
 // branches followed so far
 var<private> followed: u32;
 
-@compute @workgroup_size(8, 8)
+@compute @workgroup_size(GROUP, GROUP)
 fn trace(@builtin(global_invocation_id) id: vec3u) {
     let place = id.xy + vec2u(params.first_column, params.first_row);
     let width = u32(params.size.x);

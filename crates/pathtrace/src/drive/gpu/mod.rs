@@ -5,7 +5,7 @@
 //! made and is read when someone looks; [`GpuTracer::render`] does both for a [`film::Film`]. Nothing here panics when
 //! the device fails: every fault is a [`GpuTraceError`], and the processor's [`crate::Tracer`] can take over.
 
-mod dispatch;
+pub(crate) mod dispatch;
 mod error;
 mod film;
 pub mod film_data;
