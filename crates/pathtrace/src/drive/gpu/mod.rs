@@ -2,7 +2,7 @@
 //! with the same random numbers bit for bit.
 //!
 //! A [`GpuTracer`] is a scene made ready on a device. It adds samples to a [`GpuFilm`], which sums them where they are
-//! made and is read when someone looks; [`GpuTracer::render`] does both for a [`film::Film`]. Nothing here panics when
+//! made and is read when someone looks; [`GpuTracer::render`] does both for a [`::film::Film`]. Nothing here panics when
 //! the device fails: every fault is a [`GpuTraceError`], and the processor's [`crate::Tracer`] can take over.
 
 pub(crate) mod dispatch;
