@@ -1,5 +1,5 @@
 // What a scene and its settings ask for. Pipelines are compiled for each choice, so that what is not asked for costs
-// neither time nor registers. Twins: crates/scene/src/needs.rs, and
+// neither time nor registers; what one integrator alone asks is beside it. Twins: crates/scene/src/needs.rs, and
 // crates/pathtrace/src/drive/gpu/pipelines.rs, which sets them.
 
 // whether all shapes are met one by one; through a tree if not
@@ -20,15 +20,5 @@ override POINT_LIGHTS: bool = true;
 override SUN: bool = true;
 // whether random numbers are Sobol points; independent ones if not
 override SOBOL: bool = true;
-// whether diffuse vertices draw directions uniformly; by the cosine if not
-override UNIFORM_DIRECTIONS: bool = true;
-// how light is found: by chance, by sampling, or both, weighted
-override LIGHT_SEARCH: u32 = BY_BOTH;
-// whether a diffuse vertex may be left in more than one direction
-override BRANCHING: bool = true;
 // whether shadow rays pass glass
 override CLEAR_GLASS: bool = false;
-
-const BY_CHANCE: u32 = 0u;
-const BY_SAMPLING: u32 = 1u;
-const BY_BOTH: u32 = 2u;

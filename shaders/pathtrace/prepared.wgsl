@@ -1,5 +1,6 @@
 //#import pathtrace/intersect/aggregate.wgsl
 //#import pathtrace/light/light.wgsl
+//#import pathtrace/bsdf/interaction.wgsl
 // What a ray meets in the scene. Twins: crates/pathtrace/src/prepared.rs and
 // crates/pathtrace/src/bsdf/materials.rs.
 
@@ -12,21 +13,19 @@ fn in_shadow(at: SurfacePoint, sample: LightSample) -> bool {
     return occluded(Ray(start, sample.end - start, SHADOW_END));
 }
 
-// The normal on the side of wo.
-fn facing(normal: vec3f, wo: vec3f) -> vec3f {
-    return select(normal, -normal, dot(normal, wo) < 0.0);
-}
-
-// What a surface of outward `normal` sends out against a ray of this direction.
-fn emitted(material: Material, normal: vec3f, ray_direction: vec3f) -> vec3f {
-    let shines = material.emitting_sides == 2u || (material.emitting_sides == 1u && dot(normal, ray_direction) < 0.0);
-    return select(vec3f(0.0), material.emission, shines);
-}
-
-// The colour at a point of world space.
-fn colour_at(material: Material, position: vec3f) -> vec3f {
-    if CHECKERBOARD && material.bsdf == BSDF_CHECKERBOARD {
-        return checkerboard(material.colour, position);
+// The surface that was met, seen from wo.
+fn interaction_of(hit: Hit, wo: vec3f) -> Interaction {
+    let lobe = materials[hit.material].lobe;
+    var colour = materials[hit.material].colour.even;
+    if CHECKERBOARD && (lobe & CHECKERED) != 0u {
+        colour = checkerboard(materials[hit.material].colour, hit.point.position);
     }
-    return material.colour.even;
+    return Interaction(hit.point, facing(hit.point.normal, wo), wo, colour, lobe, hit.material);
+}
+
+// What the surface sends out towards wo.
+fn emitted(at: Interaction) -> vec3f {
+    let sides = materials[at.material].emitting_sides;
+    let shines = sides == 2u || (sides == 1u && dot(at.point.normal, at.wo) > 0.0);
+    return select(vec3f(0.0), materials[at.material].emission, shines);
 }

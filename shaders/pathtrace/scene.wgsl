@@ -87,13 +87,14 @@ struct Surface {
 const NO_LIGHT: u32 = 0xffffffffu;
 
 struct Material {
-    // albedo or reflectance
+    // albedo or reflectance, 1 for glass
     colour: Checkerboard,
     // radiance sent out
     emission: vec3f,
     // 0 none, 1 the one that the normal points away from, 2 both
     emitting_sides: u32,
-    bsdf: u32,
+    // what the surface does to light
+    lobe: u32,
     // index of refraction of the inside over the outside
     ior: f32,
     // root of |ior^2 - 1| as a sum of two floats
@@ -101,10 +102,12 @@ struct Material {
     root_low: f32,
 }
 
-const BSDF_DIFFUSE: u32 = 0u;
-const BSDF_CHECKERBOARD: u32 = 1u;
-const BSDF_MIRROR: u32 = 2u;
-const BSDF_DIELECTRIC: u32 = 3u;
+// Codes of lobes and of what varies them. Mirror: crates/pathtrace/src/bsdf/materials.rs.
+const LOBE_LAMBERT: u32 = 1u;
+const LOBE_MIRROR: u32 = 2u;
+const LOBE_DIELECTRIC: u32 = 4u;
+// of a Lambert lobe: its albedo is a checkerboard
+const CHECKERED: u32 = 256u;
 
 struct Light {
     // corner of a flat area light, centre of a disk or ball, a point light, the direction to the sun

@@ -136,6 +136,14 @@ impl Drop for ViewerUnderTest {
 }
 
 impl Frame {
+    /// What a viewer without a window says, in the same words.
+    ///
+    /// # Panics
+    /// If that is not JSON.
+    pub fn of(dump: &str) -> Self {
+        Frame(serde_json::from_str(dump).expect("what a viewer says of a frame"))
+    }
+
     /// The name of the widget that has the keyboard; empty if none has.
     pub fn focus(&self) -> &str {
         self.0["focus"].as_str().unwrap_or_default()

@@ -49,13 +49,13 @@ fn means(scene: &Scene) -> Vec<(String, f64)> {
     let mut means = Vec::new();
     for (name, tracer) in [("few", Tracer::new(scene)), ("tree", Tracer::new(scene).with_single_rays())] {
         let mut film = Film::new(64, 64);
-        tracer.render(&mut film, &scene.camera, &settings, 16, &|| false);
+        tracer.render(&mut film, &scene.camera, &settings.into(), 16, &|| false);
         means.push((format!("CPU, {name}"), film.mean()[0]));
     }
     let gpu = Gpu::headless().expect("a device");
     for (name, tracer) in [("few", GpuTracer::new(&gpu, scene)), ("tree", GpuTracer::through_a_tree(&gpu, scene))] {
         let mut film = Film::new(64, 64);
-        tracer.unwrap().render(&mut film, &scene.camera, &settings, 16, &|| false).unwrap();
+        tracer.unwrap().render(&mut film, &scene.camera, &settings.into(), 16, &|| false).unwrap();
         means.push((format!("GPU, {name}"), film.mean()[0]));
     }
     means

@@ -12,7 +12,7 @@ fn scene(text: &str) -> Scene {
 
 fn render(scene: &Scene, size: u32, spp: u32, settings: &PathSettings) -> Film {
     let mut film = Film::new(size, size);
-    Tracer::new(scene).render(&mut film, &scene.camera, settings, spp, &|| false);
+    Tracer::new(scene).render(&mut film, &scene.camera, &(*settings).into(), spp, &|| false);
     assert_eq!(film.nonfinite, 0);
     film
 }
@@ -158,7 +158,7 @@ fn whitted_without_ambient_light_is_direct_light() {
     let tracer = Tracer::new(&scene);
     let mut whitted = Film::new(48, 48);
     let settings = WhittedSettings { ambient: Some(0.0), shadow_rays: 4, ..WhittedSettings::default() };
-    tracer.render_whitted(&mut whitted, &scene.camera, &settings, 64, &|| false);
+    tracer.render(&mut whitted, &scene.camera, &settings.into(), 64, &|| false);
     let direct = render(&scene, 48, 256, &with(Estimator::MIS, Some(0), Roulette::OFF));
     for c in 0..3 {
         let error = whitted.standard_error()[c].hypot(direct.standard_error()[c]);
@@ -196,7 +196,7 @@ material = "floor"
     let seen = |scene: &Scene, glass_shadows| {
         let mut film = Film::new(2, 2);
         let settings = WhittedSettings { glass_shadows, ambient: Some(0.0), ..WhittedSettings::default() };
-        Tracer::new(scene).render_whitted(&mut film, &scene.camera, &settings, 1, &|| false);
+        Tracer::new(scene).render(&mut film, &scene.camera, &settings.into(), 1, &|| false);
         film.mean()[0]
     };
     let direct = 0.5 / std::f64::consts::PI;
@@ -216,7 +216,7 @@ fn branches_multiply_the_rays_and_change_no_mean() {
         let estimator = Estimator::COSINE;
         let settings = PathSettings { branches, ..with(estimator, Some(2), Roulette::OFF) };
         let mut film = Film::new(16, 16);
-        let stats = tracer.render(&mut film, &room, &settings, 16, &|| false);
+        let stats = tracer.render(&mut film, &room, &settings.into(), 16, &|| false);
         // some paths leave through the open side or end at the black area light: all but a few of the rays are there
         let per_sample = stats.rays as f64 / stats.samples as f64;
         assert!(per_sample <= rays && per_sample > 0.6 * rays, "{branches}: {per_sample} of {rays}");
@@ -273,7 +273,7 @@ material = "shell"
         let mut film = Film::new(16, 16);
         let settings =
             WhittedSettings { ambient: Some(0.0), sampler: SamplerKind::Independent, ..WhittedSettings::default() };
-        Tracer::new(&shell).render_whitted(&mut film, &shell.camera, &settings, 256, &|| false);
+        Tracer::new(&shell).render(&mut film, &shell.camera, &settings.into(), 256, &|| false);
         assert_mean(&film, 0.75, 0.003, &format!("whitted in a shell of radius {radius}"));
     }
 }
@@ -285,7 +285,8 @@ fn roulette_leaves_branches_alone_and_rare_survivors_unbiased() {
     let cornell = scene::builtin::named("cornell").expect("built in");
     let rays = |branches, roulette| {
         let settings = PathSettings { branches, ..with(Estimator::LIGHT, Some(2), roulette) };
-        let stats = Tracer::new(&cornell).render(&mut Film::new(32, 32), &cornell.camera, &settings, 4, &|| false);
+        let stats =
+            Tracer::new(&cornell).render(&mut Film::new(32, 32), &cornell.camera, &settings.into(), 4, &|| false);
         stats.rays as f64 / stats.samples as f64
     };
     assert!(rays(4, Roulette::THROUGHPUT) > 0.4 * rays(4, Roulette::OFF));

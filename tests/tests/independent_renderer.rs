@@ -15,7 +15,7 @@ fn rgb(value: &Value) -> [f64; 3] {
 
 fn render(scene: &Scene, size: (u32, u32), spp: u32, settings: &PathSettings) -> Film {
     let mut film = Film::new(size.0, size.1);
-    Tracer::new(scene).render(&mut film, &scene.camera, settings, spp, &|| false);
+    Tracer::new(scene).render(&mut film, &scene.camera, &(*settings).into(), spp, &|| false);
     assert_eq!(film.nonfinite, 0);
     film
 }

@@ -166,7 +166,7 @@ fn fresnel_and_refraction_agree_also_at_the_critical_angle() {
             let cos_t = max(refracted_cosine(surface, c), 0.0);
             let all = cos_t < 1e-4;
             return bits(fresnel(surface, c), cos_t, select(wi.x, 0.0, all), select(wi.z, 0.0, all));";
-        let on_gpu = run(&tracer, "pathtrace/bsdf/bsdf.wgsl", body, &[], &given);
+        let on_gpu = run(&tracer, "pathtrace/bsdf/dielectric.wgsl", body, &[], &given);
         let off = farthest(&on_gpu, |item| {
             let (interface, c) = of(item);
             let wo = Vec3::new((1.0 - c * c).sqrt(), 0.0, c);

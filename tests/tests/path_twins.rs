@@ -10,7 +10,7 @@ use pathtrace::{Estimator, GlassShadows, PathSettings, Roulette, SamplerKind, St
 use scene::{Camera, Scene, Vec3, builtin};
 use std::path::Path;
 
-const EVERYTHING: &str = include_str!("scenes/everything.toml");
+const EVERYTHING: &str = include_str!("scenes/everything-more.toml");
 
 fn devices() -> Vec<Gpu> {
     Gpu::each().unwrap()
@@ -18,7 +18,7 @@ fn devices() -> Vec<Gpu> {
 
 fn named(name: &str) -> Scene {
     match name {
-        "everything" => scene::parse(EVERYTHING, "everything", Path::new("everything.toml")).unwrap(),
+        "everything" => scene::parse(EVERYTHING, "everything", Path::new("everything-more.toml")).unwrap(),
         _ => builtin::named(name).unwrap(),
     }
 }
@@ -83,7 +83,7 @@ fn rays_meet_the_same_surfaces_at_the_same_places(scene: &Scene) {
             let (mut other, mut met) = (0, 0);
             let mut next = Vec::new();
             for (i, (ray, answer)) in (0..).zip(rays.iter().zip(&answers)) {
-                let hit = cpu.accel().closest(ray);
+                let hit = cpu.accel().first_met(ray);
                 let same = hit.map(|hit| hit.material) == answer.point().map(|_| answer.material);
                 other += u32::from(!same || cpu.accel().occluded(ray) != (answer.occluded == 1));
                 let (Some(hit), Some(point), true) = (hit, answer.point(), same) else { continue };
@@ -128,8 +128,11 @@ impl Pair {
 
 fn paths(gpu: &Gpu, scene: &Scene, size: (u32, u32), spp: u32, settings: &PathSettings) -> Pair {
     let [mut on_gpu, mut on_cpu] = [(); 2].map(|()| Film::new(size.0, size.1));
-    let gpu = GpuTracer::new(gpu, scene).unwrap().render(&mut on_gpu, &scene.camera, settings, spp, &|| false).unwrap();
-    let cpu = Tracer::new(scene).render(&mut on_cpu, &scene.camera, settings, spp, &|| false);
+    let gpu = GpuTracer::new(gpu, scene)
+        .unwrap()
+        .render(&mut on_gpu, &scene.camera, &(*settings).into(), spp, &|| false)
+        .unwrap();
+    let cpu = Tracer::new(scene).render(&mut on_cpu, &scene.camera, &(*settings).into(), spp, &|| false);
     Pair { gpu: on_gpu, cpu: on_cpu, stats: [gpu, cpu] }
 }
 
@@ -184,8 +187,8 @@ fn whitted_trees_agree_pixel_by_pixel() {
         let settings = WhittedSettings { glass_shadows, shadow_rays: 2, ..WhittedSettings::default() };
         let [mut on_gpu, mut on_cpu] = [(); 2].map(|()| Film::new(120, 80));
         let mut tracer = GpuTracer::new(gpu, &scene).unwrap();
-        let gpu_stats = tracer.render_whitted(&mut on_gpu, &scene.camera, &settings, 1, &|| false).unwrap();
-        let cpu_stats = Tracer::new(&scene).render_whitted(&mut on_cpu, &scene.camera, &settings, 1, &|| false);
+        let gpu_stats = tracer.render(&mut on_gpu, &scene.camera, &settings.into(), 1, &|| false).unwrap();
+        let cpu_stats = Tracer::new(&scene).render(&mut on_cpu, &scene.camera, &settings.into(), 1, &|| false);
         let pair = Pair { gpu: on_gpu, cpu: on_cpu, stats: [gpu_stats, cpu_stats] };
         let (apart, rays) = (pair.apart(1e-3), pair.rays());
         assert!(apart <= 1e-2 && (rays - 1.0).abs() < 1e-3, "{name} {glass_shadows:?}: {apart} {rays}");
@@ -200,8 +203,11 @@ fn converged_means_agree_within_four_standard_errors() {
         let on_cpu = PathSettings { sampler: SamplerKind::Independent, ..settings(Estimator::MIS, 8) };
         let on_gpu = PathSettings { seed: 77, ..on_cpu };
         let [mut gpu_film, mut cpu_film] = [(); 2].map(|()| Film::new(32, 32));
-        GpuTracer::new(&gpu, &scene).unwrap().render(&mut gpu_film, &scene.camera, &on_gpu, 128, &|| false).unwrap();
-        Tracer::new(&scene).render(&mut cpu_film, &scene.camera, &on_cpu, 512, &|| false);
+        GpuTracer::new(&gpu, &scene)
+            .unwrap()
+            .render(&mut gpu_film, &scene.camera, &on_gpu.into(), 128, &|| false)
+            .unwrap();
+        Tracer::new(&scene).render(&mut cpu_film, &scene.camera, &on_cpu.into(), 512, &|| false);
         for c in 0..3 {
             let error = gpu_film.standard_error()[c].hypot(cpu_film.standard_error()[c]);
             let (a, b) = (gpu_film.mean()[c], cpu_film.mean()[c]);
@@ -218,7 +224,8 @@ fn films_go_on_stop_and_are_read_without_waiting() {
     let scene = named("cornell");
     let settings = settings(Estimator::LIGHT, 2);
     let mut tracer = GpuTracer::new(&gpu, &scene).unwrap();
-    let mut render = |film: &mut Film, spp| tracer.render(film, &scene.camera, &settings, spp, &|| false).unwrap();
+    let mut render =
+        |film: &mut Film, spp| tracer.render(film, &scene.camera, &settings.into(), spp, &|| false).unwrap();
     let [mut at_once, mut in_parts] = [(); 2].map(|()| Film::new(48, 40));
     render(&mut at_once, 6);
     render(&mut in_parts, 1);
@@ -228,7 +235,7 @@ fn films_go_on_stop_and_are_read_without_waiting() {
     assert!(off < 1e-6, "{off}");
 
     let mut on_device = tracer.film(Film::new(48, 40)).unwrap();
-    tracer.accumulate(&mut on_device, &scene.camera, &settings, 6, &|| false).unwrap();
+    tracer.accumulate(&mut on_device, &scene.camera, &settings.into(), 6, &|| false).unwrap();
     on_device.begin_reading(&gpu).unwrap();
     let (film, stats) = loop {
         if let Some(read) = on_device.poll_reading(&gpu).unwrap() {
@@ -242,7 +249,7 @@ fn films_go_on_stop_and_are_read_without_waiting() {
     let mut stopped = Film::new(640, 400);
     let asked = std::cell::Cell::new(0);
     let stop = || asked.replace(asked.get() + 1) >= 2;
-    let stats = tracer.render(&mut stopped, &scene.camera, &settings, 64, &stop).unwrap();
+    let stats = tracer.render(&mut stopped, &scene.camera, &settings.into(), 64, &stop).unwrap();
     let taken: u64 = stopped.pixels().iter().map(|pixel| u64::from(pixel.samples)).sum();
     assert!(stats.samples > 0 && stats.samples == taken && taken < 640 * 400);
 
@@ -250,12 +257,12 @@ fn films_go_on_stop_and_are_read_without_waiting() {
     let mut tracer = GpuTracer::new(&gpu, &scene).unwrap();
     tracer.set_budget(1e-3);
     let [mut whole, mut halting] = [(); 2].map(|()| tracer.film(Film::new(203, 120)).unwrap());
-    tracer.accumulate(&mut whole, &scene.camera, &settings, 3, &|| false).unwrap();
+    tracer.accumulate(&mut whole, &scene.camera, &settings.into(), 3, &|| false).unwrap();
     let mut stops = 0;
     while halting.samples_per_pixel() < 3 {
         let asked = std::cell::Cell::new(0);
         let stop = || asked.replace(asked.get() + 1) >= 1;
-        tracer.accumulate(&mut halting, &scene.camera, &settings, 3, &stop).unwrap();
+        tracer.accumulate(&mut halting, &scene.camera, &settings.into(), 3, &stop).unwrap();
         stops += 1;
     }
     // one that is asked for less than it began is begun anew, for those who lack it
@@ -263,8 +270,8 @@ fn films_go_on_stop_and_are_read_without_waiting() {
     tracer.set_budget(1e-3);
     let mut less = tracer.film(Film::new(203, 120)).unwrap();
     let once = std::cell::Cell::new(0);
-    tracer.accumulate(&mut less, &scene.camera, &settings, 3, &|| once.replace(once.get() + 1) >= 2).unwrap();
-    tracer.accumulate(&mut less, &scene.camera, &settings, 2, &|| false).unwrap();
+    tracer.accumulate(&mut less, &scene.camera, &settings.into(), 3, &|| once.replace(once.get() + 1) >= 2).unwrap();
+    tracer.accumulate(&mut less, &scene.camera, &settings.into(), 2, &|| false).unwrap();
     let (less, _) = less.read(&gpu).unwrap();
     assert!(less.samples_per_pixel() == 2 && less.pixels().iter().all(|pixel| pixel.samples <= 3));
     let [(whole, stats), (halted, halted_stats)] = [whole, halting].map(|mut film| film.read(&gpu).unwrap());
@@ -283,7 +290,7 @@ fn sums_of_many_samples_do_not_drift() {
     for (size, spp) in [((8, 1), 200_000), ((1, 1), 1025)] {
         let mut film = Film::new(size.0, size.1);
         let mut tracer = GpuTracer::new(&gpu, &scene).unwrap();
-        tracer.render(&mut film, &scene.camera, &settings, spp, &|| false).unwrap();
+        tracer.render(&mut film, &scene.camera, &settings.into(), spp, &|| false).unwrap();
         for pixel in film.pixels() {
             assert_eq!((pixel.samples, pixel.largest), (spp, 0.1));
             let expected = f64::from(0.1f32);
@@ -309,7 +316,7 @@ fn what_does_not_fit_is_refused() {
     let mut film = Film::new(8, 8);
     let camera: Camera = scene.camera;
     let mut lost = lost;
-    assert!(lost.render(&mut film, &camera, &PathSettings::default(), 1, &|| false).is_err());
+    assert!(lost.render(&mut film, &camera, &PathSettings::default().into(), 1, &|| false).is_err());
     assert!(lost.meet(&[Ray::new(Vec3::ZERO, Vec3::X)]).is_err());
     assert!(GpuTracer::new(&gpu, &scene).is_err());
 }
@@ -328,11 +335,11 @@ fn more_triangles_than_a_binding_holds_are_refused(gpu: &Gpu, scene: &Scene, mut
     };
     let triangles = (0..(side - 1) * (side - 1)).flat_map(quad).collect();
     let mut large = scene.clone();
-    large.shapes = [scene::Shape { geometry: scene::Geometry::Mesh { positions, triangles }, material: 0 }].into();
+    large.shapes = [scene::Shape { geometry: scene::Geometry::mesh(positions, triangles), material: 0 }].into();
     let error = GpuTracer::new(gpu, &large).unwrap_err().to_string();
     assert!(error.contains("bytes, and the graphics device takes at most"), "{error}");
     // what was there before still is
     assert!(tracer.set_scene(&large).is_err());
     let mut film = Film::new(8, 8);
-    assert!(tracer.render(&mut film, &scene.camera, &PathSettings::default(), 1, &|| false).is_ok());
+    assert!(tracer.render(&mut film, &scene.camera, &PathSettings::default().into(), 1, &|| false).is_ok());
 }

@@ -22,7 +22,8 @@ fn compose(root: &str) -> Result<Composed, WgslError> {
 
 #[test]
 fn every_shader_composes_and_validates() {
-    for source in LISTS.into_iter().flat_map(|(sources, _)| sources) {
+    let sources = LISTS.into_iter().flat_map(|(sources, _)| sources);
+    for source in sources.filter(|source| source.path != pathtrace::shaders::DRIVER) {
         if let Err(fault) = compose(source.path) {
             panic!("{fault}");
         }
@@ -135,7 +136,7 @@ fn mirrors_of_the_path_tracer_have_the_layout_of_their_structs() {
     assert_same_layout!(
         "pathtrace/scene.wgsl",
         Material,
-        [colour, emission, emitting_sides, bsdf, ior, root, root_low]
+        [colour, emission, emitting_sides, lobe, ior, root, root_low]
     );
     assert_same_layout!(
         "pathtrace/scene.wgsl",

@@ -103,6 +103,12 @@ fn stem(path: &str) -> &str {
     name.split('.').next().unwrap_or(name)
 }
 
+/// The shader at `path`; of the driver of integrators, an integrator with it.
+fn compose(library: &[&[Source<'static>]], path: &str) -> Composed {
+    let root = if path == pathtrace::shaders::DRIVER { "pathtrace/integrator/path.wgsl" } else { path };
+    wgsl::compose(library, root).unwrap()
+}
+
 /// Names and values of the constants that `file` declares, with the comment above each.
 fn constants(shader: &Composed, file: &str, text: &str) -> Vec<(String, f64, String)> {
     let module = &shader.module;
@@ -195,7 +201,7 @@ fn every_constant_has_its_twins_value() {
         let of_rust: BTreeMap<_, _> = of_rust.into_iter().collect();
         let mut shared = BTreeSet::new();
         for source in library[0] {
-            let shader = wgsl::compose(&library, source.path).unwrap();
+            let shader = compose(&library, source.path);
             for (name, value, comment) in constants(&shader, source.path, source.text) {
                 let twin = of_rust.get(name.as_str()).copied();
                 let right = match (comment.contains("Here alone: "), comment.contains("Other than the twin's: ")) {
@@ -224,7 +230,7 @@ fn every_override_is_set_and_everything_set_is_an_override() {
         assert_eq!(set.len(), overrides.len(), "an override is set twice: {overrides:?}");
         let mut declared = BTreeSet::new();
         for source in library[0] {
-            let module = wgsl::compose(&library, source.path).unwrap().module;
+            let module = compose(&library, source.path).module;
             declared.extend(module.overrides.iter().filter_map(|(_, declared)| declared.name.clone()));
         }
         assert_eq!(declared, set);

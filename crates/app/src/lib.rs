@@ -4,11 +4,15 @@
 //! controls and pictures into egui and knows no window; the [`engine`] renders beside it; [`window`] is the shell
 //! around both, the only place that knows winit.
 
+#[macro_use]
+mod console;
+
 pub mod cli;
 pub mod engine;
+pub mod model;
 pub mod ruler;
-pub mod technique;
 pub mod ui;
+pub mod viewer;
 pub mod window;
 
 use std::ffi::OsString;
@@ -20,7 +24,7 @@ pub fn run(args: impl IntoIterator<Item = OsString>) -> ExitCode {
     match cli::Command::parse(args).and_then(cli::Command::execute) {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
-            cli::to_stderr(format_args!("visavis: {}\n", error.line()));
+            console::to_stderr(format_args!("visavis: {}\n", error.line()));
             ExitCode::from(error.exit_code())
         }
     }

@@ -2,7 +2,7 @@
 
 use crate::area_lights::{RECTANGLE, direct, from_above};
 use crate::hard::known;
-use crate::measure::{Trial, paths};
+use crate::measure::{Trial, adding};
 use film::Film;
 use pathtrace::{Estimator, PathSettings, SamplerKind, Tracer, estimate_with_replicates};
 use scene::Camera;
@@ -26,9 +26,9 @@ pub fn three_of_one(trial: &mut Trial) {
     let seen = (&tracer, &camera);
     for (estimator, variance) in VARIANCES {
         let settings = direct(estimator);
-        trial.path("mean", expected, seen, &settings);
+        trial.traced("mean", expected, seen, settings);
         let mut film = Film::new(64, 64);
-        tracer.render(&mut film, &camera, &settings, trial.pick(128, 1024), &|| trial.stopped());
+        tracer.render(&mut film, &camera, &settings.into(), trial.pick(128, 1024), &|| trial.stopped());
         trial.count_nonfinite(&film);
         let subject = format!("path {}", estimator.name());
         let measured = variance_of_a_sample(&film) / (expected * expected);
@@ -76,7 +76,7 @@ fn slope_on_the_processor(
     let side = f64::from(pictures).sqrt() as u32;
     let Ok(slope) = slope(RECTANGLE[2].2, trial.pick(10, 14), |samples| {
         let mut film = Film::new(side, side);
-        tracer.render(&mut film, camera, settings, samples, &|| trial.stopped());
+        tracer.render(&mut film, camera, &(*settings).into(), samples, &|| trial.stopped());
         Ok::<_, Infallible>(film)
     });
     slope
@@ -98,14 +98,14 @@ fn replicates(trial: &mut Trial, tracer: &Tracer, expected: f64) {
     let stop = trial.stop_flag();
     let independent = |seed: u32| {
         let mut film = Film::new(32, 32);
-        paths(tracer, &camera, &settings)(&mut film, seed + 1, 64, stop);
+        adding(tracer, &camera, settings)(&mut film, seed + 1, 64, stop);
         film
     };
     let ratio = told_and_true(independent, 32);
     trial.equal("film", "standard error over spread, independent", 1.0, ratio, 0.1);
     let sobol = PathSettings { sampler: SamplerKind::Sobol, ..settings };
     let replicated = |seed: u32| {
-        let settings = PathSettings { seed: seed * 100, ..sobol };
+        let settings = PathSettings { seed: seed * 100, ..sobol }.into();
         estimate_with_replicates(tracer, &camera, &settings, (16, 16), 16, 16, &|| stop.load(Ordering::Relaxed))
     };
     let ratio = told_and_true(replicated, 16);
@@ -114,7 +114,7 @@ fn replicates(trial: &mut Trial, tracer: &Tracer, expected: f64) {
     trial.equal("path light", "mean, Sobol replicates", expected, mean, 0.005 * expected);
     let alone = |seed: u32| {
         let mut film = Film::new(16, 16);
-        paths(tracer, &camera, &sobol)(&mut film, seed + 1, 64, stop);
+        adding(tracer, &camera, sobol)(&mut film, seed + 1, 64, stop);
         film
     };
     trial.information("film", "standard error over spread, Sobol without replicates", 1.0, told_and_true(alone, 16));

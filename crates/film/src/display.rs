@@ -1,7 +1,7 @@
 //! The one display transform: exposure, clamp to [0, 1], sRGB encoding, rounding to bytes. Every pane and every PNG
 //! goes through it, and no metric does.
 
-use crate::{Film, colour};
+use crate::{Image, colour};
 use glam::Vec3;
 use std::sync::LazyLock;
 
@@ -18,15 +18,10 @@ impl DisplayTransform {
         self.encode(radiance, self.scale())
     }
 
-    /// Bytes of a whole film, four a pixel, rows from the top.
-    pub fn film_to_rgba8(&self, film: &Film) -> Vec<u8> {
-        self.to_rgba8(film.radiances())
-    }
-
-    /// Bytes of bare radiances, four each.
-    pub fn to_rgba8(&self, radiances: impl Iterator<Item = Vec3>) -> Vec<u8> {
+    /// Bytes of a whole picture, four a pixel, rows from the top.
+    pub fn rgba8_of(&self, image: &Image) -> Vec<u8> {
         let scale = self.scale();
-        radiances.flat_map(|radiance| self.encode(radiance, scale)).collect()
+        image.radiances().iter().flat_map(|radiance| self.encode(*radiance, scale)).collect()
     }
 
     fn scale(&self) -> f32 {

@@ -49,9 +49,9 @@ fn main() -> Result<(), Box<dyn Error>> {
                 let mut tracer = make(&gpu, scene)?;
                 tracer.set_budget(BUDGET);
                 let settings = PathSettings::default();
-                tracer.render(&mut film()?, &scene.camera, &settings, spp.div_ceil(4), &|| false)?;
+                tracer.render(&mut film()?, &scene.camera, &settings.into(), spp.div_ceil(4), &|| false)?;
                 tracer.take_seconds();
-                let stats = tracer.render(&mut film()?, &scene.camera, &settings, spp, &|| false)?;
+                let stats = tracer.render(&mut film()?, &scene.camera, &settings.into(), spp, &|| false)?;
                 let clock = if tracer.has_a_clock() { "" } else { " (by the wall's clock)" };
                 tell(&scene.name, &format!("{}{way}{clock}", gpu.describe()), stats, tracer.take_seconds());
             }
@@ -59,7 +59,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         let tracer = Tracer::new(scene);
         let mut film = Film::try_new(width, height).ok_or("not enough memory")?;
         let start = Instant::now();
-        let stats = tracer.render(&mut film, &scene.camera, &PathSettings::default(), spp, &|| false);
+        let stats = tracer.render(&mut film, &scene.camera, &PathSettings::default().into(), spp, &|| false);
         let threads = std::thread::available_parallelism().map_or(1, usize::from);
         tell(&scene.name, &format!("{threads} threads"), stats, start.elapsed().as_secs_f64());
     }

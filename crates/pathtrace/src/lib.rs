@@ -4,8 +4,8 @@
 //! materials. [`Tracer::render`] adds samples to a [`film::Film`]. It is one loop over [`simd`]'s lane types: a lane
 //! owns a pixel, and each turn of the loop in [`drive::lanes`] is one segment of the path in every lane, see
 //! [`integrator::path`], without recursion or allocation; a lane whose path ended starts its next one at once. One lane
-//! is a plain scalar tracer, 16 are AVX-512, and all give the same picture bit for bit. [`Tracer::render_whitted`] does
-//! the same for the trees of rays of [`integrator::whitted`].
+//! is a plain scalar tracer, 16 are AVX-512, and all give the same picture bit for bit. An [`Integrator`] says what is
+//! followed: these paths, or the trees of rays of [`integrator::whitted`].
 //!
 //! Random numbers are a pure function of (pixel, sample, dimension, seed), see [`sampling::sampler`]: a picture does
 //! not depend on the number of threads either.
@@ -23,6 +23,7 @@ mod tracer;
 mod vectors;
 
 pub use drive::gpu;
+pub use integrator::Integrator;
 pub use integrator::settings::{
     Directions, Estimator, LightSampling, PathSettings, Roulette, SamplerKind, SettingsError,
 };

@@ -2,11 +2,12 @@
 //!
 //! Twin: `shaders/pathtrace/prepared.wgsl`.
 
+use crate::bsdf::Interactions;
+use crate::bsdf::interaction::facing;
 use crate::bsdf::materials::Materials;
-use crate::intersect::SHADOW_END;
 use crate::intersect::aggregate::Aggregate;
-use crate::intersect::lanes::{Hits, Rays, SurfacePoints};
 use crate::intersect::shape_list::Scratch;
+use crate::intersect::{Rays, SHADOW_END, SurfaceInteractions, SurfacePoints};
 use crate::light::{LightSamples, Lights, SunDisc};
 use crate::vectors::in_all_lanes;
 use scene::Vec3;
@@ -39,10 +40,20 @@ pub struct Outcomes<F: Float> {
 }
 
 impl PreparedScene {
-    /// The nearest hits of the `wanted` rays.
+    /// What the `wanted` rays meet first.
     #[inline(always)]
-    pub fn closest<F: Float>(&self, rays: &Rays<F>, wanted: F::M, scratch: &mut Scratch<F>) -> Hits<F> {
-        self.aggregate.closest(rays, wanted, scratch)
+    pub fn closest<F: Float>(&self, rays: &Rays<F>, wanted: F::M, scratch: &mut Scratch<F>) -> SurfaceInteractions<F> {
+        let hits = self.aggregate.closest(rays, wanted, scratch);
+        self.aggregate.interactions(rays, &hits)
+    }
+
+    /// The surfaces that were met, seen from `wo`.
+    #[inline(always)]
+    pub fn interaction<F: Float>(&self, hit: &SurfaceInteractions<F>, wo: Vector<F>) -> Interactions<F> {
+        let kinds = self.materials.kinds(hit.material);
+        let colour = self.materials.colour(hit.material, kinds, hit.point.position);
+        let normal = facing(hit.point.normal, wo);
+        Interactions { point: hit.point, normal, wo, colour, kinds, material: hit.material }
     }
 
     /// Where something stands between the `wanted` points and what shines on them; if `opaque`, glass does not count.
@@ -78,10 +89,4 @@ impl PreparedScene {
     pub fn has_environment(&self) -> bool {
         self.sky != Vec3::ZERO || self.sun_disc.is_some()
     }
-}
-
-/// The normal on the side of `wo`.
-#[inline(always)]
-pub fn facing<F: Float>(normal: Vector<F>, wo: Vector<F>) -> Vector<F> {
-    Vector::select(normal.dot(wo).lt(F::splat(0.0)), -normal, normal)
 }

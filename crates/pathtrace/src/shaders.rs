@@ -1,26 +1,36 @@
 //! The path tracer's shaders: every file under `shaders/pathtrace/`. A new one is one line of [`SOURCES`].
 
+use crate::bsdf::materials::{CHECKERED, LOBE_DIELECTRIC, LOBE_LAMBERT, LOBE_MIRROR};
 use crate::drive::gpu::dispatch::GROUP;
 use crate::drive::gpu::film_data::CUT_SHIFT;
-use crate::drive::gpu::pipelines::{BY_BOTH, BY_CHANCE, BY_SAMPLING, SceneNeeds};
 use crate::drive::gpu::scene_data::*;
 use crate::drive::gpu::shape_data::*;
+use crate::drive::gpu::{PipelineKey, SceneNeeds};
+use crate::integrator::Integrator;
 use crate::integrator::forks::MOST_FORKS;
+use crate::integrator::path::{BY_BOTH, BY_CHANCE, BY_SAMPLING};
 use crate::integrator::path_state::{ALREADY_COUNTED, MET_BY_CHANCE};
 use crate::integrator::roulette::{ROULETTE_SLOPE, STEPS};
+use crate::integrator::settings::PathSettings;
 use crate::integrator::whitted::{MOST_BRANCHES, MOST_LIGHTS, WhittedSettings};
 use crate::intersect::{NO_LIGHT, SHADOW_END};
 use crate::light::ball::ALL_DIRECTIONS;
 use crate::light::flat::SMALLEST_SOLID_ANGLE;
 use crate::sampling::UNIFORM_HEMISPHERE_PDF;
 use gpu::wgsl::{self, Composed, Source, WgslError};
+use std::collections::BTreeSet;
 use std::f32::consts::FRAC_1_PI;
 
 /// One line a file.
 pub const SOURCES: &[Source<'static>] = gpu::wgsl_sources![
     "pathtrace/bsdf/bsdf.wgsl",
+    "pathtrace/bsdf/dielectric.wgsl",
+    "pathtrace/bsdf/interaction.wgsl",
+    "pathtrace/bsdf/lambert.wgsl",
+    "pathtrace/bsdf/mirror.wgsl",
     "pathtrace/camera.wgsl",
     "pathtrace/drive/film.wgsl",
+    "pathtrace/drive/pixels.wgsl",
     "pathtrace/drive/rays.wgsl",
     "pathtrace/exact.wgsl",
     "pathtrace/integrator/path.wgsl",
@@ -51,6 +61,9 @@ pub const SOURCES: &[Source<'static>] = gpu::wgsl_sources![
     "pathtrace/scene.wgsl",
 ];
 
+/// The driver of integrators, no whole shader by itself: it asks the integrator that imports it for two functions.
+pub const DRIVER: &str = "pathtrace/drive/pixels.wgsl";
+
 /// [`SOURCES`], and what they import from beyond `shaders/pathtrace/`.
 pub const LIBRARY: [&[Source<'static>]; 2] = [SOURCES, gpu::shared_shaders::SOURCES];
 
@@ -69,13 +82,10 @@ pub fn shared_constants() -> Vec<(&'static str, f64)> {
     gpu::named_values![
         ALL_DIRECTIONS,
         ALREADY_COUNTED,
-        BSDF_CHECKERBOARD,
-        BSDF_DIELECTRIC,
-        BSDF_DIFFUSE,
-        BSDF_MIRROR,
         BY_BOTH,
         BY_CHANCE,
         BY_SAMPLING,
+        CHECKERED,
         COUNT_SHIFT,
         CUT_SHIFT,
         FRAC_1_PI,
@@ -90,6 +100,9 @@ pub fn shared_constants() -> Vec<(&'static str, f64)> {
         LIGHT_RECTANGLE,
         LIGHT_SUN,
         LIGHT_TRIANGLE,
+        LOBE_DIELECTRIC,
+        LOBE_LAMBERT,
+        LOBE_MIRROR,
         MET_BY_CHANCE,
         MOST_BRANCHES,
         MOST_DEPTH,
@@ -107,7 +120,11 @@ pub fn shared_constants() -> Vec<(&'static str, f64)> {
     ]
 }
 
-/// Names of the overrides that pipelines are compiled with.
+/// Names of the overrides that pipelines are compiled with: what scenes ask for, and the settings of any integrator.
 pub fn override_names() -> Vec<&'static str> {
-    SceneNeeds::constant_names()
+    let integrators: [Integrator; 2] = [PathSettings::default().into(), WhittedSettings::default().into()];
+    let keys = integrators.map(|integrator| integrator.pipeline_key(false));
+    // they share some
+    let of_settings: BTreeSet<_> = keys.into_iter().flat_map(PipelineKey::constant_names).collect();
+    SceneNeeds::constant_names().chain(of_settings).collect()
 }

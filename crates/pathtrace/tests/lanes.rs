@@ -15,10 +15,10 @@ use std::time::{Duration, Instant};
 const SIZE: (u32, u32) = (37, 29);
 
 /// What the built-in scenes lack.
-const EVERYTHING: &str = include_str!("../../../tests/tests/scenes/everything.toml");
+const EVERYTHING: &str = include_str!("../../../tests/tests/scenes/everything-more.toml");
 
 fn everything() -> Scene {
-    scene::parse(EVERYTHING, "everything", Path::new("everything.toml")).expect("a scene")
+    scene::parse(EVERYTHING, "everything", Path::new("everything-more.toml")).expect("a scene")
 }
 
 /// As a mesh of many triangles: too many to be met one by one.
@@ -39,7 +39,7 @@ fn a_tree() -> Scene {
             [[a, c, b], [a, d, c]]
         })
         .collect();
-    let ball = scene::Shape { geometry: scene::Geometry::Mesh { positions, triangles }, material: 1 };
+    let ball = scene::Shape { geometry: scene::Geometry::mesh(positions, triangles), material: 1 };
     scene.shapes = scene.shapes.iter().cloned().chain([ball]).collect();
     scene
 }
@@ -66,13 +66,13 @@ fn all_settings() -> Vec<PathSettings> {
 
 fn path(tracer: &Tracer, scene: &Scene, settings: &PathSettings, samples: u32) -> (Film, Stats) {
     let mut film = Film::new(SIZE.0, SIZE.1);
-    let stats = tracer.render(&mut film, &scene.camera, settings, samples, &|| false);
+    let stats = tracer.render(&mut film, &scene.camera, &(*settings).into(), samples, &|| false);
     (film, stats)
 }
 
 fn whitted(tracer: &Tracer, scene: &Scene, settings: &WhittedSettings) -> (Film, Stats) {
     let mut film = Film::new(SIZE.0, SIZE.1);
-    let stats = tracer.render_whitted(&mut film, &scene.camera, settings, 2, &|| false);
+    let stats = tracer.render(&mut film, &scene.camera, &(*settings).into(), 2, &|| false);
     (film, stats)
 }
 
@@ -127,7 +127,7 @@ fn pictures_do_not_depend_on_threads_or_on_how_samples_are_split() {
             let whole = on(1);
             assert!(whole == on(2) && whole == on(7), "{sampler:?}");
             let mut film = Film::new(SIZE.0, SIZE.1);
-            let mut add = |samples| tracer.render(&mut film, &scene.camera, &settings, samples, &|| false);
+            let mut add = |samples| tracer.render(&mut film, &scene.camera, &settings.into(), samples, &|| false);
             let stats = add(1).plus(add(2)).plus(add(1));
             assert!((film, stats) == whole, "{sampler:?}, in three calls");
         }
@@ -142,10 +142,10 @@ fn a_stopped_picture_is_completed() {
     let (settings, mut film) = (PathSettings::default(), Film::new(SIZE.0, SIZE.1));
     let asked = AtomicU32::new(0);
     let stop = || asked.fetch_add(1, Ordering::Relaxed) > 20;
-    let stats = tracer.render(&mut film, &scene.camera, &settings, 16, &stop);
+    let stats = tracer.render(&mut film, &scene.camera, &settings.into(), 16, &stop);
     let taken: u64 = film.pixels().iter().map(|pixel| u64::from(pixel.samples)).sum();
     assert!(taken == stats.samples && taken > 0 && film.samples_per_pixel() == 0, "{taken}");
-    tracer.render(&mut film, &scene.camera, &settings, 16, &|| false);
+    tracer.render(&mut film, &scene.camera, &settings.into(), 16, &|| false);
     assert!(film == path(&tracer, &scene, &settings, 16).0);
 }
 
@@ -165,7 +165,7 @@ fn a_stop_is_obeyed_within_five_milliseconds() {
                 }
                 now
             };
-            tracer.render(&mut film, &scene.camera, &settings, u32::MAX, &stop);
+            tracer.render(&mut film, &scene.camera, &settings.into(), u32::MAX, &stop);
             let first = stopped.lock().expect("no panic").take();
             first.expect("it was stopped").elapsed()
         });

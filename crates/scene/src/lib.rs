@@ -5,6 +5,7 @@
 
 pub mod builtin;
 pub mod camera;
+pub mod canonical;
 pub mod file;
 pub mod light;
 pub mod material;
@@ -19,7 +20,7 @@ pub use glam::{self, Vec3};
 pub use light::{PointLight, Sun};
 pub use material::{Bsdf, Material, Texture};
 pub use needs::Needs;
-pub use shape::{Geometry, Shape};
+pub use shape::{Geometry, Mesh, Shape};
 
 use stand_ins::FakeNumbers;
 use std::sync::Arc;

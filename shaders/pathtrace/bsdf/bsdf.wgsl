@@ -1,66 +1,52 @@
-//#import pathtrace/exact.wgsl
-// Reflection and refraction at smooth surfaces. Twin: crates/pathtrace/src/bsdf/mod.rs.
+//#import pathtrace/bsdf/lambert.wgsl
+//#import pathtrace/bsdf/mirror.wgsl
+//#import pathtrace/bsdf/dielectric.wgsl
+// How surfaces scatter light: what integrators ask of whatever lobe a surface has. Directions point away from the
+// surface; wo is where the path came from, wi where it goes on. Twin: crates/pathtrace/src/bsdf/mod.rs.
 
-// The mirror direction of wo (pointing away from the surface) about the unit normal n.
-fn reflect(wo: vec3f, n: vec3f) -> vec3f {
-    return 2.0 * dot(n, wo) * n - wo;
+// Draws a direction, from two random numbers for the direction and one for the choice among several.
+fn sample_bsdf(at: Interaction, u: vec3f) -> BsdfSample {
+    if MIRROR && at.lobe == LOBE_MIRROR {
+        return sample_mirror(at);
+    }
+    if DIELECTRIC && at.lobe == LOBE_DIELECTRIC {
+        return sample_dielectric(at, u.z);
+    }
+    return sample_lambert(at, u.xy);
 }
 
-// The surface of a smooth dielectric as a ray meets it.
-struct Interface {
-    // index of refraction of the inside over the outside
-    ior: f32,
-    // whether the ray comes from outside
-    entering: bool,
-    // root of |ior^2 - 1| as a sum of two floats
-    root: f32,
-    root_low: f32,
+// The BSDF for light from the unit direction wi, on the side of wo. Not of lobes that leave no choice.
+fn eval_bsdf(at: Interaction, wi: vec3f) -> ScaledColour {
+    return eval_lambert(at);
 }
 
-// Nothing is refracted. Here alone: lanes have a mask for it.
-const ALL_REFLECTED: f32 = -1.0;
-
-// Cosine of the refracted direction for cos_i >= 0; ALL_REFLECTED beyond the critical angle. The twin subtracts squares
-// in f64; here their roots are subtracted, with as many bits as that needs near the critical angle.
-fn refracted_cosine(boundary: Interface, cos_i: f32) -> f32 {
-    if boundary.ior == 1.0 {
-        return cos_i;
-    }
-    let factor = select(boundary.ior, 1.0, boundary.entering);
-    let scaled = factor * cos_i;
-    var squared = scaled * scaled + boundary.root * boundary.root;
-    if (boundary.ior > 1.0) != boundary.entering {
-        let terms = vec3f(factor, -boundary.root, -boundary.root_low);
-        let difference = exact_dot(terms, vec3f(0.0), vec3f(cos_i, 1.0, 1.0), vec3f(0.0));
-        squared = difference * (scaled + boundary.root);
-    }
-    let divisor = select(1.0, boundary.ior, boundary.entering);
-    return select(ALL_REFLECTED, sqrt(max(squared, 0.0)) / divisor, squared > 0.0);
+// Density per solid angle of sample_bsdf at wi, whose cosine to the normal is above 0. Not of lobes that leave no choice.
+fn bsdf_pdf(at: Interaction, wi: vec3f, cosine: f32) -> f32 {
+    return pdf_lambert(cosine);
 }
 
-// Share of unpolarised light that is reflected, in [0, 1]: Fresnel's equations, exact; 1 beyond the critical angle.
-fn fresnel(boundary: Interface, cos_i: f32) -> f32 {
-    let cos_t = refracted_cosine(boundary, cos_i);
-    if boundary.ior == 1.0 {
-        return 0.0;
-    }
-    if cos_t == ALL_REFLECTED {
-        return 1.0;
-    }
-    let outside = select(cos_t, cos_i, boundary.entering);
-    let inside = select(cos_i, cos_t, boundary.entering);
-    let parallel = (boundary.ior * outside - inside) / (boundary.ior * outside + inside);
-    let perpendicular = (outside - boundary.ior * inside) / (outside + boundary.ior * inside);
-    return 0.5 * (parallel * parallel + perpendicular * perpendicular);
+// Where a surface sends all light on in one or two directions.
+struct Specular {
+    reflects: bool,
+    refracts: bool,
+    reflected: vec3f,
+    refracted: vec3f,
+    reflectance: ScaledColour,
+    transmittance: f32,
 }
 
-// The direction into which wo refracts at the unit normal n on its side (n . wo >= 0), by Snell's law. Not beyond the
-// critical angle.
-fn refract(boundary: Interface, wo: vec3f, n: vec3f) -> vec3f {
-    let cos_i = dot(n, wo);
-    let cos_t = refracted_cosine(boundary, cos_i);
-    if boundary.entering {
-        return (cos_i / boundary.ior - cos_t) * n - wo / boundary.ior;
+// Both directions in which a mirror or glass sends light on.
+fn specular_of(at: Interaction) -> Specular {
+    let mirrored = reflect(at.wo, at.normal);
+    if DIELECTRIC && at.lobe == LOBE_DIELECTRIC {
+        let boundary = interface_of(at);
+        let share = fresnel(boundary, dot(at.normal, at.wo));
+        var refracted = mirrored;
+        if share < 1.0 {
+            let wi = refract(boundary, at.wo, at.normal);
+            refracted = wi / sqrt(dot(wi, wi));
+        }
+        return Specular(share > 0.0, share < 1.0, mirrored, refracted, ScaledColour(at.colour, share), 1.0 - share);
     }
-    return (cos_i * boundary.ior - cos_t) * n - wo * boundary.ior;
+    return Specular(any(at.colour != vec3f(0.0)), false, mirrored, mirrored, ScaledColour(at.colour, 1.0), 0.0);
 }

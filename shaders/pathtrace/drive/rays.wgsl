@@ -45,9 +45,9 @@ fn trace(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups) grou
         answer.error = hit.point.error;
         answer.material = hit.material;
         answer.normal = hit.point.normal;
-        let material = materials[hit.material];
-        if material.bsdf == BSDF_DIELECTRIC {
-            meet_dielectric(&answer, -ray.direction, material);
+        let met = interaction_of(hit, -ray.direction);
+        if met.lobe == LOBE_DIELECTRIC {
+            meet_dielectric(&answer, met);
         }
     }
     answer.occluded = select(0u, 1u, meets_anything(ray));
@@ -55,13 +55,11 @@ fn trace(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups) grou
 }
 
 // What a smooth dielectric does to light, as paths and trees ask it.
-fn meet_dielectric(answer: ptr<function, RayAnswer>, wo: vec3f, material: Material) {
-    let outward = (*answer).normal;
-    let normal = facing(outward, wo);
-    let boundary = Interface(material.ior, dot(outward, wo) >= 0.0, material.root, material.root_low);
-    (*answer).reflectance = fresnel(boundary, dot(normal, wo));
-    if refracted_cosine(boundary, dot(normal, wo)) != ALL_REFLECTED {
-        let wi = refract(boundary, wo, normal);
+fn meet_dielectric(answer: ptr<function, RayAnswer>, at: Interaction) {
+    let boundary = interface_of(at);
+    (*answer).reflectance = fresnel(boundary, dot(at.normal, at.wo));
+    if refracted_cosine(boundary, dot(at.normal, at.wo)) != ALL_REFLECTED {
+        let wi = refract(boundary, at.wo, at.normal);
         (*answer).refracted = wi / sqrt(dot(wi, wi));
     }
 }

@@ -1,11 +1,21 @@
 //#import pathtrace/prepared.wgsl
 //#import pathtrace/bsdf/bsdf.wgsl
-//#import pathtrace/drive/film.wgsl
+//#import pathtrace/drive/pixels.wgsl
 // One path: the tutorial's `shade`, turned from recursion into a state that moves from vertex to vertex (Task 2 d).
 // Twins: crates/pathtrace/src/integrator/path.rs, path_state.rs, forks.rs and roulette.rs.
 //
-// A thread is a pixel. Each iteration of its one loop is one segment: meet a surface, take its emission, sample a
-// light, draw a direction, play roulette; a thread whose path has ended begins its next sample in the same iteration.
+// Each step is one segment: meet a surface, take its emission, sample a light, draw a direction, play roulette.
+
+// whether diffuse vertices draw directions uniformly; by the cosine if not
+override UNIFORM_DIRECTIONS: bool = true;
+// how light is found: by chance, by sampling, or both, weighted
+override LIGHT_SEARCH: u32 = BY_BOTH;
+// whether a diffuse vertex may be left in more than one direction
+override BRANCHING: bool = true;
+
+const BY_CHANCE: u32 = 0u;
+const BY_SAMPLING: u32 = 1u;
+const BY_BOTH: u32 = 2u;
 
 struct PathState {
     ray: Ray,
@@ -29,26 +39,16 @@ const MET_BY_CHANCE: f32 = -1.0;
 // Light was sampled at the last vertex: meeting it now would count it twice.
 const ALREADY_COUNTED: f32 = 0.0;
 
-// A point of a diffuse surface.
-struct DiffuseVertex {
-    point: SurfacePoint,
-    // on the side that the path came from
-    normal: vec3f,
-    albedo: vec3f,
-}
-
 // Vertices that can wait for more branches at a time.
 const MOST_FORKS: u32 = 16u;
 
 // What comes after a segment. Here alone: lanes have masks for it.
 const PATH_ENDS: u32 = 0u;
 const PATH_GOES_ON: u32 = 1u;
-const PATH_IS_AT_DIFFUSE: u32 = 2u;
+const PATH_SCATTERS: u32 = 2u;
 
-var<private> sampler_: Sampler;
 var<private> path: PathState;
-var<private> outcome: Outcome;
-var<private> vertex: DiffuseVertex;
+var<private> vertex: Interaction;
 // vertices that more branches will leave, and the path as it arrived there: one list for each part, because compilers
 // take long over lists of structures
 var<private> fork_positions: array<vec3f, MOST_FORKS>;
@@ -62,47 +62,20 @@ var<private> fork_throughputs: array<vec3f, MOST_FORKS>;
 var<private> fork_counts: array<vec4u, MOST_FORKS>;
 var<private> waiting: u32;
 
-@compute @workgroup_size(GROUP, GROUP)
-fn trace(@builtin(global_invocation_id) id: vec3u) {
-    let place = id.xy + vec2u(params.first_column, params.first_row);
-    let width = u32(params.size.x);
-    if place.x >= params.end_column || place.y >= params.end_row {
-        return;
-    }
-    let index = (place.y - params.film_row) * width + place.x;
-    var pixel = film[index];
-    sampler_ = Sampler(place.y * width + place.x, pixel.samples, params.seed);
-    begin(place);
-    loop {
-        if pixel.samples >= params.until {
-            break;
-        }
-        if step_on() {
-            continue;
-        }
-        record(&pixel, outcome);
-        sampler_.sample = pixel.samples;
-        begin(place);
-    }
-    film[index] = pixel;
-}
-
 // Begins a sample.
-fn begin(place: vec2u) {
-    let ray = sample_ray(place, sampler_);
+fn begin(ray: Ray) {
     path = PathState(ray, vec3f(1.0), 0u, 0u, 0u, ray.origin, MET_BY_CHANCE);
-    outcome = Outcome(vec3f(0.0), 0u, false);
     waiting = 0u;
 }
 
 // One segment, or one more branch of a vertex that waits; false when the sample is done.
 fn step_on() -> bool {
-    var then = PATH_IS_AT_DIFFUSE;
+    var then = PATH_SCATTERS;
     if !BRANCHING || !at_fork() {
         then = segment();
     }
-    if then == PATH_IS_AT_DIFFUSE {
-        then = select(PATH_ENDS, PATH_GOES_ON, leave_diffuse());
+    if then == PATH_SCATTERS {
+        then = select(PATH_ENDS, PATH_GOES_ON, scatter());
     }
     if BRANCHING && then == PATH_ENDS && waiting > 0u {
         next_branch();
@@ -120,7 +93,7 @@ fn at_fork() -> bool {
 fn next_branch() {
     let top = waiting - 1u;
     let point = SurfacePoint(fork_positions[top], fork_errors[top], fork_normals[top]);
-    vertex = DiffuseVertex(point, fork_sides[top], fork_albedos[top]);
+    vertex = Interaction(point, fork_sides[top], fork_sides[top], fork_albedos[top], LOBE_LAMBERT, 0u);
     let counts = fork_counts[top];
     path.throughput = fork_throughputs[top];
     path.vertices = counts.x;
@@ -139,7 +112,7 @@ fn fork() {
     fork_errors[waiting] = vertex.point.error;
     fork_normals[waiting] = vertex.point.normal;
     fork_sides[waiting] = vertex.normal;
-    fork_albedos[waiting] = vertex.albedo;
+    fork_albedos[waiting] = vertex.colour;
     fork_throughputs[waiting] = path.throughput;
     fork_counts[waiting] = vec4u(path.vertices, path.forked, path.branch, params.branches - 1u);
     waiting += 1u;
@@ -159,7 +132,7 @@ fn light_dimension() -> u32 {
     return direction_dimension() + 1u;
 }
 
-// To the next surface, and off it if it is specular.
+// To the next surface.
 fn segment() -> u32 {
     outcome.rays += 1u;
     let nearest = closest(path.ray);
@@ -169,81 +142,73 @@ fn segment() -> u32 {
         return PATH_ENDS;
     }
     let hit = hit_of(nearest, path.ray);
-    let material = materials[hit.material];
-    if material.emitting_sides != 0u {
+    vertex = interaction_of(hit, -path.ray.direction);
+    if materials[hit.material].emitting_sides != 0u {
         var weight = 1.0;
         if LIGHT_SEARCH != BY_CHANCE {
             weight = weight_of_hit(hit);
         }
-        outcome.radiance += path.throughput * emitted(material, hit.point.normal, path.ray.direction) * weight;
+        outcome.radiance += path.throughput * emitted(vertex) * weight;
     }
     if path.vertices == params.limit {
         outcome.cut = outcome.cut || params.capped == 1u;
         return PATH_ENDS;
     }
-    let wo = -path.ray.direction;
-    let normal = facing(hit.point.normal, wo);
-    if MIRROR && material.bsdf == BSDF_MIRROR {
-        path.throughput *= material.colour.even;
-        leave(hit.point, reflect(wo, normal));
-        return goes_on(unit4(sampler_, direction_dimension()).z);
-    }
-    if DIELECTRIC && material.bsdf == BSDF_DIELECTRIC {
-        let u = unit4(sampler_, direction_dimension());
-        scatter_dielectric(hit.point, wo, material, u.w);
-        return goes_on(u.z);
-    }
-    let albedo = colour_at(material, hit.point.position);
-    if all(albedo == vec3f(0.0)) {
+    if all(vertex.colour == vec3f(0.0)) {
         return PATH_ENDS;
     }
-    vertex = DiffuseVertex(hit.point, normal, albedo);
-    if BRANCHING && path.forked < params.branching_vertices {
+    if BRANCHING && is_diffuse(vertex) && path.forked < params.branching_vertices {
         path.forked += 1u;
         path.throughput /= f32(params.branches);
         fork();
         path.branch = child(path.branch, params.branches, 0u);
     }
-    return PATH_IS_AT_DIFFUSE;
+    return PATH_SCATTERS;
 }
 
-// Samples a light and draws the direction in which the path leaves a diffuse vertex; false where it ends.
-fn leave_diffuse() -> bool {
-    if LIGHT_SEARCH != BY_CHANCE && header.lights > 0u {
-        let u = unit4(sampler_, light_dimension());
-        outcome.radiance += path.throughput * vertex.albedo * FRAC_1_PI * sample_lights(u);
+// Samples a light and draws the direction in which the path leaves its vertex; false where it ends.
+fn scatter() -> bool {
+    let delta = is_delta(vertex);
+    if LIGHT_SEARCH != BY_CHANCE && header.lights > 0u && !delta {
+        sample_lights(unit4(sampler_, light_dimension()));
     }
     let u = unit4(sampler_, direction_dimension());
-    path.throughput *= vertex.albedo;
-    // Lambert: f cos / pdf is the albedo for cosine-weighted directions and 2 albedo cos for uniform ones
-    var local: vec3f;
-    var pdf: f32;
-    if UNIFORM_DIRECTIONS {
-        local = uniform_hemisphere(u.xy);
-        path.throughput *= FRAC_1_PI * local.z / UNIFORM_HEMISPHERE_PDF;
-        pdf = UNIFORM_HEMISPHERE_PDF;
+    var sample: BsdfSample;
+    if UNIFORM_DIRECTIONS && !delta {
+        sample = sample_uniformly(u.xy);
     } else {
-        local = cosine_hemisphere(u.xy);
-        pdf = local.z * FRAC_1_PI;
+        sample = sample_bsdf(vertex, u.xyw);
     }
-    switch LIGHT_SEARCH {
-        case BY_CHANCE: { path.direction_pdf = MET_BY_CHANCE; }
-        case BY_SAMPLING: { path.direction_pdf = ALREADY_COUNTED; }
-        default: { path.direction_pdf = pdf; }
+    path.throughput *= sample.weight.colour;
+    path.throughput *= sample.weight.factor;
+    if delta || LIGHT_SEARCH == BY_CHANCE {
+        path.direction_pdf = MET_BY_CHANCE;
+    } else if LIGHT_SEARCH == BY_SAMPLING {
+        path.direction_pdf = ALREADY_COUNTED;
+    } else {
+        path.direction_pdf = sample.pdf;
     }
     path.from_ = vertex.point.position;
+    path.ray = Ray(leaving_towards(vertex.point, sample.wi), sample.wi, FAR);
+    return goes_on(u.z);
+}
+
+// A direction of the tutorial's naive tracer, whatever the surface (Task 2 b).
+fn sample_uniformly(u: vec2f) -> BsdfSample {
+    let local = uniform_hemisphere(u);
     let wi = to_world(local, vertex.normal);
-    path.ray = Ray(leaving_towards(vertex.point, wi), wi, FAR);
-    return goes_on(u.z) == PATH_GOES_ON;
+    var weight = eval_bsdf(vertex, wi);
+    weight.factor = weight.factor * local.z / UNIFORM_HEMISPHERE_PDF;
+    return BsdfSample(wi, weight, UNIFORM_HEMISPHERE_PDF);
 }
 
 // Counts the vertex and plays roulette.
-fn goes_on(u_roulette: f32) -> u32 {
+fn goes_on(u_roulette: f32) -> bool {
     path.vertices += 1u;
     let all_counted = path.direction_pdf == ALREADY_COUNTED && all(header.sky == vec3f(0.0));
     if path.vertices == params.limit && all_counted {
         outcome.cut = outcome.cut || params.capped == 1u;
-        return PATH_ENDS;
+        return false;
     }
     var shared_by = 1.0;
     if BRANCHING {
@@ -251,32 +216,31 @@ fn goes_on(u_roulette: f32) -> u32 {
             shared_by *= f32(params.branches);
         }
     }
-    return select(PATH_ENDS, PATH_GOES_ON, survives(shared_by, u_roulette));
+    return survives(shared_by, u_roulette);
 }
 
-// Incoming radiance times cosine over density, from one sample of the lights; zero in shadow. Under MIS weighted
-// against meeting the same light by chance.
-fn sample_lights(u: vec4f) -> vec3f {
+// Takes the light of one sample of the lights, unless it is in shadow. Under MIS weighted against meeting the same light
+// by chance.
+fn sample_lights(u: vec4f) {
     let sample = sample_light(vertex.point.position, u.z, u.xy);
     let cosine = dot(vertex.normal, sample.wi);
     if sample.pdf == 0.0 || cosine <= 0.0 {
-        return vec3f(0.0);
+        return;
     }
     outcome.rays += 1u;
     if in_shadow(vertex.point, sample) {
-        return vec3f(0.0);
+        return;
     }
     var weight = 1.0;
     if LIGHT_SEARCH == BY_BOTH {
-        weight = balance(sample.pdf, select(cosine * FRAC_1_PI, UNIFORM_HEMISPHERE_PDF, UNIFORM_DIRECTIONS));
+        var pdf = UNIFORM_HEMISPHERE_PDF;
+        if !UNIFORM_DIRECTIONS {
+            pdf = bsdf_pdf(vertex, sample.wi, cosine);
+        }
+        weight = balance(sample.pdf, pdf);
     }
-    return sample.radiance_over_pdf * (cosine * weight);
-}
-
-// Goes on in the unit direction wi, of which a specular surface left no choice.
-fn leave(point: SurfacePoint, wi: vec3f) {
-    path.direction_pdf = MET_BY_CHANCE;
-    path.ray = Ray(leaving_towards(point, wi), wi, FAR);
+    let bsdf = eval_bsdf(vertex, sample.wi);
+    outcome.radiance += path.throughput * bsdf.colour * bsdf.factor * (sample.radiance_over_pdf * (cosine * weight));
 }
 
 // How much light that was met counts beside the same light sampled at the last vertex with density `light_pdf`.
@@ -301,20 +265,6 @@ fn weight_of_hit(hit: Hit) -> f32 {
 // The balance heuristic: the weight of a sample of density `own` against one of density `other`.
 fn balance(own: f32, other: f32) -> f32 {
     return 1.0 / (1.0 + other / own);
-}
-
-// Reflects with the probability that Fresnel gives, else refracts; the weights cancel. No scaling of radiance by the
-// square of the index: a camera outside sees the same either way.
-fn scatter_dielectric(at: SurfacePoint, wo: vec3f, material: Material, u: f32) {
-    let normal = facing(at.normal, wo);
-    let boundary = Interface(material.ior, dot(at.normal, wo) >= 0.0, material.root, material.root_low);
-    var wi: vec3f;
-    if u < fresnel(boundary, dot(normal, wo)) {
-        wi = reflect(wo, normal);
-    } else {
-        wi = refract(boundary, wo, normal);
-    }
-    leave(at, wi / sqrt(dot(wi, wi)));
 }
 
 // Survival for each unit of throughput.

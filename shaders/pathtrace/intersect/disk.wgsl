@@ -1,5 +1,5 @@
 //#import pathtrace/intersect/triangle.wgsl
-// Ray/disk intersection. Twin: crates/pathtrace/src/intersect/shape_list/disks.rs, in lanes.
+// Ray/disk intersection. Twin: crates/pathtrace/src/intersect/disk.rs.
 
 // Distance to the disk in lengths of the ray's direction, from either side; 0 where it is not met.
 fn disk_distance(center: vec3f, normal: vec3f, radius: f32, ray: Ray) -> f32 {

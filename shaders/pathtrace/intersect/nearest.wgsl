@@ -1,8 +1,8 @@
 //#import pathtrace/needs.wgsl
 //#import pathtrace/scene.wgsl
 //#import pathtrace/intersect/surface_point.wgsl
-// What rays find, whatever the structure that they are traced through. Twin: crates/pathtrace/src/intersect/lanes.rs,
-// which has all that lanes meet.
+// What rays find, whatever the structure that they are traced through. Twin:
+// crates/pathtrace/src/intersect/hit.rs, which has what is found and not the comparison.
 
 // The nearest meeting so far.
 struct Nearest {
@@ -27,7 +27,7 @@ struct Hit {
 // Whether a shadow ray goes through what has this entry among the surfaces.
 fn passes(surface: u32, shadow: bool) -> bool {
     if CLEAR_GLASS {
-        return shadow && materials[surfaces[surface].material].bsdf == BSDF_DIELECTRIC;
+        return shadow && materials[surfaces[surface].material].lobe == LOBE_DIELECTRIC;
     }
     return false;
 }

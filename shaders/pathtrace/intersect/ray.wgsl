@@ -1,4 +1,4 @@
-// Rays. Twins: crates/pathtrace/src/intersect/mod.rs and lanes.rs, which has all that lanes meet.
+// Rays. Twin: crates/pathtrace/src/intersect/ray.rs.
 
 struct Ray {
     // where it starts, world space

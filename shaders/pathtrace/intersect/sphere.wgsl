@@ -1,8 +1,7 @@
 //#import pathtrace/exact.wgsl
 //#import pathtrace/intersect/ray.wgsl
 // Ray/sphere intersection that survives distance and size: Haines, Günther and Akenine-Möller, "Precision Improvements
-// for Ray/Sphere Intersection" (Ray Tracing Gems, chapter 7). Twin: crates/pathtrace/src/intersect/lanes.rs, which has
-// all that lanes meet.
+// for Ray/Sphere Intersection" (Ray Tracing Gems, chapter 7). Twin: crates/pathtrace/src/intersect/sphere.rs.
 
 // Distance to the nearest meeting in lengths of the ray's direction, 0 without one.
 fn sphere_distance(center: vec3f, radius: f32, ray: Ray) -> f32 {

@@ -1,7 +1,7 @@
 //#import pathtrace/exact.wgsl
 //#import pathtrace/intersect/ray.wgsl
 // A point on a surface with a bound on its rounding error, and the step off the surface that the bound asks for (pbrt,
-// section 6.8). Twins: crates/pathtrace/src/intersect/surface_point.rs, lanes.rs.
+// section 6.8). Twin: crates/pathtrace/src/intersect/surface_point.rs.
 
 struct SurfacePoint {
     // world space

@@ -2,8 +2,8 @@
 
 use super::export::export;
 use super::{alone, both_whole, ready, says};
-use reference::{Key, Reference, Store, Subject};
-use scene::Vec3;
+use film::{Image, LayerValues, Vec3};
+use reference::{Key, Reference, STANDARD_ERROR, Store};
 use std::path::Path;
 use std::time::Duration;
 use visavis_tests::{Frame, Screen, TestFolder, ViewerUnderTest};
@@ -61,15 +61,10 @@ fn the_error_map_has_a_scale_that_can_be_held_and_is_exported_with_it() {
 /// What the viewer would have made, but for one picture and its numbers.
 fn almost_done(size: (u32, u32)) -> Reference {
     let pixels = (size.0 * size.1) as usize;
-    Reference {
-        width: size.0,
-        height: size.1,
-        radiances: vec![Vec3::splat(0.5); pixels],
-        standard_errors: Some(vec![Vec3::splat(0.05); pixels]),
-        replicates: 15,
-        seconds: 119.999,
-        nonfinite: 0,
-    }
+    let grey = |value: f32| vec![Vec3::splat(value); pixels];
+    let image = Image::new(size.0, size.1, grey(0.5)).expect("pixels of that size");
+    let image = image.with_layer(STANDARD_ERROR, LayerValues::Rgb(grey(0.05).into()));
+    Reference { image, replicates: 15, seconds: 119.999, nonfinite: 0 }
 }
 
 /// Chooses the reference for two fakes, which are done at once, and makes the window small: its reference takes less
@@ -107,7 +102,7 @@ fn a_reference_is_made_while_the_panes_rest_kept_and_there_at_once_the_second_ti
     let side = |i: usize| small.state("picture_size")[i].as_u64().expect("a size") as u32;
     let scene = scene::builtin::named("hard/light-touching-wall").expect("a scene");
     let size = (side(0), side(1));
-    let key = Key::of(&Subject { scene: &scene, camera: &scene.camera, size });
+    let key = Key::of(&technique::Shot::of(scene.clone(), size));
     store.put(key, &almost_done(size), Vec::new()).expect("a store");
 
     // another view and back: what is looked up now is there, and is gone on with once the panes are done

@@ -1,7 +1,8 @@
-//! A scene's materials by columns, as lanes look them up.
+//! A scene's materials by columns, as lanes look them up: the table of lobes.
 //!
 //! Twins: `shaders/pathtrace/prepared.wgsl` and `shaders/shared/checkerboard.wgsl`.
 
+use super::Interactions;
 use crate::vectors::VectorColumn;
 use scene::{Bsdf, Material, Texture, Vec3};
 use simd::{Column, Float, Vector, Word, WordColumn};
@@ -36,12 +37,20 @@ pub struct Has {
 #[derive(Debug, Clone, Copy)]
 pub struct Kinds<U>(U);
 
-const DIFFUSE: u32 = 1;
-const MIRROR: u32 = 2;
-const GLASS: u32 = 4;
-const CHECKERBOARD: u32 = 8;
-const AREA_LIGHT: u32 = 16;
-const TWO_SIDED: u32 = 32;
+/// Codes of lobes and of what varies them, bits of one word; the graphics device has the same.
+pub const LOBE_LAMBERT: u32 = 1;
+/// See [`LOBE_LAMBERT`].
+pub const LOBE_MIRROR: u32 = 2;
+/// See [`LOBE_LAMBERT`].
+pub const LOBE_DIELECTRIC: u32 = 4;
+/// Of a Lambert lobe: its albedo is a checkerboard.
+pub const CHECKERED: u32 = 1 << 8;
+
+const AREA_LIGHT: u32 = 1 << 16;
+const TWO_SIDED: u32 = 1 << 17;
+
+/// Lobes that leave no choice of direction but among few.
+const DELTA: u32 = LOBE_MIRROR | LOBE_DIELECTRIC;
 
 impl<U: Word> Kinds<U> {
     #[inline(always)]
@@ -52,19 +61,31 @@ impl<U: Word> Kinds<U> {
     /// Scatters by Lambert's law.
     #[inline(always)]
     pub fn diffuse(self) -> U::M {
-        self.has(DIFFUSE)
+        self.has(LOBE_LAMBERT)
+    }
+
+    /// Sends light on in one direction, or in one of few.
+    #[inline(always)]
+    pub fn delta(self) -> U::M {
+        self.has(DELTA)
+    }
+
+    /// Scatters by Lambert's law instead where `here` says so.
+    #[inline(always)]
+    pub fn or_diffuse(self, here: U::M) -> Self {
+        Kinds(U::select(here, U::splat(LOBE_LAMBERT), self.0))
     }
 
     /// Is a mirror.
     #[inline(always)]
     pub fn mirror(self) -> U::M {
-        self.has(MIRROR)
+        self.has(LOBE_MIRROR)
     }
 
     /// Is glass.
     #[inline(always)]
     pub fn glass(self) -> U::M {
-        self.has(GLASS)
+        self.has(LOBE_DIELECTRIC)
     }
 
     /// Shines.
@@ -97,9 +118,9 @@ impl Materials {
             radiance: vectors(|material| material.emission.map_or(Vec3::ZERO, |emission| emission.radiance)),
             has: Has {
                 area_lights: any(AREA_LIGHT),
-                mirrors: any(MIRROR),
-                glass: any(GLASS),
-                checkerboards: any(CHECKERBOARD),
+                mirrors: any(LOBE_MIRROR),
+                glass: any(LOBE_DIELECTRIC),
+                checkerboards: any(CHECKERED),
             },
             kind: WordColumn::new(kinds),
         }
@@ -132,7 +153,7 @@ impl Materials {
         let index = (at - self.board_origin.look_up(material)) * self.cells_per_unit.look_up(material);
         let sum = index.x.floor() + index.y.floor() + index.z.floor();
         let odd = !(sum - (sum * 0.5).floor() * 2.0).lt(F::splat(0.5));
-        Vector::select(odd & kinds.has(CHECKERBOARD), self.odd.look_up(material), colour)
+        Vector::select(odd & kinds.has(CHECKERED), self.odd.look_up(material), colour)
     }
 
     /// Index of refraction of the inside over the outside.
@@ -141,17 +162,11 @@ impl Materials {
         material.look_up(&self.ior)
     }
 
-    /// What surfaces of outward `normal` send out against rays of this direction.
+    /// What surfaces send out towards `wo`.
     #[inline(always)]
-    pub fn emitted<F: Float>(
-        &self,
-        material: F::U,
-        kinds: Kinds<F::U>,
-        normal: Vector<F>,
-        ray_direction: Vector<F>,
-    ) -> Vector<F> {
-        let shines = kinds.has(TWO_SIDED) | normal.dot(ray_direction).lt(F::splat(0.0));
-        Vector::select(shines, self.radiance.look_up(material), Vector::zero())
+    pub fn emitted<F: Float>(&self, at: &Interactions<F>) -> Vector<F> {
+        let shines = at.kinds.has(TWO_SIDED) | at.point.normal.dot(at.wo).gt(F::splat(0.0));
+        Vector::select(shines, self.radiance.look_up(at.material), Vector::zero())
     }
 }
 
@@ -162,13 +177,18 @@ fn board_of(material: &Material) -> Option<scene::material::Checkerboard> {
     }
 }
 
+/// The code of a lobe, and of what varies it.
+pub fn lobe_of(bsdf: &Bsdf) -> u32 {
+    match bsdf {
+        Bsdf::Diffuse { albedo: Texture::Constant(_) } => LOBE_LAMBERT,
+        Bsdf::Diffuse { albedo: Texture::Checkerboard(_) } => LOBE_LAMBERT | CHECKERED,
+        Bsdf::Mirror { .. } => LOBE_MIRROR,
+        Bsdf::Dielectric { .. } => LOBE_DIELECTRIC,
+    }
+}
+
 fn kind_of(material: &Material) -> u32 {
-    let bsdf = match material.bsdf {
-        Bsdf::Diffuse { albedo: Texture::Constant(_) } => DIFFUSE,
-        Bsdf::Diffuse { albedo: Texture::Checkerboard(_) } => DIFFUSE | CHECKERBOARD,
-        Bsdf::Mirror { .. } => MIRROR,
-        Bsdf::Dielectric { .. } => GLASS,
-    };
+    let bsdf = lobe_of(&material.bsdf);
     let emission =
         material.emission.map_or(0, |emission| if emission.two_sided { AREA_LIGHT | TWO_SIDED } else { AREA_LIGHT });
     bsdf | emission

@@ -1,158 +1,147 @@
-//! Reflection and refraction at smooth surfaces.
+//! How surfaces scatter light: one file a lobe, and what integrators ask of whatever lobe a surface has. Directions point
+//! away from the surface; `wo` is where the path came from, `wi` where it goes on.
 //!
-//! Twin: `shaders/pathtrace/bsdf/bsdf.wgsl`.
+//! [`Materials::sample`] draws a direction, [`Materials::eval`] is the BSDF for a given one, and [`Materials::pdf`] the
+//! density with which `sample` draws it. Lobes that a scene lacks cost nothing, and one that no lane has is skipped. A
+//! new lobe is a file here, its twin in `shaders/pathtrace/bsdf/`, its columns in [`materials`], and an arm in each of
+//! the questions below. Twin: `shaders/pathtrace/bsdf/bsdf.wgsl`.
 
-pub(crate) mod materials;
+pub mod dielectric;
+pub mod interaction;
+pub mod lambert;
+pub mod materials;
+pub mod mirror;
 
-use crate::vectors::{glam_vector, lane_vector};
-use scene::Vec3;
-use simd::{Double, Float, Vector};
+pub use dielectric::{Interface, Interfaces};
+pub use interaction::Interactions;
+use materials::Materials;
+use simd::{Float, Mask, Vector};
 
-/// The mirror direction of `wo` (pointing away from the surface) about the unit normal `n`.
-#[inline(always)]
-pub fn reflected<F: Float>(wo: Vector<F>, n: Vector<F>) -> Vector<F> {
-    n * (n.dot(wo) * 2.0) - wo
-}
-
-/// The surface of a smooth dielectric as a ray meets it, in each lane. The index is kept as it is and never inverted:
-/// 1 / 1.5 is not an f32, and its rounding moves the critical angle.
+/// A colour times a number, kept apart so that products are rounded in one order whatever the lobe.
 #[derive(Debug, Clone, Copy)]
-pub struct Interfaces<F: Float> {
-    /// Index of refraction of the inside over the outside.
-    pub ior: F,
-    /// Whether the ray comes from outside.
-    pub entering: F::M,
+pub struct ScaledColours<F> {
+    /// The colour.
+    pub colour: Vector<F>,
+    /// The number, at least 0.
+    pub factor: F,
 }
 
-impl<F: Float> Interfaces<F> {
-    /// Cosine of the refracted direction for `cos_i` >= 0, and where there is one: not beyond the critical angle.
-    /// Written around `ior^2 - 1` rather than as the textbook's `sqrt(1 - (1 - cos^2) / ior^2)`: exact at index 1,
-    /// where the latter invents a rim. In f64, because near the critical angle the difference cancels.
-    #[inline(always)]
-    pub fn refracted_cosine(self, cos_i: F) -> (F, F::M) {
-        let (n, cos_i) = (self.ior.widen(), cos_i.widen());
-        let excess = (n - 1.0) * (n + 1.0);
-        let from_outside = (excess + cos_i * cos_i) / (n * n);
-        let from_inside = n * n * cos_i * cos_i - excess;
-        let zero = F::D::splat(0.0);
-        let refracts = (self.entering & zero.lt(from_outside)) | (!self.entering & zero.lt(from_inside));
-        (F::select(self.entering, from_outside.sqrt().narrow(), from_inside.sqrt().narrow()), refracts)
-    }
-
-    /// Share of unpolarised light that is reflected, in [0, 1]: Fresnel's equations, exact; 1 beyond the critical
-    /// angle.
-    #[inline(always)]
-    pub fn fresnel(self, cos_i: F) -> F {
-        let (cos_t, refracts) = self.refracted_cosine(cos_i);
-        let outside = self.ior * F::select(self.entering, cos_i, cos_t);
-        let inside = F::select(self.entering, cos_t, cos_i);
-        let parallel = (outside - inside) / (outside + inside);
-        let outside = F::select(self.entering, cos_i, cos_t);
-        let inside = self.ior * inside;
-        let perpendicular = (outside - inside) / (outside + inside);
-        let share = (parallel * parallel + perpendicular * perpendicular) * 0.5;
-        let one = F::splat(1.0);
-        F::select(self.ior.eq(one), F::splat(0.0), F::select(refracts, share, one))
-    }
-
-    /// The direction into which `wo` refracts at the unit normal `n` on its side (`n . wo` >= 0), by Snell's law, and
-    /// where there is one: elsewhere all is reflected.
-    #[inline(always)]
-    pub fn refract(self, wo: Vector<F>, n: Vector<F>) -> (Vector<F>, F::M) {
-        let cos_i = n.dot(wo);
-        let (cos_t, refracts) = self.refracted_cosine(cos_i);
-        let wo = Vector::select(self.entering, wo.divided_by(self.ior), wo * self.ior);
-        let cos_i = F::select(self.entering, cos_i / self.ior, cos_i * self.ior);
-        (n * (cos_i - cos_t) - wo, refracts)
-    }
-}
-
-/// [`Interfaces`] of one lane.
+/// A direction that was drawn, in each lane.
 #[derive(Debug, Clone, Copy)]
-pub struct Interface {
-    /// Index of refraction of the inside over the outside.
-    pub ior: f32,
-    /// Whether the ray comes from outside.
-    pub entering: bool,
+pub struct BsdfSamples<F> {
+    /// Unit direction in which the path goes on.
+    pub wi: Vector<F>,
+    /// BSDF times cosine over density.
+    pub weight: ScaledColours<F>,
+    /// Density per solid angle; infinite where the lobe left no choice.
+    pub pdf: F,
 }
 
-impl Interface {
-    fn lane(self) -> Interfaces<f32> {
-        Interfaces { ior: self.ior, entering: self.entering }
+/// Where a surface sends all light on in one or two directions, in each lane.
+#[derive(Debug, Clone, Copy)]
+pub struct Speculars<F: Float> {
+    /// Where it reflects ...
+    pub reflects: F::M,
+    /// ... in this unit direction ...
+    pub reflected: Vector<F>,
+    /// ... this share.
+    pub reflectance: ScaledColours<F>,
+    /// Where it refracts ...
+    pub refracts: F::M,
+    /// ... in this unit direction ...
+    pub refracted: Vector<F>,
+    /// ... this share.
+    pub transmittance: F,
+}
+
+impl Materials {
+    /// Draws a direction `here`, from two random numbers for the direction and one for the choice among several.
+    #[inline(always)]
+    pub fn sample<F: Float>(&self, here: F::M, at: &Interactions<F>, u: [F; 3]) -> BsdfSamples<F> {
+        let diffuse = here & at.kinds.diffuse();
+        let mut sample = if diffuse.any() { lambert::sample(at, [u[0], u[1]]) } else { BsdfSamples::delta(at) };
+        let mirrors = here & at.kinds.mirror();
+        if self.has().mirrors && mirrors.any() {
+            sample = BsdfSamples::select(mirrors, mirror::sample(at), sample);
+        }
+        let glass = here & at.kinds.glass();
+        if self.has().glass && glass.any() {
+            sample = BsdfSamples::select(glass, dielectric::sample(at, self.ior(at.material), u[2]), sample);
+        }
+        sample
     }
 
-    /// Cosine of the refracted direction for `cos_i` >= 0; `None` beyond the critical angle.
-    pub fn refracted_cosine(self, cos_i: f32) -> Option<f32> {
-        let (cosine, refracts) = self.lane().refracted_cosine(cos_i);
-        refracts.then_some(cosine)
+    /// The BSDF for light from the unit direction `wi`, on the side of `wo`. Not of lobes that leave no choice.
+    #[inline(always)]
+    pub fn eval<F: Float>(&self, at: &Interactions<F>, _wi: Vector<F>) -> ScaledColours<F> {
+        lambert::eval(at)
     }
 
-    /// Share of unpolarised light that is reflected, in [0, 1]; 1 beyond the critical angle.
-    pub fn fresnel(self, cos_i: f32) -> f32 {
-        self.lane().fresnel(cos_i)
+    /// Density per solid angle of [`Materials::sample`] at `wi`, whose cosine to the normal is above 0. Not of lobes that
+    /// leave no choice.
+    #[inline(always)]
+    pub fn pdf<F: Float>(&self, _at: &Interactions<F>, _wi: Vector<F>, cosine: F) -> F {
+        lambert::pdf(cosine)
     }
 
-    /// The direction into which `wo` refracts at the unit normal `n` on its side (`n . wo` >= 0), by Snell's law;
-    /// `None` if all is reflected.
-    pub fn refract(self, wo: Vec3, n: Vec3) -> Option<Vec3> {
-        let (direction, refracts) = self.lane().refract(lane_vector(wo), lane_vector(n));
-        refracts.then(|| glam_vector(direction))
+    /// Both directions in which mirrors and glass send light on, `here`.
+    #[inline(always)]
+    pub fn speculars<F: Float>(&self, here: F::M, at: &Interactions<F>) -> Speculars<F> {
+        let (nowhere, one) = (F::M::splat(false), F::splat(1.0));
+        let mirrors = here & at.kinds.mirror() & !at.colour.is_zero();
+        let mut speculars = Speculars {
+            reflects: mirrors,
+            reflected: mirror::reflected(at.wo, at.normal),
+            reflectance: ScaledColours { colour: at.colour, factor: one },
+            refracts: nowhere,
+            refracted: at.wo,
+            transmittance: one,
+        };
+        let glass = here & at.kinds.glass();
+        if self.has().glass && glass.any() {
+            let split = dielectric::split(at, self.ior(at.material));
+            speculars.reflectance.factor = F::select(glass, split.reflectance, one);
+            speculars.reflects = mirrors | (glass & split.reflectance.gt(F::splat(0.0)));
+            speculars.refracts = glass & split.refracts;
+            speculars.refracted = split.refracted;
+            speculars.transmittance = one - split.reflectance;
+        }
+        speculars
     }
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    const INTO_GLASS: Interface = Interface { ior: 1.5, entering: true };
-    const OUT_OF_GLASS: Interface = Interface { ior: 1.5, entering: false };
-
-    fn cos(degrees: f64) -> f32 {
-        degrees.to_radians().cos() as f32
+impl<F: Float> ScaledColours<F> {
+    /// The product with radiance or throughput.
+    #[inline(always)]
+    pub fn times(&self, light: Vector<F>) -> Vector<F> {
+        self.colour * light * self.factor
     }
 
-    /// Unpolarised reflectance of glass n = 1.5, computed in high precision.
-    #[test]
-    fn fresnel_of_glass_matches_the_table() {
-        let into =
-            [(0.0, 0.04), (45.0, 0.050_239_911), (60.0, 0.089_186_713), (80.0, 0.387_704_35), (89.0, 0.904_184_95)];
-        for (angle, expected) in into {
-            assert!((INTO_GLASS.fresnel(cos(angle)) - expected).abs() < 1e-6, "{angle}");
-        }
-        // near the critical angle the reflectance depends so steeply on the cosine that rounding it to f32 already
-        // moves the result: by up to 8e-7, 4e-6 and 1.3e-4 here
-        let critical = (1.0 / 1.5f64).asin();
-        for (below, expected, tolerance) in
-            [(1e-2, 0.439_576_06, 1e-6), (1e-4, 0.917_237_9, 2e-5), (1e-6, 0.991_349_6, 5e-4)]
-        {
-            let got = OUT_OF_GLASS.fresnel((critical - below).cos() as f32);
-            assert!((got - expected).abs() < tolerance, "{below}: {got}");
-        }
-        assert_eq!(OUT_OF_GLASS.fresnel(cos(42.0)), 1.0);
-        assert_eq!(INTO_GLASS.fresnel(0.0), 1.0);
-        // 1.0001 itself is rounded by 2e-8, and the reflectance goes with the square of what exceeds 1
-        assert!((Interface { ior: 1.0001, entering: true }.fresnel(cos(89.0)) - 0.015_746_749).abs() < 1e-5);
-    }
-
-    #[test]
-    fn index_one_is_invisible_to_the_last_bit() {
-        for i in 0..1000 {
-            let angle = i as f32 / 1000.0 * std::f32::consts::FRAC_PI_2;
-            let wo = Vec3::new(angle.sin(), 0.0, angle.cos());
-            for entering in [true, false] {
-                let nothing = Interface { ior: 1.0, entering };
-                assert_eq!(nothing.fresnel(wo.z), 0.0);
-                assert_eq!(nothing.refract(wo, Vec3::Z), Some(-wo));
-            }
+    /// `mask ? yes : no`.
+    #[inline(always)]
+    pub fn select(mask: F::M, yes: Self, no: Self) -> Self {
+        ScaledColours {
+            colour: Vector::select(mask, yes.colour, no.colour),
+            factor: F::select(mask, yes.factor, no.factor),
         }
     }
+}
 
-    #[test]
-    fn refraction_obeys_snell() {
-        let angle = 80f32.to_radians();
-        let wo = Vec3::new(angle.sin(), 0.0, angle.cos());
-        let wi = INTO_GLASS.refract(wo, Vec3::Z).unwrap();
-        assert!((wi.length() - 1.0).abs() < 1e-6);
-        assert!((wi.x.abs().asin().to_degrees() - 41.036_41).abs() < 1e-3 && wi.z < 0.0);
+impl<F: Float> BsdfSamples<F> {
+    /// Of lobes that leave no choice, whose weight is the surface's colour.
+    #[inline(always)]
+    fn delta(at: &Interactions<F>) -> Self {
+        let weight = ScaledColours { colour: at.colour, factor: F::splat(1.0) };
+        BsdfSamples { wi: at.normal, weight, pdf: F::splat(f32::INFINITY) }
+    }
+
+    /// `mask ? yes : no`.
+    #[inline(always)]
+    pub fn select(mask: F::M, yes: Self, no: Self) -> Self {
+        BsdfSamples {
+            wi: Vector::select(mask, yes.wi, no.wi),
+            weight: ScaledColours::select(mask, yes.weight, no.weight),
+            pdf: F::select(mask, yes.pdf, no.pdf),
+        }
     }
 }

@@ -1,20 +1,23 @@
 //! The driver of lanes that fill a film: a lane owns a pixel, and starts its next sample, or its next pixel, in the
 //! same turn in which the last one ended. There are no queues, and lanes stay busy up to the end of a chunk.
 //!
-//! Twin of the camera's rays: `shaders/pathtrace/camera.wgsl`.
+//! Twins: `shaders/pathtrace/drive/pixels.wgsl`, where a thread has one pixel and its own loop, and, of the camera's rays,
+//! `shaders/pathtrace/camera.wgsl`.
 
 use crate::integrator::settings::SamplerKind;
+use crate::intersect::Rays;
 use crate::intersect::aggregate::lanes_of;
-use crate::intersect::lanes::Rays;
-use crate::prepared::Outcomes;
+use crate::prepared::{Outcomes, PreparedScene};
 use crate::sampling::sampler::Sampler;
 use crate::tracer::Stats;
 use crate::vectors::{each_lane, in_all_lanes};
 use film::Film;
 use film::Pixel;
+use rayon::prelude::*;
 use scene::camera::PictureFrame;
+use scene::stand_ins::FakeNumbers;
 use scene::{Camera, Vec3};
-use simd::{Float, MOST_LANES, Mask, Word};
+use simd::{Float, Kernel, Lanes, MOST_LANES, Mask, Word};
 
 /// Walks of rays, one in each lane.
 pub trait LaneIntegrator<F: Float> {
@@ -28,7 +31,76 @@ pub trait LaneIntegrator<F: Float> {
     fn rays(&self) -> u64;
 }
 
-/// A film to be filled.
+/// An integrator's settings, read once, from which each chunk of a film takes its lanes.
+pub trait LanePlan: Sync {
+    /// The integrator's state in each lane.
+    type Walk<'a, F: Float>: LaneIntegrator<F>
+    where
+        Self: 'a;
+    /// Lanes that follow nothing yet.
+    fn walk<'a, F: Float>(&'a self, scene: &'a PreparedScene) -> Self::Walk<'a, F>;
+}
+
+/// Says when to stop.
+pub type Stop<'a> = dyn Fn() -> bool + Sync + 'a;
+
+/// A film to be filled, and what with.
+pub struct FilmJob<'a> {
+    /// Ready for rays.
+    pub scene: &'a PreparedScene,
+    /// What stands in for physics where an integrator leaves it out.
+    pub stand_ins: &'a FakeNumbers,
+    /// What the processor works in.
+    pub lanes: Lanes,
+    /// Which samples of what.
+    pub order: Order,
+    /// Asked before every segment.
+    pub stop: &'a Stop<'a>,
+}
+
+/// Pixels that one thread takes at a time: so many that its lanes are seldom idle at the end of them, but enough chunks
+/// that small pictures keep all threads busy.
+const CHUNK: std::ops::RangeInclusive<usize> = 64..=4096;
+
+/// Chunks for each thread, where there are pixels enough.
+const CHUNKS_PER_THREAD: usize = 8;
+
+impl FilmJob<'_> {
+    /// Fills the film chunk by chunk, on the current rayon pool.
+    pub fn fill(&self, film: &mut Film, plan: &impl LanePlan) -> Stats {
+        let chunks = rayon::current_num_threads() * CHUNKS_PER_THREAD;
+        let length = film.pixels().len().div_ceil(chunks).clamp(*CHUNK.start(), *CHUNK.end());
+        let (stats, nonfinite) = film
+            .pixels_mut()
+            .par_chunks_mut(length)
+            .enumerate()
+            .map(|(index, pixels)| {
+                let chunk = Chunk { first: (index * length) as u32, pixels };
+                self.lanes.run(ChunkKernel { job: self, plan, chunk })
+            })
+            .reduce(Tally::default, |a, b| (a.0.plus(b.0), a.1 + b.1));
+        film.nonfinite += nonfinite;
+        stats
+    }
+}
+
+/// Fills a chunk in lanes of some kind.
+struct ChunkKernel<'a, P> {
+    job: &'a FilmJob<'a>,
+    plan: &'a P,
+    chunk: Chunk<'a>,
+}
+
+impl<P: LanePlan> Kernel for ChunkKernel<'_, P> {
+    type Output = Tally;
+
+    #[inline(always)]
+    fn run<F: Float>(self) -> Tally {
+        fill::<F>(&self.job.order, self.chunk, self.plan.walk(self.job.scene), self.job.stop)
+    }
+}
+
+/// Which samples a film shall have, of what.
 #[derive(Debug, Clone, Copy)]
 pub struct Order {
     /// What the camera sees.
@@ -63,12 +135,7 @@ pub type Tally = (Stats, u64);
 
 /// Fills a chunk of the film; `stop` leaves pixels with whole samples.
 #[inline(always)]
-pub fn fill<F: Float>(
-    order: &Order,
-    chunk: Chunk,
-    mut integrator: impl LaneIntegrator<F>,
-    stop: &dyn Fn() -> bool,
-) -> Tally {
+fn fill<F: Float>(order: &Order, chunk: Chunk, mut integrator: impl LaneIntegrator<F>, stop: &Stop) -> Tally {
     let mut driver = LaneDriver::<F>::new(order, chunk);
     while driver.taken.any() && !stop() {
         let sampler = driver.sampler(order);

@@ -1,4 +1,7 @@
 //! Light transport: [`path`], the tutorial's Monte Carlo path tracer, and [`whitted`], the step before it.
+//!
+//! A new integrator is a file here with its settings and lanes, its twin in `shaders/pathtrace/integrator/`, and a
+//! variant of [`Integrator`] with an arm in each of the matches below: all that the machines ask an integrator for.
 
 pub(crate) mod forks;
 pub mod path;
@@ -6,3 +9,102 @@ pub(crate) mod path_state;
 pub(crate) mod roulette;
 pub mod settings;
 pub mod whitted;
+
+use crate::drive::gpu::{PipelineKey, film_data::RenderParams};
+use crate::drive::lanes::FilmJob;
+use crate::tracer::Stats;
+use film::Film;
+use scene::stand_ins::FakeNumbers;
+use settings::{PathSettings, SamplerKind, SettingsError};
+use whitted::WhittedSettings;
+
+/// How light is followed, with its settings.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Integrator {
+    /// Along random paths.
+    Path(PathSettings),
+    /// In trees of mirrors and glass.
+    Whitted(WhittedSettings),
+}
+
+impl Integrator {
+    /// The name on the command line.
+    pub fn name(&self) -> &'static str {
+        match self {
+            Integrator::Path(_) => "path",
+            Integrator::Whitted(_) => "whitted",
+        }
+    }
+
+    /// Where its random numbers come from.
+    pub fn sampler(&self) -> SamplerKind {
+        match self {
+            Integrator::Path(settings) => settings.sampler,
+            Integrator::Whitted(settings) => settings.sampler,
+        }
+    }
+
+    /// Selects one of 2^32 independent pictures.
+    pub fn seed(&self) -> u32 {
+        match self {
+            Integrator::Path(settings) => settings.seed,
+            Integrator::Whitted(settings) => settings.seed,
+        }
+    }
+
+    /// The same for another of the independent pictures.
+    pub fn with_seed(self, seed: u32) -> Self {
+        match self {
+            Integrator::Path(settings) => PathSettings { seed, ..settings }.into(),
+            Integrator::Whitted(settings) => WhittedSettings { seed, ..settings }.into(),
+        }
+    }
+
+    /// Whether these settings mean something.
+    ///
+    /// # Errors
+    /// What is wrong, as a line for the user.
+    pub fn check(&self) -> Result<(), SettingsError> {
+        match self {
+            Integrator::Path(settings) => settings.check(),
+            Integrator::Whitted(_) => Ok(()),
+        }
+    }
+
+    /// Fills a film on the processor.
+    pub(crate) fn fill(&self, film: &mut Film, job: &FilmJob) -> Stats {
+        match self {
+            Integrator::Path(settings) => job.fill(film, &path::Plan::new(settings)),
+            Integrator::Whitted(settings) => job.fill(film, &whitted::Plan::new(settings, job.stand_ins)),
+        }
+    }
+
+    /// Its shader on the graphics device, and what of the settings is compiled into it; all of it if `everything`.
+    pub(crate) fn pipeline_key(&self, everything: bool) -> PipelineKey {
+        match self {
+            Integrator::Path(settings) => settings.pipeline_key(everything),
+            Integrator::Whitted(settings) => settings.pipeline_key(),
+        }
+    }
+
+    /// What of the settings a shader reads while it runs.
+    pub(crate) fn render_params(&self, params: RenderParams, stand_ins: &FakeNumbers) -> RenderParams {
+        let params = RenderParams { seed: self.seed(), ..params };
+        match self {
+            Integrator::Path(settings) => settings.render_params(params),
+            Integrator::Whitted(settings) => settings.render_params(params, stand_ins),
+        }
+    }
+}
+
+impl From<PathSettings> for Integrator {
+    fn from(settings: PathSettings) -> Self {
+        Integrator::Path(settings)
+    }
+}
+
+impl From<WhittedSettings> for Integrator {
+    fn from(settings: WhittedSettings) -> Self {
+        Integrator::Whitted(settings)
+    }
+}

@@ -1,7 +1,7 @@
 //! Paths, one in each lane: the tutorial's `shade`, turned from recursion into a state that moves from vertex to vertex
 //! (Task 2 d).
 //!
-//! Each [`segment`](crate::drive::lanes::LaneIntegrator::segment) is one segment of every path: meet a surface, take
+//! Each [`segment`](LaneIntegrator::segment) is one segment of every path: meet a surface, take
 //! its emission, sample a light, draw a direction, play roulette. What only some lanes do is computed for all and
 //! selected by a mask; what none does is skipped. The state is all there is: no recursion, no allocation. A bounce
 //! limit of N lets N + 1 vertices scatter; what is found by chance is found one segment later, by the last one.
@@ -11,21 +11,22 @@
 //!
 //! Twin: `shaders/pathtrace/integrator/path.wgsl`.
 
-use crate::bsdf::{Interfaces, reflected};
+use crate::bsdf::{BsdfSamples, Interactions};
+use crate::drive::gpu::film_data::RenderParams;
+use crate::drive::gpu::{PipelineKey, flag};
+use crate::drive::lanes::{LaneIntegrator, LanePlan};
 use crate::integrator::forks::{Forks, MOST_FORKS, child};
 use crate::integrator::path_state::{ALREADY_COUNTED, DiffuseVertices, MET_BY_CHANCE, PathStates, balance};
 use crate::integrator::roulette::survivors;
 use crate::integrator::settings::{Directions, LightSampling, PathSettings, Roulette};
-use crate::intersect::NO_LIGHT;
-use crate::intersect::lanes::{Hits, Rays, SurfacePoints};
 use crate::intersect::shape_list::Scratch;
-use crate::prepared::{Outcomes, PreparedScene, facing};
+use crate::intersect::{NO_LIGHT, Rays, SurfaceInteractions, SurfacePoints};
+use crate::prepared::{Outcomes, PreparedScene};
 use crate::sampling::UNIFORM_HEMISPHERE_PDF;
 use crate::sampling::sampler::Sampler;
-use crate::sampling::warp::{cosine_hemisphere, to_world, uniform_hemisphere};
+use crate::sampling::warp::{to_world, uniform_hemisphere};
 use scene::Vec3;
 use simd::{Column, Float, Mask, Vector, Word};
-use std::f32::consts::FRAC_1_PI;
 
 /// Paths that one sample may branch into.
 pub const MOST_BRANCHES: u32 = 65_536;
@@ -64,6 +65,48 @@ impl Plan {
     }
 }
 
+impl LanePlan for Plan {
+    type Walk<'a, F: Float> = PathLanes<'a, F>;
+
+    #[inline(always)]
+    fn walk<'a, F: Float>(&'a self, scene: &'a PreparedScene) -> PathLanes<'a, F> {
+        PathLanes::new(scene, self)
+    }
+}
+
+/// How light is found.
+pub(crate) const BY_CHANCE: u32 = 0;
+pub(crate) const BY_SAMPLING: u32 = 1;
+pub(crate) const BY_BOTH: u32 = 2;
+
+impl PathSettings {
+    pub(super) fn pipeline_key(&self, everything: bool) -> PipelineKey {
+        let light_search = match self.estimator.light {
+            LightSampling::BsdfOnly => BY_CHANCE,
+            LightSampling::NextEvent => BY_SAMPLING,
+            LightSampling::Mis => BY_BOTH,
+        };
+        let constants = [
+            ("UNIFORM_DIRECTIONS", flag(self.estimator.directions == Directions::Uniform)),
+            ("LIGHT_SEARCH", f64::from(light_search)),
+            ("BRANCHING", flag(self.branches > 1 || everything)),
+        ];
+        PipelineKey::new("pathtrace/integrator/path.wgsl", self.sampler, &constants)
+    }
+
+    pub(super) fn render_params(&self, params: RenderParams) -> RenderParams {
+        RenderParams {
+            limit: self.scattering_vertices(),
+            capped: u32::from(self.bounces.is_none()),
+            branches: self.branches.max(1),
+            branching_vertices: self.branching_vertices().min(MOST_FORKS as u32),
+            by_throughput: u32::from(self.roulette.throughput),
+            probability: self.roulette.probability.unwrap_or(1.0),
+            ..params
+        }
+    }
+}
+
 /// Paths, where they walk and what they bring.
 pub struct PathLanes<'a, F: Float> {
     scene: &'a PreparedScene,
@@ -79,7 +122,7 @@ pub struct PathLanes<'a, F: Float> {
     rays: u64,
 }
 
-impl<'a, F: Float> crate::drive::lanes::LaneIntegrator<F> for PathLanes<'a, F> {
+impl<'a, F: Float> LaneIntegrator<F> for PathLanes<'a, F> {
     /// Starts paths along camera rays where `here` says so.
     #[inline(always)]
     fn begin(&mut self, here: F::M, rays: &Rays<F>) {
@@ -100,49 +143,27 @@ impl<'a, F: Float> crate::drive::lanes::LaneIntegrator<F> for PathLanes<'a, F> {
             let weight = self.path.weight_of_meeting(F::splat(self.scene.sun_pdf));
             self.receive(missed, self.scene.environment(self.path.rays.direction, weight));
         }
-        let kinds = self.scene.materials.kinds(hit.material);
-        let shining = met & kinds.area_light();
+        let mut vertex = self.scene.interaction(&hit, -self.path.rays.direction);
+        let shining = met & vertex.shines();
         if self.scene.materials.has().area_lights && shining.any() {
             let mis = self.plan.light == LightSampling::Mis;
             let weight = self.path.weight_of_meeting(if mis { self.light_pdf(&hit) } else { F::splat(0.0) });
-            let normal = hit.point.normal;
-            let emitted = self.scene.materials.emitted(hit.material, kinds, normal, self.path.rays.direction);
-            self.receive(shining, emitted * weight);
+            self.receive(shining, self.scene.materials.emitted(&vertex) * weight);
         }
         let at_limit = met & self.path.vertices.eq(F::U::splat(self.plan.limit));
         self.cut(at_limit);
-        let scattering = met & !at_limit;
-
-        let wo = -self.path.rays.direction;
-        let normal = facing(hit.point.normal, wo);
-        let colour = self.scene.materials.colour(hit.material, kinds, hit.point.position);
-        let mut vertex = DiffuseVertices { point: hit.point, normal, albedo: colour };
-        let mut diffuse = scattering & kinds.diffuse() & !colour.is_zero();
+        let mut scattering = met & !at_limit & !vertex.colour.is_zero();
         if self.plan.branching_vertices > 0 {
-            self.fork(diffuse, &vertex);
-            vertex = DiffuseVertices::select(self.resumed, self.vertex, vertex);
-            diffuse = diffuse | self.resumed;
+            self.fork(scattering & vertex.is_diffuse(), &vertex);
+            let DiffuseVertices { point, normal, albedo } = &self.vertex;
+            vertex = vertex.or_diffuse(self.resumed, point, *normal, *albedo);
+            scattering = scattering | self.resumed;
         }
         let u = sampler.unit4(self.path.direction_dimension());
-        let mut alive = diffuse;
-        let mirrors = scattering & kinds.mirror();
-        if self.scene.materials.has().mirrors && mirrors.any() {
-            let throughput = self.path.throughput;
-            self.path.throughput = Vector::select(mirrors, throughput * colour, throughput);
-            self.path.leave(mirrors, &hit.point, reflected(wo, normal));
-            alive = alive | mirrors;
+        if scattering.any() {
+            self.scatter(scattering, &vertex, sampler, [u[0], u[1], u[3]]);
         }
-        let glass = scattering & kinds.glass();
-        if self.scene.materials.has().glass && glass.any() {
-            let ior = self.scene.materials.ior(hit.material);
-            let wi = scatter_dielectric(&hit.point, wo, ior, u[3]);
-            self.path.leave(glass, &hit.point, wi);
-            alive = alive | glass;
-        }
-        if diffuse.any() {
-            self.leave_diffuse(diffuse, &vertex, sampler, [u[0], u[1]]);
-        }
-        alive = self.goes_on(alive, u[2]);
+        let alive = self.goes_on(scattering, u[2]);
         let ended = taken & !alive;
         if self.plan.branching_vertices > 0 {
             self.resumed = self.forks.next(ended, self.plan.branches, &mut self.vertex, &mut self.path);
@@ -197,7 +218,7 @@ impl<'a, F: Float> PathLanes<'a, F> {
 
     /// Lets diffuse vertices wait for more branches, and goes on with the first.
     #[inline(always)]
-    fn fork(&mut self, diffuse: F::M, vertex: &DiffuseVertices<F>) {
+    fn fork(&mut self, diffuse: F::M, at: &Interactions<F>) {
         let here = diffuse & self.path.forked.lt(F::U::splat(self.plan.branching_vertices));
         if !here.any() {
             return;
@@ -205,41 +226,46 @@ impl<'a, F: Float> PathLanes<'a, F> {
         let mut path = self.path;
         path.forked = path.forked.wrapping_add(F::U::splat(1));
         path.throughput = path.throughput.divided_by(F::splat(self.plan.branches as f32));
-        self.forks.push(here, vertex, &path, self.plan.branches - 1);
+        let vertex = DiffuseVertices { point: at.point, normal: at.normal, albedo: at.colour };
+        self.forks.push(here, &vertex, &path, self.plan.branches - 1);
         path.branch = child::<F>(path.branch, self.plan.branches, F::U::splat(0));
         self.path = PathStates::select(here, path, self.path);
     }
 
-    /// Samples a light and takes the directions in which paths leave diffuse vertices, from two random numbers.
+    /// Samples a light, and takes the directions in which paths leave their vertices, from three random numbers.
     #[inline(always)]
-    fn leave_diffuse(&mut self, here: F::M, vertex: &DiffuseVertices<F>, sampler: &Sampler<F::U>, u: [F; 2]) {
-        if self.plan.light != LightSampling::BsdfOnly && !self.scene.lights.is_empty() {
-            let u = sampler.unit4(self.path.light_dimension());
-            let (lit, direct) = self.sample_lights(here, &vertex.point, vertex.normal, u);
-            self.receive(lit, vertex.albedo * direct * F::splat(FRAC_1_PI));
+    fn scatter(&mut self, here: F::M, at: &Interactions<F>, sampler: &Sampler<F::U>, u: [F; 3]) {
+        let delta = at.is_delta();
+        let choosing = here & !delta;
+        if self.plan.light != LightSampling::BsdfOnly && !self.scene.lights.is_empty() && choosing.any() {
+            self.sample_lights(choosing, at, sampler.unit4(self.path.light_dimension()));
         }
-        let mut throughput = self.path.throughput * vertex.albedo;
-        // Lambert: `f cos / pdf` is the albedo for cosine-weighted directions and `2 albedo cos` for uniform ones
-        let (local, pdf) = match self.plan.directions {
+        let sample = match self.plan.directions {
+            Directions::Cosine => self.scene.materials.sample(here, at, u),
             Directions::Uniform => {
-                let local = uniform_hemisphere(u);
-                throughput = throughput * (local.z * (FRAC_1_PI / UNIFORM_HEMISPHERE_PDF));
-                (local, F::splat(UNIFORM_HEMISPHERE_PDF))
-            }
-            Directions::Cosine => {
-                let local = cosine_hemisphere(u);
-                (local, local.z * FRAC_1_PI)
+                let sample = self.scene.materials.sample(here & delta, at, u);
+                BsdfSamples::select(delta, sample, self.sample_uniformly(at, [u[0], u[1]]))
             }
         };
         let direction_pdf = match self.plan.light {
             LightSampling::BsdfOnly => F::splat(MET_BY_CHANCE),
-            LightSampling::NextEvent => F::splat(ALREADY_COUNTED),
-            LightSampling::Mis => pdf,
+            LightSampling::NextEvent => F::select(delta, F::splat(MET_BY_CHANCE), F::splat(ALREADY_COUNTED)),
+            LightSampling::Mis => sample.pdf,
         };
-        let wi = to_world(local, vertex.normal);
-        let rays = Rays::new(vertex.point.leaving_towards(wi), wi);
-        let left = PathStates { rays, throughput, from: vertex.point.position, direction_pdf, ..self.path };
+        let rays = Rays::new(at.point.leaving_towards(sample.wi), sample.wi);
+        let throughput = sample.weight.times(self.path.throughput);
+        let left = PathStates { rays, throughput, from: at.point.position, direction_pdf, ..self.path };
         self.path = PathStates::select(here, left, self.path);
+    }
+
+    /// Directions of the tutorial's naive tracer, whatever the surface (Task 2 b).
+    #[inline(always)]
+    fn sample_uniformly(&self, at: &Interactions<F>, u: [F; 2]) -> BsdfSamples<F> {
+        let local = uniform_hemisphere(u);
+        let wi = to_world(local, at.normal);
+        let mut weight = self.scene.materials.eval(at, wi);
+        weight.factor = local.z * (weight.factor / F::splat(UNIFORM_HEMISPHERE_PDF));
+        BsdfSamples { wi, weight, pdf: F::splat(UNIFORM_HEMISPHERE_PDF) }
     }
 
     /// Counts the vertex and plays roulette; where paths go on.
@@ -265,41 +291,33 @@ impl<'a, F: Float> PathLanes<'a, F> {
         alive & survives
     }
 
-    /// Where light arrives, and its incoming radiance times cosine over density, from one sample of the lights: not in
-    /// shadow. Under MIS weighted against meeting the same light by chance.
+    /// Takes the light of one sample of the lights, where it is not in shadow. Under MIS weighted against meeting the
+    /// same light by chance.
     #[inline(always)]
-    fn sample_lights(&mut self, here: F::M, at: &SurfacePoints<F>, normal: Vector<F>, u: [F; 4]) -> (F::M, Vector<F>) {
-        let sample = self.scene.lights.table().sample(at.position, u[2], [u[0], u[1]]);
-        let cosine = normal.dot(sample.wi);
+    fn sample_lights(&mut self, here: F::M, at: &Interactions<F>, u: [F; 4]) {
+        let sample = self.scene.lights.table().sample(at.point.position, u[2], [u[0], u[1]]);
+        let cosine = at.normal.dot(sample.wi);
         let faced = here & sample.shines & cosine.gt(F::splat(0.0));
         self.rays += u64::from(faced.count());
         if !faced.any() {
-            return (faced, Vector::zero());
+            return;
         }
-        let shadowed = self.scene.in_shadow(at, &sample, faced, false, &mut self.scratch);
+        let shadowed = self.scene.in_shadow(&at.point, &sample, faced, false, &mut self.scratch);
         let weighted = match (self.plan.light, self.plan.directions) {
-            (LightSampling::Mis, Directions::Cosine) => cosine * balance(sample.pdf, cosine * FRAC_1_PI),
+            (LightSampling::Mis, Directions::Cosine) => {
+                cosine * balance(sample.pdf, self.scene.materials.pdf(at, sample.wi, cosine))
+            }
             (LightSampling::Mis, Directions::Uniform) => cosine * balance(sample.pdf, F::splat(UNIFORM_HEMISPHERE_PDF)),
             _ => cosine,
         };
-        (faced & !shadowed, sample.radiance_over_pdf * weighted)
+        let bsdf = self.scene.materials.eval(at, sample.wi);
+        self.receive(faced & !shadowed, bsdf.times(sample.radiance_over_pdf * weighted));
     }
 
     /// Density with which light sampling at the paths' last vertices draws the directions to these hits.
     #[inline(always)]
-    fn light_pdf(&self, hit: &Hits<F>) -> F {
+    fn light_pdf(&self, hit: &SurfaceInteractions<F>) -> F {
         let pdf = self.scene.lights.table().pdf(hit.light, self.path.from, hit.point.position);
         F::select(hit.light.eq(F::U::splat(NO_LIGHT)), F::splat(0.0), pdf)
     }
-}
-
-/// Reflects with the probability that Fresnel gives, else refracts; the weights cancel. No scaling of radiance by the
-/// square of the index: a camera outside sees the same either way.
-#[inline(always)]
-fn scatter_dielectric<F: Float>(at: &SurfacePoints<F>, wo: Vector<F>, ior: F, u: F) -> Vector<F> {
-    let normal = facing(at.normal, wo);
-    let interface = Interfaces { ior, entering: at.normal.dot(wo).ge(F::splat(0.0)) };
-    let reflects = u.lt(interface.fresnel(normal.dot(wo)));
-    let (refracted, refracts) = interface.refract(wo, normal);
-    Vector::select(refracts & !reflects, refracted, reflected(wo, normal)).normalize()
 }

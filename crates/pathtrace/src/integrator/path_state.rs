@@ -2,7 +2,7 @@
 //!
 //! Twin: `shaders/pathtrace/integrator/path.wgsl`.
 
-use crate::intersect::lanes::{Rays, SurfacePoints};
+use crate::intersect::{Rays, SurfacePoints};
 use simd::{Float, Vector, Word};
 
 /// A path on its way, in each lane.
@@ -85,13 +85,6 @@ impl<F: Float> PathStates<F> {
     #[inline(always)]
     pub fn light_dimension(&self) -> F::U {
         self.direction_dimension().wrapping_add(F::U::splat(1))
-    }
-
-    /// Goes on, where `here` says so, in the unit direction `wi`, of which a specular surface left no choice.
-    #[inline(always)]
-    pub fn leave(&mut self, here: F::M, from: &SurfacePoints<F>, wi: Vector<F>) {
-        self.direction_pdf = F::select(here, F::splat(MET_BY_CHANCE), self.direction_pdf);
-        self.rays = Rays::select(here, Rays::new(from.leaving_towards(wi), wi), self.rays);
     }
 
     /// How much light that was met counts beside the same light sampled at the last vertex with density `light_pdf`.

@@ -11,13 +11,16 @@
 //!
 //! Twin: `shaders/pathtrace/integrator/whitted.wgsl`.
 
-use crate::bsdf::materials::Kinds;
-use crate::bsdf::{Interfaces, reflected};
+use crate::bsdf::Interactions;
+use crate::drive::gpu::film_data::RenderParams;
+use crate::drive::gpu::{PipelineKey, flag};
+use crate::drive::lanes::{LaneIntegrator, LanePlan};
 use crate::integrator::settings::SamplerKind;
-use crate::intersect::lanes::{Hits, Rays, SurfacePoints};
 use crate::intersect::shape_list::Scratch;
-use crate::prepared::{Outcomes, PreparedScene, facing};
+use crate::intersect::{Rays, SurfacePoints};
+use crate::prepared::{Outcomes, PreparedScene};
 use crate::sampling::sampler::Sampler;
+use scene::stand_ins::FakeNumbers;
 use simd::{Float, Mask, Vector, Word};
 use std::f32::consts::FRAC_1_PI;
 
@@ -83,6 +86,50 @@ impl Default for WhittedSettings {
             sampler: SamplerKind::default(),
             seed: 1,
         }
+    }
+}
+
+impl WhittedSettings {
+    /// Radiance of the ambient light, in a scene with these stand-ins.
+    fn ambient_radiance(&self, stand_ins: &FakeNumbers) -> f32 {
+        self.ambient.unwrap_or(stand_ins.ambient)
+    }
+
+    pub(super) fn pipeline_key(&self) -> PipelineKey {
+        let constants = [("CLEAR_GLASS", flag(self.glass_shadows == GlassShadows::Clear))];
+        PipelineKey::new("pathtrace/integrator/whitted.wgsl", self.sampler, &constants)
+    }
+
+    pub(super) fn render_params(&self, params: RenderParams, stand_ins: &FakeNumbers) -> RenderParams {
+        RenderParams {
+            limit: self.depth.min(Self::MOST_DEPTH),
+            shadow_rays: self.shadow_rays.max(1),
+            ambient: self.ambient_radiance(stand_ins),
+            ..params
+        }
+    }
+}
+
+/// Settings as the walk reads them.
+pub struct Plan {
+    settings: WhittedSettings,
+    /// Ambient radiance.
+    ambient: f32,
+}
+
+impl Plan {
+    /// Reads the settings, and what stands in for them in the scene.
+    pub fn new(settings: &WhittedSettings, stand_ins: &FakeNumbers) -> Self {
+        Plan { settings: *settings, ambient: settings.ambient_radiance(stand_ins) }
+    }
+}
+
+impl LanePlan for Plan {
+    type Walk<'a, F: Float> = WhittedLanes<'a, F>;
+
+    #[inline(always)]
+    fn walk<'a, F: Float>(&'a self, scene: &'a PreparedScene) -> WhittedLanes<'a, F> {
+        WhittedLanes::new(scene, &self.settings, self.ambient)
     }
 }
 
@@ -182,7 +229,7 @@ pub struct WhittedLanes<'a, F: Float> {
     rays: u64,
 }
 
-impl<'a, F: Float> crate::drive::lanes::LaneIntegrator<F> for WhittedLanes<'a, F> {
+impl<'a, F: Float> LaneIntegrator<F> for WhittedLanes<'a, F> {
     /// Starts trees with camera rays where `here` says so.
     #[inline(always)]
     fn begin(&mut self, here: F::M, rays: &Rays<F>) {
@@ -206,12 +253,12 @@ impl<'a, F: Float> crate::drive::lanes::LaneIntegrator<F> for WhittedLanes<'a, F
         if self.scene.has_environment() && missed.any() {
             self.receive(missed, self.scene.environment(direction, F::splat(1.0)));
         }
-        let kinds = self.scene.materials.kinds(hit.material);
-        let shining = met & kinds.area_light();
+        let at = self.scene.interaction(&hit, -direction);
+        let shining = met & at.shines();
         if self.scene.materials.has().area_lights && shining.any() {
-            self.receive(shining, self.scene.materials.emitted(hit.material, kinds, hit.point.normal, direction));
+            self.receive(shining, self.scene.materials.emitted(&at));
         }
-        let alive = self.scatter(met, &hit, kinds, sampler);
+        let alive = self.scatter(met, &at, sampler);
         let ended = taken & !alive;
         let alive = alive | self.waiting.pop(ended, &mut self.branch);
         let too_many = alive & !self.followed.lt(F::U::splat(MOST_BRANCHES));
@@ -257,43 +304,27 @@ impl<'a, F: Float> WhittedLanes<'a, F> {
 
     /// Lights diffuse surfaces, and sends branches on from others; where they go on.
     #[inline(always)]
-    fn scatter(&mut self, met: F::M, hit: &Hits<F>, kinds: Kinds<F::U>, sampler: &Sampler<F::U>) -> F::M {
-        let (scene, has) = (self.scene, self.scene.materials.has());
-        let wo = -self.branch.rays.direction;
-        let normal = facing(hit.point.normal, wo);
-        let colour = scene.materials.colour(hit.material, kinds, hit.point.position);
-        let lit = met & kinds.diffuse() & !colour.is_zero();
+    fn scatter(&mut self, met: F::M, at: &Interactions<F>, sampler: &Sampler<F::U>) -> F::M {
+        let lit = met & at.is_diffuse() & !at.colour.is_zero();
         if lit.any() {
-            let direct = self.irradiance(lit, &hit.point, normal, sampler);
+            let direct = self.irradiance(lit, &at.point, at.normal, sampler);
             let ambient = Vector::along_all(F::splat(self.ambient));
-            self.receive(lit, colour * (direct * F::splat(FRAC_1_PI) + ambient));
+            self.receive(lit, at.colour * (direct * F::splat(FRAC_1_PI) + ambient));
         }
         let most_depth = self.settings.depth.min(WhittedSettings::MOST_DEPTH);
-        let deeper = met & self.branch.depth.lt(F::U::splat(most_depth));
-        let mut alive = F::M::splat(false);
-        let (came, mirrored) = (self.branch, reflected(wo, normal));
-        let mirrors = deeper & kinds.mirror();
-        if has.mirrors && mirrors.any() {
-            let weight = came.weight * colour;
-            let goes_on = mirrors & !weight.is_zero();
-            self.branch = Branches::select(goes_on, came.leave(&hit.point, mirrored, weight), self.branch);
-            alive = alive | goes_on;
+        let deeper = met & !at.is_diffuse() & self.branch.depth.lt(F::U::splat(most_depth));
+        if !deeper.any() {
+            return deeper;
         }
-        let glass = deeper & kinds.glass();
-        if has.glass && glass.any() {
-            let (zero, one) = (F::splat(0.0), F::splat(1.0));
-            let entering = hit.point.normal.dot(wo).ge(zero);
-            let interface = Interfaces { ior: scene.materials.ior(hit.material), entering };
-            let share = interface.fresnel(normal.dot(wo));
-            let (wi, refracts) = interface.refract(wo, normal);
-            let refracts = refracts & share.lt(one);
-            let mirrored = came.leave(&hit.point, mirrored, came.weight * share);
-            let refracted = came.leave(&hit.point, wi.normalize(), came.weight * (one - share));
-            self.waiting.push(glass & refracts & share.gt(zero), &mirrored);
-            self.branch = Branches::select(glass, Branches::select(refracts, refracted, mirrored), self.branch);
-            alive = alive | glass;
-        }
-        alive
+        let specular = self.scene.materials.speculars(deeper, at);
+        let came = self.branch;
+        let reflected = came.leave(&at.point, specular.reflected, specular.reflectance.times(came.weight));
+        let refracted = came.leave(&at.point, specular.refracted, came.weight * specular.transmittance);
+        self.waiting.push(specular.reflects & specular.refracts, &reflected);
+        let goes_on = specular.reflects | specular.refracts;
+        let leaves = Branches::select(specular.refracts, refracted, reflected);
+        self.branch = Branches::select(goes_on, leaves, self.branch);
+        goes_on
     }
 
     /// Light that arrives at surfaces: every light by itself, or of very many a choice.

@@ -3,8 +3,8 @@
 //!
 //! Twin: `shaders/pathtrace/light/ball.wgsl`.
 
-use crate::intersect::gamma;
-use crate::intersect::lanes::{SphereLanes, SurfacePoints};
+use crate::intersect::sphere::SphereLanes;
+use crate::intersect::{SurfacePoints, gamma};
 use crate::sampling::warp;
 use simd::{Float, Vector};
 

@@ -13,7 +13,7 @@ pub use sun::SunDisc;
 pub use table::LightSamples;
 
 use crate::intersect::sphere::Sphere;
-use crate::intersect::{SurfacePoint, triangle_normal};
+use crate::intersect::{NO_LIGHT, SurfacePoint, triangle_normal};
 use crate::sampling::warp;
 use crate::vectors::{glam_vector, lane_vector};
 use film::colour;
@@ -40,8 +40,8 @@ pub struct Lights {
     pub(crate) probabilities: Vec<f32>,
     /// Their running sum, the last one 1.
     pub(crate) cumulative: Vec<f32>,
-    /// Index of each shape's first light.
-    first_of_shape: Vec<Option<u32>>,
+    /// See [`Lights::light_of_shape`].
+    light_of_shape: Vec<u32>,
     /// Index of the sun.
     sun: Option<usize>,
     /// All of this as lanes look it up.
@@ -77,12 +77,12 @@ impl Lights {
     /// strong sun still gets its samples.
     pub fn new(scene: &Scene) -> Self {
         let mut lights = Vec::new();
-        let mut first_of_shape = Vec::new();
+        let mut light_of_shape = Vec::new();
         for shape in scene.shapes.iter() {
             let emission = scene.material_of(shape).emission.filter(|e| e.radiance.max_element() > 0.0);
             let first = lights.len();
             emission.into_iter().for_each(|emission| push_area_lights(shape, emission, &mut lights));
-            first_of_shape.push((lights.len() > first).then_some(first as u32));
+            light_of_shape.push(if lights.len() > first { first as u32 } else { NO_LIGHT });
         }
         let shines = |point: &&PointLight| point.intensity.max_element() > 0.0;
         lights.extend(scene.point_lights.iter().filter(shines).copied().map(Light::Point));
@@ -103,7 +103,7 @@ impl Lights {
         }
         let probabilities: Vec<f32> = probabilities.iter().map(|&p| p as f32).collect();
         let table = Table::new(&lights, &probabilities, cumulative.clone());
-        Lights { cumulative, lights, probabilities, first_of_shape, sun, table }
+        Lights { cumulative, lights, probabilities, light_of_shape, sun, table }
     }
 
     /// Number of lights; each triangle of a mesh that shines is one.
@@ -116,10 +116,10 @@ impl Lights {
         self.lights.is_empty()
     }
 
-    /// Index of the first light of a shape: its triangles with area are lights in their order, other shapes are one
-    /// light.
-    pub fn first_of_shape(&self, shape: usize) -> Option<u32> {
-        self.first_of_shape[shape]
+    /// Of each shape of the scene the index of its first light, or [`NO_LIGHT`]: its triangles with area are lights in
+    /// their order, other shapes are one light.
+    pub fn light_of_shape(&self) -> &[u32] {
+        &self.light_of_shape
     }
 
     /// The lights in lanes.
@@ -146,11 +146,7 @@ impl Lights {
         }
         let sample = self.table.sample(lane_vector(x), u_light, u);
         let end = match self.lights[self.choose(u_light)] {
-            Light::Flat(..) | Light::Sphere(..) => ShadowEnd::AreaLight(SurfacePoint {
-                position: glam_vector(sample.point.position),
-                error: glam_vector(sample.point.error),
-                normal: glam_vector(sample.point.normal),
-            }),
+            Light::Flat(..) | Light::Sphere(..) => ShadowEnd::AreaLight(sample.point.into()),
             Light::Point(point) => ShadowEnd::Point(point.position),
             Light::Sun(_) => ShadowEnd::Infinity,
         };
@@ -194,7 +190,7 @@ fn push_area_lights(shape: &Shape, emission: Emission, lights: &mut Vec<Light>) 
         Geometry::Sphere { center, radius } => lights.push(Light::Sphere(Sphere { center, radius }, emission)),
         Geometry::Rectangle { corner, edge_u, edge_v } => push(Flat::parallelogram(corner, edge_u, edge_v)),
         Geometry::Disk { center, normal, radius } => push(Some(Flat::disk(center, normal, radius))),
-        Geometry::Box { .. } | Geometry::Mesh { .. } => {
+        Geometry::Box { .. } | Geometry::Mesh(_) => {
             let (positions, triangles) = shape.geometry.flat_triangles();
             for corners in triangles.iter().map(|t| t.map(|i| positions[i as usize])) {
                 push(triangle_normal(corners).map(|normal| Flat::triangle(corners, normal)));

@@ -5,7 +5,8 @@
 use super::Light;
 use super::ball;
 use super::flat::{Flats, Outline};
-use crate::intersect::lanes::{SphereLanes, SurfacePoints};
+use crate::intersect::SurfacePoints;
+use crate::intersect::sphere::SphereLanes;
 use crate::sampling::warp;
 use crate::vectors::VectorColumn;
 use scene::Vec3;

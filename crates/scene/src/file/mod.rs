@@ -147,7 +147,7 @@ fn build(raw: RawScene, name: &str) -> Result<Scene, Fault> {
             return fault(m.triangles.span(), format!("corner {index} is named, but positions has {corners}"));
         }
         let positions = m.positions.into_iter().map(Vec3::from).collect();
-        add(Geometry::Mesh { positions, triangles: m.triangles.into_inner() }, m.material)?;
+        add(Geometry::mesh(positions, m.triangles.into_inner()), m.material)?;
     }
     if let Some((first, second)) = nesting::overlap(&shapes, &materials) {
         let other = shapes[first].geometry.center();

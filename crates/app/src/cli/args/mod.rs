@@ -12,29 +12,15 @@ pub use render::{RenderArgs, made_by};
 pub use seen::Seen;
 
 use super::{CliError, Command, help};
-use crate::technique::DeviceChoice;
-use crate::ui::Theme;
+use crate::model::{Theme, ViewArgs};
+use crate::ui::Workspaces;
 use compare::ErrorMetric;
 use image_file::Kind;
 use lexopt::prelude::*;
 use std::ffi::OsString;
 use std::path::PathBuf;
+use technique::DeviceChoice;
 use values::{DEVICES, choice, lanes, number};
-
-/// `visavis [SCENE]`.
-#[derive(Debug, Clone, PartialEq)]
-pub struct ViewArgs {
-    /// A built-in name or a file.
-    pub scene: String,
-    /// Where to write the names, rectangles and states of the widgets, each frame, for tests.
-    pub ui_dump: Option<PathBuf>,
-    /// How the window looks at first.
-    pub theme: Theme,
-    /// Where rays are traced at first, in both panes.
-    pub device: DeviceChoice,
-    /// Whether to print at the end what frames cost the UI thread.
-    pub frame_stats: bool,
-}
 
 fn usage<T>(line: impl Into<String>) -> Result<T, CliError> {
     Err(CliError::Usage(line.into()))
@@ -79,13 +65,15 @@ fn nothing_more(mut parser: lexopt::Parser, command: Command) -> Result<Command,
 
 fn parse_view(mut parser: lexopt::Parser) -> Result<Command, CliError> {
     let (mut scene, mut ui_dump, mut theme, mut frame_stats) = (None, None, Theme::default(), false);
-    let mut device = DeviceChoice::default();
+    let (mut device, mut workspace) = (DeviceChoice::default(), None);
     while let Some(arg) = parser.next()? {
         match arg {
             Value(word) if scene.is_none() => scene = Some(word.string()?),
             Long("ui-dump") => ui_dump = Some(PathBuf::from(parser.value()?)),
             Long("theme") => theme = choice(&mut parser, "--theme", Theme::named, "dark or projector")?,
             Long("device") => device = choice(&mut parser, "--device", DeviceChoice::named, DEVICES)?,
+            // hidden: there is one workspace to use today
+            Long("workspace") => workspace = Some(a_workspace(&mut parser)?),
             Long("frame-stats") => frame_stats = true,
             Long("help") | Short('h') => return Ok(Command::Print(help::HELP)),
             Long("version") | Short('V') => return Ok(Command::Print(help::VERSION)),
@@ -93,7 +81,13 @@ fn parse_view(mut parser: lexopt::Parser) -> Result<Command, CliError> {
         }
     }
     let scene = scene.unwrap_or_else(|| "whitted".into());
-    Ok(Command::View(ViewArgs { scene, ui_dump, theme, device, frame_stats }))
+    Ok(Command::View(ViewArgs { scene, ui_dump, theme, device, workspace, frame_stats }))
+}
+
+fn a_workspace(parser: &mut lexopt::Parser) -> Result<String, CliError> {
+    let known = Workspaces::names();
+    let named = |name: &str| known.contains(&name).then(|| name.to_owned());
+    choice(parser, "--workspace", named, &known.join(" or "))
 }
 
 /// `visavis compare A B ...`.

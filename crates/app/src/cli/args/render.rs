@@ -4,7 +4,6 @@ use super::seen::{Seen, parse_seen};
 use super::usage;
 use super::values::{DEVICES, choice, lanes, number, parse_finite, parse_whole, seconds, text, whole, within};
 use crate::cli::{CliError, Command, help};
-use crate::technique::{DeviceChoice, PaneSettings, Technique, made_from};
 use anyhow::Context;
 use image_file::{self, Kind};
 use lexopt::prelude::*;
@@ -12,6 +11,7 @@ use pathtrace::{Estimator, GlassShadows, Roulette, SamplerKind, WhittedSettings}
 use raster::{Fake, FakeKnobs, Shading, ShadowFilter, Show};
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
+use technique::{DeviceChoice, PaneSettings, TechniqueName, made_from};
 
 /// `visavis render SCENE -o OUT ...`; `None` leaves a value to the scene.
 #[derive(Debug, Clone, PartialEq)]
@@ -37,13 +37,13 @@ pub struct RenderArgs {
 const ESTIMATORS: &str = "uniform, cosine, light, mis, uniform-light or uniform-mis";
 
 /// The name of an option that was read, and the techniques that it changes.
-type Applies = (&'static str, &'static [Technique]);
+type Applies = (&'static str, &'static [TechniqueName]);
 
-const RASTER: &[Technique] = &[Technique::Raster];
-const WHITTED: &[Technique] = &[Technique::Whitted];
-const PATH: &[Technique] = &[Technique::Path];
-const RAYS: &[Technique] = &[Technique::Whitted, Technique::Path];
-const LOCAL: &[Technique] = &[Technique::Raster, Technique::Whitted];
+const RASTER: &[TechniqueName] = &[TechniqueName::Raster];
+const WHITTED: &[TechniqueName] = &[TechniqueName::Whitted];
+const PATH: &[TechniqueName] = &[TechniqueName::Path];
+const RAYS: &[TechniqueName] = &[TechniqueName::Whitted, TechniqueName::Path];
+const LOCAL: &[TechniqueName] = &[TechniqueName::Raster, TechniqueName::Whitted];
 
 /// Reads the words after `render`. A picture after `--from` comes first: what else is said changes what it says.
 pub fn parse(mut parser: lexopt::Parser) -> Result<Command, CliError> {
@@ -100,7 +100,7 @@ fn parse_words(words: Vec<OsString>, scene: Option<String>) -> Result<Command, C
     let mut r = RenderArgs {
         scene: String::new(),
         out: PathBuf::new(),
-        pane: PaneSettings::of(Technique::Path),
+        pane: PaneSettings::of(TechniqueName::Path),
         seen: Seen::default(),
         device: DeviceChoice::Auto,
         spp: None,
@@ -135,14 +135,14 @@ fn parse_words(words: Vec<OsString>, scene: Option<String>) -> Result<Command, C
         return usage(format!("-o must end in .png or .exr: {}", out.display()));
     }
     let technique = r.pane.technique;
-    if technique == Technique::Raster && r.device == DeviceChoice::Cpu {
+    if technique == TechniqueName::Raster && r.device == DeviceChoice::Cpu {
         return usage(format!("--technique {} runs on the gpu only", technique.name()));
     }
     // only the processor has lanes
     if r.device == DeviceChoice::Auto && read.iter().any(|(option, _)| *option == "--lanes") {
         r.device = DeviceChoice::Cpu;
     }
-    if let (Technique::Path, Err(fault)) = (technique, r.pane.truth.path.check()) {
+    if let (TechniqueName::Path, Err(fault)) = (technique, r.pane.truth.path.check()) {
         return usage(fault.to_string());
     }
     (r.scene, r.out) = (scene, out);
@@ -153,7 +153,9 @@ fn parse_words(words: Vec<OsString>, scene: Option<String>) -> Result<Command, C
 /// Reads an option of every technique; `false` if it is none.
 fn of_all(option: &str, parser: &mut lexopt::Parser, r: &mut RenderArgs) -> Result<bool, CliError> {
     match option {
-        "technique" => r.pane.technique = choice(parser, "--technique", Technique::named, "raster, whitted or path")?,
+        "technique" => {
+            r.pane.technique = choice(parser, "--technique", TechniqueName::named, "raster, whitted or path")?
+        }
         "exposure" => r.exposure = number(parser, "--exposure", "stops from -30 to 30", |v| v.abs() <= 30.0)?,
         "errors" => r.errors = true,
         "json" => r.json = true,

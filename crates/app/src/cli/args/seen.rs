@@ -3,10 +3,9 @@
 
 use super::values::{number, point, size, text};
 use crate::cli::CliError;
-use crate::ruler::Sought;
-use crate::technique::SceneChanges;
 use scene::{Camera, Scene, Vec3, builtin};
 use std::sync::Arc;
+use technique::{SceneChanges, Shot};
 
 /// What is seen of a scene; `None` leaves a value to the scene.
 #[derive(Debug, Clone, PartialEq)]
@@ -30,11 +29,11 @@ impl Seen {
     ///
     /// # Errors
     /// If it cannot be read, or if the camera sees nothing.
-    pub fn of(&self, source: &str) -> anyhow::Result<Sought> {
+    pub fn of(&self, source: &str) -> anyhow::Result<Shot> {
         let mut scene = self.changes.applied_to(&builtin::named(source)?);
         scene.camera = self.camera(&scene)?;
         let camera = scene.camera;
-        Ok(Sought { source: source.to_owned(), changes: self.changes, scene: Arc::new(scene), camera, size: self.size })
+        Ok(Shot { source: source.to_owned(), changes: self.changes, scene: Arc::new(scene), camera, size: self.size })
     }
 
     /// The scene's camera with what the command line changes in it.

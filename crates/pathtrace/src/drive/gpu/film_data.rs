@@ -1,9 +1,6 @@
 //! Mirrors of the structs in `shaders/pathtrace/drive/film.wgsl`, field for field. A test compares every offset with
 //! the shader compiler's. Padding is spelled out as `unused*`.
 
-use crate::integrator::forks::MOST_FORKS;
-use crate::integrator::settings::{PathSettings, SamplerKind};
-use crate::integrator::whitted::WhittedSettings;
 use bytemuck::{Pod, Zeroable};
 use scene::{Vec3, camera};
 
@@ -130,47 +127,8 @@ impl RenderParams {
         RenderParams { frame, size: [size.0 as f32, size.1 as f32], ..RenderParams::zeroed() }
     }
 
-    /// With the settings of paths.
-    pub fn with_paths(self, settings: &PathSettings) -> Self {
-        RenderParams {
-            seed: settings.seed,
-            limit: settings.scattering_vertices(),
-            capped: u32::from(settings.bounces.is_none()),
-            branches: settings.branches.max(1),
-            branching_vertices: settings.branching_vertices().min(MOST_FORKS as u32),
-            by_throughput: u32::from(settings.roulette.throughput),
-            probability: settings.roulette.probability.unwrap_or(1.0),
-            ..self
-        }
-    }
-
-    /// What of it a sample's cost depends on, beside what is seen.
+    /// What of it a sample's cost depends on, beside what is seen: not a picture's number, nor how bright something is.
     pub fn effort(&self) -> Self {
-        let RenderParams { limit, branches, branching_vertices, by_throughput, probability, shadow_rays, .. } = *self;
-        RenderParams {
-            limit,
-            branches,
-            branching_vertices,
-            by_throughput,
-            probability,
-            shadow_rays,
-            ..RenderParams::zeroed()
-        }
+        RenderParams { frame: PictureFrame::zeroed(), size: [0.0; 2], seed: 0, ambient: 0.0, ..*self }
     }
-
-    /// With the settings of Whitted's trees.
-    pub fn with_trees(self, settings: &WhittedSettings, scene_ambient: f32) -> Self {
-        RenderParams {
-            seed: settings.seed,
-            limit: settings.depth.min(WhittedSettings::MOST_DEPTH),
-            shadow_rays: settings.shadow_rays.max(1),
-            ambient: settings.ambient.unwrap_or(scene_ambient),
-            ..self
-        }
-    }
-}
-
-/// Whether a sampler's numbers are Sobol points.
-pub fn is_sobol(kind: SamplerKind) -> bool {
-    kind == SamplerKind::Sobol
 }

@@ -17,10 +17,9 @@ mod timing;
 
 pub use error::GpuTraceError;
 pub use film::GpuFilm;
-pub use pipelines::{Choice, SceneNeeds};
+pub use pipelines::{PipelineKey, SceneNeeds, flag};
 
-use crate::integrator::settings::PathSettings;
-use crate::integrator::whitted::WhittedSettings;
+use crate::integrator::Integrator;
 use crate::light::Lights;
 use crate::tracer::Stats;
 use ::film::Film;
@@ -29,6 +28,7 @@ use dispatch::Dispatcher;
 use film_data::RenderParams;
 use gpu::{Gpu, GpuError, wgpu};
 use pipelines::Pipelines;
+use scene::stand_ins::FakeNumbers;
 use scene::{Camera, Scene};
 use shape_data::{FewShape, MOST_SHAPES, Shapes};
 use timing::{BUDGET_SECONDS, Pace, Stopwatch};
@@ -41,9 +41,9 @@ pub struct GpuTracer {
     pipelines: Pipelines,
     scene: wgpu::BindGroup,
     leaves: Leaves,
-    ambient: f32,
+    stand_ins: FakeNumbers,
     stopwatch: Stopwatch,
-    paces: Vec<(Choice, RenderParams, Pace)>,
+    paces: Vec<(PipelineKey, RenderParams, Pace)>,
     budget: f64,
     /// What dispatches have taken.
     seconds: f64,
@@ -82,7 +82,7 @@ impl GpuTracer {
             scene: made.upload(gpu, &pipelines.scene_layout, scene)?,
             pipelines,
             leaves,
-            ambient: scene.fake.ambient,
+            stand_ins: scene.fake,
             stopwatch: Stopwatch::new(gpu),
             paces: Vec::new(),
             budget: BUDGET_SECONDS,
@@ -105,7 +105,7 @@ impl GpuTracer {
             self.scene = made.upload(&self.gpu, &self.pipelines.scene_layout, scene)?;
             self.paces.iter_mut().for_each(|(.., pace)| pace.doubt());
         }
-        self.ambient = scene.fake.ambient;
+        self.stand_ins = scene.fake;
         Ok(())
     }
 
@@ -127,8 +127,8 @@ impl GpuTracer {
 
     /// Whether rays can be traced like this at once, without compiling anything first: that takes a software device
     /// seconds.
-    pub fn has_compiled(&self, choice: Choice) -> bool {
-        self.pipelines.has_compiled(choice)
+    pub fn has_compiled(&self, integrator: &Integrator) -> bool {
+        self.pipelines.has_compiled(&self.pipelines.key(integrator))
     }
 
     /// Whether dispatches are timed by the device's own clock.
@@ -150,9 +150,9 @@ impl GpuTracer {
         GpuFilm::new(&self.gpu, &self.pipelines.film_layout, film)
     }
 
-    /// Path traces into a film on the device until each of its pixels has `until` samples. `stop` is asked between
-    /// dispatches; once it says so the call returns, and pixels hold whole samples, but not
-    /// all equally many. See [`GpuTracer::set_budget`] for how long a dispatch takes.
+    /// Adds to a film on the device until each of its pixels has `until` samples. `stop` is asked between dispatches;
+    /// once it says so the call returns, and pixels hold whole samples, but not all equally many. See
+    /// [`GpuTracer::set_budget`] for how long a dispatch takes.
     ///
     /// # Errors
     /// [`GpuTraceError`] if the device fails; what it had done is then lost.
@@ -160,82 +160,16 @@ impl GpuTracer {
         &mut self,
         film: &mut GpuFilm,
         camera: &Camera,
-        settings: &PathSettings,
+        integrator: &Integrator,
         until: u32,
         stop: &impl Fn() -> bool,
     ) -> Result<(), GpuTraceError> {
-        let params = params(film, camera).with_paths(settings);
-        self.run(film, Choice::of_paths(settings), params, until, stop)
-    }
-
-    /// As [`GpuTracer::accumulate`], by Whitted's method.
-    ///
-    /// # Errors
-    /// As [`GpuTracer::accumulate`].
-    pub fn accumulate_whitted(
-        &mut self,
-        film: &mut GpuFilm,
-        camera: &Camera,
-        settings: &WhittedSettings,
-        until: u32,
-        stop: &impl Fn() -> bool,
-    ) -> Result<(), GpuTraceError> {
-        let params = params(film, camera).with_trees(settings, self.ambient);
-        self.run(film, Choice::of_trees(settings), params, until, stop)
-    }
-
-    /// Path traces `samples` more into every pixel of `film`, as [`crate::Tracer::render`] does, and waits for them.
-    ///
-    /// # Errors
-    /// [`GpuTraceError`] if the device fails; `film` is then as it was.
-    pub fn render(
-        &mut self,
-        film: &mut Film,
-        camera: &Camera,
-        settings: &PathSettings,
-        samples: u32,
-        stop: &impl Fn() -> bool,
-    ) -> Result<Stats, GpuTraceError> {
-        let until = film.samples_per_pixel().saturating_add(samples);
-        let mut on_device = self.film(film.clone())?;
-        self.accumulate(&mut on_device, camera, settings, until, stop)?;
-        let (read, stats) = on_device.read(&self.gpu)?;
-        *film = read;
-        Ok(stats)
-    }
-
-    /// As [`GpuTracer::render`], by Whitted's method.
-    ///
-    /// # Errors
-    /// As [`GpuTracer::render`].
-    pub fn render_whitted(
-        &mut self,
-        film: &mut Film,
-        camera: &Camera,
-        settings: &WhittedSettings,
-        samples: u32,
-        stop: &impl Fn() -> bool,
-    ) -> Result<Stats, GpuTraceError> {
-        let until = film.samples_per_pixel().saturating_add(samples);
-        let mut on_device = self.film(film.clone())?;
-        self.accumulate_whitted(&mut on_device, camera, settings, until, stop)?;
-        let (read, stats) = on_device.read(&self.gpu)?;
-        *film = read;
-        Ok(stats)
-    }
-
-    fn run(
-        &mut self,
-        film: &mut GpuFilm,
-        choice: Choice,
-        params: RenderParams,
-        until: u32,
-        stop: &impl Fn() -> bool,
-    ) -> Result<(), GpuTraceError> {
-        let pipeline = self.pipelines.prepare(&self.gpu, choice)?;
+        let key = self.pipelines.key(integrator);
+        let pipeline = self.pipelines.prepare(&self.gpu, &key)?;
+        let params = integrator.render_params(params(film, camera), &self.stand_ins);
         let effort = params.effort();
-        let known = self.paces.iter().position(|(c, ..)| *c == choice).unwrap_or_else(|| {
-            self.paces.push((choice, effort, Pace::default()));
+        let known = self.paces.iter().position(|(known, ..)| *known == key).unwrap_or_else(|| {
+            self.paces.push((key, effort, Pace::default()));
             self.paces.len() - 1
         });
         let (_, known_effort, pace) = &mut self.paces[known];
@@ -255,6 +189,26 @@ impl GpuTracer {
             learning: true,
         };
         dispatcher.run(film, params, until, stop)
+    }
+
+    /// Adds `samples` to every pixel of `film`, as [`crate::Tracer::render`] does, and waits for them.
+    ///
+    /// # Errors
+    /// [`GpuTraceError`] if the device fails; `film` is then as it was.
+    pub fn render(
+        &mut self,
+        film: &mut Film,
+        camera: &Camera,
+        integrator: &Integrator,
+        samples: u32,
+        stop: &impl Fn() -> bool,
+    ) -> Result<Stats, GpuTraceError> {
+        let until = film.samples_per_pixel().saturating_add(samples);
+        let mut on_device = self.film(film.clone())?;
+        self.accumulate(&mut on_device, camera, integrator, until, stop)?;
+        let (read, stats) = on_device.read(&self.gpu)?;
+        *film = read;
+        Ok(stats)
     }
 }
 
@@ -280,8 +234,11 @@ struct Made {
 impl Made {
     fn of(scene: &Scene, leaves: Leaves) -> Result<Self, GpuTraceError> {
         let lights = Lights::new(scene);
-        let shapes =
-            if leaves.always_a_tree { Shapes::in_a_tree(scene, &lights) } else { Shapes::new(scene, &lights) }?;
+        let shapes = if leaves.always_a_tree {
+            Shapes::in_a_tree(scene, lights.light_of_shape())
+        } else {
+            Shapes::new(scene, lights.light_of_shape())
+        }?;
         let needs = SceneNeeds::of(scene, &lights, shapes.kinds());
         let needs = if leaves.nothing_out { needs.with_everything() } else { needs };
         Ok(Made { lights, shapes, needs })

@@ -3,11 +3,11 @@
 //! What they are compiled for is named in `shaders/pathtrace/needs.wgsl`.
 
 use super::GpuTraceError;
-use super::film_data::{RenderParams, is_sobol};
+use super::film_data::RenderParams;
 use super::scene_data::Header;
 use super::shape_data::{FewShape, MOST_SHAPES, ShapeKinds};
-use crate::integrator::settings::{Directions, LightSampling, PathSettings};
-use crate::integrator::whitted::{GlassShadows, WhittedSettings};
+use crate::integrator::Integrator;
+use crate::integrator::settings::SamplerKind;
 use crate::light::flat::Outline;
 use crate::light::{Light, Lights};
 use crate::shaders;
@@ -16,57 +16,30 @@ use scene::{Needs, Scene};
 use std::num::NonZeroU64;
 use wgpu::{BindGroupLayout, BindingType, BufferBindingType, ComputePipeline};
 
-/// Which shader is run.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Technique {
-    Path,
-    Whitted,
+/// The shader of a pipeline, and what of an integrator's settings is compiled into it: those of its overrides that
+/// differ from the shader's own values.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PipelineKey {
+    shader: &'static str,
+    constants: Vec<(&'static str, f64)>,
 }
 
-/// How light is found.
-pub(crate) const BY_CHANCE: u32 = 0;
-pub(crate) const BY_SAMPLING: u32 = 1;
-pub(crate) const BY_BOTH: u32 = 2;
+impl PipelineKey {
+    /// Of a file under `shaders/`, with these values of the overrides that the integrator alone knows.
+    pub fn new(shader: &'static str, sampler: SamplerKind, constants: &[(&'static str, f64)]) -> Self {
+        let sobol = ("SOBOL", flag(sampler == SamplerKind::Sobol));
+        PipelineKey { shader, constants: [&[sobol], constants].concat() }
+    }
 
-/// What is compiled into a pipeline.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Choice {
-    technique: Technique,
-    sobol: bool,
-    uniform_directions: bool,
-    light_search: u32,
-    branching: bool,
-    clear_glass: bool,
+    /// Names of the overrides that speak of the settings.
+    pub(crate) fn constant_names(self) -> impl Iterator<Item = &'static str> {
+        self.constants.into_iter().map(|(name, _)| name)
+    }
 }
 
-impl Choice {
-    /// For paths.
-    pub fn of_paths(settings: &PathSettings) -> Self {
-        Choice {
-            technique: Technique::Path,
-            sobol: is_sobol(settings.sampler),
-            uniform_directions: settings.estimator.directions == Directions::Uniform,
-            light_search: match settings.estimator.light {
-                LightSampling::BsdfOnly => BY_CHANCE,
-                LightSampling::NextEvent => BY_SAMPLING,
-                LightSampling::Mis => BY_BOTH,
-            },
-            branching: settings.branches > 1,
-            clear_glass: false,
-        }
-    }
-
-    /// For Whitted's trees.
-    pub fn of_trees(settings: &WhittedSettings) -> Self {
-        Choice {
-            technique: Technique::Whitted,
-            sobol: is_sobol(settings.sampler),
-            uniform_directions: false,
-            light_search: BY_SAMPLING,
-            branching: false,
-            clear_glass: settings.glass_shadows == GlassShadows::Clear,
-        }
-    }
+/// The value of an override that says whether something is there.
+pub fn flag(set: bool) -> f64 {
+    f64::from(u8::from(set))
 }
 
 /// Kinds of what is sampled as a light.
@@ -122,7 +95,7 @@ impl SceneNeeds {
     /// Values of the overrides in `shaders/pathtrace/needs.wgsl` that say which shapes there are.
     pub fn shape_constants(&self) -> [(&'static str, f64); 5] {
         [
-            ("FEW_SHAPES", f64::from(u8::from(self.shapes.few))),
+            ("FEW_SHAPES", flag(self.shapes.few)),
             ("QUADRILATERALS", self.flag(self.shapes.quadrilaterals)),
             ("TRIANGLES", self.flag(self.shapes.triangles)),
             ("SPHERES", self.flag(self.shapes.spheres)),
@@ -130,9 +103,8 @@ impl SceneNeeds {
         ]
     }
 
-    /// Values of all the overrides.
-    pub fn constants(&self, choice: Choice) -> Vec<(&'static str, f64)> {
-        let exactly = |set: bool| f64::from(u8::from(set));
+    /// Values of all the overrides of `shaders/pathtrace/needs.wgsl` that speak of the scene.
+    pub fn constants(&self) -> Vec<(&'static str, f64)> {
         let mut constants = self.shape_constants().to_vec();
         constants.extend([
             ("CHECKERBOARD", self.flag(self.needs.checkerboard)),
@@ -144,25 +116,19 @@ impl SceneNeeds {
             ("BALL_LIGHTS", self.flag(self.lights.balls)),
             ("POINT_LIGHTS", self.flag(self.lights.points)),
             ("SUN", self.flag(self.needs.sun)),
-            ("SOBOL", exactly(choice.sobol)),
-            ("UNIFORM_DIRECTIONS", exactly(choice.uniform_directions)),
-            ("LIGHT_SEARCH", f64::from(choice.light_search)),
-            ("BRANCHING", self.flag(choice.branching)),
-            ("CLEAR_GLASS", exactly(choice.clear_glass)),
         ]);
         constants
     }
 
-    /// Names of all the overrides.
-    pub(crate) fn constant_names() -> Vec<&'static str> {
+    /// Names of the overrides that speak of the scene.
+    pub(crate) fn constant_names() -> impl Iterator<Item = &'static str> {
         let (needs, shapes, lights) = (Needs::default(), ShapeKinds::default(), LightKinds::default());
         let nothing = SceneNeeds { needs, shapes, lights, everything: false };
-        let choice = Choice::of_paths(&PathSettings::default());
-        nothing.constants(choice).into_iter().map(|(name, _)| name).collect()
+        nothing.constants().into_iter().map(|(name, _)| name)
     }
 
     fn flag(&self, needed: bool) -> f64 {
-        f64::from(u8::from(needed || self.everything))
+        flag(needed || self.everything)
     }
 }
 
@@ -174,7 +140,7 @@ pub struct Pipelines {
     /// Group 1: what is asked for, and the film.
     pub film_layout: BindGroupLayout,
     needs: SceneNeeds,
-    compiled: Vec<(Choice, ComputePipeline)>,
+    compiled: Vec<(PipelineKey, ComputePipeline)>,
 }
 
 impl Pipelines {
@@ -206,24 +172,26 @@ impl Pipelines {
         self.needs
     }
 
-    /// Whether the pipeline of a choice is there already.
-    pub fn has_compiled(&self, choice: Choice) -> bool {
-        self.compiled.iter().any(|(compiled, _)| *compiled == choice)
+    /// The key of an integrator's pipeline.
+    pub fn key(&self, integrator: &Integrator) -> PipelineKey {
+        integrator.pipeline_key(self.needs.everything)
     }
 
-    /// The pipeline of a choice.
+    /// Whether a pipeline is there already.
+    pub fn has_compiled(&self, key: &PipelineKey) -> bool {
+        self.compiled.iter().any(|(compiled, _)| compiled == key)
+    }
+
+    /// The pipeline of a key.
     ///
     /// # Errors
     /// [`gpu::GpuError::Refused`] if the device can't take it.
-    pub fn prepare(&mut self, gpu: &Gpu, choice: Choice) -> Result<ComputePipeline, GpuTraceError> {
-        if let Some((_, pipeline)) = self.compiled.iter().find(|(compiled, _)| *compiled == choice) {
+    pub fn prepare(&mut self, gpu: &Gpu, key: &PipelineKey) -> Result<ComputePipeline, GpuTraceError> {
+        if let Some((_, pipeline)) = self.compiled.iter().find(|(compiled, _)| compiled == key) {
             return Ok(pipeline.clone());
         }
-        let module = shaders::compose(match choice.technique {
-            Technique::Path => "pathtrace/integrator/path.wgsl",
-            Technique::Whitted => "pathtrace/integrator/whitted.wgsl",
-        })?
-        .create(gpu)?;
+        let module = shaders::compose(key.shader)?.create(gpu)?;
+        let constants = [self.needs.constants(), key.constants.clone()].concat();
         let pipeline = gpu.checked("the path tracer's pipeline", || {
             let layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
                 label: None,
@@ -236,13 +204,13 @@ impl Pipelines {
                 module: &module,
                 entry_point: Some("trace"),
                 compilation_options: wgpu::PipelineCompilationOptions {
-                    constants: &self.needs.constants(choice),
+                    constants: &constants,
                     ..wgpu::PipelineCompilationOptions::default()
                 },
                 cache: None,
             })
         })?;
-        self.compiled.push((choice, pipeline.clone()));
+        self.compiled.push((key.clone(), pipeline.clone()));
         Ok(pipeline)
     }
 }

@@ -2,6 +2,7 @@
 //! every offset with the shader compiler's. Padding is spelled out as `unused*`.
 
 use super::shape_data::Shapes;
+use crate::bsdf::materials::lobe_of;
 use crate::light::flat::Outline;
 use crate::light::{Light as HostLight, Lights, SunDisc};
 use crate::sampling::sobol::reversed_point;
@@ -59,24 +60,18 @@ pub struct Checkerboard {
     pub unused3: u32,
 }
 
-/// Codes of [`Material::bsdf`].
-pub(crate) const BSDF_DIFFUSE: u32 = 0;
-pub(crate) const BSDF_CHECKERBOARD: u32 = 1;
-pub(crate) const BSDF_MIRROR: u32 = 2;
-pub(crate) const BSDF_DIELECTRIC: u32 = 3;
-
 /// How a surface looks.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
 pub struct Material {
-    /// Albedo or reflectance.
+    /// Albedo or reflectance, 1 for glass.
     pub colour: Checkerboard,
     /// Radiance sent out.
     pub emission: Vec3,
     /// 0 none, 1 the one that the normal points away from, 2 both.
     pub emitting_sides: u32,
-    /// One of `BSDF_*`.
-    pub bsdf: u32,
+    /// One of `LOBE_*`, see [`lobe_of`].
+    pub lobe: u32,
     /// Index of refraction of the inside over the outside.
     pub ior: f32,
     /// Root of |ior^2 - 1|.
@@ -149,26 +144,20 @@ pub fn materials(scene: &Scene) -> Vec<Material> {
 
 fn material(from: &scene::Material) -> Material {
     let mut to = Material::zeroed();
+    to.lobe = lobe_of(&from.bsdf);
     match from.bsdf {
-        Bsdf::Diffuse { albedo: Texture::Constant(albedo) } => {
-            to.bsdf = BSDF_DIFFUSE;
-            to.colour.even = albedo;
-        }
+        Bsdf::Diffuse { albedo: Texture::Constant(albedo) } => to.colour.even = albedo,
         Bsdf::Diffuse { albedo: Texture::Checkerboard(board) } => {
-            to.bsdf = BSDF_CHECKERBOARD;
             to.colour.even = board.even;
             to.colour.odd = board.odd;
             to.colour.origin = board.origin;
             to.colour.cells_per_unit = board.cells_per_unit();
         }
-        Bsdf::Mirror { reflectance } => {
-            to.bsdf = BSDF_MIRROR;
-            to.colour.even = reflectance;
-        }
+        Bsdf::Mirror { reflectance } => to.colour.even = reflectance,
         Bsdf::Dielectric { ior } => {
             let n = f64::from(ior);
             let root = ((n - 1.0) * (n + 1.0)).abs().sqrt();
-            to.bsdf = BSDF_DIELECTRIC;
+            to.colour.even = Vec3::ONE;
             to.ior = ior;
             to.root = root as f32;
             to.root_low = (root - f64::from(to.root)) as f32;

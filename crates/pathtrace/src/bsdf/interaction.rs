@@ -1,0 +1,62 @@
+//! A point of a surface as a ray meets it: what an integrator asks the scene for, and then asks how light goes on.
+//! Twin: `shaders/pathtrace/bsdf/interaction.wgsl`.
+
+use super::materials::Kinds;
+use crate::intersect::SurfacePoints;
+use simd::{Float, Vector};
+
+/// A surface as it is met, in each lane.
+#[derive(Clone, Copy)]
+pub struct Interactions<F: Float> {
+    /// Where, with the bound on its error and the outward normal.
+    pub point: SurfacePoints<F>,
+    /// Unit normal on the side of `wo`.
+    pub normal: Vector<F>,
+    /// Unit direction back along the ray.
+    pub wo: Vector<F>,
+    /// Albedo of diffuse surfaces there, reflectance of mirrors, 1 for glass.
+    pub colour: Vector<F>,
+    /// What the surface does to light.
+    pub kinds: Kinds<F::U>,
+    /// Index into the scene's materials.
+    pub material: F::U,
+}
+
+impl<F: Float> Interactions<F> {
+    /// Where the surface scatters by Lambert's law.
+    #[inline(always)]
+    pub fn is_diffuse(&self) -> F::M {
+        self.kinds.diffuse()
+    }
+
+    /// Where the surface leaves no choice of direction but among few: what falls on it from a light that is sampled is
+    /// never seen.
+    #[inline(always)]
+    pub fn is_delta(&self) -> F::M {
+        self.kinds.delta()
+    }
+
+    /// Where the surface shines.
+    #[inline(always)]
+    pub fn shines(&self) -> F::M {
+        self.kinds.area_light()
+    }
+
+    /// Where a path goes on with a diffuse vertex of its own instead.
+    #[inline(always)]
+    pub fn or_diffuse(&self, here: F::M, point: &SurfacePoints<F>, normal: Vector<F>, albedo: Vector<F>) -> Self {
+        Interactions {
+            point: SurfacePoints::select(here, *point, self.point),
+            normal: Vector::select(here, normal, self.normal),
+            colour: Vector::select(here, albedo, self.colour),
+            kinds: self.kinds.or_diffuse(here),
+            ..*self
+        }
+    }
+}
+
+/// The normal on the side of `wo`.
+#[inline(always)]
+pub fn facing<F: Float>(normal: Vector<F>, wo: Vector<F>) -> Vector<F> {
+    Vector::select(normal.dot(wo).lt(F::splat(0.0)), -normal, normal)
+}
