@@ -1,5 +1,6 @@
 //#import shared/checkerboard.wgsl
-// The scene as the device holds it. Mirrors: crates/pathtrace/src/gpu/scene_data.rs and, of shapes, shape_data.rs.
+// The scene as the device holds it. Mirrors: crates/pathtrace/src/drive/gpu/scene_data.rs and shape_data.rs, so
+// called beside `scene`, the crate.
 
 struct Header {
     // radiance where nothing is hit, of a sky of one colour

@@ -1,14 +1,14 @@
 //! Closed scenes that keep all their light.
 
 use crate::hard::{known, spot, with_geometry};
-use crate::measure::{Trial, adding, farthest, independent};
+use crate::measure::{Trial, adding, farthest};
 use pathtrace::{Estimator, PathSettings, Roulette, Tracer, WhittedSettings};
 use scene::{Bsdf, Camera, Geometry, Scene, Texture, Vec3};
 use std::f32::consts::PI;
 
 /// Independent samples of paths.
 pub fn with(estimator: Estimator, bounces: Option<u32>, roulette: Roulette) -> PathSettings {
-    PathSettings { estimator, bounces, roulette, ..independent() }
+    PathSettings { estimator, bounces, roulette, ..PathSettings::independent() }
 }
 
 /// Light that paths have lost at the middle of the floor when they stop after so many scatterings: a random walk in

@@ -18,6 +18,7 @@ pub mod light;
 pub mod prepared;
 mod replicates;
 pub mod sampling;
+pub mod shaders;
 mod tracer;
 mod vectors;
 

@@ -1,4 +1,6 @@
 //! What every walk of rays needs: the scene made ready, and what rays meet in it.
+//!
+//! Twin: `shaders/pathtrace/prepared.wgsl`.
 
 use crate::bsdf::Interactions;
 use crate::bsdf::interaction::facing;

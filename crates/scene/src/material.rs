@@ -1,4 +1,6 @@
 //! Materials, written once and physically. What the fake sees of one is derived in [`crate::stand_ins`].
+//!
+//! Twin of [`Checkerboard::at`]: `shaders/shared/checkerboard.wgsl`.
 
 use crate::stand_ins::FakeMaterial;
 use glam::Vec3;

@@ -1,4 +1,6 @@
 //! What a scene asks for, so that techniques, controls and reports leave out what it does not.
+//!
+//! Twin: `shaders/pathtrace/needs.wgsl`.
 
 use crate::{Bsdf, Geometry, Scene, Texture};
 

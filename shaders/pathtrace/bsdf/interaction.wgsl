@@ -35,7 +35,7 @@ struct BsdfSample {
     pdf: f32,
 }
 
-// Stands for infinity, which shaders may take away.
+// Stands for infinity. Here alone: lanes have infinity, which shaders may take away.
 const DELTA_PDF: f32 = -1.0;
 
 fn delta_sample(at: Interaction, wi: vec3f) -> BsdfSample {

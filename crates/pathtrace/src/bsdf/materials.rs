@@ -1,4 +1,6 @@
 //! A scene's materials by columns, as lanes look them up: the table of lobes.
+//!
+//! Twins: `shaders/pathtrace/prepared.wgsl` and `shaders/shared/checkerboard.wgsl`.
 
 use super::Interactions;
 use crate::vectors::VectorColumn;

@@ -1,7 +1,8 @@
 //! The driver of lanes that fill a film: a lane owns a pixel, and starts its next sample, or its next pixel, in the
 //! same turn in which the last one ended. There are no queues, and lanes stay busy up to the end of a chunk.
 //!
-//! Twin: `shaders/pathtrace/drive/pixels.wgsl`, where a thread has one pixel and its own loop.
+//! Twins: `shaders/pathtrace/drive/pixels.wgsl`, where a thread has one pixel and its own loop, and, of the camera's rays,
+//! `shaders/pathtrace/camera.wgsl`.
 
 use crate::integrator::settings::SamplerKind;
 use crate::intersect::Rays;

@@ -3,10 +3,10 @@
 //! A new integrator is a file here with its settings and lanes, its twin in `shaders/pathtrace/integrator/`, and a
 //! variant of [`Integrator`] with an arm in each of the matches below: all that the machines ask an integrator for.
 
-mod forks;
+pub(crate) mod forks;
 pub mod path;
-mod path_state;
-mod roulette;
+pub(crate) mod path_state;
+pub(crate) mod roulette;
 pub mod settings;
 pub mod whitted;
 

@@ -74,16 +74,21 @@ impl LanePlan for Plan {
     }
 }
 
+/// How light is found.
+pub(crate) const BY_CHANCE: u32 = 0;
+pub(crate) const BY_SAMPLING: u32 = 1;
+pub(crate) const BY_BOTH: u32 = 2;
+
 impl PathSettings {
     pub(super) fn pipeline_key(&self, everything: bool) -> PipelineKey {
         let light_search = match self.estimator.light {
-            LightSampling::BsdfOnly => 0.0,
-            LightSampling::NextEvent => 1.0,
-            LightSampling::Mis => 2.0,
+            LightSampling::BsdfOnly => BY_CHANCE,
+            LightSampling::NextEvent => BY_SAMPLING,
+            LightSampling::Mis => BY_BOTH,
         };
         let constants = [
             ("UNIFORM_DIRECTIONS", flag(self.estimator.directions == Directions::Uniform)),
-            ("LIGHT_SEARCH", light_search),
+            ("LIGHT_SEARCH", f64::from(light_search)),
             ("BRANCHING", flag(self.branches > 1 || everything)),
         ];
         PipelineKey::new("pathtrace/integrator/path.wgsl", self.sampler, &constants)

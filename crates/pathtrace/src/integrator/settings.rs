@@ -194,6 +194,11 @@ impl PathSettings {
     /// ray between perfect mirrors would never end.
     pub const HARD_CAP: u32 = 1000;
 
+    /// The default settings, with samples that are independent of each other: their spread tells their error.
+    pub fn independent() -> Self {
+        PathSettings { sampler: SamplerKind::Independent, ..Self::default() }
+    }
+
     /// The number of vertices at which a path may scatter.
     pub fn scattering_vertices(&self) -> u32 {
         self.bounces.map_or(Self::HARD_CAP, |n| n.saturating_add(1).min(Self::HARD_CAP))

@@ -138,7 +138,7 @@ impl LanePlan for Plan {
 pub const MOST_BRANCHES: u32 = 65_536;
 
 /// Lights up to which each is sampled; of more, this many are chosen by power.
-const MOST_LIGHTS: usize = 16;
+pub(crate) const MOST_LIGHTS: usize = 16;
 
 /// A ray on its way, or waiting, in each lane.
 #[derive(Clone, Copy)]

@@ -1,6 +1,8 @@
 //! A sky from a picture as a light: a texel is drawn by its luminance and solid angle, row first and then column, and a
 //! direction uniformly within it (pbrt-v4, 12.5 and A.5.3). Piecewise constant in solid angle rather than in latitude:
 //! no density has a pole.
+//!
+//! Twin: `shaders/pathtrace/light/environment.wgsl`.
 
 use crate::sampling::warp::{angle_of_upper, sin_cos_2pi};
 use crate::vectors::VectorColumn;

@@ -1,4 +1,6 @@
 //! The lights of a scene by columns, sampled in each lane.
+//!
+//! Twins: `shaders/pathtrace/light/light.wgsl` and `light_sample.wgsl`.
 
 use super::ball;
 use super::flat::{Flats, Outline};

@@ -3,6 +3,8 @@
 //! Both are pure functions of (pixel, sample, dimension, seed), in 32-bit integers alone. Each use of randomness along
 //! a path has a dimension, a block of four numbers; of a block the first two belong together: a direction, a point on
 //! an area light, a place in a pixel.
+//!
+//! Twin: `shaders/pathtrace/sampling/sampler.wgsl`, bit for bit.
 
 use crate::integrator::settings::SamplerKind;
 use crate::sampling::rng::{pcg4d, unit_float};

@@ -9,7 +9,7 @@ use gpu::waiting::PATIENCE;
 use gpu::{Gpu, wgpu};
 
 /// Threads of a group along x and y, as in the shaders.
-const GROUP: u32 = 8;
+pub(crate) const GROUP: u32 = 8;
 
 /// Samples of a pixel in one dispatch where a whole picture does not fit the budget: threads whose paths end early go
 /// on with their next sample, which keeps their neighbours company ...

@@ -1,16 +1,16 @@
-//! The same paths on a graphics device: twins of this crate's functions in `shaders/pathtrace/`,
-//! under the same names, with the same random numbers bit for bit.
+//! The same paths on a graphics device: twins of this crate's functions in `shaders/pathtrace/`, under the same names,
+//! with the same random numbers bit for bit.
 //!
 //! A [`GpuTracer`] is a scene made ready on a device. It adds samples to a [`GpuFilm`], which sums them where they are
-//! made and is read when someone looks; [`GpuTracer::render`] does both for a [`film::Film`]. Nothing here panics when
+//! made and is read when someone looks; [`GpuTracer::render`] does both for a [`::film::Film`]. Nothing here panics when
 //! the device fails: every fault is a [`GpuTraceError`], and the processor's [`crate::Tracer`] can take over.
 
-mod dispatch;
+pub(crate) mod dispatch;
 mod environment_data;
 mod error;
 mod film;
 pub mod film_data;
-mod pipelines;
+pub(crate) mod pipelines;
 pub mod rays;
 pub mod scene_data;
 pub mod shape_data;

@@ -1,4 +1,6 @@
 //! Pipelines, compiled for what a scene needs and its settings choose, and the layouts of what is bound to them.
+//!
+//! What they are compiled for is named in `shaders/pathtrace/needs.wgsl`.
 
 use super::GpuTraceError;
 use super::film_data::RenderParams;
@@ -8,7 +10,8 @@ use crate::integrator::Integrator;
 use crate::integrator::settings::SamplerKind;
 use crate::light::flat::Outline;
 use crate::light::{Light, Lights};
-use gpu::{Gpu, wgpu, wgsl};
+use crate::shaders;
+use gpu::{Gpu, wgpu};
 use scene::{Needs, Scene};
 use std::num::NonZeroU64;
 use wgpu::{BindGroupLayout, BindingType, BufferBindingType, ComputePipeline};
@@ -26,6 +29,11 @@ impl PipelineKey {
     pub fn new(shader: &'static str, sampler: SamplerKind, constants: &[(&'static str, f64)]) -> Self {
         let sobol = ("SOBOL", flag(sampler == SamplerKind::Sobol));
         PipelineKey { shader, constants: [&[sobol], constants].concat() }
+    }
+
+    /// Names of the overrides that speak of the settings.
+    pub(crate) fn constant_names(self) -> impl Iterator<Item = &'static str> {
+        self.constants.into_iter().map(|(name, _)| name)
     }
 }
 
@@ -115,6 +123,13 @@ impl SceneNeeds {
         constants
     }
 
+    /// Names of the overrides that speak of the scene.
+    pub(crate) fn constant_names() -> impl Iterator<Item = &'static str> {
+        let (needs, shapes, lights) = (Needs::default(), ShapeKinds::default(), LightKinds::default());
+        let nothing = SceneNeeds { needs, shapes, lights, everything: false };
+        nothing.constants().into_iter().map(|(name, _)| name)
+    }
+
     fn flag(&self, needed: bool) -> f64 {
         flag(needed || self.everything)
     }
@@ -180,7 +195,7 @@ impl Pipelines {
         if let Some((_, pipeline)) = self.compiled.iter().find(|(compiled, _)| compiled == key) {
             return Ok(pipeline.clone());
         }
-        let module = wgsl::compose(key.shader)?.create(gpu)?;
+        let module = shaders::compose(key.shader)?.create(gpu)?;
         let constants = [self.needs.constants(), key.constants.clone()].concat();
         let pipeline = gpu.checked("the path tracer's pipeline", || {
             let layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
