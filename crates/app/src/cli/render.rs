@@ -110,7 +110,9 @@ fn tell_what_has_no_effect(args: &RenderArgs, scene: &Scene) {
     let of_scene = OF_SCENES.iter().filter(|setting| (setting.get)(&args.seen.changes).is_some());
     let of_scene = of_scene.map(|setting| (setting.name, setting.needs));
     let of_pane = OF_PANES.iter().filter(|setting| setting.is_of(technique) && (setting.get)(&args.pane).is_some());
-    for (name, needs) in of_scene.chain(of_pane.map(|setting| (setting.name, setting.needs))) {
+    let mut given: Vec<_> = of_scene.chain(of_pane.map(|setting| (setting.name, setting.needs))).collect();
+    given.sort_by_key(|(_, needs)| *needs);
+    for (name, needs) in given {
         if let Some(missing) = needs.missing_in(scene) {
             note!("note: --{name} has no effect: {} has no {missing}", scene.name);
         }
