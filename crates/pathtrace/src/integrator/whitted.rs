@@ -207,7 +207,7 @@ impl<'a, F: Float> crate::drive::lanes::LaneIntegrator<F> for WhittedLanes<'a, F
         if let Some(environment) = self.scene.lights.environment()
             && missed.any()
         {
-            self.receive(missed, environment.look_up(direction).0);
+            self.receive(missed, environment.look_up_lanes(direction).0);
         }
         let kinds = self.scene.materials.kinds(hit.material);
         let shining = met & kinds.area_light();
