@@ -146,7 +146,7 @@ impl<'a, F: Float> LaneIntegrator<F> for PathLanes<'a, F> {
         if let Some(environment) = self.scene.lights.environment()
             && missed.any()
         {
-            let (radiance, pdf) = environment.look_up(self.path.rays.direction);
+            let (radiance, pdf) = environment.look_up_lanes(self.path.rays.direction);
             self.receive(missed, radiance * self.path.weight_of_meeting(pdf));
         }
         let mut vertex = self.scene.interaction(&hit, -self.path.rays.direction);

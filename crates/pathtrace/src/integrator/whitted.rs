@@ -256,7 +256,7 @@ impl<'a, F: Float> LaneIntegrator<F> for WhittedLanes<'a, F> {
         if let Some(environment) = self.scene.lights.environment()
             && missed.any()
         {
-            self.receive(missed, environment.look_up(direction).0);
+            self.receive(missed, environment.look_up_lanes(direction).0);
         }
         let at = self.scene.interaction(&hit, -direction);
         let shining = met & at.shines();

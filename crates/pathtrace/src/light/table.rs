@@ -246,7 +246,7 @@ impl Table {
             sample = LightSamples::select(is(kind, kind::SUN), sun, sample);
         }
         if let Some(environment) = &self.environment {
-            let of = environment.sample(u);
+            let of = environment.sample_lanes(u);
             let environment = LightSamples {
                 shines: !never,
                 wi: of.wi,
