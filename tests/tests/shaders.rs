@@ -106,7 +106,21 @@ fn mirrors_of_the_path_tracer_have_the_layout_of_their_structs() {
     assert_same_layout!(
         "pathtrace/scene.wgsl",
         Header,
-        [sky, primitives, sun_towards, sun_chord_squared, sun_radiance, sun_pdf, lights, zero, seen, shading]
+        [
+            sky,
+            primitives,
+            sun_towards,
+            sun_chord_squared,
+            sun_radiance,
+            sun_pdf,
+            lights,
+            zero,
+            environment_size,
+            environment_turn,
+            environment_probability,
+            seen,
+            shading
+        ]
     );
     assert_same_layout!("pathtrace/scene.wgsl", Node, [low, contents, high, unused]);
     assert_same_layout!("pathtrace/scene.wgsl", Primitive, [a, normal_x, b, normal_y, c, normal_z, normal_low, tag]);

@@ -19,7 +19,7 @@ pub struct PreparedScene {
     pub materials: Materials,
     /// What shines and is sampled.
     pub lights: Lights,
-    /// Radiance where nothing is hit.
+    /// Radiance where nothing is hit, of a sky of one colour; a picture is one of the lights.
     pub sky: Vec3,
     /// The sun that a ray can hit.
     pub sun_disc: Option<SunDisc>,
@@ -72,7 +72,7 @@ impl PreparedScene {
         self.aggregate.occluded(&rays, wanted, opaque, scratch)
     }
 
-    /// Radiance that rays find where they hit nothing: the sky, and `sun_weight` times the sun's disc unless it is a
+    /// Radiance that rays find where they hit nothing: the sky of one colour, and `sun_weight` times the sun's disc unless it is a
     /// delta light.
     #[inline(always)]
     pub fn environment<F: Float>(&self, direction: Vector<F>, sun_weight: F) -> Vector<F> {

@@ -7,7 +7,7 @@
 
 use crate::light::{PointLight, Sun};
 use crate::material::{Checkerboard, Emission};
-use crate::{Bsdf, Camera, Geometry, Material, Mesh, Scene, Shape, Texture};
+use crate::{Bsdf, Camera, EnvironmentMap, Geometry, Material, Mesh, Scene, Shape, Texture};
 use glam::Vec3;
 
 /// Takes the bytes, one piece after the other.
@@ -16,7 +16,7 @@ pub struct Canonical<'a>(pub &'a mut dyn FnMut(&[u8]));
 impl Canonical<'_> {
     /// All that light meets in a scene. Not its name, not its own camera, and not the fake's numbers.
     pub fn scene(&mut self, scene: &Scene) {
-        let Scene { name: _, camera: _, materials, shapes, sun, point_lights, sky, fake: _ } = scene;
+        let Scene { name: _, camera: _, materials, shapes, sun, point_lights, sky, environment, fake: _ } = scene;
         self.count(materials.len());
         materials.iter().for_each(|material| self.material(material));
         self.count(shapes.len());
@@ -25,6 +25,7 @@ impl Canonical<'_> {
         self.count(point_lights.len());
         point_lights.iter().for_each(|light| self.point_light(light));
         self.vector(*sky);
+        self.option(environment.as_deref(), Self::environment);
     }
 
     /// What a camera shows. Its near and far planes are the raster's.
@@ -135,6 +136,15 @@ impl Canonical<'_> {
         for triangle in mesh.triangles() {
             triangle.iter().for_each(|corner| self.word(*corner));
         }
+    }
+
+    /// Its picture may hold more than its pixels, but they are all that shines.
+    fn environment(&mut self, map: &EnvironmentMap) {
+        let (width, height) = map.image().size();
+        [width, height].into_iter().for_each(|side| self.word(side));
+        map.image().radiances().iter().for_each(|radiance| self.vector(*radiance));
+        self.number(map.scale());
+        self.number(map.rotation());
     }
 
     fn sun(&mut self, Sun { towards, angular_radius, irradiance }: &Sun) {

@@ -6,6 +6,7 @@
 pub mod builtin;
 pub mod camera;
 pub mod canonical;
+pub mod environment;
 pub mod file;
 pub mod light;
 pub mod material;
@@ -15,6 +16,7 @@ pub mod shape;
 pub mod stand_ins;
 
 pub use camera::Camera;
+pub use environment::EnvironmentMap;
 pub use file::{SceneError, load, parse};
 pub use glam::{self, Vec3};
 pub use light::{PointLight, Sun};
@@ -40,8 +42,11 @@ pub struct Scene {
     pub sun: Option<Sun>,
     /// Points that shine.
     pub point_lights: Vec<PointLight>,
-    /// Radiance that arrives from every direction in which nothing is hit; zero for black.
+    /// Radiance that arrives from every direction in which nothing is hit; zero for black. Of a sky from a picture its
+    /// mean, for those that know skies of one colour only: the rasterised fake.
     pub sky: Vec3,
+    /// The picture that is the sky, if it is one; shared.
+    pub environment: Option<Arc<EnvironmentMap>>,
     /// Numbers that only the rasterised fake reads.
     pub fake: FakeNumbers,
 }

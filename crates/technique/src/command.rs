@@ -19,7 +19,7 @@ impl Provenance {
         };
         options.push(size_option(shot.size));
         options.extend(camera_options(&shot.camera));
-        options.extend(changes_options(&changes));
+        options.extend(changes.options());
         if exposure != 0.0 {
             options.push(("exposure", exposure.to_string()));
         }
@@ -33,7 +33,7 @@ impl Shot {
     pub fn reference_command(&self) -> String {
         let mut options = vec![size_option(self.size)];
         options.extend(camera_options(&self.camera));
-        options.extend(changes_options(&self.changes));
+        options.extend(self.changes.options());
         line("reference", &self.source, "reference.exr", &options)
     }
 }
@@ -49,13 +49,6 @@ pub(crate) fn size_option((width, height): (u32, u32)) -> (&'static str, String)
 
 pub(crate) fn camera_options(camera: &Camera) -> Records {
     vec![("eye", point(camera.eye)), ("target", point(camera.target)), ("fov", camera.fov_y.to_string())]
-}
-
-/// What was not changed is the scene's, and may differ from glass to glass.
-pub(crate) fn changes_options(changes: &SceneChanges) -> Records {
-    let SceneChanges { refraction_ratio, sun_radius } = changes;
-    let options = [("refraction-ratio", refraction_ratio), ("sun-radius", sun_radius)];
-    options.into_iter().filter_map(|(name, value)| Some((name, value.as_ref()?.to_string()))).collect()
 }
 
 /// Three numbers that are read back as the same ones.

@@ -1,7 +1,6 @@
 //! The settings of the fake.
 
-use image_file::Records;
-use raster::{Fake, FakeKnobs, RasterSettings, Shading, ShadowFilter, Show};
+use raster::{Fake, FakeKnobs, RasterSettings, Shading, Show};
 use scene::Scene;
 
 /// The settings of the fake.
@@ -49,28 +48,6 @@ impl FakeSettings {
             Show::Picture => format!("fake (raster, {})", self.fake.name()),
             map => format!("{} of the fake ({})", map.name().replace('-', " "), self.fake.name()),
         }
-    }
-
-    /// The options of `visavis render` that say the same; what is left to the scene is left out.
-    pub fn options(&self) -> Records {
-        let mut options = vec![("fake", self.fake.name().into()), ("shading", self.shading.name().into())];
-        options.extend(self.reflectivity.map(|share| ("reflectivity", share.to_string())));
-        let FakeKnobs { shininess, ambient, cube_map, shadow_map, filter, bias, segments } = self.knobs;
-        options.extend(shininess.map(|exponent| ("shininess", exponent.to_string())));
-        options.extend(ambient.map(|light| ("ambient", light.to_string())));
-        options.extend(cube_map.map(|texels| ("cube-map", texels.to_string())));
-        options.extend(shadow_map.map(|texels| ("shadow-map", texels.to_string())));
-        if filter != ShadowFilter::default() {
-            options.push(("shadow-filter", filter.name().into()));
-        }
-        if bias != 0.0 {
-            options.push(("shadow-bias", bias.to_string()));
-        }
-        options.extend(segments.map(|number| ("segments", number.to_string())));
-        if self.show != Show::Picture {
-            options.push(("show", self.show.name().into()));
-        }
-        options
     }
 
     /// Whether it shows the scene rather than one of its maps.

@@ -17,6 +17,7 @@ mod pane;
 mod progressive;
 mod provenance;
 mod renderer;
+pub mod settings;
 mod shot;
 mod threads;
 mod traced;
@@ -33,7 +34,6 @@ pub use shot::{SceneChanges, Shot};
 pub use threads::{Rank, Threads};
 pub use traced::{TracedSettings, TreeSettings, TruthSettings, bounces_name, roulette_name};
 
-use image_file::Records;
 use pathtrace::Integrator;
 
 /// A way to turn a scene into a film, by the name on the command line.
@@ -115,14 +115,6 @@ impl Technique {
         match self {
             Technique::Fake(fake) => fake.shows_the_scene(),
             Technique::Traced(_) => true,
-        }
-    }
-
-    /// The options of `visavis render` that say how, by their names without dashes.
-    pub fn options(&self, spp: u32) -> Records {
-        match self {
-            Technique::Fake(fake) => fake.options(),
-            Technique::Traced(traced) => traced.options(spp),
         }
     }
 }

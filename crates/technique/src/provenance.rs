@@ -1,6 +1,6 @@
 //! Where a picture comes from: everything that makes it again, as records to keep in its file and as a command to type.
 
-use crate::command::{camera_options, changes_options, size_option};
+use crate::command::{camera_options, size_option};
 use crate::{Device, Shot, Technique, TechniqueName};
 use image_file::Records;
 
@@ -75,7 +75,7 @@ impl Provenance {
         ];
         records.extend(camera_options(camera));
         // the fake does not see the sun's radius, but what it is compared with does
-        records.extend(changes_options(changes));
+        records.extend(changes.options());
         records.extend(self.technique.options(spp));
         records.push(("exposure", exposure.to_string()));
         records.push(("command", self.command(spp, exposure, "picture.png")));
@@ -90,7 +90,7 @@ impl Shot {
             vec![("version", env!("CARGO_PKG_VERSION").into()), ("scene", self.source.clone()), size_option(self.size)];
         records.extend(camera_options(&self.camera));
         records.push(("estimator", estimator.into()));
-        records.extend(changes_options(&self.changes));
+        records.extend(self.changes.options());
         records.push(("command", self.reference_command()));
         records
     }

@@ -1,7 +1,6 @@
 //! The settings of what is traced by rays: the truth, and Whitted's step towards it.
 
 use crate::DeviceChoice;
-use image_file::Records;
 use pathtrace::{GlassShadows, Integrator, LightSampling, PathSettings, Roulette, WhittedSettings};
 use scene::Scene;
 
@@ -68,30 +67,6 @@ impl TracedSettings {
             Integrator::Path(path) => format!("truth (path, {})", path.estimator.name()),
             Integrator::Whitted(tree) => format!("Whitted (depth {})", tree.depth),
         }
-    }
-
-    /// The options of `visavis render` that say the same, with this many samples.
-    pub fn options(&self, spp: u32) -> Records {
-        let mut options = vec![("spp", spp.to_string()), ("sampler", self.integrator.sampler().name().into())];
-        match self.integrator {
-            Integrator::Path(path) => options.extend([
-                ("bounces", bounces_name(path.bounces)),
-                ("roulette", roulette_name(path.roulette)),
-                ("estimator", path.estimator.name().into()),
-                ("branches", path.branches.to_string()),
-                ("seed", path.seed.to_string()),
-            ]),
-            Integrator::Whitted(tree) => {
-                options.extend([
-                    ("depth", tree.depth.to_string()),
-                    ("glass-shadows", tree.glass_shadows.name().into()),
-                    ("shadow-rays", tree.shadow_rays.to_string()),
-                    ("seed", tree.seed.to_string()),
-                ]);
-                options.extend(tree.ambient.map(|light| ("ambient", light.to_string())));
-            }
-        }
-        options
     }
 
     /// What these settings cannot see in this scene, to be said rather than hidden.

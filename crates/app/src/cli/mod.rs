@@ -32,7 +32,7 @@ pub enum Command {
     /// Adapters, limits, and what would be used.
     Info,
     /// A text to print.
-    Print(&'static str),
+    Print(String),
 }
 
 /// Why the program stops.
@@ -82,7 +82,7 @@ impl Command {
             Command::Reference(args) => reference::run(&args)?,
             Command::Check(args) => check::run(&args)?,
             Command::Info => info::run()?,
-            Command::Print(text) => print(text)?,
+            Command::Print(text) => print(&text)?,
         }
         Ok(())
     }

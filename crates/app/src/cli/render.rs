@@ -15,9 +15,10 @@ use serde_json::json;
 use std::io::IsTerminal;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
+use technique::settings::{OF_PANES, OF_SCENES, Value};
 use technique::{
     Accumulation, Backend, Device, DeviceChoice, FakeSettings, Frame, INSTEAD, Made, Pacing, Provenance, Rendered,
-    Renderer, Shot, Technique, TechniqueName, Threads, TracedSettings, Watch,
+    Renderer, Shot, Technique, Threads, TracedSettings, Watch,
 };
 
 /// Samples per pixel where neither --spp nor --time says how many.
@@ -102,20 +103,17 @@ fn save(
 }
 
 fn tell_what_has_no_effect(args: &RenderArgs, scene: &Scene) {
+    let technique = args.pane.technique;
     for option in &args.without_effect {
-        note!("note: {option} has no effect with --technique {}", args.pane.technique.name());
+        note!("note: {option} has no effect with --technique {}", technique.name());
     }
-    let fake = args.pane.in_use().name() == TechniqueName::Raster;
-    if scene.refraction_ratio().is_none() {
-        if args.seen.changes.refraction_ratio.is_some() {
-            note!("note: --refraction-ratio has no effect: {} has no glass", scene.name);
+    let of_scene = OF_SCENES.iter().filter(|setting| (setting.get)(&args.seen.changes).is_some());
+    let of_scene = of_scene.map(|setting| (setting.name, setting.needs));
+    let of_pane = OF_PANES.iter().filter(|setting| setting.is_of(technique) && (setting.get)(&args.pane).is_some());
+    for (name, needs) in of_scene.chain(of_pane.map(|setting| (setting.name, setting.needs))) {
+        if let Some(missing) = needs.missing_in(scene) {
+            note!("note: --{name} has no effect: {} has no {missing}", scene.name);
         }
-        if fake && args.pane.fake.reflectivity.is_some() {
-            note!("note: --reflectivity has no effect: {} has no glass", scene.name);
-        }
-    }
-    if scene.sun.is_none() && args.seen.changes.sun_radius.is_some() {
-        note!("note: --sun-radius has no effect: {} has no sun", scene.name);
     }
 }
 
@@ -232,10 +230,11 @@ fn report(
     match args.pane.in_use() {
         Technique::Fake(fake) => report["fake"] = json!(fake.fake.name()),
         Technique::Traced(rays) => {
-            for (name, value) in rays.options(rendered.film.samples_per_pixel()).into_iter().skip(1) {
-                let counts = ["seed", "branches", "depth", "shadow-rays"].contains(&name);
-                let number = value.parse::<u64>().ok().filter(|_| counts);
-                report[name.replace('-', "_")] = number.map_or_else(|| json!(value), |number| json!(number));
+            for (name, value) in args.pane.in_use().values(rendered.film.samples_per_pixel()).into_iter().skip(1) {
+                report[name.replace('-', "_")] = match value {
+                    Value::Whole(number) => json!(number),
+                    other => json!(other.to_string()),
+                };
             }
             report["samples"] = json!(rendered.stats.samples);
             report["rays"] = json!(rendered.stats.rays);

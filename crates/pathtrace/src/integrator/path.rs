@@ -138,6 +138,12 @@ impl<'a, F: Float> LaneIntegrator<F> for PathLanes<'a, F> {
             let weight = self.path.weight_of_meeting(F::splat(self.scene.sun_pdf));
             self.receive(missed, self.scene.environment(self.path.rays.direction, weight));
         }
+        if let Some(environment) = self.scene.lights.environment()
+            && missed.any()
+        {
+            let (radiance, pdf) = environment.look_up(self.path.rays.direction);
+            self.receive(missed, radiance * self.path.weight_of_meeting(pdf));
+        }
         let mut vertex = self.scene.interaction(&hit, -self.path.rays.direction);
         let shining = met & vertex.shines();
         if self.scene.materials.has().area_lights && shining.any() {

@@ -7,7 +7,7 @@
 //! the truth's: a surface under irradiance E has radiance `albedo E / pi`.
 //!
 //! What it cannot do, by design: light from diffuse surfaces on others, blurred reflections, caustics. The sky is seen
-//! but does not light; ambient light stands for it.
+//! but does not light; ambient light stands for it. A sky from a picture is one of the lights, and lights as they do.
 //!
 //! Twin: `shaders/pathtrace/integrator/whitted.wgsl`.
 
@@ -252,6 +252,11 @@ impl<'a, F: Float> LaneIntegrator<F> for WhittedLanes<'a, F> {
         let direction = self.branch.rays.direction;
         if self.scene.has_environment() && missed.any() {
             self.receive(missed, self.scene.environment(direction, F::splat(1.0)));
+        }
+        if let Some(environment) = self.scene.lights.environment()
+            && missed.any()
+        {
+            self.receive(missed, environment.look_up(direction).0);
         }
         let at = self.scene.interaction(&hit, -direction);
         let shining = met & at.shines();

@@ -40,10 +40,10 @@ struct Numbers<'a> {
 }
 
 impl<'a> Numbers<'a> {
-    /// All of a scene but those of its meshes, which nothing can change.
+    /// All of a scene but those of its meshes and of its sky's picture, which nothing can change.
     fn of(scene: &'a mut Scene) -> Self {
         let mut numbers = Numbers::default();
-        let Scene { name: _, camera, materials, shapes, sun, point_lights, sky, fake } = scene;
+        let Scene { name: _, camera, materials, shapes, sun, point_lights, sky, environment: _, fake } = scene;
         numbers.add(sky.as_mut());
         if let Some(Sun { towards, angular_radius, irradiance }) = sun {
             numbers.add(towards.as_mut());
@@ -174,6 +174,12 @@ fn what_is_no_number_is_in_the_bytes_too() {
         change(&mut scene);
         scene
     };
+    let sky = |texel: f32, scale, rotation, size: (u32, u32)| {
+        let image = film::Image::new(size.0, size.1, [Vec3::ONE, Vec3::new(1.0, texel, 0.5)]).unwrap();
+        other(&|scene| {
+            scene.environment = Some(Arc::new(EnvironmentMap::new(image.clone(), scale, rotation).unwrap()));
+        })
+    };
     let emission = |scene: &mut Scene| scene.materials.iter().position(|m| m.emission.is_some()).unwrap();
     let scenes = [
         everything(),
@@ -184,6 +190,11 @@ fn what_is_no_number_is_in_the_bytes_too() {
         shapes(&|shapes| shapes.swap(0, 1)),
         shapes(&|shapes| _ = shapes.pop()),
         shapes(&|shapes| shapes[0].material += 1),
+        sky(1.0, 1.0, 0.0, (2, 1)),
+        sky(1.0f32.next_up(), 1.0, 0.0, (2, 1)),
+        sky(1.0, 1.0f32.next_up(), 0.0, (2, 1)),
+        sky(1.0, 1.0, 1e-6, (2, 1)),
+        sky(1.0, 1.0, 0.0, (1, 2)),
         other(&|scene| scene.sun = None),
         other(&|scene| scene.point_lights.clear()),
         other(&|scene| scene.materials.truncate(1)),

@@ -6,6 +6,7 @@
 //! the device fails: every fault is a [`GpuTraceError`], and the processor's [`crate::Tracer`] can take over.
 
 mod dispatch;
+mod environment_data;
 mod error;
 mod film;
 pub mod film_data;
@@ -263,10 +264,11 @@ impl Made {
             storage(gpu, "the Sobol points", &scene_data::sobol_bytes())?,
             gpu.buffer("the shapes", &few, BufferUsages::UNIFORM)?,
         ];
-        let bound = buffers.iter().zip(0..).map(|(buffer, binding)| {
-            let resource = buffer.as_entire_binding();
-            wgpu::BindGroupEntry { binding, resource }
-        });
+        let sky = scene.environment.as_deref().zip(lights.environment());
+        let views = environment_data::textures(gpu, sky)?.map(|texture| texture.create_view(&Default::default()));
+        let views = views.iter().map(wgpu::BindingResource::TextureView);
+        let resources = buffers.iter().map(wgpu::Buffer::as_entire_binding).chain(views);
+        let bound = resources.zip(0..).map(|(resource, binding)| wgpu::BindGroupEntry { binding, resource });
         let entries: Vec<_> = bound.collect();
         let descriptor = wgpu::BindGroupDescriptor { label: Some("the scene"), layout, entries: &entries };
         Ok(gpu.checked("the scene", || gpu.device.create_bind_group(&descriptor))?)

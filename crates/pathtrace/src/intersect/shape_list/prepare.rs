@@ -231,7 +231,7 @@ fn place_of<T>(list: &mut Vec<T>, is_it: impl Fn(&T) -> bool, value: T) -> u16 {
 struct Reach {
     /// Points within the scene's hull, and how far around them it goes.
     balls: Vec<(DVec3, f64)>,
-    /// Whether there is a sun: then shadow rays leave the hull.
+    /// Whether there is a sun or a sky that is sampled: then shadow rays leave the hull.
     endless: bool,
 }
 
@@ -247,7 +247,7 @@ impl Reach {
                 }
             }
         }
-        Reach { balls, endless: scene.sun.is_some() }
+        Reach { balls, endless: scene.sun.is_some() || scene.environment.is_some() }
     }
 
     /// Whether all that shadow rays go between lies on one side of a facet's plane: then none meets it before its end.
