@@ -13,6 +13,7 @@ mod history;
 mod message;
 mod pane;
 mod reference;
+mod saved;
 mod session;
 mod theme;
 mod ui_state;

@@ -1,16 +1,19 @@
 //! How it is looked at: what one would want to find again after a pause.
 
-use super::{CompareWith, ComparisonSettings, Line, PaneId, Panes, View};
+use super::{CompareWith, ComparisonSettings, Line, PaneId, Panes, View, saved};
 use film::DisplayTransform;
 use scene::Scene;
+use serde::{Deserialize, Serialize};
 use technique::{DeviceChoice, PaneSettings, TechniqueName};
 
 /// The panes and how they are shown.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Session {
     /// How each is made.
+    #[serde(with = "saved::panes")]
     pub panes: Panes<PaneSettings>,
     /// How all are shown.
+    #[serde(with = "saved::display")]
     pub display: DisplayTransform,
     /// How many pixels pictures have.
     pub resolution: Resolution,
@@ -25,7 +28,7 @@ pub struct Session {
 }
 
 /// How many pixels a picture has.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub enum Resolution {
     /// As many as the picture area. While something changes, pictures that take too long for that begin coarser.
     #[default]
