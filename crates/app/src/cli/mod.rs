@@ -5,7 +5,6 @@ mod args;
 mod bench;
 mod check;
 mod compare;
-mod help;
 mod info;
 mod reference;
 mod render;

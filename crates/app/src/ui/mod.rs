@@ -8,6 +8,7 @@ mod export_menu;
 mod help;
 mod keys;
 mod overlay;
+mod pressed;
 mod theme;
 mod top_bar;
 mod widgets;

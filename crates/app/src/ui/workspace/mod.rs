@@ -5,14 +5,11 @@ mod compare;
 mod empty;
 
 use super::UiContext;
-use super::keys::Keys;
+use super::pressed::{HelpLine, Keys};
 use crate::model::{Model, Wanted};
 use compare::Compare;
 use egui::Ui;
 use empty::Empty;
-
-/// A line of the help: what one does, and what that does.
-pub type HelpLine = (&'static str, &'static str);
 
 /// Something to use the window for.
 pub trait Workspace {

@@ -1,7 +1,7 @@
 //! The text of `--help`, made from the tables of options and of settings: what is in none of them is no option.
 
-use super::args::options::CommandOption;
-use super::args::{bench, check, compare, reference, render, view};
+use super::options::CommandOption;
+use super::{bench, check, compare, reference, render, view};
 use technique::TechniqueName;
 use technique::settings::{OF_PANES, OF_SCENES, Setting};
 
