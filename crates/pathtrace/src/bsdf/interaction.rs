@@ -36,12 +36,6 @@ impl<F: Float> Interactions<F> {
         self.kinds.delta()
     }
 
-    /// Where the surface shines.
-    #[inline(always)]
-    pub fn shines(&self) -> F::M {
-        self.kinds.area_light()
-    }
-
     /// Where a path goes on with a diffuse vertex of its own instead.
     #[inline(always)]
     pub fn or_diffuse(&self, here: F::M, point: &SurfacePoints<F>, normal: Vector<F>, albedo: Vector<F>) -> Self {

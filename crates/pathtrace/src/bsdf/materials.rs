@@ -1,6 +1,5 @@
 //! A scene's materials by columns, as lanes look them up: the table of lobes.
 
-use super::Interactions;
 use crate::vectors::VectorColumn;
 use scene::{Bsdf, Material, Texture, Vec3};
 use simd::{Column, Float, Vector, Word, WordColumn};
@@ -160,11 +159,11 @@ impl Materials {
         material.look_up(&self.ior)
     }
 
-    /// What surfaces send out towards `wo`.
+    /// What surfaces send out in a direction at this cosine to their outward normal.
     #[inline(always)]
-    pub fn emitted<F: Float>(&self, at: &Interactions<F>) -> Vector<F> {
-        let shines = at.kinds.has(TWO_SIDED) | at.point.normal.dot(at.wo).gt(F::splat(0.0));
-        Vector::select(shines, self.radiance.look_up(at.material), Vector::zero())
+    pub fn emitted<F: Float>(&self, material: F::U, cosine: F) -> Vector<F> {
+        let shines = self.kinds(material).has(TWO_SIDED) | cosine.gt(F::splat(0.0));
+        Vector::select(shines, self.radiance.look_up(material), Vector::zero())
     }
 }
 

@@ -253,11 +253,11 @@ impl<'a, F: Float> LaneIntegrator<F> for WhittedLanes<'a, F> {
         if self.scene.has_environment() && missed.any() {
             self.receive(missed, self.scene.environment(direction, F::splat(1.0)));
         }
-        let at = self.scene.interaction(&hit, -direction);
-        let shining = met & at.shines();
+        let shining = met & self.scene.shines(&hit);
         if self.scene.materials.has().area_lights && shining.any() {
-            self.receive(shining, self.scene.materials.emitted(&at));
+            self.receive(shining, self.scene.emitted(&hit, -direction));
         }
+        let at = self.scene.interaction(&hit, -direction);
         let alive = self.scatter(met, &at, sampler);
         let ended = taken & !alive;
         let alive = alive | self.waiting.pop(ended, &mut self.branch);
