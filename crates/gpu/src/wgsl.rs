@@ -10,6 +10,7 @@ pub const FILES: &[(&str, &str)] = &[
     ("pathtrace/bsdf/interaction.wgsl", include_str!("../../../shaders/pathtrace/bsdf/interaction.wgsl")),
     ("pathtrace/bsdf/lambert.wgsl", include_str!("../../../shaders/pathtrace/bsdf/lambert.wgsl")),
     ("pathtrace/bsdf/mirror.wgsl", include_str!("../../../shaders/pathtrace/bsdf/mirror.wgsl")),
+    ("pathtrace/bsdf/rough_conductor.wgsl", include_str!("../../../shaders/pathtrace/bsdf/rough_conductor.wgsl")),
     ("pathtrace/camera.wgsl", include_str!("../../../shaders/pathtrace/camera.wgsl")),
     ("pathtrace/drive/film.wgsl", include_str!("../../../shaders/pathtrace/drive/film.wgsl")),
     ("pathtrace/drive/pixels.wgsl", include_str!("../../../shaders/pathtrace/drive/pixels.wgsl")),

@@ -38,6 +38,10 @@ diffuse = { albedo = [0.7, 0.7, 0.7] }
 mirror = { reflectance = [0.9, 0.8, 0.7] }
 [material.glass]
 dielectric = { ior = 1.5 }
+[material.gold]
+rough_conductor = { metal = "gold", roughness = 0.4 }
+[material.satin]
+rough_conductor = { reflectance = [0.8, 0.9, 0.7], roughness = 0.8 }
 [material.lamp]
 emissive = { radiance = [4, 3, 2] }
 [material.two_sided]
@@ -84,6 +88,15 @@ material = "mirror"
 center = [-2, 0.6, 0.8]
 radius = 0.2
 material = "two_sided"
+[[sphere]]
+center = [0.4, 0.3, 1.2]
+radius = 0.3
+material = "gold"
+[[disk]]
+center = [2.2, 0.9, -0.5]
+normal = [-0.6, 0, 0.8]
+radius = 0.7
+material = "satin"
 [[disk]]
 center = [0.9, 0.8, 0.6]
 normal = [0, 0.6, -0.8]

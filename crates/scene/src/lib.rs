@@ -5,6 +5,7 @@
 
 pub mod builtin;
 pub mod camera;
+pub mod conductor;
 pub mod file;
 pub mod light;
 pub mod material;
@@ -14,6 +15,7 @@ pub mod shape;
 pub mod stand_ins;
 
 pub use camera::Camera;
+pub use conductor::Conductor;
 pub use file::{SceneError, load, parse};
 pub use glam::{self, Vec3};
 pub use light::{PointLight, Sun};
@@ -41,7 +43,7 @@ pub struct Scene {
     pub point_lights: Vec<PointLight>,
     /// Radiance that arrives from every direction in which nothing is hit; zero for black.
     pub sky: Vec3,
-    /// Numbers that only the rasterised fake reads.
+    /// Numbers that stand in for physics.
     pub fake: FakeNumbers,
 }
 

@@ -37,7 +37,7 @@ visavis render SCENE -o OUT      render to OUT, .png (display-transformed) or .e
                                  probability to survive a vertex, P in (0, 1] (default throughput)
     --estimator uniform|cosine|light|mis|uniform-light|uniform-mis
                                  directions uniform or cosine-weighted, light found by chance, by sampling or by both,
-                                 weighted (default light)
+                                 weighted (default light; mis where there is rough metal)
     --branches N                 directions at each diffuse vertex, with a limit of bounces (default 1)
   whitted:
     --depth N                    specular scatterings along a branch, 0 to 64 (default 8)

@@ -31,10 +31,14 @@ struct Rendered {
     adapter: String,
 }
 
-pub fn run(args: &RenderArgs) -> anyhow::Result<()> {
+pub fn run(args: &mut RenderArgs) -> anyhow::Result<()> {
     tell_what_has_no_effect(args, &builtin::named(&args.scene)?);
     let sought = args.seen.of(&args.scene)?;
     let scene = sought.scene.clone();
+    if !args.chose_estimator {
+        args.pane.take_usual_estimator(&scene);
+    }
+    let args = &*args;
     let recipe = args.pane.recipe();
     anyhow::ensure!(
         !args.errors || recipe.shows_the_scene(),

@@ -10,6 +10,7 @@ pub use fake::FakeSettings;
 pub use provenance::{Made, Provenance, made_from, point, quoted};
 pub use rays::{Method, RaySettings, TreeSettings, TruthSettings, bounces_name, roulette_name};
 
+use pathtrace::Estimator;
 use scene::Scene;
 
 /// A way to turn a scene into a film.
@@ -106,6 +107,14 @@ impl PaneSettings {
     pub fn forget_the_scene(&mut self, scene: &Scene) {
         self.fake.forget_the_scene(scene);
         self.whitted.tree.ambient = None;
+    }
+
+    /// Takes the estimator that `scene` asks for, unless another than the usual one was chosen.
+    pub fn take_usual_estimator(&mut self, scene: &Scene) {
+        let estimator = &mut self.truth.path.estimator;
+        if *estimator == Estimator::default() {
+            *estimator = Estimator::usual_for(&scene.needs());
+        }
     }
 
     /// Samples per pixel at which rendering stops; `None` for a technique that does not sample.

@@ -98,7 +98,8 @@ pub(super) struct Memory {
 impl Viewer {
     /// The first view of a scene that was opened by the name `source`.
     pub fn new(scene: Scene, source: String, theme: Theme) -> Self {
-        let settings = Settings::default();
+        let mut settings = Settings::default();
+        settings.panes.iter_mut().for_each(|pane| pane.take_usual_estimator(&scene));
         Viewer {
             camera: scene.camera,
             scene: Arc::new(scene),
@@ -150,7 +151,10 @@ impl Viewer {
         self.source = source;
         self.opened += 1;
         self.settings.changes = Default::default();
-        self.settings.panes.iter_mut().for_each(|pane| pane.forget_the_scene(&self.scene));
+        for pane in &mut self.settings.panes {
+            pane.forget_the_scene(&self.scene);
+            pane.take_usual_estimator(&self.scene);
+        }
         self.history = History::new(self.settings);
         self.bookmarks.clear();
     }

@@ -14,7 +14,7 @@ pub struct Interactions<F: Float> {
     pub normal: Vector<F>,
     /// Unit direction back along the ray.
     pub wo: Vector<F>,
-    /// Albedo of diffuse surfaces there, reflectance of mirrors, 1 for glass.
+    /// Albedo of diffuse surfaces there, reflectance of mirrors and of metal at normal incidence, 1 for glass.
     pub colour: Vector<F>,
     /// What the surface does to light.
     pub kinds: Kinds<F::U>,

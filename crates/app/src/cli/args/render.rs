@@ -31,6 +31,8 @@ pub struct RenderArgs {
     pub json: bool,
     /// Options given that this technique ignores.
     pub without_effect: Vec<&'static str>,
+    /// Whether the estimator was chosen; if not it is the one that the scene asks for.
+    pub chose_estimator: bool,
 }
 
 /// What `--estimator` may be.
@@ -109,6 +111,7 @@ fn parse_words(words: Vec<OsString>, scene: Option<String>) -> Result<Command, C
         errors: false,
         json: false,
         without_effect: Vec::new(),
+        chose_estimator: false,
     };
     while let Some(arg) = parser.next()? {
         match arg {
@@ -205,6 +208,7 @@ fn of_rays(option: &str, parser: &mut lexopt::Parser, r: &mut RenderArgs) -> Res
         }
         "estimator" => {
             path.estimator = choice(parser, "--estimator", Estimator::named, ESTIMATORS)?;
+            r.chose_estimator = true;
             ("--estimator", PATH)
         }
         "branches" => {

@@ -17,7 +17,7 @@ pub fn show(viewer: &mut Viewer, side: Side, ui: &mut Ui, dump: &mut Dump) {
     let needs = scene.needs();
     let whitted = &mut viewer.settings.panes[side as usize].whitted;
     let tree = &mut whitted.tree;
-    if needs.dielectric || needs.mirror {
+    if needs.dielectric || needs.mirror || needs.rough_conductor {
         let depth = [&*format!("{side:?} depth"), "Depth of mirrors and glass"];
         whole(depth, &mut tree.depth, 0..=WhittedSettings::MOST_DEPTH.min(16), ui, dump);
     }
