@@ -18,6 +18,8 @@ override DISK_LIGHTS: bool = true;
 override BALL_LIGHTS: bool = true;
 override POINT_LIGHTS: bool = true;
 override SUN: bool = true;
+// whether the sky is a picture
+override ENVIRONMENT: bool = true;
 // whether random numbers are Sobol points; independent ones if not
 override SOBOL: bool = true;
 // whether shadow rays pass glass

@@ -2,7 +2,7 @@
 // The scene as the device holds it. Mirrors: crates/pathtrace/src/gpu/scene_data.rs and, of shapes, shape_data.rs.
 
 struct Header {
-    // radiance where nothing is hit
+    // radiance where nothing is hit, of a sky of one colour
     sky: vec3f,
     // how many triangles, spheres and disks there are in the tree
     primitives: u32,
@@ -17,6 +17,11 @@ struct Header {
     lights: u32,
     // 0, which no compiler knows
     zero: u32,
+    // width and height of the picture that is the sky, and by which it is turned about y, in turns
+    environment_size: vec2u,
+    environment_turn: f32,
+    // of being chosen among the lights
+    environment_probability: f32,
     // of few shapes: where among them quadrilaterals, triangles, spheres and disks end
     seen: vec4u,
     // the same of those that shadow rays may meet, which stand first in each kind
@@ -143,6 +148,7 @@ const LIGHT_DISK: u32 = 2u;
 const LIGHT_BALL: u32 = 3u;
 const LIGHT_POINT: u32 = 4u;
 const LIGHT_SUN: u32 = 5u;
+const LIGHT_ENVIRONMENT: u32 = 6u;
 
 @group(0) @binding(0) var<uniform> header: Header;
 @group(0) @binding(1) var<storage, read> nodes: array<Node>;
@@ -153,3 +159,8 @@ const LIGHT_SUN: u32 = 5u;
 // what each byte of an index adds to dimensions 1 to 3 of a Sobol point
 @group(0) @binding(6) var<storage, read> sobol_bytes: array<vec4u>;
 @group(0) @binding(7) var<uniform> shapes: array<Shape, MOST_SHAPES>;
+// the sky's radiance, and the running sum of the texels' probabilities within each row
+@group(0) @binding(8) var environment_texels: texture_2d<f32>;
+// one texel for each row: the running sum of the rows' probabilities, and minus the height on the unit sphere where the
+// row ends
+@group(0) @binding(9) var environment_rows: texture_2d<f32>;

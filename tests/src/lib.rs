@@ -1,6 +1,7 @@
 //! Support for tests: a virtual screen with real X events, the viewer in it, and folders that clean up after
 //! themselves.
 
+pub mod films;
 mod folder;
 mod screen;
 mod viewer;

@@ -57,12 +57,6 @@ impl Screen {
         self.fake(xproto::BUTTON_RELEASE_EVENT, 1, at[0], at[1]);
     }
 
-    /// Clicks twice with the left button.
-    pub fn double_click(&self, at: [f32; 2]) {
-        self.click(at);
-        self.click(at);
-    }
-
     /// Drags with the left button, in a few steps.
     pub fn drag(&self, from: [f32; 2], to: [f32; 2]) {
         self.move_to(from[0], from[1]);
@@ -129,13 +123,6 @@ impl Screen {
         codes.iter().rev().for_each(|&code| self.fake(xproto::KEY_RELEASE_EVENT, code, 0.0, 0.0));
     }
 
-    /// Turns the wheel by one notch, towards the user.
-    pub fn wheel_down(&self, at: [f32; 2]) {
-        self.move_to(at[0], at[1]);
-        self.fake(xproto::BUTTON_PRESS_EVENT, 5, at[0], at[1]);
-        self.fake(xproto::BUTTON_RELEASE_EVENT, 5, at[0], at[1]);
-    }
-
     /// Types a text of ASCII characters.
     pub fn type_text(&self, text: &str) {
         text.chars().for_each(|character| self.chord(&self.keys_of(u32::from(character))));
@@ -146,14 +133,6 @@ impl Screen {
         let upper = "~!@#$%^&*()_+{}|:\"<>?".contains(char::from_u32(keysym).unwrap_or(' '))
             || (u32::from('A')..=u32::from('Z')).contains(&keysym);
         if upper { vec![Screen::SHIFT, keysym] } else { vec![keysym] }
-    }
-
-    /// Turns the wheel by one notch, away from the user, with Control held.
-    pub fn wheel_up_with_control(&self, at: [f32; 2]) {
-        let control = self.keycode(Screen::CONTROL);
-        self.fake(xproto::KEY_PRESS_EVENT, control, 0.0, 0.0);
-        self.wheel_up(at);
-        self.fake(xproto::KEY_RELEASE_EVENT, control, 0.0, 0.0);
     }
 
     /// Gives the keyboard to the window of that title and returns it.

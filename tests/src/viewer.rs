@@ -33,15 +33,6 @@ impl ViewerUnderTest {
         Self::start_in(binary, screen, &[("WINIT_X11_SCALE_FACTOR", &scale.to_string())], arguments)
     }
 
-    /// The same with this folder for references.
-    ///
-    /// # Panics
-    /// If it does not start.
-    pub fn start_cached(binary: &Path, screen: &Screen, cache: &Path, arguments: &[&str]) -> Self {
-        let cache = cache.to_str().expect("a plain path");
-        Self::start_in(binary, screen, &[("VISAVIS_CACHE", cache)], arguments)
-    }
-
     /// The same with these variables in its environment.
     ///
     /// # Panics
@@ -136,6 +127,14 @@ impl Drop for ViewerUnderTest {
 }
 
 impl Frame {
+    /// What a viewer without a window says, in the same words.
+    ///
+    /// # Panics
+    /// If that is not JSON.
+    pub fn of(dump: &str) -> Self {
+        Frame(serde_json::from_str(dump).expect("what a viewer says of a frame"))
+    }
+
     /// The name of the widget that has the keyboard; empty if none has.
     pub fn focus(&self) -> &str {
         self.0["focus"].as_str().unwrap_or_default()

@@ -35,7 +35,7 @@ fn tiled_floor(size: f32) -> Scene {
     };
     let triangles = (0..64 * 64).flat_map(quad).collect();
     let mut shape = scene.shapes[0].clone();
-    shape.geometry = Geometry::Mesh { positions, triangles };
+    shape.geometry = Geometry::mesh(positions, triangles);
     scene.shapes = [shape].into();
     scene
 }
@@ -173,7 +173,7 @@ fn of_surfaces_in_one_plane_the_area_light_is_met_and_then_the_first() {
         let answers = GpuTracer::new(&gpu, &scene).unwrap().meet(&rays).unwrap();
         let mut met = [0; 3];
         for (ray, answer) in rays.iter().zip(&answers) {
-            let hit = cpu.accel().closest(ray);
+            let hit = cpu.accel().first_met(ray);
             assert_eq!(hit.map(|hit| hit.material), answer.point().map(|_| answer.material));
             if let Some(hit) = hit {
                 met[hit.material as usize] += 1;

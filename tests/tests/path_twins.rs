@@ -83,7 +83,7 @@ fn rays_meet_the_same_surfaces_at_the_same_places(scene: &Scene) {
             let (mut other, mut met) = (0, 0);
             let mut next = Vec::new();
             for (i, (ray, answer)) in (0..).zip(rays.iter().zip(&answers)) {
-                let hit = cpu.accel().closest(ray);
+                let hit = cpu.accel().first_met(ray);
                 let same = hit.map(|hit| hit.material) == answer.point().map(|_| answer.material);
                 other += u32::from(!same || cpu.accel().occluded(ray) != (answer.occluded == 1));
                 let (Some(hit), Some(point), true) = (hit, answer.point(), same) else { continue };
@@ -400,7 +400,7 @@ fn more_triangles_than_a_binding_holds_are_refused(gpu: &Gpu, scene: &Scene, mut
     };
     let triangles = (0..(side - 1) * (side - 1)).flat_map(quad).collect();
     let mut large = scene.clone();
-    large.shapes = [scene::Shape { geometry: scene::Geometry::Mesh { positions, triangles }, material: 0 }].into();
+    large.shapes = [scene::Shape { geometry: scene::Geometry::mesh(positions, triangles), material: 0 }].into();
     let error = GpuTracer::new(gpu, &large).unwrap_err().to_string();
     assert!(error.contains("bytes, and the graphics device takes at most"), "{error}");
     // what was there before still is

@@ -1,10 +1,13 @@
 //! The reference: its claim about its own error holds, making it in parts is making it at once, and the store gives
 //! back what it was given and takes no more room than it may.
 
-use reference::{Goal, Key, Maker, Reference, SAMPLES_PER_REPLICATE, Store, Subject};
-use scene::{Scene, Vec3};
+use film::{Image, LayerValues, Vec3};
+use reference::{Goal, Key, Maker, Reference, SAMPLES_PER_REPLICATE, STANDARD_ERROR, Store};
+use scene::Scene;
 use std::path::Path;
+use std::sync::Arc;
 use std::time::{Duration, SystemTime};
+use technique::{Renderer, Shot, Threads};
 use visavis_tests::TestFolder;
 
 const SIZE: (u32, u32) = (24, 24);
@@ -13,14 +16,18 @@ fn cornell() -> Scene {
     scene::builtin::named("cornell").unwrap()
 }
 
-fn subject(scene: &Scene, size: (u32, u32)) -> Subject<'_> {
-    Subject { scene, camera: &scene.camera, size }
+fn shot(scene: &Scene, size: (u32, u32)) -> Shot {
+    Shot::of(scene.clone(), size)
+}
+
+fn renderer(scene: &Scene) -> Renderer {
+    Renderer::on_the_processor(Arc::new(scene.clone()), Arc::new(Threads::all()))
 }
 
 /// A reference of so many pictures, going on with one that is there.
 fn made(scene: &Scene, pictures: u32, begun: Option<&Reference>) -> Reference {
-    let tracer = pathtrace::Tracer::new(scene);
-    let mut maker = Maker::new(&tracer, &subject(scene, SIZE), begun).unwrap();
+    let mut renderer = renderer(scene);
+    let mut maker = Maker::new(&mut renderer, &shot(scene, SIZE), begun).unwrap();
     while maker.replicates() < pictures {
         assert!(maker.step(&|| false));
     }
@@ -42,10 +49,10 @@ fn the_standard_error_of_a_reference_is_calibrated() {
     let mut truth = film::Film::new(SIZE.0, SIZE.1);
     tracer.render(&mut truth, &scene.camera, &settings.into(), 4 * 32 * SAMPLES_PER_REPLICATE, &|| false);
 
-    let errors = reference.standard_errors.as_ref().unwrap();
+    let errors = reference.standard_errors().unwrap();
     let channels = |v: &Vec3| v.to_array().map(f64::from);
     let (mut standardised, mut count, mut claimed, mut found) = (0.0, 0, 0.0, 0.0);
-    for ((mean, error), truth) in reference.radiances.iter().zip(errors).zip(truth.radiances()) {
+    for ((mean, error), truth) in reference.image.radiances().iter().zip(errors).zip(truth.radiances()) {
         for ((mean, error), truth) in channels(mean).into_iter().zip(channels(error)).zip(channels(&truth)) {
             // a pixel that is wholly area light or background does not vary
             if error > 1e-5 * (1.0 + mean) {
@@ -72,23 +79,23 @@ fn going_on_with_a_reference_is_making_it_at_once() {
     let at_once = made(&scene, 6, None);
     let begun = made(&scene, 3, None);
     let in_parts = made(&scene, 6, Some(&begun));
-    assert_eq!((in_parts.replicates, in_parts.width, in_parts.height), (6, SIZE.0, SIZE.1));
+    assert_eq!((in_parts.replicates, in_parts.image.size()), (6, SIZE));
     assert!(in_parts.seconds > begun.seconds);
     // what is kept in between is f32
     let near = |a: &[Vec3], b: &[Vec3], tolerance: f32| {
         a.iter().zip(b).all(|(a, b)| (*a - *b).abs().max_element() <= tolerance * (1e-3 + b.abs().max_element()))
     };
-    assert!(near(&in_parts.radiances, &at_once.radiances, 1e-6));
-    let (parts, once) = (in_parts.standard_errors.unwrap(), at_once.standard_errors.unwrap());
-    assert!(near(&parts, &once, 1e-3));
+    assert!(near(in_parts.image.radiances(), at_once.image.radiances(), 1e-6));
+    let (parts, once) = (in_parts.standard_errors().unwrap(), at_once.standard_errors().unwrap());
+    assert!(near(parts, once, 1e-3));
     assert!(once.iter().any(|error| error.max_element() > 0.0));
 }
 
 #[test]
 fn one_that_is_stopped_has_only_whole_pictures() {
     let scene = cornell();
-    let tracer = pathtrace::Tracer::new(&scene);
-    let mut maker = Maker::new(&tracer, &subject(&scene, SIZE), None).unwrap();
+    let mut renderer = renderer(&scene);
+    let mut maker = Maker::new(&mut renderer, &shot(&scene, SIZE), None).unwrap();
     assert!(maker.step(&|| false));
     let before = maker.reference();
     assert!(!maker.step(&|| true));
@@ -107,9 +114,9 @@ fn no_usual_picture_shares_its_seed_with_a_reference() {
         let mut usual = film::Film::new(SIZE.0, SIZE.1);
         tracer.render(&mut usual, &scene.camera, &settings.into(), SAMPLES_PER_REPLICATE, &|| false);
         // the two pictures of the reference, from their mean and their spread
-        let pairs = usual.radiances().zip(&reference.radiances).zip(reference.standard_errors.as_ref().unwrap());
+        let pairs = usual.radiances().zip(reference.image.radiances()).zip(reference.standard_errors().unwrap());
         let same = pairs.filter(|((u, mean), error)| ((*u - **mean).abs() - **error).abs().max_element() < 1e-6);
-        let varied = reference.standard_errors.as_ref().unwrap().iter().filter(|e| e.max_element() > 1e-3).count();
+        let varied = reference.standard_errors().unwrap().iter().filter(|e| e.max_element() > 1e-3).count();
         assert!(same.count() < varied, "seed {seed}");
     }
     assert_eq!(pathtrace::PathSettings::default().seed, 1);
@@ -118,15 +125,10 @@ fn no_usual_picture_shares_its_seed_with_a_reference() {
 /// A reference without work, whose numbers are all different.
 fn sketched(pictures: u32) -> Reference {
     let number = |i: u32| Vec3::new(i as f32, (i as f32).sqrt(), 1.0 / (i + pictures) as f32);
-    Reference {
-        width: 4,
-        height: 3,
-        radiances: (0..12).map(number).collect(),
-        standard_errors: Some((0..12).map(|i| 0.01 * number(i + 1)).collect()),
-        replicates: pictures,
-        seconds: 1.25,
-        nonfinite: 7,
-    }
+    let image = Image::new(4, 3, (0..12).map(number).collect::<Vec<_>>()).unwrap();
+    let errors = (0..12).map(|i| 0.01 * number(i + 1)).collect();
+    let image = image.with_layer(STANDARD_ERROR, LayerValues::Rgb(errors));
+    Reference { image, replicates: pictures, seconds: 1.25, nonfinite: 7 }
 }
 
 #[test]
@@ -139,16 +141,17 @@ fn a_file_keeps_every_bit() {
     let records = image_file::records(&file).unwrap();
     assert!(records.contains(&("scene".into(), "cornell".into())) && records.contains(&("spp".into(), "1024".into())));
     // any other picture is one without an error
-    let plain = image_file::Linear { width: 4, height: 3, radiances: &reference.radiances };
-    let bytes = image_file::encode(image_file::Kind::Exr, plain, &Default::default(), &Vec::new()).unwrap();
+    let mut plain = reference.image.clone();
+    plain.layers.clear();
+    let bytes = image_file::encode(image_file::Kind::Exr, &plain, &Default::default(), &Vec::new()).unwrap();
     std::fs::write(&file, bytes).unwrap();
     let loaded = Reference::load(&file).unwrap();
-    assert_eq!((loaded.standard_errors, loaded.replicates, loaded.radiances), (None, 0, reference.radiances));
+    assert_eq!((loaded.standard_errors(), loaded.replicates, &loaded.image), (None, 0, &plain));
 }
 
 fn keys(count: u32) -> Vec<Key> {
     let scene = cornell();
-    (1..=count).map(|width| Key::of(&subject(&scene, (width, 3)))).collect()
+    (1..=count).map(|width| Key::of(&shot(&scene, (width, 3)))).collect()
 }
 
 #[test]

@@ -1,9 +1,8 @@
 //! The ruler against NVIDIA's FLIP evaluator and numpy, on pictures that both sides compute: see `tests/data/flip.py`.
 
 use compare::flip::{PIXELS_PER_DEGREE, flip, hdr_flip};
-use compare::{ErrorMetric, errors_of_radiances};
-use film::DisplayTransform;
-use scene::Vec3;
+use compare::{ErrorMetric, errors};
+use film::{DisplayTransform, Image, Vec3};
 use serde_json::Value;
 
 const WIDTH: i32 = 128;
@@ -41,12 +40,13 @@ fn truth_at(x: i32, y: i32) -> Rgb {
     ball_on_board(x.clamp(0, WIDTH - 1), y.clamp(0, HEIGHT - 1), true)
 }
 
-fn picture(of: impl Fn(i32, i32) -> Rgb) -> Vec<Vec3> {
+fn picture(of: impl Fn(i32, i32) -> Rgb) -> Image {
     let pixels = (0..HEIGHT).flat_map(|y| (0..WIDTH).map(move |x| (x, y)));
-    pixels.map(|(x, y)| Vec3::from_array(of(x, y).map(|v| v as f32))).collect()
+    let radiances: Vec<_> = pixels.map(|(x, y)| Vec3::from_array(of(x, y).map(|v| v as f32))).collect();
+    Image::new(WIDTH as u32, HEIGHT as u32, radiances).unwrap()
 }
 
-fn codes(of: impl Fn(i32, i32) -> Rgb) -> Vec<Vec3> {
+fn codes(of: impl Fn(i32, i32) -> Rgb) -> Image {
     picture(|x, y| of(x, y).map(|v| (v.clamp(0.0, 1.0).sqrt() * 255.0 + 0.5).floor() / 255.0))
 }
 
@@ -104,7 +104,7 @@ fn assert_near(pair: &str, number: &str, measured: f64, tolerance: f64) {
 fn ldr_flip_equals_the_authors_evaluator() {
     let truth = codes(truth_at);
     for (pair, of) in PAIRS {
-        let values = flip(&codes(of), &truth, WIDTH as u32, PIXELS_PER_DEGREE).unwrap();
+        let values = flip(&codes(of), &truth, PIXELS_PER_DEGREE).unwrap();
         assert_near(pair, "ldr_mean", mean(&values), 1e-5);
         assert_near(pair, "ldr_max", largest(&values), 1e-4);
     }
@@ -114,7 +114,7 @@ fn ldr_flip_equals_the_authors_evaluator() {
 fn hdr_flip_equals_the_authors_evaluator() {
     let truth = picture(truth_at);
     for (pair, of) in PAIRS {
-        let found = hdr_flip(&picture(of), &truth, WIDTH as u32, PIXELS_PER_DEGREE).unwrap();
+        let found = hdr_flip(&picture(of), &truth, PIXELS_PER_DEGREE).unwrap();
         assert_near(pair, "hdr_mean", mean(&found.values), 1e-5);
         assert_near(pair, "hdr_max", largest(&found.values), 1e-4);
         assert_near(pair, "hdr_exposures", found.exposures.len() as f64, 0.0);
@@ -129,8 +129,8 @@ fn the_other_metrics_equal_numpys_and_the_means_of_their_maps() {
     let display = DisplayTransform::default();
     for (pair, of) in PAIRS {
         let film = picture(of);
-        let e = errors_of_radiances(&film, &truth);
-        let map = |map: ErrorMetric| mean(&map.of_radiances(&film, &truth, WIDTH as u32, &display).unwrap());
+        let e = errors(&film, &truth).unwrap();
+        let map = |map: ErrorMetric| mean(&map.of(&film, &truth, &display).unwrap());
         for (number, measured, of_map) in [
             ("rmse", e.rmse, None),
             ("rel_mse", e.rel_mse, Some(ErrorMetric::SquaredRelative)),

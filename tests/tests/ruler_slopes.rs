@@ -5,22 +5,23 @@
 //! than five of them; samples of which every second one repeats the one before move them by 0.08. The RMSE of the
 //! Cornell box is made by the few pixels at its area light's edge: its slope is known to 0.03 only, and held to 0.1.
 
+use bench::line::{self, Line};
 use bench::measure::{Measurement, traced};
 use bench::plan::{Part, Speed};
 use bench::references::{Truth, make};
 use bench::summary::Curve;
-use bench::way::{Line, Variant, Way};
+use bench::variant::Variant;
 use compare::Fit;
-use pathtrace::{Estimator, SamplerKind, Tracer};
+use pathtrace::{Estimator, SamplerKind};
 use scene::Scene;
-use std::sync::LazyLock;
+use std::sync::{Arc, LazyLock};
+use technique::{Backend, Renderer, Technique, Threads};
 
 static CORNELL: LazyLock<Subject> = LazyLock::new(|| subject("cornell", None, (64, 64)));
 
 struct Subject {
     part: Part,
     scene: Scene,
-    tracer: Tracer,
     truth: Truth,
 }
 
@@ -37,24 +38,27 @@ fn subject(scene: &str, sun_radius: Option<f32>, (width, height): (u32, u32)) ->
         speed: Speed { reference: 1.0, lines: 1.0 },
     };
     let scene = part.scene().unwrap();
-    let tracer = Tracer::new(&scene);
-    let (truth, _) = make(&part, &scene, &tracer, None, &mut |_| {}).unwrap();
-    Subject { part, scene, tracer, truth }
+    let mut renderer = Renderer::on_the_processor(Arc::new(scene.clone()), Arc::new(Threads::all()));
+    let (truth, _) = make(&part, &mut renderer, None, &mut |_| {}).unwrap();
+    Subject { part, scene, truth }
 }
 
 impl Subject {
-    fn curve(&self, way: Way) -> Curve {
-        let line = Line { way, variant: &Variant::ALL[0] };
+    fn curve(&self, technique: Technique) -> Curve {
+        let line = Line { technique, variant: &Variant::ALL[0] };
         let rungs = 0..self.part.ladder().len();
-        let measure = |rung| traced(&self.part, &self.scene, &self.tracer, &line, rung, &self.truth).unwrap();
+        let integrator = line.integrator(1).expect("it is traced");
+        let mut backend = Backend::on_the_processor(&self.scene);
+        let measure =
+            |rung| traced(&self.part, &self.scene, &mut backend, (&line, &integrator), rung, &self.truth).unwrap();
         let measurements: Vec<Measurement> = rungs.map(measure).collect();
         assert!(measurements.iter().flat_map(|m| &m.pictures).all(|p| p.nonfinite == 0));
         Curve::new(line, &measurements.iter().collect::<Vec<_>>())
     }
 }
 
-fn light(sampler: SamplerKind) -> Way {
-    Way::path(Estimator::LIGHT, sampler)
+fn light(sampler: SamplerKind) -> Technique {
+    line::path(Estimator::LIGHT, sampler)
 }
 
 #[test]
@@ -77,8 +81,8 @@ fn independent_numbers_fall_like_the_root_of_samples_and_sobol_points_faster() {
 
 #[test]
 fn few_bounces_flatten_at_their_bias_and_roulette_does_not() {
-    let [direct, one] = [0, 1].map(|bounces| CORNELL.curve(Way::bounded(bounces)));
-    let roulette = CORNELL.curve(Way::survived(0.8));
+    let [direct, one] = [0, 1].map(|bounces| CORNELL.curve(line::bounded(bounces)));
+    let roulette = CORNELL.curve(line::survived(0.8));
     let ends = [&direct, &one, &roulette].map(|curve| curve.last_slope.unwrap());
     assert!(ends[0].abs() < 0.05 && ends[1] > -0.35 && (ends[2] + 0.5).abs() < 0.08, "{ends:?}");
 

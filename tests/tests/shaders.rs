@@ -22,11 +22,15 @@ fn every_shader_composes_and_validates() {
 fn every_shader_file_is_embedded() {
     let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../shaders");
     let mut found = Vec::new();
-    for part in std::fs::read_dir(&folder).unwrap() {
-        let part = part.unwrap().path();
-        for file in std::fs::read_dir(&part).unwrap() {
-            let path = file.unwrap().path();
-            found.push(path.strip_prefix(&folder).unwrap().to_string_lossy().replace('\\', "/"));
+    let mut folders = vec![folder.clone()];
+    while let Some(part) = folders.pop() {
+        for entry in std::fs::read_dir(&part).unwrap() {
+            let path = entry.unwrap().path();
+            if path.is_dir() {
+                folders.push(path);
+            } else {
+                found.push(path.strip_prefix(&folder).unwrap().to_string_lossy().replace('\\', "/"));
+            }
         }
     }
     found.sort();
@@ -102,7 +106,21 @@ fn mirrors_of_the_path_tracer_have_the_layout_of_their_structs() {
     assert_same_layout!(
         "pathtrace/scene.wgsl",
         Header,
-        [sky, primitives, sun_towards, sun_chord_squared, sun_radiance, sun_pdf, lights, zero, seen, shading]
+        [
+            sky,
+            primitives,
+            sun_towards,
+            sun_chord_squared,
+            sun_radiance,
+            sun_pdf,
+            lights,
+            zero,
+            environment_size,
+            environment_turn,
+            environment_probability,
+            seen,
+            shading
+        ]
     );
     assert_same_layout!("pathtrace/scene.wgsl", Node, [low, contents, high, unused]);
     assert_same_layout!("pathtrace/scene.wgsl", Primitive, [a, normal_x, b, normal_y, c, normal_z, normal_low, tag]);

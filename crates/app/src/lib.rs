@@ -1,14 +1,18 @@
 //! Visavis: the rasterised fake of a scene face to face with its path-traced truth.
 //!
-//! [`run`] reads the command line ([`cli`]): headless commands, or the viewer. The viewer is three layers: [`ui`] draws
-//! controls and pictures into egui and knows no window; the [`engine`] renders beside it; [`window`] is the shell
-//! around both, the only place that knows winit.
+//! [`run`] reads the command line ([`cli`]): headless commands, or the viewer. The viewer's state is a [`model`], plain
+//! values; [`ui`] draws it into egui, and the [`engine`] makes beside it what it wants; neither knows of the other. The
+//! [`viewer`] is all three in a frame, and [`window`] the only place that knows winit.
+
+#[macro_use]
+mod console;
 
 pub mod cli;
 pub mod engine;
+pub mod model;
 pub mod ruler;
-pub mod technique;
 pub mod ui;
+pub mod viewer;
 pub mod window;
 
 use std::ffi::OsString;
@@ -20,7 +24,7 @@ pub fn run(args: impl IntoIterator<Item = OsString>) -> ExitCode {
     match cli::Command::parse(args).and_then(cli::Command::execute) {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
-            cli::to_stderr(format_args!("visavis: {}\n", error.line()));
+            console::to_stderr(format_args!("visavis: {}\n", error.line()));
             ExitCode::from(error.exit_code())
         }
     }

@@ -6,41 +6,60 @@ use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT, Queryable};
 use std::cell::RefCell;
 use std::rc::Rc;
-use visavis::technique::{Adapter, Adapters, DeviceChoice, Technique};
-use visavis::ui::{Dump, Theme, UiCommand, ViewModel, Viewer};
+use technique::{Adapter, Adapters, DeviceChoice, TechniqueName};
+use visavis::model::{Against, Model, PaneId, Theme, View, ViewModel, Wanted};
+use visavis::ui::{self, Dump, Textures, UiCommand, UiContext, Workspaces};
 
-/// A viewer on a scene, its panels drawn at 1280 x 720.
+/// The window of a scene without its pictures, drawn at 1280 x 720.
 struct Panels {
     harness: Harness<'static>,
-    viewer: Rc<RefCell<Viewer>>,
+    model: Rc<RefCell<Model>>,
+    workspaces: Rc<RefCell<Workspaces>>,
     requests: Rc<RefCell<Vec<UiCommand>>>,
 }
 
 impl Panels {
     fn of(scene: &str) -> Self {
         let opened = scene::builtin::named(scene).expect("a built-in scene");
-        Self::showing(Viewer::new(opened, scene.into(), Theme::Dark))
+        Self::showing(Model::new(opened, scene.into(), Theme::Dark))
     }
 
     /// The same beside an adapter.
     fn beside_an_adapter(scene: &str, device: DeviceChoice) -> Self {
         let opened = scene::builtin::named(scene).expect("a built-in scene");
         let adapters = Adapters(vec![Adapter { name: "an adapter, an interface".into(), software: true }]);
-        Self::showing(Viewer::new(opened, scene.into(), Theme::Dark).beside(adapters, device))
+        Self::showing(Model::new(opened, scene.into(), Theme::Dark).beside(adapters, device))
     }
 
-    fn showing(viewer: Viewer) -> Self {
-        let viewer = Rc::new(RefCell::new(viewer));
+    fn showing(model: Model) -> Self {
+        Self::in_workspaces(model, Workspaces::default())
+    }
+
+    fn in_workspaces(model: Model, workspaces: Workspaces) -> Self {
+        let model = Rc::new(RefCell::new(model));
+        let workspaces = Rc::new(RefCell::new(workspaces));
         let requests = Rc::new(RefCell::new(Vec::new()));
-        let (shared, asked) = (viewer.clone(), requests.clone());
+        let (shared, offered, asked) = (model.clone(), workspaces.clone(), requests.clone());
         let harness = Harness::builder().with_size([1280.0, 720.0]).build_ui(move |ui| {
-            asked.borrow_mut().extend(shared.borrow_mut().ui(ui, &ViewModel::default(), &mut Dump::default()));
+            let mut cx = UiContext {
+                model: &mut shared.borrow_mut(),
+                shown: &ViewModel::default(),
+                textures: &Textures::default(),
+                dump: &mut Dump::default(),
+                commands: &mut asked.borrow_mut(),
+            };
+            ui::show(&mut offered.borrow_mut(), &mut cx, ui);
         });
-        Panels { harness, viewer, requests }
+        Panels { harness, model, workspaces, requests }
     }
 
     fn shows(&self, label: &str) -> bool {
         self.harness.query_all_by_label_contains(label).next().is_some()
+    }
+
+    /// What shall be made of all that is chosen.
+    fn wanted(&self) -> Wanted {
+        self.workspaces.borrow().open().wanted(&self.model.borrow())
     }
 
     /// Expects that every widget has a name, and returns how many there are.
@@ -80,7 +99,7 @@ fn settings_that_cannot_apply_are_absent() {
     let mut two_fakes = Panels::of("cornell");
     assert!(two_fakes.shows("Samples per pixel"));
     two_fakes.click("Fake", 1);
-    assert_eq!(two_fakes.viewer.borrow().settings.panes[1].technique, Technique::Raster);
+    assert_eq!(two_fakes.model.borrow().session.panes[PaneId::B].technique, TechniqueName::Raster);
     assert!(!two_fakes.shows("Samples per pixel") && !two_fakes.shows("throughput"));
 }
 
@@ -92,7 +111,7 @@ fn where_rays_are_traced_is_chosen_where_there_is_a_choice() {
     let mut panels = Panels::beside_an_adapter("cornell", DeviceChoice::Gpu);
     panels.click("More", 1);
     assert!(panels.shows("the GPU is an adapter, an interface"));
-    let device = |panels: &Panels| panels.viewer.borrow().settings.panes.map(|pane| pane.device);
+    let device = |panels: &Panels| [PaneId::A, PaneId::B].map(|pane| panels.model.borrow().session.panes[pane].device);
     assert_eq!(device(&panels), [DeviceChoice::Gpu; 2]);
     panels.click("auto", 0);
     assert_eq!(device(&panels), [DeviceChoice::Gpu, DeviceChoice::Auto]);
@@ -135,12 +154,13 @@ fn what_the_map_and_the_reference_need_is_there_with_them_alone() {
     panels.click("the reference", 0);
     assert!(of_both.iter().all(|label| panels.shows(label)));
     panels.click("B - reference", 0);
-    let wish = panels.viewer.borrow().comparison().map.expect("a map to draw");
-    assert_eq!((wish.of, wish.map), (visavis::engine::Side::B, compare::ErrorMetric::SquaredRelative));
+    let wish = panels.wanted().map.expect("a map to draw");
+    assert_eq!((wish.comparison.of, wish.comparison.against), (PaneId::B, Against::Reference));
+    assert_eq!(wish.metric, compare::ErrorMetric::SquaredRelative);
     assert_eq!(wish.held, Some(1.0), "there was no picture to fit it to");
     // each map has a scale of its own
     panels.click("relative", 0);
-    assert_eq!(panels.viewer.borrow().comparison().map.map(|wish| wish.held), Some(None));
+    assert_eq!(panels.wanted().map.map(|wish| wish.held), Some(None));
 }
 
 #[test]
@@ -148,14 +168,14 @@ fn another_scene_takes_its_own_numbers_and_shows_its_picture() {
     let mut panels = Panels::of("whitted");
     panels.click("More", 0);
     panels.click("cube faces", 0);
-    panels.viewer.borrow_mut().settings.panes[0].fake.knobs.segments = Some(7);
+    panels.model.borrow_mut().session.panes[PaneId::A].fake.knobs.segments = Some(7);
     panels.harness.run_steps(2);
     let cornell = scene::builtin::named("cornell").expect("a built-in scene");
-    panels.viewer.borrow_mut().open(cornell, "cornell".into());
+    panels.model.borrow_mut().open(cornell, "cornell".into());
     panels.harness.run_steps(2);
-    let settings = panels.viewer.borrow().settings;
-    assert_eq!(settings.panes[0].fake.show, raster::Show::Picture);
-    assert_eq!(settings.panes[0].fake.knobs.segments, None);
+    let settings = panels.model.borrow().settings();
+    assert_eq!(settings.panes[PaneId::A].fake.show, raster::Show::Picture);
+    assert_eq!(settings.panes[PaneId::A].fake.knobs.segments, None);
 }
 
 #[test]
@@ -171,24 +191,24 @@ fn keys_that_are_held_or_come_twice_in_a_frame_count_as_often_as_they_are_presse
     let events = [key(true, false), key(true, true), key(true, true), key(false, false), key(true, false)];
     events.into_iter().for_each(|event| panels.harness.event(event));
     panels.harness.run_steps(6);
-    assert_eq!(panels.viewer.borrow().view, visavis::ui::View::B, "from the wipe to A, and on to B");
+    assert_eq!(panels.model.borrow().session.view, View::Pane(PaneId::B), "from the wipe to A, and on to B");
 }
 
 #[test]
 fn choices_change_their_pane_and_undo_takes_them_back() {
     let mut panels = Panels::of("whitted");
-    let before = panels.viewer.borrow().settings;
+    let before = panels.model.borrow().settings();
     panels.click("as-taught", 0);
     panels.click("cosine", 0);
-    let after = panels.viewer.borrow().settings;
-    assert_eq!(after.panes[0].fake.fake, raster::Fake::AsTaught);
-    assert_eq!(after.panes[1].truth.path.estimator, pathtrace::Estimator::COSINE);
+    let after = panels.model.borrow().settings();
+    assert_eq!(after.panes[PaneId::A].fake.fake, raster::Fake::AsTaught);
+    assert_eq!(after.panes[PaneId::B].truth.path.estimator, pathtrace::Estimator::COSINE);
     panels.click("Undo", 0);
     panels.click("Undo", 0);
-    assert_eq!(panels.viewer.borrow().settings, before);
+    assert_eq!(panels.model.borrow().settings(), before);
     panels.click("Redo", 0);
     panels.click("Redo", 0);
-    assert_eq!(panels.viewer.borrow().settings, after);
+    assert_eq!(panels.model.borrow().settings(), after);
 }
 
 #[test]
@@ -199,4 +219,21 @@ fn keys_and_menus_ask_the_shell() {
     panels.harness.run_steps(2);
     let asked = panels.requests.borrow().clone();
     assert!(matches!(asked[..], [UiCommand::Export { .. }, UiCommand::Quit]), "{asked:?}");
+}
+
+#[test]
+fn a_second_workspace_has_a_tab_where_it_is_asked_for_and_wants_pictures_of_its_own() {
+    let usual = Panels::of("whitted");
+    assert!(usual.harness.query_by_label("Compare").is_none(), "there is nothing to choose from");
+    let cornell = scene::builtin::named("cornell").expect("a built-in scene");
+    let model = Model::new(cornell, "cornell".into(), Theme::Dark);
+    let mut panels = Panels::in_workspaces(model, Workspaces::beginning_with(Some("empty")));
+    assert_eq!(panels.wanted().panes.ids().count(), 0);
+    assert!(!panels.shows("Side by side"), "the views belong to the comparison");
+    panels.click("Compare", 0);
+    assert_eq!(panels.wanted().panes.ids().collect::<Vec<_>>(), [PaneId::A, PaneId::B]);
+    assert_eq!(panels.wanted().comparisons.len(), 2);
+    panels.click("Side by side", 0);
+    assert_eq!(panels.model.borrow().session.view, View::SideBySide);
+    panels.count_named();
 }

@@ -13,6 +13,7 @@ mod clock;
 mod error;
 mod host;
 pub mod journal;
+pub mod line;
 pub mod measure;
 mod page;
 mod peer;
@@ -23,7 +24,7 @@ pub mod references;
 mod run;
 pub mod summary;
 mod tables;
-pub mod way;
+pub mod variant;
 
 pub use clock::Progress;
 pub use error::BenchError;

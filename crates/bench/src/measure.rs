@@ -1,19 +1,19 @@
-//! One measurement: pictures of independent seeds by one way at one number of samples, each timed and held against the
+//! One measurement: pictures of independent seeds by one technique at one number of samples, each timed and held against the
 //! reference, and all together asked for a bias.
 
 use crate::BenchError;
+use crate::line::Line;
 use crate::plan::{Part, SEEDS};
 use crate::references::{Truth, Worth};
-use crate::way::{Line, Way};
 use compare::{ErrorMetric, Errors, REL_MSE_FLOOR, finite_mean, split_error};
 use film::DisplayTransform;
 use film::Film;
-use pathtrace::gpu::GpuTracer;
-use pathtrace::{Stats, Tracer};
-use raster::{Fake, Raster, RasterSettings};
+use pathtrace::{Integrator, Stats};
+use raster::Raster;
 use scene::Scene;
 use serde::{Deserialize, Serialize};
 use std::time::Instant;
+use technique::{Accumulation, Backend, Device, FakeSettings};
 
 /// Standard errors beyond which a bias is believed.
 pub const SIGMAS: f64 = 4.0;
@@ -112,60 +112,39 @@ fn seed(rung: usize, i: u32) -> u32 {
     1 + rung as u32 * SEEDS + i
 }
 
-/// Measures a way that is traced, at rung number `rung` of its ladder.
+/// Measures a line that is traced, at rung number `rung` of its ladder. Seconds of a graphics device are its own, once its
+/// pipelines are built and without its film on its way there and back.
 ///
 /// # Errors
-/// [`BenchError::Memory`], [`BenchError::Compare`].
+/// [`BenchError::Memory`], [`BenchError::Compare`], [`BenchError::Gpu`].
 pub fn traced(
     part: &Part,
     scene: &Scene,
-    tracer: &Tracer,
-    line: &Line,
+    backend: &mut Backend,
+    (line, integrator): (&Line, &Integrator),
     rung: usize,
     truth: &Truth,
 ) -> Result<Measurement, BenchError> {
-    exposed(part, line, rung, truth, |film, seed, spp| {
+    let mut trace = |seed: u32, spp: u32| {
+        let no_memory = BenchError::Memory(part.width, part.height);
+        let mut accumulation = Accumulation::blank((part.width, part.height)).ok_or(no_memory)?;
         let start = Instant::now();
-        let stats = tracer.render(film, &scene.camera, &line.way.integrator(seed), spp, &|| false);
-        Ok((stats, start.elapsed().as_secs_f64()))
-    })
-}
-
-/// As [`traced`] on the graphics device, once its pipelines are built. Seconds are the device's own, without its film
-/// on its way there and back.
-///
-/// # Errors
-/// As [`traced`], and [`BenchError::Gpu`].
-pub fn traced_on_gpu(
-    part: &Part,
-    scene: &Scene,
-    tracer: &mut GpuTracer,
-    line: &Line,
-    truth: &Truth,
-) -> Result<Measurement, BenchError> {
-    let mut trace = |film: &mut Film, seed: u32, spp: u32| {
-        let stats = tracer.render(film, &scene.camera, &line.way.integrator(seed), spp, &|| false)?;
-        Ok((stats, tracer.take_seconds()))
+        backend.accumulate(&mut accumulation, &scene.camera, &integrator.with_seed(seed), spp, &|| false)?;
+        let seconds = start.elapsed().as_secs_f64();
+        let seconds = backend.take_device_seconds().unwrap_or(seconds);
+        backend.resolve(&mut accumulation)?;
+        Ok::<_, BenchError>((accumulation, seconds))
     };
-    trace(&mut Film::new(part.width, part.height), 0, 1)?;
-    exposed(part, line, 0, truth, trace)
-}
-
-fn exposed(
-    part: &Part,
-    line: &Line,
-    rung: usize,
-    truth: &Truth,
-    mut trace: impl FnMut(&mut Film, u32, u32) -> Result<(Stats, f64), BenchError>,
-) -> Result<Measurement, BenchError> {
+    if line.device() == Device::Gpu {
+        trace(0, 1)?;
+    }
     let spp = part.rungs(line).get(rung).copied().unwrap_or(1);
     let (mut pictures, mut films) = (Vec::new(), Vec::new());
     for i in 0..SEEDS {
         let seed = seed(rung, i);
-        let mut film = Film::try_new(part.width, part.height).ok_or(BenchError::Memory(part.width, part.height))?;
-        let (stats, seconds) = trace(&mut film, seed, spp)?;
-        pictures.push(judged(&film, seed, seconds, stats, truth)?);
-        films.push(film);
+        let (accumulation, seconds) = trace(seed, spp)?;
+        pictures.push(judged(accumulation.film(), seed, seconds, accumulation.stats(), truth)?);
+        films.push(accumulation.into_film());
     }
     let absolute = BiasTest::of(&films, &truth.film, truth.worth.mse)?;
     let shares: Vec<Film> = films.iter().map(|film| as_shares(film, &truth.film)).collect();
@@ -189,10 +168,10 @@ pub fn drawn(
     part: &Part,
     scene: &Scene,
     raster: &mut Raster,
-    fake: Fake,
+    (line, fake): (&Line, &FakeSettings),
     truth: &Truth,
 ) -> Result<Result<Measurement, BenchError>, String> {
-    let settings = RasterSettings { fake, ..RasterSettings::new(part.width, part.height) };
+    let settings = fake.sized(part.width, part.height);
     let mut draw = || raster.render(scene, &scene.camera, &settings).map_err(|e| e.to_string());
     draw()?;
     let mut frames = Vec::new();
@@ -205,7 +184,7 @@ pub fn drawn(
     let pictures: Result<Vec<Picture>, BenchError> = frames.iter().map(judge).collect();
     Ok(pictures.map(|pictures| Measurement {
         part: part.name.clone(),
-        line: Way::Raster(fake).name(),
+        line: line.name(),
         spp: 0,
         pictures,
         bias: None,
@@ -226,8 +205,9 @@ fn as_shares(film: &Film, truth: &Film) -> Film {
 }
 
 fn judged(film: &Film, seed: u32, seconds: f64, stats: Stats, truth: &Truth) -> Result<Picture, BenchError> {
-    let Errors { rmse, rel_mse, mae, bias, nonfinite, .. } = compare::errors(film, &truth.film)?;
-    let flip = ErrorMetric::Flip.of(film, &truth.film, &DisplayTransform::default())?;
+    let image = film.image();
+    let Errors { rmse, rel_mse, mae, bias, nonfinite, .. } = compare::errors(&image, &truth.reference.image)?;
+    let flip = ErrorMetric::Flip.of(&image, &truth.reference.image, &DisplayTransform::default())?;
     Ok(Picture {
         seed,
         seconds,
@@ -235,7 +215,7 @@ fn judged(film: &Film, seed: u32, seconds: f64, stats: Stats, truth: &Truth) -> 
         rays: stats.rays,
         cut_paths: stats.cut_paths,
         // those of the reference are told with it
-        nonfinite: nonfinite - truth.worth.nonfinite.min(nonfinite),
+        nonfinite: film.nonfinite + nonfinite,
         rmse,
         rel_mse,
         mae,
@@ -243,4 +223,21 @@ fn judged(film: &Film, seed: u32, seconds: f64, stats: Stats, truth: &Truth) -> 
         flip: finite_mean(&flip).0,
         tail_weight: film.tail_weight(),
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use film::Vec3;
+    use reference::Reference;
+
+    #[test]
+    fn a_pictures_own_samples_that_are_not_finite_are_counted_and_the_references_are_not() {
+        let reference = Reference { image: Film::new(2, 1).image(), replicates: 16, seconds: 1.0, nonfinite: 3 };
+        let worth =
+            Worth { spp: 1024, seconds: 1.0, mean: 0.0, mse: 0.0, rel_mse: 0.0, tail_weight: 0.0, nonfinite: 3 };
+        let truth = Truth { film: reference.film().unwrap(), worth, reference };
+        let film = Film::from_radiances(2, 1, [Vec3::NAN, Vec3::ONE]).unwrap();
+        assert_eq!(judged(&film, 1, 1.0, Stats::default(), &truth).unwrap().nonfinite, 1);
+    }
 }

@@ -59,7 +59,7 @@ impl Page<'_> {
              two</th></tr>\n",
         );
         for (part, _) in &self.parts {
-            for curve in part.curves.iter().filter(|curve| curve.line.way.converges() && !curve.line.is_a_variant()) {
+            for curve in part.curves.iter().filter(|curve| curve.line.converges() && !curve.line.is_a_variant()) {
                 let words =
                     |fit: Option<Fit>| fit.map_or("within the reference's noise".into(), |fit| slope_words(&fit));
                 let (slope, relative) = (words(curve.slope), words(curve.relative_slope));

@@ -1,16 +1,14 @@
 //! Small pictures for the page: each technique beside the truth, and where it is wrong, with the colours' scale.
 
 use crate::BenchError;
+use crate::line::title;
 use crate::plan::Part;
 use crate::references::Truth;
-use crate::way::{WHITTED_SPP, Way};
 use compare::{ColourScale, ErrorMetric, Tick};
-use film::DisplayTransform;
-use film::Film;
+use film::{DisplayTransform, Image};
 use image_file::{Records, encode_rgba8};
-use pathtrace::Tracer;
-use raster::{Fake, Raster, RasterSettings};
-use scene::Scene;
+use raster::{Fake, Raster};
+use technique::{Accumulation, FakeSettings, Renderer, Technique, TreeSettings};
 
 /// One technique beside the truth.
 pub struct Exhibit {
@@ -40,37 +38,38 @@ const BAR: (u32, u32) = (256, 12);
 /// [`BenchError::Memory`], [`BenchError::File`] if a picture cannot be encoded.
 pub fn of(
     part: &Part,
-    scene: &Scene,
-    tracer: &Tracer,
+    renderer: &mut Renderer,
     raster: Option<&mut Raster>,
     truth: &Truth,
 ) -> Result<Vec<Exhibit>, BenchError> {
-    let mut exhibits = Vec::new();
+    let (mut exhibits, scene) = (Vec::new(), renderer.scene().clone());
     if let Some(raster) = raster {
         for fake in [Fake::AsTaught, Fake::Fair] {
-            let settings = RasterSettings { fake, ..RasterSettings::new(part.width, part.height) };
+            let settings = FakeSettings { fake, ..FakeSettings::default() };
             // a device that fails was told of where the fake was measured
-            if let Ok(film) = raster.render(scene, &scene.camera, &settings) {
-                exhibits.push(exhibit(Way::Raster(fake).title(), &film, truth)?);
+            if let Ok(film) = raster.render(&scene, &scene.camera, &settings.sized(part.width, part.height)) {
+                exhibits.push(exhibit(title(&Technique::Fake(settings)), &film.image(), truth)?);
             }
         }
     }
-    let mut film = Film::try_new(part.width, part.height).ok_or(BenchError::Memory(part.width, part.height))?;
-    tracer.render(&mut film, &scene.camera, &Way::whitted_settings(1).into(), WHITTED_SPP, &|| false);
-    exhibits.push(exhibit(format!("Whitted, {WHITTED_SPP} samples per pixel"), &film, truth)?);
+    let size = (part.width, part.height);
+    let mut accumulation = Accumulation::blank(size).ok_or(BenchError::Memory(size.0, size.1))?;
+    let TreeSettings { tree, spp } = TreeSettings::default();
+    renderer.add(&mut accumulation, &scene.camera, &tree.into(), spp, &|| false)?;
+    exhibits.push(exhibit(format!("Whitted, {spp} samples per pixel"), &accumulation.film().image(), truth)?);
     Ok(exhibits)
 }
 
-fn exhibit(title: String, film: &Film, truth: &Truth) -> Result<Exhibit, BenchError> {
+fn exhibit(title: String, image: &Image, truth: &Truth) -> Result<Exhibit, BenchError> {
     let display = DisplayTransform::default();
-    let (width, height) = (film.width(), film.height());
+    let (width, height) = image.size();
     let png = |rgba: &[u8], (width, height)| encode_rgba8(width, height, rgba, &Records::new());
-    let values = ErrorMetric::Signed.of(film, &truth.film, &display)?;
+    let values = ErrorMetric::Signed.of(image, &truth.reference.image, &display)?;
     let scale = ColourScale::fitted(ErrorMetric::Signed, &values);
     Ok(Exhibit {
         title,
-        picture: png(&display.film_to_rgba8(film), (width, height))?,
-        truth: png(&display.film_to_rgba8(&truth.film), (width, height))?,
+        picture: png(&display.rgba8_of(image), (width, height))?,
+        truth: png(&display.rgba8_of(&truth.reference.image), (width, height))?,
         map: png(&scale.image(&values, width), (width, height))?,
         bar: png(&scale.bar(BAR.0, BAR.1), BAR)?,
         ticks: scale.ticks(6),

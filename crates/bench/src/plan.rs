@@ -4,15 +4,17 @@
 //! A bench within so many seconds is planned from a speed that is measured first, so that it holds on slower machines
 //! too. The plan is kept in the journal: what is interrupted goes on by the same plan.
 
-use crate::way::{Line, VARIANT_SPP, Variant, WHITTED_SPP, Way};
+use crate::line::{self, Line};
+use crate::variant::{VARIANT_SPP, Variant};
 use crate::{BenchError, Options};
 use film::Film;
-use pathtrace::{Estimator, FEWEST_REPLICATES, PathSettings, SamplerKind, Tracer};
+use pathtrace::{Estimator, FEWEST_REPLICATES, Integrator, SamplerKind, Tracer};
 use raster::Fake;
 use reference::{Maker, SAMPLES_PER_REPLICATE};
 use scene::{Scene, builtin};
 use serde::{Deserialize, Serialize};
 use std::time::Instant;
+use technique::Technique;
 
 /// Scenes that are measured.
 pub const SCENES: [&str; 2] = ["cornell", "whitted"];
@@ -172,32 +174,32 @@ impl Part {
 
     /// Samples per pixel at which a line is measured.
     pub fn rungs(&self, line: &Line) -> Vec<u32> {
-        match line.way {
+        match line.technique {
             _ if line.is_a_variant() => vec![VARIANT_SPP],
-            Way::Path { .. } => self.ladder(),
-            Way::Whitted => vec![WHITTED_SPP],
-            Way::Raster(_) => vec![0],
+            _ if line.converges() => self.ladder(),
+            Technique::Traced(traced) => vec![traced.spp],
+            Technique::Fake(_) => vec![0],
         }
     }
 
     /// Everything that is measured in this part, what needs a GPU last. By chance no path meets a sun of radius 0:
-    /// such ways are left out there.
+    /// such techniques are left out there.
     pub fn lines(&self, scene: &Scene) -> Vec<Line> {
         let delta_sun = scene.sun.is_some_and(|sun| sun.angular_radius == 0.0);
-        let mut ways = Vec::new();
+        let mut techniques = Vec::new();
         for estimator in Estimator::ALL.into_iter().filter(|e| !delta_sun || e.samples_lights()) {
-            ways.extend(SamplerKind::ALL.map(|sampler| Way::path(estimator, sampler)));
+            techniques.extend(SamplerKind::ALL.map(|sampler| line::path(estimator, sampler)));
         }
         if self.teaches_bias() {
-            ways.extend([0, 1, 3].map(Way::bounded));
-            ways.push(Way::survived(0.8));
+            techniques.extend([0, 1, 3].map(line::bounded));
+            techniques.push(line::survived(0.8));
         }
-        ways.push(Way::Whitted);
-        ways.extend(Fake::ALL.map(Way::Raster));
+        techniques.push(line::whitted());
+        techniques.extend(Fake::ALL.map(line::fake));
         let usual = &Variant::ALL[0];
         let available = Variant::ALL[1..].iter().filter(|variant| variant.is_available());
-        let others = available.map(|variant| Line { way: Way::USUAL, variant });
-        others.chain(ways.into_iter().map(|way| Line { way, variant: usual })).collect()
+        let others = available.map(|variant| Line { technique: line::USUAL, variant });
+        others.chain(techniques.into_iter().map(|technique| Line { technique, variant: usual })).collect()
     }
 
     /// Whether it has the lesson "biased against unbiased": where light goes around in a closed room.
@@ -258,22 +260,23 @@ impl Speed {
     /// Measured in about half a second.
     fn measured(part: &Part, scene: &Scene) -> Self {
         let tracer = Tracer::new(scene);
-        let lines: Vec<PathSettings> = part.lines(scene).iter().filter_map(|line| line.way.path_settings(1)).collect();
+        let lines = part.lines(scene);
+        let lines: Vec<Integrator> =
+            lines.iter().filter(|line| line.converges()).filter_map(|line| line.integrator(1)).collect();
         Speed {
-            reference: samples_per_second(&tracer, scene, &[Maker::settings(1)]),
+            reference: samples_per_second(&tracer, scene, &[Maker::settings(1).into()]),
             lines: samples_per_second(&tracer, scene, &lines),
         }
     }
 }
 
 /// Samples a second of all these settings in turn, over at least a fifth of a second.
-fn samples_per_second(tracer: &Tracer, scene: &Scene, ways: &[PathSettings]) -> f64 {
+fn samples_per_second(tracer: &Tracer, scene: &Scene, integrators: &[Integrator]) -> f64 {
     const SIDE: u32 = 48;
     const LEAST_SECONDS: f64 = 0.2;
     let mut film = Film::new(SIDE, SIDE);
-    let mut all = |spp| {
-        ways.iter().map(|way| tracer.render(&mut film, &scene.camera, &(*way).into(), spp, &|| false).samples).sum()
-    };
+    let mut all =
+        |spp| integrators.iter().map(|way| tracer.render(&mut film, &scene.camera, way, spp, &|| false).samples).sum();
     // threads and caches awake before the clock runs
     let _: u64 = all(1);
     let (start, mut samples) = (Instant::now(), 0u64);

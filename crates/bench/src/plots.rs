@@ -1,11 +1,12 @@
 //! The plots of a part: error against samples, error against seconds, and the tutorial's "Biased vs. Unbiased".
 
+use crate::line;
 use crate::plan::Part;
 use crate::summary::{Curve, PartSummary, Point, slope_words};
-use crate::way::Way;
 use compare::{LogLogPlot, PlotPoint, Range, Series, Stroke};
-use pathtrace::{Estimator, SamplerKind};
+use pathtrace::{Estimator, Integrator, SamplerKind};
 use raster::Fake;
+use technique::{FakeSettings, Technique, TracedSettings};
 
 /// A plot with its name and what to see in it.
 pub struct Plot {
@@ -28,7 +29,7 @@ pub fn of(summary: &PartSummary) -> Vec<Plot> {
 
 /// Whether a line stands in the plots against samples and time.
 fn drawn(curve: &&Curve) -> bool {
-    !curve.line.way.is_of_the_lesson() && !curve.line.is_a_variant()
+    !curve.line.is_of_the_lesson() && !curve.line.is_a_variant()
 }
 
 fn against_samples(summary: &PartSummary) -> Plot {
@@ -57,7 +58,7 @@ fn against_seconds(summary: &PartSummary) -> Plot {
     let curves = summary.curves.iter().filter(drawn);
     let mut lines: Vec<Series> = curves
         .map(|curve| {
-            let time = if curve.line.way.converges() {
+            let time = if curve.line.converges() {
                 String::new()
             } else {
                 curve.last().map(|p| format!(", {}", duration(p.seconds.median))).unwrap_or_default()
@@ -100,13 +101,13 @@ fn against_seconds(summary: &PartSummary) -> Plot {
 
 fn lesson(summary: &PartSummary) -> Plot {
     let part = &summary.part;
-    let independent = Way::path(Estimator::LIGHT, SamplerKind::Independent);
+    let independent = line::path(Estimator::LIGHT, SamplerKind::Independent);
     let taught = |curve: &&Curve| {
-        !curve.line.is_a_variant() && (curve.line.way.is_of_the_lesson() || curve.line.way == independent)
+        !curve.line.is_a_variant() && (curve.line.is_of_the_lesson() || curve.line.technique == independent)
     };
     let named = |curve: &Curve| {
-        let name = if curve.line.way == independent { "roulette, throughput".into() } else { curve.line.way.title() };
-        let end = match curve.line.way.is_bounded() {
+        let name = if curve.line.technique == independent { "roulette, throughput".into() } else { curve.line.title() };
+        let end = match curve.line.is_bounded() {
             true => curve.last_slope.map(|s| format!(", ends {s:.2}").replace('-', "\u{2212}")),
             false => curve.relative_slope.map(|fit| format!(", {}", slope_words(&fit))),
         };
@@ -115,7 +116,7 @@ fn lesson(summary: &PartSummary) -> Plot {
     let mut lines = Vec::new();
     for (i, curve) in summary.curves.iter().filter(taught).enumerate() {
         let mut line = series(curve, named(curve), |p| (f64::from(p.spp), p.rel_mse.map(f64::sqrt)));
-        line.stroke = if curve.line.way.is_bounded() { Stroke::Dashed } else { Stroke::Solid };
+        line.stroke = if curve.line.is_bounded() { Stroke::Dashed } else { Stroke::Solid };
         line.colour = i;
         lines.push(line);
     }
@@ -154,7 +155,7 @@ fn with_slope(curve: &Curve) -> String {
 
 /// A curve as a line of a plot: colour by estimator, stroke by sampler.
 fn series(curve: &Curve, name: String, of: impl Fn(&Point) -> (f64, Range)) -> Series {
-    let (colour, stroke) = look(&curve.line.way);
+    let (colour, stroke) = look(&curve.line.technique);
     let mut points: Vec<PlotPoint> = Vec::new();
     for point in &curve.points {
         let (x, y) = of(point);
@@ -166,15 +167,15 @@ fn series(curve: &Curve, name: String, of: impl Fn(&Point) -> (f64, Range)) -> S
 /// Colours that [`look`] does not use begin here: for peers.
 const FIRST_FREE_COLOUR: usize = 7;
 
-fn look(way: &Way) -> (usize, Stroke) {
-    match way {
-        Way::Path { estimator, sampler, .. } => {
-            let colour = Estimator::ALL.iter().position(|e| e == estimator).unwrap_or(0);
-            (colour, if *sampler == SamplerKind::Sobol { Stroke::Solid } else { Stroke::Dashed })
+fn look(technique: &Technique) -> (usize, Stroke) {
+    match technique {
+        Technique::Traced(TracedSettings { integrator: Integrator::Path(path), .. }) => {
+            let colour = Estimator::ALL.iter().position(|e| *e == path.estimator).unwrap_or(0);
+            (colour, if path.sampler == SamplerKind::Sobol { Stroke::Solid } else { Stroke::Dashed })
         }
-        Way::Whitted => (5, Stroke::Level),
-        Way::Raster(Fake::Fair) => (4, Stroke::Level),
-        Way::Raster(Fake::AsTaught) => (6, Stroke::Level),
+        Technique::Traced(_) => (5, Stroke::Level),
+        Technique::Fake(FakeSettings { fake: Fake::Fair, .. }) => (4, Stroke::Level),
+        Technique::Fake(_) => (6, Stroke::Level),
     }
 }
 

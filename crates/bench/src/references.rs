@@ -3,11 +3,11 @@
 use crate::BenchError;
 use crate::plan::Part;
 use film::Film;
-use pathtrace::{FEWEST_REPLICATES, Tracer};
-use reference::{Key, Maker, Reference, SAMPLES_PER_REPLICATE, Store, Subject};
-use scene::Scene;
+use pathtrace::FEWEST_REPLICATES;
+use reference::{Key, Maker, Reference, SAMPLES_PER_REPLICATE, Store};
 use serde::{Deserialize, Serialize};
 use std::time::{Duration, Instant};
+use technique::{Renderer, Shot};
 
 /// Seconds after which a reference in the making is kept, so that little is lost when it is interrupted.
 const KEPT_EVERY: Duration = Duration::from_secs(20);
@@ -56,17 +56,18 @@ impl Worth {
 
     fn of(reference: &Reference) -> Self {
         let channels = |v: &scene::Vec3| v.to_array().map(f64::from);
-        let pixels = reference.standard_errors.iter().flatten().zip(&reference.radiances);
+        let radiances = reference.image.radiances();
+        let pixels = reference.standard_errors().into_iter().flatten().zip(radiances);
         let channels_of = pixels.flat_map(|(error, mean)| channels(error).into_iter().zip(channels(mean)));
         let (sum, rare) = channels_of.fold((0.0, 0.0), |(sum, rare), (error, mean)| {
             let square = error * error;
             (sum + square, if error > RARE * mean { rare + square } else { rare })
         });
-        let radiance = reference.radiances.iter().map(|v| f64::from(v.element_sum())).sum::<f64>();
+        let radiance = radiances.iter().map(|v| f64::from(v.element_sum())).sum::<f64>();
         Worth {
             spp: u64::from(reference.replicates) * u64::from(SAMPLES_PER_REPLICATE),
             seconds: reference.seconds,
-            mean: radiance / (3 * reference.radiances.len()).max(1) as f64,
+            mean: radiance / (3 * radiances.len()).max(1) as f64,
             mse: reference.mean_squared_error().unwrap_or(0.0),
             rel_mse: reference.rel_mse().unwrap_or(0.0),
             tail_weight: if sum > 0.0 { rare / sum } else { 0.0 },
@@ -83,17 +84,16 @@ impl Worth {
 /// [`BenchError::Memory`].
 pub fn make(
     part: &Part,
-    scene: &Scene,
-    tracer: &Tracer,
+    renderer: &mut Renderer,
     store: Option<&Store>,
     progress: &mut dyn FnMut(f64),
 ) -> Result<(Truth, Option<String>), BenchError> {
     let size = (part.width, part.height);
-    let subject = Subject { scene, camera: &scene.camera, size };
-    let key = Key::of(&subject);
+    let shot = Shot::of((**renderer.scene()).clone(), size);
+    let key = Key::of(&shot);
     let begun = store.and_then(|store| store.get(key));
     let no_memory = || BenchError::Memory(size.0, size.1);
-    let mut maker = Maker::new(tracer, &subject, begun.as_ref()).ok_or_else(no_memory)?;
+    let mut maker = Maker::new(renderer, &shot, begun.as_ref()).ok_or_else(no_memory)?;
     let before = maker.replicates();
     let enough = |maker: &Maker| {
         maker.replicates() >= part.replicates()

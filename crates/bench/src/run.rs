@@ -3,6 +3,7 @@
 use crate::clock::{Clock, Progress};
 use crate::host::{Host, peak_memory, today};
 use crate::journal::{self, Journal, Run};
+use crate::line::Line;
 use crate::measure::{self, Measurement};
 use crate::page::Page;
 use crate::peer::{self, PeerRow};
@@ -11,16 +12,18 @@ use crate::plan::{self, Effort, Part, SEEDS};
 use crate::plots::{self, duration};
 use crate::references::{self, Truth};
 use crate::summary::{PartSummary, slope_words};
-use crate::way::{Line, MakeTracer, Way};
+use crate::variant::MakeTracer;
 use crate::{BenchError, tables};
 use gpu::Gpu;
 use image_file::{check_writable, write_whole};
-use pathtrace::Tracer;
+use pathtrace::Integrator;
 use raster::Raster;
 use reference::Store;
 use scene::Scene;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use std::time::Instant;
+use technique::{Backend, FakeSettings, Renderer, Technique, Threads, TracedSettings};
 
 /// What is asked for.
 #[derive(Debug, Clone)]
@@ -64,6 +67,7 @@ struct Bench<'a> {
     store: Store,
     raster: Option<Raster>,
     gpu: Option<Gpu>,
+    threads: Arc<Threads>,
     clock: Clock,
     notes: Vec<String>,
     progress: &'a mut dyn FnMut(&Progress),
@@ -96,7 +100,16 @@ pub fn run(options: &Options, progress: &mut dyn FnMut(&Progress)) -> Result<Out
     let planned: Vec<(Part, Vec<Line>)> = parts.iter().map(with_lines).collect::<Result<_, BenchError>>()?;
     let ahead = planned.iter().map(|(part, lines)| forecast(&journal, part, lines)).sum();
     let kept = journal.measurements().len();
-    let mut bench = Bench { journal, store, raster, gpu, clock: Clock::new(ahead), notes, progress };
+    let mut bench = Bench {
+        journal,
+        store,
+        raster,
+        gpu,
+        threads: Arc::new(Threads::all()),
+        clock: Clock::new(ahead),
+        notes,
+        progress,
+    };
     let mut exhibits = Vec::new();
     for (i, (part, lines)) in planned.iter().enumerate() {
         // the last part is the tutorial's own scene, or the only one that was asked for
@@ -137,7 +150,7 @@ fn forecast(journal: &Journal, part: &Part, lines: &[Line]) -> f64 {
 }
 
 fn forecast_of(part: &Part, line: &Line, spp: u32) -> f64 {
-    if matches!(line.way, Way::Raster(_)) { FAKE_SECONDS } else { part.samples(spp) / part.speed.lines }
+    if matches!(line.technique, Technique::Fake(_)) { FAKE_SECONDS } else { part.samples(spp) / part.speed.lines }
 }
 
 impl Bench<'_> {
@@ -147,14 +160,13 @@ impl Bench<'_> {
         if !missing && !show {
             return Ok(Vec::new());
         }
-        let scene = part.scene()?;
-        let tracer = Tracer::new(&scene);
-        let truth = self.reference(part, &scene, &tracer)?;
+        let scene = Arc::new(part.scene()?);
+        let mut renderer = Renderer::on_the_processor(scene.clone(), self.threads.clone());
+        let truth = self.reference(part, &mut renderer)?;
         for line in lines {
-            let rays = line.way.converges() || line.way == Way::Whitted;
-            let tracer = match line.variant.tracer {
-                MakeTracer::Cpu(tracer) if rays => Some(tracer(&scene)),
-                MakeTracer::Cpu(_) | MakeTracer::Gpu(_) => None,
+            let mut processor = match (line.technique, line.variant.tracer) {
+                (Technique::Traced(_), MakeTracer::Cpu(tracer)) => Some(Backend::from(tracer(&scene))),
+                _ => None,
             };
             for (rung, spp) in part.rungs(line).into_iter().enumerate() {
                 if self.journal.find(&part.name, &line.name(), spp).is_some() {
@@ -162,19 +174,23 @@ impl Bench<'_> {
                 }
                 let what = format!("{}: {}, {spp} spp", part.name, line.name());
                 (self.progress)(&self.clock.progress(&what, 0.0));
-                let measured = match (&line.way, &tracer) {
-                    (Way::Raster(fake), _) => self.fake(part, &scene, *fake, &truth)?,
-                    (_, Some(tracer)) => Some(measure::traced(part, &scene, tracer, line, rung, &truth)?),
-                    (_, None) => self.on_gpu(part, &scene, line, &truth)?,
+                let measured = match (&line.technique, &mut processor) {
+                    (Technique::Fake(fake), _) => self.fake(part, &scene, line, fake, &truth)?,
+                    (Technique::Traced(TracedSettings { integrator, .. }), Some(backend)) => {
+                        Some(measure::traced(part, &scene, backend, (line, integrator), rung, &truth)?)
+                    }
+                    (Technique::Traced(TracedSettings { integrator, .. }), None) => {
+                        self.on_gpu(part, &scene, (line, integrator), &truth)?
+                    }
                 };
                 measured.map_or(Ok(()), |measured| self.journal.add(measured))?;
                 self.clock.done(forecast_of(part, line, spp));
             }
         }
-        if show { pictures::of(part, &scene, &tracer, self.raster.as_mut(), &truth) } else { Ok(Vec::new()) }
+        if show { pictures::of(part, &mut renderer, self.raster.as_mut(), &truth) } else { Ok(Vec::new()) }
     }
 
-    fn reference(&mut self, part: &Part, scene: &Scene, tracer: &Tracer) -> Result<Truth, BenchError> {
+    fn reference(&mut self, part: &Part, renderer: &mut Renderer) -> Result<Truth, BenchError> {
         let forecast = part.forecast_reference();
         let what = format!("{}: reference", part.name);
         let (clock, progress) = (&mut self.clock, &mut self.progress);
@@ -187,7 +203,7 @@ impl Bench<'_> {
             });
             progress(&clock.progress(&what, (share - there) * forecast));
         };
-        let (truth, fault) = references::make(part, scene, tracer, Some(&self.store), &mut tell)?;
+        let (truth, fault) = references::make(part, renderer, Some(&self.store), &mut tell)?;
         self.notes.extend(fault.map(|why| format!("The reference of {} is not kept: {why}.", part.name)));
         self.clock.done((1.0 - there.unwrap_or(0.0)) * forecast);
         Ok(truth)
@@ -198,13 +214,13 @@ impl Bench<'_> {
         &mut self,
         part: &Part,
         scene: &Scene,
-        line: &Line,
+        (line, integrator): (&Line, &Integrator),
         truth: &Truth,
     ) -> Result<Option<Measurement>, BenchError> {
         let (Some(gpu), MakeTracer::Gpu(tracer)) = (&self.gpu, line.variant.tracer) else { return Ok(None) };
         let measured = tracer(gpu, scene)
             .map_err(BenchError::from)
-            .and_then(|mut tracer| measure::traced_on_gpu(part, scene, &mut tracer, line, truth));
+            .and_then(|tracer| measure::traced(part, scene, &mut tracer.into(), (line, integrator), 0, truth));
         match measured {
             Err(BenchError::Gpu(why)) => {
                 self.notes.push(format!("{} of {} is left out: {why}.", line.name(), part.name));
@@ -219,14 +235,15 @@ impl Bench<'_> {
         &mut self,
         part: &Part,
         scene: &Scene,
-        fake: raster::Fake,
+        line: &Line,
+        fake: &FakeSettings,
         truth: &Truth,
     ) -> Result<Option<Measurement>, BenchError> {
         let Some(raster) = &mut self.raster else { return Ok(None) };
-        match measure::drawn(part, scene, raster, fake, truth) {
+        match measure::drawn(part, scene, raster, (line, fake), truth) {
             Ok(measured) => measured.map(Some),
             Err(why) => {
-                self.notes.push(format!("The fake ({}) of {} is left out: {why}.", fake.name(), part.name));
+                self.notes.push(format!("The fake ({}) of {} is left out: {why}.", fake.fake.name(), part.name));
                 Ok(None)
             }
         }

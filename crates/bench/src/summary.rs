@@ -1,11 +1,11 @@
 //! What measurements say together: a curve for each line, with medians and ranges over seeds, slopes, speed, what it is
 //! worth per second, and whether it is biased.
 
+use crate::line::Line;
 use crate::measure::{Bias, Measurement, Picture, SIGMAS};
 use crate::peer::PeerRow;
 use crate::plan::Part;
 use crate::references::Worth;
-use crate::way::Line;
 use compare::{Errors, Fit, Range, efficiency, fit};
 
 /// All that is known about a part.
@@ -116,7 +116,7 @@ impl Curve {
                 m.pictures.iter().map(move |p| (spp, error(p, &worth))).collect::<Vec<_>>()
             };
             let points: Vec<(f64, f64)> = measurements.iter().filter(clear).flat_map(of_seeds).collect();
-            if line.way.converges() { fit(&points) } else { None }
+            if line.converges() { fit(&points) } else { None }
         };
         let slope = law(|p, worth| without_noise(p.rmse * p.rmse, worth.mse));
         let relative_slope = law(|p, worth| without_noise(p.rel_mse, worth.rel_mse));

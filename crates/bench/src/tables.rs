@@ -1,9 +1,9 @@
 //! The tables as CSV: every picture, and every measurement over its seeds. Columns are documented in docs/bench.md.
 
+use crate::line::Line;
 use crate::measure::{Bias, BiasTest, Measurement};
 use crate::plan::Part;
 use crate::summary::PartSummary;
-use crate::way::Line;
 use compare::{Fit, Range};
 
 /// A row for each picture.
@@ -15,7 +15,7 @@ pub fn pictures(parts: &[(Part, Vec<Line>)], measurements: &[Measurement]) -> St
     for m in measurements {
         let Some((part, lines)) = parts.iter().find(|(part, _)| part.name == m.part) else { continue };
         let Some(line) = lines.iter().find(|line| line.name() == m.line) else { continue };
-        let (device, sampler) = (line.device(), line.way.sampler());
+        let (device, sampler) = (line.device().name(), line.sampler());
         let (reference_rmse, reference_rel_mse) = (m.reference.mse.sqrt(), m.reference.rel_mse);
         for p in &m.pictures {
             text += &format!(
@@ -77,13 +77,12 @@ pub fn summary(parts: &[PartSummary]) -> String {
                 };
                 let both = |bias: Bias| format!("{},{}", test(bias.absolute, worth.mean), test(bias.relative, 1.0));
                 let bias = p.bias_test.map_or(",,,,,".into(), both);
-                let way = curve.line.way;
                 text += &format!(
                     "{},{},{},{},{},{},{ranges},{slopes},{last_slope},{:e},{:e},{:e},{bias},{},{},{},{:e},{reference}\n",
                     field(&part.part.name),
                     field(&curve.line.name()),
-                    curve.line.device(),
-                    way.sampler(),
+                    curve.line.device().name(),
+                    curve.line.sampler(),
                     p.spp,
                     crate::plan::SEEDS,
                     p.efficiency,

@@ -33,20 +33,20 @@ pub fn rectangle(trial: &mut Trial) {
         for estimator in Estimator::EVERY {
             // far off, few of the directions by chance meet the area light
             if estimator.samples_lights() || expected > trial.pick(1.0, 0.1) {
-                trial.path(&quantity, expected, (&tracer, &camera), &direct(estimator));
+                trial.traced(&quantity, expected, (&tracer, &camera), direct(estimator));
             }
         }
         let branching = PathSettings { branches: 4, ..direct(Estimator::MIS) };
-        trial.path(&format!("{quantity}, 4 branches"), expected, (&tracer, &camera), &branching);
+        trial.traced(&format!("{quantity}, 4 branches"), expected, (&tracer, &camera), branching);
         for rays in [1, 4] {
             let quantity = format!("{quantity}, {rays} shadow rays");
-            trial.whitted(&quantity, expected, (&tracer, &camera), &shadow_rays(rays));
+            trial.traced(&quantity, expected, (&tracer, &camera), shadow_rays(rays));
         }
     }
     let mesh = mesh_area_light(scene);
     let (tracer, camera) = (Tracer::new(&mesh), from_above(1.0, 0.0, 0.5));
     for estimator in [Estimator::LIGHT, Estimator::MIS] {
-        trial.path("at (1, 0), the lamp as a mesh", 0.7052169, (&tracer, &camera), &direct(estimator));
+        trial.traced("at (1, 0), the lamp as a mesh", 0.7052169, (&tracer, &camera), direct(estimator));
     }
 }
 
@@ -54,7 +54,7 @@ pub fn rectangle(trial: &mut Trial) {
 pub fn mesh_area_light(scene: Scene) -> Scene {
     with_geometry(scene, |_, geometry| {
         let (positions, triangles) = geometry.flat_triangles();
-        *geometry = Geometry::Mesh { positions, triangles };
+        *geometry = Geometry::mesh(positions.into_owned(), triangles.into_owned());
     })
 }
 
@@ -94,21 +94,21 @@ pub fn edge_on(trial: &mut Trial) {
         let quantity = format!("{d} beside the lamp's plane");
         for estimator in FINDING_AN_EDGE {
             if d == 0.0 {
-                let film = trial.path_film((&tracer, &camera), &direct(estimator), 8, 64);
+                let film = trial.film((&tracer, &camera), direct(estimator), 8, 64);
                 trial.equal(&format!("path {}", estimator.name()), &quantity, 0.0, film.mean()[0], 0.0);
             } else if d == 1e-6 {
                 let subject = format!("path {}", estimator.name());
                 let settings = direct(estimator);
-                let render = crate::measure::paths(&tracer, &camera, &settings);
+                let render = crate::measure::adding(&tracer, &camera, settings);
                 let found = trial.mean_of(expected, 0.002, 20_000, render);
                 let tolerance = 0.01 * expected;
                 trial.equal(&subject, &quantity, expected, found.mean, tolerance);
             } else {
-                trial.path(&quantity, expected, (&tracer, &camera), &direct(estimator));
+                trial.traced(&quantity, expected, (&tracer, &camera), direct(estimator));
             }
         }
         if d > 1e-6 {
-            trial.whitted(&quantity, expected, (&tracer, &camera), &shadow_rays(4));
+            trial.traced(&quantity, expected, (&tracer, &camera), shadow_rays(4));
         }
     }
 }
@@ -138,7 +138,7 @@ pub fn disk(trial: &mut Trial) {
             if alone && height < trial.pick(1.0, 0.1) {
                 continue;
             }
-            let found = trial.path(&quantity, expected, (&tracer, &camera), &direct(estimator));
+            let found = trial.traced(&quantity, expected, (&tracer, &camera), direct(estimator));
             if matches!(estimator, Estimator::MIS | Estimator::UNIFORM_MIS) {
                 let subject = format!("path {}", estimator.name());
                 let quantity = format!("relative variance, height {height}");
@@ -173,10 +173,10 @@ pub fn sphere(trial: &mut Trial) {
         for estimator in Estimator::EVERY {
             let seen_by_chance = (radius / distance).powi(2) > trial.pick(0.2, 0.01);
             if estimator.samples_lights() || seen_by_chance {
-                trial.path(&quantity, expected, (&tracer, &camera), &direct(estimator));
+                trial.traced(&quantity, expected, (&tracer, &camera), direct(estimator));
             }
         }
-        trial.whitted(&quantity, expected, (&tracer, &camera), &shadow_rays(2));
+        trial.traced(&quantity, expected, (&tracer, &camera), shadow_rays(2));
     }
 }
 
@@ -226,7 +226,7 @@ pub fn touching_wall(trial: &mut Trial) {
         let camera = beside_the_wall(x);
         for estimator in Estimator::EVERY {
             if estimator.samples_lights() || factor > 0.1 || trial.full() {
-                trial.path(&format!("at {x} from the edge"), 0.5 * factor, (&tracer, &camera), &direct(estimator));
+                trial.traced(&format!("at {x} from the edge"), 0.5 * factor, (&tracer, &camera), direct(estimator));
             }
         }
     }
@@ -234,9 +234,9 @@ pub fn touching_wall(trial: &mut Trial) {
     let [touching, facing] = SQUARES;
     for estimator in [Estimator::COSINE, Estimator::LIGHT, Estimator::MIS] {
         let settings = direct(estimator);
-        trial.path("mean over the unit square", 0.5 * touching, (&tracer, &over_the_square()), &settings);
-        trial.path("mean, facing squares", 0.5 * facing, (&opposite, &over_the_square()), &settings);
-        let film = trial.path_film((&tracer, &along_the_edge()), &settings, 32, 16);
+        trial.traced("mean over the unit square", 0.5 * touching, (&tracer, &over_the_square()), settings);
+        trial.traced("mean, facing squares", 0.5 * facing, (&opposite, &over_the_square()), settings);
+        let film = trial.film((&tracer, &along_the_edge()), settings, 32, 16);
         let bright = film.pixels().iter().map(|pixel| pixel.mean()[0]).fold(0.0, f64::max);
         trial.at_most(&format!("path {}", estimator.name()), "brightest pixel along the edge", 1.5, bright);
     }

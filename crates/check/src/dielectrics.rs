@@ -141,7 +141,7 @@ pub fn index_one(trial: &mut Trial) {
     // one sample a pixel, in the same place of both pictures
     for estimator in [Estimator::COSINE, Estimator::LIGHT, Estimator::MIS] {
         let settings = PathSettings { estimator, ..without_roulette() };
-        let [a, b] = [&with, &without].map(|tracer| trial.path_film((tracer, &camera), &settings, 128, 1));
+        let [a, b] = [&with, &without].map(|tracer| trial.film((tracer, &camera), settings, 128, 1));
         trial.at_most(&format!("path {}", estimator.name()), "largest difference", 1e-5, apart(&a, &b));
     }
     let mut turned = 0f32;
@@ -151,7 +151,7 @@ pub fn index_one(trial: &mut Trial) {
         turned = turned.max(change);
     }
     trial.at_most("refraction", "largest change of direction at index 1", 1e-6, f64::from(turned));
-    let [a, b] = [&with, &without].map(|tracer| trial.whitted_film((tracer, &camera), &to_depth(16), 128, 1));
+    let [a, b] = [&with, &without].map(|tracer| trial.film((tracer, &camera), to_depth(16), 128, 1));
     trial.at_most("whitted", "largest difference", 1e-5, apart(&a, &b));
 }
 
@@ -225,17 +225,17 @@ pub fn slab(trial: &mut Trial) {
             let camera = off_the_normal(degrees);
             for (tracer, expected, what) in [(&behind, passes, "passes"), (&before, 1.0 - passes, "is reflected")] {
                 let quantity = format!("thickness {thickness}, {degrees} degrees, {what}");
-                let film = trial.whitted_film((tracer, &camera), &to_depth(64), 4, 1);
+                let film = trial.film((tracer, &camera), to_depth(64), 4, 1);
                 trial.equal("whitted", &quantity, expected, farthest(&film, expected), 1e-5);
                 if thickness == 1e-4 || trial.full() {
-                    trial.path(&quantity, expected, (tracer, &camera), &without_roulette());
+                    trial.traced(&quantity, expected, (tracer, &camera), without_roulette());
                 }
             }
         }
         for (degrees, table) in CAPPED {
             let camera = off_the_normal(degrees);
             for (reflections, expected) in REFLECTIONS_OF_CAPPED.into_iter().zip(table) {
-                let film = trial.whitted_film((&behind, &camera), &to_depth(2 + reflections), 4, 1);
+                let film = trial.film((&behind, &camera), to_depth(2 + reflections), 4, 1);
                 let quantity = format!("thickness {thickness}, {degrees} degrees, {reflections} internal reflections");
                 trial.equal("whitted", &quantity, expected, farthest(&film, expected), 1e-5);
             }
@@ -252,7 +252,7 @@ pub const NOWHERE: Ray = Ray { origin: Vec3::NAN, direction: Vec3::NAN, tmax: 0.
 /// A ray that enters glass of index 1.5 and leaves it again, without reflections; it starts where it left.
 fn refracted_through(accel: &Accel, mut ray: Ray) -> Ray {
     for interface in [INTO_GLASS, OUT_OF_GLASS] {
-        let Some(hit) = accel.closest(&ray) else { return NOWHERE };
+        let Some(hit) = accel.first_met(&ray) else { return NOWHERE };
         let wo = -ray.direction;
         let normal = if interface.entering { hit.point.normal } else { -hit.point.normal };
         let wi = interface.refract(wo, normal).unwrap_or(Vec3::NAN).normalize();
@@ -330,7 +330,7 @@ pub fn furnace(trial: &mut Trial) {
         let scene = known(name);
         let seen = (&Tracer::new(&scene), &scene.camera);
         for sampler in SamplerKind::ALL {
-            let film = trial.path_film(seen, &PathSettings { sampler, ..without_roulette() }, 64, 16);
+            let film = trial.film(seen, PathSettings { sampler, ..without_roulette() }, 64, 16);
             let quantity = format!("every pixel, {name}, {}", sampler.name());
             trial.equal("path light", &quantity, 1.0, farthest(&film, 1.0), 1e-5);
         }
@@ -339,11 +339,11 @@ pub fn furnace(trial: &mut Trial) {
     for b in BESIDE_THE_AXIS {
         for reflections in REFLECTIONS {
             let expected = after(reflections, b);
-            let film = trial.whitted_film((&tracer, &beside_the_axis(b)), &to_depth(2 + reflections), 4, 1);
+            let film = trial.film((&tracer, &beside_the_axis(b)), to_depth(2 + reflections), 4, 1);
             let quantity = format!("b = {b}, {reflections} internal reflections");
             trial.equal("whitted", &quantity, expected, farthest(&film, expected), 1e-5);
             let capped = PathSettings { bounces: Some(1 + reflections), ..without_roulette() };
-            trial.path(&quantity, expected, (&tracer, &beside_the_axis(b)), &capped);
+            trial.traced(&quantity, expected, (&tracer, &beside_the_axis(b)), capped);
         }
     }
 }
@@ -352,9 +352,9 @@ pub fn camera_inside(trial: &mut Trial) {
     let scene = known("camera-inside-glass");
     let seen = (&Tracer::new(&scene), &scene.camera);
     for roulette in [Roulette::OFF, Roulette::THROUGHPUT] {
-        let film = trial.path_film(seen, &PathSettings { roulette, ..independent() }, 32, 16);
+        let film = trial.film(seen, PathSettings { roulette, ..independent() }, 32, 16);
         trial.equal("path light", "every pixel", 1.0, farthest(&film, 1.0), 1e-5);
     }
-    let film = trial.whitted_film(seen, &to_depth(64), 32, 1);
+    let film = trial.film(seen, to_depth(64), 32, 1);
     trial.equal("whitted", "every pixel", 1.0, farthest(&film, 1.0), 1e-5);
 }

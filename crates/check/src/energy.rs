@@ -1,7 +1,7 @@
 //! Closed scenes that keep all their light.
 
 use crate::hard::{known, spot, with_geometry};
-use crate::measure::{Trial, farthest, independent, paths};
+use crate::measure::{Trial, adding, farthest, independent};
 use pathtrace::{Estimator, PathSettings, Roulette, Tracer, WhittedSettings};
 use scene::{Bsdf, Camera, Conductor, Geometry, Scene, Shape, Texture, Vec3};
 use std::f32::consts::PI;
@@ -38,26 +38,26 @@ pub fn white_furnace(trial: &mut Trial) {
     let metal = rough_metal();
     for estimator in [Estimator::UNIFORM, Estimator::COSINE, Estimator::MIS] {
         let seen = (&Tracer::new(&metal), &metal.camera);
-        trial.path("rough metal, alpha 1", ROUGH_METAL, seen, &with(estimator, None, Roulette::OFF));
+        trial.traced("rough metal, alpha 1", ROUGH_METAL, seen, with(estimator, None, Roulette::OFF));
     }
     let scene = known("white-furnace");
     let seen = (&Tracer::new(&scene), &scene.camera);
     for estimator in [Estimator::COSINE, Estimator::LIGHT, Estimator::MIS] {
-        let film = trial.path_film(seen, &with(estimator, None, Roulette::THROUGHPUT), 32, 16);
+        let film = trial.film(seen, with(estimator, None, Roulette::THROUGHPUT), 32, 16);
         let subject = format!("path {}", estimator.name());
         trial.equal(&subject, "every pixel, no variance at all", 1.0, farthest(&film, 1.0), 1e-5);
     }
-    trial.path("mean, roulette .9", 1.0, seen, &with(Estimator::COSINE, None, Roulette::constant(0.9)));
+    trial.traced("mean, roulette .9", 1.0, seen, with(Estimator::COSINE, None, Roulette::constant(0.9)));
     let both = Roulette { probability: Some(0.9), throughput: true };
-    trial.path("mean, roulette .9 and throughput", 1.0, seen, &with(Estimator::COSINE, None, both));
+    trial.traced("mean, roulette .9 and throughput", 1.0, seen, with(Estimator::COSINE, None, both));
     let branching = PathSettings { branches: 3, ..with(Estimator::COSINE, Some(3), Roulette::OFF) };
     let one = with(Estimator::COSINE, Some(3), Roulette::OFF);
-    let straight = trial.mean_of(1.0, 0.002, 10_000, paths(seen.0, seen.1, &one));
-    trial.path("3 branches against 1, 3 bounces", straight.mean, seen, &branching);
+    let straight = trial.mean_of(1.0, 0.002, 10_000, adding(seen.0, seen.1, one));
+    trial.traced("3 branches against 1, 3 bounces", straight.mean, seen, branching);
     for (scatterings, lost) in LOST {
         let settings = with(Estimator::COSINE, Some(scatterings - 1), Roulette::OFF);
         let power = trial.pick(0.001, 0.0003) / (1.0 - lost);
-        let found = trial.mean_of(1.0 - lost, power, 20_000, paths(seen.0, &floor_centre(), &settings));
+        let found = trial.mean_of(1.0 - lost, power, 20_000, adding(seen.0, &floor_centre(), settings));
         let quantity = format!("floor centre after {scatterings} scatterings");
         trial.equal("path cosine", &quantity, 1.0 - lost, found.mean, 0.001 + 4.0 * found.standard_error);
     }
@@ -110,21 +110,21 @@ pub fn closed_box(trial: &mut Trial) {
                 let settings = with(estimator, None, roulette);
                 let power = power_between_walls(trial, share);
                 let subject = format!("path {}", estimator.name());
-                trial.monte_carlo_to(power, &subject, &quantity, 1.0, paths(seen.0, seen.1, &settings));
+                trial.monte_carlo_to(power, &subject, &quantity, 1.0, adding(seen.0, seen.1, settings));
             }
         }
         let mirrors = shining(known("mirror-box"), share, emission);
         let reflected = (&Tracer::new(&mirrors), &mirrors.camera);
         let quantity = format!("mean, mirrors of {share}");
-        trial.path(&quantity, 1.0, reflected, &with(Estimator::LIGHT, None, Roulette::THROUGHPUT));
+        trial.traced(&quantity, 1.0, reflected, with(Estimator::LIGHT, None, Roulette::THROUGHPUT));
         for scatterings in [1u32, 4, 8, 16, 64] {
             let expected = after(scatterings, (share, emission));
             let quantity = format!("every pixel, {share}, {scatterings} scatterings");
             let settings = with(Estimator::COSINE, Some(scatterings - 1), Roulette::OFF);
-            let film = trial.path_film(seen, &settings, 8, 4);
+            let film = trial.film(seen, settings, 8, 4);
             trial.equal("path cosine", &quantity, expected, farthest(&film, expected), 1e-5);
             let settings = WhittedSettings { depth: scatterings, ambient: Some(0.0), ..WhittedSettings::default() };
-            let film = trial.whitted_film(reflected, &settings, 8, 4);
+            let film = trial.film(reflected, settings, 8, 4);
             trial.equal("whitted", &format!("{quantity}, mirrors"), expected, farthest(&film, expected), 1e-5);
         }
     }
@@ -159,11 +159,11 @@ pub fn point_light(trial: &mut Trial) {
                 continue;
             }
             let quantity = format!("mean, radius {radius}, albedo {albedo}");
-            trial.path(&quantity, 1.0, seen, &with(estimator, None, Roulette::THROUGHPUT));
+            trial.traced(&quantity, 1.0, seen, with(estimator, None, Roulette::THROUGHPUT));
         }
         let direct = direct_part(sphere);
         let settings = WhittedSettings { ambient: Some(0.0), ..WhittedSettings::default() };
-        let film = trial.whitted_film(seen, &settings, 16, 4);
+        let film = trial.film(seen, settings, 16, 4);
         let quantity = format!("every pixel, direct, radius {radius}, albedo {albedo}");
         trial.equal("whitted", &quantity, direct, farthest(&film, direct), 1e-5);
     }

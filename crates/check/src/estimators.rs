@@ -2,7 +2,7 @@
 
 use crate::area_lights::{RECTANGLE, direct, from_above};
 use crate::hard::known;
-use crate::measure::{Trial, paths};
+use crate::measure::{Trial, adding};
 use film::Film;
 use pathtrace::{Estimator, PathSettings, SamplerKind, Tracer, estimate_with_replicates};
 use scene::Camera;
@@ -26,7 +26,7 @@ pub fn three_of_one(trial: &mut Trial) {
     let seen = (&tracer, &camera);
     for (estimator, variance) in VARIANCES {
         let settings = direct(estimator);
-        trial.path("mean", expected, seen, &settings);
+        trial.traced("mean", expected, seen, settings);
         let mut film = Film::new(64, 64);
         tracer.render(&mut film, &camera, &settings.into(), trial.pick(128, 1024), &|| trial.stopped());
         trial.count_nonfinite(&film);
@@ -98,7 +98,7 @@ fn replicates(trial: &mut Trial, tracer: &Tracer, expected: f64) {
     let stop = trial.stop_flag();
     let independent = |seed: u32| {
         let mut film = Film::new(32, 32);
-        paths(tracer, &camera, &settings)(&mut film, seed + 1, 64, stop);
+        adding(tracer, &camera, settings)(&mut film, seed + 1, 64, stop);
         film
     };
     let ratio = told_and_true(independent, 32);
@@ -114,7 +114,7 @@ fn replicates(trial: &mut Trial, tracer: &Tracer, expected: f64) {
     trial.equal("path light", "mean, Sobol replicates", expected, mean, 0.005 * expected);
     let alone = |seed: u32| {
         let mut film = Film::new(16, 16);
-        paths(tracer, &camera, &sobol)(&mut film, seed + 1, 64, stop);
+        adding(tracer, &camera, sobol)(&mut film, seed + 1, 64, stop);
         film
     };
     trial.information("film", "standard error over spread, Sobol without replicates", 1.0, told_and_true(alone, 16));

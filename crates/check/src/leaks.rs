@@ -112,7 +112,7 @@ pub fn light_tight_box(trial: &mut Trial) {
     let side = 64;
     let settings = PathSettings { estimator: Estimator::COSINE, ..independent() };
     for (name, scene, camera) in tight_boxes() {
-        let film = trial.path_film((&Tracer::new(&scene), &camera), &settings, side, rays / (side * side));
+        let film = trial.film((&Tracer::new(&scene), &camera), settings, side, rays / (side * side));
         trial.equal("path cosine", &format!("brightest pixel{name}"), 0.0, brightest(&film), 0.0);
     }
 }

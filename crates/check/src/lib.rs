@@ -29,4 +29,4 @@ mod warps;
 pub use case::{CASES, Case, run};
 pub use measure::{Effort, Trial};
 pub use on_gpu::run_on_gpu;
-pub use row::{Device, Relation, Row, Verdict};
+pub use row::{Relation, Row, Verdict};

@@ -1,11 +1,12 @@
 //! Measuring: exact comparisons, bounds, and means of independently seeded pictures.
 
-use crate::row::{Device, Relation, Row, Verdict};
+use crate::row::{Relation, Row, Verdict};
 use film::Film;
-use pathtrace::{PathSettings, SamplerKind, Tracer, WhittedSettings};
+use pathtrace::{Integrator, PathSettings, SamplerKind, Tracer};
 use rayon::prelude::*;
 use scene::Camera;
 use std::sync::atomic::{AtomicBool, Ordering};
+use technique::Device;
 
 /// How thoroughly to look.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -192,27 +193,16 @@ impl<'a> Trial<'a> {
         }
     }
 
-    /// A Monte Carlo row of a path traced picture.
-    pub fn path(
+    /// A Monte Carlo row of a traced picture.
+    pub fn traced(
         &mut self,
         quantity: &str,
         expected: f64,
         (tracer, camera): (&Tracer, &Camera),
-        settings: &PathSettings,
+        integrator: impl Into<Integrator>,
     ) -> Mean {
-        let subject = format!("path {}", settings.estimator.name());
-        self.monte_carlo_to(self.power(), &subject, quantity, expected, paths(tracer, camera, settings))
-    }
-
-    /// A Monte Carlo row of a picture by Whitted's method.
-    pub fn whitted(
-        &mut self,
-        quantity: &str,
-        expected: f64,
-        (tracer, camera): (&Tracer, &Camera),
-        settings: &WhittedSettings,
-    ) {
-        self.monte_carlo_to(self.power(), "whitted", quantity, expected, whitted_trees(tracer, camera, settings));
+        let integrator = integrator.into();
+        self.monte_carlo_to(self.power(), &subject(integrator), quantity, expected, adding(tracer, camera, integrator))
     }
 
     /// Counts samples that were not finite.
@@ -220,30 +210,16 @@ impl<'a> Trial<'a> {
         self.nonfinite += film.nonfinite;
     }
 
-    /// A path traced picture of `size` pixels a side, its dropped samples counted.
-    pub fn path_film(
+    /// A picture of `size` pixels a side, its dropped samples counted.
+    pub fn film(
         &mut self,
         (tracer, camera): (&Tracer, &Camera),
-        settings: &PathSettings,
+        integrator: impl Into<Integrator>,
         size: u32,
         samples: u32,
     ) -> Film {
         let mut film = Film::new(size, size);
-        tracer.render(&mut film, camera, &(*settings).into(), samples, &|| self.stopped());
-        self.count_nonfinite(&film);
-        film
-    }
-
-    /// As [`Trial::path_film`], by Whitted's method.
-    pub fn whitted_film(
-        &mut self,
-        (tracer, camera): (&Tracer, &Camera),
-        settings: &WhittedSettings,
-        size: u32,
-        samples: u32,
-    ) -> Film {
-        let mut film = Film::new(size, size);
-        tracer.render(&mut film, camera, &(*settings).into(), samples, &|| self.stopped());
+        tracer.render(&mut film, camera, &integrator.into(), samples, &|| self.stopped());
         self.count_nonfinite(&film);
         film
     }
@@ -254,27 +230,24 @@ pub fn independent() -> PathSettings {
     PathSettings { sampler: SamplerKind::Independent, ..PathSettings::default() }
 }
 
-/// What adds path traced samples to a film, given a seed and their number; it can be stopped.
-pub fn paths<'a>(
+/// What adds samples to a film, given a seed and their number; it can be stopped.
+pub fn adding<'a>(
     tracer: &'a Tracer,
     camera: &'a Camera,
-    settings: &'a PathSettings,
+    integrator: impl Into<Integrator>,
 ) -> impl Fn(&mut Film, u32, u32, &AtomicBool) + Sync + 'a {
-    |film, seed, samples, stop| {
+    let integrator = integrator.into();
+    move |film, seed, samples, stop| {
         let stop = || stop.load(Ordering::Relaxed);
-        tracer.render(film, camera, &PathSettings { seed, ..*settings }.into(), samples, &stop);
+        tracer.render(film, camera, &integrator.with_seed(seed), samples, &stop);
     }
 }
 
-/// As [`paths`], by Whitted's method.
-pub fn whitted_trees<'a>(
-    tracer: &'a Tracer,
-    camera: &'a Camera,
-    settings: &'a WhittedSettings,
-) -> impl Fn(&mut Film, u32, u32, &AtomicBool) + Sync + 'a {
-    |film, seed, samples, stop| {
-        let stop = || stop.load(Ordering::Relaxed);
-        tracer.render(film, camera, &WhittedSettings { seed, ..*settings }.into(), samples, &stop);
+/// What a row calls an integrator: "path mis", "whitted".
+pub fn subject(integrator: impl Into<Integrator>) -> String {
+    match integrator.into() {
+        Integrator::Path(settings) => format!("path {}", settings.estimator.name()),
+        other => other.name().into(),
     }
 }
 

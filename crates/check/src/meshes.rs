@@ -100,7 +100,7 @@ impl Mesh {
     /// A black scene of this mesh under a glaring sky.
     pub fn scene(self) -> Scene {
         with_geometry(known("light-tight-box"), |_, geometry| {
-            *geometry = Geometry::Mesh { positions: self.positions.clone(), triangles: self.triangles.clone() };
+            *geometry = Geometry::mesh(self.positions.clone(), self.triangles.clone());
         })
     }
 

@@ -39,7 +39,7 @@ pub fn self_intersection(trial: &mut Trial) {
             let from = any_direction([u, v]);
             let origin = center + from * (size * distance);
             let aim = center + sampling::to_world(sampling::disk([w, x]) * (0.95 * size), from);
-            let Some(hit) = tracer.accel().closest(&Ray::new(origin, (aim - origin).normalize())) else { continue };
+            let Some(hit) = tracer.accel().first_met(&Ray::new(origin, (aim - origin).normalize())) else { continue };
             hits += 1;
             let [u, v, w, x] = sampler.unit4(1);
             // outwards: a convex shape is met by no such ray (its facets are flat: stay off the horizon)
@@ -50,7 +50,7 @@ pub fn self_intersection(trial: &mut Trial) {
             farthest = farthest.max(moved(start, hit.point.position));
             let inside = -sampling::to_world(sampling::cosine_hemisphere([w, x]), normal);
             let ray = Ray::new(hit.point.leaving_towards(inside), inside);
-            match tracer.accel().closest(&ray) {
+            match tracer.accel().first_met(&ray) {
                 None => lost += 1,
                 Some(far) => {
                     let same_plane = far.point.normal == normal;

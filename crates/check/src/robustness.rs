@@ -22,7 +22,10 @@ pub fn placed(mut scene: Scene, camera: Camera, scale: f32, shift: f32) -> (Scen
                 (*corner, *edge_u, *edge_v) = (point(*corner), *edge_u * scale, *edge_v * scale);
             }
             Geometry::Box { corner, size, .. } => (*corner, *size) = (point(*corner), *size * scale),
-            Geometry::Mesh { positions, .. } => positions.iter_mut().for_each(|p| *p = point(*p)),
+            Geometry::Mesh(mesh) => {
+                let positions = mesh.positions().iter().map(|p| point(*p)).collect();
+                shape.geometry = Geometry::mesh(positions, mesh.triangles().to_vec());
+            }
         }
     }
     scene.shapes = shapes.into();
@@ -95,8 +98,8 @@ pub fn invariance(trial: &mut Trial) {
             let (scene, camera) = placed(invariant.scene.clone(), invariant.camera, scale, shift);
             let seen = (&Tracer::new(&scene), &camera);
             let film = match &invariant.trees {
-                Some(trees) => trial.whitted_film(seen, trees, 8, 4),
-                None => trial.path_film(seen, &invariant.settings, 32, trial.pick(64, 512)),
+                Some(trees) => trial.film(seen, *trees, 8, 4),
+                None => trial.film(seen, invariant.settings, 32, trial.pick(64, 512)),
             };
             film.mean()[0]
         });
@@ -172,7 +175,7 @@ pub fn under_slivers() -> (Scene, Camera, f64) {
         triangles.push([first, first + 1, first + 2]);
     }
     scene.materials[0].bsdf = Bsdf::Diffuse { albedo: Texture::Constant(Vec3::splat(0.5)) };
-    let thin = Shape { geometry: Geometry::Mesh { positions, triangles }, material: 0 };
+    let thin = Shape { geometry: Geometry::mesh(positions, triangles), material: 0 };
     scene.shapes = scene.shapes.iter().cloned().chain([thin]).collect();
     let (x, y, expected) = RECTANGLE[2];
     (scene, spot(Vec3::new(x + 0.3, y, 0.1), Vec3::new(x, y, 0.0)), expected)
@@ -183,6 +186,6 @@ fn slivers(trial: &mut Trial) {
     let tracer = Tracer::new(&scene);
     for estimator in [Estimator::LIGHT, Estimator::MIS] {
         let settings = direct(estimator);
-        trial.path("under slivers 1e-6 wide", expected, (&tracer, &camera), &settings);
+        trial.traced("under slivers 1e-6 wide", expected, (&tracer, &camera), settings);
     }
 }

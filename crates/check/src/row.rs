@@ -1,25 +1,7 @@
 //! What one comparison of measured with expected says.
 
 use std::fmt;
-
-/// Where the measured technique ran.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum Device {
-    /// The processor.
-    Cpu,
-    /// A graphics device, or a processor that plays one.
-    Gpu,
-}
-
-impl Device {
-    /// The name on the command line.
-    pub fn name(self) -> &'static str {
-        match self {
-            Device::Cpu => "cpu",
-            Device::Gpu => "gpu",
-        }
-    }
-}
+use technique::Device;
 
 /// How measured and expected must lie.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]

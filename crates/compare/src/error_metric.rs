@@ -1,12 +1,11 @@
 //! Errors pixel by pixel, as numbers: what a difference image colours.
 
-use crate::flip::{PIXELS_PER_DEGREE, flip_of_rgba8};
-use crate::metrics::{same_pixels, same_size};
+use crate::flip::{PIXELS_PER_DEGREE, flip};
+use crate::metrics::same_size;
 use crate::{CompareError, Errors};
-use film::DisplayTransform;
-use film::{Film, Vec3};
+use film::{DisplayTransform, Image, Vec3};
 
-/// What a map says of each pixel of a film `a` against a reference `r`; d is `a - r` in radiance, and the three
+/// What a map says of each pixel of a picture `a` against a reference `r`; d is `a - r` in radiance, and the three
 /// channels are averaged.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum ErrorMetric {
@@ -69,34 +68,18 @@ impl ErrorMetric {
         label.replace('\0', reference)
     }
 
-    /// The map of a film against a reference, rows from the top; NaN where either is not finite. `display` matters to
-    /// [`ErrorMetric::Flip`] alone.
+    /// The map of a picture against a reference, rows from the top; NaN where either is not finite. `display` matters
+    /// to [`ErrorMetric::Flip`] alone.
     ///
     /// # Errors
     /// [`CompareError::Sizes`] if they do not have the same pixels.
-    pub fn of(self, film: &Film, reference: &Film, display: &DisplayTransform) -> Result<Vec<f32>, CompareError> {
-        same_size(film, reference)?;
-        let radiances = |film: &Film| film.radiances().collect::<Vec<_>>();
-        self.of_radiances(&radiances(film), &radiances(reference), film.width(), display)
-    }
-
-    /// The same over bare radiances in rows of `width`.
-    ///
-    /// # Errors
-    /// [`CompareError::Pixels`] if the two do not have the same pixels in whole rows.
-    pub fn of_radiances(
-        self,
-        film: &[Vec3],
-        reference: &[Vec3],
-        width: u32,
-        display: &DisplayTransform,
-    ) -> Result<Vec<f32>, CompareError> {
-        same_pixels(film, reference, width)?;
-        let pairs = film.iter().copied().zip(reference.iter().copied());
-        let finite = |a: Vec3, r: Vec3| a.is_finite() && r.is_finite();
+    pub fn of(self, image: &Image, reference: &Image, display: &DisplayTransform) -> Result<Vec<f32>, CompareError> {
+        same_size(image.size(), reference.size())?;
+        let pairs = image.radiances().iter().zip(reference.radiances());
+        let finite = |a: &Vec3, r: &Vec3| a.is_finite() && r.is_finite();
         if self == ErrorMetric::Flip {
-            let shown = |radiances: &[Vec3]| display.to_rgba8(radiances.iter().copied());
-            let mut values = flip_of_rgba8(&shown(film), &shown(reference), width, PIXELS_PER_DEGREE)?;
+            let shown = [image, reference].map(|image| display.code_values_of(image));
+            let mut values = flip(&shown[0], &shown[1], PIXELS_PER_DEGREE)?;
             for (value, (a, r)) in values.iter_mut().zip(pairs) {
                 if !finite(a, r) {
                     *value = f32::NAN;
@@ -104,7 +87,7 @@ impl ErrorMetric {
             }
             return Ok(values);
         }
-        Ok(pairs.map(|(a, r)| if finite(a, r) { self.of_pixel(a, r) } else { f32::NAN }).collect())
+        Ok(pairs.map(|(a, r)| if finite(a, r) { self.of_pixel(*a, *r) } else { f32::NAN }).collect())
     }
 
     fn of_pixel(self, a: Vec3, r: Vec3) -> f32 {
@@ -139,13 +122,18 @@ pub fn finite_mean(values: &[f32]) -> (f64, u64) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::errors_of_radiances;
+    use crate::errors;
+    use film::Film;
 
     const REFERENCE: [Vec3; 4] = [Vec3::ZERO, Vec3::ONE, Vec3::new(0.0, 1.0, 2.0), Vec3::ONE];
     const FILM: [Vec3; 4] = [Vec3::splat(0.5), Vec3::splat(0.25), Vec3::new(0.0, 1.0, 5.0), Vec3::ONE];
 
-    fn map(map: ErrorMetric, film: &[Vec3]) -> Vec<f32> {
-        map.of_radiances(film, &REFERENCE, 2, &DisplayTransform::default()).unwrap()
+    fn image(radiances: [Vec3; 4]) -> Image {
+        Image::new(2, 2, radiances).unwrap()
+    }
+
+    fn map(map: ErrorMetric, film: [Vec3; 4]) -> Vec<f32> {
+        map.of(&image(film), &image(REFERENCE), &DisplayTransform::default()).unwrap()
     }
 
     #[test]
@@ -153,16 +141,16 @@ mod tests {
         let near = |measured: Vec<f32>, expected: [f32; 4]| {
             assert!(measured.iter().zip(expected).all(|(m, e)| (m - e).abs() < 1e-5), "{measured:?} {expected:?}");
         };
-        near(map(ErrorMetric::Signed, &FILM), [0.5, -0.75, 1.0, 0.0]);
-        near(map(ErrorMetric::Absolute, &FILM), [0.5, 0.75, 1.0, 0.0]);
-        near(map(ErrorMetric::Relative, &FILM), [50.0, 0.75 / 1.01, 3.0 / 2.01 / 3.0, 0.0]);
-        near(map(ErrorMetric::SquaredRelative, &FILM), [25.0, 0.5625 / 1.01, 9.0 / 4.01 / 3.0, 0.0]);
+        near(map(ErrorMetric::Signed, FILM), [0.5, -0.75, 1.0, 0.0]);
+        near(map(ErrorMetric::Absolute, FILM), [0.5, 0.75, 1.0, 0.0]);
+        near(map(ErrorMetric::Relative, FILM), [50.0, 0.75 / 1.01, 3.0 / 2.01 / 3.0, 0.0]);
+        near(map(ErrorMetric::SquaredRelative, FILM), [25.0, 0.5625 / 1.01, 9.0 / 4.01 / 3.0, 0.0]);
     }
 
     #[test]
     fn the_mean_of_a_map_is_its_figure() {
-        let errors = errors_of_radiances(&FILM, &REFERENCE);
-        let figures = ErrorMetric::ALL.map(|m| m.mean_in(&errors).map(|e| (finite_mean(&map(m, &FILM)).0, e)));
+        let errors = errors(&image(FILM), &image(REFERENCE)).unwrap();
+        let figures = ErrorMetric::ALL.map(|m| m.mean_in(&errors).map(|e| (finite_mean(&map(m, FILM)).0, e)));
         assert_eq!(figures.iter().flatten().count(), 3);
         assert!(figures.iter().flatten().all(|(mean, figure)| (mean - figure).abs() < 1e-6), "{figures:?}");
     }
@@ -172,7 +160,7 @@ mod tests {
         let mut broken = FILM;
         broken[1].z = f32::NEG_INFINITY;
         for kind in ErrorMetric::ALL {
-            let values = map(kind, &broken);
+            let values = map(kind, broken);
             assert!(values[1].is_nan() && values.iter().filter(|v| v.is_nan()).count() == 1, "{kind:?}");
             let (mean, nonfinite) = finite_mean(&values);
             assert!(mean.is_finite() && nonfinite == 1);
@@ -183,7 +171,7 @@ mod tests {
     fn flip_sees_what_the_exposure_shows() {
         let flip = |exposure| {
             let display = DisplayTransform { exposure };
-            finite_mean(&ErrorMetric::Flip.of_radiances(&FILM, &REFERENCE, 2, &display).unwrap()).0
+            finite_mean(&ErrorMetric::Flip.of(&image(FILM), &image(REFERENCE), &display).unwrap()).0
         };
         assert!(flip(0.0) > 0.1 && flip(-20.0) == 0.0);
     }
@@ -196,8 +184,9 @@ mod tests {
     }
 
     #[test]
-    fn films_must_be_of_one_size() {
-        let of = |w, h| ErrorMetric::Absolute.of(&Film::new(w, h), &Film::new(2, 2), &DisplayTransform::default());
+    fn pictures_must_be_of_one_size() {
+        let black = |width, height| Film::new(width, height).image();
+        let of = |w, h| ErrorMetric::Absolute.of(&black(w, h), &black(2, 2), &DisplayTransform::default());
         assert_eq!(of(4, 1), Err(CompareError::Sizes(4, 1, 2, 2)));
         assert_eq!(of(2, 2), Ok(vec![0.0; 4]));
     }

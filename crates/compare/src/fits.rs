@@ -79,7 +79,8 @@ pub fn split_error(films: &[&Film], reference: &Film, reference_noise: f64) -> R
     if films.len() < 2 {
         return Err(CompareError::Films(films.len()));
     }
-    films.iter().try_for_each(|film| same_size(film, reference))?;
+    let size = |film: &Film| (film.width(), film.height());
+    films.iter().try_for_each(|film| same_size(size(film), size(reference)))?;
     let k = films.len() as f64;
     let (mut mse, mut variance, mut bias, mut bias_of_squares) = (0.0, 0.0, 0.0, 0.0);
     let (mut pixels, mut nonfinite) = (0u64, 0);

@@ -14,5 +14,5 @@ pub use colour_map::{ColourMap, HATCH, hatched};
 pub use colour_scale::{ColourScale, Tick};
 pub use error_metric::{ErrorMetric, finite_mean};
 pub use fits::{ErrorSplit, Fit, efficiency, fit, split_error};
-pub use metrics::{CompareError, Errors, REL_MSE_FLOOR, errors, errors_of_radiances, mean_squared_standard_error};
+pub use metrics::{CompareError, Errors, REL_MSE_FLOOR, errors, mean_squared_standard_error};
 pub use plot::{COLOURS, LogLogPlot, PlotPoint, Range, Series, Stroke, escaped};

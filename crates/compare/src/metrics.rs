@@ -1,23 +1,13 @@
-//! Error metrics between two films.
+//! Error metrics between two pictures.
 
-use film::{Film, Vec3};
+use film::{Film, Image};
 
-/// Why two films cannot be compared.
+/// Why pictures cannot be compared.
 #[derive(Debug, thiserror::Error, PartialEq, Eq)]
 pub enum CompareError {
     /// They do not have the same pixels.
     #[error("the pictures differ in size: {0}x{1} against {2}x{3}; render both at one --size")]
     Sizes(u32, u32, u32, u32),
-    /// Bare pixels that are not whole rows of one picture each.
-    #[error("{film} and {reference} pixels are not two pictures of rows of {width}")]
-    Pixels {
-        /// Pixels of the one.
-        film: usize,
-        /// Pixels of the other.
-        reference: usize,
-        /// Pixels a row.
-        width: u32,
-    },
     /// Noise cannot be told from bias by fewer than two films.
     #[error("{0} films do not show noise: it takes two or more of independent seeds")]
     Films(usize),
@@ -39,8 +29,8 @@ pub struct Errors {
     pub bias: f64,
     /// [`Errors::bias`] as a share of the reference's mean; 0 if that is black.
     pub relative_bias: f64,
-    /// Pixels with a channel that is not finite in either, left out of every mean; and samples that the films
-    /// themselves had left out. Anything but 0 means that something is broken.
+    /// Pixels with a channel that is not finite in either, left out of every mean. Anything but 0 means that something
+    /// is broken.
     pub nonfinite: u64,
     /// The reference's own mean squared error, in radiance squared, if [`Errors::with_reference_noise`] told it.
     pub reference_noise: Option<f64>,
@@ -76,54 +66,21 @@ impl Errors {
     }
 }
 
-/// Measures `film` against `reference`.
+/// Measures `image` against `reference`.
 ///
 /// # Errors
 /// [`CompareError::Sizes`] if they do not have the same pixels.
-pub fn errors(film: &Film, reference: &Film) -> Result<Errors, CompareError> {
-    same_size(film, reference)?;
-    let pairs = film.pixels().iter().zip(reference.pixels());
-    let found = errors_of(pairs.map(|(pixel, reference)| (pixel.mean(), reference.mean())));
-    Ok(Errors { nonfinite: found.nonfinite + film.nonfinite + reference.nonfinite, ..found })
-}
-
-/// The same over bare radiances, pixel by pixel in one order; pixels that only one of them has are left out.
-pub fn errors_of_radiances(film: &[Vec3], reference: &[Vec3]) -> Errors {
-    let wide = |radiance: &Vec3| radiance.to_array().map(f64::from);
-    errors_of(film.iter().zip(reference).map(|(pixel, reference)| (wide(pixel), wide(reference))))
-}
-
-/// Mean over pixels and channels of the squared standard error of a film's pixels, in radiance squared: what its noise
-/// adds to a mean squared error against it. As little to be trusted as [`Film::standard_error`].
-pub fn mean_squared_standard_error(film: &Film) -> f64 {
-    let sum: f64 = film.pixels().iter().flat_map(|pixel| pixel.variance_of_mean()).sum();
-    sum / (3 * film.pixels().len()).max(1) as f64
-}
-
-pub(crate) fn same_size(film: &Film, reference: &Film) -> Result<(), CompareError> {
-    if (film.width(), film.height()) != (reference.width(), reference.height()) {
-        return Err(CompareError::Sizes(film.width(), film.height(), reference.width(), reference.height()));
-    }
-    Ok(())
-}
-
-pub(crate) fn same_pixels(film: &[Vec3], reference: &[Vec3], width: u32) -> Result<(), CompareError> {
-    let whole_rows = film.is_empty() || film.len().checked_rem(width as usize) == Some(0);
-    if film.len() != reference.len() || !whole_rows {
-        return Err(CompareError::Pixels { film: film.len(), reference: reference.len(), width });
-    }
-    Ok(())
-}
-
-fn errors_of(pairs: impl Iterator<Item = ([f64; 3], [f64; 3])>) -> Errors {
+pub fn errors(image: &Image, reference: &Image) -> Result<Errors, CompareError> {
+    same_size(image.size(), reference.size())?;
     let mut sum = Errors::default();
     let (mut reference_sum, mut values) = (0.0, 0u64);
-    for (pixel, reference) in pairs {
-        if !pixel.iter().chain(&reference).all(|v| v.is_finite()) {
+    for (pixel, reference) in image.radiances().iter().zip(reference.radiances()) {
+        if !pixel.is_finite() || !reference.is_finite() {
             sum.nonfinite += 1;
             continue;
         }
-        for (value, reference) in pixel.into_iter().zip(reference) {
+        for (value, reference) in pixel.to_array().into_iter().zip(reference.to_array()) {
+            let (value, reference) = (f64::from(value), f64::from(reference));
             let difference = value - reference;
             sum.rmse += difference * difference;
             sum.rel_mse += difference * difference / (reference * reference + REL_MSE_FLOOR);
@@ -134,7 +91,7 @@ fn errors_of(pairs: impl Iterator<Item = ([f64; 3], [f64; 3])>) -> Errors {
         }
     }
     let values = values.max(1) as f64;
-    Errors {
+    Ok(Errors {
         rmse: (sum.rmse / values).sqrt(),
         rel_mse: sum.rel_mse / values,
         mae: sum.mae / values,
@@ -142,26 +99,45 @@ fn errors_of(pairs: impl Iterator<Item = ([f64; 3], [f64; 3])>) -> Errors {
         relative_bias: if reference_sum > 0.0 { sum.bias / reference_sum } else { 0.0 },
         nonfinite: sum.nonfinite,
         reference_noise: None,
+    })
+}
+
+/// Mean over pixels and channels of the squared standard error of a film's pixels, in radiance squared: what its noise
+/// adds to a mean squared error against it. As little to be trusted as [`Film::standard_error`].
+pub fn mean_squared_standard_error(film: &Film) -> f64 {
+    let sum: f64 = film.pixels().iter().flat_map(|pixel| pixel.variance_of_mean()).sum();
+    sum / (3 * film.pixels().len()).max(1) as f64
+}
+
+pub(crate) fn same_size(picture: (u32, u32), reference: (u32, u32)) -> Result<(), CompareError> {
+    if picture != reference {
+        return Err(CompareError::Sizes(picture.0, picture.1, reference.0, reference.1));
     }
+    Ok(())
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use film::Vec3;
 
-    fn film(values: [f32; 2]) -> Film {
-        Film::from_radiances(2, 1, values.map(Vec3::splat)).unwrap()
+    fn row(radiances: &[Vec3]) -> Image {
+        Image::new(radiances.len() as u32, 1, radiances).unwrap()
+    }
+
+    fn greys(values: [f32; 2]) -> Image {
+        row(&values.map(Vec3::splat))
     }
 
     #[test]
-    fn a_film_equals_itself() {
-        let f = film([0.3, 7.0]);
+    fn a_picture_equals_itself() {
+        let f = greys([0.3, 7.0]);
         assert_eq!(errors(&f, &f).unwrap(), Errors::default());
     }
 
     #[test]
     fn known_differences_give_their_closed_forms() {
-        let e = errors(&film([1.5, 0.0]), &film([1.0, 1.0])).unwrap();
+        let e = errors(&greys([1.5, 0.0]), &greys([1.0, 1.0])).unwrap();
         assert!((e.rmse - (1.25f64 / 2.0).sqrt()).abs() < 1e-12);
         assert!((e.rel_mse - 1.25 / 2.0 / 1.01).abs() < 1e-12);
         assert!((e.mae - 0.75).abs() < 1e-12);
@@ -170,17 +146,16 @@ mod tests {
 
     #[test]
     fn sizes_must_agree() {
-        assert_eq!(errors(&Film::new(2, 1), &Film::new(1, 2)), Err(CompareError::Sizes(2, 1, 1, 2)));
+        let black = |width, height| Film::new(width, height).image();
+        assert_eq!(errors(&black(2, 1), &black(1, 2)), Err(CompareError::Sizes(2, 1, 1, 2)));
     }
 
     #[test]
     fn pixels_that_are_not_finite_are_counted_and_in_no_mean() {
         let reference = [Vec3::ONE, Vec3::ONE, Vec3::new(1.0, 1.0, f32::INFINITY), Vec3::ONE];
         let picture = [Vec3::splat(1.5), Vec3::new(9.0, f32::NAN, 9.0), Vec3::ONE, Vec3::splat(0.5)];
-        let e = errors_of_radiances(&picture, &reference);
+        let e = errors(&row(&picture), &row(&reference)).unwrap();
         assert_eq!((e.nonfinite, e.rmse, e.mae, e.bias), (2, 0.5, 0.5, 0.0));
-        let broken = Film::from_radiances(2, 1, [Vec3::NAN, Vec3::ONE]).unwrap();
-        assert_eq!(errors(&film([0.0, 1.0]), &broken).unwrap().nonfinite, 1);
     }
 
     #[test]

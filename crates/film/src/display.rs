@@ -1,7 +1,7 @@
 //! The one display transform: exposure, clamp to [0, 1], sRGB encoding, rounding to bytes. Every pane and every PNG
 //! goes through it, and no metric does.
 
-use crate::{Film, colour};
+use crate::{Image, colour};
 use glam::Vec3;
 use std::sync::LazyLock;
 
@@ -18,15 +18,19 @@ impl DisplayTransform {
         self.encode(radiance, self.scale())
     }
 
-    /// Bytes of a whole film, four a pixel, rows from the top.
-    pub fn film_to_rgba8(&self, film: &Film) -> Vec<u8> {
-        self.to_rgba8(film.radiances())
+    /// Bytes of a whole picture, four a pixel, rows from the top.
+    pub fn rgba8_of(&self, image: &Image) -> Vec<u8> {
+        let scale = self.scale();
+        image.radiances().iter().flat_map(|radiance| self.encode(*radiance, scale)).collect()
     }
 
-    /// Bytes of bare radiances, four each.
-    pub fn to_rgba8(&self, radiances: impl Iterator<Item = Vec3>) -> Vec<u8> {
+    /// The sRGB code values, in [0, 1], of those bytes.
+    pub fn code_values_of(&self, image: &Image) -> Image {
         let scale = self.scale();
-        radiances.flat_map(|radiance| self.encode(radiance, scale)).collect()
+        image.map(|radiance| {
+            let [r, g, b, _] = self.encode(radiance, scale).map(f32::from);
+            Vec3::new(r / 255.0, g / 255.0, b / 255.0)
+        })
     }
 
     fn scale(&self) -> f32 {
@@ -95,6 +99,16 @@ mod tests {
     fn odd_values_become_black_or_white_bytes() {
         assert_eq!([f32::NAN, -1.0, f32::NEG_INFINITY, -0.0].map(srgb_byte), [0; 4]);
         assert_eq!([1.0, 7.0, f32::INFINITY].map(srgb_byte), [255; 3]);
+    }
+
+    #[test]
+    fn code_values_are_the_bytes_over_255() {
+        let image = Image::new(2, 1, [Vec3::new(0.0, 0.5, f32::NAN), Vec3::new(-1.0, 0.1, 7.0)]).unwrap();
+        let display = DisplayTransform { exposure: 0.5 };
+        let values = display.code_values_of(&image).radiances().iter().flat_map(|v| v.to_array()).collect::<Vec<_>>();
+        let bytes = display.rgba8_of(&image);
+        let expected = bytes.chunks_exact(4).flat_map(|p| [0, 1, 2].map(|c| f32::from(p[c]) / 255.0));
+        assert!(values.into_iter().eq(expected));
     }
 
     #[test]

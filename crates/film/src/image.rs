@@ -31,6 +31,15 @@ pub enum LayerValues {
     Numbers(Arc<[f32]>),
 }
 
+impl LayerValues {
+    fn len(&self) -> usize {
+        match self {
+            LayerValues::Rgb(values) => values.len(),
+            LayerValues::Numbers(values) => values.len(),
+        }
+    }
+}
+
 impl Image {
     /// A picture of `width` x `height` pixels, rows from the top; `None` if their number is another.
     pub fn new(width: u32, height: u32, radiances: impl Into<Arc<[Vec3]>>) -> Option<Self> {
@@ -54,6 +63,11 @@ impl Image {
         (self.width, self.height)
     }
 
+    /// What `f` makes of each pixel, without layers.
+    pub fn map(&self, f: impl FnMut(Vec3) -> Vec3) -> Self {
+        Image { radiances: self.radiances.iter().copied().map(f).collect(), layers: Vec::new(), ..*self }
+    }
+
     /// Linear radiance of each pixel, rows from the top.
     pub fn radiances(&self) -> &[Vec3] {
         &self.radiances
@@ -65,6 +79,11 @@ impl Image {
         inside.then(|| self.radiances[(y * self.width + x) as usize])
     }
 
+    /// The radiance as a layer, which shares it.
+    pub fn as_layer(&self, name: &'static str) -> Layer {
+        Layer { name, values: LayerValues::Rgb(self.radiances.clone()) }
+    }
+
     /// The colours of the layer of this name; `None` if there is none, or if it has one number a pixel.
     pub fn rgb_layer(&self, name: &str) -> Option<&[Vec3]> {
         let layer = self.layers.iter().find(|layer| layer.name == name)?;
@@ -74,8 +93,9 @@ impl Image {
         }
     }
 
-    /// The same picture with another layer.
+    /// The same picture with another layer, which has a value for each pixel.
     pub fn with_layer(mut self, name: &'static str, values: LayerValues) -> Self {
+        debug_assert_eq!(values.len(), self.radiances.len());
         self.layers.push(Layer { name, values });
         self
     }
@@ -97,6 +117,12 @@ mod tests {
         assert!(Image::new(2, 2, vec![Vec3::ZERO; 3]).is_none());
         let image = Image::new(2, 1, vec![Vec3::ZERO, Vec3::ONE]).unwrap();
         assert_eq!((image.at(1, 0), image.at(2, 0), image.at(0, 1)), (Some(Vec3::ONE), None, None));
+    }
+
+    #[test]
+    fn a_mapped_picture_has_the_same_size() {
+        let image = Image::new(1, 2, vec![Vec3::ZERO, Vec3::ONE]).unwrap();
+        assert_eq!(Image::new(1, 2, vec![Vec3::ONE, Vec3::splat(3.0)]), Some(image.map(|v| 2.0 * v + Vec3::ONE)));
     }
 
     #[test]

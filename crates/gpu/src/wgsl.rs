@@ -29,6 +29,7 @@ pub const FILES: &[(&str, &str)] = &[
     ("pathtrace/intersect/surface_point.wgsl", include_str!("../../../shaders/pathtrace/intersect/surface_point.wgsl")),
     ("pathtrace/intersect/triangle.wgsl", include_str!("../../../shaders/pathtrace/intersect/triangle.wgsl")),
     ("pathtrace/light/ball.wgsl", include_str!("../../../shaders/pathtrace/light/ball.wgsl")),
+    ("pathtrace/light/environment.wgsl", include_str!("../../../shaders/pathtrace/light/environment.wgsl")),
     ("pathtrace/light/flat.wgsl", include_str!("../../../shaders/pathtrace/light/flat.wgsl")),
     ("pathtrace/light/light.wgsl", include_str!("../../../shaders/pathtrace/light/light.wgsl")),
     ("pathtrace/light/light_sample.wgsl", include_str!("../../../shaders/pathtrace/light/light_sample.wgsl")),

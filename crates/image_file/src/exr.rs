@@ -1,30 +1,12 @@
 //! EXR: linear radiance, and records as text attributes `visavis.name`.
 
-use super::{ImageFileError, Layer, LayerValues, Linear, Radiances, Records, check_pixels};
+use super::{ImageFileError, Records, check_pixels, image_of};
 use exr::prelude as exr;
-use film::Vec3;
+use film::{Image, Layer, LayerValues, Vec3};
 use std::path::Path;
 
-/// One layer of 32-bit floats, red, green and blue.
-pub fn bytes(picture: Linear, records: &Records) -> Result<Vec<u8>, ImageFileError> {
-    use exr::WritableImage as _;
-    let (width, height) = (picture.width as usize, picture.height as usize);
-    let channels = exr::SpecificChannels::rgb(|at: exr::Vec2<usize>| {
-        let radiance = picture.radiances[at.y() * width + at.x()];
-        (radiance.x, radiance.y, radiance.z)
-    });
-    let layer =
-        exr::Layer::new((width, height), attributes("radiance", records), exr::Encoding::FAST_LOSSLESS, channels);
-    let mut bytes = std::io::Cursor::new(Vec::new());
-    exr::Image::from_layer(layer)
-        .write()
-        .to_buffered(&mut bytes)
-        .map_err(|e| ImageFileError::Encode("EXR", e.to_string()))?;
-    Ok(bytes.into_inner())
-}
-
-/// A file of several layers, each with its own channels.
-pub fn layers(width: u32, height: u32, layers: &[Layer], records: &Records) -> Result<Vec<u8>, ImageFileError> {
+/// A file of these layers, each with its own channels of 32-bit floats.
+pub fn bytes((width, height): (u32, u32), layers: &[Layer], records: &Records) -> Result<Vec<u8>, ImageFileError> {
     use exr::WritableImage as _;
     let size = exr::Vec2(width as usize, height as usize);
     let channel = |name: &str, values: Vec<f32>| exr::AnyChannel::new(name, exr::FlatSamples::F32(values));
@@ -35,7 +17,7 @@ pub fn layers(width: u32, height: u32, layers: &[Layer], records: &Records) -> R
                 .enumerate()
                 .map(|(axis, name)| channel(name, pixels.iter().map(|p| p[axis]).collect()))
                 .collect(),
-            LayerValues::Numbers(values) => std::iter::once(channel("Y", values.clone())).collect(),
+            LayerValues::Numbers(values) => std::iter::once(channel("Y", values.to_vec())).collect(),
         };
         exr::Layer::new(
             size,
@@ -78,8 +60,8 @@ pub fn records(path: &Path) -> Result<Vec<(String, String)>, ImageFileError> {
     Ok(texts.collect())
 }
 
-/// The layer of this name, if it has red, green and blue.
-pub fn layer(path: &Path, name: &str) -> Result<Option<Radiances>, ImageFileError> {
+/// The layer of this name, if it has red, green and blue and is of this size.
+pub fn layer(path: &Path, name: &str, size: (u32, u32)) -> Result<Option<LayerValues>, ImageFileError> {
     use exr::{ReadChannels as _, ReadLayers as _};
     check_sizes(path)?;
     let reader = exr::read().no_deep_data().largest_resolution_level().all_channels().all_layers().all_attributes();
@@ -87,11 +69,13 @@ pub fn layer(path: &Path, name: &str) -> Result<Option<Radiances>, ImageFileErro
     let named =
         |layer: &&exr::Layer<exr::AnyChannels<exr::FlatSamples>>| layer.attributes.layer_name == Some(text(name));
     let Some(layer) = image.layer_data.iter().find(named) else { return Ok(None) };
+    if layer.size != exr::Vec2(size.0 as usize, size.1 as usize) {
+        return Ok(None);
+    }
     let channel = |name: &str| layer.channel_data.list.iter().find(|channel| channel.name.eq(name));
     let (Some(r), Some(g), Some(b)) = (channel("R"), channel("G"), channel("B")) else { return Ok(None) };
-    let values = [r, g, b].map(|channel| channel.sample_data.values_as_f32().collect::<Vec<_>>());
-    let radiances = (0..values[0].len()).map(|i| Vec3::new(values[0][i], values[1][i], values[2][i])).collect();
-    Ok(Some(Radiances { width: layer.size.width() as u32, height: layer.size.height() as u32, radiances }))
+    let [r, g, b] = [r, g, b].map(|channel| channel.sample_data.values_as_f32());
+    Ok(Some(LayerValues::Rgb(r.zip(g).zip(b).map(|((r, g), b)| Vec3::new(r, g, b)).collect())))
 }
 
 /// Refuses a file before memory is taken for any of its layers.
@@ -101,7 +85,7 @@ fn check_sizes(path: &Path) -> Result<(), ImageFileError> {
 }
 
 /// The first layer with red, green and blue.
-pub fn load(path: &Path) -> Result<Radiances, ImageFileError> {
+pub fn load(path: &Path) -> Result<Image, ImageFileError> {
     check_sizes(path)?;
     let picture = exr::read_first_rgba_layer_from_file(
         path,
@@ -112,5 +96,5 @@ pub fn load(path: &Path) -> Result<Radiances, ImageFileError> {
     )
     .map_err(|e| ImageFileError::read(path, e))?;
     let (size, pixels) = picture.layer_data.channel_data.pixels;
-    Ok(Radiances { width: size.width() as u32, height: size.height() as u32, radiances: pixels })
+    image_of((size.width() as u32, size.height() as u32), pixels, path)
 }

@@ -3,16 +3,18 @@
 
 mod error;
 mod exr;
+mod folders;
 mod names;
 mod png;
 mod whole;
 
 pub use error::ImageFileError;
-pub use names::{default_folder, free_name, typed_path};
+pub use folders::{cache_folder, default_folder, home_folder};
+pub use names::{free_name, typed_path};
 pub use whole::{check_writable, write_new, write_whole};
 
-use film::DisplayTransform;
-use film::Vec3;
+use film::{DisplayTransform, Image, Layer, LayerValues, Vec3};
+use std::iter;
 use std::path::Path;
 
 /// Names and values that a file keeps, in the order in which they are written.
@@ -51,33 +53,32 @@ fn check_pixels(width: usize, height: usize, path: &Path) -> Result<(), ImageFil
     Ok(())
 }
 
-/// Linear radiance, rows from the top.
-#[derive(Debug, Clone, Copy)]
-pub struct Linear<'a> {
-    /// Width in pixels.
-    pub width: u32,
-    /// Height in pixels.
-    pub height: u32,
-    /// `width * height` of them.
-    pub radiances: &'a [Vec3],
+/// What a file says, if it is a picture.
+fn image_of((width, height): (u32, u32), radiances: Vec<Vec3>, path: &Path) -> Result<Image, ImageFileError> {
+    if radiances.is_empty() {
+        return Err(ImageFileError::read(path, "it is empty"));
+    }
+    Image::new(width, height, radiances).ok_or_else(|| ImageFileError::read(path, "its pixels are not of its size"))
 }
 
-/// The bytes of a file of this kind: PNG through `display`, EXR linear; both keep `records`.
+/// The bytes of a file of this kind: PNG through `display` and without the layers, EXR linear with the radiance as its
+/// first layer; both keep `records`.
 ///
 /// # Errors
 /// If the picture cannot be encoded.
 pub fn encode(
     kind: Kind,
-    picture: Linear,
+    image: &Image,
     display: &DisplayTransform,
     records: &Records,
 ) -> Result<Vec<u8>, ImageFileError> {
     match kind {
-        Kind::Png => {
-            let rgba = display.to_rgba8(picture.radiances.iter().copied());
-            png::bytes(picture.width, picture.height, &rgba, records)
+        Kind::Png => png::bytes(image.width(), image.height(), &display.rgba8_of(image), records),
+        Kind::Exr => {
+            let layers: Vec<Layer> =
+                iter::once(image.as_layer("radiance")).chain(image.layers.iter().cloned()).collect();
+            exr::bytes(image.size(), &layers, records)
         }
-        Kind::Exr => exr::bytes(picture, records),
     }
 }
 
@@ -89,65 +90,32 @@ pub fn encode_rgba8(width: u32, height: u32, rgba: &[u8], records: &Records) -> 
     png::bytes(width, height, rgba, records)
 }
 
-/// A picture as it was read: linear radiance, whatever stands there, also what is not finite.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Radiances {
-    /// Width in pixels.
-    pub width: u32,
-    /// Height in pixels.
-    pub height: u32,
-    /// Rows from the top.
-    pub radiances: Vec<Vec3>,
-}
-
-/// A named picture of one or three channels in a file of several.
-#[derive(Debug)]
-pub struct Layer<'a> {
-    /// Its name in the file.
-    pub name: &'static str,
-    /// Its pixels.
-    pub values: LayerValues<'a>,
-}
-
-/// Rows from the top.
-#[derive(Debug)]
-pub enum LayerValues<'a> {
-    /// Red, green and blue.
-    Rgb(&'a [Vec3]),
-    /// One number a pixel.
-    Numbers(Vec<f32>),
-}
-
-/// The bytes of an EXR with these layers, all of one size, that keeps `records`.
+/// The bytes of an EXR with these layers alone, of `size` pixels each, that keeps `records`.
 ///
 /// # Errors
 /// If they cannot be encoded.
-pub fn encode_layers(width: u32, height: u32, layers: &[Layer], records: &Records) -> Result<Vec<u8>, ImageFileError> {
-    exr::layers(width, height, layers, records)
+pub fn encode_layers(size: (u32, u32), layers: &[Layer], records: &Records) -> Result<Vec<u8>, ImageFileError> {
+    exr::bytes(size, layers, records)
 }
 
-/// The layer of this name in an .exr, red, green and blue; `None` if there is none.
+/// The red, green and blue of the layer of this name in an .exr; `None` if there is none of `size` pixels.
 ///
 /// # Errors
 /// [`ImageFileError`]: one line that says why and names the path.
-pub fn load_layer(path: &Path, name: &str) -> Result<Option<Radiances>, ImageFileError> {
-    exr::layer(path, name)
+pub fn load_layer(path: &Path, name: &str, size: (u32, u32)) -> Result<Option<LayerValues>, ImageFileError> {
+    exr::layer(path, name, size)
 }
 
-/// Reads an .exr as it is, or a .png with its sRGB encoding undone.
+/// Reads an .exr as it is, also what is not finite, or a .png with its sRGB encoding undone; without further layers.
 ///
 /// # Errors
 /// [`ImageFileError`]: one line that says why and names the path.
-pub fn load(path: &Path) -> Result<Radiances, ImageFileError> {
-    let picture = match Kind::of(path) {
-        Some(Kind::Png) => png::load(path)?,
-        Some(Kind::Exr) => exr::load(path)?,
-        None => return Err(ImageFileError::Kind(path.to_owned())),
-    };
-    if picture.radiances.is_empty() {
-        return Err(ImageFileError::read(path, "it is empty"));
+pub fn load(path: &Path) -> Result<Image, ImageFileError> {
+    match Kind::of(path) {
+        Some(Kind::Png) => png::load(path),
+        Some(Kind::Exr) => exr::load(path),
+        None => Err(ImageFileError::Kind(path.to_owned())),
     }
-    Ok(picture)
 }
 
 /// What a picture of this program keeps about how it was made, names and values; empty for other pictures.

@@ -1,7 +1,7 @@
 //! PNG: sRGB bytes, and records in text chunks as `visavis.name`.
 
-use super::{ImageFileError, Radiances, Records, check_pixels};
-use film::{Vec3, colour};
+use super::{ImageFileError, Records, check_pixels, image_of};
+use film::{Image, Vec3, colour};
 use std::path::Path;
 
 /// Opaque RGBA bytes as a PNG without alpha.
@@ -42,7 +42,7 @@ pub fn records(path: &Path) -> Result<Vec<(String, String)>, ImageFileError> {
 }
 
 /// A PNG with its sRGB encoding undone.
-pub fn load(path: &Path) -> Result<Radiances, ImageFileError> {
+pub fn load(path: &Path) -> Result<Image, ImageFileError> {
     let (width, height) = image::image_dimensions(path).map_err(|e| ImageFileError::read(path, e))?;
     check_pixels(width as usize, height as usize, path)?;
     let picture = image::ImageReader::open(path)
@@ -51,5 +51,5 @@ pub fn load(path: &Path) -> Result<Radiances, ImageFileError> {
         .map_err(|e| ImageFileError::read(path, e))?
         .into_rgb32f();
     let radiances = picture.pixels().map(|p| Vec3::from_array(p.0.map(colour::srgb_decode))).collect();
-    Ok(Radiances { width: picture.width(), height: picture.height(), radiances })
+    image_of(picture.dimensions(), radiances, path)
 }

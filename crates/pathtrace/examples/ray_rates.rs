@@ -42,8 +42,8 @@ fn main() -> Result<(), Box<dyn Error>> {
             "{:8} {:9} {seconds:9.3} {:9.2} {:9.2} {:9.2}",
             lanes.name(),
             accel.len(),
-            rate(&rays.primary, |ray| accel.closest(ray).is_some()),
-            rate(&rays.bounce, |ray| accel.closest(ray).is_some()),
+            rate(&rays.primary, |ray| accel.first_met(ray).is_some()),
+            rate(&rays.bounce, |ray| accel.first_met(ray).is_some()),
             rate(&rays.shadow, |ray| accel.occluded(ray)),
         );
     }
@@ -54,7 +54,7 @@ fn main() -> Result<(), Box<dyn Error>> {
 fn built(scene: &Scene, lights: &Lights) -> (Accel, f64) {
     let build = || {
         let start = Instant::now();
-        (Accel::new(scene, lights), start.elapsed().as_secs_f64())
+        (Accel::new(scene, lights.light_of_shape()), start.elapsed().as_secs_f64())
     };
     let (accel, first) = build();
     (accel, (1..TIMES).map(|_| build().1).fold(first, f64::min))
@@ -89,7 +89,7 @@ impl Rays {
             let [x, y] = [pixel % SIDE, pixel / SIDE].map(|i| 1.2 * ((i as f32 + 0.5) / SIDE as f32 - 0.5));
             let ray = Ray::new(eye, (forwards + right * x - up * y).normalize());
             rays.primary.push(ray);
-            let Some(hit) = accel.closest(&ray) else { continue };
+            let Some(hit) = accel.first_met(&ray) else { continue };
             let [u, v, w, z] = Sampler::independent(pixel, 0, 1).unit4(0);
             let normal = if hit.point.normal.dot(ray.direction) > 0.0 { -hit.point.normal } else { hit.point.normal };
             let out = to_world(cosine_hemisphere([u, v]), normal);
@@ -129,5 +129,5 @@ fn read_obj(text: &str) -> Result<Geometry, Box<dyn Error>> {
             _ => {}
         }
     }
-    Ok(Geometry::Mesh { positions, triangles })
+    Ok(Geometry::mesh(positions, triangles))
 }

@@ -3,10 +3,9 @@
 use crate::bsdf::Interactions;
 use crate::bsdf::interaction::facing;
 use crate::bsdf::materials::Materials;
-use crate::intersect::SHADOW_END;
 use crate::intersect::aggregate::Aggregate;
-use crate::intersect::lanes::{Hits, Rays, SurfacePoints};
 use crate::intersect::shape_list::Scratch;
+use crate::intersect::{Rays, SHADOW_END, SurfaceInteractions, SurfacePoints};
 use crate::light::{LightSamples, Lights, SunDisc};
 use crate::vectors::in_all_lanes;
 use scene::Vec3;
@@ -20,7 +19,7 @@ pub struct PreparedScene {
     pub materials: Materials,
     /// What shines and is sampled.
     pub lights: Lights,
-    /// Radiance where nothing is hit.
+    /// Radiance where nothing is hit, of a sky of one colour; a picture is one of the lights.
     pub sky: Vec3,
     /// The sun that a ray can hit.
     pub sun_disc: Option<SunDisc>,
@@ -39,27 +38,28 @@ pub struct Outcomes<F: Float> {
 }
 
 impl PreparedScene {
-    /// The nearest hits of the `wanted` rays.
+    /// What the `wanted` rays meet first.
     #[inline(always)]
-    pub fn closest<F: Float>(&self, rays: &Rays<F>, wanted: F::M, scratch: &mut Scratch<F>) -> Hits<F> {
-        self.aggregate.closest(rays, wanted, scratch)
+    pub fn closest<F: Float>(&self, rays: &Rays<F>, wanted: F::M, scratch: &mut Scratch<F>) -> SurfaceInteractions<F> {
+        let hits = self.aggregate.closest(rays, wanted, scratch);
+        self.aggregate.interactions(rays, &hits)
     }
 
     /// Where what was met shines.
     #[inline(always)]
-    pub fn shines<F: Float>(&self, hit: &Hits<F>) -> F::M {
+    pub fn shines<F: Float>(&self, hit: &SurfaceInteractions<F>) -> F::M {
         self.materials.kinds(hit.material).area_light()
     }
 
     /// What the surfaces that were met send out towards `wo`.
     #[inline(always)]
-    pub fn emitted<F: Float>(&self, hit: &Hits<F>, wo: Vector<F>) -> Vector<F> {
+    pub fn emitted<F: Float>(&self, hit: &SurfaceInteractions<F>, wo: Vector<F>) -> Vector<F> {
         self.materials.emitted(hit.material, hit.point.normal.dot(wo))
     }
 
     /// The surfaces that were met, seen from `wo`.
     #[inline(always)]
-    pub fn interaction<F: Float>(&self, hit: &Hits<F>, wo: Vector<F>) -> Interactions<F> {
+    pub fn interaction<F: Float>(&self, hit: &SurfaceInteractions<F>, wo: Vector<F>) -> Interactions<F> {
         let kinds = self.materials.kinds(hit.material);
         let colour = self.materials.colour(hit.material, kinds, hit.point.position);
         let normal = facing(hit.point.normal, wo);
@@ -84,7 +84,7 @@ impl PreparedScene {
         self.aggregate.occluded(&rays, wanted, opaque, scratch)
     }
 
-    /// Radiance that rays find where they hit nothing: the sky, and `sun_weight` times the sun's disc unless it is a
+    /// Radiance that rays find where they hit nothing: the sky of one colour, and `sun_weight` times the sun's disc unless it is a
     /// delta light.
     #[inline(always)]
     pub fn environment<F: Float>(&self, direction: Vector<F>, sun_weight: F) -> Vector<F> {

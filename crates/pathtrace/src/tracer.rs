@@ -9,7 +9,7 @@ use crate::light::{Lights, SunDisc};
 use crate::prepared::PreparedScene;
 use film::Film;
 use scene::stand_ins::FakeNumbers;
-use scene::{Camera, Scene};
+use scene::{Camera, Scene, Vec3};
 use simd::Lanes;
 
 /// A scene made ready for rays. Camera and settings come with each call, so that moving them costs no rebuild.
@@ -37,9 +37,9 @@ impl Tracer {
         let lights = Lights::new(scene);
         Tracer {
             scene: PreparedScene {
-                aggregate: Aggregate::new(scene, &lights),
+                aggregate: Aggregate::new(scene, lights.light_of_shape()),
                 materials: Materials::new(&scene.materials),
-                sky: scene.sky,
+                sky: if scene.environment.is_some() { Vec3::ZERO } else { scene.sky },
                 sun_disc: scene.sun.as_ref().and_then(SunDisc::new),
                 sun_pdf: lights.sun_pdf(),
                 lights,

@@ -135,7 +135,7 @@ fn a_tree() -> Scene {
             [[a, c, b], [a, d, c]]
         })
         .collect();
-    let ball = scene::Shape { geometry: scene::Geometry::Mesh { positions, triangles }, material: 1 };
+    let ball = scene::Shape { geometry: scene::Geometry::mesh(positions, triangles), material: 1 };
     scene.shapes = scene.shapes.iter().cloned().chain([ball]).collect();
     scene
 }

@@ -171,7 +171,7 @@ fn casting(scene: &Scene, index: usize, fake: Fake) -> Casting {
             if hides_something(scene, index, *corner, normal) { Casting::BothSides } else { Casting::Nothing }
         }
         _ if glass => Casting::FrontFaces,
-        (Geometry::Box { .. } | Geometry::Mesh { .. }, Fake::Fair) => Casting::BothSides,
+        (Geometry::Box { .. } | Geometry::Mesh(_), Fake::Fair) => Casting::BothSides,
         _ => Casting::BackFaces,
     }
 }

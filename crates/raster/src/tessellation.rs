@@ -2,9 +2,10 @@
 
 use bytemuck::{Pod, Zeroable};
 use gpu::{Gpu, GpuError};
-use scene::{Geometry, Scene, Vec3};
+use scene::{Geometry, Scene, Shape, Vec3};
 use std::f32::consts::{PI, TAU};
 use std::ops::Range;
+use std::sync::Arc;
 
 /// A corner of a triangle; the shaders' vertex inputs.
 #[repr(C)]
@@ -19,7 +20,8 @@ pub struct Vertex {
 /// A scene's triangles on the device.
 #[derive(Debug)]
 pub struct World {
-    geometry: Vec<Geometry>,
+    /// What the triangles were made of.
+    shapes: Arc<[Shape]>,
     segments: u32,
     /// All corners.
     pub vertices: wgpu::Buffer,
@@ -32,11 +34,11 @@ pub struct World {
 impl World {
     /// The triangles of `scene`: the `kept` ones if nothing changed.
     pub fn current<'a>(kept: &'a mut Option<World>, gpu: &Gpu, scene: &Scene) -> Result<&'a World, GpuError> {
-        let fits = |world: &World| {
-            world.segments == scene.fake.segments && scene.shapes.iter().map(|s| &s.geometry).eq(&world.geometry)
-        };
+        let fits =
+            |world: &World| world.segments == scene.fake.segments && of_one_geometry(&world.shapes, &scene.shapes);
         match kept.take().filter(fits) {
-            Some(world) => Ok(kept.insert(world)),
+            // the next frame has these shapes again, most likely
+            Some(world) => Ok(kept.insert(World { shapes: scene.shapes.clone(), ..world })),
             None => Ok(kept.insert(World::new(gpu, scene)?)),
         }
     }
@@ -59,7 +61,7 @@ impl World {
             ranges.push(start..indices.len() as u32);
         }
         Ok(World {
-            geometry: scene.shapes.iter().map(|s| s.geometry.clone()).collect(),
+            shapes: scene.shapes.clone(),
             segments: scene.fake.segments,
             vertices: gpu.buffer("the scene's corners", &vertices, wgpu::BufferUsages::VERTEX)?,
             indices: gpu.buffer("the scene's triangles", &indices, wgpu::BufferUsages::INDEX)?,
@@ -68,13 +70,18 @@ impl World {
     }
 }
 
+/// Whether shapes differ in their materials at most. Most frames have the same list, by its address.
+fn of_one_geometry(a: &Arc<[Shape]>, b: &Arc<[Shape]>) -> bool {
+    Arc::ptr_eq(a, b) || a.iter().map(|s| &s.geometry).eq(b.iter().map(|s| &s.geometry))
+}
+
 fn index_bytes(scene: &Scene, segments: u32) -> u64 {
     let triangles = |geometry: &Geometry| match geometry {
         Geometry::Sphere { .. } => 2 * u64::from(segments) * u64::from(segments),
         Geometry::Rectangle { .. } => 2,
         Geometry::Disk { .. } => u64::from(scene::shape::DISK_SEGMENTS),
         Geometry::Box { .. } => 12,
-        Geometry::Mesh { triangles, .. } => triangles.len() as u64,
+        Geometry::Mesh(mesh) => mesh.triangles().len() as u64,
     };
     scene.shapes.iter().map(|s| triangles(&s.geometry) * 12).sum()
 }
@@ -107,7 +114,7 @@ fn add_sphere(vertices: &mut Vec<Vertex>, indices: &mut Vec<u32>, center: Vec3, 
 
 fn add_flat(vertices: &mut Vec<Vertex>, indices: &mut Vec<u32>, geometry: &Geometry) {
     let (positions, triangles) = geometry.flat_triangles();
-    for triangle in triangles {
+    for triangle in triangles.iter() {
         let [a, b, c] = triangle.map(|corner| positions[corner as usize]);
         let normal = (b - a).cross(c - a).normalize_or_zero();
         for position in [a, b, c] {

@@ -1,36 +1,31 @@
 //! What a reference shows, as a number that is the same whenever the same is asked for.
 
-use scene::{Camera, Scene};
-use std::fmt::{self, Write};
+use scene::canonical::Canonical;
+use std::fmt;
+use technique::Shot;
 
-/// What a reference shows.
-#[derive(Debug, Clone, Copy)]
-pub struct Subject<'a> {
-    /// The scene, sliders applied.
-    pub scene: &'a Scene,
-    /// From where.
-    pub camera: &'a Camera,
-    /// Width and height in pixels.
-    pub size: (u32, u32),
-}
-
-/// A hash of a [`Subject`] and of how references are made: equal for equal ones, in every run of the program.
+/// A hash of what a [`Shot`] shows and of how references are made: equal for equal ones, in every run of the program and on
+/// every machine.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub struct Key(u128);
 
-/// Grows whenever the truth of a scene changes, or how references are made, so that older files are not found.
-const VERSION: u32 = 1;
+/// Grows whenever the truth of a scene changes, how references are made or what [`Canonical`] writes, so that older
+/// files are not found.
+const VERSION: u32 = 2;
 
 impl Key {
-    /// Of everything in the scene, down to the last bit of every number; but for its own camera, which does not matter
-    /// to one who looks from elsewhere.
-    pub fn of(subject: &Subject) -> Self {
-        let scene = Scene { camera: *subject.camera, ..subject.scene.clone() };
-        let mut hash = Fnv1a(0x6c62_272e_07bb_0142_62b8_2175_6295_c58d);
-        // numbers are written so that reading them back gives the same ones
-        let words = write!(hash, "{VERSION} {} {:?} {scene:?}", super::SAMPLES_PER_REPLICATE, subject.size);
-        debug_assert!(words.is_ok(), "hashing does not fail");
-        Key(hash.0)
+    /// Of what the truth of a scene depends on, down to the last bit of every number, and of nothing else: the fake's
+    /// numbers may move, and the scene's file may have a new name.
+    pub fn of(shot: &Shot) -> Self {
+        let Shot { scene, camera, size, .. } = shot;
+        let mut hasher = blake3::Hasher::new();
+        let mut take = |bytes: &[u8]| _ = hasher.update(bytes);
+        let mut canonical = Canonical(&mut take);
+        [VERSION, super::SAMPLES_PER_REPLICATE, size.0, size.1].into_iter().for_each(|word| canonical.word(word));
+        canonical.camera(camera);
+        canonical.scene(scene);
+        let [half, _] = *hasher.finalize().as_bytes().as_chunks::<16>().0 else { return Key(0) };
+        Key(u128::from_be_bytes(half))
     }
 }
 
@@ -40,50 +35,60 @@ impl fmt::Display for Key {
     }
 }
 
-/// The FNV-1a hash of 128 bits (Fowler, Noll and Vo): the standard library's may change from release to release.
-struct Fnv1a(u128);
-
-impl Write for Fnv1a {
-    fn write_str(&mut self, words: &str) -> fmt::Result {
-        for byte in words.bytes() {
-            self.0 = (self.0 ^ u128::from(byte)).wrapping_mul(0x0100_0000_0000_0000_0000_013b);
-        }
-        Ok(())
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use scene::{Camera, Scene};
 
-    fn hash_of(words: &str) -> u128 {
-        let mut hash = Fnv1a(0x6c62_272e_07bb_0142_62b8_2175_6295_c58d);
-        hash.write_str(words).unwrap();
-        hash.0
+    fn key(scene: &Scene, camera: &Camera, size: (u32, u32)) -> Key {
+        Key::of(&Shot { camera: *camera, ..Shot::of(scene.clone(), size) })
     }
 
     #[test]
-    fn the_hash_is_fnv_1a() {
-        // the offset basis of the empty text, and the test vector of RFC 9923 for "a"
-        assert_eq!(hash_of(""), 0x6c62_272e_07bb_0142_62b8_2175_6295_c58d);
-        assert_eq!(hash_of("a"), 0xd228_cb69_6f1a_8caf_7891_2b70_4e4a_8964);
-    }
-
-    #[test]
-    fn the_last_bit_of_any_number_changes_the_key() {
+    fn size_and_camera_change_the_key_to_the_last_bit() {
         let scene = scene::builtin::named("whitted").unwrap();
-        let key = |scene: &Scene, camera: &Camera, size| Key::of(&Subject { scene, camera, size });
+        let mut keys = vec![
+            key(&scene, &scene.camera, (64, 36)),
+            key(&scene, &scene.camera, (36, 64)),
+            key(&scene, &scene.camera, (64, 37)),
+        ];
+        for number in 0..10 {
+            let mut moved = scene.camera;
+            let Camera { eye, target, up, fov_y, near: _, far: _ } = &mut moved;
+            let numbers = [eye, target, up].into_iter().flat_map(|v| v.as_mut().iter_mut());
+            let number = numbers.chain([fov_y]).nth(number).unwrap();
+            *number = f32::from_bits(number.to_bits() ^ 1);
+            keys.push(key(&scene, &moved, (64, 36)));
+        }
+        let count = keys.len();
+        keys.sort_by_key(|key| key.0);
+        keys.dedup();
+        assert_eq!(keys.len(), count);
+    }
+
+    /// The fields of a scene are counted one by one in `scene::canonical`'s tests.
+    #[test]
+    fn the_key_follows_the_truth_and_not_the_fake() {
+        let scene = scene::builtin::named("whitted").unwrap();
         let plain = key(&scene, &scene.camera, (64, 36));
-        assert_eq!(plain, key(&scene.clone(), &scene.camera, (64, 36)));
-        assert_ne!(plain, key(&scene, &scene.camera, (36, 64)));
-        let mut moved = scene.camera;
-        moved.eye.x = moved.eye.x.next_up();
-        assert_ne!(plain, key(&scene, &moved, (64, 36)));
-        // a scene that has this camera for its own shows the same
-        let own = Scene { camera: moved, ..scene.clone() };
-        assert_eq!(key(&own, &moved, (64, 36)), key(&scene, &moved, (64, 36)));
+        let camera = Camera { near: 0.5, far: 77.0, ..scene.camera };
+        let mut fake = Scene { name: "elsewhere".into(), camera, ..scene.clone() };
+        fake.fake.ambient += 0.1;
+        fake.fake.shadow_map *= 2;
+        fake.set_reflectivity(0.25);
+        assert_eq!(key(&fake, &camera, (64, 36)), plain);
         let mut bent = scene.clone();
         bent.set_refraction_ratio(0.7f32.next_up());
-        assert_ne!(plain, key(&bent, &scene.camera, (64, 36)));
+        assert_ne!(key(&bent, &scene.camera, (64, 36)), plain);
+        // a scene that has another camera for its own shows the same
+        let moved = Camera { eye: scene.camera.eye + 1.0, ..scene.camera };
+        assert_eq!(key(&Scene { camera: moved, ..scene.clone() }, &scene.camera, (64, 36)), plain);
+    }
+
+    /// References on disk are found by it: a change that is meant moves [`VERSION`] as well.
+    #[test]
+    fn the_key_is_what_it_was() {
+        let scene = scene::builtin::named("cornell").unwrap();
+        assert_eq!(key(&scene, &scene.camera, (64, 36)).to_string(), "f1853276154aa5548312f1e3b88c585e");
     }
 }

@@ -10,30 +10,24 @@ mod key;
 mod maker;
 mod store;
 
-pub use key::{Key, Subject};
+pub use key::Key;
 pub use maker::{Goal, Maker, SAMPLES_PER_REPLICATE};
 pub use store::{Store, StoreError, Usage};
 
-use compare::{Errors, errors_of_radiances};
-use film::{Film, Pixel};
-use image_file::{ImageFileError, Layer, LayerValues, Radiances, Records};
-use scene::Vec3;
+use compare::{CompareError, Errors};
+use film::{DisplayTransform, Film, Image, LayerValues, Pixel, Vec3};
+use image_file::{ImageFileError, Kind, Records};
 use std::path::Path;
+use technique::Shot;
 
-/// Layers of a reference's file beside the first, which holds the radiance.
-const STANDARD_ERROR: &str = "standard error";
+/// The layer of [`Reference::image`], and of its file, that holds the standard error of each pixel's radiance.
+pub const STANDARD_ERROR: &str = "standard error";
 
 /// What pictures of a scene are judged by.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Reference {
-    /// Width in pixels.
-    pub width: u32,
-    /// Height in pixels.
-    pub height: u32,
-    /// Linear radiance, rows from the top.
-    pub radiances: Vec<Vec3>,
-    /// Standard error of each of them; `None` of a picture from elsewhere that does not tell.
-    pub standard_errors: Option<Vec<Vec3>>,
+    /// The radiance, with its [`STANDARD_ERROR`] for a layer; without one, a picture from elsewhere that does not tell.
+    pub image: Image,
     /// Independent pictures that it is the mean of; 0 if that is not known.
     pub replicates: u32,
     /// Seconds that it took.
@@ -42,22 +36,27 @@ pub struct Reference {
     pub nonfinite: u64,
 }
 
+/// What the file of a shot's reference says about it, beside what [`Reference::encode`] adds.
+pub fn records(shot: &Shot) -> Records {
+    shot.reference_records(Maker::settings(0).estimator.name())
+}
+
 impl Reference {
     /// Reads an .exr: one of this program with its standard error, or any picture without. A .png is read as well.
     ///
     /// # Errors
     /// [`ImageFileError`]: one line that says why and names the path.
     pub fn load(path: &Path) -> Result<Self, ImageFileError> {
-        let Radiances { width, height, radiances } = image_file::load(path)?;
-        let exr = image_file::Kind::of(path) == Some(image_file::Kind::Exr);
-        let errors = if exr { image_file::load_layer(path, STANDARD_ERROR)? } else { None };
+        let mut image = image_file::load(path)?;
+        if Kind::of(path) == Some(Kind::Exr)
+            && let Some(errors) = image_file::load_layer(path, STANDARD_ERROR, image.size())?
+        {
+            image = image.with_layer(STANDARD_ERROR, errors);
+        }
         let records = image_file::records(path)?;
         let number = |name: &str| records.iter().find(|(known, _)| known == name).and_then(|(_, v)| v.parse().ok());
         Ok(Reference {
-            width,
-            height,
-            standard_errors: errors.filter(|e| (e.width, e.height) == (width, height)).map(|e| e.radiances),
-            radiances,
+            image,
             replicates: number("replicates").unwrap_or(0.0) as u32,
             seconds: number("seconds").unwrap_or(0.0),
             nonfinite: number("nonfinite").unwrap_or(0.0) as u64,
@@ -75,11 +74,12 @@ impl Reference {
             ("seconds", self.seconds.to_string()),
             ("nonfinite", self.nonfinite.to_string()),
         ]);
-        let mut layers = vec![Layer { name: "radiance", values: LayerValues::Rgb(&self.radiances) }];
-        if let Some(errors) = &self.standard_errors {
-            layers.push(Layer { name: STANDARD_ERROR, values: LayerValues::Rgb(errors) });
-        }
-        image_file::encode_layers(self.width, self.height, &layers, &records)
+        image_file::encode(Kind::Exr, &self.image, &DisplayTransform::default(), &records)
+    }
+
+    /// Standard error of each pixel's radiance, rows from the top; `None` of a picture that does not tell.
+    pub fn standard_errors(&self) -> Option<&[Vec3]> {
+        self.image.rgb_layer(STANDARD_ERROR)
     }
 
     /// Its own mean squared error, in radiance squared, by its standard errors; `None` if they are not known.
@@ -95,33 +95,27 @@ impl Reference {
     /// How far a picture of the same pixels is from it, with what its own noise adds.
     ///
     /// # Errors
-    /// [`compare::CompareError::Pixels`] if it does not have as many.
-    pub fn errors(&self, radiances: &[Vec3]) -> Result<Errors, compare::CompareError> {
-        if radiances.len() != self.radiances.len() {
-            return Err(compare::CompareError::Pixels {
-                film: radiances.len(),
-                reference: self.radiances.len(),
-                width: self.width,
-            });
-        }
-        let errors = errors_of_radiances(radiances, &self.radiances);
+    /// [`CompareError::Sizes`] if it is of another size.
+    pub fn errors(&self, image: &Image) -> Result<Errors, CompareError> {
+        let errors = compare::errors(image, &self.image)?;
         Ok(self.mean_squared_error().map_or(errors, |noise| errors.with_reference_noise(noise)))
     }
 
     /// As a film whose samples are the replicates' means, as far as f32 keeps them.
     pub fn film(&self) -> Option<Film> {
         let n = f64::from(self.replicates.max(1));
-        let mut film = Film::try_new(self.width, self.height)?;
-        for (i, pixel) in film.pixels_mut().iter_mut().enumerate() {
-            let mean = self.radiances[i].to_array().map(f64::from);
-            let error = self.standard_errors.as_ref().map_or([0.0; 3], |e| e[i].to_array().map(f64::from));
+        let mut film = Film::try_new(self.image.width(), self.image.height())?;
+        let errors = self.standard_errors();
+        for (i, (pixel, radiance)) in film.pixels_mut().iter_mut().zip(self.image.radiances()).enumerate() {
+            let mean = radiance.to_array().map(f64::from);
+            let error = errors.map_or([0.0; 3], |errors| errors[i].to_array().map(f64::from));
             // the inverse of `Pixel::variance_of_mean`
             let squares = |c: usize| n * (error[c] * error[c] * (n - 1.0) + mean[c] * mean[c]);
             *pixel = Pixel {
                 sum: mean.map(|mean| mean * n),
                 sum_of_squares: [0, 1, 2].map(squares),
                 samples: self.replicates.max(1),
-                largest: self.radiances[i].max_element(),
+                largest: radiance.max_element(),
             };
         }
         film.nonfinite = self.nonfinite;
@@ -131,10 +125,7 @@ impl Reference {
     fn of_film(film: &Film, seconds: f64) -> Self {
         let errors = film.pixels().iter().map(|p| Vec3::from_array(p.variance_of_mean().map(|v| v.sqrt() as f32)));
         Reference {
-            width: film.width(),
-            height: film.height(),
-            radiances: film.radiances().collect(),
-            standard_errors: Some(errors.collect()),
+            image: film.image().with_layer(STANDARD_ERROR, LayerValues::Rgb(errors.collect())),
             replicates: film.samples_per_pixel(),
             seconds,
             nonfinite: film.nonfinite,
@@ -142,13 +133,13 @@ impl Reference {
     }
 
     fn averaged(&self, weight: impl Fn(f64) -> f64) -> Option<f64> {
-        let errors = self.standard_errors.as_ref()?;
+        let errors = self.standard_errors()?;
         let channels = |v: &Vec3| v.to_array().map(f64::from);
         let of_pixel = |(error, radiance): (&Vec3, &Vec3)| {
             let (error, radiance) = (channels(error), channels(radiance));
             (0..3).map(|c| error[c] * error[c] / weight(radiance[c])).sum::<f64>()
         };
-        let sum: f64 = errors.iter().zip(&self.radiances).map(of_pixel).filter(|v| v.is_finite()).sum();
+        let sum: f64 = errors.iter().zip(self.image.radiances()).map(of_pixel).filter(|v| v.is_finite()).sum();
         Some(sum / (3 * errors.len()).max(1) as f64)
     }
 }

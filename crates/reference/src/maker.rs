@@ -1,10 +1,10 @@
 //! Making a reference, replicate by replicate, until it is good enough.
 
-use crate::{Reference, Subject};
+use crate::Reference;
 use film::Film;
-use pathtrace::{Estimator, FEWEST_REPLICATES, PathSettings, Tracer};
+use pathtrace::{Estimator, FEWEST_REPLICATES, PathSettings};
 use scene::{Camera, Vec3};
-use std::time::Instant;
+use technique::{Accumulation, Renderer, Shot};
 
 /// Samples per pixel of each of a reference's independent pictures.
 pub const SAMPLES_PER_REPLICATE: u32 = 64;
@@ -30,23 +30,26 @@ impl Default for Goal {
 
 /// A reference in the making.
 pub struct Maker<'a> {
-    tracer: &'a Tracer,
+    renderer: &'a mut Renderer,
     camera: Camera,
     film: Film,
+    /// The replicate in hand.
+    picture: Accumulation,
     seconds: f64,
 }
 
 impl<'a> Maker<'a> {
-    /// Begins one, or goes on with one that is there. `tracer` is that of the subject's scene. `None` if there is no
+    /// Begins one, or goes on with one that is there. `renderer` has the shot's scene. `None` if there is no
     /// memory for it.
-    pub fn new(tracer: &'a Tracer, subject: &Subject, begun: Option<&Reference>) -> Option<Self> {
-        let begun = begun.filter(|r| (r.width, r.height) == subject.size && r.replicates > 0);
+    pub fn new(renderer: &'a mut Renderer, shot: &Shot, begun: Option<&Reference>) -> Option<Self> {
+        let begun = begun.filter(|r| r.image.size() == shot.size && r.replicates > 0);
         let film = match begun {
             Some(reference) => reference.film()?,
-            None => Film::try_new(subject.size.0, subject.size.1)?,
+            None => Film::try_new(shot.size.0, shot.size.1)?,
         };
         let seconds = begun.map_or(0.0, |reference| reference.seconds);
-        Some(Maker { tracer, camera: *subject.camera, film, seconds })
+        let picture = Accumulation::blank(shot.size)?;
+        Some(Maker { renderer, camera: shot.camera, film, picture, seconds })
     }
 
     /// How references are traced: both ways to find light, weighted, so that no sample is unbounded; no limit of
@@ -55,20 +58,25 @@ impl<'a> Maker<'a> {
         PathSettings { estimator: Estimator::MIS, seed, ..PathSettings::default() }
     }
 
-    /// Adds one replicate. False if `stop` said so meanwhile: what was traced of it is dropped.
+    /// Adds one replicate. False if `stop` said so meanwhile: the next call goes on with what was traced of it.
     pub fn step(&mut self, stop: &(impl Fn() -> bool + Sync)) -> bool {
-        let start = Instant::now();
-        let settings = Self::settings(FIRST_SEED.wrapping_add(self.replicates()));
-        let mut picture = Film::new(self.film.width(), self.film.height());
-        self.tracer.render(&mut picture, &self.camera, &settings.into(), SAMPLES_PER_REPLICATE, stop);
-        if picture.samples_per_pixel() < SAMPLES_PER_REPLICATE {
+        let integrator = Self::settings(FIRST_SEED.wrapping_add(self.replicates())).into();
+        let Maker { renderer, camera, film, picture, seconds } = self;
+        while picture.spp() < SAMPLES_PER_REPLICATE && !stop() {
+            let missing = SAMPLES_PER_REPLICATE - picture.spp();
+            let added = renderer.add(picture, camera, &integrator, missing, stop);
+            // where a device has failed the processor makes what is missing then
+            added.and_then(|()| renderer.resolve(picture)).unwrap_or_default();
+        }
+        if picture.spp() < SAMPLES_PER_REPLICATE {
             return false;
         }
-        self.film.nonfinite += picture.nonfinite;
-        for (pixel, one) in self.film.pixels_mut().iter_mut().zip(picture.pixels()) {
+        *seconds += picture.spent().as_secs_f64();
+        film.nonfinite += picture.film().nonfinite;
+        for (pixel, one) in film.pixels_mut().iter_mut().zip(picture.film().pixels()) {
             pixel.add(Vec3::from_array(one.mean().map(|v| v as f32)));
         }
-        self.seconds += start.elapsed().as_secs_f64();
+        picture.clear();
         true
     }
 

@@ -63,13 +63,9 @@ impl Store {
             Ok(word) => word.trim().parse::<u64>().map_err(|_| StoreError::Limit(word))?.saturating_mul(1 << 20),
             Err(_) => Self::MOST_BYTES,
         };
-        let folder = |name: &str| std::env::var_os(name).filter(|v| !v.is_empty()).map(PathBuf::from);
-        let home = || {
-            folder("HOME").map(|home| home.join(if cfg!(target_os = "macos") { "Library/Caches" } else { ".cache" }))
-        };
-        let caches = || folder("XDG_CACHE_HOME").or_else(|| folder("LOCALAPPDATA")).or_else(home);
-        let own = || caches().map(|folder| folder.join("visavis").join("references"));
-        let folder = folder("VISAVIS_CACHE").or_else(own).ok_or(StoreError::NoFolder)?;
+        let chosen = std::env::var_os("VISAVIS_CACHE").filter(|v| !v.is_empty()).map(PathBuf::from);
+        let own = || image_file::cache_folder().map(|folder| folder.join("visavis").join("references"));
+        let folder = chosen.or_else(own).ok_or(StoreError::NoFolder)?;
         Ok(Store { folder, most_bytes })
     }
 

@@ -5,7 +5,9 @@
 
 pub mod builtin;
 pub mod camera;
+pub mod canonical;
 pub mod conductor;
+pub mod environment;
 pub mod file;
 pub mod light;
 pub mod material;
@@ -16,12 +18,13 @@ pub mod stand_ins;
 
 pub use camera::Camera;
 pub use conductor::Conductor;
+pub use environment::EnvironmentMap;
 pub use file::{SceneError, load, parse};
 pub use glam::{self, Vec3};
 pub use light::{PointLight, Sun};
 pub use material::{Bsdf, Material, Texture};
 pub use needs::Needs;
-pub use shape::{Geometry, Shape};
+pub use shape::{Geometry, Mesh, Shape};
 
 use stand_ins::FakeNumbers;
 use std::sync::Arc;
@@ -41,8 +44,11 @@ pub struct Scene {
     pub sun: Option<Sun>,
     /// Points that shine.
     pub point_lights: Vec<PointLight>,
-    /// Radiance that arrives from every direction in which nothing is hit; zero for black.
+    /// Radiance that arrives from every direction in which nothing is hit; zero for black. Of a sky from a picture its
+    /// mean, for those that know skies of one colour only: the rasterised fake.
     pub sky: Vec3,
+    /// The picture that is the sky, if it is one; shared.
+    pub environment: Option<Arc<EnvironmentMap>>,
     /// Numbers that stand in for physics.
     pub fake: FakeNumbers,
 }

@@ -65,9 +65,7 @@ impl Solid {
                 let center = corner.as_dvec3() + DVec3::new(middle.x, half.y, middle.y);
                 Form::Block(Block { center, half, x })
             }
-            Geometry::Mesh { positions, .. } => {
-                Form::Mesh { corners: positions.iter().map(|p| p.as_dvec3()).collect() }
-            }
+            Geometry::Mesh(mesh) => Form::Mesh { corners: mesh.positions().iter().map(|p| p.as_dvec3()).collect() },
         };
         let (lo, hi) = geometry.bounds();
         Some(Solid { index, lo: lo.as_dvec3(), hi: hi.as_dvec3(), form })
@@ -203,9 +201,9 @@ mod tests {
 
     #[test]
     fn a_mesh_is_its_box_unless_it_lies_inside() {
-        let mesh = |scale: f32, x: f32| Geometry::Mesh {
-            positions: [Vec3::ZERO, Vec3::X, Vec3::Y, Vec3::Z].map(|p| p * scale + Vec3::X * x).to_vec(),
-            triangles: vec![[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]],
+        let mesh = |scale: f32, x: f32| {
+            let positions = [Vec3::ZERO, Vec3::X, Vec3::Y, Vec3::Z].map(|p| p * scale + Vec3::X * x);
+            Geometry::mesh(positions.to_vec(), vec![[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
         };
         assert!(!overlap_of([ball(0.0, 1.0), mesh(0.5, 0.0)]));
         assert!(!overlap_of([mesh(0.5, 1.5), ball(0.0, 1.0)]));

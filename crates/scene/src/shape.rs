@@ -2,6 +2,8 @@
 //! rays, stay analytic.
 
 use glam::Vec3;
+use std::borrow::Cow;
+use std::sync::Arc;
 
 /// A piece of geometry with a material.
 #[derive(Debug, Clone, PartialEq)]
@@ -49,28 +51,61 @@ pub enum Geometry {
         /// Turn in degrees: (x, z) becomes (x cos - z sin, x sin + z cos).
         turn_y: f32,
     },
-    /// Triangles with shared corners; normals follow the winding (counter-clockwise seen from outside).
-    Mesh {
-        /// Corners.
-        positions: Vec<Vec3>,
-        /// Three indices into `positions` for each triangle.
-        triangles: Vec<[u32; 3]>,
-    },
+    /// Triangles; shared, so that a copy of a shape costs nothing however many there are.
+    Mesh(Arc<Mesh>),
+}
+
+/// Triangles with shared corners; normals follow the winding (counter-clockwise seen from outside). Never changed once
+/// it is made: what was derived from it holds for as long as it is there.
+#[derive(Debug)]
+pub struct Mesh {
+    positions: Vec<Vec3>,
+    triangles: Vec<[u32; 3]>,
+    bounds: (Vec3, Vec3),
+}
+
+impl Mesh {
+    /// Of corners, and of three indices into them for each triangle.
+    pub fn new(positions: Vec<Vec3>, triangles: Vec<[u32; 3]>) -> Self {
+        let bounds = bounds_of(&positions);
+        Mesh { positions, triangles, bounds }
+    }
+
+    /// The corners.
+    pub fn positions(&self) -> &[Vec3] {
+        &self.positions
+    }
+
+    /// Three indices into [`Mesh::positions`] for each triangle.
+    pub fn triangles(&self) -> &[[u32; 3]] {
+        &self.triangles
+    }
+}
+
+impl PartialEq for Mesh {
+    /// One mesh is equal to itself without a look at its corners.
+    fn eq(&self, other: &Mesh) -> bool {
+        std::ptr::eq(self, other) || (self.positions == other.positions && self.triangles == other.triangles)
+    }
 }
 
 impl Geometry {
+    /// A [`Geometry::Mesh`] of its own.
+    pub fn mesh(positions: Vec<Vec3>, triangles: Vec<[u32; 3]>) -> Self {
+        Geometry::Mesh(Arc::new(Mesh::new(positions, triangles)))
+    }
+
     /// Smallest axis-parallel box: (lower corner, upper corner).
     pub fn bounds(&self) -> (Vec3, Vec3) {
         match self {
-            Geometry::Sphere { center, radius } => return (center - radius, center + radius),
+            Geometry::Sphere { center, radius } => (center - radius, center + radius),
             Geometry::Disk { center, normal, radius } => {
                 let reach = *radius * (Vec3::ONE - normal * normal).max(Vec3::ZERO).map(f32::sqrt);
-                return (center - reach, center + reach);
+                (center - reach, center + reach)
             }
-            _ => {}
+            Geometry::Rectangle { .. } | Geometry::Box { .. } => bounds_of(&self.flat_triangles().0),
+            Geometry::Mesh(mesh) => mesh.bounds,
         }
-        let (positions, _) = self.flat_triangles();
-        positions.iter().fold((Vec3::INFINITY, Vec3::NEG_INFINITY), |(lo, hi), p| (lo.min(*p), hi.max(*p)))
     }
 
     /// Middle of the bounds.
@@ -81,8 +116,8 @@ impl Geometry {
 
     /// Corners and triangles of a flat shape, wound so that `(b - a) x (c - a)` is its normal; nothing for a sphere,
     /// and for a disk the fan of [`DISK_SEGMENTS`] triangles that stands for it where there are only triangles.
-    pub fn flat_triangles(&self) -> (Vec<Vec3>, Vec<[u32; 3]>) {
-        match self {
+    pub fn flat_triangles(&self) -> (Cow<'_, [Vec3]>, Cow<'_, [[u32; 3]]>) {
+        let (positions, triangles) = match self {
             Geometry::Sphere { .. } => (Vec::new(), Vec::new()),
             Geometry::Rectangle { corner, edge_u, edge_v } => {
                 let p = [*corner, corner + edge_u, corner + edge_u + edge_v, corner + edge_v];
@@ -90,9 +125,14 @@ impl Geometry {
             }
             Geometry::Disk { center, normal, radius } => disk_triangles(*center, *normal, *radius),
             Geometry::Box { corner, size, turn_y } => box_triangles(*corner, *size, *turn_y),
-            Geometry::Mesh { positions, triangles } => (positions.clone(), triangles.clone()),
-        }
+            Geometry::Mesh(mesh) => return (mesh.positions().into(), mesh.triangles().into()),
+        };
+        (positions.into(), triangles.into())
     }
+}
+
+fn bounds_of(positions: &[Vec3]) -> (Vec3, Vec3) {
+    positions.iter().fold((Vec3::INFINITY, Vec3::NEG_INFINITY), |(lo, hi), p| (lo.min(*p), hi.max(*p)))
 }
 
 /// Triangles of the fan that stands for a disk.
@@ -150,10 +190,20 @@ mod tests {
         assert!((hi.x - 1.0 - 2.0 * (8f32 / 9.0).sqrt()).abs() < 1e-6);
     }
 
+    #[test]
+    fn meshes_are_equal_by_what_they_hold_and_copies_hold_the_same() {
+        let mesh = |x: f32| Geometry::mesh(vec![Vec3::X * x, Vec3::Y, Vec3::Z], vec![[0, 1, 2]]);
+        let one = mesh(1.0);
+        assert!(one == one.clone() && one == mesh(1.0) && one != mesh(1.0f32.next_up()));
+        let (Geometry::Mesh(a), Geometry::Mesh(b)) = (&one, &one.clone()) else { panic!("meshes") };
+        assert!(Arc::ptr_eq(a, b));
+        assert_eq!(one.bounds(), (Vec3::ZERO, Vec3::ONE));
+    }
+
     trait Corners {
         fn map_corners(&self, p: &[Vec3]) -> Vec<[Vec3; 3]>;
     }
-    impl Corners for Vec<[u32; 3]> {
+    impl Corners for [[u32; 3]] {
         fn map_corners(&self, p: &[Vec3]) -> Vec<[Vec3; 3]> {
             self.iter().map(|t| t.map(|i| p[i as usize])).collect()
         }

@@ -138,6 +138,10 @@ fn segment() -> u32 {
     if nearest.index == NOTHING {
         let weight = weight_of_meeting(header.sun_pdf);
         outcome.radiance += path.throughput * environment(weight, path.ray.direction);
+        if ENVIRONMENT {
+            let found = environment_look_up(path.ray.direction);
+            outcome.radiance += path.throughput * found.xyz * weight_of_meeting(found.w);
+        }
         return PATH_ENDS;
     }
     let hit = hit_of(nearest, path.ray);

@@ -82,6 +82,9 @@ fn follow() -> bool {
     let nearest = closest(branch.ray);
     if nearest.index == NOTHING {
         outcome.radiance += branch.weight * environment(1.0, branch.ray.direction);
+        if ENVIRONMENT {
+            outcome.radiance += branch.weight * environment_look_up(branch.ray.direction).xyz;
+        }
         return false;
     }
     let hit = hit_of(nearest, branch.ray);

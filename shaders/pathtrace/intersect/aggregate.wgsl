@@ -1,7 +1,7 @@
 //#import pathtrace/intersect/bvh2.wgsl
 //#import pathtrace/intersect/shape_list.wgsl
 // What rays are traced through: all shapes one by one while they are few, else a tree. Twin:
-// crates/pathtrace/src/intersect/structure.rs.
+// crates/pathtrace/src/intersect/aggregate.rs.
 
 // The nearest hit before ray.tmax; of several at one distance an area light, else the shape that comes first in the
 // scene.

@@ -3,7 +3,7 @@
 //#import pathtrace/intersect/sphere.wgsl
 //#import pathtrace/intersect/disk.wgsl
 // The acceleration structure: obvhs' BVH2 over triangles, spheres and disks. Twin:
-// crates/pathtrace/src/intersect/accel.rs.
+// crates/pathtrace/src/intersect/bvh2.rs.
 
 // Inner nodes that can wait; the host refuses deeper trees.
 const MOST_WAITING: u32 = 64u;

@@ -1,7 +1,7 @@
 //#import pathtrace/needs.wgsl
 //#import pathtrace/scene.wgsl
 //#import pathtrace/intersect/surface_point.wgsl
-// What rays find, whatever the structure that they are traced through.
+// What rays find, whatever the structure that they are traced through. Twin: crates/pathtrace/src/intersect/hit.rs.
 
 // The nearest meeting so far.
 struct Nearest {

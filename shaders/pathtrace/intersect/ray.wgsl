@@ -1,4 +1,4 @@
-// Rays. Twin: crates/pathtrace/src/intersect/mod.rs.
+// Rays. Twin: crates/pathtrace/src/intersect/ray.rs.
 
 struct Ray {
     // where it starts, world space

@@ -1,8 +1,9 @@
 //#import pathtrace/light/flat.wgsl
 //#import pathtrace/light/ball.wgsl
 //#import pathtrace/light/sun.wgsl
-// What shines, as light sampling sees it: area lights, point lights and the sun. Task 2 c), "Sampling Area Light". One
-// light is chosen, then a direction to it. Twin: crates/pathtrace/src/light/mod.rs.
+//#import pathtrace/light/environment.wgsl
+// What shines, as light sampling sees it: area lights, point lights, the sun and a sky from a picture. Task 2 c),
+// "Sampling Area Light". One light is chosen, then a direction to it. Twin: crates/pathtrace/src/light/mod.rs.
 
 // The light that u in [0, 1) chooses: the first whose running sum exceeds it.
 fn choose(u: f32) -> u32 {
@@ -39,6 +40,9 @@ fn sample_one(light: u32, x: vec3f, u: vec2f) -> LightSample {
     }
     if SUN && area_light.outline == LIGHT_SUN {
         return sun_sample(area_light, u);
+    }
+    if ENVIRONMENT && area_light.outline == LIGHT_ENVIRONMENT {
+        return environment_sample(u);
     }
     if RECTANGLE_LIGHTS || TRIANGLE_LIGHTS || DISK_LIGHTS {
         return flat_sample(area_light, x, u);

@@ -13,7 +13,7 @@ fn sun_sample(sun: Light, u: vec2f) -> LightSample {
     return LightSample(wi, pdf, sun.radiance / pdf, true, vec3f(0.0));
 }
 
-// Radiance that a ray finds where it hits nothing: the sky, and `sun_weight` times the sun's disc unless it is a delta
+// Radiance that a ray finds where it hits nothing: the sky of one colour, and `sun_weight` times the sun's disc unless it is a delta
 // light. Measured by the chord between unit vectors, which stays exact for a small sun where a cosine does not.
 fn environment(sun_weight: f32, direction: vec3f) -> vec3f {
     if SUN {

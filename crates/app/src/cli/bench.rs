@@ -17,12 +17,12 @@ pub fn run(args: &BenchArgs) -> anyhow::Result<()> {
     let mut show = |progress: &Progress| {
         if terminal {
             let (percent, left) = (100.0 * progress.done, time_left(progress.seconds_left));
-            super::to_stderr(format_args!("\r\x1b[K{percent:.0} %, {left} left: {}", progress.what));
+            crate::console::to_stderr(format_args!("\r\x1b[K{percent:.0} %, {left} left: {}", progress.what));
         }
     };
     let outcome = bench::run(&options, &mut show);
     if terminal {
-        super::to_stderr(format_args!("\r\x1b[K"));
+        crate::console::to_stderr(format_args!("\r\x1b[K"));
     }
     let outcome = outcome?;
     for line in &outcome.notes {

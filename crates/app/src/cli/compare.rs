@@ -8,8 +8,8 @@ use ::reference::Reference;
 use anyhow::ensure;
 use compare::flip::{PIXELS_PER_DEGREE, hdr_flip};
 use compare::{ErrorMetric, Errors, finite_mean};
-use film::DisplayTransform;
-use image_file::{Kind, Radiances, Records};
+use film::{DisplayTransform, Image};
+use image_file::{Kind, Records};
 use serde_json::json;
 use std::path::Path;
 
@@ -36,12 +36,8 @@ pub fn run(args: &CompareArgs) -> anyhow::Result<()> {
     if clipped(&args.film) && !args.reference.as_deref().is_some_and(clipped) {
         note!("note: what is brighter than white is clipped in a .png, and its exposure counts; an .exr has neither");
     }
-    ensure!(
-        (a.width, a.height) == (r.width, r.height),
-        compare::CompareError::Sizes(a.width, a.height, r.width, r.height)
-    );
     let display = DisplayTransform { exposure: args.exposure };
-    let pair = Pair { names: ["A", "reference"], width: a.width, radiances: [&a.radiances, &r.radiances], display };
+    let pair = Pair { names: ["A", "reference"], images: [a, r.image.clone()], display };
     let found = measure(&pair, &r)?;
     if found.errors.nonfinite > 0 {
         note!("note: {} pixels are not finite and are left out of every mean", found.errors.nonfinite);
@@ -50,7 +46,7 @@ pub fn run(args: &CompareArgs) -> anyhow::Result<()> {
         Some(out) => Some(draw(args, &pair, out)?),
         None => None,
     };
-    let text = if args.json { report(args, &a, &found, map.as_ref()) } else { table(&found, map.as_ref()) };
+    let text = if args.json { report(args, &pair, &found, map.as_ref()) } else { table(&found, map.as_ref()) };
     super::print(&text)
 }
 
@@ -63,15 +59,15 @@ fn refuse_to_overwrite(args: &CompareArgs, out: &Path) -> anyhow::Result<()> {
 }
 
 /// The reference of what a picture's records say that it shows.
-fn reference_of(file: &Path, picture: &Radiances) -> anyhow::Result<Reference> {
+fn reference_of(file: &Path, picture: &Image) -> anyhow::Result<Reference> {
     let made = made_by(file)?;
     ensure!(
-        made.pane.recipe().shows_the_scene(),
+        made.pane.in_use().shows_the_scene(),
         "this is a map of the fake, not a picture of the scene: {}",
         file.display()
     );
     ensure!(
-        made.seen.size == (picture.width, picture.height),
+        made.seen.size == picture.size(),
         "its records are of another size, {}x{}: {}",
         made.seen.size.0,
         made.seen.size.1,
@@ -81,11 +77,11 @@ fn reference_of(file: &Path, picture: &Radiances) -> anyhow::Result<Reference> {
 }
 
 fn measure(pair: &Pair, reference: &Reference) -> anyhow::Result<Comparison> {
-    let [film, _] = pair.radiances;
-    let shown = ErrorMetric::Flip.of_radiances(film, &reference.radiances, pair.width, &pair.display)?;
-    let swept = hdr_flip(film, &reference.radiances, pair.width, PIXELS_PER_DEGREE)?;
+    let [picture, truth] = &pair.images;
+    let shown = ErrorMetric::Flip.of(picture, truth, &pair.display)?;
+    let swept = hdr_flip(picture, truth, PIXELS_PER_DEGREE)?;
     Ok(Comparison {
-        errors: reference.errors(film)?,
+        errors: reference.errors(picture)?,
         flip: finite_mean(&shown).0,
         hdr_flip: finite_mean(&swept.values).0,
     })
@@ -119,12 +115,13 @@ fn table(found: &Comparison, map: Option<&HeatMap>) -> String {
     text
 }
 
-fn report(args: &CompareArgs, a: &Radiances, found: &Comparison, map: Option<&HeatMap>) -> String {
+fn report(args: &CompareArgs, pair: &Pair, found: &Comparison, map: Option<&HeatMap>) -> String {
     let e = &found.errors;
+    let (width, height) = pair.images[0].size();
     let mut report = json!({
         "a": args.film.to_string_lossy(),
         "reference": args.reference.as_ref().map(|file| file.to_string_lossy()),
-        "width": a.width, "height": a.height,
+        "width": width, "height": height,
         "rmse": e.rmse, "relmse": e.rel_mse, "mae": e.mae, "bias": e.bias, "relative_bias": e.relative_bias,
         "reference_noise": e.reference_noise, "below_reference_noise": e.below_reference_noise(),
         "flip": found.flip, "hdr_flip": found.hdr_flip,

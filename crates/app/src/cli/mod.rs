@@ -1,13 +1,6 @@
 //! The command line, a contract that scripts depend on. Words become a [`Command`] (in `args`); a command runs and
 //! either is done or fails with one line.
 
-/// A line on stderr, in the manner of `eprintln!` but without its panic where stderr is full or closed.
-macro_rules! note {
-    ($($text:tt)*) => {
-        $crate::cli::to_stderr(format_args!("{}\n", format_args!($($text)*)))
-    };
-}
-
 mod args;
 mod bench;
 mod check;
@@ -16,9 +9,10 @@ mod help;
 mod info;
 mod reference;
 mod render;
-mod tracing;
 
-pub use args::{BenchArgs, CheckArgs, CompareArgs, ReferenceArgs, RenderArgs, Seen, ViewArgs};
+pub use args::{BenchArgs, CheckArgs, CompareArgs, ReferenceArgs, RenderArgs, Seen};
+
+use crate::model::ViewArgs;
 
 /// What the user asked for.
 #[derive(Debug)]
@@ -38,7 +32,7 @@ pub enum Command {
     /// Adapters, limits, and what would be used.
     Info,
     /// A text to print.
-    Print(&'static str),
+    Print(String),
 }
 
 /// Why the program stops.
@@ -88,7 +82,7 @@ impl Command {
             Command::Reference(args) => reference::run(&args)?,
             Command::Check(args) => check::run(&args)?,
             Command::Info => info::run()?,
-            Command::Print(text) => print(text)?,
+            Command::Print(text) => print(&text)?,
         }
         Ok(())
     }
@@ -96,12 +90,6 @@ impl Command {
 
 fn one_line(text: &str) -> String {
     text.lines().collect::<Vec<_>>().join(", ")
-}
-
-/// Writes to stderr; there is nobody to tell if that fails.
-pub(crate) fn to_stderr(text: std::fmt::Arguments) {
-    use std::io::Write;
-    let _ = std::io::stderr().lock().write_fmt(text);
 }
 
 /// Prints to stdout; that a pipe was closed early is not a failure.

@@ -1,13 +1,15 @@
 //! `visavis reference`: references made, fetched and thrown away; and how other commands come by one.
 
 use super::ReferenceArgs;
-use crate::ruler::{Sought, brief};
+use crate::ruler::brief;
 use anyhow::Context;
-use pathtrace::{FEWEST_REPLICATES, Tracer};
-use reference::{Goal, Maker, Reference, Store};
+use pathtrace::FEWEST_REPLICATES;
+use reference::{Goal, Key, Maker, Reference, Store};
 use std::cell::Cell;
 use std::io::IsTerminal;
+use std::sync::Arc;
 use std::time::{Duration, Instant};
+use technique::{Renderer, Shot, Threads};
 
 pub fn run(args: &ReferenceArgs) -> anyhow::Result<()> {
     match args {
@@ -29,10 +31,10 @@ pub fn run(args: &ReferenceArgs) -> anyhow::Result<()> {
             super::print(&format!("removed {} references from {}\n", gone.count, store.folder().display()))
         }
         ReferenceArgs::Make { scene, out, seen, goal } => {
-            let sought = seen.of(scene)?;
+            let shot = seen.of(scene)?;
             image_file::check_writable(out)?;
-            let reference = obtain(&sought, Some(*goal))?;
-            image_file::write_whole(out, &reference.encode(sought.records())?)?;
+            let reference = obtain(&shot, Some(*goal))?;
+            image_file::write_whole(out, &reference.encode(::reference::records(&shot))?)?;
             note!(
                 "reference of {} at {}x{}: {}: {}",
                 scene,
@@ -52,13 +54,13 @@ fn course(reference: &Reference) -> String {
     format!("{} pictures, noise (relMSE) {noise}, {:.1} s", reference.replicates, reference.seconds)
 }
 
-/// The reference of what is sought. One from the store is taken as it is, unless there is a goal that it does not meet;
+/// The reference of what is seen. One from the store is taken as it is, unless there is a goal that it does not meet;
 /// what is made here is kept there. A store that cannot be used is told and does no harm.
 ///
 /// # Errors
 /// If there is no memory for it.
-pub fn obtain(sought: &Sought, goal: Option<Goal>) -> anyhow::Result<Reference> {
-    let key = sought.key();
+pub fn obtain(shot: &Shot, goal: Option<Goal>) -> anyhow::Result<Reference> {
+    let key = Key::of(shot);
     let store = Store::of_the_user().map_err(|fault| note!("note: {fault}")).ok();
     let kept = store.as_ref().and_then(|store| store.get(key));
     if let (Some(kept), None) = (&kept, goal) {
@@ -67,13 +69,13 @@ pub fn obtain(sought: &Sought, goal: Option<Goal>) -> anyhow::Result<Reference> 
     let goal = goal.unwrap_or_default();
     let told = Cell::new(false);
     let keep = |reference: &Reference| {
-        if let Some(Err(fault)) = store.as_ref().map(|store| store.put(key, reference, sought.records()))
+        if let Some(Err(fault)) = store.as_ref().map(|store| store.put(key, reference, ::reference::records(shot)))
             && !told.replace(true)
         {
             note!("note: {fault}");
         }
     };
-    let made = make(sought, &goal, kept.as_ref(), keep)?;
+    let made = make(shot, &goal, kept.as_ref(), keep)?;
     if kept.is_none_or(|kept| kept.replicates < made.replicates) {
         keep(&made);
     }
@@ -82,15 +84,10 @@ pub fn obtain(sought: &Sought, goal: Option<Goal>) -> anyhow::Result<Reference> 
 
 /// Makes a reference, or goes on with one, until it is good enough. Every doubling is handed to `keep`: hours of work
 /// do not go with a power cut.
-fn make(
-    sought: &Sought,
-    goal: &Goal,
-    begun: Option<&Reference>,
-    keep: impl Fn(&Reference),
-) -> anyhow::Result<Reference> {
-    let tracer = Tracer::new(&sought.scene);
-    let (width, height) = sought.size;
-    let mut maker = Maker::new(&tracer, &sought.subject(), begun)
+fn make(shot: &Shot, goal: &Goal, begun: Option<&Reference>, keep: impl Fn(&Reference)) -> anyhow::Result<Reference> {
+    let mut renderer = Renderer::on_the_processor(shot.scene.clone(), Arc::new(Threads::all()));
+    let (width, height) = shot.size;
+    let mut maker = Maker::new(&mut renderer, shot, begun)
         .with_context(|| format!("not enough memory for {width}x{height} pixels; ask for a smaller --size"))?;
     let progress = Progress::of(maker.progress(goal));
     let mut next_kept = (2 * FEWEST_REPLICATES).max(2 * maker.replicates());
@@ -124,13 +121,16 @@ impl Progress {
             let left = time_left(self.before, maker.progress(goal), self.start.elapsed());
             let left = left.map_or_else(String::new, |left| format!(", about {:.0} s left", left.as_secs_f64()));
             let made = maker.replicates();
-            super::to_stderr(format_args!("\r\x1b[Kreference: {made} pictures, {:.1} s{left} ", maker.seconds()));
+            crate::console::to_stderr(format_args!(
+                "\r\x1b[Kreference: {made} pictures, {:.1} s{left} ",
+                maker.seconds()
+            ));
         }
     }
 
     fn finish(&self) {
         if self.shown {
-            super::to_stderr(format_args!("\r\x1b[K"));
+            crate::console::to_stderr(format_args!("\r\x1b[K"));
         }
     }
 }

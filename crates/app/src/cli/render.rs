@@ -1,56 +1,59 @@
 //! `visavis render`: a picture to a file, without a window.
 
-use super::tracing::{self, Traced, Tracing};
 use super::{RenderArgs, reference};
-use crate::ruler::{Sought, brief, error_records, noise_line};
-use crate::technique::{Device, FakeSettings, Made, Provenance, RaySettings, Recipe, Technique};
+use crate::ruler::{brief, error_records, noise_line};
 use anyhow::Context;
 use compare::Errors;
-use film::DisplayTransform;
-use film::Film;
+use film::{DisplayTransform, Image};
 use gpu::Gpu;
-use image_file::{self, Kind, Linear};
+use image_file::{self, Kind};
+use pathtrace::gpu::GpuTraceError;
 use pathtrace::{SamplerKind, Stats};
 use raster::Raster;
-use scene::{Scene, Vec3, builtin};
+use scene::{Scene, builtin};
 use serde_json::json;
 use std::io::IsTerminal;
+use std::sync::Arc;
 use std::time::{Duration, Instant};
+use technique::settings::{OF_PANES, OF_SCENES, Value};
+use technique::{
+    Accumulation, Backend, Device, DeviceChoice, FakeSettings, Frame, INSTEAD, Made, Pacing, Provenance, Rendered,
+    Renderer, Shot, Technique, Threads, TracedSettings, Watch,
+};
 
 /// Samples per pixel where neither --spp nor --time says how many.
 const DEFAULT_SPP: u32 = 64;
 
+/// How long a device may work on what nobody has read yet.
+const AT_RISK: Duration = Duration::from_secs(5);
+
 /// A finished picture and what it cost.
-struct Rendered {
-    film: Film,
+struct Timed {
+    rendered: Rendered,
     seconds: f64,
-    stats: Stats,
-    /// Where it was made, at the end.
-    machine: Device,
-    /// Name of the GPU, or of the CPU renderer's threads.
-    adapter: String,
 }
 
 pub fn run(args: &mut RenderArgs) -> anyhow::Result<()> {
     tell_what_has_no_effect(args, &builtin::named(&args.scene)?);
-    let sought = args.seen.of(&args.scene)?;
-    let scene = sought.scene.clone();
+    let shot = args.seen.of(&args.scene)?;
+    let scene = shot.scene.clone();
     if !args.chose_estimator {
         args.pane.take_usual_estimator(&scene);
     }
     let args = &*args;
-    let recipe = args.pane.recipe();
+    let technique = args.pane.in_use();
     anyhow::ensure!(
-        !args.errors || recipe.shows_the_scene(),
+        !args.errors || technique.shows_the_scene(),
         "a map of the fake has no errors: --errors needs --show picture"
     );
     image_file::check_writable(&args.out)?;
-    let rendered = match recipe {
-        Recipe::Fake(fake) => raster(args, &fake.applied_to(&scene), fake)?,
-        Recipe::Rays(rays) => trace(args, &scene, rays)?,
+    let Timed { rendered, seconds } = match technique {
+        Technique::Fake(fake) => raster(args, &fake.applied_to(&scene), fake)?,
+        Technique::Traced(traced) => trace(args, &shot, traced)?,
     };
-    let errors = if args.errors { Some(measure(&sought, &rendered.film)?) } else { None };
-    save(args, &scene, &rendered, errors.as_ref())?;
+    let image = rendered.film.image();
+    let errors = if args.errors { Some(measure(&shot, &image)?) } else { None };
+    save(args, shot, (&rendered, seconds), &image, errors.as_ref())?;
     if rendered.film.nonfinite > 0 {
         note!(
             "visavis: {} samples were not finite and are left out: please report this scene",
@@ -61,7 +64,7 @@ pub fn run(args: &mut RenderArgs) -> anyhow::Result<()> {
         note!("note: {} samples were cut short and miss light: too many rays", rendered.stats.cut_paths);
     }
     if args.json {
-        super::print(&format!("{}\n", report(args, &scene, &rendered, errors.as_ref())))?;
+        super::print(&format!("{}\n", report(args, &scene, (&rendered, seconds), errors.as_ref())))?;
     } else {
         note!(
             "{} of {} at {}x{} in {:.2} s: {}",
@@ -69,7 +72,7 @@ pub fn run(args: &mut RenderArgs) -> anyhow::Result<()> {
             scene.name,
             args.seen.size.0,
             args.seen.size.1,
-            rendered.seconds,
+            seconds,
             args.out.display()
         );
         if let Some(e) = errors {
@@ -82,166 +85,166 @@ pub fn run(args: &mut RenderArgs) -> anyhow::Result<()> {
 }
 
 /// How far a finished picture is from the reference of what it shows.
-fn measure(sought: &Sought, film: &Film) -> anyhow::Result<Errors> {
-    let reference = reference::obtain(sought, None)?;
-    Ok(reference.errors(&film.radiances().collect::<Vec<_>>())?)
+fn measure(shot: &Shot, image: &Image) -> anyhow::Result<Errors> {
+    Ok(reference::obtain(shot, None)?.errors(image)?)
 }
 
-fn save(args: &RenderArgs, scene: &Scene, rendered: &Rendered, errors: Option<&Errors>) -> anyhow::Result<()> {
-    let provenance = Provenance {
-        source: args.scene.clone(),
-        changes: args.seen.changes,
-        camera: scene.camera,
-        recipe: args.pane.recipe(),
-        size: args.seen.size,
-        device: rendered.machine,
-    };
-    let made = Made {
-        spp: rendered.film.samples_per_pixel(),
-        seconds: rendered.seconds,
-        adapter: &rendered.adapter,
-        exposure: args.exposure,
-    };
+fn save(
+    args: &RenderArgs,
+    shot: Shot,
+    (rendered, seconds): (&Rendered, f64),
+    image: &Image,
+    errors: Option<&Errors>,
+) -> anyhow::Result<()> {
+    let provenance = Provenance { shot, technique: args.pane.in_use(), device: rendered.device };
+    let made =
+        Made { spp: rendered.film.samples_per_pixel(), seconds, adapter: &rendered.made_by, exposure: args.exposure };
     let mut records = provenance.records(made);
     records.extend(errors.into_iter().flat_map(|e| error_records(e, "reference".into())));
-    let radiances: Vec<Vec3> = rendered.film.radiances().collect();
-    let picture = Linear { width: args.seen.size.0, height: args.seen.size.1, radiances: &radiances };
     let kind = Kind::of(&args.out).context("a picture's name must end in .png or .exr")?;
-    let bytes = image_file::encode(kind, picture, &DisplayTransform { exposure: args.exposure }, &records)?;
+    let bytes = image_file::encode(kind, image, &DisplayTransform { exposure: args.exposure }, &records)?;
     Ok(image_file::write_whole(&args.out, &bytes)?)
 }
 
 fn tell_what_has_no_effect(args: &RenderArgs, scene: &Scene) {
+    let technique = args.pane.technique;
     for option in &args.without_effect {
-        note!("note: {option} has no effect with --technique {}", args.pane.technique.name());
+        note!("note: {option} has no effect with --technique {}", technique.name());
     }
-    let fake = args.pane.recipe().technique() == Technique::Raster;
-    if scene.refraction_ratio().is_none() {
-        if args.seen.changes.refraction_ratio.is_some() {
-            note!("note: --refraction-ratio has no effect: {} has no glass", scene.name);
+    let of_scene = OF_SCENES.iter().filter(|setting| (setting.get)(&args.seen.changes).is_some());
+    let of_scene = of_scene.map(|setting| (setting.name, setting.needs));
+    let of_pane = OF_PANES.iter().filter(|setting| setting.is_of(technique) && (setting.get)(&args.pane).is_some());
+    for (name, needs) in of_scene.chain(of_pane.map(|setting| (setting.name, setting.needs))) {
+        if let Some(missing) = needs.missing_in(scene) {
+            note!("note: --{name} has no effect: {} has no {missing}", scene.name);
         }
-        if fake && args.pane.fake.reflectivity.is_some() {
-            note!("note: --reflectivity has no effect: {} has no glass", scene.name);
-        }
-    }
-    if scene.sun.is_none() && args.seen.changes.sun_radius.is_some() {
-        note!("note: --sun-radius has no effect: {} has no sun", scene.name);
     }
 }
 
-fn raster(args: &RenderArgs, scene: &Scene, fake: FakeSettings) -> anyhow::Result<Rendered> {
+fn raster(args: &RenderArgs, scene: &Scene, fake: FakeSettings) -> anyhow::Result<Timed> {
     let gpu = Gpu::headless().context("the raster technique needs a GPU")?;
     let mut raster = Raster::new(&gpu)?;
     let start = Instant::now();
     let film = raster.render(scene, &scene.camera, &fake.sized(args.seen.size.0, args.seen.size.1))?;
-    let (seconds, machine) = (start.elapsed().as_secs_f64(), Device::Gpu);
-    Ok(Rendered { film, seconds, stats: Stats::default(), machine, adapter: gpu.describe() })
+    let rendered = Rendered { film, stats: Stats::default(), device: Device::Gpu, made_by: gpu.describe() };
+    Ok(Timed { rendered, seconds: start.elapsed().as_secs_f64() })
 }
 
-fn trace(args: &RenderArgs, scene: &Scene, rays: RaySettings) -> anyhow::Result<Rendered> {
-    if let Some(blind) = rays.blind_spot(scene) {
+fn trace(args: &RenderArgs, shot: &Shot, traced: TracedSettings) -> anyhow::Result<Timed> {
+    if let Some(blind) = traced.blind_spot(&shot.scene) {
         note!("note: {blind}");
     }
     let spp = args.spp.unwrap_or(if args.seconds.is_some() { u32::MAX } else { DEFAULT_SPP });
-    let (width, height) = args.seen.size;
-    let film = Film::try_new(width, height)
+    let (width, height) = shot.size;
+    let blank = Accumulation::blank(shot.size)
         .with_context(|| format!("not enough memory for {width}x{height} pixels; ask for a smaller --size"))?;
-    let work = u64::from(width) * u64::from(height) * u64::from(spp);
-    let gpu = tracing::device(args.device, work)?;
+    let gpu = args.device.open(u64::from(width) * u64::from(height) * u64::from(spp))?;
     let start = Instant::now();
-    let mut tracing = Tracing::begin(gpu, scene, rays, film, args.device)?;
-    let limit = args.seconds.map(Duration::from_secs_f64);
-    let progress = Progress::new(spp);
-    // one sample of every pixel is made however late it is
-    let is_late = |tracing: &Tracing| tracing.spp() > 0 && limit.is_some_and(|limit| start.elapsed() >= limit);
-    let mut batch = 1;
-    loop {
-        let batch_start = Instant::now();
-        let samples = batch.min(spp.saturating_sub(tracing.spp()));
-        // what is not read yet may be lost, and is then made up for
-        let machine = tracing.machine();
-        if samples == 0 || is_late(&tracing) {
-            tracing.read();
-            if tracing.machine() == machine || is_late(&tracing) {
-                break;
-            }
-        } else {
-            tracing.add(samples);
-        }
-        progress.show(tracing.spp(), start.elapsed());
-        batch = if tracing.machine() == machine {
-            next_batch(samples, batch_start.elapsed(), limit.map(|l| l.saturating_sub(start.elapsed())))
-        } else {
-            1
-        };
+    let backend = backend(gpu.as_ref(), &shot.scene, args.device)?;
+    let watch = Terminal {
+        spp,
+        shown: std::io::stderr().is_terminal(),
+        start,
+        limit: args.seconds.map(Duration::from_secs_f64),
+        // a test does not wait for seconds
+        at_risk: if backend.fails_on_purpose() { Duration::ZERO } else { AT_RISK },
+    };
+    let renderer = Renderer::new(shot.scene.clone(), backend, Arc::new(Threads::all()));
+    let rendered = renderer.finish(blank, &shot.camera, (&traced.integrator, spp), &watch);
+    watch.clear();
+    Ok(Timed { rendered, seconds: start.elapsed().as_secs_f64() })
+}
+
+/// The scene made ready. What a device refuses the processor traces, unless the device is what is asked for.
+fn backend(gpu: Option<&Gpu>, scene: &Scene, choice: DeviceChoice) -> anyhow::Result<Backend> {
+    match gpu.map(|gpu| Backend::on_the_device(gpu, scene)) {
+        Some(Ok(backend)) => return Ok(backend),
+        Some(Err(fault)) if choice == DeviceChoice::Gpu => return Err(fault).context(INSTEAD),
+        Some(Err(fault)) => note!("note: the processor traces this, the graphics device does not: {fault}"),
+        None => {}
     }
-    progress.finish();
-    let Traced { film, stats, machine, adapter } = tracing.finish();
-    Ok(Rendered { film, seconds: start.elapsed().as_secs_f64(), stats, machine, adapter })
+    Ok(Backend::on_the_processor(scene))
 }
 
-/// How many samples fill a quarter of a second, or what is left of the time, at the speed of the last batch.
-fn next_batch(samples: u32, took: Duration, left: Option<Duration>) -> u32 {
-    let goal = left.unwrap_or(Duration::MAX).min(Duration::from_millis(250)).as_secs_f64();
-    let per_sample = took.as_secs_f64().max(1e-6) / f64::from(samples);
-    ((goal / per_sample) as u32).clamp(1, samples.saturating_mul(4))
-}
-
-/// A line on stderr that counts samples, where someone can see it.
-struct Progress {
+/// Watches the time, and counts samples on stderr where someone can see it.
+struct Terminal {
     spp: u32,
     shown: bool,
+    start: Instant,
+    limit: Option<Duration>,
+    at_risk: Duration,
 }
 
-impl Progress {
-    fn new(spp: u32) -> Self {
-        Progress { spp, shown: std::io::stderr().is_terminal() }
+impl Watch for Terminal {
+    /// One sample of every pixel is made however late it is.
+    fn ends_soon(&self, spp: u32) -> bool {
+        spp > 0 && self.limit.is_some_and(|limit| self.start.elapsed() >= limit)
     }
 
-    fn show(&self, done: u32, elapsed: Duration) {
+    /// Passes of a quarter of a second, or of what is left of the time.
+    fn pacing(&self, _spent: Duration) -> Pacing {
+        let left = self.limit.map_or(Duration::MAX, |limit| limit.saturating_sub(self.start.elapsed()));
+        Pacing { pass: left.min(Duration::from_millis(250)), show: self.at_risk, growth: 3 }
+    }
+
+    fn show(&self, _frame: Frame) {}
+
+    fn count(&self, spp: u32) {
         if self.shown {
             let of = if self.spp == u32::MAX { String::new() } else { format!(" of {}", self.spp) };
-            super::to_stderr(format_args!("\r{done}{of} spp, {:.1} s ", elapsed.as_secs_f64()));
+            crate::console::to_stderr(format_args!("\r{spp}{of} spp, {:.1} s ", self.start.elapsed().as_secs_f64()));
         }
     }
 
-    fn finish(&self) {
+    fn told_of_loss(&self, fault: &GpuTraceError, spp: u32) {
+        note!("note: the processor goes on from {spp} spp, the graphics device failed: {fault}");
+    }
+}
+
+impl Terminal {
+    fn clear(&self) {
         if self.shown {
-            super::to_stderr(format_args!("\r\x1b[K"));
+            crate::console::to_stderr(format_args!("\r\x1b[K"));
         }
     }
 }
 
-fn report(args: &RenderArgs, scene: &Scene, rendered: &Rendered, errors: Option<&Errors>) -> serde_json::Value {
+fn report(
+    args: &RenderArgs,
+    scene: &Scene,
+    (rendered, seconds): (&Rendered, f64),
+    errors: Option<&Errors>,
+) -> serde_json::Value {
     let technique = args.pane.technique;
-    let per_second = |count: u64| count as f64 / rendered.seconds;
+    let per_second = |count: u64| count as f64 / seconds;
     let mut report = json!({
         "scene": scene.name,
         "technique": technique.name(),
-        "device": rendered.machine.name(),
-        "adapter": rendered.adapter,
+        "device": rendered.device.name(),
+        "adapter": rendered.made_by,
         "width": args.seen.size.0,
         "height": args.seen.size.1,
         "spp": rendered.film.samples_per_pixel(),
-        "seconds": rendered.seconds,
+        "seconds": seconds,
         "samples_per_second": per_second(rendered.stats.samples),
         "rays_per_second": per_second(rendered.stats.rays),
         "mean": rendered.film.mean(),
         "nonfinite": rendered.film.nonfinite,
     });
-    match args.pane.recipe() {
-        Recipe::Fake(fake) => report["fake"] = json!(fake.fake.name()),
-        Recipe::Rays(rays) => {
-            for (name, value) in rays.options(rendered.film.samples_per_pixel()).into_iter().skip(1) {
-                let counts = ["seed", "branches", "depth", "shadow-rays"].contains(&name);
-                let number = value.parse::<u64>().ok().filter(|_| counts);
-                report[name.replace('-', "_")] = number.map_or_else(|| json!(value), |number| json!(number));
+    match args.pane.in_use() {
+        Technique::Fake(fake) => report["fake"] = json!(fake.fake.name()),
+        Technique::Traced(rays) => {
+            for (name, value) in args.pane.in_use().values(rendered.film.samples_per_pixel()).into_iter().skip(1) {
+                report[name.replace('-', "_")] = match value {
+                    Value::Whole(number) => json!(number),
+                    other => json!(other.to_string()),
+                };
             }
             report["samples"] = json!(rendered.stats.samples);
             report["rays"] = json!(rendered.stats.rays);
             report["cut_paths"] = json!(rendered.stats.cut_paths);
             report["standard_error"] = json!(rendered.film.standard_error());
-            let independent = rays.sampler() == SamplerKind::Independent;
+            let independent = rays.integrator.sampler() == SamplerKind::Independent;
             let reliable = independent && rendered.film.standard_error_is_reliable();
             report["standard_error_reliable"] = json!(reliable);
         }

@@ -1,31 +1,34 @@
-//! The threads beside the UI as one: asks them for whatever no longer fits what the viewer shows, and ends them.
+//! The threads beside the UI as one: asks them for whatever no longer fits what is wanted, and ends them.
 
-use super::error_map::{ErrorMap, ErrorMapWorker};
+use super::error_map::ErrorMapWorker;
 use super::export::{Export, Exporter, Outcome};
 use super::load::{Loader, Opened};
 use super::pane_workers::PaneWorkers;
-use super::post_process::{Comparison, PaneUpdate, PaneUpdates, PostProcess};
-use super::reference::{Origin, ReferenceUpdate, ReferenceWorker, Wish};
-use super::{Order, Side, Wake};
-use crate::ruler::{Against, Sought};
-use crate::technique::{Adapters, Provenance, Recipe, SceneChanges};
-use crate::ui::Viewer;
+use super::post_process::{PaneUpdate, PaneUpdates, PostProcess};
+use super::reference::{OpenStore, ReferenceUpdate, ReferenceWorker, Wish};
+use super::{Order, Wake, step_back};
+use crate::model::{Against, Comparison, ErrorMap, MapWish, Origin, PaneId, Panes, Wanted, WantedPane};
 use anyhow::Context;
 use film::DisplayTransform;
 use gpu::Gpu;
-use scene::{Camera, Scene};
 use std::path::PathBuf;
 use std::sync::Arc;
-use std::thread::JoinHandle;
+use technique::{Adapters, Provenance, Shot, Technique, Threads};
 
 /// The workers; dropping it ends their threads.
 pub struct Engine {
-    pane_workers: [PaneWorkers; 2],
+    /// The window's device, and what can trace rays.
+    gpu: Gpu,
+    adapters: Adapters,
+    /// Made when a pane is first wanted.
+    pane_workers: Panes<PaneWorkers>,
     post_process: Arc<PostProcess>,
-    post_process_thread: Option<JoinHandle<()>>,
     error_map_worker: Arc<ErrorMapWorker>,
     /// Made when it is first asked for.
     reference_worker: Option<ReferenceWorker>,
+    open_store: OpenStore,
+    /// Shared by all who trace rays.
+    threads: Arc<Threads>,
     exporter: Exporter,
     loader: Loader,
     wake: Wake,
@@ -35,49 +38,53 @@ pub struct Engine {
 /// What each worker was last asked for.
 #[derive(Default)]
 struct Asked {
-    scene: Option<(u64, SceneChanges, Arc<Scene>)>,
-    view: Option<View>,
-    /// For each pane.
-    made: [Option<(u64, u64, Recipe)>; 2],
-    /// For each pane its job, until its last picture has come.
-    unfinished: [Option<u64>; 2],
+    opened: u64,
+    /// What is seen, and the number of each: panes that show the same share it.
+    views: Vec<(u64, Shot)>,
+    panes: Panes<AskedPane>,
     display: Option<DisplayTransform>,
-    comparison: Comparison,
+    comparisons: Vec<Comparison>,
+    map: Option<MapWish>,
     /// The view and the origin of the reference.
     reference: Option<(u64, Origin)>,
     paused: bool,
     /// The first view of the scene that is open.
     oldest_view: u64,
-    /// Counts views and jobs.
-    views: u64,
+    /// Count views and jobs.
+    newest_view: u64,
     jobs: u64,
 }
 
-/// What both sides share.
-#[derive(PartialEq)]
-struct View {
-    opened: u64,
-    changes: SceneChanges,
-    camera: Camera,
-    size: (u32, u32),
+/// What a pane was last asked for.
+#[derive(Default)]
+struct AskedPane {
+    view: u64,
+    /// The number of restarts and how it is made; `None` to make it once more.
+    made: Option<(u64, Technique)>,
+    /// Its job, until its last picture has come.
+    unfinished: Option<u64>,
 }
 
 impl Engine {
-    /// Starts the threads; `wake` is called whenever there is something to collect.
+    /// Starts the threads; `wake` is called whenever there is something to collect. References are kept where
+    /// `open_store` says.
     ///
     /// # Errors
     /// If the system gives no threads.
-    pub fn start(window: &Gpu, adapters: &Adapters, wake: Wake) -> anyhow::Result<Self> {
+    pub fn start(window: &Gpu, adapters: &Adapters, open_store: OpenStore, wake: Wake) -> anyhow::Result<Self> {
         let error_map_worker = Arc::new(ErrorMapWorker::start(wake.clone()).context("no thread for maps")?);
-        let (post_process, thread) =
+        let post_process =
             PostProcess::start(wake.clone(), error_map_worker.clone()).context("no thread for the post_process")?;
+        let threads = Arc::new(Threads::beside_the_ui(step_back).context("no threads for tracing rays")?);
         Ok(Engine {
-            pane_workers: [Side::A, Side::B]
-                .map(|side| PaneWorkers::new(side, window.clone(), adapters.clone(), post_process.clone())),
-            post_process,
-            post_process_thread: Some(thread),
+            gpu: window.clone(),
+            adapters: adapters.clone(),
+            pane_workers: Panes::default(),
+            post_process: Arc::new(post_process),
             error_map_worker,
             reference_worker: None,
+            open_store,
+            threads,
             exporter: Exporter::start(wake.clone()).context("no thread for exports")?,
             loader: Loader::new(wake.clone()),
             wake,
@@ -85,31 +92,33 @@ impl Engine {
         })
     }
 
-    /// Goes on with another device of the window: fakes are drawn again, and all that is shown is frame again.
+    /// Goes on with another device of the window: fakes are drawn again, and all that is shown is resolved again.
     pub fn move_to(&mut self, window: &Gpu) {
-        for (pane_workers, made) in self.pane_workers.iter_mut().zip(&mut self.asked.made) {
-            pane_workers.move_to(window.clone());
-            made.take_if(|(.., recipe)| matches!(recipe, Recipe::Fake(_)));
+        self.gpu = window.clone();
+        self.pane_workers.values_mut().for_each(|workers| workers.move_to(window.clone()));
+        for pane in self.asked.panes.values_mut() {
+            pane.made.take_if(|(_, technique)| matches!(technique, Technique::Fake(_)));
         }
         self.asked.display = None;
-        self.post_process.set_comparison(self.asked.comparison);
+        self.post_process.set_comparisons(self.asked.comparisons.clone(), self.asked.map);
     }
 
     /// What is new since the last call.
     pub fn collect(&mut self) -> Option<PaneUpdates> {
         let mut updates = self.post_process.collect()?;
-        for (place, job) in updates.iter_mut().zip(&mut self.asked.unfinished) {
-            job.take_if(|job| place.as_ref().is_some_and(|update| is_the_last_of(update, *job)));
-            place.take_if(
-                |update| matches!(update, PaneUpdate::Picture(d) if d.picture.order.view < self.asked.oldest_view),
-            );
+        for (id, pane) in self.asked.panes.iter_mut() {
+            let Some(update) = updates.get(id) else { continue };
+            pane.unfinished.take_if(|job| is_the_last_of(update, *job));
         }
+        let (oldest_view, asked) = (self.asked.oldest_view, &self.asked.panes);
+        updates.retain(|id, update| asked.get(id).is_some() && !is_older_than(update, oldest_view));
         Some(updates)
     }
 
     /// The map of errors that was drawn since the last call, or that there is none.
     pub fn error_map(&self) -> Option<Option<ErrorMap>> {
-        self.error_map_worker.collect()
+        let looked_at = self.asked.map.is_some();
+        self.error_map_worker.collect().map(|drawn| drawn.filter(|_| looked_at))
     }
 
     /// What the reference has to say since the last call.
@@ -124,88 +133,108 @@ impl Engine {
         self.asked.reference.as_ref().map(|(view, _)| *view)
     }
 
-    /// Asks for what has changed in the viewer; returns for each pane the number of its new job, if there is one.
-    pub fn ask(&mut self, viewer: &Viewer) -> [Option<u64>; 2] {
-        let scene = self.asked.scene_of(viewer);
+    /// Asks for what is wanted and was not before; returns the numbers of the new jobs.
+    pub fn ask(&mut self, wanted: &Wanted) -> Panes<u64> {
         let asked = &mut self.asked;
-        if asked.display != Some(viewer.settings.display) {
-            asked.display = Some(viewer.settings.display);
-            self.post_process.set_display(viewer.settings.display);
+        if asked.display != Some(wanted.display) {
+            asked.display = Some(wanted.display);
+            self.post_process.set_display(wanted.display);
         }
-        if asked.paused != viewer.paused {
-            asked.paused = viewer.paused;
-            self.pane_workers.iter_mut().for_each(|pane_workers| pane_workers.hold(viewer.paused));
+        if asked.paused != wanted.paused {
+            asked.paused = wanted.paused;
+            self.pane_workers.values_mut().for_each(|workers| workers.hold(wanted.paused));
         }
-        if asked.follow(viewer) {
-            self.post_process.forget_before(asked.oldest_view);
+        self.follow_the_panes(wanted);
+        if self.asked.follow_the_scene(wanted) {
+            self.post_process.forget_before(self.asked.oldest_view);
         }
-        let mut jobs = [None; 2];
-        for (side, pane_workers) in self.pane_workers.iter_mut().enumerate() {
-            let recipe = viewer.settings.panes[side].recipe();
-            let wish = Some((asked.views, viewer.restarts, recipe));
-            if asked.made[side] == wish {
-                continue;
+        let mut jobs = Panes::default();
+        for (id, pane) in wanted.panes.iter() {
+            if let Some(order) = self.asked.order(id, pane, wanted.restarts) {
+                jobs.insert(id, order.job);
+                self.workers(id).submit(pane.technique, order);
             }
-            asked.made[side] = wish;
-            pane_workers.submit(recipe, asked.order(viewer, scene.clone(), recipe));
-            jobs[side] = Some(asked.jobs);
-            asked.unfinished[side] = Some(asked.jobs);
         }
-        self.compare(viewer, &scene);
+        self.compare(wanted);
         jobs
     }
 
-    /// Follows what is compared with what; returns after posting.
-    fn compare(&mut self, viewer: &Viewer, scene: &Arc<Scene>) {
-        let comparison = viewer.comparison();
-        if self.asked.comparison != comparison {
-            self.asked.comparison = comparison;
-            self.post_process.set_comparison(comparison);
+    /// Stops the workers of panes that are no longer wanted. They stay: what they have made is there again with the
+    /// pane.
+    fn follow_the_panes(&mut self, wanted: &Wanted) {
+        let gone: Vec<PaneId> = self.asked.panes.ids().filter(|id| wanted.panes.get(*id).is_none()).collect();
+        for id in gone {
+            self.asked.panes.remove(id);
+            self.pane_workers.get_mut(id).into_iter().for_each(PaneWorkers::rest);
+            self.post_process.forget_pane(id);
         }
-        let origin = match &self.asked.reference {
-            Some((view, origin)) if *view == self.asked.views => origin.clone(),
-            _ => Origin::Made,
-        };
-        match comparison.against {
-            Against::Reference => self.refer(viewer, scene, origin),
-            Against::EachOther => {
+    }
+
+    fn workers(&mut self, id: PaneId) -> &mut PaneWorkers {
+        if self.pane_workers.get(id).is_none() {
+            let tracers = (self.adapters.clone(), self.threads.clone());
+            let mut workers = PaneWorkers::new(id, self.gpu.clone(), tracers, self.post_process.clone());
+            workers.hold(self.asked.paused);
+            self.pane_workers.insert(id, workers);
+        }
+        &mut self.pane_workers[id]
+    }
+
+    /// Follows what is compared with what.
+    fn compare(&mut self, wanted: &Wanted) {
+        if (&self.asked.comparisons, self.asked.map) != (&wanted.comparisons, wanted.map) {
+            (self.asked.comparisons, self.asked.map) = (wanted.comparisons.clone(), wanted.map);
+            self.post_process.set_comparisons(wanted.comparisons.clone(), wanted.map);
+        }
+        // one reference at a time: of what the first pane shows that is judged by one
+        let mut judged = wanted.comparisons.iter().filter(|comparison| comparison.against == Against::Reference);
+        match judged.next().and_then(|comparison| self.asked.panes.get(comparison.of)) {
+            Some(&AskedPane { view, .. }) => {
+                let origin = match &self.asked.reference {
+                    Some((of, origin)) if *of == view => origin.clone(),
+                    _ => Origin::Made,
+                };
+                self.refer(view, origin);
+            }
+            None => {
                 self.reference_worker.iter_mut().for_each(ReferenceWorker::cancel);
                 self.asked.reference = None;
             }
         }
         // the user explores: panes come first, and what is paused is quiet
-        let busy = self.asked.unfinished.iter().any(Option::is_some);
-        self.reference_worker.iter().for_each(|reference_worker| reference_worker.hold(busy || viewer.paused));
+        let busy = self.asked.panes.values().any(|pane| pane.unfinished.is_some());
+        self.reference_worker.iter().for_each(|reference_worker| reference_worker.hold(busy || wanted.paused));
     }
 
     /// Takes the reference of what is seen from this file, until something else is seen.
-    pub fn load_reference(&mut self, viewer: &Viewer, file: PathBuf) {
-        let scene = self.asked.scene_of(viewer);
+    pub fn load_reference(&mut self, file: PathBuf) {
         // the same file once more is read once more: it may have changed
-        self.asked.reference = None;
-        self.refer(viewer, &scene, Origin::File(file));
+        let before = self.asked.reference.take();
+        let seen = before.map(|(view, _)| view).or_else(|| Some(self.asked.views.first()?.0));
+        seen.into_iter().for_each(|view| self.refer(view, Origin::File(file.clone())));
     }
 
-    fn refer(&mut self, viewer: &Viewer, scene: &Arc<Scene>, origin: Origin) {
-        let wish = Some((self.asked.views, origin.clone()));
+    fn refer(&mut self, view: u64, origin: Origin) {
+        let wish = Some((view, origin.clone()));
+        let Some((_, shot)) = self.asked.views.iter().find(|(number, _)| *number == view) else { return };
         if self.asked.reference == wish {
             return;
         }
+        let shot = shot.clone();
         if self.reference_worker.is_none() {
-            self.reference_worker = ReferenceWorker::start(self.post_process.clone(), self.wake.clone()).ok();
+            // without threads there is no reference; the next wish tries again
+            self.reference_worker = ReferenceWorker::start(
+                self.threads.clone(),
+                self.post_process.clone(),
+                self.open_store.clone(),
+                self.wake.clone(),
+            )
+            .ok();
         }
         self.asked.reference = wish;
-        let sought = Sought {
-            source: viewer.source.clone(),
-            changes: viewer.settings.changes,
-            scene: scene.clone(),
-            camera: viewer.camera,
-            size: viewer.picture_size,
-        };
-        let view = self.asked.views;
-        self.reference_worker.iter_mut().for_each(|reference_worker| {
-            reference_worker.submit(Wish { view, sought: sought.clone(), origin: origin.clone() })
-        });
+        self.reference_worker
+            .iter_mut()
+            .for_each(|worker| worker.submit(Wish { view, shot: shot.clone(), origin: origin.clone() }));
     }
 
     /// Reads a scene beside the UI.
@@ -230,50 +259,52 @@ impl Engine {
 }
 
 impl Asked {
-    /// The scene with the viewer's changes, the same one as long as they stay.
-    fn scene_of(&mut self, viewer: &Viewer) -> Arc<Scene> {
-        let (opened, changes) = (viewer.opened, viewer.settings.changes);
-        let scene = match &self.scene {
-            Some((of, with, scene)) if (*of, *with) == (opened, changes) => scene.clone(),
-            _ => Arc::new(changes.applied_to(&viewer.scene)),
-        };
-        self.scene = Some((opened, changes, scene.clone()));
-        scene
-    }
-
-    /// Takes a new number where the view has changed; returns whether older ones show another scene.
-    fn follow(&mut self, viewer: &Viewer) -> bool {
-        let view = View {
-            opened: viewer.opened,
-            changes: viewer.settings.changes,
-            camera: viewer.camera,
-            size: viewer.picture_size,
-        };
-        if self.view.as_ref() == Some(&view) {
-            return false;
-        }
-        self.views += 1;
-        let other_scene = self.view.as_ref().is_some_and(|old| old.opened != view.opened);
+    /// Gives each pane the number of what it shows, a new one where nobody showed that before; returns whether older
+    /// ones show another scene.
+    fn follow_the_scene(&mut self, wanted: &Wanted) -> bool {
+        let other_scene = self.newest_view > 0 && self.opened != wanted.opened;
+        self.opened = wanted.opened;
         if other_scene {
-            self.oldest_view = self.views;
+            self.oldest_view = self.newest_view + 1;
         }
-        self.view = Some(view);
+        let oldest_view = self.oldest_view;
+        let mut before = std::mem::take(&mut self.views);
+        before.retain(|(number, _)| *number >= oldest_view);
+        for (id, pane) in wanted.panes.iter() {
+            let shows = |(_, shot): &&(u64, Shot)| same_shot(shot, &pane.shot);
+            let known = self.views.iter().find(shows).or_else(|| before.iter().find(shows)).map(|(number, _)| *number);
+            let view = known.unwrap_or_else(|| {
+                self.newest_view += 1;
+                self.newest_view
+            });
+            if !self.views.iter().any(|(number, _)| *number == view) {
+                self.views.push((view, pane.shot.clone()));
+            }
+            let asked = self.panes.entry(id);
+            if asked.view != view {
+                (asked.view, asked.made) = (view, None);
+            }
+        }
         other_scene
     }
 
-    fn order(&mut self, viewer: &Viewer, scene: Arc<Scene>, recipe: Recipe) -> Order {
+    /// What a pane's workers are to make, if that is not what they were asked for.
+    fn order(&mut self, id: PaneId, pane: &WantedPane, restarts: u64) -> Option<Order> {
+        let asked = self.panes.entry(id);
+        if asked.made == Some((restarts, pane.technique)) {
+            return None;
+        }
         self.jobs += 1;
-        let provenance = Arc::new(Provenance {
-            source: viewer.source.clone(),
-            changes: viewer.settings.changes,
-            camera: viewer.camera,
-            recipe,
-            size: viewer.picture_size,
-            device: recipe.technique().usual_machine(),
-        });
-        let shrink = viewer.settings.resolution.shrink();
-        Order { job: self.jobs, view: self.views, shrink, restarts: viewer.restarts, scene, provenance }
+        (asked.made, asked.unfinished) = (Some((restarts, pane.technique)), Some(self.jobs));
+        let (shot, technique) = (pane.shot.clone(), pane.technique);
+        let provenance = Arc::new(Provenance { shot, technique, device: technique.name().usual_device() });
+        Some(Order { job: self.jobs, view: asked.view, shrink: pane.shrink, restarts, provenance })
     }
+}
+
+/// Whether two pictures show the same, so that they can be compared.
+fn same_shot(a: &Shot, b: &Shot) -> bool {
+    Arc::ptr_eq(&a.scene, &b.scene) && (a.camera, a.size) == (b.camera, b.size)
 }
 
 /// Whether no more comes of a job after this.
@@ -284,15 +315,15 @@ fn is_the_last_of(update: &PaneUpdate, job: u64) -> bool {
     }
 }
 
+fn is_older_than(update: &PaneUpdate, oldest_view: u64) -> bool {
+    matches!(update, PaneUpdate::Picture(frame) if frame.picture.order.view < oldest_view)
+}
+
 impl Drop for Engine {
     fn drop(&mut self) {
         // what it has made is kept while the others end
         self.reference_worker = None;
         self.error_map_worker.close();
         self.post_process.close();
-        if let Some(thread) = self.post_process_thread.take() {
-            // a panic there has been printed already, and the window is closing
-            let _ = thread.join();
-        }
     }
 }

@@ -1,56 +1,13 @@
 //! The thread that draws maps of errors. It has its own because FLIP takes a third of a second, and no picture shall
 //! wait for a map; a newer wish replaces one that was not begun.
 
-use super::{Inbox, Wake, step_back};
-use crate::ruler::{HeatMap, Pair};
-use compare::ErrorMetric;
-use film::DisplayTransform;
-use scene::Vec3;
-use std::sync::{Arc, Mutex, PoisonError};
-use std::thread::JoinHandle;
-
-/// Two pictures of one size and what to draw of them.
-#[derive(Debug, Clone)]
-pub struct ErrorMapJob {
-    /// What they are called.
-    pub names: [&'static str; 2],
-    /// Pixels in a row of both.
-    pub width: u32,
-    /// Linear radiances, rows from the top; the first is judged by the second.
-    pub radiances: [Arc<[Vec3]>; 2],
-    /// How FLIP sees them.
-    pub display: DisplayTransform,
-    /// What to map.
-    pub map: ErrorMetric,
-    /// Where the scale ends; `None` to fit it.
-    pub held: Option<f32>,
-}
-
-/// A map that is drawn.
-#[derive(Debug)]
-pub struct ErrorMap {
-    /// What it is of.
-    pub map_job: ErrorMapJob,
-    /// The numbers and their colours.
-    pub map: HeatMap,
-    /// Its bytes, four a pixel, without the bar.
-    pub rgba: Vec<u8>,
-}
+use super::worker::{Control, Service, Worker};
+use super::{Wake, step_back};
+use crate::model::{ErrorMap, ErrorMapJob};
+use crate::ruler::HeatMap;
 
 /// The worker; [`ErrorMapWorker::close`] ends its thread.
-pub struct ErrorMapWorker {
-    inbox: Arc<Inbox<Option<ErrorMapJob>>>,
-    updates: Arc<Inbox<Option<ErrorMap>>>,
-    thread: Mutex<Option<JoinHandle<()>>>,
-}
-
-impl ErrorMapJob {
-    /// The two pictures.
-    pub fn pair(&self) -> Pair<'_> {
-        let [film, reference] = &self.radiances;
-        Pair { names: self.names, width: self.width, radiances: [film, reference], display: self.display }
-    }
-}
+pub struct ErrorMapWorker(Worker<Option<ErrorMapJob>, Option<ErrorMap>>);
 
 impl ErrorMapWorker {
     /// Starts the thread, which calls `wake` whenever [`ErrorMapWorker::collect`] has something.
@@ -58,45 +15,48 @@ impl ErrorMapWorker {
     /// # Errors
     /// If the system gives no thread.
     pub fn start(wake: Wake) -> std::io::Result<Self> {
-        let (inbox, updates) = (Arc::new(Inbox::<Option<ErrorMapJob>>::default()), Arc::new(Inbox::default()));
-        let thread = std::thread::Builder::new().name("error_map_worker".into()).spawn({
-            let (inbox, updates) = (inbox.clone(), updates.clone());
-            move || {
-                step_back();
-                while let Some(map_job) = inbox.take() {
-                    // two pictures without the same pixels have no map
-                    let drawn = map_job.and_then(draw);
-                    updates.post(|place| *place = drawn);
-                    wake();
-                }
-            }
-        })?;
-        Ok(ErrorMapWorker { inbox, updates, thread: Mutex::new(Some(thread)) })
+        let service = || {
+            step_back();
+            ErrorMaps
+        };
+        Worker::start("error_map_worker", wake, service).map(ErrorMapWorker)
     }
 
     /// Asks for a map, or says that there is nothing to draw.
     pub fn submit(&self, map_job: Option<ErrorMapJob>) {
-        self.inbox.post(|slot| *slot = map_job);
+        self.0.post(|slot| *slot = map_job);
     }
 
     /// What is new since the last call: a map, or that there is none.
     pub fn collect(&self) -> Option<Option<ErrorMap>> {
-        self.updates.take_now()
+        self.0.collect()
     }
 
     /// Ends the thread.
     pub fn close(&self) {
-        self.inbox.close();
-        let thread = self.thread.lock().unwrap_or_else(PoisonError::into_inner).take();
-        if let Some(thread) = thread {
-            // a panic there has been printed already, and the window is closing
-            let _ = thread.join();
-        }
+        self.0.close();
+    }
+}
+
+struct ErrorMaps;
+
+impl Service for ErrorMaps {
+    type Job = Option<ErrorMapJob>;
+    type Update = Option<ErrorMap>;
+
+    fn serve(&mut self, map_job: Self::Job, control: &Control<Self::Job, Self::Update>) {
+        // two pictures without the same pixels have no map
+        let drawn = map_job.and_then(draw);
+        control.tell(|place| *place = drawn);
+    }
+
+    fn recover(&mut self, control: &Control<Self::Job, Self::Update>) {
+        control.tell(|place| *place = None);
     }
 }
 
 fn draw(map_job: ErrorMapJob) -> Option<ErrorMap> {
-    let map = HeatMap::of(&map_job.pair(), map_job.map, map_job.held).ok()?;
+    let map = HeatMap::of(&map_job.pair, map_job.map, map_job.held).ok()?;
     let rgba = map.rgba();
     Some(ErrorMap { map_job, map, rgba })
 }

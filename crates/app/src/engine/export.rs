@@ -1,15 +1,15 @@
 //! The thread that writes pictures and fills the clipboard: encoding, disk and other programs take their time.
 
 use super::capture::{Capture, Pixels};
-use super::error_map::ErrorMap;
-use super::{Inbox, Picture, Wake};
+use super::worker::{Control, Service, Worker};
+use super::{Picture, Wake};
+use crate::model::{Destination, ErrorMap};
 use anyhow::Context;
 use film::DisplayTransform;
 use image_file::Records;
-use image_file::{self, Kind, Linear};
+use image_file::{self, Kind};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use std::thread::JoinHandle;
 
 /// What to export.
 #[derive(Debug)]
@@ -22,23 +22,14 @@ pub enum Content {
     Map(Arc<ErrorMap>),
 }
 
-/// Where to.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub enum Destination {
-    /// A file; if there is one already, another name beside it.
-    File(PathBuf),
-    /// The clipboard.
-    Clipboard,
-}
-
 /// Something to export.
 #[derive(Debug)]
 pub struct Export {
-    /// What.
+    /// The pixels, or what they are made from.
     pub content: Content,
     /// What the file keeps about it.
     pub records: Records,
-    /// Where to.
+    /// The file or the clipboard.
     pub to: Destination,
 }
 
@@ -46,11 +37,7 @@ pub struct Export {
 pub type Outcome = Result<String, String>;
 
 /// The worker; dropping it ends its thread once all exports are done.
-pub struct Exporter {
-    inbox: Arc<Inbox<Vec<Export>>>,
-    outcomes: Arc<Inbox<Vec<Outcome>>>,
-    thread: Option<JoinHandle<()>>,
-}
+pub struct Exporter(Worker<Vec<Export>, Vec<Outcome>>);
 
 impl Exporter {
     /// Starts the thread, which calls `wake` whenever [`Exporter::outcomes`] has something.
@@ -58,48 +45,48 @@ impl Exporter {
     /// # Errors
     /// If the system gives no thread.
     pub fn start(wake: Wake) -> std::io::Result<Self> {
-        let inbox = Arc::new(Inbox::<Vec<Export>>::default());
-        let outcomes = Arc::new(Inbox::<Vec<Outcome>>::default());
-        let thread = std::thread::Builder::new().name("exporter".into()).spawn({
-            let (inbox, outcomes) = (inbox.clone(), outcomes.clone());
-            move || work(&inbox, &outcomes, &wake)
-        })?;
-        Ok(Exporter { inbox, outcomes, thread: Some(thread) })
+        Worker::start("exporter", wake, || Exports { clipboard: None }).map(Exporter)
     }
 
     /// Exports this after what was asked for before.
     pub fn submit(&self, export: Export) {
-        self.inbox.post(|queue| queue.push(export));
+        self.0.post(|queue| queue.push(export));
     }
 
     /// What has become of exports since the last call.
     pub fn outcomes(&self) -> Vec<Outcome> {
-        self.outcomes.take_now().unwrap_or_default()
+        self.0.collect().unwrap_or_default()
     }
 }
 
 impl Drop for Exporter {
     fn drop(&mut self) {
-        self.inbox.close_when_empty();
-        if let Some(thread) = self.thread.take() {
-            // a panic there has been printed already, and the window is closing
-            let _ = thread.join();
-        }
+        self.0.close_when_done();
     }
 }
 
-fn work(inbox: &Inbox<Vec<Export>>, outcomes: &Inbox<Vec<Outcome>>, wake: &Wake) {
-    // kept, because under X11 it is the program that copied which hands the picture out
-    let mut clipboard = None;
-    while let Some(queue) = inbox.take() {
+struct Exports {
+    /// Kept, because under X11 it is the program that copied which hands the picture out.
+    clipboard: Option<arboard::Clipboard>,
+}
+
+impl Service for Exports {
+    type Job = Vec<Export>;
+    type Update = Vec<Outcome>;
+
+    fn serve(&mut self, queue: Vec<Export>, control: &Control<Vec<Export>, Vec<Outcome>>) {
         for export in queue {
             let outcome = match &export.to {
                 Destination::File(path) => save(&export, path).map(|path| format!("Saved {}", path.display())),
-                Destination::Clipboard => copy(&export, &mut clipboard).map(|()| "Copied the picture".into()),
+                Destination::Clipboard => copy(&export, &mut self.clipboard).map(|()| "Copied the picture".into()),
             };
-            outcomes.post(|list| list.push(outcome.map_err(|fault| format!("{fault:#}"))));
-            wake();
+            control.tell(|list| list.push(outcome.map_err(|fault| format!("{fault:#}"))));
         }
+    }
+
+    fn recover(&mut self, control: &Control<Vec<Export>, Vec<Outcome>>) {
+        self.clipboard = None;
+        control.tell(|list| list.push(Err("the export stopped at a fault of its own".into())));
     }
 }
 
@@ -116,11 +103,8 @@ fn save(export: &Export, path: &Path) -> anyhow::Result<PathBuf> {
             let Pixels { width, height, rgba } = capture.pixels()?;
             image_file::encode_rgba8(width, height, &rgba, &export.records)?
         }
-        (Content::Map(drawn), kind) => drawn.map.encode(kind, &drawn.map_job.pair(), export.records.clone())?,
-        (Content::Pane(picture, display), kind) => {
-            let linear = Linear { width: picture.width, height: picture.height, radiances: &picture.radiances };
-            image_file::encode(kind, linear, display, &export.records)?
-        }
+        (Content::Map(drawn), kind) => drawn.map.encode(kind, &drawn.map_job.pair, export.records.clone())?,
+        (Content::Pane(picture, display), kind) => image_file::encode(kind, &picture.image, display, &export.records)?,
     };
     Ok(image_file::write_new(path, &bytes)?)
 }
@@ -129,8 +113,8 @@ fn copy(export: &Export, clipboard: &mut Option<arboard::Clipboard>) -> anyhow::
     let Pixels { width, height, rgba } = match &export.content {
         Content::Seen(capture) => capture.pixels()?,
         Content::Pane(picture, display) => {
-            let rgba = display.to_rgba8(picture.radiances.iter().copied());
-            Pixels { width: picture.width, height: picture.height, rgba }
+            let (width, height) = picture.image.size();
+            Pixels { width, height, rgba: display.rgba8_of(&picture.image) }
         }
         Content::Map(drawn) => {
             let (width, height, rgba) = drawn.map.with_bar();

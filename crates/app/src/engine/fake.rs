@@ -2,15 +2,16 @@
 //! too.
 
 use super::post_process::PostProcess;
-use super::{Inbox, Job, Picture, Side, step_back};
-use crate::technique::FakeSettings;
+use super::worker::{Control, Service, Worker};
+use super::{FAULT, Job, Order, Picture, step_back};
+use crate::model::PaneId;
 use film::Film;
 use gpu::FaultInjection;
 use gpu::{Gpu, GpuError};
 use raster::{Raster, RasterError};
 use std::sync::Arc;
-use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
+use technique::FakeSettings;
 
 /// A picture to make.
 pub type FakeJob = Job<FakeSettings>;
@@ -19,43 +20,33 @@ pub type FakeJob = Job<FakeSettings>;
 const PATIENCE: Duration = Duration::from_millis(30);
 
 /// The worker; dropping it ends its thread.
-pub struct FakeWorker {
-    inbox: Arc<Inbox<Option<FakeJob>>>,
-    thread: Option<JoinHandle<()>>,
-}
+pub struct FakeWorker(Worker<Option<FakeJob>>);
 
 impl FakeWorker {
     /// Starts the thread; `window` is the window's device.
     ///
     /// # Errors
     /// If the system gives no thread.
-    pub fn start(side: Side, window: Gpu, post_process: Arc<PostProcess>) -> std::io::Result<Self> {
-        let inbox = Arc::new(Inbox::default());
-        let jobs = inbox.clone();
-        let thread = std::thread::Builder::new()
-            .name(format!("fake {side:?}"))
-            .spawn(move || work(side, &window, &jobs, &post_process))?;
-        Ok(FakeWorker { inbox, thread: Some(thread) })
+    pub fn start(pane: PaneId, window: Gpu, post_process: Arc<PostProcess>) -> std::io::Result<Self> {
+        let service = move || Fakes {
+            pane,
+            stage: Stage::on(device_beside(&window)),
+            fault: FaultInjection::of_fakes(),
+            seconds_per_pixel: 0.0,
+            post_process,
+            order: None,
+        };
+        Worker::start(&format!("fake {pane:?}"), Arc::new(|| ()), service).map(FakeWorker)
     }
 
     /// Asks for a picture; one that was not begun yet is dropped.
     pub fn submit(&self, job: FakeJob) {
-        self.inbox.post(|slot| *slot = Some(job));
+        self.0.post(|slot| *slot = Some(job));
     }
 
     /// Drops what was not begun yet.
     pub fn cancel(&self) {
-        self.inbox.post(|slot| *slot = None);
-    }
-}
-
-impl Drop for FakeWorker {
-    fn drop(&mut self) {
-        self.inbox.close();
-        if let Some(thread) = self.thread.take() {
-            // a panic there has been printed already, and the window is closing
-            let _ = thread.join();
-        }
+        self.0.post(|slot| *slot = None);
     }
 }
 
@@ -84,45 +75,61 @@ impl Stage {
     }
 }
 
-fn work(side: Side, window: &Gpu, jobs: &Inbox<Option<FakeJob>>, post_process: &PostProcess) {
-    let mut stage = Stage::on(device_beside(window));
-    let fault = FaultInjection::of_fakes();
-    let mut seconds_per_pixel = 0.0;
-    while let Some(job) = jobs.take() {
-        let Some(job) = job else { continue };
-        if let (Some(fault), Ok(stage)) = (&fault, &stage) {
+/// Draws fakes for one pane.
+struct Fakes {
+    pane: PaneId,
+    stage: Result<Stage, String>,
+    fault: Option<FaultInjection>,
+    seconds_per_pixel: f64,
+    post_process: Arc<PostProcess>,
+    /// Of the job in hand, or the last one.
+    order: Option<Order>,
+}
+
+impl Service for Fakes {
+    type Job = Option<FakeJob>;
+    type Update = ();
+
+    fn serve(&mut self, job: Option<FakeJob>, control: &Control<Option<FakeJob>, ()>) {
+        let Some(job) = job else { return };
+        self.order = Some(job.order.clone());
+        if let (Some(fault), Ok(stage)) = (&self.fault, &self.stage) {
             fault.count(&stage.gpu);
         }
         // a device that was lost stays so: the next picture gets another
-        if stage.as_ref().is_ok_and(|stage| stage.gpu.fault().is_some()) {
-            stage = Stage::on(Gpu::headless());
+        if self.stage.as_ref().is_ok_and(|stage| stage.gpu.fault().is_some()) {
+            self.stage = Stage::on(Gpu::headless());
         }
-        let Stage { gpu: _, raster, adapter } = match &mut stage {
+        let Stage { gpu: _, raster, adapter } = match &mut self.stage {
             Ok(stage) => stage,
-            Err(fault) => {
-                post_process.report(side, job.order, fault.clone());
-                continue;
-            }
+            Err(fault) => return self.post_process.report(self.pane, job.order, fault.clone()),
         };
         let (width, height) = job.order.size();
-        let expected = seconds_per_pixel * f64::from(width) * f64::from(height);
+        let expected = self.seconds_per_pixel * f64::from(width) * f64::from(height);
         let shrink = if expected > 4.0 * PATIENCE.as_secs_f64() { 4 } else { 2 };
         let rough = expected > PATIENCE.as_secs_f64();
         if rough {
-            render_job(side, raster, post_process, &job, shrink, adapter);
+            render_job(self.pane, raster, &self.post_process, &job, shrink, adapter);
         }
         // a newer job makes the fine picture of this one superfluous
-        if !rough || !jobs.has_fresh() {
+        if !rough || !control.ends_soon() {
             let start = Instant::now();
-            render_job(side, raster, post_process, &job, 1, adapter);
-            seconds_per_pixel = start.elapsed().as_secs_f64() / (f64::from(width) * f64::from(height));
+            render_job(self.pane, raster, &self.post_process, &job, 1, adapter);
+            self.seconds_per_pixel = start.elapsed().as_secs_f64() / (f64::from(width) * f64::from(height));
         }
+    }
+
+    fn recover(&mut self, _control: &Control<Option<FakeJob>, ()>) {
+        if let Some(order) = self.order.take() {
+            self.post_process.report(self.pane, order, FAULT.into());
+        }
+        self.stage = Stage::on(Gpu::headless());
     }
 }
 
 /// Makes one picture at `1 / shrink` of the size and delivers it, or why there is none.
 fn render_job(
-    side: Side,
+    pane: PaneId,
     raster: &mut Raster,
     post_process: &PostProcess,
     job: &FakeJob,
@@ -132,11 +139,9 @@ fn render_job(
     let start = Instant::now();
     match render(raster, job, shrink) {
         Ok(film) => post_process.deliver(
-            side,
+            pane,
             Picture {
-                width: film.width(),
-                height: film.height(),
-                radiances: film.radiances().collect(),
+                image: film.image(),
                 spp: None,
                 seconds: start.elapsed().as_secs_f64(),
                 nonfinite: film.nonfinite,
@@ -147,12 +152,12 @@ fn render_job(
                 order: job.order.clone(),
             },
         ),
-        Err(fault) => post_process.report(side, job.order.clone(), fault.to_string()),
+        Err(fault) => post_process.report(pane, job.order.clone(), fault.to_string()),
     }
 }
 
 fn render(raster: &mut Raster, job: &FakeJob, shrink: u32) -> Result<Film, RasterError> {
     let (width, height) = job.order.size();
     let settings = job.settings.sized(width.div_ceil(shrink), height.div_ceil(shrink));
-    raster.render(&job.settings.applied_to(&job.order.scene), job.order.camera(), &settings)
+    raster.render(&job.settings.applied_to(job.order.scene()), job.order.camera(), &settings)
 }

@@ -1,66 +1,33 @@
-//! Rendering beside the UI. Each pane has a [`pane_workers`] with a thread for each technique it has used ([`fake`],
-//! and [`rays`] with its [`progressive`], who holds a [`backend`] for the processor or for the graphics device); they
-//! turn jobs into [`Picture`]s. The [`post_process`] turns pictures into bytes for the screen and measures how far
+//! Rendering beside the UI. Each pane has a [`pane_workers`] with a thread for each technique it has used: [`fake`],
+//! and [`rays`] with its [`technique::ProgressiveRenderer`]. They turn jobs into [`Picture`]s. All who trace share one
+//! pool of threads, in turns. The [`post_process`] turns pictures into bytes for the screen and measures how far
 //! apart they are, from each other or from what the [`reference`] makes, and the [`error_map`] draws where; the
-//! [`export`] writes files and fills the clipboard. Every thread is fed through an [`Inbox`] in which newer wishes
-//! replace older ones. The UI thread only posts and collects.
+//! [`export`] writes files and fills the clipboard. Every thread is a [`worker::Worker`], fed through a
+//! [`mailbox::Mailbox`] in which newer wishes replace older ones. The UI thread only posts and collects.
 
 pub mod ask;
-pub mod backend;
 pub mod capture;
 pub mod error_map;
 pub mod export;
 pub mod fake;
 pub mod load;
+pub mod mailbox;
 pub mod pane_workers;
 pub mod post_process;
-pub mod progressive;
 pub mod rays;
 pub mod reference;
+pub mod worker;
 
-use crate::technique::{Device, Provenance};
-use scene::{Camera, Scene, Vec3};
-use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
-
-/// A side of the comparison.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Side {
-    /// Left of the wipe.
-    A,
-    /// Right of it.
-    B,
-}
-
-impl Side {
-    /// Both, A first.
-    pub const ALL: [Side; 2] = [Side::A, Side::B];
-
-    /// "A" or "B".
-    pub fn name(self) -> &'static str {
-        match self {
-            Side::A => "A",
-            Side::B => "B",
-        }
-    }
-
-    /// The one on the other side of the wipe.
-    pub fn other(self) -> Self {
-        match self {
-            Side::A => Side::B,
-            Side::B => Side::A,
-        }
-    }
-}
+use film::Image;
+use scene::{Camera, Scene};
+use std::sync::Arc;
+use technique::{Device, Provenance};
 
 /// What a technique has made so far, in linear radiance.
 #[derive(Debug, Clone)]
 pub struct Picture {
-    /// Width in pixels; smaller than asked for in a rough first picture.
-    pub width: u32,
-    /// Height in pixels.
-    pub height: u32,
-    /// Rows from the top.
-    pub radiances: Arc<[Vec3]>,
+    /// Smaller than asked for in a rough first picture.
+    pub image: Image,
     /// Samples per pixel; `None` for a technique that does not sample.
     pub spp: Option<u32>,
     /// Seconds of rendering.
@@ -93,14 +60,12 @@ pub struct Job<S> {
 pub struct Order {
     /// Counts all jobs.
     pub job: u64,
-    /// Counts what both sides share: scene, camera and size. Only pictures of one view can be compared.
+    /// Counts what is seen: scene, camera and size. Only pictures of one view can be compared.
     pub view: u64,
     /// Pixels of the picture area along a side of one of the picture.
     pub shrink: u32,
     /// How often the user began the truth anew.
     pub restarts: u64,
-    /// The scene that is seen.
-    pub scene: Arc<Scene>,
     /// All that the picture depends on.
     pub provenance: Arc<Provenance>,
 }
@@ -117,12 +82,17 @@ impl Order {
 
     /// From where.
     pub fn camera(&self) -> &Camera {
-        &self.provenance.camera
+        &self.provenance.shot.camera
     }
 
     /// Width and height in pixels.
     pub fn size(&self) -> (u32, u32) {
-        self.provenance.size
+        self.provenance.shot.size
+    }
+
+    /// The scene that is seen.
+    pub fn scene(&self) -> &Arc<Scene> {
+        &self.provenance.shot.scene
     }
 }
 
@@ -134,110 +104,8 @@ pub fn step_back() {
     let _ = rustix::process::nice(10);
 }
 
+/// What a pane says where its picture was ended by a panic.
+const FAULT: &str = "the renderer stopped at a fault of its own";
+
 /// Wakes the UI thread when there is something to collect.
 pub type Wake = Arc<dyn Fn() + Send + Sync>;
-
-/// A place for the latest wish: posting changes what has not been taken yet.
-#[derive(Debug, Default)]
-pub struct Inbox<T> {
-    state: Mutex<State<T>>,
-    arrived: Condvar,
-}
-
-#[derive(Debug, Default)]
-struct State<T> {
-    content: T,
-    fresh: bool,
-    closed: bool,
-    /// Whether what is fresh is still taken after closing.
-    finish: bool,
-}
-
-impl<T: Default> Inbox<T> {
-    /// Changes the content and wakes the taker.
-    pub fn post(&self, change: impl FnOnce(&mut T)) {
-        let mut state = self.lock();
-        change(&mut state.content);
-        state.fresh = true;
-        self.arrived.notify_one();
-    }
-
-    /// Changes the content, wakes nobody and returns what `change` does.
-    pub fn change<R>(&self, change: impl FnOnce(&mut T) -> R) -> R {
-        change(&mut self.lock().content)
-    }
-
-    /// Waits for something fresh and takes it; `None` once closed, or once closed and empty.
-    pub fn take(&self) -> Option<T> {
-        let mut state = self.lock();
-        while !state.fresh && !state.closed {
-            state = self.arrived.wait(state).unwrap_or_else(PoisonError::into_inner);
-        }
-        if state.closed && !(state.finish && state.fresh) {
-            return None;
-        }
-        state.fresh = false;
-        Some(std::mem::take(&mut state.content))
-    }
-
-    /// Takes what is fresh now, without waiting.
-    pub fn take_now(&self) -> Option<T> {
-        let mut state = self.lock();
-        std::mem::take(&mut state.fresh).then(|| std::mem::take(&mut state.content))
-    }
-
-    /// Whether something waits to be taken, or the end.
-    pub fn has_fresh(&self) -> bool {
-        let state = self.lock();
-        state.fresh || state.closed
-    }
-
-    /// Ends the taker's loop.
-    pub fn close(&self) {
-        self.lock().closed = true;
-        self.arrived.notify_all();
-    }
-
-    /// Ends the taker's loop once it has taken what is there.
-    pub fn close_when_empty(&self) {
-        self.lock().finish = true;
-        self.close();
-    }
-
-    /// A thread that panicked while it held the lock left whole content behind: posting and taking do not stop midway.
-    fn lock(&self) -> MutexGuard<'_, State<T>> {
-        self.state.lock().unwrap_or_else(PoisonError::into_inner)
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn newer_wishes_replace_older_ones() {
-        let inbox = Inbox::<u32>::default();
-        inbox.post(|v| *v = 1);
-        inbox.post(|v| *v = 2);
-        assert_eq!((inbox.take(), inbox.take_now()), (Some(2), None));
-    }
-
-    #[test]
-    fn closing_when_empty_hands_out_the_rest() {
-        let inbox = Inbox::<u32>::default();
-        inbox.post(|v| *v = 3);
-        inbox.close_when_empty();
-        assert_eq!((inbox.take(), inbox.take()), (Some(3), None));
-    }
-
-    #[test]
-    fn closing_ends_a_waiting_taker() {
-        let inbox = Arc::new(Inbox::<u32>::default());
-        let taker = std::thread::spawn({
-            let inbox = inbox.clone();
-            move || inbox.take()
-        });
-        inbox.close();
-        assert_eq!(taker.join().unwrap(), None);
-    }
-}

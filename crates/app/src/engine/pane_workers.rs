@@ -3,17 +3,19 @@
 use super::fake::FakeWorker;
 use super::post_process::PostProcess;
 use super::rays::RayWorker;
-use super::{Job, Order, Side};
-use crate::technique::{Adapters, Recipe};
+use super::{Job, Order};
+use crate::model::PaneId;
 use anyhow::Context;
 use gpu::Gpu;
 use std::sync::Arc;
+use technique::{Adapters, Technique, Threads};
 
 /// One pane's workers; dropping it ends their threads.
 pub struct PaneWorkers {
-    side: Side,
+    pane: PaneId,
     gpu: Gpu,
     adapters: Adapters,
+    threads: Arc<Threads>,
     post_process: Arc<PostProcess>,
     fake: Option<FakeWorker>,
     rays: Option<RayWorker>,
@@ -21,9 +23,14 @@ pub struct PaneWorkers {
 }
 
 impl PaneWorkers {
-    /// A pane_workers without workers yet. `gpu` is the window's, `adapters` can trace rays.
-    pub fn new(side: Side, gpu: Gpu, adapters: Adapters, post_process: Arc<PostProcess>) -> Self {
-        PaneWorkers { side, gpu, adapters, post_process, fake: None, rays: None, held: false }
+    /// A pane_workers without workers yet. `gpu` is the window's, `adapters` and `threads` can trace rays.
+    pub fn new(
+        pane: PaneId,
+        gpu: Gpu,
+        (adapters, threads): (Adapters, Arc<Threads>),
+        post_process: Arc<PostProcess>,
+    ) -> Self {
+        PaneWorkers { pane, gpu, adapters, threads, post_process, fake: None, rays: None, held: false }
     }
 
     /// Draws the fake on another device of the window's from now on.
@@ -32,20 +39,26 @@ impl PaneWorkers {
     }
 
     /// Asks for a picture; whatever this pane was making stops.
-    pub fn submit(&mut self, recipe: Recipe, order: Order) {
-        let begun = match recipe {
-            Recipe::Fake(settings) => {
+    pub fn submit(&mut self, technique: Technique, order: Order) {
+        let begun = match technique {
+            Technique::Fake(settings) => {
                 self.rays.iter_mut().for_each(RayWorker::cancel);
                 self.fake().map(|worker| worker.submit(Job { settings, order: order.clone() }))
             }
-            Recipe::Rays(settings) => {
+            Technique::Traced(settings) => {
                 self.fake.iter().for_each(FakeWorker::cancel);
                 self.rays().map(|worker| worker.submit(Job { settings, order: order.clone() }))
             }
         };
         if let Err(fault) = begun {
-            self.post_process.report(self.side, order, format!("{fault:#}"));
+            self.post_process.report(self.pane, order, format!("{fault:#}"));
         }
+    }
+
+    /// Stops whatever this pane was making.
+    pub fn rest(&mut self) {
+        self.fake.iter().for_each(FakeWorker::cancel);
+        self.rays.iter_mut().for_each(RayWorker::cancel);
     }
 
     /// Holds the tracing of rays, or lets it go on.
@@ -56,7 +69,7 @@ impl PaneWorkers {
 
     fn fake(&mut self) -> anyhow::Result<&FakeWorker> {
         if self.fake.is_none() {
-            let worker = FakeWorker::start(self.side, self.gpu.clone(), self.post_process.clone());
+            let worker = FakeWorker::start(self.pane, self.gpu.clone(), self.post_process.clone());
             let worker = worker.context("no thread for the fake")?;
             self.fake = Some(worker);
         }
@@ -65,11 +78,12 @@ impl PaneWorkers {
 
     fn rays(&mut self) -> anyhow::Result<&mut RayWorker> {
         if self.rays.is_none() {
-            let worker = RayWorker::start(self.side, self.adapters.clone(), self.post_process.clone())
-                .context("no threads for tracing rays")?;
+            let worker =
+                RayWorker::start(self.pane, (self.adapters.clone(), self.threads.clone()), self.post_process.clone());
+            let worker = worker.context("no thread for tracing rays")?;
             worker.hold(self.held);
             self.rays = Some(worker);
         }
-        self.rays.as_mut().context("no threads for tracing rays")
+        self.rays.as_mut().context("no thread for tracing rays")
     }
 }

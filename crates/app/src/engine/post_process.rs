@@ -1,15 +1,16 @@
-//! The thread that post-processes: radiance through the display transform into bytes, and the error of each side
-//! against the other or against the reference. Moving the exposure shows again and renders nothing. What a map of the
+//! The thread that post-processes: radiance through the display transform into bytes, and the error of each picture
+//! against another one or against the reference. Moving the exposure shows again and renders nothing. What a map of the
 //! errors is made of goes on to the [`ErrorMapWorker`], which has a thread of its own: FLIP takes longer than a picture
 //! may wait.
 
-use super::error_map::{ErrorMapJob, ErrorMapWorker};
-use super::{Inbox, Order, Picture, Side, Wake};
-use crate::ruler::{Against, ReferenceImage};
-use compare::{ErrorMetric, Errors, errors_of_radiances};
+use super::error_map::ErrorMapWorker;
+use super::worker::{Control, Service, Worker};
+use super::{Order, Picture, Wake};
+use crate::model::{Against, Comparison, ErrorMapJob, MapWish, PaneId, Panes};
+use crate::ruler::{Pair, ReferenceImage};
+use compare::{Errors, errors};
 use film::DisplayTransform;
 use std::sync::Arc;
-use std::thread::JoinHandle;
 
 /// A picture ready for the screen.
 #[derive(Debug, Clone)]
@@ -18,33 +19,11 @@ pub struct DisplayFrame {
     pub picture: Picture,
     /// Its bytes; `None` where only the errors are new.
     pub rgba: Option<Vec<u8>>,
-    /// How far it is from what it is compared with; `None` unless that is there at the same size.
-    pub errors: Option<Errors>,
-    /// What that is.
-    pub against: Against,
+    /// What it is compared with, and how far it is from that; `None` unless that is there at the same size.
+    pub errors: Option<(Against, Errors)>,
 }
 
-/// How errors are measured and drawn.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Comparison {
-    /// With what both sides are compared.
-    pub against: Against,
-    /// The map that is looked at, if one is.
-    pub map: Option<MapWish>,
-}
-
-/// A map of errors to draw.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct MapWish {
-    /// Whose errors.
-    pub of: Side,
-    /// Which.
-    pub map: ErrorMetric,
-    /// Where its scale ends; `None` to fit it.
-    pub held: Option<f32>,
-}
-
-/// What is new for one side.
+/// What is new for one pane.
 #[derive(Debug, Clone)]
 pub enum PaneUpdate {
     /// A picture.
@@ -54,28 +33,26 @@ pub enum PaneUpdate {
 }
 
 /// What the UI collects.
-pub type PaneUpdates = [Option<PaneUpdate>; 2];
+pub type PaneUpdates = Panes<PaneUpdate>;
 
-/// Posts to the thread, which [`PostProcess::start`] began.
-#[derive(Debug, Default)]
-pub struct PostProcess {
-    inbox: Inbox<Pending>,
-    updates: Inbox<PaneUpdates>,
-}
+/// The worker; [`PostProcess::close`] ends its thread.
+pub struct PostProcess(Worker<Pending, PaneUpdates>);
 
 /// What a worker brings.
 #[derive(Debug)]
 enum Arrival {
     Picture(Picture),
     Fault(Order, String),
+    /// The pane is no longer wanted.
+    Gone,
 }
 
 #[derive(Debug, Default)]
 struct Pending {
-    arrivals: [Option<Arrival>; 2],
+    arrivals: Panes<Arrival>,
     display: Option<DisplayTransform>,
     oldest_view: Option<u64>,
-    comparison: Option<Comparison>,
+    comparisons: Option<(Vec<Comparison>, Option<MapWish>)>,
     /// The reference of a view, or that there is none.
     reference: Option<Option<(u64, ReferenceImage)>>,
 }
@@ -83,12 +60,15 @@ struct Pending {
 /// All that the thread has in hand.
 #[derive(Default)]
 struct Latest {
-    latest: [Option<Picture>; 2],
-    /// The newest job that each side has delivered.
-    newest: [u64; 2],
+    /// Draws maps of them.
+    error_map_worker: Option<Arc<ErrorMapWorker>>,
+    latest: Panes<Picture>,
+    /// The newest job that each pane has delivered.
+    newest: Panes<u64>,
     oldest_view: u64,
     display: DisplayTransform,
-    comparison: Comparison,
+    comparisons: Vec<Comparison>,
+    map: Option<MapWish>,
     reference: Option<(u64, ReferenceImage)>,
 }
 
@@ -98,164 +78,172 @@ impl PostProcess {
     ///
     /// # Errors
     /// If the system gives no thread.
-    pub fn start(wake: Wake, error_map_worker: Arc<ErrorMapWorker>) -> std::io::Result<(Arc<Self>, JoinHandle<()>)> {
-        let post_process = Arc::new(PostProcess::default());
-        let thread = std::thread::Builder::new().name("post_process".into()).spawn({
-            let post_process = post_process.clone();
-            move || post_process.work(&wake, &error_map_worker)
-        })?;
-        Ok((post_process, thread))
+    pub fn start(wake: Wake, error_map_worker: Arc<ErrorMapWorker>) -> std::io::Result<Self> {
+        let service = || Latest { error_map_worker: Some(error_map_worker), ..Latest::default() };
+        Worker::start("post_process", wake, service).map(PostProcess)
     }
 
-    /// A new picture of one side.
-    pub fn deliver(&self, side: Side, picture: Picture) {
-        self.inbox.post(|pending| pending.arrivals[side as usize] = Some(Arrival::Picture(picture)));
+    /// A new picture of one pane.
+    pub fn deliver(&self, pane: PaneId, picture: Picture) {
+        self.arrive(pane, Arrival::Picture(picture));
     }
 
-    /// A side has no picture, for a reason to be shown.
-    pub fn report(&self, side: Side, order: Order, fault: String) {
-        self.inbox.post(|pending| pending.arrivals[side as usize] = Some(Arrival::Fault(order, fault)));
+    /// A pane has no picture, for a reason to be shown.
+    pub fn report(&self, pane: PaneId, order: Order, fault: String) {
+        self.arrive(pane, Arrival::Fault(order, fault));
     }
 
-    /// A new display transform for both.
+    /// A pane is no longer wanted.
+    pub fn forget_pane(&self, pane: PaneId) {
+        self.arrive(pane, Arrival::Gone);
+    }
+
+    fn arrive(&self, pane: PaneId, arrival: Arrival) {
+        self.0.post(|pending| drop(pending.arrivals.insert(pane, arrival)));
+    }
+
+    /// A new display transform for all.
     pub fn set_display(&self, display: DisplayTransform) {
-        self.inbox.post(|pending| pending.display = Some(display));
+        self.0.post(|pending| pending.display = Some(display));
     }
 
-    /// Another way to compare.
-    pub fn set_comparison(&self, comparison: Comparison) {
-        self.inbox.post(|pending| pending.comparison = Some(comparison));
+    /// Other errors to measure, and the map that is looked at.
+    pub fn set_comparisons(&self, comparisons: Vec<Comparison>, map: Option<MapWish>) {
+        self.0.post(|pending| pending.comparisons = Some((comparisons, map)));
     }
 
     /// The reference of a view as far as it has come, or that there is none.
     pub fn set_reference(&self, reference: Option<(u64, ReferenceImage)>) {
-        self.inbox.post(|pending| pending.reference = Some(reference));
+        self.0.post(|pending| pending.reference = Some(reference));
     }
 
     /// Forgets every picture of a view before this one, whether it has come or is still on its way.
     pub fn forget_before(&self, view: u64) {
-        self.inbox.post(|pending| pending.oldest_view = Some(view));
+        self.0.post(|pending| pending.oldest_view = Some(view));
     }
 
     /// What is new since the last call.
     pub fn collect(&self) -> Option<PaneUpdates> {
-        self.updates.take_now()
+        self.0.collect()
     }
 
     /// Ends the thread.
     pub fn close(&self) {
-        self.inbox.close();
-    }
-
-    fn work(&self, wake: &Wake, error_map_worker: &ErrorMapWorker) {
-        let mut latest = Latest::default();
-        while let Some(pending) = self.inbox.take() {
-            let redevelop = pending.display.is_some();
-            let (fresh, faults) = latest.sort(pending);
-            let errors = latest.errors();
-            let resolve = |side: usize| {
-                let picture = latest.latest[side].clone()?;
-                let radiances = picture.radiances.iter().copied();
-                let rgba = (redevelop || fresh[side]).then(|| latest.display.to_rgba8(radiances));
-                Some(DisplayFrame { picture, rgba, errors: errors[side], against: latest.comparison.against })
-            };
-            // both at once: the error of one belongs to the picture of the other
-            let frame = [resolve(0), resolve(1)];
-            self.updates.post(|updates| {
-                for ((place, new), fault) in updates.iter_mut().zip(frame).zip(faults) {
-                    match (new, fault) {
-                        (_, Some(fault)) => *place = Some(PaneUpdate::Fault(fault)),
-                        (Some(new), None) => shelve(place, new),
-                        (None, None) => {}
-                    }
-                }
-            });
-            wake();
-            if let Some(map_job) = latest.map_job() {
-                error_map_worker.submit(map_job);
-            }
-        }
+        self.0.close();
     }
 }
 
+impl Service for Latest {
+    type Job = Pending;
+    type Update = PaneUpdates;
+
+    fn serve(&mut self, pending: Pending, control: &Control<Pending, PaneUpdates>) {
+        let redevelop = pending.display.is_some();
+        let (fresh, faults) = self.sort(pending);
+        let errors = self.errors();
+        let resolve = |(pane, picture): (PaneId, &Picture)| {
+            let new = redevelop || fresh.get(pane).is_some();
+            let rgba = new.then(|| self.display.rgba8_of(&picture.image));
+            (pane, DisplayFrame { picture: picture.clone(), rgba, errors: errors.get(pane).copied() })
+        };
+        // all at once: the error of one belongs to the picture of the other
+        let frames: Panes<DisplayFrame> = self.latest.iter().map(resolve).collect();
+        control.tell(|updates| {
+            frames.into_iter().for_each(|(pane, frame)| shelve(updates, pane, frame));
+            for (pane, fault) in faults {
+                updates.insert(pane, PaneUpdate::Fault(fault));
+            }
+        });
+        if let (Some(worker), Some(map_job)) = (&self.error_map_worker, self.map_job()) {
+            worker.submit(map_job);
+        }
+    }
+
+    /// What has come is still there, and shown with the next that comes.
+    fn recover(&mut self, _control: &Control<Pending, PaneUpdates>) {}
+}
+
 impl Latest {
-    /// Takes what has come; returns which sides have a new picture, and why others have none.
-    fn sort(&mut self, pending: Pending) -> ([bool; 2], [Option<String>; 2]) {
+    /// Takes what has come; returns which panes have a new picture, and why others have none.
+    fn sort(&mut self, pending: Pending) -> (Panes<()>, Panes<String>) {
         self.display = pending.display.unwrap_or(self.display);
-        self.comparison = pending.comparison.unwrap_or(self.comparison);
+        if let Some((comparisons, map)) = pending.comparisons {
+            (self.comparisons, self.map) = (comparisons, map);
+        }
         self.reference = pending.reference.unwrap_or_else(|| self.reference.take());
         self.oldest_view = pending.oldest_view.unwrap_or(self.oldest_view);
         let oldest_view = self.oldest_view;
-        self.latest.iter_mut().for_each(|kept| drop(kept.take_if(|picture| picture.order.view < oldest_view)));
-        let (mut fresh, mut faults) = ([false; 2], [None, None]);
-        for (side, arrival) in pending.arrivals.into_iter().enumerate() {
+        self.latest.retain(|_, picture| picture.order.view >= oldest_view);
+        let (mut fresh, mut faults) = (Panes::default(), Panes::default());
+        for (pane, arrival) in pending.arrivals {
+            let newest = self.newest.entry(pane);
             match arrival {
-                Some(Arrival::Picture(picture)) if still_wanted(&picture.order, oldest_view, self.newest[side]) => {
-                    self.newest[side] = picture.order.job;
-                    self.latest[side] = Some(picture);
-                    fresh[side] = true;
+                Arrival::Picture(picture) if still_wanted(&picture.order, oldest_view, *newest) => {
+                    *newest = picture.order.job;
+                    self.latest.insert(pane, picture);
+                    fresh.insert(pane, ());
                 }
-                Some(Arrival::Fault(order, fault)) if still_wanted(&order, oldest_view, self.newest[side]) => {
-                    self.newest[side] = order.job;
-                    self.latest[side] = None;
-                    faults[side] = Some(fault);
+                Arrival::Fault(order, fault) if still_wanted(&order, oldest_view, *newest) => {
+                    *newest = order.job;
+                    self.latest.remove(pane);
+                    faults.insert(pane, fault);
                 }
-                _ => {}
+                Arrival::Gone => drop(self.latest.remove(pane)),
+                Arrival::Picture(_) | Arrival::Fault(..) => {}
             }
         }
         (fresh, faults)
     }
 
-    /// Each side against the other, or against the reference, where both show one view at one size.
-    fn errors(&self) -> [Option<Errors>; 2] {
-        match (self.comparison.against, &self.latest) {
-            (Against::EachOther, [Some(a), Some(b)]) if comparable(a, b) => {
-                [(a, b), (b, a)].map(|(film, other)| Some(errors_of_radiances(&film.radiances, &other.radiances)))
-            }
-            (Against::EachOther, _) => [None, None],
-            (Against::Reference, sides) => [0, 1].map(|side| {
-                let picture = sides[side].as_ref()?;
-                Some(self.reference_of(picture)?.errors(&picture.radiances))
-            }),
-        }
+    /// How far each pane is from what judges it, where both show one view at one size.
+    fn errors(&self) -> Panes<(Against, Errors)> {
+        let measured = |comparison: &Comparison| {
+            let picture = self.latest.get(comparison.of)?;
+            let errors = match comparison.against {
+                Against::Pane(judge) => {
+                    let judge = self.latest.get(judge).filter(|judge| comparable(picture, judge))?;
+                    errors(&picture.image, &judge.image).ok()?
+                }
+                Against::Reference => self.reference_of(picture)?.errors(&picture.image).ok()?,
+            };
+            Some((comparison.of, (comparison.against, errors)))
+        };
+        self.comparisons.iter().filter_map(measured).collect()
     }
 
     /// The reference, if it is that of this picture.
     fn reference_of(&self, picture: &Picture) -> Option<&ReferenceImage> {
         let (view, reference_image) = self.reference.as_ref()?;
-        let fits = *view == picture.order.view && reference_image.size == (picture.width, picture.height);
-        (fits && picture.order.provenance.recipe.shows_the_scene()).then_some(reference_image)
+        let fits = *view == picture.order.view && reference_image.image.size() == picture.image.size();
+        (fits && picture.order.provenance.technique.shows_the_scene()).then_some(reference_image)
     }
 
     /// What to draw; `None` to leave the map as it is, where it only has to wait for a picture on its way.
     fn map_job(&self) -> Option<Option<ErrorMapJob>> {
-        let MapWish { of, map, held } = self.comparison.map?;
-        let film = self.latest[of as usize].as_ref();
-        let (name, against) = match self.comparison.against {
-            Against::EachOther => {
-                let other = self.latest[of.other() as usize].as_ref();
-                let other = other.filter(|other| film.is_some_and(|film| comparable(film, other)));
-                (of.other().name(), other.map(|other| other.radiances.clone()))
-            }
-            Against::Reference => {
-                let reference_image = film.and_then(|film| self.reference_of(film));
-                ("reference", reference_image.map(|reference_image| reference_image.radiances.clone()))
-            }
+        let MapWish { comparison: Comparison { of, against }, metric, held } = self.map?;
+        let film = self.latest.get(of);
+        let judge = match against {
+            Against::Pane(judge) => self.latest.get(judge),
+            Against::Reference => None,
         };
-        let rough = |picture: &Picture| picture.rough;
-        let on_its_way = match &self.latest {
-            [Some(a), Some(b)] if self.comparison.against == Against::EachOther => {
-                rough(a) || rough(b) || a.order.view != b.order.view
+        let judged_by = match against {
+            Against::Pane(_) => {
+                judge.filter(|judge| film.is_some_and(|film| comparable(film, judge))).map(|judge| &judge.image)
             }
-            _ => film.is_some_and(rough),
+            Against::Reference => film.and_then(|film| self.reference_of(film)).map(|reference| &reference.image),
         };
-        match (film, against) {
-            (Some(film), Some(against)) => Some(Some(ErrorMapJob {
-                names: [of.name(), name],
-                width: film.width,
-                radiances: [film.radiances.clone(), against],
-                display: self.display,
-                map,
+        let on_its_way = match (film, judge) {
+            (Some(film), Some(judge)) => film.rough || judge.rough || film.order.view != judge.order.view,
+            _ => film.is_some_and(|film| film.rough),
+        };
+        match (film, judged_by) {
+            (Some(film), Some(judged_by)) => Some(Some(ErrorMapJob {
+                pair: Pair {
+                    names: [of.name(), against.name()],
+                    images: [film.image.clone(), judged_by.clone()],
+                    display: self.display,
+                },
+                map: metric,
                 held,
             })),
             _ if on_its_way => None,
@@ -270,16 +258,16 @@ fn still_wanted(order: &Order, oldest_view: u64, newest_job: u64) -> bool {
 }
 
 /// Bytes that were not collected yet stay if what is newer brings none of its own.
-fn shelve(place: &mut Option<PaneUpdate>, mut new: DisplayFrame) {
-    if let (None, Some(PaneUpdate::Picture(old))) = (&new.rgba, place.as_mut()) {
+fn shelve(updates: &mut PaneUpdates, pane: PaneId, mut new: DisplayFrame) {
+    if let (None, Some(PaneUpdate::Picture(old))) = (&new.rgba, updates.get_mut(pane)) {
         new.rgba = old.rgba.take();
     }
-    *place = Some(PaneUpdate::Picture(Box::new(new)));
+    updates.insert(pane, PaneUpdate::Picture(Box::new(new)));
 }
 
 fn comparable(a: &Picture, b: &Picture) -> bool {
-    let shows_the_scene = |picture: &Picture| picture.order.provenance.recipe.shows_the_scene();
-    (a.width, a.height, a.order.view) == (b.width, b.height, b.order.view) && shows_the_scene(a) && shows_the_scene(b)
+    let shows_the_scene = |picture: &Picture| picture.order.provenance.technique.shows_the_scene();
+    (a.image.size(), a.order.view) == (b.image.size(), b.order.view) && shows_the_scene(a) && shows_the_scene(b)
 }
 
 #[cfg(test)]

@@ -1,155 +1,151 @@
-//! The thread that traces rays for one pane. Its [`ProgressiveRenderer`] makes one job's picture after the other; the
-//! last films are kept: a job that differs only in the wished number goes on where one of them stopped, and a view that
-//! was left for a moment is there again.
+//! The thread that traces rays for one pane. Its [`ProgressiveRenderer`] makes one job's picture after the other.
 
 use super::post_process::PostProcess;
-use super::progressive::{ProgressiveRenderer, same_picture};
-use super::{Inbox, Job, Side, step_back};
-use crate::technique::{Adapters, RaySettings};
-use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::{Arc, Condvar, Mutex, PoisonError};
-use std::thread::JoinHandle;
+use super::worker::{Control, Service, Worker};
+use super::{FAULT, Job, Order, Picture, step_back};
+use crate::model::PaneId;
+use std::sync::Arc;
+use std::time::Duration;
+use technique::{Adapters, Frame, NoMemory, Pacing, ProgressiveRenderer, Request, Threads, TracedSettings, Watch};
 
 /// A picture to make.
-pub type RayJob = Job<RaySettings>;
+pub type RayJob = Job<TracedSettings>;
 
-/// A job, and the flag that stops it.
-type Commission = (RayJob, Arc<AtomicBool>);
+/// Least and most time between two pictures once the resolution is full: an eighth of the time spent so far, because
+/// showing costs too, and a picture changes ever less.
+const REFRESH: [Duration; 2] = [Duration::from_millis(150), Duration::from_secs(1)];
 
 /// The worker; dropping it ends its thread.
 pub struct RayWorker {
-    inbox: Arc<Inbox<Option<Commission>>>,
-    /// Stops the job in hand.
-    cancel: Arc<AtomicBool>,
+    worker: Worker<Option<RayJob>>,
     /// The job in hand, or the last one.
-    last: Option<RayJob>,
-    gate: Arc<Gate>,
-    thread: Option<JoinHandle<()>>,
+    last: Option<Request>,
 }
 
 impl RayWorker {
-    /// Starts the thread and its pool, which leaves one core to the UI. `adapters` can trace rays too.
+    /// Starts the thread, which traces on `threads` or by one of `adapters`.
     ///
     /// # Errors
-    /// If the system gives no threads.
-    pub fn start(side: Side, adapters: Adapters, post_process: Arc<PostProcess>) -> anyhow::Result<Self> {
-        let cores = std::thread::available_parallelism().map_or(1, usize::from);
-        let pool = rayon::ThreadPoolBuilder::new()
-            .num_threads(cores.saturating_sub(1).max(1))
-            .thread_name(move |i| format!("rays {side:?} {i}"))
-            .start_handler(|_| step_back())
-            .build()?;
-        let inbox = Arc::new(Inbox::default());
-        let gate = Arc::new(Gate::default());
-        let thread = std::thread::Builder::new().name(format!("rays {side:?}")).spawn({
-            let commissions: Arc<Inbox<Option<Commission>>> = inbox.clone();
-            let gate = gate.clone();
-            move || {
-                let new_painter =
-                    || ProgressiveRenderer::new(side, adapters.clone(), post_process.clone(), gate.clone());
-                let mut renderer = new_painter();
-                while let Some(commission) = commissions.take() {
-                    let Some((job, cancel)) = commission else { continue };
-                    let stop = Stop { cancel: &cancel, newer: &|| commissions.has_fresh() };
-                    // a fault of ours, or of a driver's: the pane says so, and the next job begins anew
-                    let rendered = catch_unwind(AssertUnwindSafe(|| pool.install(|| renderer.render_job(&job, &stop))));
-                    if rendered.is_err() {
-                        post_process.report(side, job.order, "the renderer stopped at a fault of its own".into());
-                        // what it held may fail once more while it goes
-                        drop(catch_unwind(AssertUnwindSafe(|| renderer = new_painter())));
-                    }
-                }
-            }
-        })?;
-        Ok(RayWorker { inbox, cancel: Arc::default(), last: None, gate, thread: Some(thread) })
+    /// If the system gives no thread.
+    pub fn start(
+        pane: PaneId,
+        (adapters, threads): (Adapters, Arc<Threads>),
+        post_process: Arc<PostProcess>,
+    ) -> std::io::Result<Self> {
+        let service = move || {
+            step_back();
+            let renderer = ProgressiveRenderer::new(adapters.clone(), threads.clone());
+            Rays { pane, adapters, threads, renderer, post_process, order: None }
+        };
+        let worker = Worker::start(&format!("rays {pane:?}"), Arc::new(|| ()), service)?;
+        Ok(RayWorker { worker, last: None })
     }
 
     /// Asks for a picture. The one in hand stops at once, or after its pass if it only shall have more or fewer
     /// samples.
     pub fn submit(&mut self, job: RayJob) {
-        if !self.last.as_ref().is_some_and(|last| same_picture(last, &job)) {
+        let request = request_of(&job);
+        if !self.last.as_ref().is_some_and(|last| last.is_same_picture(&request)) {
             self.cancel();
         }
-        self.last = Some(job.clone());
-        let cancel = self.cancel.clone();
-        self.inbox.post(|slot| *slot = Some((job, cancel)));
-        self.gate.look_again();
+        self.last = Some(request);
+        self.worker.post(|slot| *slot = Some(job));
     }
 
     /// Stops the picture in hand.
     pub fn cancel(&mut self) {
-        self.cancel.store(true, Ordering::Relaxed);
-        self.cancel = Arc::default();
         self.last = None;
-        self.inbox.post(|slot| *slot = None);
-        self.gate.look_again();
+        self.worker.cancel();
     }
 
     /// Holds the picture where it is, or lets it go on. While held, a new job still shows its first full picture.
     pub fn hold(&self, held: bool) {
-        self.gate.hold(held);
+        self.worker.hold(held);
     }
 }
 
-impl Drop for RayWorker {
-    fn drop(&mut self) {
-        self.cancel();
-        self.inbox.close();
-        if let Some(thread) = self.thread.take() {
-            // a panic there has been printed already, and the window is closing
-            let _ = thread.join();
+/// Traces rays for one pane.
+struct Rays {
+    pane: PaneId,
+    adapters: Adapters,
+    threads: Arc<Threads>,
+    renderer: ProgressiveRenderer,
+    post_process: Arc<PostProcess>,
+    /// Of the job in hand, or the last one.
+    order: Option<Order>,
+}
+
+impl Service for Rays {
+    type Job = Option<RayJob>;
+    type Update = ();
+
+    fn serve(&mut self, job: Option<RayJob>, control: &Control<Option<RayJob>, ()>) {
+        let Some(job) = job else { return };
+        self.order = Some(job.order.clone());
+        let watch = PaneWatch { pane: self.pane, order: &job.order, control, post_process: &self.post_process };
+        if let Err(NoMemory) = self.renderer.render(&request_of(&job), &watch) {
+            let (width, height) = job.order.size();
+            let fault = format!("not enough memory for {width} x {height} pixels; make the window smaller");
+            self.post_process.report(self.pane, job.order, fault);
         }
     }
-}
 
-/// Where a worker waits while it is held.
-#[derive(Default)]
-pub struct Gate {
-    held: Mutex<bool>,
-    changed: Condvar,
-}
-
-impl Gate {
-    fn hold(&self, held: bool) {
-        *self.held.lock().unwrap_or_else(PoisonError::into_inner) = held;
-        self.changed.notify_all();
-    }
-
-    fn look_again(&self) {
-        // under the lock, so that nobody is between looking and waiting
-        let _held = self.held.lock().unwrap_or_else(PoisonError::into_inner);
-        self.changed.notify_all();
-    }
-
-    /// Whether there would be anything to wait for.
-    pub fn is_held(&self) -> bool {
-        *self.held.lock().unwrap_or_else(PoisonError::into_inner)
-    }
-
-    /// Waits until the gate is open or the job shall stop.
-    pub fn pass(&self, stop: &Stop) {
-        let mut held = self.held.lock().unwrap_or_else(PoisonError::into_inner);
-        while *held && !stop.soon() {
-            held = self.changed.wait(held).unwrap_or_else(PoisonError::into_inner);
+    fn recover(&mut self, _control: &Control<Option<RayJob>, ()>) {
+        if let Some(order) = self.order.take() {
+            self.post_process.report(self.pane, order, FAULT.into());
         }
+        self.renderer = ProgressiveRenderer::new(self.adapters.clone(), self.threads.clone());
     }
 }
 
-/// When a job ends before it is done.
-pub struct Stop<'a> {
-    cancel: &'a AtomicBool,
-    newer: &'a (dyn Fn() -> bool + Sync),
+fn request_of(job: &RayJob) -> Request {
+    let Order { restarts, provenance, .. } = &job.order;
+    Request { shot: provenance.shot.clone(), settings: job.settings, restarts: *restarts }
 }
 
-impl Stop<'_> {
-    /// At once, in the middle of a sample's pass.
-    pub fn now(&self) -> bool {
-        self.cancel.load(Ordering::Relaxed)
+/// A pane that waits for a job's pictures.
+struct PaneWatch<'a> {
+    pane: PaneId,
+    order: &'a Order,
+    control: &'a Control<Option<RayJob>, ()>,
+    post_process: &'a PostProcess,
+}
+
+impl Watch for PaneWatch<'_> {
+    fn ends_now(&self) -> bool {
+        self.control.ends_now()
     }
 
-    /// After the pass in hand.
-    pub fn soon(&self) -> bool {
-        self.now() || (self.newer)()
+    fn ends_soon(&self, _spp: u32) -> bool {
+        self.control.ends_soon()
+    }
+
+    fn is_held(&self) -> bool {
+        self.control.is_held()
+    }
+
+    fn wait(&self) {
+        self.control.wait();
+    }
+
+    fn pacing(&self, spent: Duration) -> Pacing {
+        let refresh = (spent / 8).clamp(REFRESH[0], REFRESH[1]);
+        Pacing { pass: refresh, show: refresh, growth: 1 }
+    }
+
+    fn show(&self, frame: Frame) {
+        let film = frame.film;
+        let picture = Picture {
+            image: film.image(),
+            spp: Some(film.samples_per_pixel()),
+            seconds: frame.seconds,
+            nonfinite: film.nonfinite,
+            adapter: frame.made_by.into(),
+            refused: frame.refused,
+            rough: frame.rough,
+            unfinished: frame.unfinished,
+            order: self.order.made_on(frame.device),
+        };
+        self.post_process.deliver(self.pane, picture);
     }
 }

@@ -3,24 +3,18 @@
 //! doubling, and when something else is asked for or the window closes.
 
 use super::post_process::PostProcess;
-use super::{Inbox, Wake, step_back};
-use crate::ruler::{ReferenceImage, Sought};
-use pathtrace::{FEWEST_REPLICATES, Tracer};
-use reference::{Goal, Key, Maker, Reference, Store};
-use scene::Scene;
-use std::path::{Path, PathBuf};
-use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::{Arc, Condvar, Mutex, PoisonError};
-use std::thread::JoinHandle;
+use super::worker::{Control, Service, Worker};
+use super::{Wake, step_back};
+use crate::model::{Origin, Progress};
+use crate::ruler::ReferenceImage;
+use pathtrace::FEWEST_REPLICATES;
+use reference::{Goal, Key, Maker, Reference, Store, StoreError};
+use std::path::Path;
+use std::sync::Arc;
+use technique::{Rank, Renderer, Shot, Threads};
 
-/// Where a reference comes from.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub enum Origin {
-    /// Made here, or in the store because it was made before.
-    Made,
-    /// A file that the user has chosen.
-    File(PathBuf),
-}
+/// Where references are kept, looked up anew for each.
+pub type OpenStore = Arc<dyn Fn() -> Result<Store, StoreError> + Send + Sync>;
 
 /// A reference to come by.
 #[derive(Debug, Clone)]
@@ -28,26 +22,9 @@ pub struct Wish {
     /// Counts views as [`super::Order::view`] does.
     pub view: u64,
     /// What it shall show.
-    pub sought: Sought,
+    pub shot: Shot,
     /// Where from.
     pub origin: Origin,
-}
-
-/// How far the reference has come.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Progress {
-    /// The view that it belongs to.
-    pub view: u64,
-    /// Where it comes from.
-    pub origin: Origin,
-    /// Pictures that it is the mean of.
-    pub pictures: u32,
-    /// Its own relMSE, if that is known.
-    pub noise: Option<f64>,
-    /// Seconds that were spent on it.
-    pub seconds: f64,
-    /// Whether no more will come.
-    pub done: bool,
 }
 
 /// What the UI collects: the latest progress, and what went wrong, a line each.
@@ -60,207 +37,155 @@ pub struct ReferenceUpdate {
 }
 
 /// The worker; dropping it ends its thread once what it has made is kept.
-pub struct ReferenceWorker {
-    inbox: Arc<Inbox<Option<Commission>>>,
-    update: Arc<Inbox<ReferenceUpdate>>,
-    gate: Arc<Gate>,
-    /// Stops the reference in hand.
-    cancel: Arc<AtomicBool>,
-    thread: Option<JoinHandle<()>>,
-}
-
-/// A wish, and the flag that stops it.
-type Commission = (Wish, Arc<AtomicBool>);
+pub struct ReferenceWorker(Worker<Option<Wish>, ReferenceUpdate>);
 
 impl ReferenceWorker {
-    /// Starts the thread and its pool, which leaves one core to the UI; `wake` is called whenever
-    /// [`ReferenceWorker::update`] has something.
+    /// Starts the thread, which traces on `threads`; `wake` is called whenever [`ReferenceWorker::update`] has
+    /// something.
     ///
     /// # Errors
-    /// If the system gives no threads.
-    pub fn start(post_process: Arc<PostProcess>, wake: Wake) -> anyhow::Result<Self> {
-        let cores = std::thread::available_parallelism().map_or(1, usize::from);
-        let threads = cores.saturating_sub(1).max(1);
-        let pool = rayon::ThreadPoolBuilder::new()
-            .num_threads(threads)
-            .thread_name(|i| format!("reference_worker {i}"))
-            .start_handler(|_| step_back())
-            .build()?;
-        let inbox = Arc::new(Inbox::<Option<Commission>>::default());
-        let (update, gate) = (Arc::new(Inbox::default()), Arc::new(Gate::default()));
-        let mut bench = Bench { post_process, wake, update: update.clone(), gate: gate.clone(), tracer: None };
-        let thread = std::thread::Builder::new().name("reference_worker".into()).spawn({
-            let commissions = inbox.clone();
-            move || {
-                while let Some(commission) = commissions.take() {
-                    if let Some((wish, cancel)) = commission {
-                        pool.install(|| bench.serve(&wish, &cancel));
-                    }
-                }
-            }
-        })?;
-        Ok(ReferenceWorker { inbox, update, gate, cancel: Arc::default(), thread: Some(thread) })
+    /// If the system gives no thread.
+    pub fn start(
+        threads: Arc<Threads>,
+        post_process: Arc<PostProcess>,
+        open_store: OpenStore,
+        wake: Wake,
+    ) -> std::io::Result<Self> {
+        let service = move || {
+            step_back();
+            References { post_process, threads, open_store, renderer: None }
+        };
+        Worker::start("reference_worker", wake, service).map(ReferenceWorker)
     }
 
     /// Asks for a reference. The one in hand stops at once and is kept.
     pub fn submit(&mut self, wish: Wish) {
-        self.cancel();
-        let cancel = self.cancel.clone();
-        self.inbox.post(|slot| *slot = Some((wish, cancel)));
+        self.0.cancel();
+        self.0.post(|slot| *slot = Some(wish));
     }
 
     /// Stops the one in hand.
     pub fn cancel(&mut self) {
-        self.cancel.store(true, Ordering::Relaxed);
-        self.cancel = Arc::default();
-        self.inbox.post(|slot| *slot = None);
-        self.gate.look_again();
+        self.0.cancel();
     }
 
     /// Holds the work where it is, or lets it go on.
     pub fn hold(&self, held: bool) {
-        self.gate.hold(held);
+        self.0.hold(held);
     }
 
     /// What is new since the last call.
     pub fn update(&self) -> Option<ReferenceUpdate> {
-        self.update.take_now()
+        self.0.collect()
     }
 }
 
-impl Drop for ReferenceWorker {
-    fn drop(&mut self) {
-        self.cancel();
-        self.inbox.close();
-        if let Some(thread) = self.thread.take() {
-            // a panic there has been printed already, and the window is closing
-            let _ = thread.join();
-        }
-    }
-}
+type ReferenceControl = Control<Option<Wish>, ReferenceUpdate>;
 
-/// Where the work waits while it is held, in the middle of a picture too: what is traced of it is not lost.
-#[derive(Default)]
-struct Gate {
-    /// Read before every sample, so without the lock.
-    held: AtomicBool,
-    lock: Mutex<()>,
-    changed: Condvar,
-}
-
-impl Gate {
-    fn hold(&self, held: bool) {
-        if self.held.swap(held, Ordering::Relaxed) != held {
-            self.look_again();
-        }
-    }
-
-    fn look_again(&self) {
-        // under the lock, so that nobody is between looking and waiting
-        let _guard = self.lock.lock().unwrap_or_else(PoisonError::into_inner);
-        self.changed.notify_all();
-    }
-
-    /// Waits until the gate is open or the work is cancelled, and returns whether it is.
-    fn stops(&self, cancel: &AtomicBool) -> bool {
-        if self.held.load(Ordering::Relaxed) {
-            let mut guard = self.lock.lock().unwrap_or_else(PoisonError::into_inner);
-            while self.held.load(Ordering::Relaxed) && !cancel.load(Ordering::Relaxed) {
-                guard = self.changed.wait(guard).unwrap_or_else(PoisonError::into_inner);
-            }
-        }
-        cancel.load(Ordering::Relaxed)
-    }
-}
-
-/// What the thread works with.
-struct Bench {
+/// Makes one reference after the other.
+struct References {
     post_process: Arc<PostProcess>,
-    wake: Wake,
-    update: Arc<Inbox<ReferenceUpdate>>,
-    gate: Arc<Gate>,
+    threads: Arc<Threads>,
+    open_store: OpenStore,
     /// The scene of the last wish, ready for rays.
-    tracer: Option<(Arc<Scene>, Tracer)>,
+    renderer: Option<Renderer>,
 }
 
-impl Bench {
-    fn serve(&mut self, wish: &Wish, cancel: &AtomicBool) {
-        let Origin::File(file) = &wish.origin else { return self.make(wish, cancel) };
-        match load(file, wish.sought.size) {
-            Ok(reference) => self.show(wish, &reference, true),
+impl Service for References {
+    type Job = Option<Wish>;
+    type Update = ReferenceUpdate;
+
+    fn serve(&mut self, wish: Option<Wish>, control: &ReferenceControl) {
+        let Some(wish) = wish else { return };
+        let Origin::File(file) = &wish.origin else { return self.make(&wish, control) };
+        match load(file, wish.shot.size) {
+            Ok(reference) => self.show(&wish, &reference, true, control),
             Err(fault) => {
-                self.fail(fault);
-                self.make(&Wish { origin: Origin::Made, ..wish.clone() }, cancel);
+                fail(control, fault);
+                self.make(&Wish { origin: Origin::Made, ..wish.clone() }, control);
             }
         }
     }
 
-    fn make(&mut self, wish: &Wish, cancel: &AtomicBool) {
-        let key = wish.sought.key();
-        let store = Store::of_the_user().map_err(|fault| self.fail(fault.to_string())).ok();
+    fn recover(&mut self, control: &ReferenceControl) {
+        self.renderer = None;
+        fail(control, "the reference stopped at a fault of its own".into());
+    }
+}
+
+impl References {
+    fn make(&mut self, wish: &Wish, control: &ReferenceControl) {
+        let key = Key::of(&wish.shot);
+        let store = (self.open_store)().map_err(|fault| fail(control, fault.to_string())).ok();
         let kept = store.as_ref().and_then(|store| store.get(key));
         match &kept {
-            Some(kept) => self.show(wish, kept, false),
-            None => self.tell(wish, (0, None, 0.0), false),
+            Some(kept) => self.show(wish, kept, false, control),
+            None => tell(control, wish, (0, None, 0.0), false),
         }
-        let tracer = match self.tracer.take() {
-            Some((scene, tracer)) if Arc::ptr_eq(&scene, &wish.sought.scene) => tracer,
-            _ => Tracer::new(&wish.sought.scene),
+        let scene = &wish.shot.scene;
+        let mut renderer = match self.renderer.take() {
+            Some(renderer) if Arc::ptr_eq(renderer.scene(), scene) => renderer,
+            _ => Renderer::on_the_processor(scene.clone(), self.threads.clone()),
         };
+        // panes go first
+        renderer.rank = Rank::Background;
         let mut keeper = Keeper { store, key, wish, kept: kept.as_ref().map_or(0, |kept| kept.replicates) };
-        match Maker::new(&tracer, &wish.sought.subject(), kept.as_ref()) {
-            Some(mut maker) => self.work(&mut maker, &Goal::default(), &mut keeper, cancel),
-            None => self.fail("not enough memory for a reference; make the window smaller".into()),
+        match Maker::new(&mut renderer, &wish.shot, kept.as_ref()) {
+            Some(mut maker) => self.work(&mut maker, &Goal::default(), &mut keeper, control),
+            None => fail(control, "not enough memory for a reference; make the window smaller".into()),
         }
-        self.tracer = Some((wish.sought.scene.clone(), tracer));
+        self.renderer = Some(renderer);
     }
 
-    fn work(&self, maker: &mut Maker, goal: &Goal, keeper: &mut Keeper, cancel: &AtomicBool) {
-        while !maker.is_done(goal) && maker.step(&|| self.gate.stops(cancel)) {
+    fn work(&self, maker: &mut Maker, goal: &Goal, keeper: &mut Keeper, control: &ReferenceControl) {
+        while !maker.is_done(goal) && !control.ends_soon() {
+            // who waits holds no threads
+            control.wait();
+            if !maker.step(&|| control.is_held() || control.ends_soon()) {
+                continue;
+            }
             let reference = maker.reference();
             let done = maker.is_done(goal);
-            self.show(keeper.wish, &reference, done);
+            self.show(keeper.wish, &reference, done, control);
             if done || reference.replicates >= keeper.next() {
-                keeper.keep(&reference).unwrap_or_else(|fault| self.fail(fault));
+                keeper.keep(&reference).unwrap_or_else(|fault| fail(control, fault));
             }
         }
         let reference = maker.reference();
         if maker.is_done(goal) {
-            self.show(keeper.wish, &reference, true);
+            self.show(keeper.wish, &reference, true, control);
         }
-        keeper.keep(&reference).unwrap_or_else(|fault| self.fail(fault));
+        keeper.keep(&reference).unwrap_or_else(|fault| fail(control, fault));
     }
 
     /// Hands it to the post_process. One picture alone tells nothing of its own noise, and waits for the second.
-    fn show(&self, wish: &Wish, reference: &Reference, done: bool) {
+    fn show(&self, wish: &Wish, reference: &Reference, done: bool, control: &ReferenceControl) {
         let enough = reference.replicates != 1;
         if enough {
             self.post_process.set_reference(Some((wish.view, ReferenceImage::of(reference))));
         }
         let noise = reference.rel_mse().filter(|_| enough);
-        self.tell(wish, (reference.replicates, noise, reference.seconds), done);
+        tell(control, wish, (reference.replicates, noise, reference.seconds), done);
     }
+}
 
-    fn tell(&self, wish: &Wish, (pictures, noise, seconds): (u32, Option<f64>, f64), done: bool) {
-        let origin = wish.origin.clone();
-        let progress = Progress { view: wish.view, origin, pictures, noise, seconds, done };
-        self.update.post(|update| update.progress = Some(progress));
-        (self.wake)();
-    }
+fn tell(control: &ReferenceControl, wish: &Wish, (pictures, noise, seconds): (u32, Option<f64>, f64), done: bool) {
+    let origin = wish.origin.clone();
+    let progress = Progress { view: wish.view, origin, pictures, noise, seconds, done };
+    control.tell(|update| update.progress = Some(progress));
+}
 
-    fn fail(&self, fault: String) {
-        self.update.post(|update| update.faults.push(fault));
-        (self.wake)();
-    }
+fn fail(control: &ReferenceControl, fault: String) {
+    control.tell(|update| update.faults.push(fault));
 }
 
 /// A reference from a file, of the size of the picture.
 fn load(file: &Path, (width, height): (u32, u32)) -> Result<Reference, String> {
     let reference = Reference::load(file).map_err(|fault| fault.to_string())?;
-    if (reference.width, reference.height) == (width, height) {
+    let (w, h) = reference.image.size();
+    if (w, h) == (width, height) {
         return Ok(reference);
     }
-    let (w, h) = (reference.width, reference.height);
     Err(format!("the reference has {w}x{h} pixels, the picture {width}x{height}: {}", file.display()))
 }
 
@@ -286,7 +211,7 @@ impl Keeper<'_> {
         }
         // a store that failed once is not tried again: one line is enough
         let Some(store) = self.store.take() else { return Ok(()) };
-        store.put(self.key, reference, self.wish.sought.records()).map_err(|fault| fault.to_string())?;
+        store.put(self.key, reference, reference::records(&self.wish.shot)).map_err(|fault| fault.to_string())?;
         self.kept = reference.replicates;
         self.store = Some(store);
         Ok(())

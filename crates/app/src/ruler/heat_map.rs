@@ -2,26 +2,23 @@
 //! other programs, with both pictures and every map as layers of numbers.
 
 use compare::{ColourScale, CompareError, ErrorMetric, finite_mean};
-use film::DisplayTransform;
-use image_file::{ImageFileError, Kind, Layer, LayerValues, Records};
-use scene::Vec3;
+use film::{DisplayTransform, Image, Layer, LayerValues};
+use image_file::{ImageFileError, Kind, Records};
 
 /// Two pictures of one size; the first is judged by the second.
-#[derive(Debug, Clone, Copy)]
-pub struct Pair<'a> {
+#[derive(Debug, Clone)]
+pub struct Pair {
     /// What they are called: "A" and "reference".
     pub names: [&'static str; 2],
-    /// Pixels in a row of both.
-    pub width: u32,
-    /// Linear radiances, rows from the top.
-    pub radiances: [&'a [Vec3]; 2],
+    /// In linear radiance.
+    pub images: [Image; 2],
     /// How FLIP sees them.
     pub display: DisplayTransform,
 }
 
-impl Pair<'_> {
+impl Pair {
     fn values(&self, map: ErrorMetric) -> Result<Vec<f32>, CompareError> {
-        map.of_radiances(self.radiances[0], self.radiances[1], self.width, &self.display)
+        map.of(&self.images[0], &self.images[1], &self.display)
     }
 }
 
@@ -57,7 +54,7 @@ impl HeatMap {
         let (mean, nonfinite) = finite_mean(&values);
         let scale = held.map_or_else(|| ColourScale::fitted(map, &values), |high| ColourScale::up_to(map, high));
         let label = map.label_of(pair.names[0], pair.names[1]);
-        Ok(HeatMap { map, label, scale, width: pair.width, values, mean, nonfinite })
+        Ok(HeatMap { map, label, scale, width: pair.images[0].width(), values, mean, nonfinite })
     }
 
     /// Pixels in a column.
@@ -100,13 +97,13 @@ impl HeatMap {
                 image_file::encode_rgba8(width, height, &rgba, &records)
             }
             Kind::Exr => {
-                let picture = |i: usize| Layer { name: pair.names[i], values: LayerValues::Rgb(pair.radiances[i]) };
-                let mut layers = vec![picture(0), picture(1)];
+                let mut layers: Vec<Layer> =
+                    pair.images.iter().zip(pair.names).map(|(image, name)| image.as_layer(name)).collect();
                 for map in ErrorMetric::ALL {
                     let values = if map == self.map { self.values.clone() } else { values_of(pair, map)? };
-                    layers.push(Layer { name: map.name(), values: LayerValues::Numbers(values) });
+                    layers.push(Layer { name: map.name(), values: LayerValues::Numbers(values.into()) });
                 }
-                image_file::encode_layers(self.width, self.height(), &layers, &records)
+                image_file::encode_layers((self.width, self.height()), &layers, &records)
             }
         }
     }

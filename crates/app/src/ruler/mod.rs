@@ -4,9 +4,7 @@
 mod figures;
 mod heat_map;
 mod reference_image;
-mod sought;
 
 pub use figures::{brief, error_records, noise_line};
 pub use heat_map::{HeatMap, Pair};
-pub use reference_image::{Against, ReferenceImage};
-pub use sought::Sought;
+pub use reference_image::ReferenceImage;

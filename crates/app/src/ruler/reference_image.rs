@@ -1,40 +1,14 @@
 //! What pictures are compared with.
 
-use compare::{Errors, errors_of_radiances};
+use compare::{CompareError, Errors, errors};
+use film::Image;
 use reference::Reference;
-use scene::Vec3;
-use std::sync::Arc;
-
-/// What pictures are compared with.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Against {
-    /// The other pane.
-    #[default]
-    EachOther,
-    /// The reference of what they show.
-    Reference,
-}
-
-impl Against {
-    /// Both, the default first.
-    pub const ALL: [Against; 2] = [Against::EachOther, Against::Reference];
-
-    /// The name on its button.
-    pub fn name(self) -> &'static str {
-        match self {
-            Against::EachOther => "each other",
-            Against::Reference => "the reference",
-        }
-    }
-}
 
 /// A reference as it is held against one picture after the other.
 #[derive(Debug, Clone)]
 pub struct ReferenceImage {
-    /// Width and height in pixels.
-    pub size: (u32, u32),
-    /// Linear radiance, rows from the top.
-    pub radiances: Arc<[Vec3]>,
+    /// Its radiance.
+    pub image: Image,
     /// Its own mean squared error, in radiance squared; `None` of a picture from elsewhere that does not tell.
     pub noise: Option<f64>,
 }
@@ -42,16 +16,18 @@ pub struct ReferenceImage {
 impl ReferenceImage {
     /// Works the noise out once, for all pictures to come.
     pub fn of(reference: &Reference) -> Self {
-        ReferenceImage {
-            size: (reference.width, reference.height),
-            radiances: reference.radiances.as_slice().into(),
-            noise: reference.mean_squared_error(),
-        }
+        let mut image = reference.image.clone();
+        // the noise is all that is asked of the standard errors
+        image.layers.clear();
+        ReferenceImage { image, noise: reference.mean_squared_error() }
     }
 
     /// How far a picture of the same pixels is from it.
-    pub fn errors(&self, radiances: &[Vec3]) -> Errors {
-        let errors = errors_of_radiances(radiances, &self.radiances);
-        self.noise.map_or(errors, |noise| errors.with_reference_noise(noise))
+    ///
+    /// # Errors
+    /// [`CompareError::Sizes`] if it is of another size.
+    pub fn errors(&self, image: &Image) -> Result<Errors, CompareError> {
+        let errors = errors(image, &self.image)?;
+        Ok(self.noise.map_or(errors, |noise| errors.with_reference_noise(noise)))
     }
 }

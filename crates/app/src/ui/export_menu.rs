@@ -1,53 +1,24 @@
 //! The export menu: the picture as seen or one pane, to a file or the clipboard, or as a command to type.
 
-use super::top_bar::{self, framed};
-use super::{Dump, Pane, UiCommand, View, ViewModel, Viewer};
-use crate::engine::Side;
-use crate::engine::export::Destination;
+use super::widgets::{framed, menu};
+use super::{UiCommand, UiContext};
+use crate::model::{Destination, ExportRequest, ExportSubject, Model, PaneId, PaneView};
 use egui::Ui;
 use image_file::{self, Kind};
 use std::path::{Path, PathBuf};
 
-/// What is exported.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum What {
-    /// The picture area as it is on the screen: both panes, line and labels.
-    #[default]
-    Seen,
-    /// One pane, whole and without labels.
-    Pane(Side),
-    /// The map of errors, with its colour bar and without labels.
-    Map,
+/// The file for the picture as seen: in the folder that was typed, or the default one.
+pub fn seen_file(model: &Model) -> PathBuf {
+    let typed = image_file::typed_path(&model.state.export.file, &default_folder());
+    let folder = if typed.is_dir() { typed } else { typed.parent().map_or_else(default_folder, Path::to_owned) };
+    folder.join(format!("{}.png", stem(model, ExportSubject::AsSeen)))
 }
 
-/// What is typed and chosen there.
-#[derive(Debug, Default)]
-pub struct ExportMenu {
-    what: What,
-    /// As typed; the proposal while it is empty.
-    file: String,
-    exr: bool,
-}
-
-impl What {
-    const ALL: [What; 4] = [What::Seen, What::Pane(Side::A), What::Pane(Side::B), What::Map];
-
-    fn title(self) -> &'static str {
-        match self {
-            What::Seen => "As seen",
-            What::Pane(Side::A) => "A alone",
-            What::Pane(Side::B) => "B alone",
-            What::Map => "The error map",
-        }
-    }
-}
-
-impl ExportMenu {
-    /// The file for the picture as seen: in the folder that was typed, or the default one.
-    pub fn seen_file(&self, viewer: &Viewer) -> PathBuf {
-        let typed = image_file::typed_path(&self.file, &default_folder());
-        let folder = if typed.is_dir() { typed } else { typed.parent().map_or_else(default_folder, Path::to_owned) };
-        folder.join(format!("{}.png", stem(viewer, What::Seen)))
+fn title(subject: ExportSubject) -> String {
+    match subject {
+        ExportSubject::AsSeen => "As seen".into(),
+        ExportSubject::Pane(pane) => format!("{pane} alone"),
+        ExportSubject::ErrorMap => "The error map".into(),
     }
 }
 
@@ -57,56 +28,58 @@ fn default_folder() -> PathBuf {
 }
 
 /// "visavis-whitted-wipe", "visavis-whitted-path".
-fn stem(viewer: &Viewer, what: What) -> String {
-    let of = match (what, viewer.view) {
-        (What::Pane(side), _) => viewer.settings.panes[side as usize].technique.name().to_owned(),
-        (What::Map, _) => format!("error-{}", viewer.comparison.map.name()),
-        (What::Seen, View::A) => "a".into(),
-        (What::Seen, View::B) => "b".into(),
-        (What::Seen, view) => view.name().to_lowercase().replace(' ', "-"),
+fn stem(model: &Model, subject: ExportSubject) -> String {
+    let session = &model.session;
+    let of = match (subject, session.view) {
+        (ExportSubject::Pane(pane), _) => session.panes[pane].technique.name().to_owned(),
+        (ExportSubject::ErrorMap, _) => format!("error-{}", session.comparison.metric.name()),
+        (ExportSubject::AsSeen, view) => view.name().to_lowercase().replace(' ', "-"),
     };
     // a scene's name comes from a file's; what a file may not be called stays out
-    let scene: String = viewer.scene.name.chars().filter(|c| c.is_alphanumeric() || "-_ ".contains(*c)).collect();
+    let name = &model.document.scene.name;
+    let scene: String = name.chars().filter(|c| c.is_alphanumeric() || "-_ ".contains(*c)).collect();
     format!("visavis-{scene}-{of}")
 }
 
-pub fn show(viewer: &mut Viewer, ui: &mut Ui, model: &ViewModel, dump: &mut Dump, commands: &mut Vec<UiCommand>) {
+pub fn show(cx: &mut UiContext, ui: &mut Ui) {
     // a map that is not looked at is not there
-    if model.map.is_none() && viewer.export.what == What::Map {
-        viewer.export.what = What::Seen;
+    if cx.shown.map.is_none() && cx.model.state.export.subject == ExportSubject::ErrorMap {
+        cx.model.state.export.subject = ExportSubject::AsSeen;
     }
-    let (response, _) = top_bar::menu("Export").ui(ui, |ui| {
+    let (response, _) = menu("Export").ui(ui, |ui| {
         ui.set_min_width(300.0);
-        choice(viewer, ui, model.map.is_some(), dump);
-        file(viewer, ui, dump, commands);
+        choice(cx, ui);
+        file(cx, ui);
         ui.separator();
-        for (side, pane) in [Side::A, Side::B].into_iter().zip(&model.panes) {
-            let Some(command) = command(viewer, side, pane) else { continue };
-            let text = format!("Copy {side:?} as command");
+        for (pane, shown) in cx.shown.panes.iter() {
+            let Some(command) = command(cx.model, pane, shown) else { continue };
+            let text = format!("Copy {pane} as command");
             let button = ui.add(framed(&text, ui)).on_hover_text(&command);
-            if dump.note(&format!("command {side:?}"), &command, button).clicked() {
+            if cx.dump.note(&format!("command {pane}"), &command, button).clicked() {
                 ui.ctx().copy_text(command);
-                viewer.say(Ok(format!("Copied the command that makes {side:?}")));
+                cx.model.say(Ok(format!("Copied the command that makes {pane}")));
                 ui.close();
             }
         }
     });
-    dump.note("export", "", response);
+    cx.dump.note("export", "", response);
 }
 
-fn choice(viewer: &mut Viewer, ui: &mut Ui, with_map: bool, dump: &mut Dump) {
-    let menu = &mut viewer.export;
+fn choice(cx: &mut UiContext, ui: &mut Ui) {
+    let (menu, with_map) = (&mut cx.model.state.export, cx.shown.map.is_some());
+    let panes = cx.model.session.panes.ids().map(ExportSubject::Pane);
+    let subjects = std::iter::once(ExportSubject::AsSeen).chain(panes);
     ui.horizontal(|ui| {
-        for what in What::ALL.into_iter().filter(|what| with_map || *what != What::Map) {
-            let item = ui.radio_value(&mut menu.what, what, what.title());
-            dump.note(&format!("export {}", what.title()), menu.what == what, item);
+        for subject in subjects.chain(with_map.then_some(ExportSubject::ErrorMap)) {
+            let item = ui.radio_value(&mut menu.subject, subject, title(subject));
+            cx.dump.note(&format!("export {}", title(subject)), menu.subject == subject, item);
         }
     });
-    if menu.what != What::Seen {
+    if menu.subject != ExportSubject::AsSeen {
         ui.horizontal(|ui| {
             for (exr, text) in [(false, "PNG as shown"), (true, "EXR linear")] {
                 let item = ui.radio_value(&mut menu.exr, exr, text);
-                let item = dump.note(&format!("format {text}"), menu.exr == exr, item);
+                let item = cx.dump.note(&format!("format {text}"), menu.exr == exr, item);
                 if item.clicked() && Kind::of(Path::new(menu.file.trim())).is_some() {
                     let named = Path::new(menu.file.trim()).with_extension(if exr { "exr" } else { "png" });
                     menu.file = named.display().to_string();
@@ -116,31 +89,32 @@ fn choice(viewer: &mut Viewer, ui: &mut Ui, with_map: bool, dump: &mut Dump) {
     }
 }
 
-fn file(viewer: &mut Viewer, ui: &mut Ui, dump: &mut Dump, commands: &mut Vec<UiCommand>) {
-    let what = viewer.export.what;
-    let menu = &mut viewer.export;
+fn file(cx: &mut UiContext, ui: &mut Ui) {
+    let subject = cx.model.state.export.subject;
+    let menu = &mut cx.model.state.export;
     // a name that says its kind has chosen it
     menu.exr = Kind::of(Path::new(menu.file.trim())).map_or(menu.exr, |kind| kind == Kind::Exr);
-    let exr = menu.exr && what != What::Seen;
-    let proposal = default_folder().join(format!("{}.{}", stem(viewer, what), if exr { "exr" } else { "png" }));
+    let exr = menu.exr && subject != ExportSubject::AsSeen;
+    let proposal = default_folder().join(format!("{}.{}", stem(cx.model, subject), if exr { "exr" } else { "png" }));
     let label = ui.label("File");
     let hint = proposal.display().to_string();
-    let edit = egui::TextEdit::singleline(&mut viewer.export.file).hint_text(&hint).desired_width(f32::INFINITY);
+    let edit =
+        egui::TextEdit::singleline(&mut cx.model.state.export.file).hint_text(&hint).desired_width(f32::INFINITY);
     let line =
         ui.add(edit).labelled_by(label.id).on_hover_text("A file that exists is kept: the new one gets a number");
     let entered = line.lost_focus() && ui.input(|i| i.key_pressed(egui::Key::Enter));
-    dump.note("export file", &viewer.export.file, line);
+    cx.dump.note("export file", &cx.model.state.export.file, line);
     ui.horizontal(|ui| {
-        let save = dump.note("save", "", ui.add(framed("Save", ui)).on_hover_text("Ctrl+S saves as seen"));
+        let save = cx.dump.note("save", "", ui.add(framed("Save", ui)).on_hover_text("Ctrl+S saves as seen"));
         if save.clicked() || entered {
-            let to = Destination::File(typed_file(&viewer.export.file, proposal));
-            commands.push(UiCommand::Export { what, to });
+            let to = Destination::File(typed_file(&cx.model.state.export.file, proposal));
+            cx.commands.push(UiCommand::Export(ExportRequest { subject, to }));
             ui.close();
         }
         let copy =
-            dump.note("copy picture", "", ui.add(framed("Copy picture", ui)).on_hover_text("Ctrl+C copies as seen"));
+            cx.dump.note("copy picture", "", ui.add(framed("Copy picture", ui)).on_hover_text("Ctrl+C copies as seen"));
         if copy.clicked() {
-            commands.push(UiCommand::Export { what, to: Destination::Clipboard });
+            cx.commands.push(UiCommand::Export(ExportRequest { subject, to: Destination::Clipboard }));
             ui.close();
         }
     });
@@ -162,12 +136,12 @@ fn typed_file(typed: &str, proposal: PathBuf) -> PathBuf {
 }
 
 /// The line that makes the pane's picture again, as far as it has come.
-fn command(viewer: &Viewer, side: Side, pane: &Pane) -> Option<String> {
-    let provenance = pane.provenance.as_ref()?;
-    let wished = viewer.settings.panes[side as usize].wished_spp().unwrap_or(1);
-    let spp = pane.spp.filter(|_| !pane.rough).unwrap_or(wished);
-    let out = format!("{}.png", stem(viewer, What::Pane(side)));
-    Some(provenance.command(spp, viewer.settings.display.exposure, &out))
+fn command(model: &Model, pane: PaneId, shown: &PaneView) -> Option<String> {
+    let provenance = shown.provenance.as_ref()?;
+    let wished = model.session.panes[pane].wished_spp().unwrap_or(1);
+    let spp = shown.spp.filter(|_| !shown.rough).unwrap_or(wished);
+    let out = format!("{}.png", stem(model, ExportSubject::Pane(pane)));
+    Some(provenance.command(spp, model.session.display.exposure, &out))
 }
 
 #[cfg(test)]

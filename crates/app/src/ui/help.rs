@@ -1,24 +1,17 @@
 //! The help: mouse and keys on one card.
 
-use super::{Dump, Viewer, keys};
+use super::workspace::Workspace;
+use super::{UiContext, keys};
 use egui::Ui;
 
-const MOUSE: [(&str, &str); 5] = [
-    ("drag the line", "wipe; double click: back to the middle"),
-    ("drag the picture", "orbit about the target"),
-    ("Shift or right drag", "pan"),
-    ("wheel", "dolly: move nearer or farther"),
-    ("Ctrl+wheel, pinch", "zoom: narrow or widen the view"),
-];
-
-pub fn show(viewer: &mut Viewer, ui: &mut Ui, dump: &mut Dump) {
-    if viewer.help && !viewer.memory.help_was_open {
+pub fn show(workspace: &dyn Workspace, cx: &mut UiContext, ui: &mut Ui) {
+    if cx.model.state.help && !cx.model.state.help_was_open {
         // egui lays a new window out twice: once to measure it
         ui.ctx().request_discard("the help is new");
         ui.ctx().request_repaint();
     }
-    viewer.memory.help_was_open = viewer.help;
-    let mut open = viewer.help;
+    cx.model.state.help_was_open = cx.model.state.help;
+    let mut open = cx.model.state.help;
     let tallest = ui.ctx().content_rect().height() - 80.0;
     let window = egui::Window::new("Mouse and keys").open(&mut open).collapsible(false).resizable(false);
     let shown = window
@@ -27,7 +20,7 @@ pub fn show(viewer: &mut Viewer, ui: &mut Ui, dump: &mut Dump) {
         .vscroll(true)
         .show(ui.ctx(), |ui| {
             egui::Grid::new("keys").num_columns(2).spacing([16.0, 4.0]).show(ui, |ui| {
-                for (what, does) in MOUSE.iter().chain(&keys::KEYS) {
+                for (what, does) in workspace.help().iter().chain(&keys::KEYS) {
                     ui.strong(*what);
                     ui.label(*does);
                     ui.end_row();
@@ -35,7 +28,7 @@ pub fn show(viewer: &mut Viewer, ui: &mut Ui, dump: &mut Dump) {
             });
         });
     if let Some(shown) = shown {
-        dump.note("help", "", shown.response);
+        cx.dump.note("help", "", shown.response);
     }
-    viewer.help = open;
+    cx.model.state.help = open;
 }

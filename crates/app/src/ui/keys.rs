@@ -1,17 +1,13 @@
 //! The keys of the whole window. Letters are ignored while typing; Tab, arrows, space and enter belong to the widgets;
 //! PageUp, PageDown, '.', F5 and Esc stay free for a presenter's remote.
 
-use super::{UiCommand, View, Viewer, What};
-use crate::engine::export::Destination;
-use egui::{Event, Key, Modifiers};
+use super::workspace::HelpLine;
+use super::{UiCommand, UiContext, Workspaces, export_menu};
+use crate::model::{Destination, ExportRequest, ExportSubject};
+use egui::{Context, Event, Key, Modifiers};
 
-/// What the keys do, for the help.
-pub const KEYS: [(&str, &str); 15] = [
-    ("T", "swap A and B"),
-    ("1 2", "A alone, B alone"),
-    ("3", "wipe; again: turn the line"),
-    ("4", "side by side"),
-    ("5", "error map"),
+/// What the keys do that every workspace has, for the help.
+pub const KEYS: [HelpLine; 10] = [
     ("P", "pause, go on"),
     ("R", "restart"),
     ("C", "camera of the scene"),
@@ -24,60 +20,70 @@ pub const KEYS: [(&str, &str); 15] = [
     ("?", "this help"),
 ];
 
-pub fn listen(viewer: &mut Viewer, ctx: &egui::Context, commands: &mut Vec<UiCommand>) {
-    let command = |key| pressed(ctx, key, Modifiers::COMMAND) > 0;
-    if command(Key::S) {
-        let to = Destination::File(viewer.export.seen_file(viewer));
-        commands.push(UiCommand::Export { what: What::Seen, to });
+/// The keys that went down since the last frame.
+pub struct Keys<'a>(&'a Context);
+
+impl Keys<'_> {
+    /// How often a key went down alone.
+    pub fn presses(&self, key: Key) -> usize {
+        self.presses_with(key, Modifiers::NONE)
     }
-    if command(Key::Q) {
-        commands.push(UiCommand::Quit);
+
+    /// How often a key went down with just these modifiers. Two presses within one slow frame are two; a key that is
+    /// held is one.
+    fn presses_with(&self, wanted: Key, with: Modifiers) -> usize {
+        let is_wanted = |event: &&Event| match event {
+            Event::Key { key, pressed: true, repeat: false, modifiers, .. } => {
+                *key == wanted && modifiers.matches_exact(with)
+            }
+            _ => false,
+        };
+        self.0.input(|i| i.events.iter().filter(is_wanted).count())
     }
-    if ctx.text_edit_focused() {
+
+    fn command(&self, key: Key) -> usize {
+        self.presses_with(key, Modifiers::COMMAND)
+    }
+}
+
+pub fn listen(workspaces: &mut Workspaces, cx: &mut UiContext, context: &Context) {
+    let keys = Keys(context);
+    if keys.command(Key::S) > 0 {
+        export_as_seen(cx, Destination::File(export_menu::seen_file(cx.model)));
+    }
+    if keys.command(Key::Q) > 0 {
+        cx.commands.push(UiCommand::Quit);
+    }
+    if context.text_edit_focused() {
         return;
     }
-    if ctx.input(|i| i.events.contains(&Event::Copy)) {
-        commands.push(UiCommand::Export { what: What::Seen, to: Destination::Clipboard });
+    if context.input(|i| i.events.contains(&Event::Copy)) {
+        export_as_seen(cx, Destination::Clipboard);
     }
-    for _ in 0..pressed(ctx, Key::Z, Modifiers::COMMAND) {
-        viewer.undo();
+    for _ in 0..keys.command(Key::Z) {
+        cx.model.undo();
     }
-    for _ in 0..pressed(ctx, Key::Z, Modifiers::COMMAND | Modifiers::SHIFT) + pressed(ctx, Key::Y, Modifiers::COMMAND) {
-        viewer.redo();
+    for _ in 0..keys.presses_with(Key::Z, Modifiers::COMMAND | Modifiers::SHIFT) + keys.command(Key::Y) {
+        cx.model.redo();
     }
-    letters(viewer, ctx);
+    workspaces.open_mut().keys(cx, &keys);
+    letters(cx, &keys);
 }
 
-/// How often a key went down with just these modifiers since the last frame. Two presses within one slow frame are two;
-/// a key that is held is one.
-fn pressed(ctx: &egui::Context, wanted: Key, with: Modifiers) -> usize {
-    let is_wanted = |event: &&Event| match event {
-        Event::Key { key, pressed: true, repeat: false, modifiers, .. } => {
-            *key == wanted && modifiers.matches_exact(with)
-        }
-        _ => false,
-    };
-    ctx.input(|i| i.events.iter().filter(is_wanted).count())
+fn export_as_seen(cx: &mut UiContext, to: Destination) {
+    cx.commands.push(UiCommand::Export(ExportRequest { subject: ExportSubject::AsSeen, to }));
 }
 
-fn letters(viewer: &mut Viewer, ctx: &egui::Context) {
-    let presses = |key| pressed(ctx, key, Modifiers::NONE);
-    let turned_over = |key| presses(key) % 2 == 1;
-    for _ in 0..presses(Key::T) {
-        viewer.toggle();
+fn letters(cx: &mut UiContext, keys: &Keys) {
+    let turned_over = |key| keys.presses(key) % 2 == 1;
+    let state = &mut cx.model.state;
+    state.paused ^= turned_over(Key::P);
+    state.panel ^= turned_over(Key::H);
+    state.restarts += keys.presses(Key::R) as u64;
+    if keys.presses(Key::C) > 0 {
+        cx.model.document.camera = cx.model.document.scene.camera;
     }
-    for (key, view) in [Key::Num1, Key::Num2, Key::Num3, Key::Num4, Key::Num5].into_iter().zip(View::ALL) {
-        for _ in 0..presses(key) {
-            viewer.choose(view);
-        }
-    }
-    viewer.paused ^= turned_over(Key::P);
-    viewer.panel ^= turned_over(Key::H);
-    viewer.restarts += presses(Key::R) as u64;
-    if presses(Key::C) > 0 {
-        viewer.camera = viewer.scene.camera;
-    }
-    if ctx.input(|i| i.key_pressed(Key::Questionmark)) {
-        viewer.help = !viewer.help;
+    if keys.0.input(|i| i.key_pressed(Key::Questionmark)) {
+        cx.model.state.help = !cx.model.state.help;
     }
 }

@@ -1,84 +1,72 @@
-//! What the window shows: [`Viewer`] holds all that the user can change, and draws itself into egui. It knows no
-//! window, no GPU and no thread: it is told what there is to show ([`ViewModel`]) and says what it wants
-//! ([`UiCommand`]).
+//! What the window shows: draws a [`Model`] and what there is to show of it ([`ViewModel`]) into egui, changes the
+//! model as the user wants, and asks the window for what only that can do ([`UiCommand`]). It knows no window, no GPU
+//! and no thread.
 
-mod comparison;
 mod controls;
 mod dump;
 mod export_menu;
 mod help;
 mod keys;
-mod message;
-mod picture;
-mod settings;
+mod overlay;
 mod theme;
 mod top_bar;
-mod view;
-mod viewer;
+mod widgets;
+mod workspace;
 
-pub use comparison::ComparisonSettings;
 pub use dump::{Dump, Widget};
-pub use export_menu::What;
-pub use message::Message;
-pub use settings::{History, Resolution, Settings};
-pub use theme::Theme;
-pub use view::{Line, View};
-pub use viewer::{UiCommand, Viewer};
+pub use workspace::{Workspace, Workspaces};
 
-use crate::engine::error_map::ErrorMap;
-use crate::engine::reference::Progress;
-use crate::ruler::Against;
-use crate::technique::Provenance;
-use compare::Errors;
-use std::sync::Arc;
+use crate::model::{ExportRequest, Model, Panes, ViewModel};
+use egui::{TextureId, Ui};
+use std::path::PathBuf;
 
-/// All that there is to show.
-#[derive(Debug, Clone, Default)]
-pub struct ViewModel {
-    /// Both sides.
-    pub panes: [Pane; 2],
-    /// Where the errors are, while that is looked at.
-    pub map: Option<MapPane>,
-    /// How far the reference has come, while it is asked for.
-    pub reference: Option<Progress>,
+/// What only the window around can do.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum UiCommand {
+    /// Write a picture to a file or the clipboard.
+    Export(ExportRequest),
+    /// Read and open a scene, by name or file.
+    Open(String),
+    /// Read a reference from a file.
+    LoadReference(PathBuf),
+    /// Close the window.
+    Quit,
 }
 
-/// A map of errors as it is shown.
-#[derive(Debug, Clone)]
-pub struct MapPane {
-    /// Its colours.
-    pub texture: egui::TextureId,
-    /// Its numbers, and what they are of.
-    pub drawn: Arc<ErrorMap>,
+/// The pixels of what there is to show, as egui knows them.
+#[derive(Debug, Default)]
+pub struct Textures {
+    /// The panes' pictures, at the size of the picture area or smaller.
+    pub panes: Panes<TextureId>,
+    /// The map of errors.
+    pub map: Option<TextureId>,
 }
 
-/// What there is to show of one side.
-#[derive(Debug, Clone, Default)]
-pub struct Pane {
-    /// The picture, at the size of the picture area or smaller.
-    pub texture: Option<egui::TextureId>,
-    /// What that picture was made from.
-    pub provenance: Option<Arc<Provenance>>,
-    /// Samples per pixel, where the technique samples.
-    pub spp: Option<u32>,
-    /// Seconds of rendering.
-    pub seconds: f64,
-    /// Samples that were not finite and are left out.
-    pub nonfinite: u64,
-    /// Whether the picture is a rough first one.
-    pub rough: bool,
-    /// How many pixels of the picture area one of its pixels takes, along a side.
-    pub shrink: u32,
-    /// Whether more of it will come.
-    pub unfinished: bool,
-    /// Distance from what it is compared with.
-    pub errors: Option<Errors>,
-    /// What that is.
-    pub against: Against,
-    /// What made it.
-    pub adapter: Option<Arc<str>>,
-    /// Why there is no picture.
-    pub fault: Option<String>,
-    /// Why it was not made where it should be.
-    pub refused: Option<Arc<str>>,
+/// What everything that is drawn in one frame reads, changes and asks for.
+pub struct UiContext<'a> {
+    /// All that the user can change.
+    pub model: &'a mut Model,
+    /// What there is to show.
+    pub shown: &'a ViewModel,
+    /// Its pixels.
+    pub textures: &'a Textures,
+    /// The widgets drawn so far, for tests.
+    pub dump: &'a mut Dump,
+    /// What the window is asked for.
+    pub commands: &'a mut Vec<UiCommand>,
+}
+
+/// Draws one frame.
+pub fn show(workspaces: &mut Workspaces, cx: &mut UiContext, ui: &mut Ui) {
+    if cx.model.state.dressed != Some(cx.model.state.theme) {
+        theme::apply(cx.model.state.theme, ui.ctx());
+        cx.model.state.dressed = Some(cx.model.state.theme);
+        ui.ctx().request_repaint();
+    }
+    keys::listen(workspaces, cx, ui.ctx());
+    egui::Panel::top("top bar").show(ui, |ui| top_bar::show(workspaces, cx, ui));
+    workspaces.open_mut().ui(cx, ui);
+    help::show(workspaces.open(), cx, ui);
+    let busy = ui.input(|i| i.pointer.any_down()) || ui.ctx().text_edit_focused();
+    cx.model.settle(busy);
 }

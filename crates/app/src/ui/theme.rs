@@ -1,52 +1,25 @@
-//! How the window looks: dark for a desk, bright with large type for a projector. Text keeps a contrast of 4.5:1 in the
-//! first and of 7:1 in the second (WCAG 2.2, success criteria 1.4.3 and 1.4.6).
+//! The themes in egui's words. Text keeps a contrast of 4.5:1 in the dark one and of 7:1 on the projector (WCAG 2.2,
+//! success criteria 1.4.3 and 1.4.6).
 
+use crate::model::Theme;
 use egui::{Color32, FontFamily, FontId, Stroke, Style, TextStyle, Visuals};
 
-/// A look.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Theme {
-    /// Light type on dark grey: the picture is the brightest thing.
-    #[default]
-    Dark,
-    /// Black type of 18 points on white.
-    Projector,
+/// Size of the type on the pictures, in points.
+pub fn label_size(theme: Theme) -> f32 {
+    match theme {
+        Theme::Dark => 15.0,
+        Theme::Projector => 19.0,
+    }
 }
 
-impl Theme {
-    /// All, the default first.
-    pub const ALL: [Theme; 2] = [Theme::Dark, Theme::Projector];
-
-    /// The name in the menu and on the command line.
-    pub fn name(self) -> &'static str {
-        match self {
-            Theme::Dark => "dark",
-            Theme::Projector => "projector",
-        }
-    }
-
-    /// The theme of that name.
-    pub fn named(name: &str) -> Option<Self> {
-        Self::ALL.into_iter().find(|theme| theme.name() == name)
-    }
-
-    /// Size of the type on the pictures, in points.
-    pub fn label_size(self) -> f32 {
-        match self {
-            Theme::Dark => 15.0,
-            Theme::Projector => 19.0,
-        }
-    }
-
-    /// Dresses all windows of a context.
-    pub fn apply(self, context: &egui::Context) {
-        let (of, style) = match self {
-            Theme::Dark => (egui::Theme::Dark, dark()),
-            Theme::Projector => (egui::Theme::Light, projector()),
-        };
-        context.set_theme(of);
-        context.set_style_of(of, style);
-    }
+/// Dresses all windows of a context.
+pub fn apply(theme: Theme, context: &egui::Context) {
+    let (of, style) = match theme {
+        Theme::Dark => (egui::Theme::Dark, dark()),
+        Theme::Projector => (egui::Theme::Light, projector()),
+    };
+    context.set_theme(of);
+    context.set_style_of(of, style);
 }
 
 fn dark() -> Style {

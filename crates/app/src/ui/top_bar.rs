@@ -1,8 +1,9 @@
-//! The bar above the picture: scene, view, export, look. It wraps where the window is narrow.
+//! The bar above: scene, what the workspace adds, export, look. It wraps where the window is narrow.
 
-use super::{Dump, Theme, UiCommand, View, ViewModel, Viewer, export_menu};
-use egui::containers::menu::{MenuButton, MenuConfig};
-use egui::{Button, PopupCloseBehavior, Ui};
+use super::widgets::{framed, menu};
+use super::{UiCommand, UiContext, Workspaces, export_menu};
+use crate::model::Theme;
+use egui::{Button, Ui};
 use scene::builtin;
 use std::path::Path;
 
@@ -12,116 +13,91 @@ const NARROW: f32 = 740.0;
 /// The most letters of a scene's name that the bar shows.
 const MOST_LETTERS: usize = 18;
 
-pub fn show(viewer: &mut Viewer, ui: &mut Ui, model: &ViewModel, dump: &mut Dump, commands: &mut Vec<UiCommand>) {
+pub fn show(workspaces: &mut Workspaces, cx: &mut UiContext, ui: &mut Ui) {
     ui.horizontal_wrapped(|ui| {
         if ui.available_width() < NARROW {
             // closer together, so that it all stays in one row
             ui.spacing_mut().item_spacing.x = 2.0;
             ui.spacing_mut().button_padding.x = 4.0;
         }
-        scene_menu(viewer, ui, dump, commands);
+        workspaces.tabs(cx, ui);
+        scene_menu(cx, ui);
         ui.separator();
-        for view in View::ALL {
-            let chosen = viewer.view == view;
-            let button = ui.selectable_label(chosen, view.name()).on_hover_text(explain(view));
-            if dump.note(&format!("view {}", view.name()), chosen, button).clicked() {
-                viewer.choose(view);
-            }
-        }
+        workspaces.open_mut().bar(cx, ui);
         ui.separator();
-        export_menu::show(viewer, ui, model, dump, commands);
-        look_menu(viewer, ui, dump);
-        steps(viewer, ui, dump);
-        let panel = ui.selectable_label(viewer.panel, "Controls").on_hover_text("Show or hide the controls (H)");
-        if dump.note("controls", viewer.panel, panel).clicked() {
-            viewer.panel = !viewer.panel;
+        export_menu::show(cx, ui);
+        look_menu(cx, ui);
+        steps(cx, ui);
+        let panel =
+            ui.selectable_label(cx.model.state.panel, "Controls").on_hover_text("Show or hide the controls (H)");
+        if cx.dump.note("controls", cx.model.state.panel, panel).clicked() {
+            cx.model.state.panel = !cx.model.state.panel;
         }
-        let help = ui.selectable_label(viewer.help, " ? ").on_hover_text("Mouse and keys (?)").accessible_name("Help");
-        if dump.note("help button", viewer.help, help).clicked() {
-            viewer.help = !viewer.help;
+        let help =
+            ui.selectable_label(cx.model.state.help, " ? ").on_hover_text("Mouse and keys (?)").accessible_name("Help");
+        if cx.dump.note("help button", cx.model.state.help, help).clicked() {
+            cx.model.state.help = !cx.model.state.help;
         }
     });
 }
 
-fn steps(viewer: &mut Viewer, ui: &mut Ui, dump: &mut Dump) {
-    let [can_undo, can_redo] = [viewer.history.can_undo(&viewer.settings), viewer.history.can_redo()];
+fn steps(cx: &mut UiContext, ui: &mut Ui) {
+    let [can_undo, can_redo] = cx.model.can_undo_and_redo();
     let undo = ui.add_enabled(can_undo, Button::new("Undo"));
-    if dump.note("undo", can_undo, undo.on_hover_text("Take back the last change of a setting (Ctrl+Z)")).clicked() {
-        viewer.undo();
+    if cx.dump.note("undo", can_undo, undo.on_hover_text("Take back the last change of a setting (Ctrl+Z)")).clicked() {
+        cx.model.undo();
     }
     let redo = ui.add_enabled(can_redo, Button::new("Redo"));
-    if dump.note("redo", can_redo, redo.on_hover_text("Change it again (Ctrl+Shift+Z)")).clicked() {
-        viewer.redo();
+    if cx.dump.note("redo", can_redo, redo.on_hover_text("Change it again (Ctrl+Shift+Z)")).clicked() {
+        cx.model.redo();
     }
 }
 
-fn explain(view: View) -> &'static str {
-    match view {
-        View::A => "Pane A alone (1, T swaps A and B)",
-        View::B => "Pane B alone (2, T swaps A and B)",
-        View::Wipe => "Both, with a line to drag (3; again: turn the line)",
-        View::SideBySide => "Both whole, each in half of the window (4)",
-        View::ErrorMap => "Where the errors are, and how large (5)",
-    }
-}
-
-/// A menu that stays open while one uses what is in it.
-pub fn menu(title: impl Into<String>) -> MenuButton<'static> {
-    let stay = MenuConfig::new().close_behavior(PopupCloseBehavior::CloseOnClickOutside);
-    MenuButton::new(title.into()).config(stay)
-}
-
-/// A button with a ground, which menus leave out: it does something, and what has none is a choice.
-pub fn framed<'a>(text: &'a str, ui: &Ui) -> Button<'a> {
-    let inside_menus_too = ui.ctx().global_style().visuals.widgets.inactive.weak_bg_fill;
-    Button::new(text).fill(inside_menus_too)
-}
-
-fn scene_menu(viewer: &mut Viewer, ui: &mut Ui, dump: &mut Dump, commands: &mut Vec<UiCommand>) {
-    let name = &viewer.scene.name;
+fn scene_menu(cx: &mut UiContext, ui: &mut Ui) {
+    let name = &cx.model.document.scene.name;
     let short: String = name.chars().take(MOST_LETTERS).collect();
     let title = if short == *name { format!("Scene: {name}") } else { format!("Scene: {short}…") };
     let (response, _) = menu(title).ui(ui, |ui| {
         for name in builtin::names() {
-            let item = ui.selectable_label(viewer.scene.name == name, name);
-            if dump.note(&format!("scene {name}"), "", item).clicked() {
-                commands.push(UiCommand::Open(name.into()));
+            let item = ui.selectable_label(cx.model.document.scene.name == name, name);
+            if cx.dump.note(&format!("scene {name}"), "", item).clicked() {
+                cx.commands.push(UiCommand::Open(name.into()));
                 ui.close();
             }
         }
         let hard = ui.menu_button("Hard cases", |ui| {
             for name in builtin::hard_names() {
-                if dump.note(&format!("scene {name}"), "", ui.button(name)).clicked() {
-                    commands.push(UiCommand::Open(name.into()));
+                if cx.dump.note(&format!("scene {name}"), "", ui.button(name)).clicked() {
+                    cx.commands.push(UiCommand::Open(name.into()));
                     ui.close();
                 }
             }
         });
-        dump.note("hard cases", "", hard.response);
+        cx.dump.note("hard cases", "", hard.response);
         ui.separator();
         let label = ui.label("A scene file (.toml):");
-        let edit = egui::TextEdit::singleline(&mut viewer.memory.file_name).hint_text("folder/scene.toml");
+        let edit = egui::TextEdit::singleline(&mut cx.model.state.scene_file).hint_text("folder/scene.toml");
         let line = ui.add(edit).labelled_by(label.id);
         let entered = line.lost_focus() && ui.input(|i| i.key_pressed(egui::Key::Enter));
-        dump.note("scene file", &viewer.memory.file_name, line);
-        let open = dump.note("open", "", ui.add(framed("Open", ui)));
-        let typed = viewer.memory.file_name.trim();
+        cx.dump.note("scene file", &cx.model.state.scene_file, line);
+        let open = cx.dump.note("open", "", ui.add(framed("Open", ui)));
+        let typed = cx.model.state.scene_file.trim();
         if (open.clicked() || entered) && !typed.is_empty() {
             let built_in = builtin::text(typed).is_some();
             let path = image_file::typed_path(typed, Path::new(""));
-            commands.push(UiCommand::Open(if built_in { typed.to_owned() } else { path.display().to_string() }));
+            cx.commands.push(UiCommand::Open(if built_in { typed.to_owned() } else { path.display().to_string() }));
             ui.close();
         }
     });
-    dump.note("scene", &viewer.scene.name, response);
+    cx.dump.note("scene", &cx.model.document.scene.name, response);
 }
 
-fn look_menu(viewer: &mut Viewer, ui: &mut Ui, dump: &mut Dump) {
+fn look_menu(cx: &mut UiContext, ui: &mut Ui) {
     let (response, _) = menu("Look").ui(ui, |ui| {
         ui.label("Theme");
         for theme in Theme::ALL {
-            let item = ui.radio_value(&mut viewer.theme, theme, theme.name());
-            dump.note(&format!("theme {}", theme.name()), viewer.theme == theme, item);
+            let item = ui.radio_value(&mut cx.model.state.theme, theme, theme.name());
+            cx.dump.note(&format!("theme {}", theme.name()), cx.model.state.theme == theme, item);
         }
         ui.separator();
         let zoom = ui.ctx().zoom_factor();
@@ -131,11 +107,11 @@ fn look_menu(viewer: &mut Viewer, ui: &mut Ui, dump: &mut Dump) {
                 [("−", "smaller text", zoom - 0.1), ("100 %", "usual text", 1.0), ("+", "larger text", zoom + 0.1)]
             {
                 let button = ui.add(framed(text, ui)).on_hover_text("Ctrl - 0 +").accessible_name(name);
-                if dump.note(name, "", button).clicked() {
+                if cx.dump.note(name, "", button).clicked() {
                     ui.ctx().set_zoom_factor(factor.clamp(0.5, 3.0));
                 }
             }
         });
     });
-    dump.note("look", viewer.theme.name(), response);
+    cx.dump.note("look", cx.model.state.theme.name(), response);
 }

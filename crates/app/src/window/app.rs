@@ -2,7 +2,7 @@
 
 use super::UserEvent;
 use super::window_state::WindowState;
-use crate::cli::ViewArgs;
+use crate::model::ViewArgs;
 use scene::Scene;
 use std::sync::Arc;
 use std::time::Instant;
@@ -35,7 +35,7 @@ impl App {
     fn finish(&mut self, events: &ActiveEventLoop, outcome: anyhow::Result<()>) {
         self.failure = outcome.err();
         if let Some(stats) = self.window.take().filter(|_| self.args.frame_stats).map(|w| w.frame_stats()) {
-            crate::cli::to_stderr(format_args!("{stats}"));
+            crate::console::to_stderr(format_args!("{stats}"));
         }
         events.exit();
     }

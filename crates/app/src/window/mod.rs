@@ -2,14 +2,12 @@
 
 mod app;
 mod frame_stats;
-mod presentation;
 mod recovery;
-mod stopwatch;
 mod surface;
 mod textures;
 mod window_state;
 
-use crate::cli::ViewArgs;
+use crate::model::ViewArgs;
 use anyhow::Context;
 use egui_winit::accesskit_winit;
 use scene::builtin;

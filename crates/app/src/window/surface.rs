@@ -1,11 +1,11 @@
 //! The window's surface: configuring it, getting a frame, drawing egui into it or into a texture that is read back.
 
-use crate::technique::Adapters;
 use anyhow::Context;
 use egui_wgpu::ScreenDescriptor;
 use gpu::{Gpu, GpuError};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
+use technique::Adapters;
 use winit::event_loop::OwnedDisplayHandle;
 use winit::window::Window;
 

@@ -1,52 +1,65 @@
-//! The textures of the two panes: sRGB-encoded bytes, shown one texel a pixel.
+//! Textures on the window's device: sRGB-encoded bytes, shown one texel a pixel.
 
+use crate::viewer::{Place, TextureStore};
 use gpu::Gpu;
+use std::collections::HashMap;
 
-/// One pane's texture, as large as the last picture.
+/// One texture a place, as large as its last picture.
 #[derive(Default)]
-pub struct PaneTexture {
-    shown: Option<(wgpu::Texture, egui::TextureId)>,
+pub struct WindowTextures(HashMap<Place, (wgpu::Texture, egui::TextureId)>);
+
+/// The textures beside what fills them.
+pub struct Uploads<'a> {
+    /// The window's device.
+    pub gpu: &'a Gpu,
+    /// What draws them.
+    pub renderer: &'a mut egui_wgpu::Renderer,
+    /// All that there are.
+    pub textures: &'a mut WindowTextures,
 }
 
-impl PaneTexture {
-    /// Uploads a picture of `width` x `height` RGBA bytes and returns what egui knows it by.
-    pub fn upload(
-        &mut self,
-        gpu: &Gpu,
-        renderer: &mut egui_wgpu::Renderer,
-        width: u32,
-        height: u32,
-        rgba: &[u8],
-    ) -> egui::TextureId {
+impl TextureStore for Uploads<'_> {
+    fn upload(&mut self, place: Place, (width, height): (u32, u32), rgba: &[u8]) -> egui::TextureId {
         let size = wgpu::Extent3d { width, height, depth_or_array_layers: 1 };
-        let (texture, id) = match self.shown.take() {
+        let (texture, id) = match self.textures.0.remove(&place) {
             Some((texture, id)) if texture.size() == size => (texture, id),
             old => {
-                let texture = gpu.device.create_texture(&wgpu::TextureDescriptor {
-                    label: Some("pane"),
-                    size,
-                    mip_level_count: 1,
-                    sample_count: 1,
-                    dimension: wgpu::TextureDimension::D2,
-                    format: wgpu::TextureFormat::Rgba8Unorm,
-                    usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
-                    view_formats: &[],
-                });
-                let view = texture.create_view(&wgpu::TextureViewDescriptor::default());
-                let nearest = wgpu::FilterMode::Nearest;
-                let id = match old {
-                    Some((_, id)) => {
-                        renderer.update_egui_texture_from_wgpu_texture(&gpu.device, &view, nearest, id);
-                        id
-                    }
-                    None => renderer.register_native_texture(&gpu.device, &view, nearest),
-                };
+                let texture = texture_of(self.gpu, size);
+                let id = self.show(&texture, old.map(|(_, id)| id));
                 (texture, id)
             }
         };
         let layout = wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(4 * width), rows_per_image: None };
-        gpu.queue.write_texture(texture.as_image_copy(), rgba, layout, size);
-        self.shown = Some((texture, id));
+        self.gpu.queue.write_texture(texture.as_image_copy(), rgba, layout, size);
+        self.textures.0.insert(place, (texture, id));
         id
     }
+}
+
+impl Uploads<'_> {
+    /// Lets egui know a texture, in the place of an old one if there is one.
+    fn show(&mut self, texture: &wgpu::Texture, old: Option<egui::TextureId>) -> egui::TextureId {
+        let (device, nearest) = (&self.gpu.device, wgpu::FilterMode::Nearest);
+        let view = texture.create_view(&wgpu::TextureViewDescriptor::default());
+        match old {
+            Some(id) => {
+                self.renderer.update_egui_texture_from_wgpu_texture(device, &view, nearest, id);
+                id
+            }
+            None => self.renderer.register_native_texture(device, &view, nearest),
+        }
+    }
+}
+
+fn texture_of(gpu: &Gpu, size: wgpu::Extent3d) -> wgpu::Texture {
+    gpu.device.create_texture(&wgpu::TextureDescriptor {
+        label: Some("pane"),
+        size,
+        mip_level_count: 1,
+        sample_count: 1,
+        dimension: wgpu::TextureDimension::D2,
+        format: wgpu::TextureFormat::Rgba8Unorm,
+        usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
+        view_formats: &[],
+    })
 }

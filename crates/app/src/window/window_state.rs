@@ -2,21 +2,20 @@
 
 use super::UserEvent;
 use super::frame_stats::{Clock, FrameStats};
-use super::presentation::Presentation;
 use super::recovery::DeviceRecovery;
-use super::stopwatch::Stopwatch;
 use super::surface::{Painting, Presented, WindowSurface};
-use crate::cli::ViewArgs;
+use super::textures::{Uploads, WindowTextures};
+use crate::engine::Wake;
 use crate::engine::ask::Engine;
 use crate::engine::capture::Capture;
-use crate::engine::export::{Content, Destination, Export};
-use crate::engine::post_process::PaneUpdate;
-use crate::engine::{Picture, Side, Wake};
-use crate::ui::{Dump, UiCommand, View, Viewer, What};
+use crate::model::{Destination, ExportRequest, Model, ViewArgs};
+use crate::ui::{UiCommand, Workspaces};
+use crate::viewer::Viewer;
 use anyhow::Context;
 use egui_wgpu::ScreenDescriptor;
 use egui_winit::accesskit_winit;
 use gpu::Gpu;
+use reference::Store;
 use scene::Scene;
 use std::path::Path;
 use std::sync::Arc;
@@ -28,9 +27,8 @@ use winit::window::Window;
 
 /// Everything that lives as long as the window.
 pub struct WindowState {
-    engine: Engine,
     viewer: Viewer,
-    presentation: Presentation,
+    textures: WindowTextures,
     egui: egui_winit::State,
     surface: WindowSurface,
     gpu: Gpu,
@@ -42,10 +40,8 @@ pub struct WindowState {
     poses: Vec<Destination>,
     /// Whether the window closes once those pictures are taken.
     quitting: bool,
-    stopwatch: Stopwatch,
     stats: FrameStats,
-    /// The last frame's widgets, and physical pixels per point.
-    dump: Dump,
+    /// Physical pixels per point in the last frame.
     scale: f32,
 }
 
@@ -92,10 +88,12 @@ impl WindowState {
         egui.init_accesskit(events, &window, proxy);
         window.set_visible(true);
         window.request_redraw();
+        let engine = Engine::start(&gpu, &adapters, Arc::new(Store::of_the_user), wake)?;
+        let model = Model::new(scene, args.scene.clone(), args.theme).beside(adapters, args.device);
+        let workspaces = Workspaces::beginning_with(args.workspace.as_deref());
         Ok(WindowState {
-            engine: Engine::start(&gpu, &adapters, wake)?,
-            viewer: Viewer::new(scene, args.scene.clone(), args.theme).beside(adapters, args.device),
-            presentation: Presentation::default(),
+            viewer: Viewer::new(model, workspaces, engine, started),
+            textures: WindowTextures::default(),
             egui,
             surface,
             gpu,
@@ -105,9 +103,7 @@ impl WindowState {
             next_frame: None,
             poses: Vec::new(),
             quitting: false,
-            stopwatch: Stopwatch::new(started),
             stats: FrameStats::default(),
-            dump: Dump::default(),
             scale: 1.0,
         })
     }
@@ -157,16 +153,16 @@ impl WindowState {
     pub fn frame(&mut self) -> bool {
         let clock = Clock::start();
         self.recover();
-        self.collect();
+        self.viewer.collect(&mut Uploads {
+            gpu: &self.gpu,
+            renderer: &mut self.surface.renderer,
+            textures: &mut self.textures,
+        });
         let poses = std::mem::take(&mut self.poses);
-        self.viewer.posing = !poses.is_empty();
+        self.viewer.model.state.posing = !poses.is_empty();
         let input = self.egui.take_egui_input(&self.window);
         let context = self.egui.egui_ctx().clone();
-        let mut commands = Vec::new();
-        let output = context.run_ui(input, |ui| {
-            self.dump = Dump::default();
-            commands.extend(self.viewer.ui(ui, &self.presentation.model, &mut self.dump));
-        });
+        let output = context.run_ui(input, |ui| self.viewer.draw(ui));
         self.scale = output.pixels_per_point;
         self.egui.handle_platform_output(&self.window, output.platform_output);
         let mut textures = output.textures_delta;
@@ -174,10 +170,9 @@ impl WindowState {
         let jobs = context.tessellate(output.shapes, self.scale);
         let screen = ScreenDescriptor { size_in_pixels: self.surface.size(), pixels_per_point: self.scale };
         let painting = Painting { jobs: &jobs, screen };
-        commands.into_iter().for_each(|request| self.handle(request));
-        let asked = self.engine.ask(&self.viewer);
-        asked.into_iter().flatten().for_each(|job| self.stopwatch.asked(job));
-        self.stats.note(self.viewer.view, clock.elapsed());
+        self.viewer.take_commands().into_iter().for_each(|command| self.handle(command));
+        self.viewer.ask();
+        self.stats.note(self.viewer.model.session.view.name(), clock.elapsed());
         poses.into_iter().for_each(|to| self.capture(&painting, to));
         let shown = self.surface.present(&self.gpu, &painting);
         for id in &textures.free {
@@ -188,7 +183,7 @@ impl WindowState {
         let delay = match shown {
             Presented::Shown => {
                 self.stats.note_shown(context.input(|i| i.pointer.any_down()));
-                self.stopwatch.shown(self.presentation.model.panes.iter().all(|pane| pane.texture.is_some()));
+                self.viewer.shown();
                 wish
             }
             Presented::Skipped => wish.min(RETRY),
@@ -204,7 +199,7 @@ impl WindowState {
         match self.surface.begin_again(self.display.clone()) {
             Ok(gpu) => self.gpu = gpu,
             Err(why) => {
-                crate::cli::to_stderr(format_args!(
+                crate::console::to_stderr(format_args!(
                     "visavis: the window's GPU failed ({fault}) and is gone: {why:#}\n"
                 ));
                 return;
@@ -212,99 +207,30 @@ impl WindowState {
         }
         let side = self.gpu.device.limits().max_texture_dimension_2d as usize;
         self.egui.set_max_texture_side(self.recovery.another_side(side));
-        self.presentation.lose_textures();
-        self.engine.move_to(&self.gpu);
-        self.viewer.say(Err(format!("The window's GPU failed and was begun again: {fault}")));
+        self.textures = WindowTextures::default();
+        self.viewer.move_to(&self.gpu);
+        self.viewer.model.say(Err(format!("The window's GPU failed and was begun again: {fault}")));
     }
 
-    /// Takes what the workers have finished.
-    fn collect(&mut self) {
-        let updates = self.engine.collect().unwrap_or_default();
-        for (side, update) in Side::ALL.into_iter().zip(&updates) {
-            if let Some(PaneUpdate::Picture(frame)) = update {
-                self.stopwatch.received(frame.picture.order.job);
-                self.tell_of_refusal(side, &frame.picture);
-            }
-        }
-        self.presentation.update(updates, &self.gpu, &mut self.surface.renderer);
-        if let Some(drawn) = self.engine.error_map() {
-            self.presentation.update_map(drawn, &self.gpu, &mut self.surface.renderer);
-        }
-        // what is not looked at is not drawn again, and would grow old
-        if self.viewer.view != View::ErrorMap {
-            self.presentation.model.map = None;
-        }
-        self.follow_the_reference();
-        match self.engine.loaded() {
-            Some(Ok(opened)) => {
-                self.viewer.say(Ok(format!("Opened {}", opened.scene.name)));
-                self.viewer.open(opened.scene, opened.source);
-                self.presentation.clear();
-            }
-            Some(Err(fault)) => self.viewer.say(Err(fault)),
-            None => {}
-        }
-        self.engine.exported().into_iter().for_each(|outcome| self.viewer.say(outcome));
-    }
-
-    /// Says once that a pane's rays are not traced where they should be.
-    fn tell_of_refusal(&mut self, side: Side, picture: &Picture) {
-        let known = &self.presentation.model.panes[side as usize].refused;
-        if let Some(why) = picture.refused.as_ref().filter(|_| *known != picture.refused) {
-            self.viewer.say(Err(format!("{side:?} goes on on the CPU, the GPU failed: {why}. R tries it again")));
-        }
-    }
-
-    fn follow_the_reference(&mut self) {
-        let view = self.engine.view_of_the_reference();
-        self.presentation.model.reference.take_if(|progress| Some(progress.view) != view);
-        let Some(update) = self.engine.update() else { return };
-        self.presentation.model.reference = update.progress.or_else(|| self.presentation.model.reference.take());
-        update.faults.into_iter().for_each(|fault| self.viewer.say(Err(fault)));
-    }
-
-    fn handle(&mut self, request: UiCommand) {
-        match request {
-            UiCommand::Export { what: What::Seen, to } => self.poses.push(to),
-            UiCommand::Export { what: What::Pane(side), to } => self.export_pane(side, to),
-            UiCommand::Export { what: What::Map, to } => self.export_map(to),
-            UiCommand::Open(name) => self.engine.load(name),
-            UiCommand::LoadReference(file) => self.engine.load_reference(&self.viewer, file),
-            UiCommand::Quit => self.quitting = true,
+    fn handle(&mut self, command: UiCommand) {
+        match self.viewer.handle(command) {
+            Some(UiCommand::Export(ExportRequest { to, .. })) => self.poses.push(to),
+            Some(UiCommand::Quit) => self.quitting = true,
+            _ => {}
         }
         self.request_frame();
-    }
-
-    fn export_pane(&mut self, side: Side, to: Destination) {
-        match self.presentation.pane(side, self.viewer.settings.display) {
-            Some((content, records)) => self.engine.export(Export { content, records, to }),
-            None => self.viewer.say(Err(format!("{side:?} has no whole picture yet; try again in a moment"))),
-        }
-    }
-
-    fn export_map(&mut self, to: Destination) {
-        match self.presentation.map(&self.viewer) {
-            Some((content, records)) => self.engine.export(Export { content, records, to }),
-            None => self.viewer.say(Err("there is no error map yet; try again in a moment".into())),
-        }
     }
 
     /// Exports the picture area of a frame as it is on the screen, line and labels included.
     fn capture(&mut self, painting: &Painting, to: Destination) {
         let [width, height] = self.surface.size();
-        let rect = self.viewer.picture_rect;
+        let [left, top, right, bottom] = self.viewer.model.state.picture.corners;
         let pixel = |points: f32, most: u32| ((points * self.scale).round().max(0.0) as u32).min(most);
-        let part = [
-            pixel(rect.left(), width),
-            pixel(rect.top(), height),
-            pixel(rect.right(), width),
-            pixel(rect.bottom(), height),
-        ];
+        let part = [pixel(left, width), pixel(top, height), pixel(right, width), pixel(bottom, height)];
         let Some(texture) = self.surface.capture(&self.gpu, painting) else {
-            return self.viewer.say(Err("the GPU failed at this picture; try again in a moment".into()));
+            return self.viewer.model.say(Err("the GPU failed at this picture; try again in a moment".into()));
         };
-        let content = Content::Seen(Capture { gpu: self.gpu.clone(), texture, part });
-        self.engine.export(Export { content, records: self.presentation.records_of_both(&self.viewer), to });
+        self.viewer.export_as_seen(Capture { gpu: self.gpu.clone(), texture, part }, to);
         // the next frame has hint and message again
         self.request_frame();
     }
@@ -314,54 +240,10 @@ impl WindowState {
     /// # Errors
     /// If the file cannot be written.
     pub fn write_dump(&self, file: &Path) -> anyhow::Result<()> {
-        let panes: Vec<_> = self
-            .presentation
-            .model
-            .panes
-            .iter()
-            .map(|pane| {
-                serde_json::json!({
-                    "ready": pane.texture.is_some(),
-                    "label": pane.provenance.as_ref().map(|p| p.recipe.label()),
-                    "spp": pane.spp,
-                    "rough": pane.rough,
-                    "unfinished": pane.unfinished,
-                    "nonfinite": pane.nonfinite,
-                    "rel_mse": pane.errors.map(|e| e.rel_mse),
-                    "against": pane.against.name(),
-                    "fault": pane.fault,
-                    "adapter": pane.adapter.as_deref(),
-                    "device": pane.provenance.as_ref().map(|p| p.device.name()),
-                    "refused": pane.refused.as_deref(),
-                })
-            })
-            .collect();
-        let state = serde_json::json!({
-            "scene": self.viewer.scene.name,
-            "view": self.viewer.view.name(),
-            "line": self.viewer.line.name(),
-            "wipe": self.viewer.wipe,
-            "paused": self.viewer.paused,
-            "theme": self.viewer.theme.name(),
-            "picture_size": self.viewer.picture_size,
-            "eye": self.viewer.camera.eye.to_array(),
-            "fov": self.viewer.camera.fov_y,
-            "message": self.viewer.message.as_ref().map(|m| &m.text),
-            "focus_id": self.egui.egui_ctx().memory(|m| m.focused()).map(|id| id.value()),
-            "pressing": self.egui.egui_ctx().input(|i| i.pointer.any_down()),
-            "typing": self.egui.egui_ctx().text_edit_focused(),
-            "map": self.presentation.model.map.as_ref().map(|map| &map.drawn.map.label),
-            "reference": self.presentation.model.reference.as_ref().map(|r| [r.pictures, u32::from(r.done)]),
-            "a": panes[0],
-            "b": panes[1],
-            "frames": self.stopwatch.frames(),
-            "dragged_ms": self.stats.while_dragging(),
-            "latency_ms": self.stopwatch.latency().map(|t| t.as_millis() as u64),
-            "first_pictures_ms": self.stopwatch.first_pictures().map(|t| t.as_millis() as u64),
-        });
+        let more = serde_json::json!({ "dragged_ms": self.stats.while_dragging() });
         // not as pictures are written, which reach the disk before the program goes on: a frame would take as long
         let partial = file.with_extension("partial");
-        std::fs::write(&partial, self.dump.json(self.scale, state))?;
+        std::fs::write(&partial, self.viewer.dump(self.egui.egui_ctx(), self.scale, more))?;
         Ok(std::fs::rename(&partial, file)?)
     }
 }

@@ -4,6 +4,7 @@
 
 mod bench;
 mod device;
+mod films;
 mod pictures;
 mod references;
 

@@ -23,7 +23,7 @@ fn a_picture_is_made_again_from_its_own_records() {
         // a PNG keeps them as well, and other options change them
         assert!(visavis(&["render", "--from", &first, "-o", &other, "--size", "24x14"]).status.success());
         assert!(visavis(&["render", "-o", &again, "--from", &other]).status.success());
-        assert_eq!((film(&again).width, film(&again).height), (24, 14));
+        assert_eq!(film(&again).size(), (24, 14));
     }
     // two kinds of glass, neither of which was turned
     let two = r#"

@@ -49,8 +49,8 @@ fn a_reference_is_made_once_and_finer_only_if_asked() {
     let reference = workplace.reference("cornell");
     let loaded = |file: &str| reference::Reference::load(Path::new(file)).expect("a reference");
     let first = loaded(&reference);
-    assert_eq!((first.replicates, first.width, first.height), (16, 16, 12));
-    assert!(first.rel_mse() < Some(1.0) && first.standard_errors.is_some());
+    assert_eq!((first.replicates, first.image.size()), (16, (16, 12)));
+    assert!(first.rel_mse() < Some(1.0) && first.standard_errors().is_some());
     assert_eq!(record(&reference, "scene").as_deref(), Some("cornell"));
     // the same again is fetched, to the last bit and with the seconds of the first time
     assert_eq!(loaded(&workplace.reference("cornell")), first);

@@ -1,42 +1,10 @@
-//! Rays on the graphics device: chosen, shown, recorded; and replaced by the processor when it fails.
+//! Graphics devices that fail, and the window while they are busy.
 
-use super::export::export;
 use super::{alone, both_whole, ready, says};
 use std::collections::HashSet;
 use std::path::Path;
 use std::time::Duration;
 use visavis_tests::{Frame, Screen, ViewerUnderTest};
-
-fn made_by(frame: &Frame, device: &str) -> bool {
-    frame.state("b")["device"] == device && both_whole(frame)
-}
-
-#[test]
-fn the_gpu_traces_b_says_so_and_is_recorded() {
-    let _alone = alone();
-    let screen = Screen::start(1280, 720);
-    let (mut viewer, first) = ready(&screen, &["cornell"]);
-    assert_eq!(first.state("b")["device"], "cpu", "auto, where the processor plays the adapter");
-    screen.click(first.point("group A", 0.5, 0.5));
-    screen.click(viewer.wait_for_widget("B more").point("B more", 0.1, 0.5));
-    let more = viewer.wait_for_widget("B device the GPU");
-    screen.click(more.point("B device the GPU", 0.5, 0.5));
-    viewer.wait_for("a choice", |f| f.value("B device the GPU") == "true");
-    let traced = viewer.wait_for("a picture by the GPU", |f| made_by(f, "gpu"));
-    assert!(traced.value("label B").contains("on the GPU"), "{}", traced.value("label B"));
-    assert!(traced.state("b")["refused"].is_null() && traced.state("b")["fault"].is_null());
-    let file = viewer.home().join("b.exr");
-    export(&screen, &mut viewer, &["export B alone", "format EXR linear"], &file);
-    let records = image_file::records(&file).expect("records");
-    let value = |name: &str| records.iter().find(|(known, _)| known == name).map(|(_, value)| value.as_str());
-    assert_eq!(value("device"), Some("gpu"));
-    assert!(value("command").is_some_and(|command| command.contains("--device gpu")), "{records:?}");
-    assert!(value("adapter").is_some_and(|adapter| !adapter.contains("threads")), "{records:?}");
-
-    screen.key('z', true);
-    let undone = viewer.wait_for("the processor again", |f| made_by(f, "cpu"));
-    assert!(!undone.value("label B").contains("GPU"), "{}", undone.value("label B"));
-}
 
 /// The device is destroyed under the worker's hands: what is on the screen stays until the processor has more.
 #[test]
@@ -138,32 +106,9 @@ fn the_fake_goes_on_after_the_loss_of_its_device() {
     }
 }
 
-/// Both of Mesa's interfaces are there to choose from, by name.
-#[test]
-fn an_adapter_is_chosen_by_its_name() {
-    let _alone = alone();
-    let screen = Screen::start(1280, 720);
-    let (mut viewer, first) = ready(&screen, &["cornell", "--device", "gpu"]);
-    screen.click(first.point("group A", 0.5, 0.5));
-    screen.click(viewer.wait_for_widget("B more").point("B more", 0.1, 0.5));
-    let more = viewer.wait_for_widget("text B adapter");
-    assert!(more.value("text B adapter").ends_with("Vulkan"), "{}", more.value("text B adapter"));
-    screen.click(more.point("text B adapter", 0.5, 0.5));
-    let entry = |f: &Frame| {
-        let names = f.names().into_iter().map(str::to_owned);
-        names.into_iter().find(|name| name.starts_with("B adapter") && name.ends_with("OpenGL"))
-    };
-    let open = viewer.wait_for("a list", |f| entry(f).is_some());
-    let name = entry(&open).expect("an entry");
-    screen.click(open.point(&name, 0.5, 0.5));
-    viewer.wait_for("the choice", |f| f.value("text B adapter").ends_with("OpenGL"));
-    viewer.wait_for("its picture", |f| {
-        made_by(f, "gpu") && f.state("b")["adapter"].as_str().is_some_and(|adapter| adapter.ends_with("OpenGL"))
-    });
-}
-
-/// With what one gets by default where the processor draws the window too. A tenth of a second is the goal for 99 of
-/// 100 frames; the bound is for machines that have more to do.
+/// With what one gets by default where the processor draws the window too. How fast is printed: a tenth of a second from
+/// one frame to the next is the goal for 99 of 100. The claim is a count: frames come while rays are traced, three a
+/// second at the least; a window that waited for pictures would show one or two in all.
 #[test]
 fn the_window_follows_the_mouse_while_rays_are_traced() {
     the_window_follows_the_mouse(&[]);
@@ -181,11 +126,10 @@ fn the_window_follows_the_mouse(arguments: &[&str]) {
     let (mut viewer, first) = ready(&screen, arguments);
     let [left, top, _, bottom] = first.rect("refraction ratio");
     let y = 0.5 * (top + bottom);
-    screen.drag_to_and_fro([left + 20.0, y], [left + 110.0, y], Duration::from_secs(10));
+    screen.drag_to_and_fro([left + 20.0, y], [left + 110.0, y], Duration::from_secs(4));
     let frame = viewer.wait_for("the end of the drag", |f| f.state("pressing") == false);
     assert_ne!(frame.value("refraction ratio"), first.value("refraction ratio"));
     let dragged = frame.state("dragged_ms");
     println!("frames and milliseconds from one to the next (median, 99th percentile, most): {dragged}");
-    assert!(dragged[0].as_u64() > Some(30), "{dragged}");
-    assert!(dragged[1][1].as_f64() < Some(1000.0), "{dragged}");
+    assert!(dragged[0].as_u64() > Some(12), "{dragged}");
 }

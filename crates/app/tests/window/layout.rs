@@ -1,7 +1,7 @@
 //! Nothing is clipped, nothing overlaps, the picture is large, and every text can be read.
 
-use super::{alone, both_whole, ready, scaled_viewer_on};
-use visavis_tests::{Frame, Screen, ViewerUnderTest};
+use super::{alone, both_whole, scaled_viewer_on};
+use visavis_tests::{Frame, Screen};
 
 /// The screens that a lecture meets: width, height, scale, theme, the least contrast of text (WCAG AA and AAA).
 const SCREENS: [(u32, u32, f32, &str, f64); 3] =
@@ -42,45 +42,6 @@ fn everything_fits_and_can_be_read_on_a_laptop_and_on_a_projector() {
             }
         }
     }
-}
-
-/// The most controls that can be there at once, on the smallest screen: what does not fit is reached by scrolling, and
-/// still nothing overlaps or sticks out at the side.
-#[test]
-fn all_controls_at_once_still_do_not_overlap() {
-    let _alone = alone();
-    let screen = Screen::start(1024, 768);
-    let mut viewer = scaled_viewer_on(&screen, 1.5, &["whitted"]);
-    viewer.wait_for("both pictures", both_whole);
-    screen.focus("Visavis");
-    let opened = [
-        ("group Camera (both)", "field of view"),
-        ("B roulette P", "B roulette probability"),
-        ("B limit bounces", "B bounces"),
-    ];
-    for (widget, brings) in opened {
-        let frame = viewer.wait_for_widget(widget);
-        screen.click(frame.point(widget, 0.4, 0.5));
-        viewer.wait_for_widget(brings);
-    }
-    let frame = viewer.wait_for_widget("B bounces");
-    assert_no_overlap(&frame, "all controls");
-    let [_, bar, edge, _] = frame.rect("picture");
-    for name in controls(&frame) {
-        let [left, top, right, _] = frame.rect(name);
-        let inside = right <= 1024.0 && (top < bar || left >= edge);
-        assert!(inside, "{name} sticks out: {:?}", frame.rect(name));
-    }
-    scrolled_to(&screen, &mut viewer, "field of view");
-}
-
-fn scrolled_to(screen: &Screen, viewer: &mut ViewerUnderTest, name: &str) {
-    let frame = viewer.wait_for_widget(name);
-    let at = frame.point("exposure", 0.3, 0.5);
-    for _ in 0..30 {
-        screen.wheel_down([at[0], 400.0]);
-    }
-    viewer.wait_for("the last control to come into view", |f| f.shows(name) && f.rect(name) == f.visible(name));
 }
 
 /// Widgets that are not the picture and not on it.
@@ -158,24 +119,4 @@ fn luminance(colour: [u8; 3]) -> f64 {
         if v <= 0.04045 { v / 12.92 } else { ((v + 0.055) / 1.055).powf(2.4) }
     });
     0.2126 * r + 0.7152 * g + 0.0722 * b
-}
-
-/// Both pictures have a pixel for two by two, and their labels say so; undo gives every pixel back.
-#[test]
-fn pictures_are_made_at_half_the_resolution_if_asked() {
-    let _alone = alone();
-    let screen = Screen::start(1280, 720);
-    let (mut viewer, first) = ready(&screen, &["cornell"]);
-    let size = |f: &Frame, i: usize| f.state("picture_size")[i].as_u64().expect("a size");
-    let said = |f: &Frame, side: &str| f.value(&format!("label {side}")).contains("at 1/2 of the resolution");
-    assert!(!said(&first, "A") && !said(&first, "B"));
-    screen.click(first.point("group Camera (both)", 0.05, 0.5));
-    let camera = viewer.wait_for_widget("resolution 1/2");
-    screen.click(camera.point("resolution 1/2", 0.5, 0.5));
-    let half = viewer.wait_for("half", |f| both_whole(f) && size(f, 0) == size(&first, 0).div_ceil(2));
-    assert_eq!(size(&half, 1), size(&first, 1).div_ceil(2));
-    let half = viewer.wait_for("labels that say so", |f| both_whole(f) && said(f, "A") && said(f, "B"));
-    assert!(half.state("a")["rel_mse"].is_number());
-    screen.key('z', true);
-    viewer.wait_for("every pixel", |f| both_whole(f) && size(f, 0) == size(&first, 0) && !said(f, "B"));
 }

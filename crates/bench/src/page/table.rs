@@ -1,8 +1,9 @@
 //! A part's table: a row for each line at its last rung, and for each peer.
 
+use crate::line::{USUAL, title};
 use crate::plots::duration;
 use crate::summary::{Curve, PartSummary, Point, slope_words};
-use crate::way::{VARIANT_SPP, Way};
+use crate::variant::VARIANT_SPP;
 use compare::{Range, escaped};
 
 /// Columns, with units.
@@ -46,14 +47,14 @@ pub fn of(summary: &PartSummary) -> String {
 
 /// What lanes and specialisation save, as HTML: the same picture by other kernels.
 pub fn of_variants(summary: &PartSummary) -> String {
-    let usual = |curve: &Curve| curve.line.way == Way::USUAL && !curve.line.is_a_variant();
+    let usual = |curve: &Curve| curve.line.technique == USUAL && !curve.line.is_a_variant();
     let usual = summary.curves.iter().find(|curve| usual(curve));
     let usual = usual.and_then(|curve| curve.points.iter().find(|point| point.spp == VARIANT_SPP));
     let Some(usual) = usual else { return String::new() };
     let mut html = format!(
         "<h3>What lanes and specialisation save</h3>\n<table>\n<tr><th>{}, {VARIANT_SPP} spp</th><th>samples/s</th>\
          <th>time, times the usual</th></tr>\n",
-        escaped(&Way::USUAL.title())
+        escaped(&title(&USUAL))
     );
     let mut row = |name: &str, point: &Point| {
         let cells = [
@@ -80,7 +81,7 @@ fn row(curve: &Curve, point: &Point) -> String {
         with_range(point.rel_mse, |v| format!("{v:.2e}")),
         format!("{:.3}", point.flip.median),
         curve.slope.map(|fit| slope_words(&fit)).unwrap_or_default(),
-        if curve.line.way.converges() { format!("{:.2e}", point.efficiency) } else { String::new() },
+        if curve.line.converges() { format!("{:.2e}", point.efficiency) } else { String::new() },
         if point.samples_per_second > 0.0 { speeds() } else { String::new() },
         escaped(&point.bias_words()),
         format!("{}{cut}", point.nonfinite),

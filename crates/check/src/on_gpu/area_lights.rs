@@ -20,25 +20,25 @@ pub fn rectangle(bench: &mut Bench) -> Outcome {
         for estimator in Estimator::EVERY {
             // far off, few of the directions by chance meet the area light
             if estimator.samples_lights() || expected > bench.trial.pick(1.0, 0.1) {
-                bench.mean(&quantity, expected, (tracer, &camera), &direct(estimator))?;
+                bench.mean(&quantity, expected, (tracer, &camera), direct(estimator))?;
             }
         }
         let branching = PathSettings { branches: 4, ..direct(Estimator::MIS) };
-        bench.mean(&format!("{quantity}, 4 branches"), expected, (tracer, &camera), &branching)?;
+        bench.mean(&format!("{quantity}, 4 branches"), expected, (tracer, &camera), branching)?;
         for rays in [1, 4] {
             let quantity = format!("{quantity}, {rays} shadow rays");
-            bench.whitted_mean(&quantity, expected, (tracer, &camera), &shadow_rays(rays))?;
+            bench.mean(&quantity, expected, (tracer, &camera), shadow_rays(rays))?;
         }
     }
     tracer.set_scene(&facing_away(scene.clone()))?;
     for estimator in [Estimator::COSINE, Estimator::LIGHT, Estimator::MIS] {
-        let film = bench.film((tracer, &from_above(0.0, 0.0, 0.5)), &direct(estimator), 32, 64)?;
-        let subject = super::subject(&direct(estimator));
+        let film = bench.film((tracer, &from_above(0.0, 0.0, 0.5)), direct(estimator), 32, 64)?;
+        let subject = super::subject(direct(estimator));
         bench.trial.equal(&subject, "at (0, 0), the lamp facing away", 0.0, film.mean()[0], 0.0);
     }
     let (tracer, camera) = (&mut bench.tracer(&mesh_area_light(scene))?, from_above(1.0, 0.0, 0.5));
     for estimator in [Estimator::LIGHT, Estimator::MIS] {
-        bench.mean("at (1, 0), the lamp as a mesh", RECTANGLE[1].2, (tracer, &camera), &direct(estimator))?;
+        bench.mean("at (1, 0), the lamp as a mesh", RECTANGLE[1].2, (tracer, &camera), direct(estimator))?;
     }
     Ok(())
 }
@@ -64,19 +64,19 @@ pub fn edge_on(bench: &mut Bench) -> Outcome {
         }
         for estimator in FINDING_AN_EDGE {
             let settings = direct(estimator);
-            let subject = super::subject(&settings);
+            let subject = super::subject(settings);
             if d == 0.0 {
-                let film = bench.film((tracer, &camera), &settings, 8, 64)?;
+                let film = bench.film((tracer, &camera), settings, 8, 64)?;
                 bench.trial.equal(&subject, &quantity, 0.0, film.mean()[0], 0.0);
             } else if d == 1e-6 {
-                let found = bench.mean_of(expected, 0.002, (tracer, &camera), &settings)?;
+                let found = bench.mean_of(expected, 0.002, (tracer, &camera), settings)?;
                 bench.trial.equal(&subject, &quantity, expected, found.mean, 0.01 * expected);
             } else {
-                bench.mean(&quantity, expected, (tracer, &camera), &settings)?;
+                bench.mean(&quantity, expected, (tracer, &camera), settings)?;
             }
         }
         if d > 1e-6 {
-            bench.whitted_mean(&quantity, expected, (tracer, &camera), &shadow_rays(4))?;
+            bench.mean(&quantity, expected, (tracer, &camera), shadow_rays(4))?;
         }
     }
     Ok(())
@@ -94,10 +94,10 @@ pub fn disk(bench: &mut Bench) -> Outcome {
             if estimator.samples_lights() && !weighted && height < bench.trial.pick(1.0, 0.1) {
                 continue;
             }
-            let found = bench.mean(&quantity, expected, (tracer, &camera), &direct(estimator))?;
+            let found = bench.mean(&quantity, expected, (tracer, &camera), direct(estimator))?;
             if weighted {
                 let quantity = format!("relative variance, height {height}");
-                let subject = super::subject(&direct(estimator));
+                let subject = super::subject(direct(estimator));
                 bench.trial.at_most(&subject, &quantity, 1.0, found.relative_variance());
             }
         }
@@ -114,10 +114,10 @@ pub fn sphere(bench: &mut Bench) -> Outcome {
         for estimator in Estimator::EVERY {
             let seen_by_chance = (radius / distance).powi(2) > bench.trial.pick(0.2, 0.01);
             if estimator.samples_lights() || seen_by_chance {
-                bench.mean(&quantity, expected, (tracer, &camera), &direct(estimator))?;
+                bench.mean(&quantity, expected, (tracer, &camera), direct(estimator))?;
             }
         }
-        bench.whitted_mean(&quantity, expected, (tracer, &camera), &shadow_rays(2))?;
+        bench.mean(&quantity, expected, (tracer, &camera), shadow_rays(2))?;
     }
     Ok(())
 }
@@ -129,21 +129,21 @@ pub fn touching_wall(bench: &mut Bench) -> Outcome {
         for estimator in Estimator::EVERY {
             if estimator.samples_lights() || factor > 0.1 || bench.trial.full() {
                 let quantity = format!("at {x} from the edge");
-                bench.mean(&quantity, 0.5 * factor, (tracer, &camera), &direct(estimator))?;
+                bench.mean(&quantity, 0.5 * factor, (tracer, &camera), direct(estimator))?;
             }
         }
     }
     let estimators = [Estimator::COSINE, Estimator::LIGHT, Estimator::MIS].map(direct);
     let [touching, facing] = SQUARES;
     for settings in estimators {
-        bench.mean("mean over the unit square", 0.5 * touching, (tracer, &over_the_square()), &settings)?;
-        let film = bench.film((tracer, &along_the_edge()), &settings, 32, 16)?;
+        bench.mean("mean over the unit square", 0.5 * touching, (tracer, &over_the_square()), settings)?;
+        let film = bench.film((tracer, &along_the_edge()), settings, 32, 16)?;
         let bright = film.pixels().iter().map(|pixel| pixel.mean()[0]).fold(0.0, f64::max);
-        bench.trial.at_most(&super::subject(&settings), "brightest pixel along the edge", 1.5, bright);
+        bench.trial.at_most(&super::subject(settings), "brightest pixel along the edge", 1.5, bright);
     }
     tracer.set_scene(&facing_squares())?;
     for settings in estimators {
-        bench.mean("mean, facing squares", 0.5 * facing, (tracer, &over_the_square()), &settings)?;
+        bench.mean("mean, facing squares", 0.5 * facing, (tracer, &over_the_square()), settings)?;
     }
     Ok(())
 }

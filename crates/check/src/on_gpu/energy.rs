@@ -21,30 +21,30 @@ pub fn white_furnace(bench: &mut Bench) -> Outcome {
     let tracer = &mut bench.tracer(&metal)?;
     for estimator in [Estimator::COSINE, Estimator::MIS] {
         let settings = with(estimator, None, Roulette::OFF);
-        bench.mean("rough metal, alpha 1", ROUGH_METAL, (tracer, &metal.camera), &settings)?;
+        bench.mean("rough metal, alpha 1", ROUGH_METAL, (tracer, &metal.camera), settings)?;
     }
     let scene = known("white-furnace");
     let tracer = &mut bench.tracer(&scene)?;
     for estimator in [Estimator::COSINE, Estimator::LIGHT, Estimator::MIS] {
         let settings = with(estimator, None, Roulette::THROUGHPUT);
-        bench.exactly("every pixel, no variance", 1.0, (tracer, &scene.camera), &settings)?;
+        bench.exactly("every pixel, no variance", 1.0, (tracer, &scene.camera), settings)?;
     }
     let constant = Roulette::constant(0.9);
     let both = Roulette { throughput: true, ..constant };
     for (roulette, quantity) in [(constant, "mean, roulette .9"), (both, "mean, roulette .9 and throughput")] {
         let settings = with(Estimator::COSINE, None, roulette);
-        bench.mean(quantity, 1.0, (tracer, &scene.camera), &settings)?;
+        bench.mean(quantity, 1.0, (tracer, &scene.camera), settings)?;
     }
     let straight = with(Estimator::COSINE, Some(3), Roulette::OFF);
-    let found = bench.mean_of(1.0, 0.002, (tracer, &scene.camera), &straight)?;
+    let found = bench.mean_of(1.0, 0.002, (tracer, &scene.camera), straight)?;
     let branching = PathSettings { branches: 3, ..straight };
     let quantity = "3 branches against 1, 3 bounces";
-    bench.mean(quantity, found.mean, (tracer, &scene.camera), &branching)?;
+    bench.mean(quantity, found.mean, (tracer, &scene.camera), branching)?;
     for (scatterings, lost) in LOST {
         let settings = with(Estimator::COSINE, Some(scatterings - 1), Roulette::OFF);
         let expected = 1.0 - lost;
         let power = bench.trial.pick(0.001, 0.0003) / expected;
-        let found = bench.mean_of(expected, power, (tracer, &floor_centre()), &settings)?;
+        let found = bench.mean_of(expected, power, (tracer, &floor_centre()), settings)?;
         let quantity = format!("floor centre after {scatterings} scatterings");
         bench.trial.equal("path cosine", &quantity, expected, found.mean, 0.001 + 4.0 * found.standard_error);
     }
@@ -64,19 +64,19 @@ pub fn closed_box(bench: &mut Bench) -> Outcome {
                 let quantity = format!("mean, albedo {share}, roulette {name}");
                 let settings = with(estimator, None, roulette);
                 let power = power_between_walls(bench.trial, share);
-                bench.mean_to(power, &quantity, 1.0, (walls, &diffuse.camera), &settings)?;
+                bench.mean_to(power, &quantity, 1.0, (walls, &diffuse.camera), settings)?;
             }
         }
         let settings = with(Estimator::LIGHT, None, Roulette::THROUGHPUT);
-        bench.mean(&format!("mean, mirrors of {share}"), 1.0, (reflecting, &mirrors.camera), &settings)?;
+        bench.mean(&format!("mean, mirrors of {share}"), 1.0, (reflecting, &mirrors.camera), settings)?;
         for scatterings in [1, 4, 8, 16, 64] {
             let expected = after(scatterings, (share, emission));
             let quantity = format!("every pixel, {share}, {scatterings} scatterings");
             let settings = with(Estimator::COSINE, Some(scatterings - 1), Roulette::OFF);
-            bench.exactly(&quantity, expected, (walls, &diffuse.camera), &settings)?;
+            bench.exactly(&quantity, expected, (walls, &diffuse.camera), settings)?;
             let quantity = format!("{quantity}, mirrors");
             let settings = without_ambient(scatterings);
-            bench.whitted_exactly(&quantity, expected, (reflecting, &mirrors.camera), &settings)?;
+            bench.exactly(&quantity, expected, (reflecting, &mirrors.camera), settings)?;
         }
     }
     Ok(())
@@ -94,11 +94,11 @@ pub fn point_light(bench: &mut Bench) -> Outcome {
             }
             let quantity = format!("mean, radius {radius}, albedo {albedo}");
             let settings = with(estimator, None, Roulette::THROUGHPUT);
-            bench.mean(&quantity, 1.0, (tracer, &scene.camera), &settings)?;
+            bench.mean(&quantity, 1.0, (tracer, &scene.camera), settings)?;
         }
         let quantity = format!("every pixel, direct, radius {radius}, albedo {albedo}");
         let settings = without_ambient(WhittedSettings::default().depth);
-        bench.whitted_exactly(&quantity, direct_part(sphere), (tracer, &scene.camera), &settings)?;
+        bench.exactly(&quantity, direct_part(sphere), (tracer, &scene.camera), settings)?;
     }
     Ok(())
 }

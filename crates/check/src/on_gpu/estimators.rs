@@ -19,10 +19,10 @@ pub fn three_of_one(bench: &mut Bench) -> Outcome {
     let tracer = &mut bench.tracer(&known("rectangle-light"))?;
     for (estimator, variance) in VARIANCES {
         let settings = direct(estimator);
-        let subject = super::subject(&settings);
-        bench.mean("mean", expected, (tracer, &camera), &settings)?;
+        let subject = super::subject(settings);
+        bench.mean("mean", expected, (tracer, &camera), settings)?;
         let [quick, full] = SAMPLES;
-        let film = bench.film((tracer, &camera), &settings, 64, bench.trial.pick(quick, full))?;
+        let film = bench.film((tracer, &camera), settings, 64, bench.trial.pick(quick, full))?;
         let measured = variance_of_a_sample(&film) / (expected * expected);
         bench.trial.equal(&subject, "relative variance of a sample", variance, measured, 0.05 * variance);
         if estimator == Estimator::COSINE && !bench.trial.full() {
@@ -30,7 +30,7 @@ pub fn three_of_one(bench: &mut Bench) -> Outcome {
         }
         let last = bench.trial.pick(10, 14);
         let mut falls = |settings: &PathSettings, side: u32| {
-            slope(expected, last, |samples| bench.film((tracer, &camera), settings, side, samples))
+            slope(expected, last, |samples| bench.film((tracer, &camera), *settings, side, samples))
         };
         let measured = falls(&settings, SIDE)?;
         let sobol = falls(&PathSettings { sampler: SamplerKind::Sobol, ..settings }, SIDE / 2)?;

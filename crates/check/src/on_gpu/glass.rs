@@ -66,9 +66,9 @@ pub fn index_one(bench: &mut Bench) -> Outcome {
         // one sample a pixel, in the same place of both pictures
         for estimator in estimators {
             let settings = PathSettings { estimator, ..without_roulette() };
-            paths.push(bench.film((tracer, &camera), &settings, 128, 1)?);
+            paths.push(bench.film((tracer, &camera), settings, 128, 1)?);
         }
-        trees.push(bench.whitted_film((tracer, &camera), &to_depth(16), 128, 1)?);
+        trees.push(bench.film((tracer, &camera), to_depth(16), 128, 1)?);
     }
     let (with, without) = paths.split_at(estimators.len());
     for ((estimator, with), without) in estimators.iter().zip(with).zip(without) {
@@ -98,9 +98,9 @@ pub fn slab(bench: &mut Bench) -> Outcome {
                 let camera = off_the_normal(degrees);
                 let (expected, what) = if behind { (passes, "passes") } else { (1.0 - passes, "is reflected") };
                 let quantity = format!("thickness {thickness}, {degrees} degrees, {what}");
-                bench.whitted_exactly(&quantity, expected, (tracer, &camera), &to_depth(64))?;
+                bench.exactly(&quantity, expected, (tracer, &camera), to_depth(64))?;
                 if thickness == 1e-4 || bench.trial.full() {
-                    bench.mean(&quantity, expected, (tracer, &camera), &without_roulette())?;
+                    bench.mean(&quantity, expected, (tracer, &camera), without_roulette())?;
                 }
             }
         }
@@ -109,7 +109,7 @@ pub fn slab(bench: &mut Bench) -> Outcome {
             for (reflections, expected) in REFLECTIONS_OF_CAPPED.into_iter().zip(table) {
                 let quantity = format!("thickness {thickness}, {degrees} degrees, {reflections} internal reflections");
                 let settings = to_depth(2 + reflections);
-                bench.whitted_exactly(&quantity, expected, (tracer, &off_the_normal(degrees)), &settings)?;
+                bench.exactly(&quantity, expected, (tracer, &off_the_normal(degrees)), settings)?;
             }
         }
         tracer.set_scene(&small_slab(thickness))?;
@@ -141,7 +141,7 @@ pub fn furnace(bench: &mut Bench) -> Outcome {
         for sampler in SamplerKind::ALL {
             let quantity = format!("every pixel, {name}, {}", sampler.name());
             let settings = PathSettings { sampler, ..without_roulette() };
-            bench.exactly(&quantity, 1.0, (tracer, &scene.camera), &settings)?;
+            bench.exactly(&quantity, 1.0, (tracer, &scene.camera), settings)?;
         }
     }
     let tracer = &mut bench.tracer(&known("glass-sphere-in-furnace"))?;
@@ -149,9 +149,9 @@ pub fn furnace(bench: &mut Bench) -> Outcome {
         for reflections in REFLECTIONS {
             let (expected, camera) = (after(reflections, b), beside_the_axis(b));
             let quantity = format!("b = {b}, {reflections} internal reflections");
-            bench.whitted_exactly(&quantity, expected, (tracer, &camera), &to_depth(2 + reflections))?;
+            bench.exactly(&quantity, expected, (tracer, &camera), to_depth(2 + reflections))?;
             let capped = PathSettings { bounces: Some(1 + reflections), ..without_roulette() };
-            bench.mean(&quantity, expected, (tracer, &camera), &capped)?;
+            bench.mean(&quantity, expected, (tracer, &camera), capped)?;
         }
     }
     Ok(())
@@ -162,7 +162,7 @@ pub fn camera_inside(bench: &mut Bench) -> Outcome {
     let tracer = &mut bench.tracer(&scene)?;
     for roulette in [Roulette::OFF, Roulette::THROUGHPUT] {
         let settings = PathSettings { roulette, ..independent() };
-        bench.exactly("every pixel", 1.0, (tracer, &scene.camera), &settings)?;
+        bench.exactly("every pixel", 1.0, (tracer, &scene.camera), settings)?;
     }
-    bench.whitted_exactly("every pixel", 1.0, (tracer, &scene.camera), &to_depth(64))
+    bench.exactly("every pixel", 1.0, (tracer, &scene.camera), to_depth(64))
 }

@@ -13,14 +13,15 @@ mod rays;
 mod robustness;
 
 use crate::case::Case;
-use crate::measure::{Effort, Mean, Trial, farthest};
-use crate::row::{Device, Row};
+use crate::measure::{Effort, Mean, Trial, farthest, subject};
+use crate::row::Row;
 use film::Film;
 use gpu::Gpu;
 use pathtrace::gpu::{GpuTraceError, GpuTracer};
-use pathtrace::{LightSampling, PathSettings, WhittedSettings};
+use pathtrace::{Integrator, LightSampling};
 use scene::{Camera, Scene};
 use std::sync::atomic::{AtomicBool, Ordering};
+use technique::Device;
 
 type Outcome = Result<(), GpuTraceError>;
 
@@ -102,43 +103,22 @@ impl Bench<'_, '_> {
     fn film(
         &mut self,
         (tracer, camera): Seen,
-        settings: &PathSettings,
+        integrator: impl Into<Integrator>,
         size: u32,
         samples: u32,
     ) -> Result<Film, GpuTraceError> {
         let mut film = Film::new(size, size);
         let trial = &*self.trial;
-        tracer.render(&mut film, camera, &(*settings).into(), samples, &|| trial.stopped())?;
-        self.trial.count_nonfinite(&film);
-        Ok(film)
-    }
-
-    /// As [`Bench::film`], by Whitted's method.
-    fn whitted_film(
-        &mut self,
-        (tracer, camera): Seen,
-        settings: &WhittedSettings,
-        size: u32,
-        samples: u32,
-    ) -> Result<Film, GpuTraceError> {
-        let mut film = Film::new(size, size);
-        let trial = &*self.trial;
-        tracer.render(&mut film, camera, &(*settings).into(), samples, &|| trial.stopped())?;
+        tracer.render(&mut film, camera, &integrator.into(), samples, &|| trial.stopped())?;
         self.trial.count_nonfinite(&film);
         Ok(film)
     }
 
     /// A picture whose every pixel is `expected`, without noise.
-    fn exactly(&mut self, quantity: &str, expected: f64, seen: Seen, settings: &PathSettings) -> Outcome {
-        let film = self.film(seen, settings, SIDE, 8)?;
-        self.trial.equal(&subject(settings), quantity, expected, farthest(&film, expected), 1e-5);
-        Ok(())
-    }
-
-    /// As [`Bench::exactly`], by Whitted's method.
-    fn whitted_exactly(&mut self, quantity: &str, expected: f64, seen: Seen, settings: &WhittedSettings) -> Outcome {
-        let film = self.whitted_film(seen, settings, 8, 4)?;
-        self.trial.equal("whitted", quantity, expected, farthest(&film, expected), 1e-5);
+    fn exactly(&mut self, quantity: &str, expected: f64, seen: Seen, integrator: impl Into<Integrator>) -> Outcome {
+        let integrator = integrator.into();
+        let film = self.film(seen, integrator, SIDE, 8)?;
+        self.trial.equal(&subject(integrator), quantity, expected, farthest(&film, expected), 1e-5);
         Ok(())
     }
 
@@ -148,12 +128,16 @@ impl Bench<'_, '_> {
         quantity: &str,
         expected: f64,
         seen: Seen,
-        settings: &PathSettings,
+        integrator: impl Into<Integrator>,
     ) -> Result<Mean, GpuTraceError> {
-        // a density that is off by a twentieth moves a weighted mean by less than a hundredth, and its samples spread
-        // little
-        let power = if settings.estimator.light == LightSampling::Mis { 0.001 } else { self.trial.power() };
-        self.mean_to(power, quantity, expected, seen, settings)
+        let integrator = integrator.into();
+        let power = match integrator {
+            // a density that is off by a twentieth moves a weighted mean by less than a hundredth, and its samples
+            // spread little
+            Integrator::Path(path) if path.estimator.light == LightSampling::Mis => 0.001,
+            _ => self.trial.power(),
+        };
+        self.mean_to(power, quantity, expected, seen, integrator)
     }
 
     /// As [`Bench::mean`], to a relative standard error of `power`.
@@ -163,28 +147,13 @@ impl Bench<'_, '_> {
         quantity: &str,
         expected: f64,
         seen: Seen,
-        settings: &PathSettings,
+        integrator: impl Into<Integrator>,
     ) -> Result<Mean, GpuTraceError> {
-        let found = self.mean_of(expected, power, seen, settings)?;
+        let integrator = integrator.into();
+        let found = self.mean_of(expected, power, seen, integrator)?;
         let measured = (found.mean, found.standard_error);
-        self.trial.mean_and_error(&subject(settings), quantity, expected, measured, power);
+        self.trial.mean_and_error(&subject(integrator), quantity, expected, measured, power);
         Ok(found)
-    }
-
-    /// As [`Bench::mean`], by Whitted's method.
-    fn whitted_mean(
-        &mut self,
-        quantity: &str,
-        expected: f64,
-        (tracer, camera): Seen,
-        settings: &WhittedSettings,
-    ) -> Outcome {
-        let (power, stop) = (self.trial.power(), self.trial.stop_flag());
-        let found = self.gathered(expected, power, |film, samples| {
-            tracer.render(film, camera, &(*settings).into(), samples, &|| stop.load(Ordering::Relaxed)).map(drop)
-        })?;
-        self.trial.mean_and_error("whitted", quantity, expected, (found.mean, found.standard_error), power);
-        Ok(())
     }
 
     /// The mean of a picture of as many samples as it takes for a relative standard error of `power`.
@@ -193,26 +162,14 @@ impl Bench<'_, '_> {
         expected: f64,
         power: f64,
         (tracer, camera): Seen,
-        settings: &PathSettings,
+        integrator: impl Into<Integrator>,
     ) -> Result<Mean, GpuTraceError> {
-        let stop = self.trial.stop_flag();
-        self.gathered(expected, power, |film, samples| {
-            tracer.render(film, camera, &(*settings).into(), samples, &|| stop.load(Ordering::Relaxed)).map(drop)
-        })
-    }
-
-    /// As [`Bench::mean_of`], of a picture to which `render` adds samples.
-    fn gathered(
-        &mut self,
-        expected: f64,
-        power: f64,
-        mut render: impl FnMut(&mut Film, u32) -> Outcome,
-    ) -> Result<Mean, GpuTraceError> {
+        let (integrator, stop) = (integrator.into(), self.trial.stop_flag());
         let mut film = Film::new(SIDE, SIDE);
         let most = self.trial.pick(4096, 65_536);
         let mut more = 16;
         loop {
-            render(&mut film, more)?;
+            tracer.render(&mut film, camera, &integrator, more, &|| stop.load(Ordering::Relaxed))?;
             let each = film.samples_per_pixel();
             let samples = f64::from(SIDE * SIDE) * f64::from(each.max(1));
             // where all samples agree, one as large as the mean may still have been missed
@@ -225,8 +182,4 @@ impl Bench<'_, '_> {
             more = ((f64::from(each) * (wanted - 1.0)).ceil() as u32).clamp(1, most - each);
         }
     }
-}
-
-fn subject(settings: &PathSettings) -> String {
-    format!("path {}", settings.estimator.name())
 }

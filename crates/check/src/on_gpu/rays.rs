@@ -88,7 +88,7 @@ pub fn light_tight_box(bench: &mut Bench) -> Outcome {
     let settings = with(Estimator::COSINE, None, Roulette::THROUGHPUT);
     for (name, scene, camera) in tight_boxes() {
         let tracer = &mut bench.tracer(&scene)?;
-        let film = bench.film((tracer, &camera), &settings, 64, samples)?;
+        let film = bench.film((tracer, &camera), settings, 64, samples)?;
         bench.trial.equal("path cosine", &format!("brightest pixel{name}"), 0.0, brightest(&film), 0.0);
     }
     Ok(())

@@ -18,8 +18,8 @@ pub fn invariance(bench: &mut Bench) -> Outcome {
             tracer.set_scene(&scene)?;
             let seen = (&mut tracer, &camera);
             let film = match &invariant.trees {
-                Some(trees) => bench.whitted_film(seen, trees, 8, 4),
-                None => bench.film(seen, &invariant.settings, 32, bench.trial.pick(64, 512)),
+                Some(trees) => bench.film(seen, *trees, 8, 4),
+                None => bench.film(seen, invariant.settings, 32, bench.trial.pick(64, 512)),
             };
             Ok(film?.mean()[0])
         };
@@ -46,7 +46,7 @@ pub fn degenerate(bench: &mut Bench) -> Outcome {
     let (scene, camera, expected) = under_slivers();
     let tracer = &mut bench.tracer(&scene)?;
     for estimator in [Estimator::LIGHT, Estimator::MIS] {
-        bench.mean("under slivers 1e-6 wide", expected, (tracer, &camera), &direct(estimator))?;
+        bench.mean("under slivers 1e-6 wide", expected, (tracer, &camera), direct(estimator))?;
     }
     Ok(())
 }

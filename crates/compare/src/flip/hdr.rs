@@ -2,9 +2,9 @@
 //! does. Andersson et al. 2021, sections 4 and 5, with the ACES curve as Narkowicz fitted it.
 
 use super::{Evaluator, finite_or_black, mark_nonfinite};
-use crate::{CompareError, metrics::same_pixels};
-use film::Vec3;
+use crate::{CompareError, metrics::same_size};
 use film::colour::{luminance, srgb_encode};
+use film::{Image, Vec3};
 
 /// What [`hdr_flip`] found.
 #[derive(Debug, Clone, PartialEq)]
@@ -24,28 +24,20 @@ const ANCHOR: f32 = 0.85;
 /// Far beyond where the curve is white: squares of larger values would overflow.
 const WHITE: f32 = 1e6;
 
-/// HDR-FLIP of two pictures in linear radiance, rows of `width` from the top; the sweep of exposures follows from the
-/// reference. Otherwise as [`super::flip`].
+/// HDR-FLIP of two pictures in linear radiance; the sweep of exposures follows from the reference. Otherwise as
+/// [`super::flip`].
 ///
 /// # Errors
-/// [`CompareError::Pixels`] if the two do not have the same pixels in whole rows.
-pub fn hdr_flip(
-    picture: &[Vec3],
-    reference: &[Vec3],
-    width: u32,
-    pixels_per_degree: f32,
-) -> Result<HdrFlip, CompareError> {
-    same_pixels(picture, reference, width)?;
-    let exposures = exposures(reference);
-    let mut worst = HdrFlip {
-        values: vec![0.0; picture.len()],
-        worst_exposures: vec![exposures[0]; picture.len()],
-        exposures: exposures.clone(),
-    };
-    if picture.is_empty() {
+/// [`CompareError::Sizes`] if they do not have the same pixels.
+pub fn hdr_flip(picture: &Image, reference: &Image, pixels_per_degree: f32) -> Result<HdrFlip, CompareError> {
+    same_size(picture.size(), reference.size())?;
+    let (count, exposures) = (picture.radiances().len(), exposures(reference.radiances()));
+    let mut worst =
+        HdrFlip { values: vec![0.0; count], worst_exposures: vec![exposures[0]; count], exposures: exposures.clone() };
+    if count == 0 {
         return Ok(worst);
     }
-    let evaluator = Evaluator::new(width as usize, pixels_per_degree);
+    let evaluator = Evaluator::new(picture.width() as usize, pixels_per_degree);
     let (a, b) = (finite_or_black(picture), finite_or_black(reference));
     for exposure in exposures {
         let values = evaluator.flip(&shown(&a, exposure), &shown(&b, exposure));
@@ -126,8 +118,8 @@ mod tests {
     #[test]
     fn equal_pictures_do_not_differ_and_black_ones_can_be_measured() {
         for value in [0.0, 1e-20, 3.0, 1e30] {
-            let same = vec![Vec3::splat(value); 48];
-            let found = hdr_flip(&same, &same, 8, PIXELS_PER_DEGREE).unwrap();
+            let same = Image::new(8, 6, vec![Vec3::splat(value); 48]).unwrap();
+            let found = hdr_flip(&same, &same, PIXELS_PER_DEGREE).unwrap();
             assert!(found.values.iter().all(|v| *v == 0.0) && found.exposures.iter().all(|e| e.is_finite()), "{value}");
         }
     }

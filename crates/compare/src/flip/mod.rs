@@ -9,8 +9,8 @@ mod hdr;
 
 pub use hdr::{HdrFlip, hdr_flip};
 
-use crate::{CompareError, metrics::same_pixels};
-use film::Vec3;
+use crate::{CompareError, metrics::same_size};
+use film::{Image, Vec3};
 use filter::{Features, Sensitivity, along_columns, along_rows};
 use rayon::prelude::*;
 
@@ -27,52 +27,31 @@ const P_T: f32 = 0.95;
 /// Exponent of the feature difference.
 const Q_F: f32 = 0.5;
 
-/// FLIP of two pictures as a screen shows them: sRGB code values in [0, 1], rows of `width` from the top; one value in
-/// [0, 1] a pixel. A pixel that is not finite in either picture is NaN, and black to its neighbours.
+/// FLIP of two pictures as a screen shows them, with sRGB code values in [0, 1] for radiance, as
+/// [`film::DisplayTransform::code_values_of`] makes them; one value in [0, 1] a pixel, rows from the top. A pixel that is not finite in either picture is NaN, and black
+/// to its neighbours.
 ///
 /// `pixels_per_degree` of visual angle, > 0: [`PIXELS_PER_DEGREE`] where nothing better is known.
 ///
 /// # Errors
-/// [`CompareError::Pixels`] if the two do not have the same pixels in whole rows.
-pub fn flip(
-    picture: &[Vec3],
-    reference: &[Vec3],
-    width: u32,
-    pixels_per_degree: f32,
-) -> Result<Vec<f32>, CompareError> {
-    same_pixels(picture, reference, width)?;
-    if picture.is_empty() {
+/// [`CompareError::Sizes`] if they do not have the same pixels.
+pub fn flip(picture: &Image, reference: &Image, pixels_per_degree: f32) -> Result<Vec<f32>, CompareError> {
+    same_size(picture.size(), reference.size())?;
+    if picture.radiances().is_empty() {
         return Ok(Vec::new());
     }
-    let evaluator = Evaluator::new(width as usize, pixels_per_degree);
+    let evaluator = Evaluator::new(picture.width() as usize, pixels_per_degree);
     let mut values = evaluator.flip(&finite_or_black(picture), &finite_or_black(reference));
     mark_nonfinite(&mut values, picture, reference);
     Ok(values)
 }
 
-/// [`flip`] of two pictures of sRGB bytes, four a pixel, the fourth ignored.
-///
-/// # Errors
-/// As [`flip`].
-pub fn flip_of_rgba8(
-    picture: &[u8],
-    reference: &[u8],
-    width: u32,
-    pixels_per_degree: f32,
-) -> Result<Vec<f32>, CompareError> {
-    let code = |b: u8| f32::from(b) / 255.0;
-    let codes = |bytes: &[u8]| -> Vec<Vec3> {
-        bytes.chunks_exact(4).map(|p| Vec3::new(code(p[0]), code(p[1]), code(p[2]))).collect()
-    };
-    flip(&codes(picture), &codes(reference), width, pixels_per_degree)
+fn finite_or_black(picture: &Image) -> Vec<Vec3> {
+    picture.radiances().iter().map(|p| if p.is_finite() { *p } else { Vec3::ZERO }).collect()
 }
 
-fn finite_or_black(picture: &[Vec3]) -> Vec<Vec3> {
-    picture.iter().map(|p| if p.is_finite() { *p } else { Vec3::ZERO }).collect()
-}
-
-fn mark_nonfinite(values: &mut [f32], picture: &[Vec3], reference: &[Vec3]) {
-    for ((value, a), b) in values.iter_mut().zip(picture).zip(reference) {
+fn mark_nonfinite(values: &mut [f32], picture: &Image, reference: &Image) {
+    for ((value, a), b) in values.iter_mut().zip(picture.radiances()).zip(reference.radiances()) {
         if !a.is_finite() || !b.is_finite() {
             *value = f32::NAN;
         }
@@ -168,8 +147,14 @@ impl Evaluator {
 mod tests {
     use super::*;
 
-    fn constant(rgb: [f32; 3]) -> Vec<Vec3> {
-        vec![Vec3::from_array(rgb); 12 * 9]
+    const SIZE: (u32, u32) = (12, 9);
+
+    fn constant(rgb: [f32; 3]) -> Image {
+        of_pixels(|_| Vec3::from_array(rgb))
+    }
+
+    fn of_pixels(of: impl Fn(u32) -> Vec3) -> Image {
+        Image::new(SIZE.0, SIZE.1, (0..SIZE.0 * SIZE.1).map(of).collect::<Vec<_>>()).unwrap()
     }
 
     fn all_near(values: &[f32], expected: f32) {
@@ -178,13 +163,13 @@ mod tests {
 
     #[test]
     fn a_picture_does_not_differ_from_itself() {
-        let gradient: Vec<Vec3> = (0..108).map(|i| Vec3::splat(i as f32 / 108.0)).collect();
-        assert!(flip(&gradient, &gradient, 12, PIXELS_PER_DEGREE).unwrap().iter().all(|v| *v == 0.0));
+        let gradient = of_pixels(|i| Vec3::splat(i as f32 / 108.0));
+        assert!(flip(&gradient, &gradient, PIXELS_PER_DEGREE).unwrap().iter().all(|v| *v == 0.0));
     }
 
     #[test]
     fn green_against_blue_is_all_there_is() {
-        let values = flip(&constant([0.0, 1.0, 0.0]), &constant([0.0, 0.0, 1.0]), 12, PIXELS_PER_DEGREE);
+        let values = flip(&constant([0.0, 1.0, 0.0]), &constant([0.0, 0.0, 1.0]), PIXELS_PER_DEGREE);
         all_near(&values.unwrap(), 1.0);
     }
 
@@ -195,25 +180,26 @@ mod tests {
         let most = colour::hyab(lab([0.0, 1.0, 0.0]), lab([0.0, 0.0, 1.0])).powf(0.7);
         let knee = 0.4 * most;
         let expected = 0.95 + 0.05 * (100f32.powf(0.7) - knee) / (most - knee);
-        let white = flip(&constant([1.0; 3]), &constant([0.0; 3]), 12, PIXELS_PER_DEGREE).unwrap();
+        let white = flip(&constant([1.0; 3]), &constant([0.0; 3]), PIXELS_PER_DEGREE).unwrap();
         all_near(&white, expected);
     }
 
     #[test]
     fn pixels_that_are_not_finite_are_marked_and_do_not_spread() {
-        let (mut broken, whole) = (constant([0.0; 3]), constant([0.0; 3]));
-        broken[40].y = f32::INFINITY;
-        let values = flip(&broken, &whole, 12, PIXELS_PER_DEGREE).unwrap();
+        let whole = constant([0.0; 3]);
+        let broken = of_pixels(|i| if i == 40 { Vec3::new(0.0, f32::INFINITY, 0.0) } else { Vec3::ZERO });
+        let values = flip(&broken, &whole, PIXELS_PER_DEGREE).unwrap();
         assert_eq!(values.iter().filter(|v| v.is_nan()).count(), 1);
         assert!(values[40].is_nan());
         assert!(values.iter().filter(|v| !v.is_nan()).all(|v| *v == 0.0));
     }
 
     #[test]
-    fn whole_rows_of_one_size_are_asked_for() {
-        let refused = flip(&constant([0.0; 3])[..100], &constant([0.0; 3]), 12, PIXELS_PER_DEGREE);
-        assert_eq!(refused, Err(CompareError::Pixels { film: 100, reference: 108, width: 12 }));
-        assert!(flip(&constant([0.0; 3]), &constant([0.0; 3]), 11, PIXELS_PER_DEGREE).is_err());
-        assert!(flip(&[], &[], 12, PIXELS_PER_DEGREE).unwrap().is_empty());
+    fn pictures_of_one_size_are_asked_for() {
+        let black = |width, height| film::Film::new(width, height).image();
+        let refused = flip(&black(12, 8), &black(12, 9), PIXELS_PER_DEGREE);
+        assert_eq!(refused, Err(CompareError::Sizes(12, 8, 12, 9)));
+        assert!(flip(&black(9, 12), &black(12, 9), PIXELS_PER_DEGREE).is_err());
+        assert!(flip(&black(12, 0), &black(12, 0), PIXELS_PER_DEGREE).unwrap().is_empty());
     }
 }

@@ -26,7 +26,7 @@ pub fn hills_and_sphere() -> Geometry {
         let out = Vec3::new(sin * x, cos, sin * y);
         out * (1.5 + 0.3 * waves(out))
     });
-    Geometry::Mesh { positions, triangles }
+    Geometry::mesh(positions, triangles)
 }
 
 /// Five octaves of bumps.

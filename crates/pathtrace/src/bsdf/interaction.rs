@@ -2,7 +2,7 @@
 //! Twin: `shaders/pathtrace/bsdf/interaction.wgsl`.
 
 use super::materials::Kinds;
-use crate::intersect::lanes::SurfacePoints;
+use crate::intersect::SurfacePoints;
 use simd::{Float, Vector};
 
 /// A surface as it is met, in each lane.

@@ -4,8 +4,8 @@
 //! Twin: `shaders/pathtrace/drive/pixels.wgsl`, where a thread has one pixel and its own loop.
 
 use crate::integrator::settings::SamplerKind;
+use crate::intersect::Rays;
 use crate::intersect::aggregate::lanes_of;
-use crate::intersect::lanes::Rays;
 use crate::prepared::{Outcomes, PreparedScene};
 use crate::sampling::sampler::Sampler;
 use crate::tracer::Stats;

@@ -19,9 +19,8 @@ use crate::integrator::forks::{Forks, MOST_FORKS, child};
 use crate::integrator::path_state::{ALREADY_COUNTED, DiffuseVertices, MET_BY_CHANCE, PathStates, balance};
 use crate::integrator::roulette::survivors;
 use crate::integrator::settings::{Directions, LightSampling, PathSettings, Roulette};
-use crate::intersect::NO_LIGHT;
-use crate::intersect::lanes::{Hits, Rays, SurfacePoints};
 use crate::intersect::shape_list::Scratch;
+use crate::intersect::{NO_LIGHT, Rays, SurfaceInteractions, SurfacePoints};
 use crate::prepared::{Outcomes, PreparedScene};
 use crate::sampling::UNIFORM_HEMISPHERE_PDF;
 use crate::sampling::sampler::Sampler;
@@ -138,6 +137,12 @@ impl<'a, F: Float> LaneIntegrator<F> for PathLanes<'a, F> {
         if self.scene.has_environment() && missed.any() {
             let weight = self.path.weight_of_meeting(F::splat(self.scene.sun_pdf));
             self.receive(missed, self.scene.environment(self.path.rays.direction, weight));
+        }
+        if let Some(environment) = self.scene.lights.environment()
+            && missed.any()
+        {
+            let (radiance, pdf) = environment.look_up(self.path.rays.direction);
+            self.receive(missed, radiance * self.path.weight_of_meeting(pdf));
         }
         let wo = -self.path.rays.direction;
         let shining = met & self.scene.shines(&hit);
@@ -312,7 +317,7 @@ impl<'a, F: Float> PathLanes<'a, F> {
 
     /// Density with which light sampling at the paths' last vertices draws the directions to these hits.
     #[inline(always)]
-    fn light_pdf(&self, hit: &Hits<F>) -> F {
+    fn light_pdf(&self, hit: &SurfaceInteractions<F>) -> F {
         let pdf = self.scene.lights.table().pdf(hit.light, self.path.from, hit.point.position);
         F::select(hit.light.eq(F::U::splat(NO_LIGHT)), F::splat(0.0), pdf)
     }

@@ -1,6 +1,6 @@
 //! A path between two of its vertices, and a vertex, in each lane.
 
-use crate::intersect::lanes::{Rays, SurfacePoints};
+use crate::intersect::{Rays, SurfacePoints};
 use simd::{Float, Vector, Word};
 
 /// A path on its way, in each lane.

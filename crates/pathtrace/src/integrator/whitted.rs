@@ -7,7 +7,7 @@
 //! the truth's: a surface under irradiance E has radiance `albedo E / pi`.
 //!
 //! What it cannot do, by design: light from diffuse surfaces on others, blurred reflections, caustics. The sky is seen
-//! but does not light; ambient light stands for it.
+//! but does not light; ambient light stands for it. A sky from a picture is one of the lights, and lights as they do.
 //!
 //! Twin: `shaders/pathtrace/integrator/whitted.wgsl`.
 
@@ -16,8 +16,8 @@ use crate::drive::gpu::film_data::RenderParams;
 use crate::drive::gpu::{PipelineKey, flag};
 use crate::drive::lanes::{LaneIntegrator, LanePlan};
 use crate::integrator::settings::SamplerKind;
-use crate::intersect::lanes::{Rays, SurfacePoints};
 use crate::intersect::shape_list::Scratch;
+use crate::intersect::{Rays, SurfacePoints};
 use crate::prepared::{Outcomes, PreparedScene};
 use crate::sampling::sampler::Sampler;
 use scene::stand_ins::FakeNumbers;
@@ -252,6 +252,11 @@ impl<'a, F: Float> LaneIntegrator<F> for WhittedLanes<'a, F> {
         let direction = self.branch.rays.direction;
         if self.scene.has_environment() && missed.any() {
             self.receive(missed, self.scene.environment(direction, F::splat(1.0)));
+        }
+        if let Some(environment) = self.scene.lights.environment()
+            && missed.any()
+        {
+            self.receive(missed, environment.look_up(direction).0);
         }
         let shining = met & self.scene.shines(&hit);
         if self.scene.materials.has().area_lights && shining.any() {

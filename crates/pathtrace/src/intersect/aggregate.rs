@@ -1,10 +1,8 @@
 //! What rays are traced through: all shapes at once in each lane while they are few, else one ray at a time through a
 //! tree.
 
-use super::lanes::{Hits, Rays, SurfacePoints};
 use super::shape_list::{Scratch, ShapeList};
-use super::{Accel, Hit, NO_LIGHT, SurfacePoint};
-use crate::light::Lights;
+use super::{Accel, Hit, Hits, NO_LIGHT, NO_PRIMITIVE, Rays, SurfaceInteractions, SurfacePoints};
 use crate::vectors::of_lanes;
 use scene::{Bsdf, Scene, Vec3};
 use simd::{Float, MOST_LANES, Mask, Word};
@@ -19,12 +17,12 @@ pub struct Aggregate {
 }
 
 impl Aggregate {
-    /// Builds what the scene asks for.
-    pub fn new(scene: &Scene, lights: &Lights) -> Self {
+    /// Builds what the scene asks for; `light_of_shape` is [`crate::light::Lights::light_of_shape`] of it.
+    pub fn new(scene: &Scene, light_of_shape: &[u32]) -> Self {
         let clear = scene.materials.iter().map(|material| matches!(material.bsdf, Bsdf::Dielectric { .. }));
         Aggregate {
-            accel: Accel::new(scene, lights),
-            shape_list: ShapeList::new(scene, lights),
+            accel: Accel::new(scene, light_of_shape),
+            shape_list: ShapeList::new(scene, light_of_shape),
             clear: clear.collect(),
         }
     }
@@ -54,6 +52,15 @@ impl Aggregate {
         }
     }
 
+    /// What the rays have met that have these hits.
+    #[inline(always)]
+    pub fn interactions<F: Float>(&self, rays: &Rays<F>, hits: &Hits<F>) -> SurfaceInteractions<F> {
+        match &self.shape_list {
+            Some(shape_list) => shape_list.interactions(rays, hits),
+            None => self.interactions_one_by_one(rays, hits),
+        }
+    }
+
     /// Where anything lies on the `wanted` rays before `rays.tmax`; if `opaque`, glass does not count.
     #[inline(always)]
     pub fn occluded<F: Float>(&self, rays: &Rays<F>, wanted: F::M, opaque: bool, scratch: &mut Scratch<F>) -> F::M {
@@ -66,24 +73,42 @@ impl Aggregate {
     #[inline(always)]
     fn closest_one_by_one<F: Float>(&self, rays: &Rays<F>, wanted: F::M) -> Hits<F> {
         let rays = rays.each();
-        let nowhere = SurfacePoint { position: Vec3::ZERO, error: Vec3::ZERO, normal: Vec3::Z };
-        let mut met = [Hit { point: nowhere, material: 0, light: NO_LIGHT }; MOST_LANES];
-        let mut bits = 0;
+        let (mut t, mut primitive) = ([0.0; MOST_LANES], [NO_PRIMITIVE; MOST_LANES]);
+        let [mut u, mut v, mut w] = [[0.0; MOST_LANES]; 3];
         for lane in lanes_of(wanted) {
             if let Some(hit) = self.accel.closest(&rays[lane]) {
-                met[lane] = hit;
-                bits |= 1 << lane;
+                (t[lane], primitive[lane]) = (hit.t, hit.primitive);
+                [u[lane], v[lane], w[lane]] = hit.barycentrics;
             }
         }
-        Hits {
-            met: F::M::from_bits(bits),
-            point: SurfacePoints {
-                position: of_lanes(&met.map(|hit| hit.point.position)),
-                error: of_lanes(&met.map(|hit| hit.point.error)),
-                normal: of_lanes(&met.map(|hit| hit.point.normal)),
-            },
-            material: F::U::load(&met.map(|hit| hit.material)),
-            light: F::U::load(&met.map(|hit| hit.light)),
+        let barycentrics = [F::load(&u), F::load(&v), F::load(&w)];
+        Hits { t: F::load(&t), primitive: F::U::load(&primitive), barycentrics }
+    }
+
+    #[inline(always)]
+    fn interactions_one_by_one<F: Float>(&self, rays: &Rays<F>, hits: &Hits<F>) -> SurfaceInteractions<F> {
+        let rays = rays.each();
+        let (mut t, mut primitive) = ([0.0; MOST_LANES], [0; MOST_LANES]);
+        let mut barycentrics = [[0.0; MOST_LANES]; 3];
+        hits.t.store(&mut t);
+        hits.primitive.store(&mut primitive);
+        for (to, from) in barycentrics.iter_mut().zip(hits.barycentrics) {
+            from.store(to);
+        }
+        let [mut position, mut error, mut normal] = [[Vec3::ZERO; MOST_LANES]; 3];
+        let (mut material, mut light) = ([0; MOST_LANES], [NO_LIGHT; MOST_LANES]);
+        for lane in lanes_of(hits.met()) {
+            let barycentrics = barycentrics.map(|weights| weights[lane]);
+            let hit = Hit { t: t[lane], primitive: primitive[lane], barycentrics };
+            let met = self.accel.interaction(&rays[lane], &hit);
+            (position[lane], error[lane], normal[lane]) = (met.point.position, met.point.error, met.point.normal);
+            (material[lane], light[lane]) = (met.material, met.light);
+        }
+        SurfaceInteractions {
+            met: hits.met(),
+            point: SurfacePoints { position: of_lanes(&position), error: of_lanes(&error), normal: of_lanes(&normal) },
+            material: F::U::load(&material),
+            light: F::U::load(&light),
         }
     }
 

@@ -8,9 +8,10 @@
 //! [`super::bvh8_build`] makes the blocks, [`super::bvh8_walk`] goes through them, [`super::bvh8_leaf`] meets
 //! triangles.
 
-use super::accel::{Primitive, Surface};
 use super::bvh8_leaf::{Closest, Occluded};
-use super::{Ray, SurfacePoint};
+use super::primitive::{Primitive, Surface};
+use super::{Hit, Ray, SurfaceInteraction, SurfacePoints};
+use crate::vectors::lane_vector;
 use obvhs::aabb::Aabb;
 use scene::Vec3;
 use simd::RowLanes;
@@ -21,7 +22,7 @@ pub(super) const LEAF_WIDTH: usize = 4;
 /// The eight-wide hierarchy.
 pub(super) struct Bvh8 {
     pub root: Child,
-    pub blocks: Rooms,
+    pub blocks: Blocks,
     pub curved: Vec<Curved>,
     pub lanes: RowLanes,
 }
@@ -39,7 +40,7 @@ pub(super) struct Child(pub u32);
 
 impl Child {
     const LEAF: u32 = 1 << 31;
-    const ROUND: u32 = 1 << 30;
+    const CURVED: u32 = 1 << 30;
     /// No leaf: the first block.
     pub const ROOT: Self = Child(0);
 
@@ -51,8 +52,8 @@ impl Child {
         Child(Self::LEAF | block as u32)
     }
 
-    pub fn round(index: usize) -> Self {
-        Child(Self::LEAF | Self::ROUND | index as u32)
+    pub fn curved(index: usize) -> Self {
+        Child(Self::LEAF | Self::CURVED | index as u32)
     }
 
     #[inline(always)]
@@ -61,19 +62,35 @@ impl Child {
     }
 
     #[inline(always)]
-    pub fn is_round(self) -> bool {
-        self.0 & Self::ROUND != 0
+    pub fn is_curved(self) -> bool {
+        self.0 & Self::CURVED != 0
     }
 
     /// The number of its block, or its place among what is round.
     #[inline(always)]
     pub fn index(self) -> usize {
-        (self.0 & !(Self::LEAF | Self::ROUND)) as usize
+        (self.0 & !(Self::LEAF | Self::CURVED)) as usize
+    }
+
+    /// The number of a hit's primitive: its place among what is round, or its block and the place in that.
+    #[inline(always)]
+    fn primitive(self, lane: usize) -> u32 {
+        if self.is_curved() { Self::LEAF | self.index() as u32 } else { (self.index() * LEAF_WIDTH + lane) as u32 }
+    }
+
+    /// The leaf and the place in it of [`Child::primitive`].
+    #[inline(always)]
+    fn of_primitive(primitive: u32) -> (Self, usize) {
+        let index = (primitive & !Self::LEAF) as usize;
+        if primitive & Self::LEAF != 0 {
+            return (Self::curved(index), 0);
+        }
+        (Self::triangles(index / LEAF_WIDTH), index % LEAF_WIDTH)
     }
 
     /// Its blocks moved on by so many, and what is round too.
     pub fn moved(self, blocks: usize, curved: usize) -> Self {
-        Child(self.0 + if self.is_round() { curved } else { blocks } as u32)
+        Child(self.0 + if self.is_curved() { curved } else { blocks } as u32)
     }
 }
 
@@ -197,19 +214,19 @@ pub(super) fn copy_moved(to: &mut Block, from: &Block, blocks: usize, curved: us
     }
 }
 
-/// Rooms in whole lines of the cache, and never on two pages.
-pub(super) struct Rooms {
+/// Blocks in whole lines of the cache, and never on two pages.
+pub(super) struct Blocks {
     floats: Vec<f32>,
     first: usize,
 }
 
-impl Rooms {
+impl Blocks {
     /// So many blocks of zeros, which the system provides page by page as they are written.
     pub fn zeroed(count: usize) -> Self {
         let mut floats = vec![0.0f32; 64 * count + 64];
         simd::ask_for_large_pages(&mut floats);
         let first = (floats.as_ptr().addr().wrapping_neg() / 4) % 64;
-        Rooms { floats, first }
+        Blocks { floats, first }
     }
 
     #[inline(always)]
@@ -235,22 +252,27 @@ pub(super) struct Nearest {
 }
 
 impl Bvh8 {
-    /// The nearest hit before `ray.tmax` and what it is a hit of, see [`super::Accel::closest`].
-    pub fn closest(&self, ray: &Ray) -> Option<(SurfacePoint, Surface)> {
-        let nearest = self.nearest(ray);
-        if !nearest.child.is_leaf() {
+    /// The nearest hit before `ray.tmax`, see [`super::Accel::closest`].
+    pub fn closest(&self, ray: &Ray) -> Option<Hit> {
+        let Nearest { t, child, lane, areas: [u, v, w], .. } = self.nearest(ray);
+        if !child.is_leaf() {
             return None;
         }
-        if nearest.child.is_round() {
-            let round = &self.curved[nearest.child.index()];
-            return Some((round.primitive.point(ray, nearest.t, nearest.areas, &round.surface), round.surface));
+        let sum = u + v + w;
+        let barycentrics = if child.is_curved() { [0.0; 3] } else { [u / sum, v / sum, w / sum] };
+        Some(Hit { t, primitive: child.primitive(lane), barycentrics })
+    }
+
+    /// What the ray has met that has this hit.
+    pub fn interaction(&self, ray: &Ray, hit: &Hit) -> SurfaceInteraction {
+        let (child, lane) = Child::of_primitive(hit.primitive);
+        if child.is_curved() {
+            let Curved { primitive, surface, .. } = &self.curved[child.index()];
+            return primitive.interaction(ray, hit, surface);
         }
-        let leaf = Leaf(&self.blocks.all()[nearest.child.index()]);
-        let [u, v, w] = nearest.areas;
-        let determinant = u + v + w;
-        let barycentrics = [u / determinant, v / determinant, w / determinant];
-        let surface = leaf.surface(nearest.lane);
-        Some((SurfacePoint::on_triangle(leaf.corners(nearest.lane), barycentrics, surface.normal), surface))
+        let leaf = Leaf(&self.blocks.all()[child.index()]);
+        let (corners, surface) = (leaf.corners(lane).map(lane_vector), leaf.surface(lane));
+        surface.interaction(SurfacePoints::on_triangle(corners, hit.barycentrics, lane_vector(surface.normal)))
     }
 
     /// The nearest hit, as little of it as the walk carries; none has the id `u32::MAX`.

@@ -6,10 +6,10 @@
 //! nowhere but in these, and a large shape finds its place at the top. [`super::bvh8_collapse`] says which nodes to
 //! keep.
 
-use super::accel::{Primitive, padding};
-use super::bvh8::{Block, Bvh8, Child, Node, Rooms, copy_moved};
+use super::bvh8::{Block, Blocks, Bvh8, Child, Node, copy_moved};
 use super::bvh8_collapse::{Forest, Link, Part, Place, Shapes, Tree};
 use super::bvh8_walk::DEEPEST;
+use super::primitive::{Primitive, padding};
 use obvhs::Boundable;
 use obvhs::aabb::Aabb;
 use obvhs::bvh2::Bvh2;
@@ -161,7 +161,7 @@ fn join(mut top: Vec<Block>, links: &[Link], parts: Vec<Part>, lanes: RowLanes) 
     for link in links {
         Node::relink(&mut top[link.block], link.index, next(link.place.tree));
     }
-    let mut blocks = Rooms::zeroed(rooms_before);
+    let mut blocks = Blocks::zeroed(rooms_before);
     let (to_top, mut rest) = blocks.all_mut().split_at_mut(top.len());
     to_top.copy_from_slice(&top);
     let mut curved = Vec::with_capacity(rounds_before);

@@ -4,8 +4,8 @@
 //! areas least, by dynamic programming from the leaves up: Ylitie, Karras and Laine, "Efficient Incoherent Ray
 //! Traversal on GPUs Through Compressed Wide BVHs" (HPG 2017), section 3.1, with leaves of a given size.
 
-use super::accel::{Primitive, Surface};
 use super::bvh8::{Block, Child, Curved, LEAF_WIDTH, Leaf, Node};
+use super::primitive::{Primitive, Surface};
 use obvhs::bvh2::Bvh2;
 use obvhs::bvh2::node::Bvh2Node;
 
@@ -250,7 +250,7 @@ impl Forest<'_> {
                 Primitive::Triangle(triangle) => Leaf::set_triangle(&mut block, lane, triangle.corners, id, &surface),
                 primitive => {
                     part.curved.push(Curved { primitive, id, surface });
-                    return Child::round(part.curved.len() - 1);
+                    return Child::curved(part.curved.len() - 1);
                 }
             }
         }

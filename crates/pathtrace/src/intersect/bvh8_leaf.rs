@@ -125,7 +125,7 @@ impl<F: Row<LEAF_WIDTH>> Visitor for ClosestVisitor<'_, F> {
     #[inline(always)]
     fn visit(&mut self, child: Child, tmax: f32) -> Option<f32> {
         let Closest { bvh, ray } = self.task;
-        if child.is_round() {
+        if child.is_curved() {
             let round = &bvh.curved[child.index()];
             if let Some(t) = round.distance(ray, tmax.next_up()) {
                 self.nearest.offer(Nearest { t, id: round.id, child, lane: 0, areas: [0.0; 3] });
@@ -188,7 +188,7 @@ impl<B: Fn(u32) -> bool, F: Row<LEAF_WIDTH>> Visitor for OccludedVisitor<'_, B, 
     #[inline(always)]
     fn visit(&mut self, child: Child, tmax: f32) -> Option<f32> {
         let Occluded { bvh, ray, ref blocks } = self.task;
-        if child.is_round() {
+        if child.is_curved() {
             let round = &bvh.curved[child.index()];
             self.occluded = round.distance(ray, tmax).is_some() && blocks(round.surface.material);
             return (!self.occluded).then_some(tmax);

@@ -2,10 +2,11 @@
 //! kinds of lanes.
 
 use super::Ray;
-use super::accel::{Binary, Primitive, Surface};
+use super::bvh2::Bvh2;
 use super::bvh8::Bvh8;
 use super::bvh8_collapse::Shapes;
 use super::disk::Disk;
+use super::primitive::{Primitive, Surface};
 use super::sphere::Sphere;
 use super::triangle::{ShearedRay, Triangle, triangle_normal};
 use crate::sampling;
@@ -156,16 +157,18 @@ fn each_lanes() -> impl Iterator<Item = RowLanes> {
 
 /// Compares all that can be asked of a hierarchy.
 fn agree_on(name: &str, model: &Model, rays: u32) {
-    let two = Binary::new(&model.primitives, &model.surfaces);
+    let two = Bvh2::new(&model.primitives, &model.surfaces);
     for lanes in each_lanes() {
         let eight = Bvh8::new(model.shapes(), lanes).expect("a hierarchy");
         let differing = model.differing(rays, |ray| {
             let nearest = two.nearest(ray);
             let expected = (nearest.id != u32::MAX).then(|| (nearest.t.to_bits(), nearest.id));
             let mut same = hit(&eight, ray) == expected;
-            if let (Some((a, _)), Some((b, surface))) = (two.closest(ray), eight.closest(ray)) {
-                same &= a.position == b.position && a.error == b.error && a.normal == b.normal;
-                same &= surface.light == nearest.id && surface.material == nearest.id % 3;
+            if let (Some(a), Some(b)) = (two.closest(ray), eight.closest(ray)) {
+                same &= (a.t, a.barycentrics) == (b.t, b.barycentrics);
+                let (a, b) = (two.interaction(ray, &a), eight.interaction(ray, &b));
+                same &= a.point == b.point && (a.material, a.light) == (b.material, b.light);
+                same &= b.light == nearest.id && b.material == nearest.id % 3;
             }
             same &= eight.occluded_by(ray, |_| true) == expected.is_some();
             same &= eight.occluded_by(ray, |m| m == 1) == two.occluded_by(ray, |m| m == 1);
@@ -247,7 +250,7 @@ fn shapes_in_one_place_are_left_to_two_children_a_node() {
     let lanes = RowLanes::nearest_to(Lanes::best());
     assert!(Bvh8::new(model.shapes(), lanes).is_none());
     let through = Ray::new(Vec3::new(0.2, 0.3, -1.0), Vec3::Z);
-    assert_eq!(Binary::new(&model.primitives, &model.surfaces).nearest(&through).id, 0);
+    assert_eq!(Bvh2::new(&model.primitives, &model.surfaces).nearest(&through).id, 0);
 }
 
 /// With all that shading asks; two children a node take 140.

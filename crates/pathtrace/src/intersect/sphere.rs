@@ -1,10 +1,10 @@
-//! Ray/sphere intersection that survives distance and size, for one lane: see [`SphereLanes::intersect`]. The
-//! textbook's `b^2 - 4ac` loses three quarters of the rays at a unit sphere 10,000 units away.
+//! Ray/sphere intersection that survives distance and size. The textbook's `b^2 - 4ac` loses three quarters of the rays
+//! at a unit sphere 10,000 units away.
 
-use super::Ray;
-use super::lanes::{Rays, SphereLanes};
-use crate::vectors::glam_vector;
+use super::{Ray, Rays};
+use crate::vectors::in_all_lanes;
 use scene::Vec3;
+use simd::{Float, Vector};
 
 /// An analytic sphere.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -16,20 +16,61 @@ pub struct Sphere {
 }
 
 impl Sphere {
-    fn lane(&self) -> SphereLanes<f32> {
-        SphereLanes::new(self.center, self.radius)
+    /// The sphere in all lanes.
+    #[inline(always)]
+    pub fn lanes<F: Float>(&self) -> SphereLanes<F> {
+        SphereLanes { center: in_all_lanes(self.center), radius: F::splat(self.radius) }
     }
 
     /// Distance to the nearest meeting with `0 < t < tmax`, in lengths of the ray's direction.
     #[inline]
     pub fn intersect(&self, ray: &Ray, tmax: f32) -> Option<f32> {
-        let (met, t) = self.lane().intersect(&Rays { tmax, ..ray.lane() });
+        let (met, t) = self.lanes().intersect(&Rays { tmax, ..ray.lane() });
         met.then_some(t)
     }
+}
 
-    /// The point at the distance `t` of [`Sphere::intersect`], relative to the centre.
-    pub fn meeting(&self, ray: &Ray, t: f32) -> Vec3 {
-        glam_vector(self.lane().meeting(&ray.lane(), t))
+/// A sphere in each lane.
+#[derive(Debug, Clone, Copy)]
+pub struct SphereLanes<F> {
+    /// Centre, world space.
+    pub center: Vector<F>,
+    /// Radius, > 0.
+    pub radius: F,
+}
+
+impl<F: Float> SphereLanes<F> {
+    /// Where a ray meets the sphere, and the distance of the nearest meeting with `0 < t < tmax`, in lengths of its
+    /// direction. Haines, Günther and Akenine-Möller, "Precision Improvements for Ray/Sphere Intersection" (Ray Tracing
+    /// Gems, chapter 7).
+    #[inline(always)]
+    pub fn intersect(&self, rays: &Rays<F>) -> (F::M, F) {
+        let (zero, d) = (F::splat(0.0), rays.direction);
+        let f = rays.origin - self.center;
+        let a = d.length_squared();
+        let b = -f.dot(d);
+        // squared distance of the centre from the line, without the cancellation of b^2 - a c
+        let off_axis = f + d * (b / a);
+        let discriminant = self.radius * self.radius - off_axis.length_squared();
+        let q = b + (a * discriminant.max(zero)).sqrt().copysign(b);
+        let c = f.length_squared() - self.radius * self.radius;
+        let (t0, t1) = (c / q, q / a);
+        let (near, far) = (t0.min(t1), t0.max(t1));
+        let t = F::select(near.gt(zero), near, far);
+        (discriminant.ge(zero) & t.gt(zero) & t.lt(rays.tmax), t)
+    }
+
+    /// The point at the distance `t` of [`SphereLanes::intersect`], relative to the centre. From the point of the ray
+    /// nearest to the centre, not along the ray: what a long `t` rounds does not turn the normal.
+    #[inline(always)]
+    pub fn meeting(&self, rays: &Rays<F>, t: F) -> Vector<F> {
+        let f = rays.origin - self.center;
+        let d = rays.direction;
+        let a = d.length_squared();
+        let middle = -f.dot(d) / a;
+        let off_axis = f + d * middle;
+        let within = (self.radius * self.radius - off_axis.length_squared()).max(F::splat(0.0));
+        off_axis + d * (within / a).sqrt().copysign(t - middle)
     }
 }
 

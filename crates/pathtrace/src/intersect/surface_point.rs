@@ -1,14 +1,80 @@
-//! A point on a surface with a bound on its rounding error: [`SurfacePoints`] of one lane.
+//! A point on a surface with a bound on its rounding error, in each lane and for one.
 
 use super::gamma;
-use super::lanes::SurfacePoints;
 use crate::vectors::{glam_vector, lane_vector};
 use scene::Vec3;
+use simd::{Float, Vector};
 
-/// A point on a surface.
+/// A point of a surface in each lane, with a bound on its rounding error; and the step off the surface that the bound
+/// asks for (pbrt, section 6.8): large enough that a new ray cannot meet the surface that it leaves, and no larger.
+#[derive(Debug, Clone, Copy)]
+pub struct SurfacePoints<F> {
+    /// World space.
+    pub position: Vector<F>,
+    /// The surface lies within this distance along each axis.
+    pub error: Vector<F>,
+    /// Unit geometric normal.
+    pub normal: Vector<F>,
+}
+
+impl<F: Float> SurfacePoints<F> {
+    /// The point of a flat surface that is `along_u` and `along_v` from its corner.
+    #[inline(always)]
+    pub fn on_plane(corner: Vector<F>, along_u: Vector<F>, along_v: Vector<F>, normal: Vector<F>) -> Self {
+        let error = (corner.abs() + along_u.abs() + along_v.abs()) * F::splat(gamma(5));
+        SurfacePoints { position: corner + along_u + along_v, error, normal }
+    }
+
+    /// The point of a triangle with these barycentrics. Far more exact than `origin + t * direction`.
+    #[inline(always)]
+    pub fn on_triangle(corners: [Vector<F>; 3], barycentrics: [F; 3], normal: Vector<F>) -> Self {
+        let [a, b, c] = [0, 1, 2].map(|i| corners[i] * barycentrics[i]);
+        SurfacePoints { position: a + b + c, error: (a.abs() + b.abs() + c.abs()) * F::splat(gamma(7)), normal }
+    }
+
+    /// The point of a sphere in a direction from its centre, of any length but 0.
+    #[inline(always)]
+    pub fn on_sphere(center: Vector<F>, radius: F, from_center: Vector<F>) -> Self {
+        let normal = from_center.normalize();
+        let out = normal * radius;
+        let error = (center.abs() + out.abs()) * F::splat(gamma(5));
+        SurfacePoints { position: center + out, error, normal }
+    }
+
+    /// The point of the plane through `center` that is nearest to `near`.
+    #[inline(always)]
+    pub fn on_disk(center: Vector<F>, near: Vector<F>, normal: Vector<F>) -> Self {
+        let from_center = near - center;
+        let out = from_center - normal * normal.dot(from_center);
+        // what is left of the normal in `out` is a rounding error of its length, along all axes
+        let error = (center.abs() + Vector::along_all(out.length_squared().sqrt())) * F::splat(gamma(8));
+        SurfacePoints { position: center + out, error, normal }
+    }
+
+    /// `mask ? yes : no`.
+    #[inline(always)]
+    pub fn select(mask: F::M, yes: Self, no: Self) -> Self {
+        SurfacePoints {
+            position: Vector::select(mask, yes.position, no.position),
+            error: Vector::select(mask, yes.error, no.error),
+            normal: Vector::select(mask, yes.normal, no.normal),
+        }
+    }
+
+    /// The start of a ray that leaves on the side of `direction`.
+    #[inline(always)]
+    pub fn leaving_towards(&self, direction: Vector<F>) -> Vector<F> {
+        // the step itself is rounded too
+        let error = self.error + self.position.abs() * F::splat(gamma(2));
+        let along = self.normal.abs().dot(error);
+        self.position + self.normal * along.copysign(direction.dot(self.normal))
+    }
+}
+
+/// [`SurfacePoints`] of one lane.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SurfacePoint {
-    /// PreparedScene space.
+    /// World space.
     pub position: Vec3,
     /// The true point lies within this distance along each axis.
     pub error: Vec3,
@@ -17,30 +83,22 @@ pub struct SurfacePoint {
 }
 
 impl SurfacePoint {
-    /// The point of a triangle with these barycentrics. Far more exact than `origin + t * direction`.
-    pub fn on_triangle(corners: [Vec3; 3], barycentrics: [f32; 3], normal: Vec3) -> Self {
-        let [a, b, c] = [0, 1, 2].map(|i| corners[i] * barycentrics[i]);
-        SurfacePoint { position: a + b + c, error: gamma(7) * (a.abs() + b.abs() + c.abs()), normal }
-    }
-
-    /// The point of a sphere in a direction from its centre, of any length but 0.
-    pub fn on_sphere(center: Vec3, radius: f32, from_center: Vec3) -> Self {
-        let normal = from_center.normalize();
-        let out = normal * radius;
-        SurfacePoint { position: center + out, error: gamma(5) * (center.abs() + out.abs()), normal }
-    }
-
-    /// The point of the plane through `center` that is nearest to `near`.
-    pub fn on_disk(center: Vec3, near: Vec3, normal: Vec3) -> Self {
-        let from_center = near - center;
-        let out = from_center - normal * normal.dot(from_center);
-        // what is left of the normal in `out` is a rounding error of its length, along all axes
-        let error = gamma(8) * (center.abs() + Vec3::splat(out.length()));
-        SurfacePoint { position: center + out, error, normal }
-    }
-
     /// The start of a ray that leaves on the side of `direction`.
     pub fn leaving_towards(&self, direction: Vec3) -> Vec3 {
         glam_vector(SurfacePoints::from(*self).leaving_towards(lane_vector(direction)))
+    }
+}
+
+impl From<SurfacePoint> for SurfacePoints<f32> {
+    fn from(point: SurfacePoint) -> Self {
+        let [position, error, normal] = [point.position, point.error, point.normal].map(lane_vector);
+        SurfacePoints { position, error, normal }
+    }
+}
+
+impl From<SurfacePoints<f32>> for SurfacePoint {
+    fn from(point: SurfacePoints<f32>) -> Self {
+        let [position, error, normal] = [point.position, point.error, point.normal].map(glam_vector);
+        SurfacePoint { position, error, normal }
     }
 }

@@ -1,8 +1,8 @@
 //! A sphere as an area light: uniform in the cone that it fills as seen from a point outside; from inside, where only a
 //! two-sided area light shines, uniform in all directions.
 
-use crate::intersect::gamma;
-use crate::intersect::lanes::{SphereLanes, SurfacePoints};
+use crate::intersect::sphere::SphereLanes;
+use crate::intersect::{SurfacePoints, gamma};
 use crate::sampling::warp;
 use simd::{Float, Vector};
 

@@ -3,7 +3,7 @@
 //! instead.
 
 use super::spherical_rectangle::SphericalRectangles;
-use crate::intersect::lanes::SurfacePoints;
+use crate::intersect::SurfacePoints;
 use crate::sampling::warp;
 use scene::Vec3;
 use scene::glam::DVec3;

@@ -1,19 +1,21 @@
-//! What shines, as light sampling sees it: area lights (emissive shapes), point lights and the sun. Task 2 c),
-//! "Sampling Area Light". One light is chosen, then a direction to it; [`Lights::pdf`] is the density of doing so, as
+//! What shines, as light sampling sees it: area lights (emissive shapes), point lights, the sun and a sky from a
+//! picture. Task 2 c), "Sampling Area Light". One light is chosen, then a direction to it; [`Lights::pdf`] is the density of doing so, as
 //! MIS needs it.
 
 mod ball;
+mod environment;
 pub(crate) mod flat;
 mod spherical_rectangle;
 mod sun;
 mod table;
 
+pub use environment::{Environment, EnvironmentSamples};
 pub use spherical_rectangle::SphericalRectangle;
 pub use sun::SunDisc;
 pub use table::LightSamples;
 
 use crate::intersect::sphere::Sphere;
-use crate::intersect::{SurfacePoint, triangle_normal};
+use crate::intersect::{NO_LIGHT, SurfacePoint, triangle_normal};
 use crate::sampling::warp;
 use crate::vectors::{glam_vector, lane_vector};
 use film::colour;
@@ -21,6 +23,7 @@ use flat::Flat;
 use scene::material::Emission;
 use scene::{Geometry, PointLight, Scene, Shape, Sun, Vec3};
 use std::f32::consts::PI;
+use std::sync::Arc;
 use table::Table;
 
 /// A light that can be sampled from a point.
@@ -30,6 +33,8 @@ pub(crate) enum Light {
     Sphere(Sphere, Emission),
     Point(PointLight),
     Sun(Sun),
+    /// Irradiance of the whole sky on a surface that faced all of it, by luminance.
+    Environment(f32),
 }
 
 /// All lights of a scene that are sampled, with the probabilities of choosing each.
@@ -40,10 +45,11 @@ pub struct Lights {
     pub(crate) probabilities: Vec<f32>,
     /// Their running sum, the last one 1.
     pub(crate) cumulative: Vec<f32>,
-    /// Index of each shape's first light.
-    first_of_shape: Vec<Option<u32>>,
+    /// See [`Lights::light_of_shape`].
+    light_of_shape: Vec<u32>,
     /// Index of the sun.
     sun: Option<usize>,
+    environment: Option<Arc<Environment>>,
     /// All of this as lanes look it up.
     table: Table,
 }
@@ -68,7 +74,7 @@ pub enum ShadowEnd {
     AreaLight(SurfacePoint),
     /// A point in the air.
     Point(Vec3),
-    /// The sun.
+    /// The sun or the sky.
     Infinity,
 }
 
@@ -77,17 +83,21 @@ impl Lights {
     /// strong sun still gets its samples.
     pub fn new(scene: &Scene) -> Self {
         let mut lights = Vec::new();
-        let mut first_of_shape = Vec::new();
+        let mut light_of_shape = Vec::new();
         for shape in scene.shapes.iter() {
             let emission = scene.material_of(shape).emission.filter(|e| e.radiance.max_element() > 0.0);
             let first = lights.len();
             emission.into_iter().for_each(|emission| push_area_lights(shape, emission, &mut lights));
-            first_of_shape.push((lights.len() > first).then_some(first as u32));
+            light_of_shape.push(if lights.len() > first { first as u32 } else { NO_LIGHT });
         }
         let shines = |point: &&PointLight| point.intensity.max_element() > 0.0;
         lights.extend(scene.point_lights.iter().filter(shines).copied().map(Light::Point));
         let sun = scene.sun.filter(|sun| sun.irradiance.max_element() > 0.0);
         let sun = sun.map(|sun| (lights.push(Light::Sun(sun)), lights.len() - 1).1);
+        let environment = scene.environment.as_ref().and_then(|map| {
+            lights.push(Light::Environment(4.0 * PI * colour::luminance(map.mean())));
+            Environment::new(map).or_else(|| (lights.pop(), None).1)
+        });
         let (lo, hi) = scene.bounds();
         let scene_radius = 0.5 * (hi - lo).length();
         let powers: Vec<f64> = lights.iter().map(|light| f64::from(light.power(scene_radius))).collect();
@@ -102,8 +112,9 @@ impl Lights {
             *last = 1.0;
         }
         let probabilities: Vec<f32> = probabilities.iter().map(|&p| p as f32).collect();
-        let table = Table::new(&lights, &probabilities, cumulative.clone());
-        Lights { cumulative, lights, probabilities, first_of_shape, sun, table }
+        let environment = environment.zip(probabilities.last()).map(|(map, &last)| Arc::new(map.chosen_with(last)));
+        let table = Table::new(&lights, &probabilities, cumulative.clone(), environment.clone());
+        Lights { cumulative, lights, probabilities, light_of_shape, sun, environment, table }
     }
 
     /// Number of lights; each triangle of a mesh that shines is one.
@@ -116,10 +127,10 @@ impl Lights {
         self.lights.is_empty()
     }
 
-    /// Index of the first light of a shape: its triangles with area are lights in their order, other shapes are one
-    /// light.
-    pub fn first_of_shape(&self, shape: usize) -> Option<u32> {
-        self.first_of_shape[shape]
+    /// Of each shape of the scene the index of its first light, or [`NO_LIGHT`]: its triangles with area are lights in
+    /// their order, other shapes are one light.
+    pub fn light_of_shape(&self) -> &[u32] {
+        &self.light_of_shape
     }
 
     /// The lights in lanes.
@@ -146,13 +157,9 @@ impl Lights {
         }
         let sample = self.table.sample(lane_vector(x), u_light, u);
         let end = match self.lights[self.choose(u_light)] {
-            Light::Flat(..) | Light::Sphere(..) => ShadowEnd::AreaLight(SurfacePoint {
-                position: glam_vector(sample.point.position),
-                error: glam_vector(sample.point.error),
-                normal: glam_vector(sample.point.normal),
-            }),
+            Light::Flat(..) | Light::Sphere(..) => ShadowEnd::AreaLight(sample.point.into()),
             Light::Point(point) => ShadowEnd::Point(point.position),
-            Light::Sun(_) => ShadowEnd::Infinity,
+            Light::Sun(_) | Light::Environment(_) => ShadowEnd::Infinity,
         };
         let (wi, radiance_over_pdf) = (glam_vector(sample.wi), glam_vector(sample.radiance_over_pdf));
         sample.shines.then_some(LightSample { wi, radiance_over_pdf, pdf: sample.pdf, end })
@@ -171,12 +178,18 @@ impl Lights {
         })
     }
 
+    /// The sky from a picture, if it is a light.
+    #[inline(always)]
+    pub fn environment(&self) -> Option<&Environment> {
+        self.environment.as_deref()
+    }
+
     /// Whether one sample of this light is exact: it shines from one direction.
     pub fn is_delta(&self, light: usize) -> bool {
         match self.lights[light] {
             Light::Point(_) => true,
             Light::Sun(sun) => sun.one_minus_cos() == 0.0,
-            Light::Flat(..) | Light::Sphere(..) => false,
+            Light::Flat(..) | Light::Sphere(..) | Light::Environment(_) => false,
         }
     }
 }
@@ -194,7 +207,7 @@ fn push_area_lights(shape: &Shape, emission: Emission, lights: &mut Vec<Light>) 
         Geometry::Sphere { center, radius } => lights.push(Light::Sphere(Sphere { center, radius }, emission)),
         Geometry::Rectangle { corner, edge_u, edge_v } => push(Flat::parallelogram(corner, edge_u, edge_v)),
         Geometry::Disk { center, normal, radius } => push(Some(Flat::disk(center, normal, radius))),
-        Geometry::Box { .. } | Geometry::Mesh { .. } => {
+        Geometry::Box { .. } | Geometry::Mesh(_) => {
             let (positions, triangles) = shape.geometry.flat_triangles();
             for corners in triangles.iter().map(|t| t.map(|i| positions[i as usize])) {
                 push(triangle_normal(corners).map(|normal| Flat::triangle(corners, normal)));
@@ -204,7 +217,7 @@ fn push_area_lights(shape: &Shape, emission: Emission, lights: &mut Vec<Light>) 
 }
 
 impl Light {
-    /// Emitted power, as far as choosing needs it; the sun's is what falls on the scene's disc.
+    /// Emitted power, as far as choosing needs it; the sun's and the sky's is what falls on the scene's disc.
     fn power(&self, scene_radius: f32) -> f32 {
         let of = |emission: &Emission, area: f32| {
             colour::luminance(emission.radiance) * area * PI * if emission.two_sided { 2.0 } else { 1.0 }
@@ -214,6 +227,7 @@ impl Light {
             Light::Sphere(sphere, emission) => of(emission, 4.0 * PI * sphere.radius * sphere.radius),
             Light::Point(point) => colour::luminance(point.intensity) * 4.0 * PI,
             Light::Sun(sun) => colour::luminance(sun.irradiance) * PI * scene_radius * scene_radius,
+            Light::Environment(irradiance) => irradiance * PI * scene_radius * scene_radius,
         }
     }
 }

@@ -1,13 +1,15 @@
 //! The lights of a scene by columns, sampled in each lane.
 
-use super::Light;
 use super::ball;
 use super::flat::{Flats, Outline};
-use crate::intersect::lanes::{SphereLanes, SurfacePoints};
+use super::{Environment, Light};
+use crate::intersect::SurfacePoints;
+use crate::intersect::sphere::SphereLanes;
 use crate::sampling::warp;
 use crate::vectors::VectorColumn;
 use scene::Vec3;
 use simd::{Column, Float, Mask, Vector, Word, WordColumn};
+use std::sync::Arc;
 
 /// All lights.
 #[derive(Debug, Clone, Default)]
@@ -28,6 +30,7 @@ pub struct Table {
     kind: WordColumn,
     count: u32,
     has: Has,
+    environment: Option<Arc<Environment>>,
 }
 
 /// Which kinds of lights there are.
@@ -49,6 +52,7 @@ mod kind {
     pub const RECTANGLE: u32 = 32;
     pub const TRIANGLE: u32 = 64;
     pub const DISK: u32 = 128;
+    pub const ENVIRONMENT: u32 = 256;
 }
 
 /// Light that arrives at a point in each lane from one sampled direction, if nothing stands between.
@@ -96,11 +100,16 @@ impl<F: Float> LightSamples<F> {
 }
 
 impl Table {
-    pub(super) fn new(lights: &[Light], probabilities: &[f32], cumulative: Vec<f32>) -> Self {
+    pub(super) fn new(
+        lights: &[Light],
+        probabilities: &[f32],
+        cumulative: Vec<f32>,
+        environment: Option<Arc<Environment>>,
+    ) -> Self {
         let vectors = |of: fn(&Light) -> Vec3| VectorColumn::new(lights.iter().map(of));
         let of_flat = |light: &Light, of: fn(&super::Flat) -> Vec3| match light {
             Light::Flat(flat, _) => of(flat),
-            Light::Sphere(..) | Light::Point(_) | Light::Sun(_) => Vec3::ZERO,
+            Light::Sphere(..) | Light::Point(_) | Light::Sun(_) | Light::Environment(_) => Vec3::ZERO,
         };
         let flats = |of: fn(&super::Flat) -> Vec3| VectorColumn::new(lights.iter().map(|light| of_flat(light, of)));
         Table {
@@ -109,6 +118,7 @@ impl Table {
                 Light::Sphere(sphere, _) => sphere.center,
                 Light::Point(point) => point.position,
                 Light::Sun(sun) => sun.towards,
+                Light::Environment(_) => Vec3::ZERO,
             }),
             edge_u: flats(|flat| flat.edge_u),
             edge_v: flats(|flat| flat.edge_v),
@@ -118,11 +128,12 @@ impl Table {
                 Light::Point(point) => point.intensity,
                 Light::Sun(sun) if sun.one_minus_cos() == 0.0 => sun.irradiance,
                 Light::Sun(sun) => sun.radiance(),
+                Light::Environment(_) => Vec3::ZERO,
             }),
             size: Column::new(lights.iter().map(|light| match light {
                 Light::Flat(flat, _) => flat.area,
                 Light::Sphere(sphere, _) => sphere.radius,
-                Light::Point(_) => 0.0,
+                Light::Point(_) | Light::Environment(_) => 0.0,
                 Light::Sun(sun) => sun.one_minus_cos(),
             })),
             probability: Column::new(probabilities.iter().copied()),
@@ -135,6 +146,7 @@ impl Table {
                 points: lights.iter().any(|light| matches!(light, Light::Point(_))),
                 sun: lights.iter().any(|light| matches!(light, Light::Sun(_))),
             },
+            environment,
         }
     }
 
@@ -231,6 +243,18 @@ impl Table {
             };
             sample = LightSamples::select(is(kind, kind::SUN), sun, sample);
         }
+        if let Some(environment) = &self.environment {
+            let of = environment.sample(u);
+            let environment = LightSamples {
+                shines: !never,
+                wi: of.wi,
+                radiance_over_pdf: of.radiance * (F::splat(1.0) / of.pdf),
+                pdf: of.pdf,
+                point: LightSamples::nowhere().point,
+                endless: !never,
+            };
+            sample = LightSamples::select(is(kind, kind::ENVIRONMENT), environment, sample);
+        }
         sample
     }
 
@@ -278,6 +302,7 @@ fn kind_of(light: &Light) -> u32 {
         Light::Sphere(_, emission) => kind::BALL | sides(emission.two_sided),
         Light::Point(_) => kind::POINT,
         Light::Sun(_) => kind::SUN,
+        Light::Environment(_) => kind::ENVIRONMENT,
         Light::Flat(flat, emission) => {
             let outline = match flat.outline {
                 Outline::Parallelogram => 0,

@@ -3,6 +3,7 @@
 
 mod number;
 mod raw;
+mod sky;
 
 use crate::material::{Checkerboard, Emission};
 use crate::stand_ins::{FakeMaterial, FakeNumbers};
@@ -73,7 +74,7 @@ fn read(path: &Path) -> std::io::Result<String> {
     Ok(text)
 }
 
-/// Parses the text of a scene file; `path` is only named in errors.
+/// Parses the text of a scene file. `path` is named in errors, and pictures that the scene names lie beside it.
 ///
 /// # Errors
 /// [`SceneError::Wrong`] with the place of the first fault.
@@ -86,7 +87,7 @@ pub fn parse(text: &str, name: &str, path: &Path) -> Result<Scene, SceneError> {
         let message = e.message().lines().collect::<Vec<_>>().join(", ");
         wrong(Fault { at: e.span().unwrap_or(0..0), message })
     })?;
-    build(raw, name).map_err(wrong)
+    build(raw, name, path.parent().unwrap_or(Path::new(""))).map_err(wrong)
 }
 
 /// A fault at a byte range of the text.
@@ -105,7 +106,7 @@ fn line_and_column(text: &str, at: usize) -> (usize, usize) {
     (before.matches('\n').count() + 1, before[line_start..].chars().count() + 1)
 }
 
-fn build(raw: RawScene, name: &str) -> Result<Scene, Fault> {
+fn build(raw: RawScene, name: &str, folder: &Path) -> Result<Scene, Fault> {
     let camera = camera(raw.camera)?;
     let materials = raw.material.into_iter().map(|(name, m)| material(name, m)).collect::<Result<Vec<_>, _>>()?;
     let (mut shapes, mut places) = (Vec::new(), Vec::new());
@@ -147,7 +148,7 @@ fn build(raw: RawScene, name: &str) -> Result<Scene, Fault> {
             return fault(m.triangles.span(), format!("corner {index} is named, but positions has {corners}"));
         }
         let positions = m.positions.into_iter().map(Vec3::from).collect();
-        add(Geometry::Mesh { positions, triangles: m.triangles.into_inner() }, m.material)?;
+        add(Geometry::mesh(positions, m.triangles.into_inner()), m.material)?;
     }
     if let Some((first, second)) = nesting::overlap(&shapes, &materials) {
         let other = shapes[first].geometry.center();
@@ -160,6 +161,7 @@ fn build(raw: RawScene, name: &str) -> Result<Scene, Fault> {
         );
     }
     let sun = raw.sun.map(sun).transpose()?;
+    let (sky, environment) = sky::sky(raw.sky, folder)?;
     let points = raw.point_light.into_iter();
     let point_lights = points.map(|p| PointLight { position: p.position.into(), intensity: p.intensity.into() });
     let d = FakeNumbers::default();
@@ -179,7 +181,8 @@ fn build(raw: RawScene, name: &str) -> Result<Scene, Fault> {
         shapes: shapes.into(),
         sun,
         point_lights: point_lights.collect(),
-        sky: raw.sky.radiance.into(),
+        sky,
+        environment,
         fake,
     })
 }

@@ -61,12 +61,6 @@ impl Default for Number<Any> {
     }
 }
 
-impl Default for Triple<AtLeastZero> {
-    fn default() -> Self {
-        Triple([Number(0.0, std::marker::PhantomData); 3])
-    }
-}
-
 impl<R> From<Triple<R>> for Vec3 {
     fn from(triple: Triple<R>) -> Vec3 {
         Vec3::from_array(triple.0.map(|n| n.0))

@@ -202,7 +202,10 @@ pub struct RawPointLight {
 #[derive(Deserialize, Default)]
 #[serde(deny_unknown_fields)]
 pub struct RawSky {
-    pub radiance: Triple<AtLeastZero>,
+    pub radiance: Option<Triple<AtLeastZero>>,
+    pub image: Option<Spanned<String>>,
+    pub scale: Option<Spanned<Number<AboveZero>>>,
+    pub rotation: Option<Spanned<Number<Any>>>,
 }
 
 #[derive(Deserialize, Default)]

@@ -138,3 +138,50 @@ fn overlapping_glass_is_refused_at_the_later_shape() {
     let said = fault_of(&format!("{glass}{}", second(1.5)));
     assert!(said.starts_with("test.toml:17:12: this glass overlaps the glass around [0, 0, 0]"), "{said}");
 }
+
+/// A folder of the test's own, and a picture of two texels in it.
+fn folder_with_sky(name: &str, texels: [Vec3; 2]) -> PathBuf {
+    let folder = std::env::temp_dir().join(format!("visavis-scene-{}-{name}", std::process::id()));
+    std::fs::create_dir_all(&folder).unwrap();
+    let picture = film::Image::new(2, 1, texels).unwrap();
+    let display = film::DisplayTransform::default();
+    let bytes = image_file::encode(image_file::Kind::Exr, &picture, &display, &Vec::new()).unwrap();
+    std::fs::write(folder.join("sky.exr"), bytes).unwrap();
+    folder
+}
+
+#[test]
+fn a_sky_is_a_picture_beside_the_file() {
+    let texels = [Vec3::new(1.0, 2.0, 3.0), Vec3::new(3.0, 2.0, 1.0)];
+    let folder = folder_with_sky("good", texels);
+    let with_sky = |sky: &str| parse(&format!("sky = {sky}\n{SMALL}"), "sky", &folder.join("sky.toml"));
+    let scene = with_sky(r#"{ image = "sky.exr", scale = 2, rotation = -30 }"#).unwrap();
+    let map = scene.environment.clone().unwrap();
+    assert_eq!((map.image().radiances(), map.scale(), map.rotation()), (&texels[..], 2.0, -30.0));
+    assert_eq!(scene.sky, Vec3::splat(4.0));
+    assert!(scene.needs().sky);
+    let plain = with_sky(r#"{ image = "sky.exr" }"#).unwrap().environment.unwrap();
+    assert_eq!((plain.scale(), plain.rotation()), (1.0, 0.0));
+    std::fs::remove_dir_all(folder).unwrap();
+}
+
+#[test]
+fn skies_that_are_none_are_refused_in_one_line() {
+    let folder = folder_with_sky("bad", [Vec3::ONE, Vec3::new(1.0, f32::NAN, 1.0)]);
+    std::fs::write(folder.join("torn.png"), "no picture").unwrap();
+    let cases = [
+        (r#"image = "none.exr""#, "test.toml:1:17: cannot read the picture ("),
+        (r#"image = "torn.png""#, "test.toml:1:17: cannot read the picture ("),
+        (r#"image = "sky.jpg""#, "test.toml:1:17: cannot read the picture: its name must end in .png or .exr"),
+        (r#"image = "sky.exr""#, "sky.exr: pixel (1, 0) is"),
+        (r#"image = "sky.exr", scale = 0"#, "0 is not a finite number above 0"),
+        (r#"image = "sky.exr", radiance = [1, 1, 1]"#, "test.toml:1:17: a sky has a radiance or an image, not both"),
+        (r#"rotation = 3"#, "test.toml:1:20: only a sky with an image has a scale or a rotation"),
+    ];
+    for (sky, expected) in cases {
+        let text = format!("sky = {{ {sky} }}\n{SMALL}");
+        let said = parse(&text, "test", &folder.join("test.toml")).expect_err("a fault").to_string();
+        assert!(said.contains(expected) && said.lines().count() == 1, "{sky}: {said}");
+    }
+    std::fs::remove_dir_all(folder).unwrap();
+}

@@ -1,10 +1,11 @@
 //! The words after `bench`.
 
+use super::options::{CommandOption, Typed, no_more, read};
 use super::usage;
 use super::values::number;
-use crate::cli::{CliError, Command, help};
+use crate::cli::{CliError, Command};
 use bench::plan::{Effort, QUICK_SECONDS, SCENES};
-use lexopt::prelude::*;
+use lexopt::ValueExt;
 use std::path::PathBuf;
 
 /// `visavis bench -o DIR ...`.
@@ -20,26 +21,70 @@ pub struct BenchArgs {
     pub peers: Vec<PathBuf>,
 }
 
-pub fn parse(mut parser: lexopt::Parser) -> Result<Command, CliError> {
-    let mut folder = None;
-    let mut args = BenchArgs { folder: PathBuf::new(), effort: Effort::Full, scenes: Vec::new(), peers: Vec::new() };
-    while let Some(arg) = parser.next()? {
-        match arg {
-            Short('o') => folder = Some(PathBuf::from(parser.value()?)),
-            Long("quick") => args.effort = Effort::Seconds(QUICK_SECONDS),
-            Long("time") => {
-                let seconds = number(&mut parser, "--time", "seconds from 1 to 1e6", |v| (1.0..=1e6).contains(&v))?;
-                args.effort = Effort::Seconds(f64::from(seconds));
-            }
-            Long("scene") => args.scenes = scenes(&parser.value()?.string()?)?,
-            Long("peer") => args.peers.push(PathBuf::from(parser.value()?)),
-            Long("help") => return Ok(Command::Print(help::HELP)),
-            other => return Err(other.unexpected().into()),
-        }
-    }
-    match folder {
-        Some(folder) => Ok(Command::Bench(BenchArgs { folder, ..args })),
-        None => usage("bench needs a folder for its results: visavis bench -o DIR"),
+/// The words after `bench` on their way.
+pub struct Reading {
+    folder: Option<PathBuf>,
+    args: BenchArgs,
+}
+
+pub fn options() -> Vec<CommandOption<Reading>> {
+    vec![
+        CommandOption {
+            names: &["-o"],
+            value: "DIR",
+            help: "the folder for its results",
+            read: |reading, parser| {
+                reading.folder = Some(PathBuf::from(parser.value()?));
+                Ok(())
+            },
+        },
+        CommandOption {
+            names: &["--quick"],
+            value: "",
+            help: "as small as fits into a minute on an idle machine; without: half an hour on two fast cores",
+            read: |reading, _| {
+                reading.args.effort = Effort::Seconds(QUICK_SECONDS);
+                Ok(())
+            },
+        },
+        CommandOption {
+            names: &["--time"],
+            value: "SECONDS",
+            help: "as small as fits into this long",
+            read: |reading, parser| {
+                let seconds = number(parser, "--time", "seconds from 1 to 1e6", |v| (1.0..=1e6).contains(&v))?;
+                reading.args.effort = Effort::Seconds(f64::from(seconds));
+                Ok(())
+            },
+        },
+        CommandOption {
+            names: &["--scene"],
+            value: "cornell,whitted",
+            help: "these scenes alone",
+            read: |reading, parser| {
+                reading.args.scenes = scenes(&parser.value()?.string()?)?;
+                Ok(())
+            },
+        },
+        CommandOption {
+            names: &["--peer"],
+            value: "FILE.csv",
+            help: "further lines from another renderer, may be repeated; columns name,scene,spp,seconds,relmse; scene is \
+                   cornell, whitted-sun-0 or whitted-sun-2.5",
+            read: |reading, parser| {
+                reading.args.peers.push(PathBuf::from(parser.value()?));
+                Ok(())
+            },
+        },
+    ]
+}
+
+pub fn parse(parser: lexopt::Parser) -> Result<Command, CliError> {
+    let args = BenchArgs { folder: PathBuf::new(), effort: Effort::Full, scenes: Vec::new(), peers: Vec::new() };
+    match read(parser, Reading { folder: None, args }, &options(), 0, no_more)? {
+        Typed::Print(text) => Ok(Command::Print(text)),
+        Typed::Words(Reading { folder: Some(folder), args }, _) => Ok(Command::Bench(BenchArgs { folder, ..args })),
+        Typed::Words(..) => usage("bench needs a folder for its results: visavis bench -o DIR"),
     }
 }
 

@@ -1,12 +1,14 @@
 //! The options of `visavis reference`.
 
-use super::seen::{Seen, parse_seen};
+use super::options::{CommandOption, Typed, read, set_in_the_scene};
+use super::seen::Seen;
 use super::usage;
 use super::values::{seconds, text};
-use crate::cli::{CliError, Command, help};
+use crate::cli::{CliError, Command};
 use image_file::Kind;
 use lexopt::prelude::*;
 use reference::Goal;
+use std::ffi::OsString;
 use std::path::PathBuf;
 
 /// `visavis reference ...`.
@@ -29,26 +31,74 @@ pub enum ReferenceArgs {
     },
 }
 
-pub fn parse(mut parser: lexopt::Parser) -> Result<Command, CliError> {
-    let (mut scene, mut out, mut clear, mut seen) = (None, None, false, Seen::default());
-    let (mut noise, mut limit) = (None, None);
-    while let Some(arg) = parser.next()? {
-        match arg {
-            Value(word) if scene.is_none() => scene = Some(word.string()?),
-            Short('o') => out = Some(PathBuf::from(parser.value()?)),
-            Long("clear") => clear = true,
-            Long("noise") => noise = Some(rel_mse(&mut parser)?),
-            Long("time") => limit = Some(seconds(&mut parser)?),
-            Long("help") => return Ok(Command::Print(help::HELP)),
-            Long(option) => {
-                let option = option.to_owned();
-                if !parse_seen(&option, &mut parser, &mut seen)? {
-                    return Err(Long(&option).unexpected().into());
-                }
-            }
-            other => return Err(other.unexpected().into()),
-        }
+/// The words after `reference` on their way.
+#[derive(Default)]
+pub struct Reading {
+    out: Option<PathBuf>,
+    clear: bool,
+    seen: Seen,
+    noise: Option<f64>,
+    limit: Option<f64>,
+}
+
+impl AsMut<Seen> for Reading {
+    fn as_mut(&mut self) -> &mut Seen {
+        &mut self.seen
     }
+}
+
+pub fn options() -> Vec<CommandOption<Reading>> {
+    let mut options: Vec<CommandOption<Reading>> = vec![
+        CommandOption {
+            names: &["-o"],
+            value: "OUT",
+            help: "the file to write, an .exr with its standard error as a layer",
+            read: |args, parser| {
+                args.out = Some(PathBuf::from(parser.value()?));
+                Ok(())
+            },
+        },
+        CommandOption {
+            names: &["--noise"],
+            value: "R",
+            help: "until its own relMSE is R or less (default 1e-5)",
+            read: |args, parser| {
+                args.noise = Some(rel_mse(parser)?);
+                Ok(())
+            },
+        },
+        CommandOption {
+            names: &["--time"],
+            value: "SECONDS",
+            help: "or this long was spent on it, in all (default 120; without limit if --noise is given)",
+            read: |args, parser| {
+                args.limit = Some(seconds(parser)?);
+                Ok(())
+            },
+        },
+    ];
+    options.extend(super::seen::options());
+    options.push(CommandOption {
+        names: &["--clear"],
+        value: "",
+        help: "throw all references away, and do nothing else",
+        read: |args, _| {
+            args.clear = true;
+            Ok(())
+        },
+    });
+    options
+}
+
+pub fn parse(parser: lexopt::Parser) -> Result<Command, CliError> {
+    let of_scenes =
+        |args: &mut Reading, name: &str, parser: &mut lexopt::Parser| set_in_the_scene(&mut args.seen, name, parser);
+    let (reading, words) = match read(parser, Reading::default(), &options(), 1, of_scenes)? {
+        Typed::Words(reading, words) => (reading, words),
+        Typed::Print(text) => return Ok(Command::Print(text)),
+    };
+    let Reading { out, clear, seen, noise, limit } = reading;
+    let scene = words.into_iter().next().map(OsString::string).transpose()?;
     let nothing_else = out.is_none() && seen == Seen::default() && noise.is_none() && limit.is_none();
     Ok(Command::Reference(match (scene, out, clear) {
         (None, None, true) if nothing_else => ReferenceArgs::Clear,

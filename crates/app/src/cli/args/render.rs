@@ -1,17 +1,17 @@
 //! The options of `visavis render`: those of every technique, of the truth and of the fake.
 
-use super::seen::{Seen, parse_seen};
+use super::options::{CommandOption, Typed, read, set};
+use super::seen::Seen;
 use super::usage;
-use super::values::{DEVICES, choice, lanes, number, parse_finite, parse_whole, seconds, text, whole, within};
-use crate::cli::{CliError, Command, help};
-use crate::technique::{DeviceChoice, PaneSettings, Technique, made_from};
+use super::values::{DEVICES, choice, lanes, number, seconds};
+use crate::cli::{CliError, Command};
 use anyhow::Context;
 use image_file::{self, Kind};
-use lexopt::prelude::*;
-use pathtrace::{Estimator, GlassShadows, Roulette, SamplerKind, WhittedSettings};
-use raster::{Fake, FakeKnobs, Shading, ShadowFilter, Show};
+use lexopt::ValueExt;
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
+use technique::settings::{of_panes, of_scenes};
+use technique::{DeviceChoice, PaneSettings, Technique, TechniqueName, made_from};
 
 /// `visavis render SCENE -o OUT ...`; `None` leaves a value to the scene.
 #[derive(Debug, Clone, PartialEq)]
@@ -30,22 +30,139 @@ pub struct RenderArgs {
     pub errors: bool,
     pub json: bool,
     /// Options given that this technique ignores.
-    pub without_effect: Vec<&'static str>,
+    pub without_effect: Vec<String>,
     /// Whether the estimator was chosen; if not it is the one that the scene asks for.
     pub chose_estimator: bool,
 }
 
-/// What `--estimator` may be.
-const ESTIMATORS: &str = "uniform, cosine, light, mis, uniform-light or uniform-mis";
+/// The words after `render` on their way.
+pub struct Reading {
+    args: RenderArgs,
+    out: Option<PathBuf>,
+    /// The options that were read, and the techniques that they change.
+    given: Vec<(String, &'static [TechniqueName])>,
+}
 
-/// The name of an option that was read, and the techniques that it changes.
-type Applies = (&'static str, &'static [Technique]);
+impl AsMut<Seen> for Reading {
+    fn as_mut(&mut self) -> &mut Seen {
+        &mut self.args.seen
+    }
+}
 
-const RASTER: &[Technique] = &[Technique::Raster];
-const WHITTED: &[Technique] = &[Technique::Whitted];
-const PATH: &[Technique] = &[Technique::Path];
-const RAYS: &[Technique] = &[Technique::Whitted, Technique::Path];
-const LOCAL: &[Technique] = &[Technique::Raster, Technique::Whitted];
+const TRACED: &[TechniqueName] = &[TechniqueName::Whitted, TechniqueName::Path];
+
+/// Options of every technique, beside settings.
+pub fn options() -> Vec<CommandOption<Reading>> {
+    let mut options: Vec<CommandOption<Reading>> = vec![
+        CommandOption {
+            names: &["-o"],
+            value: "OUT",
+            help: "the file to write",
+            read: |reading, parser| {
+                reading.out = Some(PathBuf::from(parser.value()?));
+                Ok(())
+            },
+        },
+        CommandOption {
+            names: &["--from"],
+            value: "FILE",
+            help: "make the picture in FILE (.png or .exr of this program) again; other options change it",
+            // the first was read before
+            read: |_, _| usage("--from is given twice: a picture is made from one"),
+        },
+        CommandOption {
+            names: &["--technique"],
+            value: "raster|whitted|path",
+            help: "the fake, Whitted's trees of rays or the truth (default path)",
+            read: |reading, parser| {
+                let expected = "raster, whitted or path";
+                reading.args.pane.technique = choice(parser, "--technique", TechniqueName::named, expected)?;
+                Ok(())
+            },
+        },
+        CommandOption {
+            names: &["--device"],
+            value: "auto|cpu|gpu",
+            help: "where: the fake needs the gpu; auto traces rays on the gpu if that is no software and there is enough to \
+                   do (2^24 samples), else on the cpu (default auto)",
+            read: |reading, parser| {
+                reading.args.device = choice(parser, "--device", DeviceChoice::named, DEVICES)?;
+                Ok(())
+            },
+        },
+    ];
+    options.extend(super::seen::options());
+    options.extend([
+        CommandOption::<Reading> {
+            names: &["--exposure"],
+            value: "EV",
+            help: "stops added before display, PNG only (default 0)",
+            read: |reading, parser| {
+                reading.args.exposure = number(parser, "--exposure", "stops from -30 to 30", |v| v.abs() <= 30.0)?;
+                Ok(())
+            },
+        },
+        CommandOption {
+            names: &["--errors"],
+            value: "",
+            help: "measure the picture against the scene's reference, which is made if it is not there",
+            read: |reading, _| {
+                reading.args.errors = true;
+                Ok(())
+            },
+        },
+        CommandOption {
+            names: &["--json"],
+            value: "",
+            help: "print one JSON object about the result on stdout",
+            read: |reading, _| {
+                reading.args.json = true;
+                Ok(())
+            },
+        },
+    ]);
+    options
+}
+
+/// Options of some techniques that are no settings: how long to trace, and in what.
+pub fn options_of_some() -> impl Iterator<Item = (&'static [TechniqueName], CommandOption<Reading>)> {
+    let time = CommandOption::<Reading> {
+        names: &["--time"],
+        value: "SECONDS",
+        help: "stop after this long, or at --spp if that is given and comes first",
+        read: |reading, parser| {
+            reading.args.seconds = Some(seconds(parser)?);
+            reading.given.push(("--time".into(), TRACED));
+            Ok(())
+        },
+    };
+    let in_lanes = CommandOption::<Reading> {
+        names: &["--lanes"],
+        value: "avx512|avx2|array|scalar",
+        help: "what rays are traced in: the same picture, sooner or later (default the widest)",
+        read: |reading, parser| {
+            lanes(parser)?;
+            reading.given.push(("--lanes".into(), TRACED));
+            Ok(())
+        },
+    };
+    [(TRACED, time), (TRACED, in_lanes)].into_iter()
+}
+
+/// Reads a setting; `false` if there is none of this name.
+fn a_setting(reading: &mut Reading, name: &str, parser: &mut lexopt::Parser) -> Result<bool, CliError> {
+    let of = if let Some(setting) = of_panes(name) {
+        set(setting, &mut reading.args.pane, parser)?;
+        setting.of
+    } else if let Some(setting) = of_scenes(name) {
+        set(setting, &mut reading.args.seen.changes, parser)?;
+        setting.of
+    } else {
+        return Ok(false);
+    };
+    reading.given.push((format!("--{name}"), of));
+    Ok(true)
+}
 
 /// Reads the words after `render`. A picture after `--from` comes first: what else is said changes what it says.
 pub fn parse(mut parser: lexopt::Parser) -> Result<Command, CliError> {
@@ -95,14 +212,10 @@ fn read_records(file: &Path) -> anyhow::Result<(RenderArgs, Vec<OsString>)> {
 
 /// Reads words; `scene` is the one to render, if it is not among them.
 fn parse_words(words: Vec<OsString>, scene: Option<String>) -> Result<Command, CliError> {
-    let mut parser = lexopt::Parser::from_args(words);
-    let mut scene = scene;
-    let mut out = None;
-    let mut read: Vec<Applies> = Vec::new();
-    let mut r = RenderArgs {
+    let blank = RenderArgs {
         scene: String::new(),
         out: PathBuf::new(),
-        pane: PaneSettings::of(Technique::Path),
+        pane: PaneSettings::of(TechniqueName::Path),
         seen: Seen::default(),
         device: DeviceChoice::Auto,
         spp: None,
@@ -113,194 +226,40 @@ fn parse_words(words: Vec<OsString>, scene: Option<String>) -> Result<Command, C
         without_effect: Vec::new(),
         chose_estimator: false,
     };
-    while let Some(arg) = parser.next()? {
-        match arg {
-            Value(word) if scene.is_none() => scene = Some(word.string()?),
-            Short('o') => out = Some(PathBuf::from(parser.value()?)),
-            Long("help") => return Ok(Command::Print(help::HELP)),
-            Long("device") => r.device = choice(&mut parser, "--device", DeviceChoice::named, DEVICES)?,
-            Long(option) => {
-                let option = option.to_owned();
-                if !of_all(&option, &mut parser, &mut r)? {
-                    let of_some = match of_rays(&option, &mut parser, &mut r)? {
-                        None => of_the_fake(&option, &mut parser, &mut r.pane)?,
-                        of_rays => of_rays,
-                    };
-                    read.push(of_some.ok_or_else(|| Long(&option).unexpected())?);
-                }
-            }
-            other => return Err(other.unexpected().into()),
-        }
-    }
-    let Some(scene) = scene else { return usage("render needs a scene: visavis render SCENE -o OUT") };
+    let mut options = options();
+    options.extend(options_of_some().map(|(_, option)| option));
+    let reading = Reading { args: blank, out: None, given: Vec::new() };
+    let most_words = usize::from(scene.is_none());
+    let (Reading { mut args, out, given }, words) =
+        match read(lexopt::Parser::from_args(words), reading, &options, most_words, a_setting)? {
+            Typed::Words(reading, words) => (reading, words),
+            Typed::Print(text) => return Ok(Command::Print(text)),
+        };
+    let typed = words.into_iter().next().map(OsString::string).transpose()?;
+    let Some(scene) = typed.or(scene) else {
+        return usage("render needs a scene: visavis render SCENE -o OUT");
+    };
     let Some(out) = out else { return usage("render needs a file to write: -o OUT.png or -o OUT.exr") };
     if Kind::of(&out).is_none() {
         return usage(format!("-o must end in .png or .exr: {}", out.display()));
     }
-    let technique = r.pane.technique;
-    if technique == Technique::Raster && r.device == DeviceChoice::Cpu {
+    let is_given = |option: &str| given.iter().any(|(given, _)| given == option);
+    let technique = args.pane.technique;
+    if technique == TechniqueName::Raster && args.device == DeviceChoice::Cpu {
         return usage(format!("--technique {} runs on the gpu only", technique.name()));
     }
     // only the processor has lanes
-    if r.device == DeviceChoice::Auto && read.iter().any(|(option, _)| *option == "--lanes") {
-        r.device = DeviceChoice::Cpu;
+    if args.device == DeviceChoice::Auto && is_given("--lanes") {
+        args.device = DeviceChoice::Cpu;
     }
-    if let (Technique::Path, Err(fault)) = (technique, r.pane.truth.path.check()) {
+    if let Technique::Traced(traced) = args.pane.in_use()
+        && let Err(fault) = traced.integrator.check()
+    {
         return usage(fault.to_string());
     }
-    (r.scene, r.out) = (scene, out);
-    r.without_effect = read.into_iter().filter(|(_, of)| !of.contains(&technique)).map(|(name, _)| name).collect();
-    Ok(Command::Render(Box::new(r)))
-}
-
-/// Reads an option of every technique; `false` if it is none.
-fn of_all(option: &str, parser: &mut lexopt::Parser, r: &mut RenderArgs) -> Result<bool, CliError> {
-    match option {
-        "technique" => r.pane.technique = choice(parser, "--technique", Technique::named, "raster, whitted or path")?,
-        "exposure" => r.exposure = number(parser, "--exposure", "stops from -30 to 30", |v| v.abs() <= 30.0)?,
-        "errors" => r.errors = true,
-        "json" => r.json = true,
-        // a size of the sun is no option of the fake
-        "sun-radius" => return Ok(false),
-        seen => return parse_seen(seen, parser, &mut r.seen),
-    }
-    Ok(true)
-}
-
-/// Reads an option of the path tracer or of Whitted's method; `None` if it is none.
-fn of_rays(option: &str, parser: &mut lexopt::Parser, r: &mut RenderArgs) -> Result<Option<Applies>, CliError> {
-    let (path, tree) = (&mut r.pane.truth.path, &mut r.pane.whitted.tree);
-    let applies: Applies = match option {
-        "spp" => {
-            r.spp = Some(whole(parser, "--spp", 1)?);
-            ("--spp", RAYS)
-        }
-        "time" => {
-            r.seconds = Some(seconds(parser)?);
-            ("--time", RAYS)
-        }
-        "sun-radius" => {
-            parse_seen(option, parser, &mut r.seen)?;
-            ("--sun-radius", RAYS)
-        }
-        "lanes" => {
-            lanes(parser)?;
-            ("--lanes", RAYS)
-        }
-        "seed" => {
-            path.seed = whole(parser, "--seed", 0)?;
-            tree.seed = path.seed;
-            ("--seed", RAYS)
-        }
-        "sampler" => {
-            path.sampler = choice(parser, "--sampler", SamplerKind::named, "independent or sobol")?;
-            tree.sampler = path.sampler;
-            ("--sampler", RAYS)
-        }
-        "bounces" => {
-            let word = text(parser)?;
-            path.bounces = if word == "inf" { None } else { Some(parse_whole(&word, "--bounces", 0, " or inf")?) };
-            ("--bounces", PATH)
-        }
-        "roulette" => {
-            path.roulette = roulette(&text(parser)?)?;
-            ("--roulette", PATH)
-        }
-        "estimator" => {
-            path.estimator = choice(parser, "--estimator", Estimator::named, ESTIMATORS)?;
-            r.chose_estimator = true;
-            ("--estimator", PATH)
-        }
-        "branches" => {
-            path.branches = whole(parser, "--branches", 1)?;
-            ("--branches", PATH)
-        }
-        "depth" => {
-            tree.depth = within(parser, "--depth", &(0..=WhittedSettings::MOST_DEPTH))?;
-            ("--depth", WHITTED)
-        }
-        "glass-shadows" => {
-            tree.glass_shadows = choice(parser, "--glass-shadows", GlassShadows::named, "opaque or clear")?;
-            ("--glass-shadows", WHITTED)
-        }
-        "shadow-rays" => {
-            tree.shadow_rays = within(parser, "--shadow-rays", &(1..=1024))?;
-            ("--shadow-rays", WHITTED)
-        }
-        _ => return Ok(None),
-    };
-    Ok(Some(applies))
-}
-
-/// Reads an option of the fake; `None` if it is none.
-fn of_the_fake(
-    option: &str,
-    parser: &mut lexopt::Parser,
-    pane: &mut PaneSettings,
-) -> Result<Option<Applies>, CliError> {
-    let fake = &mut pane.fake;
-    let knobs = &mut fake.knobs;
-    let name = match option {
-        "ambient" => {
-            knobs.ambient = Some(within(parser, "--ambient", &FakeKnobs::AMBIENT)?);
-            pane.whitted.tree.ambient = knobs.ambient;
-            return Ok(Some(("--ambient", LOCAL)));
-        }
-        "fake" => {
-            fake.fake = choice(parser, "--fake", Fake::named, "fair or as-taught")?;
-            "--fake"
-        }
-        "shading" => {
-            fake.shading = choice(parser, "--shading", Shading::named, "three, phong or blinn-phong")?;
-            "--shading"
-        }
-        "reflectivity" => {
-            fake.reflectivity = Some(within(parser, "--reflectivity", &(0.0..=1.0))?);
-            "--reflectivity"
-        }
-        "shininess" => {
-            knobs.shininess = Some(within(parser, "--shininess", &FakeKnobs::SHININESS)?);
-            "--shininess"
-        }
-        "cube-map" => {
-            knobs.cube_map = Some(within(parser, "--cube-map", &FakeKnobs::CUBE_MAP)?);
-            "--cube-map"
-        }
-        "shadow-map" => {
-            knobs.shadow_map = Some(within(parser, "--shadow-map", &FakeKnobs::SHADOW_MAP)?);
-            "--shadow-map"
-        }
-        "shadow-filter" => {
-            knobs.filter = choice(parser, "--shadow-filter", ShadowFilter::named, "hard, pcf or pcf-soft")?;
-            "--shadow-filter"
-        }
-        "shadow-bias" => {
-            knobs.bias = within(parser, "--shadow-bias", &FakeKnobs::BIAS)?;
-            "--shadow-bias"
-        }
-        "segments" => {
-            knobs.segments = Some(within(parser, "--segments", &FakeKnobs::SEGMENTS)?);
-            "--segments"
-        }
-        "show" => {
-            fake.show = choice(parser, "--show", Show::named, "picture, cube-faces or shadow-map")?;
-            "--show"
-        }
-        _ => return Ok(None),
-    };
-    Ok(Some((name, RASTER)))
-}
-
-/// "off", "throughput", a probability, or both as "0.8+throughput".
-fn roulette(word: &str) -> Result<Roulette, CliError> {
-    let probability = |word: &str| parse_finite(word).filter(|p| *p > 0.0 && *p <= 1.0);
-    let (first, both) = word.strip_suffix("+throughput").map_or((word, false), |first| (first, true));
-    match (word, probability(first)) {
-        ("off", _) => Ok(Roulette::OFF),
-        ("throughput", _) => Ok(Roulette::THROUGHPUT),
-        (_, Some(p)) => Ok(Roulette { probability: Some(p), throughput: both }),
-        _ => usage(format!(
-            "--roulette {word}: expected a probability above 0 and at most 1, throughput, both as P+throughput, or off"
-        )),
-    }
+    args.chose_estimator = is_given("--estimator");
+    args.spp = is_given("--spp").then_some(args.pane.truth.spp);
+    let ignored = given.into_iter().filter(|(_, of)| !of.contains(&technique));
+    args.without_effect = ignored.map(|(option, _)| option).collect();
+    Ok(Command::Render(Box::new(RenderArgs { scene, out, ..args })))
 }

@@ -1,12 +1,11 @@
 //! The options that say what is seen: size, camera and what is changed in the scene. Pictures and references share
 //! them.
 
+use super::options::CommandOption;
 use super::values::{number, point, size, text};
-use crate::cli::CliError;
-use crate::ruler::Sought;
-use crate::technique::SceneChanges;
 use scene::{Camera, Scene, Vec3, builtin};
 use std::sync::Arc;
+use technique::{SceneChanges, Shot};
 
 /// What is seen of a scene; `None` leaves a value to the scene.
 #[derive(Debug, Clone, PartialEq)]
@@ -30,11 +29,11 @@ impl Seen {
     ///
     /// # Errors
     /// If it cannot be read, or if the camera sees nothing.
-    pub fn of(&self, source: &str) -> anyhow::Result<Sought> {
+    pub fn of(&self, source: &str) -> anyhow::Result<Shot> {
         let mut scene = self.changes.applied_to(&builtin::named(source)?);
         scene.camera = self.camera(&scene)?;
         let camera = scene.camera;
-        Ok(Sought { source: source.to_owned(), changes: self.changes, scene: Arc::new(scene), camera, size: self.size })
+        Ok(Shot { source: source.to_owned(), changes: self.changes, scene: Arc::new(scene), camera, size: self.size })
     }
 
     /// The scene's camera with what the command line changes in it.
@@ -52,24 +51,45 @@ impl Seen {
     }
 }
 
-/// Reads one of these options; `false` if it is none.
-pub fn parse_seen(option: &str, parser: &mut lexopt::Parser, seen: &mut Seen) -> Result<bool, CliError> {
-    match option {
-        "size" => seen.size = size(&text(parser)?)?,
-        "eye" => seen.eye = Some(point(parser, "--eye")?),
-        "target" => seen.target = Some(point(parser, "--target")?),
-        "fov" => seen.fov = Some(number(parser, "--fov", "degrees between 0 and 180", |v| v > 0.0 && v < 180.0)?),
-        "refraction-ratio" => {
-            seen.changes.refraction_ratio =
-                Some(number(parser, "--refraction-ratio", "a number from 0.001 to 1000", |v| {
-                    (0.001..=1000.0).contains(&v)
-                })?);
-        }
-        "sun-radius" => {
-            let below_90 = |v| (0.0..90.0).contains(&v);
-            seen.changes.sun_radius = Some(number(parser, "--sun-radius", "degrees from 0 to below 90", below_90)?);
-        }
-        _ => return Ok(false),
-    }
-    Ok(true)
+/// Options that are read into what is seen, for commands that have one.
+pub fn options<A: AsMut<Seen>>() -> Vec<CommandOption<A>> {
+    vec![
+        CommandOption {
+            names: &["--size"],
+            value: "WxH",
+            help: "pixels (default 1280x720)",
+            read: |args, parser| {
+                args.as_mut().size = size(&text(parser)?)?;
+                Ok(())
+            },
+        },
+        CommandOption {
+            names: &["--eye"],
+            value: "X,Y,Z",
+            help: "where the camera stands (default the scene's)",
+            read: |args, parser| {
+                args.as_mut().eye = Some(point(parser, "--eye")?);
+                Ok(())
+            },
+        },
+        CommandOption {
+            names: &["--target"],
+            value: "X,Y,Z",
+            help: "what it looks at (default the scene's)",
+            read: |args, parser| {
+                args.as_mut().target = Some(point(parser, "--target")?);
+                Ok(())
+            },
+        },
+        CommandOption {
+            names: &["--fov"],
+            value: "DEG",
+            help: "its vertical angle of view (default the scene's)",
+            read: |args, parser| {
+                let between = |v| v > 0.0 && v < 180.0;
+                args.as_mut().fov = Some(number(parser, "--fov", "degrees between 0 and 180", between)?);
+                Ok(())
+            },
+        },
+    ]
 }

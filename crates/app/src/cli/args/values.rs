@@ -5,7 +5,6 @@ use crate::cli::CliError;
 use image_file::MOST_PIXELS;
 use lexopt::ValueExt;
 use scene::Vec3;
-use std::ops::RangeInclusive;
 use std::str::FromStr;
 
 /// What `--device` may be.
@@ -44,16 +43,6 @@ pub fn parse_finite(word: &str) -> Option<f32> {
     f32::from_str(word.trim()).ok().filter(|v| v.is_finite())
 }
 
-pub fn whole(parser: &mut lexopt::Parser, option: &str, least: u32) -> Result<u32, CliError> {
-    parse_whole(&text(parser)?, option, least, "")
-}
-
-pub fn parse_whole(word: &str, option: &str, least: u32, or: &str) -> Result<u32, CliError> {
-    let value = word.parse().ok().filter(|v| *v >= least);
-    value
-        .map_or_else(|| usage(format!("{option} {word}: expected a whole number from {least} to {}{or}", u32::MAX)), Ok)
-}
-
 pub fn size(word: &str) -> Result<(u32, u32), CliError> {
     let sides = word.split_once('x').and_then(|(w, h)| Some((w.parse::<u32>().ok()?, h.parse::<u32>().ok()?)));
     match sides {
@@ -83,18 +72,4 @@ pub fn lanes(parser: &mut lexopt::Parser) -> Result<(), CliError> {
     let names: Vec<_> = available().map(pathtrace::Lanes::name).collect();
     let named = |name: &str| available().find(|lanes| lanes.name() == name);
     choice(parser, "--lanes", named, &format!("{} on this machine", names.join(", "))).map(pathtrace::Lanes::prefer)
-}
-
-/// A number within a range, as the fake's knobs have them.
-pub fn within<T: FromStr + PartialOrd + std::fmt::Display>(
-    parser: &mut lexopt::Parser,
-    option: &str,
-    range: &RangeInclusive<T>,
-) -> Result<T, CliError> {
-    let word = text(parser)?;
-    let value = T::from_str(word.trim()).ok().filter(|value| range.contains(value));
-    value.map_or_else(
-        || usage(format!("{option} {word}: expected a number from {} to {}", range.start(), range.end())),
-        Ok,
-    )
 }

@@ -1,41 +1,42 @@
 //! The camera in numbers, how many pixels its picture has, and places to come back to.
 
-use super::widgets::number;
-use crate::ui::{Dump, Resolution, Viewer};
+use crate::model::Resolution;
+use crate::ui::widgets::number;
+use crate::ui::{Dump, UiContext};
 use egui::{DragValue, Ui};
 use scene::{Camera, Vec3};
 
-pub fn show(viewer: &mut Viewer, ui: &mut Ui, dump: &mut Dump) {
-    let mut camera = viewer.camera;
+pub fn show(cx: &mut UiContext, ui: &mut Ui) {
+    let mut camera = cx.model.document.camera;
     let speed = 0.005 * f64::from((camera.target - camera.eye).length());
-    point("Eye", &mut camera.eye, speed, ui, dump);
-    point("Target", &mut camera.target, speed, ui, dump);
+    point("Eye", &mut camera.eye, speed, ui, cx.dump);
+    point("Target", &mut camera.target, speed, ui, cx.dump);
     ui.horizontal(|ui| {
         ui.label("Field of view");
         let value = DragValue::new(&mut camera.fov_y).range(Camera::FIELD_OF_VIEW).speed(0.2).suffix("°");
-        let text = viewer.camera.fov_y.to_string();
-        number("field of view", "Vertical field of view in degrees", value, text, ui, dump);
+        let text = cx.model.document.camera.fov_y.to_string();
+        number("field of view", "Vertical field of view in degrees", value, text, ui, cx.dump);
     });
     // a step that would leave the camera seeing nothing is not taken
     if camera.fault().is_none() {
-        viewer.camera = camera;
+        cx.model.document.camera = camera;
     }
-    resolutions(viewer, ui, dump);
-    bookmarks(viewer, ui, dump);
+    resolutions(cx, ui);
+    bookmarks(cx, ui);
 }
 
-fn resolutions(viewer: &mut Viewer, ui: &mut Ui, dump: &mut Dump) {
+fn resolutions(cx: &mut UiContext, ui: &mut Ui) {
     ui.horizontal_wrapped(|ui| {
         ui.label("Resolution");
         for resolution in Resolution::ALL {
-            let chosen = viewer.settings.resolution == resolution;
+            let chosen = cx.model.session.resolution == resolution;
             let button = ui.selectable_label(chosen, resolution.name()).on_hover_text(match resolution {
                 Resolution::Full => "Every pixel; while something changes pictures begin coarser where they must",
                 Resolution::Half => "A pixel for two by two: done in a quarter of the time, exported as small",
                 Resolution::Quarter => "A pixel for four by four: done in a sixteenth of the time, exported as small",
             });
-            if dump.note(&format!("resolution {}", resolution.name()), chosen, button).clicked() {
-                viewer.settings.resolution = resolution;
+            if cx.dump.note(&format!("resolution {}", resolution.name()), chosen, button).clicked() {
+                cx.model.session.resolution = resolution;
             }
         }
     });
@@ -52,27 +53,27 @@ fn point(name: &str, point: &mut Vec3, speed: f64, ui: &mut Ui, dump: &mut Dump)
     });
 }
 
-fn bookmarks(viewer: &mut Viewer, ui: &mut Ui, dump: &mut Dump) {
+fn bookmarks(cx: &mut UiContext, ui: &mut Ui) {
     ui.horizontal_wrapped(|ui| {
         let reset = ui.button("Reset").on_hover_text("Back to the scene's own camera (C)");
-        if dump.note("reset camera", "", reset).clicked() {
-            viewer.camera = viewer.scene.camera;
+        if cx.dump.note("reset camera", "", reset).clicked() {
+            cx.model.document.camera = cx.model.document.scene.camera;
         }
         let add = ui.button("Bookmark").on_hover_text("Keep this place to come back to");
-        if dump.note("add bookmark", viewer.bookmarks.len(), add).clicked() {
-            viewer.bookmarks.push(viewer.camera);
+        if cx.dump.note("add bookmark", cx.model.document.bookmarks.len(), add).clicked() {
+            cx.model.document.bookmarks.push(cx.model.document.camera);
         }
     });
     let mut dropped = None;
     ui.horizontal_wrapped(|ui| {
-        for (index, place) in viewer.bookmarks.iter().enumerate() {
-            let here = viewer.camera == *place;
+        for (index, place) in cx.model.document.bookmarks.iter().enumerate() {
+            let here = cx.model.document.camera == *place;
             let name = format!("Place {}", index + 1);
             let button =
                 ui.selectable_label(here, &name).on_hover_text("Click: go there. Right click or Delete: forget it");
-            let button = dump.note(&format!("bookmark {}", index + 1), here, button);
+            let button = cx.dump.note(&format!("bookmark {}", index + 1), here, button);
             if button.clicked() {
-                viewer.camera = *place;
+                cx.model.document.camera = *place;
             }
             let deleted = button.has_focus() && ui.input(|i| i.key_pressed(egui::Key::Delete));
             if button.secondary_clicked() || deleted {
@@ -81,6 +82,6 @@ fn bookmarks(viewer: &mut Viewer, ui: &mut Ui, dump: &mut Dump) {
         }
     });
     if let Some(index) = dropped {
-        viewer.bookmarks.remove(index);
+        cx.model.document.bookmarks.remove(index);
     }
 }

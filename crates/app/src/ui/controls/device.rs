@@ -1,41 +1,41 @@
 //! Where a pane's rays are traced. Absent where there is no adapter to choose.
 
-use super::widgets::choice;
-use crate::engine::Side;
-use crate::technique::{Device, DeviceChoice};
-use crate::ui::{Dump, Viewer};
+use crate::model::PaneId;
+use crate::ui::UiContext;
+use crate::ui::widgets::choice;
 use egui::{ComboBox, Ui};
+use technique::{Device, DeviceChoice};
 
-pub fn show(viewer: &mut Viewer, side: Side, ui: &mut Ui, dump: &mut Dump) {
-    let Some(best) = viewer.adapters.0.first() else { return };
-    let pane = &mut viewer.settings.panes[side as usize];
+pub fn show(cx: &mut UiContext, pane: PaneId, ui: &mut Ui) {
+    let Some(best) = cx.model.adapters.0.first() else { return };
+    let settings = &mut cx.model.session.panes[pane];
     ui.label("Rays are traced by");
-    let words = DeviceChoice::ALL.map(|d| (title(d).to_owned(), explain(d, best.software), pane.device == d));
-    if let Some(index) = choice(&format!("{side:?} device"), words, ui, dump) {
-        pane.device = DeviceChoice::ALL[index];
+    let words = DeviceChoice::ALL.map(|d| (title(d).to_owned(), explain(d, best.software), settings.device == d));
+    if let Some(index) = choice(&format!("{pane} device"), words, ui, cx.dump) {
+        settings.device = DeviceChoice::ALL[index];
     }
-    if pane.device.beside(best.software) == Device::Cpu {
+    if settings.device.beside(best.software) == Device::Cpu {
         return;
     }
-    let adapters = &viewer.adapters.0;
-    let chosen = adapters.get(usize::from(pane.adapter)).unwrap_or(best);
-    let name = format!("text {side:?} adapter");
+    let adapters = &cx.model.adapters.0;
+    let chosen = adapters.get(usize::from(settings.adapter)).unwrap_or(best);
+    let name = format!("text {pane} adapter");
     if adapters.len() == 1 {
         let text = format!("the GPU is {}", chosen.name);
-        dump.note(&name, &text, ui.label(&text));
+        cx.dump.note(&name, &text, ui.label(&text));
         return;
     }
     let combo = ComboBox::from_id_salt(&name).selected_text(&chosen.name).width(ui.available_width() - 8.0).truncate();
     let shown = combo.show_ui(ui, |ui| {
         for (index, adapter) in (0..).zip(adapters) {
-            let entry = ui.selectable_label(pane.adapter == index, &adapter.name);
-            if dump.note(&format!("{side:?} adapter {}", adapter.name), pane.adapter == index, entry).clicked() {
-                pane.adapter = index;
+            let entry = ui.selectable_label(settings.adapter == index, &adapter.name);
+            if cx.dump.note(&format!("{pane} adapter {}", adapter.name), settings.adapter == index, entry).clicked() {
+                settings.adapter = index;
             }
         }
     });
     let response = shown.response.on_hover_text("Which graphics device traces the rays").accessible_name("Adapter");
-    dump.note(&name, &chosen.name, response);
+    cx.dump.note(&name, &chosen.name, response);
 }
 
 fn title(device: DeviceChoice) -> &'static str {

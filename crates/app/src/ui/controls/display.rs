@@ -1,10 +1,10 @@
 //! How both are shown, and the course of rendering.
 
-use super::widgets::Stepped;
-use crate::ui::{Dump, Viewer};
+use crate::ui::UiContext;
+use crate::ui::widgets::Stepped;
 use egui::Ui;
 
-pub fn show(viewer: &mut Viewer, ui: &mut Ui, dump: &mut Dump) {
+pub fn show(cx: &mut UiContext, ui: &mut Ui) {
     let slider = Stepped {
         name: "exposure",
         label: "Exposure",
@@ -13,15 +13,16 @@ pub fn show(viewer: &mut Viewer, ui: &mut Ui, dump: &mut Dump) {
         step: 0.1,
         suffix: " EV",
     };
-    slider.show(&mut viewer.settings.display.exposure, ui, dump);
+    slider.show(&mut cx.model.session.display.exposure, ui, cx.dump);
     ui.horizontal_wrapped(|ui| {
-        let pause = ui.selectable_label(viewer.paused, "Pause").on_hover_text("Hold path tracing where it is (P)");
-        if dump.note("pause", viewer.paused, pause).clicked() {
-            viewer.paused = !viewer.paused;
+        let pause =
+            ui.selectable_label(cx.model.state.paused, "Pause").on_hover_text("Hold path tracing where it is (P)");
+        if cx.dump.note("pause", cx.model.state.paused, pause).clicked() {
+            cx.model.state.paused = !cx.model.state.paused;
         }
         let restart = ui.button("Restart").on_hover_text("Path trace again from the first sample (R)");
-        if dump.note("restart", "", restart).clicked() {
-            viewer.restarts += 1;
+        if cx.dump.note("restart", "", restart).clicked() {
+            cx.model.state.restarts += 1;
         }
     });
 }

@@ -1,12 +1,12 @@
 //! What is changed in the scene, for both panes at once.
 
-use super::widgets::Stepped;
-use crate::ui::{Dump, Viewer};
+use crate::ui::UiContext;
+use crate::ui::widgets::Stepped;
 use egui::Ui;
 
-pub fn show(viewer: &mut Viewer, ui: &mut Ui, dump: &mut Dump) {
-    let changes = &mut viewer.settings.changes;
-    if let Some(own) = viewer.scene.refraction_ratio() {
+pub fn show(cx: &mut UiContext, ui: &mut Ui) {
+    let changes = &mut cx.model.document.changes;
+    if let Some(own) = cx.model.document.scene.refraction_ratio() {
         let ratio = changes.refraction_ratio.unwrap_or(own);
         let slider = Stepped {
             name: "refraction ratio",
@@ -16,9 +16,9 @@ pub fn show(viewer: &mut Viewer, ui: &mut Ui, dump: &mut Dump) {
             step: 0.01,
             suffix: "",
         };
-        slider.show_over(own, &mut changes.refraction_ratio, ui, dump);
+        slider.show_over(own, &mut changes.refraction_ratio, ui, cx.dump);
     }
-    if let Some(sun) = viewer.scene.sun {
+    if let Some(sun) = cx.model.document.scene.sun {
         let slider = Stepped {
             name: "sun radius",
             label: "Sun radius (the fake's is 0)",
@@ -27,6 +27,6 @@ pub fn show(viewer: &mut Viewer, ui: &mut Ui, dump: &mut Dump) {
             step: 0.1,
             suffix: "°",
         };
-        slider.show_over(sun.angular_radius, &mut changes.sun_radius, ui, dump);
+        slider.show_over(sun.angular_radius, &mut changes.sun_radius, ui, cx.dump);
     }
 }

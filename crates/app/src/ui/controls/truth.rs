@@ -1,58 +1,58 @@
 //! The settings of a truth.
 
 use super::device;
-use super::widgets::{Stepped, choice, doubling, fit};
-use crate::engine::Side;
-use crate::technique::Recipe;
-use crate::ui::{Dump, Viewer};
+use crate::model::PaneId;
+use crate::ui::widgets::{Stepped, choice, doubling, fit};
+use crate::ui::{Dump, UiContext};
 use egui::{CollapsingHeader, DragValue, Slider, SliderClamping, Ui};
 use pathtrace::{Directions, Estimator, LightSampling, PathSettings, Roulette, SamplerKind};
+use technique::Technique;
 
 /// The most samples that the slider offers: 2^16.
 const MOST_SPP_EXPONENT: u32 = 16;
 /// The most bounces that the slider offers, as in the tutorial.
 const MOST_BOUNCES: u32 = 20;
 
-pub fn show(viewer: &mut Viewer, side: Side, ui: &mut Ui, dump: &mut Dump) {
-    let truth = &mut viewer.settings.panes[side as usize].truth;
+pub fn show(cx: &mut UiContext, pane: PaneId, ui: &mut Ui) {
+    let truth = &mut cx.model.session.panes[pane].truth;
     let estimators = Estimator::ALL.map(|e| (e.name().to_owned(), explain(e), truth.path.estimator == e));
-    if let Some(index) = choice(&format!("{side:?} estimator"), estimators, ui, dump) {
+    if let Some(index) = choice(&format!("{pane} estimator"), estimators, ui, cx.dump) {
         truth.path.estimator = Estimator::ALL[index];
     }
-    let name = format!("{side:?} spp");
-    doubling([&name, "Samples per pixel (spp)"], &mut truth.spp, 0..=MOST_SPP_EXPONENT, ui, dump);
-    bounces(viewer, side, ui, dump);
-    roulette(viewer, side, ui, dump);
-    let more = CollapsingHeader::new("More").id_salt(("more", side as usize)).show_unindented(ui, |ui| {
-        device::show(viewer, side, ui, dump);
-        let path = &mut viewer.settings.panes[side as usize].truth.path;
-        branches(path, side, ui, dump);
-        sampling(&mut path.sampler, &mut path.seed, side, ui, dump);
+    let name = format!("{pane} spp");
+    doubling([&name, "Samples per pixel (spp)"], &mut truth.spp, 0..=MOST_SPP_EXPONENT, ui, cx.dump);
+    bounces(cx, pane, ui);
+    roulette(cx, pane, ui);
+    let more = CollapsingHeader::new("More").id_salt(("more", pane)).show_unindented(ui, |ui| {
+        device::show(cx, pane, ui);
+        let path = &mut cx.model.session.panes[pane].truth.path;
+        branches(path, pane, ui, cx.dump);
+        sampling(&mut path.sampler, &mut path.seed, pane, ui, cx.dump);
     });
-    dump.note(&format!("{side:?} more"), more.fully_open(), more.header_response);
-    if let Err(fault) = viewer.settings.panes[side as usize].truth.path.check() {
+    cx.dump.note(&format!("{pane} more"), more.fully_open(), more.header_response);
+    if let Err(fault) = cx.model.session.panes[pane].truth.path.check() {
         ui.label(fault.to_string());
     }
-    blind_spot(viewer, side, ui);
+    blind_spot(cx, pane, ui);
 }
 
 /// The tutorial's N: directions at each diffuse vertex.
-fn branches(path: &mut PathSettings, side: Side, ui: &mut Ui, dump: &mut Dump) {
-    let name = format!("{side:?} branches");
+fn branches(path: &mut PathSettings, pane: PaneId, ui: &mut Ui, dump: &mut Dump) {
+    let name = format!("{pane} branches");
     doubling([&name, "Directions N at each vertex"], &mut path.branches, 0..=4, ui, dump);
 }
 
 /// Where random numbers come from.
-pub fn sampling(sampler: &mut SamplerKind, seed: &mut u32, side: Side, ui: &mut Ui, dump: &mut Dump) {
+pub fn sampling(sampler: &mut SamplerKind, seed: &mut u32, pane: PaneId, ui: &mut Ui, dump: &mut Dump) {
     ui.label("Random numbers");
     let words = SamplerKind::ALL.map(|kind| (kind.name().to_owned(), describe(kind), *sampler == kind));
-    if let Some(index) = choice(&format!("{side:?} sampler"), words, ui, dump) {
+    if let Some(index) = choice(&format!("{pane} sampler"), words, ui, dump) {
         *sampler = SamplerKind::ALL[index];
     }
     ui.horizontal(|ui| {
         let label = ui.label("Seed");
         let value = ui.add(DragValue::new(seed)).labelled_by(label.id);
-        dump.note(&format!("{side:?} seed"), *seed, value.on_hover_text("One of 2^32 independent pictures"));
+        dump.note(&format!("{pane} seed"), *seed, value.on_hover_text("One of 2^32 independent pictures"));
     });
 }
 
@@ -64,9 +64,9 @@ fn describe(kind: SamplerKind) -> &'static str {
 }
 
 /// Says what the pane's settings cannot see.
-pub fn blind_spot(viewer: &Viewer, side: Side, ui: &mut Ui) {
-    let scene = viewer.settings.changes.applied_to(&viewer.scene);
-    if let Recipe::Rays(rays) = viewer.settings.panes[side as usize].recipe()
+pub fn blind_spot(cx: &UiContext, pane: PaneId, ui: &mut Ui) {
+    let scene = cx.model.document.changes.applied_to(&cx.model.document.scene);
+    if let Technique::Traced(rays) = cx.model.session.panes[pane].in_use()
         && let Some(blind) = rays.blind_spot(&scene)
     {
         ui.label(blind);
@@ -89,13 +89,13 @@ fn explain(estimator: Estimator) -> &'static str {
 }
 
 /// With roulette below, the one control for how long paths may be.
-fn bounces(viewer: &mut Viewer, side: Side, ui: &mut Ui, dump: &mut Dump) {
-    let path = &mut viewer.settings.panes[side as usize].truth.path;
-    let kept = &mut viewer.memory.bounce_limits[side as usize];
+fn bounces(cx: &mut UiContext, pane: PaneId, ui: &mut Ui) {
+    let path = &mut cx.model.session.panes[pane].truth.path;
+    let kept = &mut cx.model.state.switched_off.entry(pane).bounces;
     let mut limited = path.bounces.is_some();
     let name = if limited { "Limit bounces (biased)" } else { "Limit bounces" };
     let check = ui.checkbox(&mut limited, name).on_hover_text("Longer paths are lost: the picture gets too dark");
-    if dump.note(&format!("{side:?} limit bounces"), limited, check).changed() {
+    if cx.dump.note(&format!("{pane} limit bounces"), limited, check).changed() {
         path.bounces = limited.then_some(*kept);
     }
     if let Some(bounces) = &mut path.bounces {
@@ -103,13 +103,13 @@ fn bounces(viewer: &mut Viewer, side: Side, ui: &mut Ui, dump: &mut Dump) {
         let slider = Slider::new(bounces, 0..=MOST_BOUNCES).clamping(SliderClamping::Edits);
         let slider = ui.add(slider).accessible_name("Bounces").on_hover_text("0 is direct light only");
         *kept = *bounces;
-        dump.note(&format!("{side:?} bounces"), *bounces, slider);
+        cx.dump.note(&format!("{pane} bounces"), *bounces, slider);
     }
 }
 
-fn roulette(viewer: &mut Viewer, side: Side, ui: &mut Ui, dump: &mut Dump) {
-    let roulette = &mut viewer.settings.panes[side as usize].truth.path.roulette;
-    let kept = &mut viewer.memory.probabilities[side as usize];
+fn roulette(cx: &mut UiContext, pane: PaneId, ui: &mut Ui) {
+    let roulette = &mut cx.model.session.panes[pane].truth.path.roulette;
+    let kept = &mut cx.model.state.switched_off.entry(pane).probability;
     ui.label("Roulette");
     let off = *roulette == Roulette::OFF;
     let words = [
@@ -117,7 +117,7 @@ fn roulette(viewer: &mut Viewer, side: Side, ui: &mut Ui, dump: &mut Dump) {
         ("P".to_owned(), "Each vertex is survived with probability P", roulette.probability.is_some()),
         ("throughput".to_owned(), "Dark paths end sooner than bright ones", roulette.throughput),
     ];
-    match choice(&format!("{side:?} roulette"), words, ui, dump) {
+    match choice(&format!("{pane} roulette"), words, ui, cx.dump) {
         Some(0) => *roulette = Roulette::OFF,
         Some(1) => roulette.probability = if roulette.probability.is_some() { None } else { Some(*kept) },
         Some(_) => roulette.throughput = !roulette.throughput,
@@ -125,14 +125,14 @@ fn roulette(viewer: &mut Viewer, side: Side, ui: &mut Ui, dump: &mut Dump) {
     }
     if let Some(p) = &mut roulette.probability {
         let slider = Stepped {
-            name: &format!("{side:?} roulette probability"),
+            name: &format!("{pane} roulette probability"),
             label: "Probability P to survive a vertex",
             hover: "What survives is divided by P, so that the mean stays",
             range: 0.05..=1.0,
             step: 0.01,
             suffix: "",
         };
-        slider.show(p, ui, dump);
+        slider.show(p, ui, cx.dump);
         *kept = *p;
     }
 }

@@ -6,6 +6,7 @@
 //! the device fails: every fault is a [`GpuTraceError`], and the processor's [`crate::Tracer`] can take over.
 
 mod dispatch;
+mod environment_data;
 mod error;
 mod film;
 pub mod film_data;
@@ -234,8 +235,11 @@ struct Made {
 impl Made {
     fn of(scene: &Scene, leaves: Leaves) -> Result<Self, GpuTraceError> {
         let lights = Lights::new(scene);
-        let shapes =
-            if leaves.always_a_tree { Shapes::in_a_tree(scene, &lights) } else { Shapes::new(scene, &lights) }?;
+        let shapes = if leaves.always_a_tree {
+            Shapes::in_a_tree(scene, lights.light_of_shape())
+        } else {
+            Shapes::new(scene, lights.light_of_shape())
+        }?;
         let needs = SceneNeeds::of(scene, &lights, shapes.kinds());
         let needs = if leaves.nothing_out { needs.with_everything() } else { needs };
         Ok(Made { lights, shapes, needs })
@@ -260,10 +264,11 @@ impl Made {
             storage(gpu, "the Sobol points", &scene_data::sobol_bytes())?,
             gpu.buffer("the shapes", &few, BufferUsages::UNIFORM)?,
         ];
-        let bound = buffers.iter().zip(0..).map(|(buffer, binding)| {
-            let resource = buffer.as_entire_binding();
-            wgpu::BindGroupEntry { binding, resource }
-        });
+        let sky = scene.environment.as_deref().zip(lights.environment());
+        let views = environment_data::textures(gpu, sky)?.map(|texture| texture.create_view(&Default::default()));
+        let views = views.iter().map(wgpu::BindingResource::TextureView);
+        let resources = buffers.iter().map(wgpu::Buffer::as_entire_binding).chain(views);
+        let bound = resources.zip(0..).map(|(resource, binding)| wgpu::BindGroupEntry { binding, resource });
         let entries: Vec<_> = bound.collect();
         let descriptor = wgpu::BindGroupDescriptor { label: Some("the scene"), layout, entries: &entries };
         Ok(gpu.checked("the scene", || gpu.device.create_bind_group(&descriptor))?)

@@ -42,6 +42,7 @@ struct LightKinds {
     disks: bool,
     balls: bool,
     points: bool,
+    environment: bool,
 }
 
 impl LightKinds {
@@ -56,6 +57,7 @@ impl LightKinds {
                 },
                 Light::Sphere(..) => kinds.balls = true,
                 Light::Point(_) => kinds.points = true,
+                Light::Environment(_) => kinds.environment = true,
                 Light::Sun(_) => {}
             }
         }
@@ -109,6 +111,7 @@ impl SceneNeeds {
             ("BALL_LIGHTS", self.flag(self.lights.balls)),
             ("POINT_LIGHTS", self.flag(self.lights.points)),
             ("SUN", self.flag(self.needs.sun)),
+            ("ENVIRONMENT", self.flag(self.lights.environment)),
         ]);
         constants
     }
@@ -143,11 +146,13 @@ impl Pipelines {
         enough("threads in a group", limits.max_compute_invocations_per_workgroup, 64)?;
         let (scene_layout, film_layout) = gpu.checked("the path tracer's bindings", || {
             let read = BufferBindingType::Storage { read_only: true };
-            let mut scene = vec![(BufferBindingType::Uniform, size_of::<Header>())];
-            scene.extend([(read, 0); 6]);
-            scene.push((BufferBindingType::Uniform, MOST_SHAPES * size_of::<FewShape>()));
-            let written = (BufferBindingType::Storage { read_only: false }, 0);
-            let film = [(BufferBindingType::Uniform, size_of::<RenderParams>()), written];
+            let mut scene = vec![buffer(BufferBindingType::Uniform, size_of::<Header>())];
+            scene.extend([buffer(read, 0); 6]);
+            scene.push(buffer(BufferBindingType::Uniform, MOST_SHAPES * size_of::<FewShape>()));
+            // the sky's
+            scene.extend([TEXTURE; 2]);
+            let written = buffer(BufferBindingType::Storage { read_only: false }, 0);
+            let film = [buffer(BufferBindingType::Uniform, size_of::<RenderParams>()), written];
             (layout(gpu, &scene), layout(gpu, &film))
         })?;
         Ok(Pipelines { scene_layout, film_layout, needs, compiled: Vec::new() })
@@ -201,12 +206,24 @@ impl Pipelines {
     }
 }
 
-/// Bindings 0, 1, 2 ... of a group, each of at least so many bytes.
-fn layout(gpu: &Gpu, bindings: &[(BufferBindingType, usize)]) -> BindGroupLayout {
-    let entry = |(binding, &(ty, size)): (usize, &(BufferBindingType, usize))| wgpu::BindGroupLayoutEntry {
+/// A buffer of at least so many bytes.
+fn buffer(ty: BufferBindingType, size: usize) -> BindingType {
+    BindingType::Buffer { ty, has_dynamic_offset: false, min_binding_size: NonZeroU64::new(size as u64) }
+}
+
+/// A texture of floats, read texel by texel.
+const TEXTURE: BindingType = BindingType::Texture {
+    sample_type: wgpu::TextureSampleType::Float { filterable: false },
+    view_dimension: wgpu::TextureViewDimension::D2,
+    multisampled: false,
+};
+
+/// Bindings 0, 1, 2 ... of a group.
+fn layout(gpu: &Gpu, bindings: &[BindingType]) -> BindGroupLayout {
+    let entry = |(binding, &ty): (usize, &BindingType)| wgpu::BindGroupLayoutEntry {
         binding: binding as u32,
         visibility: wgpu::ShaderStages::COMPUTE,
-        ty: BindingType::Buffer { ty, has_dynamic_offset: false, min_binding_size: NonZeroU64::new(size as u64) },
+        ty,
         count: None,
     };
     let entries: Vec<_> = bindings.iter().enumerate().map(entry).collect();

@@ -4,7 +4,7 @@
 use super::shape_data::Shapes;
 use crate::bsdf::materials::lobe_of;
 use crate::light::flat::Outline;
-use crate::light::{Light as HostLight, Lights, SunDisc};
+use crate::light::{Environment, Light as HostLight, Lights, SunDisc};
 use crate::sampling::sobol::reversed_point;
 use bytemuck::{Pod, Zeroable};
 use scene::material::Emission;
@@ -30,6 +30,12 @@ pub struct Header {
     pub lights: u32,
     /// 0, which no compiler knows.
     pub zero: u32,
+    /// Width and height of the picture that is the sky.
+    pub environment_size: [u32; 2],
+    /// By which it is turned about y, in turns.
+    pub environment_turn: f32,
+    /// Of being chosen among the lights.
+    pub environment_probability: f32,
     /// Padding.
     pub unused: [u32; 2],
     /// Of few shapes: where among them quadrilaterals, triangles, spheres and disks end.
@@ -94,7 +100,7 @@ pub struct Material {
 pub struct Light {
     /// Corner of a flat area light, centre of a disk or ball, a point light, the direction to the sun.
     pub position: Vec3,
-    /// 0 rectangle, 1 triangle, 2 disk, 3 ball, 4 point, 5 sun.
+    /// 0 rectangle, 1 triangle, 2 disk, 3 ball, 4 point, 5 sun, 6 a sky from a picture.
     pub outline: u32,
     /// First edge of a flat area light, a radius of a disk.
     pub u: Vec3,
@@ -121,8 +127,9 @@ pub struct Light {
 /// The header of a scene.
 pub(crate) fn header(scene: &Scene, shapes: &Shapes, lights: &Lights) -> Header {
     let disc = scene.sun.as_ref().and_then(SunDisc::new);
+    let environment = lights.environment();
     Header {
-        sky: scene.sky,
+        sky: if scene.environment.is_some() { Vec3::ZERO } else { scene.sky },
         primitives: shapes.primitives.len() as u32,
         sun_towards: disc.map_or(Vec3::Y, |d| d.towards),
         sun_chord_squared: disc.map_or(0.0, |d| d.chord_squared),
@@ -131,6 +138,9 @@ pub(crate) fn header(scene: &Scene, shapes: &Shapes, lights: &Lights) -> Header 
         sun_pdf: disc.map_or(0.0, |_| lights.sun_pdf()),
         lights: lights.len() as u32,
         zero: 0,
+        environment_size: environment.map_or([1, 1], Environment::size),
+        environment_turn: environment.map_or(0.0, Environment::turn),
+        environment_probability: environment.map_or(0.0, Environment::probability),
         unused: [0; 2],
         seen: shapes.seen,
         shading: shapes.shading,
@@ -208,6 +218,7 @@ fn light(from: &HostLight) -> Light {
             let radiance = if area > 0.0 { sun.radiance() } else { sun.irradiance };
             Light { position: sun.towards, area, radiance, outline: 5, ..none }
         }
+        HostLight::Environment(_) => Light { outline: 6, ..none },
     }
 }
 

@@ -2,10 +2,10 @@
 //! by one, many in a tree. A test compares every offset with the shader compiler's.
 
 use super::GpuTraceError;
-use crate::intersect::accel::{Binary, Primitive};
-use crate::intersect::shape_list::{PacketForm, PacketPlane, ShapeList};
+use crate::intersect::bvh2::Bvh2;
+use crate::intersect::primitive::{self, Primitive};
+use crate::intersect::shape_list::{ListedForm, ListedPlane, ShapeList};
 use crate::intersect::triangle::{in_order, sorted};
-use crate::light::Lights;
 use bytemuck::{Pod, Zeroable};
 use scene::glam::DVec3;
 use scene::{Scene, Vec3};
@@ -132,10 +132,10 @@ impl Shapes {
     /// # Errors
     /// [`GpuTraceError::TooDeep`] and [`GpuTraceError::TooMany`] where the shader's stack or a node's bits do not
     /// suffice.
-    pub fn new(scene: &Scene, lights: &Lights) -> Result<Self, GpuTraceError> {
-        match ShapeList::new(scene, lights) {
+    pub fn new(scene: &Scene, light_of_shape: &[u32]) -> Result<Self, GpuTraceError> {
+        match ShapeList::new(scene, light_of_shape) {
             Some(shape_list) if shape_list.len()[0] <= FEW => Ok(Shapes::few(&shape_list)),
-            _ => Shapes::in_a_tree(scene, lights),
+            _ => Shapes::in_a_tree(scene, light_of_shape),
         }
     }
 
@@ -143,8 +143,8 @@ impl Shapes {
     ///
     /// # Errors
     /// As [`Shapes::new`].
-    pub fn in_a_tree(scene: &Scene, lights: &Lights) -> Result<Self, GpuTraceError> {
-        let tree = Binary::of(scene, lights);
+    pub fn in_a_tree(scene: &Scene, light_of_shape: &[u32]) -> Result<Self, GpuTraceError> {
+        let tree = Bvh2::of(scene, light_of_shape);
         let (nodes, primitives, surfaces) = (nodes(&tree)?, primitives(&tree), surfaces(&tree.surfaces));
         Ok(Shapes { nodes, primitives, surfaces, ..Shapes::default() })
     }
@@ -158,7 +158,7 @@ impl Shapes {
             };
             let none = FewShape::zeroed();
             match shape.form {
-                PacketForm::Quadrilateral(corners, plane) => match sorted_quadrilateral(corners) {
+                ListedForm::Quadrilateral(corners, plane) => match sorted_quadrilateral(corners) {
                     Some([a, b, c, d]) => add(0, FewShape { a, b, c, d, ..in_plane(plane) }),
                     None => {
                         let [a, b, c, d] = corners;
@@ -167,12 +167,12 @@ impl Shapes {
                         }
                     }
                 },
-                PacketForm::Triangle(corners, plane) => {
+                ListedForm::Triangle(corners, plane) => {
                     let [a, b, c] = sorted(corners);
                     add(1, FewShape { a, b, c, ..in_plane(plane) });
                 }
-                PacketForm::Sphere { center, radius } => add(2, FewShape { a: center, normal_x: radius, ..none }),
-                PacketForm::Disk { center, normal, radius } => {
+                ListedForm::Sphere { center, radius } => add(2, FewShape { a: center, normal_x: radius, ..none }),
+                ListedForm::Disk { center, normal, radius } => {
                     add(3, FewShape { a: center, b: normal, normal_x: radius, ..none });
                 }
             }
@@ -211,8 +211,8 @@ fn sorted_quadrilateral(corners: [Vec3; 4]) -> Option<[Vec3; 4]> {
     (before(b, c) && before(d, c)).then_some([a, b, c, d])
 }
 
-fn in_plane(plane: PacketPlane) -> FewShape {
-    let PacketPlane { point, normal, flatness } = plane;
+fn in_plane(plane: ListedPlane) -> FewShape {
+    let ListedPlane { point, normal, flatness } = plane;
     let (normal, normal_low) = two_floats(normal / normal.abs().max_element());
     let [normal_x, normal_y, normal_z] = normal.to_array();
     FewShape { normal_x, normal_y, normal_z, normal_low, flatness, plane_point: point, ..FewShape::zeroed() }
@@ -222,12 +222,12 @@ fn in_plane(plane: PacketPlane) -> FewShape {
 ///
 /// # Errors
 /// [`GpuTraceError::TooDeep`] and [`GpuTraceError::TooMany`] where the shader's stack or a node's bits do not suffice.
-fn nodes(tree: &Binary) -> Result<Vec<Node>, GpuTraceError> {
-    let boxes = &tree.bvh.nodes;
+fn nodes(tree: &Bvh2) -> Result<Vec<Node>, GpuTraceError> {
+    let boxes = &tree.tree.nodes;
     if boxes.is_empty() {
         return Ok(vec![Node::zeroed(); 2]);
     }
-    let depth = tree.bvh.depth(0);
+    let depth = tree.tree.depth(0);
     if depth > MOST_WAITING {
         return Err(GpuTraceError::TooDeep { depth, limit: MOST_WAITING });
     }
@@ -263,7 +263,7 @@ fn nodes(tree: &Binary) -> Result<Vec<Node>, GpuTraceError> {
 }
 
 /// The primitives in the order of the leaves.
-fn primitives(tree: &Binary) -> Vec<ShapeData> {
+fn primitives(tree: &Bvh2) -> Vec<ShapeData> {
     let tagged = tree.primitives.iter().zip(&tree.ids);
     let one = |(primitive, &id): (&Primitive, &u32)| match primitive {
         Primitive::Triangle(triangle) => {
@@ -290,12 +290,8 @@ fn two_floats(v: DVec3) -> (Vec3, Vec3) {
     (rounded, (v - rounded.as_dvec3()).as_vec3())
 }
 
-fn surfaces(all: &[crate::intersect::accel::Surface]) -> Vec<Surface> {
-    let one = |s: &crate::intersect::accel::Surface| Surface {
-        normal: s.normal,
-        material: s.material,
-        light: s.light,
-        unused: [0; 3],
-    };
+fn surfaces(all: &[primitive::Surface]) -> Vec<Surface> {
+    let one =
+        |s: &primitive::Surface| Surface { normal: s.normal, material: s.material, light: s.light, unused: [0; 3] };
     all.iter().map(one).collect()
 }

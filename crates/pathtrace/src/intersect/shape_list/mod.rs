@@ -9,17 +9,15 @@
 //! where the plane is parallel to an axis: from a point just above a wall, its sign must be right. Parallel planes
 //! share their normal, and the division.
 
-mod disks;
 mod pieces;
 mod prepare;
 mod surfaces;
 
-pub use disks::DiskLanes;
-pub(crate) use pieces::{PacketForm, PacketPlane};
+pub(crate) use pieces::{ListedForm, ListedPlane};
 
-use super::NO_LIGHT;
-use super::lanes::{Hits, Rays, SphereLanes};
-use scene::Vec3;
+use super::disk::Disk;
+use super::sphere::Sphere;
+use super::{Hits, NO_PRIMITIVE, Rays, SurfaceInteractions};
 use simd::{Double, Float, Mask, Word};
 use surfaces::Surfaces;
 
@@ -43,8 +41,8 @@ struct Shapes {
     edges: Vec<[u16; 2]>,
     normals: Vec<PlaneNormal>,
     facets: Vec<Facet>,
-    spheres: Vec<(u32, Vec3, f32)>,
-    disks: Vec<(u32, DiskLanes)>,
+    spheres: Vec<(u32, Sphere)>,
+    disks: Vec<(u32, Disk)>,
 }
 
 /// The unit normal of a family of parallel planes.
@@ -125,21 +123,26 @@ impl ShapeList {
     pub fn closest<F: Float>(&self, rays: &Rays<F>, scratch: &mut Scratch<F>) -> Hits<F> {
         let frame = Frame::new(rays);
         self.seen.prepare(rays, &frame, scratch);
-        let (mut t, mut id) = (rays.tmax, F::U::splat(NO_LIGHT));
+        let (mut t, mut id) = (rays.tmax, F::U::splat(NO_PRIMITIVE));
         for facet in &self.seen.facets {
             let (met, distance) = self.seen.meet(facet, rays, &frame, scratch);
             let nearer = met & distance.lt(t);
             t = F::select(nearer, distance, t);
             id = F::U::select(nearer, F::U::splat(facet.id), id);
         }
-        for &(of, center, radius) in &self.seen.spheres {
-            let found = SphereLanes::new(center, radius).intersect(rays);
-            (t, id) = nearer(found, of, (t, id));
+        for (of, sphere) in &self.seen.spheres {
+            (t, id) = nearer(sphere.lanes().intersect(rays), *of, (t, id));
         }
         for (of, disk) in &self.seen.disks {
             (t, id) = nearer(disk.intersect(rays), *of, (t, id));
         }
-        self.surfaces.hits(rays, t, id)
+        Hits { t, primitive: id, barycentrics: [F::splat(0.0); 3] }
+    }
+
+    /// What the rays have met that have these hits.
+    #[inline(always)]
+    pub fn interactions<F: Float>(&self, rays: &Rays<F>, hits: &Hits<F>) -> SurfaceInteractions<F> {
+        self.surfaces.interactions(rays, hits)
     }
 
     /// Where `wanted` rays meet anything before `rays.tmax`; if `opaque`, glass does not count.
@@ -153,9 +156,9 @@ impl ShapeList {
             let (met, distance) = shapes.meet(facet, rays, &frame, scratch);
             occluded = occluded | (met & distance.lt(rays.tmax));
         }
-        for &(of, center, radius) in &shapes.spheres {
-            if !(opaque && self.surfaces.is_clear(of)) {
-                occluded = occluded | SphereLanes::new(center, radius).intersect(rays).0;
+        for (of, sphere) in &shapes.spheres {
+            if !(opaque && self.surfaces.is_clear(*of)) {
+                occluded = occluded | sphere.lanes().intersect(rays).0;
             }
         }
         for (of, disk) in &shapes.disks {

@@ -2,26 +2,28 @@
 
 use super::surfaces::Surface;
 use super::{Facet, PlaneNormal, ShapeList, Shapes};
-use crate::intersect::accel;
+use crate::intersect::disk::Disk;
+use crate::intersect::primitive;
+use crate::intersect::sphere::Sphere;
 use scene::Vec3;
 use scene::glam::DVec3;
 
 /// A shape of a shape_list.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct PacketShape {
+pub(crate) struct ListedShape {
     /// Place in the scene's order, area lights first, which decides ties.
     pub id: u32,
     /// Whether a shadow ray may meet it.
     pub shades: bool,
-    pub form: PacketForm,
+    pub form: ListedForm,
 }
 
 /// What it is and where.
 #[derive(Debug, Clone, Copy)]
-pub(crate) enum PacketForm {
+pub(crate) enum ListedForm {
     /// Corners around it, and the plane that it is tested in.
-    Quadrilateral([Vec3; 4], PacketPlane),
-    Triangle([Vec3; 3], PacketPlane),
+    Quadrilateral([Vec3; 4], ListedPlane),
+    Triangle([Vec3; 3], ListedPlane),
     Sphere {
         center: Vec3,
         radius: f32,
@@ -35,7 +37,7 @@ pub(crate) enum PacketForm {
 
 /// A plane that all shapes in it share, bit for bit.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct PacketPlane {
+pub(crate) struct ListedPlane {
     pub point: Vec3,
     /// Of any length but 0.
     pub normal: DVec3,
@@ -45,19 +47,20 @@ pub(crate) struct PacketPlane {
 
 impl ShapeList {
     /// What shading needs of the shapes, in the order of their ids.
-    pub(crate) fn surfaces(&self) -> Vec<accel::Surface> {
-        let entry = |of: &Surface| accel::Surface { normal: of.normal, material: of.material, light: of.light };
+    pub(crate) fn surfaces(&self) -> Vec<primitive::Surface> {
+        let entry = |of: &Surface| primitive::Surface { normal: of.normal, material: of.material, light: of.light };
         self.surfaces.entries().iter().map(entry).collect()
     }
 
     /// All shapes, each kind in the order of its list.
-    pub(crate) fn shapes(&self) -> impl Iterator<Item = PacketShape> {
+    pub(crate) fn shapes(&self) -> impl Iterator<Item = ListedShape> {
         let shapes = &self.seen;
         let flat = shapes.facets.iter().map(|facet| (facet.id, shapes.form(facet)));
-        let spheres = shapes.spheres.iter().map(|&(id, center, radius)| (id, PacketForm::Sphere { center, radius }));
+        let spheres =
+            shapes.spheres.iter().map(|&(id, Sphere { center, radius })| (id, ListedForm::Sphere { center, radius }));
         let disks = shapes.disks.iter().map(|&(id, disk)| {
-            let super::DiskLanes { center, normal, radius } = disk;
-            (id, PacketForm::Disk { center, normal, radius })
+            let Disk { center, normal, radius } = disk;
+            (id, ListedForm::Disk { center, normal, radius })
         });
         let shade = |id| {
             let Shapes { facets, spheres, disks, .. } = &self.shading;
@@ -65,19 +68,19 @@ impl ShapeList {
                 || spheres.iter().any(|sphere| sphere.0 == id)
                 || disks.iter().any(|disk| disk.0 == id)
         };
-        flat.chain(spheres).chain(disks).map(move |(id, form)| PacketShape { id, shades: shade(id), form })
+        flat.chain(spheres).chain(disks).map(move |(id, form)| ListedShape { id, shades: shade(id), form })
     }
 }
 
 impl Shapes {
-    fn form(&self, facet: &Facet) -> PacketForm {
+    fn form(&self, facet: &Facet) -> ListedForm {
         let corners = facet.corners.map(|corner| self.position(corner));
         let plane = self.plane_of(facet, &corners);
         let [a, b, c, d] = corners;
         if facet.corners[2] == facet.corners[3] {
-            PacketForm::Triangle([a, b, c], plane)
+            ListedForm::Triangle([a, b, c], plane)
         } else {
-            PacketForm::Quadrilateral([a, b, c, d], plane)
+            ListedForm::Quadrilateral([a, b, c, d], plane)
         }
     }
 
@@ -87,7 +90,7 @@ impl Shapes {
     }
 
     /// The plane through a corner of the first facet that lies in it.
-    fn plane_of(&self, facet: &Facet, corners: &[Vec3; 4]) -> PacketPlane {
+    fn plane_of(&self, facet: &Facet, corners: &[Vec3; 4]) -> ListedPlane {
         let same = |other: &&Facet| other.normal == facet.normal && other.offset == facet.offset;
         let first = self.facets.iter().find(same).unwrap_or(facet);
         let point = self.position(first.corners[0]);
@@ -99,6 +102,6 @@ impl Shapes {
         let farthest = corners.iter().map(off).fold(0.0, f64::max);
         // a parallelogram is spanned from three corners: where they are off by one, it is by up to three
         let flatness = if farthest > 0.0 { ((3.0 * farthest) as f32).next_up() } else { 0.0 };
-        PacketPlane { point, normal, flatness }
+        ListedPlane { point, normal, flatness }
     }
 }

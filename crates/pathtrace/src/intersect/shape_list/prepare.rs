@@ -1,10 +1,11 @@
 //! A scene's shapes, taken apart into what they share.
 
 use super::surfaces::{Form, Surface, Surfaces};
-use super::{DiskLanes, Facet, PlaneNormal, ShapeList, Shapes};
-use crate::intersect::accel::area_lights_first;
+use super::{Facet, PlaneNormal, ShapeList, Shapes};
+use crate::intersect::disk::Disk;
+use crate::intersect::primitive::area_lights_first;
+use crate::intersect::sphere::Sphere;
 use crate::intersect::{NO_LIGHT, triangle_normal};
-use crate::light::Lights;
 use scene::glam::DVec3;
 use scene::{Bsdf, Geometry, Scene, Vec3};
 
@@ -45,9 +46,9 @@ impl ShapeList {
     /// picture.
     pub const MOST: usize = 128;
 
-    /// The scene's shapes, if they are few enough.
-    pub fn new(scene: &Scene, lights: &Lights) -> Option<Self> {
-        let parts = parts(scene, lights)?;
+    /// The scene's shapes, if they are few enough; `light_of_shape` is [`crate::light::Lights::light_of_shape`] of it.
+    pub fn new(scene: &Scene, light_of_shape: &[u32]) -> Option<Self> {
+        let parts = parts(scene, light_of_shape)?;
         let mut seen = Shapes::default();
         let surfaces: Vec<Surface> = (0..).zip(&parts).map(|(id, part)| seen.add(id, part)).collect();
         let reach = Reach::new(scene, &parts);
@@ -68,29 +69,29 @@ impl ShapeList {
 }
 
 /// Area lights first, so that an area light in the plane of a wall wins the tie against the wall.
-fn parts(scene: &Scene, lights: &Lights) -> Option<Vec<Part>> {
+fn parts(scene: &Scene, light_of_shape: &[u32]) -> Option<Vec<Part>> {
     let mut parts = Vec::new();
     for index in area_lights_first(scene) {
         let shape = &scene.shapes[index];
         let material = shape.material as u32;
         let clear = matches!(scene.material_of(shape).bsdf, Bsdf::Dielectric { .. });
-        let first_light = lights.first_of_shape(index);
+        let first_light = light_of_shape[index];
         let mut add = |piece, normal, light| parts.push(Part { piece, normal, material, light, clear });
         match shape.geometry {
             Geometry::Sphere { center, radius } => {
-                add(Piece::Sphere { center, radius }, Vec3::ZERO, first_light.unwrap_or(NO_LIGHT));
+                add(Piece::Sphere { center, radius }, Vec3::ZERO, first_light);
             }
             Geometry::Disk { center, normal, radius } => {
-                add(Piece::Disk { center, normal, radius }, normal, first_light.unwrap_or(NO_LIGHT));
+                add(Piece::Disk { center, normal, radius }, normal, first_light);
             }
-            Geometry::Mesh { ref triangles, .. } if triangles.len() > 2 * ShapeList::MOST => return None,
-            Geometry::Rectangle { .. } | Geometry::Box { .. } | Geometry::Mesh { .. } => {
+            Geometry::Mesh(ref mesh) if mesh.triangles().len() > 2 * ShapeList::MOST => return None,
+            Geometry::Rectangle { .. } | Geometry::Box { .. } | Geometry::Mesh(_) => {
                 let rectangle = matches!(shape.geometry, Geometry::Rectangle { .. });
                 // of a box or mesh that shines, each triangle is a light
-                let halves = first_light.is_some() && !rectangle;
-                let paired = !halves && !matches!(shape.geometry, Geometry::Mesh { .. });
+                let halves = first_light != NO_LIGHT && !rectangle;
+                let paired = !halves && !matches!(shape.geometry, Geometry::Mesh(_));
                 for (piece, normal, at) in flat_pieces(&shape.geometry, paired) {
-                    let light = first_light.map_or(NO_LIGHT, |first| first + if rectangle { 0 } else { at });
+                    let light = if rectangle || first_light == NO_LIGHT { first_light } else { first_light + at };
                     add(piece, normal, light);
                 }
             }
@@ -137,11 +138,11 @@ impl Shapes {
                 Form::Flat { corner: a, edge_u: b - a, edge_v: last - a, half, flatness }
             }
             Piece::Sphere { center, radius } => {
-                self.spheres.push((id, center, radius));
+                self.spheres.push((id, Sphere { center, radius }));
                 Form::Sphere { center, radius }
             }
             Piece::Disk { center, normal, radius } => {
-                self.disks.push((id, DiskLanes { center, normal, radius }));
+                self.disks.push((id, Disk { center, normal, radius }));
                 Form::Disk { center }
             }
         };
@@ -230,7 +231,7 @@ fn place_of<T>(list: &mut Vec<T>, is_it: impl Fn(&T) -> bool, value: T) -> u16 {
 struct Reach {
     /// Points within the scene's hull, and how far around them it goes.
     balls: Vec<(DVec3, f64)>,
-    /// Whether there is a sun: then shadow rays leave the hull.
+    /// Whether there is a sun or a sky that is sampled: then shadow rays leave the hull.
     endless: bool,
 }
 
@@ -246,7 +247,7 @@ impl Reach {
                 }
             }
         }
-        Reach { balls, endless: scene.sun.is_some() }
+        Reach { balls, endless: scene.sun.is_some() || scene.environment.is_some() }
     }
 
     /// Whether all that shadow rays go between lies on one side of a facet's plane: then none meets it before its end.

@@ -1,7 +1,7 @@
 //! What shading needs of the shape that each lane's ray met, looked up by the shape's id.
 
-use crate::intersect::NO_LIGHT;
-use crate::intersect::lanes::{Hits, Rays, SphereLanes, SurfacePoints};
+use crate::intersect::sphere::SphereLanes;
+use crate::intersect::{Hits, Rays, SurfaceInteractions, SurfacePoints};
 use crate::vectors::VectorColumn;
 use scene::Vec3;
 use scene::glam::DVec3;
@@ -13,7 +13,7 @@ pub struct Surface {
     pub form: Form,
     pub normal: Vec3,
     pub material: u32,
-    /// See [`Hits::light`].
+    /// See [`SurfaceInteractions::light`].
     pub light: u32,
     /// Whether it is of glass.
     pub clear: bool,
@@ -116,9 +116,10 @@ impl Surfaces {
         self.clear[id as usize]
     }
 
-    /// What the rays met at the distances `t`, or nothing where the id is [`NO_LIGHT`].
+    /// What the rays have met that have these hits.
     #[inline(always)]
-    pub fn hits<F: Float>(&self, rays: &Rays<F>, t: F, id: F::U) -> Hits<F> {
+    pub fn interactions<F: Float>(&self, rays: &Rays<F>, hits: &Hits<F>) -> SurfaceInteractions<F> {
+        let &Hits { t, primitive: id, .. } = hits;
         let [has_flat, has_spheres, has_disks] = self.has;
         let (corner, normal) = (self.corner.look_up(id), self.normal.look_up(id));
         let near = rays.origin + rays.direction * t;
@@ -137,8 +138,8 @@ impl Surfaces {
             let on_disk = SurfacePoints::on_disk(corner, near, normal);
             point = SurfacePoints::select(form.eq(F::U::splat(2)), on_disk, point);
         }
-        Hits {
-            met: !id.eq(F::U::splat(NO_LIGHT)),
+        SurfaceInteractions {
+            met: hits.met(),
             point,
             material: id.look_up_word(&self.material),
             light: id.look_up_word(&self.light),

@@ -1,7 +1,6 @@
 use super::{Scratch, ShapeList};
 use crate::intersect::aggregate::Aggregate;
-use crate::intersect::lanes::Hits;
-use crate::intersect::{Ray, SurfacePoint};
+use crate::intersect::{Ray, SurfaceInteractions, SurfacePoint};
 use crate::light::Lights;
 use crate::sampling::sampler::Sampler;
 use crate::sampling::{cone, cosine_hemisphere, to_world};
@@ -9,7 +8,7 @@ use crate::vectors::{glam_vector, lane_vector};
 use scene::glam::{EulerRot, Quat};
 use scene::{Geometry, Scene, Shape, Vec3, builtin};
 
-/// A aggregate and what a shape_list of one lane needs.
+/// An aggregate and what a list of one lane needs.
 struct Subject {
     aggregate: Aggregate,
     scratch: Scratch<f32>,
@@ -17,7 +16,7 @@ struct Subject {
 
 impl Subject {
     fn new(scene: &Scene) -> Self {
-        let aggregate = Aggregate::new(scene, &Lights::new(scene));
+        let aggregate = Aggregate::new(scene, Lights::new(scene).light_of_shape());
         let scratch = Scratch::new(aggregate.shape_list());
         assert!(aggregate.shape_list().is_some(), "{}", scene.name);
         Subject { aggregate, scratch }
@@ -27,10 +26,11 @@ impl Subject {
         (self.aggregate.shape_list().expect("few shapes"), &mut self.scratch)
     }
 
-    fn closest(&mut self, ray: &Ray) -> Option<Hits<f32>> {
+    fn closest(&mut self, ray: &Ray) -> Option<SurfaceInteractions<f32>> {
         let (shape_list, scratch) = self.shape_list();
         let hit = shape_list.closest(&ray.lane(), scratch);
-        hit.met.then_some(hit)
+        let met = shape_list.interactions(&ray.lane(), &hit);
+        met.met.then_some(met)
     }
 
     fn occluded(&mut self, ray: &Ray) -> bool {
@@ -59,13 +59,14 @@ fn closed_box(halves: bool, scale: f32, shift: f32) -> (Scene, Vec<Vec3>) {
     let corner = Vec3::splat(shift) - Vec3::new(0.3, 1.0, 1.2) * scale;
     let turned = Geometry::Box { corner, size: Vec3::splat(2.0 * scale), turn_y: -17.0 };
     let (positions, triangles) = turned.flat_triangles();
+    let (positions, triangles) = (positions.into_owned(), triangles.into_owned());
     if !halves {
         return (scene_of(&[(turned, 0)]), positions);
     }
     let middle = positions.iter().sum::<Vec3>() / 8.0;
     let turn = Quat::from_euler(EulerRot::XYZ, 0.3, 0.5, 0.8);
     let positions: Vec<Vec3> = positions.iter().map(|p| middle + turn * (p - middle)).collect();
-    (scene_of(&[(Geometry::Mesh { positions: positions.clone(), triangles }, 0)]), positions)
+    (scene_of(&[(Geometry::mesh(positions.clone(), triangles), 0)]), positions)
 }
 
 const PLACES: [(f32, f32); 5] = [(1.0, 0.0), (1.0, 1e4), (1e4, 0.0), (1e-4, 0.0), (1e3, 1e6)];
@@ -162,7 +163,7 @@ fn an_area_light_in_its_wall_wins() {
 /// The tree and the shape_list are two ways to the same hits: but for rays at edges, which either may give to a
 /// neighbour.
 #[test]
-fn packet_and_tree_agree() {
+fn list_and_tree_agree() {
     for name in builtin::names().chain(builtin::hard_names()) {
         let scene = builtin::named(name).expect("built in");
         let mut subject = Subject::new(&scene);
@@ -176,7 +177,7 @@ fn packet_and_tree_agree() {
             let direction = any_direction(x, random(i, 6)[0]);
             let origin = last.map_or(origin, |point| point.leaving_towards(direction));
             let ray = Ray::new(origin, direction);
-            let (of_tree, of_shape_list) = (subject.aggregate.accel().closest(&ray), subject.closest(&ray));
+            let (of_tree, of_shape_list) = (subject.aggregate.accel().first_met(&ray), subject.closest(&ray));
             let agree = match (&of_tree, &of_shape_list) {
                 (Some(a), Some(b)) => {
                     let off = (a.point.position - glam_vector(b.point.position)).length();

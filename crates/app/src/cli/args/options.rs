@@ -1,0 +1,82 @@
+//! Tables of options: a row says what an option is called, what it does and how it is read. The parser knows no option that
+//! is not in a table, and --help is made from the tables: it lists every one.
+
+use super::seen::Seen;
+use super::usage;
+use super::values::text;
+use crate::cli::{CliError, help};
+use lexopt::prelude::*;
+use std::ffi::OsString;
+use technique::settings::{Setting, of_scenes};
+
+/// An option of a command whose words are read into an `A`.
+pub struct CommandOption<A> {
+    /// As it is typed, all ways: "--help, -h".
+    pub names: &'static [&'static str],
+    /// What stands for its value in --help; empty for a switch.
+    pub value: &'static str,
+    /// What it does; empty for one that --help does not list.
+    pub help: &'static str,
+    /// Reads its value.
+    pub read: fn(&mut A, &mut lexopt::Parser) -> Result<(), CliError>,
+}
+
+/// What was typed after a command.
+pub enum Typed<A> {
+    /// Its options, read, and its other words.
+    Words(A, Vec<OsString>),
+    /// Only a text is asked for.
+    Print(String),
+}
+
+/// Reads options of a table, those that `more` knows, and at most so many other words.
+pub fn read<A>(
+    mut parser: lexopt::Parser,
+    mut args: A,
+    options: &[CommandOption<A>],
+    most_words: usize,
+    more: fn(&mut A, &str, &mut lexopt::Parser) -> Result<bool, CliError>,
+) -> Result<Typed<A>, CliError> {
+    let mut words = Vec::new();
+    while let Some(arg) = parser.next()? {
+        let name = match arg {
+            Value(word) if words.len() < most_words => {
+                words.push(word);
+                continue;
+            }
+            Long("help") => return Ok(Typed::Print(help::text())),
+            Long(name) => format!("--{name}"),
+            Short(letter) => format!("-{letter}"),
+            other => return Err(other.unexpected().into()),
+        };
+        match options.iter().find(|option| option.names.contains(&name.as_str())) {
+            Some(option) => (option.read)(&mut args, &mut parser)?,
+            None if name.strip_prefix("--").map_or(Ok(false), |name| more(&mut args, name, &mut parser))? => {}
+            None => return Err(lexopt::Error::UnexpectedOption(name).into()),
+        }
+    }
+    Ok(Typed::Words(args, words))
+}
+
+/// Where there are no more options than those of the table.
+pub fn no_more<A>(_: &mut A, _: &str, _: &mut lexopt::Parser) -> Result<bool, CliError> {
+    Ok(false)
+}
+
+/// Reads the value of a setting.
+pub fn set<T>(setting: &Setting<T>, of: &mut T, parser: &mut lexopt::Parser) -> Result<(), CliError> {
+    let word = text(parser)?;
+    match setting.kind.parse(&word) {
+        Ok(value) => (setting.set)(of, value),
+        Err(expected) => return usage(format!("--{} {word}: expected {expected}", setting.name)),
+    }
+    Ok(())
+}
+
+/// Reads a change of the scene; `false` if the name is none's.
+pub fn set_in_the_scene(seen: &mut Seen, name: &str, parser: &mut lexopt::Parser) -> Result<bool, CliError> {
+    match of_scenes(name) {
+        Some(setting) => set(setting, &mut seen.changes, parser).map(|()| true),
+        None => Ok(false),
+    }
+}

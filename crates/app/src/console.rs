@@ -1,0 +1,14 @@
+//! What the program says on stderr, from the command line and from the window.
+
+/// A line on stderr, in the manner of `eprintln!` but without its panic where stderr is full or closed.
+macro_rules! note {
+    ($($text:tt)*) => {
+        $crate::console::to_stderr(format_args!("{}\n", format_args!($($text)*)))
+    };
+}
+
+/// Writes to stderr; there is nobody to tell if that fails.
+pub fn to_stderr(text: std::fmt::Arguments) {
+    use std::io::Write;
+    let _ = std::io::stderr().lock().write_fmt(text);
+}

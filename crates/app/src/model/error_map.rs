@@ -1,0 +1,26 @@
+//! Maps of errors: what they are of, and as they are drawn.
+
+use crate::ruler::{HeatMap, Pair};
+use compare::ErrorMetric;
+
+/// Two pictures of one size and what to draw of them.
+#[derive(Debug, Clone)]
+pub struct ErrorMapJob {
+    /// The pictures; the first is judged by the second.
+    pub pair: Pair,
+    /// What to map.
+    pub map: ErrorMetric,
+    /// Where the scale ends; `None` to fit it.
+    pub held: Option<f32>,
+}
+
+/// A map that is drawn.
+#[derive(Debug)]
+pub struct ErrorMap {
+    /// What it is of.
+    pub map_job: ErrorMapJob,
+    /// The numbers and their colours.
+    pub map: HeatMap,
+    /// Its bytes, four a pixel, without the bar.
+    pub rgba: Vec<u8>,
+}

@@ -1,0 +1,45 @@
+//! What the user wants of a picture beside seeing it.
+
+use super::PaneId;
+use std::path::PathBuf;
+
+/// What is exported.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum ExportSubject {
+    /// The picture area as it is on the screen: both panes, line and labels.
+    #[default]
+    AsSeen,
+    /// One pane, whole and without labels.
+    Pane(PaneId),
+    /// The map of errors, with its colour bar and without labels.
+    ErrorMap,
+}
+
+/// Where an export goes.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Destination {
+    /// A file; if there is one already, another name beside it.
+    File(PathBuf),
+    /// The clipboard.
+    Clipboard,
+}
+
+/// A picture to write to a file or the clipboard.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct ExportRequest {
+    /// The picture.
+    pub subject: ExportSubject,
+    /// The file or the clipboard.
+    pub to: Destination,
+}
+
+/// What is typed and chosen in the export menu.
+#[derive(Debug, Clone, Default)]
+pub struct ExportMenu {
+    /// What is exported next.
+    pub subject: ExportSubject,
+    /// The file as typed; the proposal while it is empty.
+    pub file: String,
+    /// Whether a pane is kept as linear radiance.
+    pub exr: bool,
+}

@@ -1,0 +1,131 @@
+//! What undo gives back: the settings of all panes, the scene's sliders and the display.
+
+use super::{Document, Panes, Resolution, Session};
+use film::DisplayTransform;
+use technique::{PaneSettings, SceneChanges};
+
+/// Everything that a slider or a choice changes. Camera, view and line are not part of it: moving them loses nothing.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Settings {
+    /// What is changed in the scene, for all panes.
+    pub changes: SceneChanges,
+    /// How each is made.
+    pub panes: Panes<PaneSettings>,
+    /// How all are shown.
+    pub display: DisplayTransform,
+    /// How many pixels pictures have.
+    pub resolution: Resolution,
+}
+
+impl Settings {
+    /// The settings as they stand now.
+    pub fn of(document: &Document, session: &Session) -> Self {
+        let Session { panes, display, resolution, .. } = session;
+        Settings { changes: document.changes, panes: panes.clone(), display: *display, resolution: *resolution }
+    }
+
+    /// Puts them back.
+    pub fn restore(self, document: &mut Document, session: &mut Session) {
+        document.changes = self.changes;
+        (session.panes, session.display, session.resolution) = (self.panes, self.display, self.resolution);
+    }
+}
+
+/// Earlier settings, and those that were undone. A drag is one step however far it goes.
+#[derive(Debug)]
+pub struct History {
+    settled: Settings,
+    earlier: Vec<Settings>,
+    undone: Vec<Settings>,
+}
+
+/// Steps that are kept.
+const MOST_STEPS: usize = 200;
+
+impl History {
+    /// A history that begins here.
+    pub fn new(settings: Settings) -> Self {
+        History { settled: settings, earlier: Vec::new(), undone: Vec::new() }
+    }
+
+    /// Keeps the settings of before if they have changed; while the user is `busy` the change is not over yet.
+    pub fn note(&mut self, settings: &Settings, busy: bool) {
+        if busy || *settings == self.settled {
+            return;
+        }
+        self.earlier.push(std::mem::replace(&mut self.settled, settings.clone()));
+        self.undone.clear();
+        if self.earlier.len() > MOST_STEPS {
+            self.earlier.remove(0);
+        }
+    }
+
+    /// Whether there is something to undo: a step, or a change that is not over yet.
+    pub fn can_undo(&self, settings: &Settings) -> bool {
+        !self.earlier.is_empty() || *settings != self.settled
+    }
+
+    /// Whether there is something to do again.
+    pub fn can_redo(&self) -> bool {
+        !self.undone.is_empty()
+    }
+
+    /// The settings before the last change; one that is not over yet ends here.
+    pub fn undo(&mut self, settings: &Settings) -> Option<Settings> {
+        self.note(settings, false);
+        let earlier = self.earlier.pop()?;
+        self.undone.push(std::mem::replace(&mut self.settled, earlier.clone()));
+        Some(earlier)
+    }
+
+    /// The settings that the last undo took away.
+    pub fn redo(&mut self, settings: &Settings) -> Option<Settings> {
+        self.note(settings, false);
+        let later = self.undone.pop()?;
+        self.earlier.push(std::mem::replace(&mut self.settled, later.clone()));
+        Some(later)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn exposed(exposure: f32) -> Settings {
+        let session = Session { display: DisplayTransform { exposure }, ..Session::default() };
+        let cornell = scene::builtin::named("cornell").unwrap();
+        Settings::of(&Document::new(cornell, "cornell".into()), &session)
+    }
+
+    #[test]
+    fn a_drag_is_one_step_and_comes_back_by_redo() {
+        let mut history = History::new(exposed(0.0));
+        for (exposure, busy) in [(0.5, true), (1.0, true), (2.0, false)] {
+            history.note(&exposed(exposure), busy);
+        }
+        assert_eq!(history.undo(&exposed(2.0)), Some(exposed(0.0)));
+        assert_eq!(history.undo(&exposed(0.0)), None);
+        assert_eq!(history.redo(&exposed(0.0)), Some(exposed(2.0)));
+        assert!(!history.can_redo() && history.can_undo(&exposed(2.0)));
+    }
+
+    #[test]
+    fn a_new_change_forgets_what_was_undone() {
+        let mut history = History::new(exposed(0.0));
+        history.note(&exposed(1.0), false);
+        history.undo(&exposed(1.0));
+        history.note(&exposed(3.0), false);
+        assert_eq!((history.redo(&exposed(3.0)), history.undo(&exposed(3.0))), (None, Some(exposed(0.0))));
+    }
+
+    /// A number that is still being typed is a step of its own when undo is asked for.
+    #[test]
+    fn undo_takes_back_a_change_that_is_not_over_and_nothing_else() {
+        let mut history = History::new(exposed(0.0));
+        history.note(&exposed(1.0), false);
+        history.note(&exposed(7.0), true);
+        assert!(history.can_undo(&exposed(7.0)));
+        assert_eq!(history.undo(&exposed(7.0)), Some(exposed(1.0)));
+        assert_eq!(history.redo(&exposed(1.0)), Some(exposed(7.0)));
+    }
+}

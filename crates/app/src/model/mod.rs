@@ -1,0 +1,138 @@
+//! What the window is about, as plain values: no egui, no threads, no window. Below `ui`, `engine` and `window`, which
+//! meet only here.
+//!
+//! A [`Model`] is a [`Document`] (what is looked at), a [`Session`] (how) and a [`UiState`] (what controls remember).
+//! Out of it comes what is [`Wanted`]; what is made of that comes back as a [`ViewModel`].
+
+mod comparison;
+mod document;
+mod error_map;
+mod errors;
+mod export;
+mod history;
+mod message;
+mod pane;
+mod reference;
+mod session;
+mod theme;
+mod ui_state;
+mod view;
+mod view_args;
+mod view_model;
+mod wanted;
+
+pub use comparison::{Against, CompareWith, Comparison, ComparisonSettings, MapWish};
+pub use document::Document;
+pub use error_map::{ErrorMap, ErrorMapJob};
+pub use errors::{ErrorHistory, ErrorPoint};
+pub use export::{Destination, ExportMenu, ExportRequest, ExportSubject};
+pub use history::{History, Settings};
+pub use message::Message;
+pub use pane::{PaneId, Panes};
+pub use reference::{Origin, Progress};
+pub use session::{Resolution, Session};
+pub use theme::Theme;
+pub use ui_state::{PictureArea, SwitchedOff, UiState};
+pub use view::{Line, View};
+pub use view_args::ViewArgs;
+pub use view_model::{PaneView, ViewModel};
+pub use wanted::{Wanted, WantedPane};
+
+use scene::Scene;
+use technique::{Adapters, DeviceChoice};
+
+/// All that the user can change.
+#[derive(Debug)]
+pub struct Model {
+    /// What is looked at.
+    pub document: Document,
+    /// How it is looked at.
+    pub session: Session,
+    /// What controls remember.
+    pub state: UiState,
+    /// The graphics devices that can trace rays.
+    pub adapters: Adapters,
+    history: History,
+}
+
+impl Model {
+    /// The first view of a scene that was opened by the name `source`.
+    pub fn new(scene: Scene, source: String, theme: Theme) -> Self {
+        let (document, mut session) = (Document::new(scene, source), Session::default());
+        session.forget_the_scene(&document.scene);
+        let history = History::new(Settings::of(&document, &session));
+        Model { document, session, state: UiState::new(theme), adapters: Adapters::default(), history }
+    }
+
+    /// The same beside graphics devices, and with rays traced where `device` says.
+    pub fn beside(mut self, adapters: Adapters, device: DeviceChoice) -> Self {
+        self.adapters = adapters;
+        self.session.trace_on(device);
+        self.history = History::new(self.settings());
+        self
+    }
+
+    /// Shows another scene from its own camera. What was set against the scene before goes; techniques and their ways
+    /// stay.
+    pub fn open(&mut self, scene: Scene, source: String) {
+        self.document.open(scene, source);
+        self.session.forget_the_scene(&self.document.scene);
+        self.history = History::new(self.settings());
+    }
+
+    /// Says a line to the user.
+    pub fn say(&mut self, outcome: Result<String, String>) {
+        self.state.message = Some(Message::new(outcome));
+    }
+
+    /// What undo gives back, as it stands.
+    pub fn settings(&self) -> Settings {
+        Settings::of(&self.document, &self.session)
+    }
+
+    /// Whether there is something to undo, and to do again.
+    pub fn can_undo_and_redo(&self) -> [bool; 2] {
+        [self.history.can_undo(&self.settings()), self.history.can_redo()]
+    }
+
+    /// Takes back the last change of a setting.
+    pub fn undo(&mut self) {
+        if let Some(earlier) = self.history.undo(&self.settings()) {
+            earlier.restore(&mut self.document, &mut self.session);
+        }
+    }
+
+    /// Makes the change again that the last undo took back.
+    pub fn redo(&mut self) {
+        if let Some(later) = self.history.redo(&self.settings()) {
+            later.restore(&mut self.document, &mut self.session);
+        }
+    }
+
+    /// Ends a frame in which the user may have changed anything; a change is not over yet while the user is `busy`.
+    pub fn settle(&mut self, busy: bool) {
+        self.document.apply_changes();
+        let settings = self.settings();
+        self.history.note(&settings, busy);
+    }
+
+    /// These panes' pictures for the picture area as it was last drawn, without comparisons: what a workspace begins
+    /// with.
+    pub fn wanted(&self, panes: impl IntoIterator<Item = PaneId>) -> Wanted {
+        let Model { document, session, state, .. } = self;
+        let shot = document.shot(state.picture.size);
+        let pane = |id| {
+            let (technique, shrink) = (session.panes.get(id)?.in_use(), session.resolution.shrink());
+            Some((id, WantedPane { shot: shot.clone(), technique, shrink }))
+        };
+        Wanted {
+            opened: document.opened,
+            panes: panes.into_iter().filter_map(pane).collect(),
+            comparisons: Vec::new(),
+            map: None,
+            display: session.display,
+            paused: state.paused,
+            restarts: state.restarts,
+        }
+    }
+}

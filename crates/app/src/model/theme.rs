@@ -1,0 +1,29 @@
+//! How the window looks: dark for a desk, bright with large type for a projector.
+
+/// A look.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Theme {
+    /// Light type on dark grey: the picture is the brightest thing.
+    #[default]
+    Dark,
+    /// Black type of 18 points on white.
+    Projector,
+}
+
+impl Theme {
+    /// All, the default first.
+    pub const ALL: [Theme; 2] = [Theme::Dark, Theme::Projector];
+
+    /// The name in the menu and on the command line.
+    pub fn name(self) -> &'static str {
+        match self {
+            Theme::Dark => "dark",
+            Theme::Projector => "projector",
+        }
+    }
+
+    /// The theme of that name.
+    pub fn named(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|theme| theme.name() == name)
+    }
+}

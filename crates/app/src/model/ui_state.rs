@@ -1,0 +1,88 @@
+//! What controls come back to, and what is in hand: nothing that anyone would miss the next day.
+
+use super::{ExportMenu, Message, Panes, Theme};
+
+/// The state of the controls.
+#[derive(Debug, Clone)]
+pub struct UiState {
+    /// How it all looks.
+    pub theme: Theme,
+    /// The theme that the windows wear.
+    pub dressed: Option<Theme>,
+    /// Whether the controls are open.
+    pub panel: bool,
+    /// Whether the help is open.
+    pub help: bool,
+    /// Whether the help was there in the last frame.
+    pub help_was_open: bool,
+    /// Whether to tell a newcomer about line and key.
+    pub hint: bool,
+    /// The last thing worth saying.
+    pub message: Option<Message>,
+    /// Whether what is traced waits.
+    pub paused: bool,
+    /// How often the user began the pictures anew.
+    pub restarts: u64,
+    /// Whether this frame is for a picture: nothing but panes, line and labels is in it.
+    pub posing: bool,
+    /// Where pictures are shown, as last drawn.
+    pub picture: PictureArea,
+    /// Whether the drag in hand moves the wipe's line.
+    pub dragging_line: bool,
+    /// A scene to open, as typed.
+    pub scene_file: String,
+    /// A reference to load, as typed.
+    pub reference_file: String,
+    /// The export menu.
+    pub export: ExportMenu,
+    /// What switched-off settings come back to.
+    pub switched_off: Panes<SwitchedOff>,
+}
+
+/// Where pictures are shown.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct PictureArea {
+    /// Width and height of one picture in physical pixels.
+    pub size: (u32, u32),
+    /// Left, top, right and bottom of the whole area in points.
+    pub corners: [f32; 4],
+}
+
+/// What a pane's settings come back to when they are switched on again.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SwitchedOff {
+    /// The number of bounces when the limit is switched on.
+    pub bounces: u32,
+    /// The probability when roulette by probability is chosen.
+    pub probability: f32,
+}
+
+impl Default for SwitchedOff {
+    fn default() -> Self {
+        SwitchedOff { bounces: 2, probability: 0.8 }
+    }
+}
+
+impl UiState {
+    /// The state at first.
+    pub fn new(theme: Theme) -> Self {
+        UiState {
+            theme,
+            dressed: None,
+            panel: true,
+            help: false,
+            help_was_open: false,
+            hint: true,
+            message: None,
+            paused: false,
+            restarts: 0,
+            posing: false,
+            picture: PictureArea::default(),
+            dragging_line: false,
+            scene_file: String::new(),
+            reference_file: String::new(),
+            export: ExportMenu::default(),
+            switched_off: Panes::default(),
+        }
+    }
+}

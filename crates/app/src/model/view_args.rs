@@ -1,0 +1,22 @@
+//! What the window is opened with.
+
+use super::Theme;
+use std::path::PathBuf;
+use technique::DeviceChoice;
+
+/// `visavis [SCENE]`.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ViewArgs {
+    /// A built-in name or a file.
+    pub scene: String,
+    /// Where to write the names, rectangles and states of the widgets, each frame, for tests.
+    pub ui_dump: Option<PathBuf>,
+    /// How the window looks at first.
+    pub theme: Theme,
+    /// Where rays are traced at first, in both panes.
+    pub device: DeviceChoice,
+    /// The workspace to begin with, and all others to choose from; `None` for the usual one alone.
+    pub workspace: Option<String>,
+    /// Whether to print at the end what frames cost the UI thread.
+    pub frame_stats: bool,
+}

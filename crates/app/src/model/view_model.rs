@@ -1,0 +1,138 @@
+//! What there is to show: results, as those who draw them take them.
+
+use super::{Against, ErrorHistory, ErrorMap, ErrorPoint, PaneId, Panes, Progress};
+use compare::Errors;
+use std::sync::Arc;
+use technique::{Provenance, Technique};
+
+/// All that there is to show, beside the pictures' pixels.
+#[derive(Debug, Clone, Default)]
+pub struct ViewModel {
+    /// What is known of each pane's picture.
+    pub panes: Panes<PaneView>,
+    /// Where the errors are, while that is looked at.
+    pub map: Option<Arc<ErrorMap>>,
+    /// How far the reference has come, while it is asked for.
+    pub reference: Option<Progress>,
+}
+
+/// What there is to show of one pane.
+#[derive(Debug, Clone, Default)]
+pub struct PaneView {
+    /// What its picture was made from; `None` while there is none.
+    pub provenance: Option<Arc<Provenance>>,
+    /// Samples per pixel, where the technique samples.
+    pub spp: Option<u32>,
+    /// Seconds of rendering.
+    pub seconds: f64,
+    /// Samples that were not finite and are left out.
+    pub nonfinite: u64,
+    /// Whether the picture is a rough first one.
+    pub rough: bool,
+    /// How many pixels of the picture area one of its pixels takes, along a side.
+    pub shrink: u32,
+    /// Whether more of it will come.
+    pub unfinished: bool,
+    /// What it is compared with, and how far it is from that.
+    pub errors: Option<(Against, Errors)>,
+    /// How far it was from that while it was made.
+    pub history: ErrorHistory,
+    /// What made it: a device's name, or a number of threads.
+    pub adapter: Option<Arc<str>>,
+    /// Why there is no picture.
+    pub fault: Option<String>,
+    /// Why it was not made where it should be.
+    pub refused: Option<Arc<str>>,
+    /// What the history is of.
+    course: Option<Course>,
+}
+
+/// What errors must have in common to be points of one curve: the picture, but for its number of samples, and what
+/// judges it.
+#[derive(Debug, Clone, PartialEq)]
+struct Course {
+    against: Against,
+    judged: Provenance,
+    /// The picture that judges; `None` for the reference.
+    judge: Option<Provenance>,
+}
+
+impl PaneView {
+    /// A pane without a picture, and why.
+    pub fn failed(fault: String) -> Self {
+        PaneView { fault: Some(fault), ..PaneView::default() }
+    }
+}
+
+impl ViewModel {
+    /// Adds the errors of a pane to its history; one of another picture, or against another, begins anew.
+    pub fn note_errors(&mut self, id: PaneId) {
+        let judge = |against| match against {
+            Against::Pane(judge) => self.panes.get(judge)?.provenance.as_deref().map(without_spp),
+            Against::Reference => None,
+        };
+        let Some(pane) = self.panes.get(id).filter(|pane| !pane.rough) else { return };
+        let (Some((against, errors)), Some(judged)) = (pane.errors, pane.provenance.as_deref()) else { return };
+        let course = Course { against, judged: without_spp(judged), judge: judge(against) };
+        let point = ErrorPoint { spp: pane.spp, seconds: pane.seconds, errors };
+        let pane = &mut self.panes[id];
+        let begun_anew = pane.history.latest().is_some_and(|latest| latest.spp > point.spp);
+        if begun_anew || pane.course.as_ref() != Some(&course) {
+            (pane.history, pane.course) = (ErrorHistory::default(), Some(course));
+        }
+        pane.history.push(point);
+    }
+}
+
+/// A picture of more samples is still the same one.
+fn without_spp(provenance: &Provenance) -> Provenance {
+    let mut provenance = provenance.clone();
+    if let Technique::Traced(rays) = &mut provenance.technique {
+        rays.spp = 0;
+    }
+    provenance
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use technique::{Device, PaneSettings, Shot, TechniqueName};
+
+    fn pane(technique: TechniqueName, wished: u32, spp: u32) -> PaneView {
+        let mut settings = PaneSettings::of(technique);
+        settings.truth.spp = wished;
+        let shot = Shot::of(scene::builtin::named("cornell").unwrap(), (1, 1));
+        let provenance = Provenance { shot, technique: settings.in_use(), device: Device::Cpu };
+        let errors = compare::Errors { rmse: f64::from(spp), ..compare::Errors::default() };
+        let errors = Some((Against::Pane(PaneId::A), errors));
+        PaneView { provenance: Some(Arc::new(provenance)), spp: Some(spp), errors, ..PaneView::default() }
+    }
+
+    /// Shows pictures of B one after the other, A's technique beside each, and returns the samples in B's history.
+    fn history(shown: &[(TechniqueName, PaneView)]) -> Vec<u32> {
+        let mut model = ViewModel::default();
+        for (technique_of_a, b) in shown {
+            model.panes.insert(PaneId::A, pane(*technique_of_a, 256, 1));
+            let (history, course) = model.panes.remove(PaneId::B).map(|b| (b.history, b.course)).unwrap_or_default();
+            model.panes.insert(PaneId::B, PaneView { history, course, ..b.clone() });
+            model.note_errors(PaneId::B);
+        }
+        model.panes[PaneId::B].history.iter().filter_map(|point| point.spp).collect()
+    }
+
+    #[test]
+    fn a_history_goes_on_with_more_samples_and_begins_anew_with_another_picture() {
+        use TechniqueName::{Path, Raster, Whitted};
+        let path = |wished, spp| (Raster, pane(Path, wished, spp));
+        assert_eq!(
+            history(&[path(256, 1), path(256, 2), path(512, 4)]),
+            [1, 2, 4],
+            "more are wished: the same picture"
+        );
+        assert_eq!(history(&[path(256, 4), path(256, 1), path(256, 2)]), [1, 2], "begun anew");
+        assert_eq!(history(&[path(256, 1), (Raster, pane(Whitted, 256, 2))]), [2], "by another technique");
+        assert_eq!(history(&[path(256, 1), (Whitted, pane(Path, 256, 2))]), [2], "against another picture");
+        let rough = PaneView { rough: true, ..pane(Path, 256, 2) };
+        assert_eq!(history(&[path(256, 1), (Raster, rough)]), [1], "rough ones are no points");
+    }
+}

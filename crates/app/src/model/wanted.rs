@@ -1,0 +1,36 @@
+//! What shall be made: a plain value, stated anew in every frame. Who makes it compares it with what was wanted before.
+
+use super::{Comparison, MapWish, Panes};
+use film::DisplayTransform;
+use technique::Shot;
+use technique::Technique;
+
+/// All pictures that are wanted, and what is to be known of them.
+#[derive(Debug, Clone, Default)]
+pub struct Wanted {
+    /// Counts the scenes opened: what was made of an older one is no longer shown.
+    pub opened: u64,
+    /// The pictures.
+    pub panes: Panes<WantedPane>,
+    /// Whose errors are measured, and by what.
+    pub comparisons: Vec<Comparison>,
+    /// The map of errors that is looked at, if one is.
+    pub map: Option<MapWish>,
+    /// How all are shown.
+    pub display: DisplayTransform,
+    /// Whether what is traced waits.
+    pub paused: bool,
+    /// How often the user began the pictures anew.
+    pub restarts: u64,
+}
+
+/// A picture: what it shows and how it is made.
+#[derive(Debug, Clone)]
+pub struct WantedPane {
+    /// Scene, camera and size.
+    pub shot: Shot,
+    /// The technique with its settings.
+    pub technique: Technique,
+    /// Pixels of the picture area along a side of one of the picture.
+    pub shrink: u32,
+}

@@ -1,0 +1,52 @@
+//! Text over pictures, for eyes and for screen readers.
+
+use super::{UiContext, theme};
+use crate::model::Message;
+use egui::accesskit;
+use egui::{Align2, Color32, FontId, Pos2, Rect, Sense, Ui, vec2};
+
+/// At the foot of `rect`: the last thing worth saying, or else a hint for a newcomer.
+pub fn say(cx: &mut UiContext, ui: &Ui, rect: Rect, hint: &str) {
+    let expired = |message: &Message| message.remaining().is_some_and(|left| left.is_zero());
+    let dismissed = ui.input(|i| {
+        i.events.iter().any(|e| matches!(e, egui::Event::Key { pressed: true, .. })) || i.pointer.any_pressed()
+    });
+    cx.model.state.message.take_if(|message| expired(message) || (dismissed && message.is_old()));
+    let (name, text, colour) = match &cx.model.state.message {
+        Some(message) => {
+            ui.ctx().request_repaint_after(message.remaining().unwrap_or(std::time::Duration::MAX));
+            let colour = if message.failed { Color32::from_rgb(255, 150, 150) } else { Color32::WHITE };
+            ("message", message.text.clone(), colour)
+        }
+        None if cx.model.state.hint => ("hint", hint.to_owned(), Color32::WHITE),
+        None => return,
+    };
+    let at = rect.center_bottom() - vec2(0.0, 12.0);
+    let place = text_box(cx, ui, rect, at, Align2::CENTER_BOTTOM, &text, colour);
+    cx.dump.note_text(name, &text, place, rect);
+    spoken(ui, name, &text, place, true);
+}
+
+/// Gives painted text to screen readers; `aloud` is read out as soon as it changes.
+pub fn spoken(ui: &Ui, name: &str, text: &str, place: Rect, aloud: bool) {
+    let response = ui.interact(place, ui.scope_id().with(name), Sense::hover());
+    ui.ctx().accesskit_node_builder(response.id, |node| {
+        node.set_role(accesskit::Role::Status);
+        node.set_label(text.to_owned());
+        if aloud {
+            node.set_live(accesskit::Live::Polite);
+        }
+    });
+}
+
+/// Text on a dark ground that keeps it readable over any picture; returns where it is.
+pub fn text_box(cx: &UiContext, ui: &Ui, clip: Rect, at: Pos2, align: Align2, text: &str, colour: Color32) -> Rect {
+    let painter = ui.painter().with_clip_rect(clip);
+    let width = (clip.width() - 32.0).max(40.0);
+    let galley =
+        painter.layout(text.to_owned(), FontId::proportional(theme::label_size(cx.model.state.theme)), colour, width);
+    let place = align.anchor_size(at, galley.size());
+    painter.rect_filled(place.expand2(vec2(6.0, 3.0)), 4.0, Color32::from_black_alpha(215));
+    painter.galley(place.min, galley, colour);
+    place
+}

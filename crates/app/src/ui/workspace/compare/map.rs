@@ -1,0 +1,139 @@
+//! The map of errors, and on it what its colours mean: its name, a colour bar with ticks, its mean, what is not finite,
+//! and the numbers under the mouse.
+
+use super::comparison::reference_state;
+use super::picture::WHOLE;
+use crate::model::{Against, Comparison, ErrorMap};
+use crate::ruler::{HeatMap, Pair, brief};
+use crate::ui::overlay::{spoken, text_box};
+use crate::ui::{UiContext, theme};
+use compare::ColourScale;
+use egui::{Align2, Color32, FontId, Galley, Mesh, Pos2, Rect, Stroke, Ui, pos2, vec2};
+use scene::Vec3;
+use std::sync::Arc;
+
+/// Steps of colour along the bar.
+const STEPS: u32 = 128;
+
+pub fn show(cx: &mut UiContext, ui: &Ui, rect: Rect, hover: Option<Pos2>) {
+    let painter = ui.painter().with_clip_rect(rect);
+    let (Some(map), Some(texture)) = (&cx.shown.map, cx.textures.map) else {
+        // what there will be a map of
+        if let Some(texture) = cx.textures.panes.get(cx.model.session.comparison.mapped().of) {
+            painter.image(*texture, rect, WHOLE, Color32::WHITE);
+        }
+        let text = why_not(cx);
+        let place = text_box(cx, ui, rect, rect.center(), Align2::CENTER_CENTER, &text, Color32::WHITE);
+        cx.dump.note_text("label no map", &text, place, rect);
+        spoken(ui, "label no map", &text, place, false);
+        return;
+    };
+    painter.image(texture, rect, WHOLE, Color32::WHITE);
+    let under_the_mouse = hover.filter(|_| !cx.model.state.posing).and_then(|at| numbers_at(map, rect, at));
+    legend(cx, ui, rect, &map.map, under_the_mouse);
+}
+
+/// Why there is nothing to see.
+fn why_not(cx: &UiContext) -> String {
+    let Comparison { of, against } = cx.model.session.comparison.mapped();
+    let judge = match against {
+        Against::Pane(judge) => Some(judge),
+        Against::Reference => None,
+    };
+    for pane in std::iter::once(of).chain(judge) {
+        let Some(shown) = cx.shown.panes.get(pane) else { continue };
+        if let Some(fault) = &shown.fault {
+            return fault.clone();
+        }
+        if shown.provenance.as_ref().is_some_and(|provenance| !provenance.technique.shows_the_scene()) {
+            return format!("{pane} shows a map, not the scene: it has no errors");
+        }
+    }
+    match against {
+        Against::Pane(_) => "rendering ...".into(),
+        Against::Reference => format!("{}\ntwo pictures make a map", reference_state(cx)),
+    }
+}
+
+/// "x 12, y 34: A 0.1 0.2 0.3, reference 0.1 0.2 0.3: 0.004".
+fn numbers_at(map: &ErrorMap, rect: Rect, at: Pos2) -> Option<String> {
+    let HeatMap { width, values, .. } = &map.map;
+    let height = map.map.height();
+    let share = (at - rect.min) / rect.size();
+    let (x, y) = ((share.x * *width as f32) as u32, (share.y * height as f32) as u32);
+    let index = (x < *width && y < height).then_some(y as usize * *width as usize + x as usize)?;
+    let channels = |v: Vec3| v.to_array().map(|channel| brief(f64::from(channel))).join(" ");
+    let Pair { names, images, .. } = &map.map_job.pair;
+    let [a, r] = images.each_ref().map(|image| image.at(x, y).map(channels));
+    let error = brief(f64::from(*values.get(index)?));
+    Some(format!("x {x}, y {y}: {error}\n{} {}\n{} {}", names[0], a?, names[1], r?))
+}
+
+/// The box in the corner, from top to bottom: name, bar, ticks, and the rest in words.
+fn legend(cx: &mut UiContext, ui: &Ui, rect: Rect, map: &HeatMap, pixel: Option<String>) {
+    let painter = ui.painter().with_clip_rect(rect);
+    let size = theme::label_size(cx.model.state.theme);
+    let width = (15.0 * size).min(rect.width() - 36.0).max(40.0);
+    let lay = |text: String| painter.layout(text, FontId::proportional(size), Color32::WHITE, width);
+    let (name, words) = (lay(map.label.clone()), lay(in_words(map, pixel)));
+    let (bar_height, gap) = (0.9 * size, 0.3 * size);
+    let line = name.rows.first().map_or(size, |row| row.height());
+    let height = name.size().y + gap + bar_height + gap + line + gap + words.size().y;
+    let place = Rect::from_min_size(rect.min + vec2(12.0, 10.0), vec2(width, height));
+    painter.rect_filled(place.expand2(vec2(6.0, 3.0)), 4.0, Color32::from_black_alpha(215));
+
+    painter.galley(place.min, name.clone(), Color32::WHITE);
+    let bar = Rect::from_min_size(pos2(place.left(), place.top() + name.size().y + gap), vec2(width, bar_height));
+    painter.add(coloured(bar, &map.scale));
+    for (text, galley, at) in ticks(&map.scale, bar, lay) {
+        let foot = pos2(at, bar.bottom());
+        painter.line_segment([foot, foot - vec2(0.0, 0.35 * bar_height)], Stroke::new(1.0, Color32::WHITE));
+        let left = (at - 0.5 * galley.size().x).clamp(bar.left(), bar.right() - galley.size().x);
+        let corner = pos2(left, bar.bottom() + gap);
+        cx.dump.note_text(&format!("label tick {text}"), &text, Rect::from_min_size(corner, galley.size()), rect);
+        painter.galley(corner, galley, Color32::WHITE);
+    }
+    let below = place.bottom() - words.size().y;
+    let text = format!("{}\n{}", name.text(), words.text());
+    painter.galley(pos2(place.left(), below), words, Color32::WHITE);
+    cx.dump.note_text("label map", &text, place, rect);
+    cx.dump.note_text("bar map", map.scale.map.name(), bar, rect);
+    spoken(ui, "label map", &text, place, false);
+}
+
+/// Mean, what is not finite, the numbers under the mouse.
+fn in_words(map: &HeatMap, pixel: Option<String>) -> String {
+    let mut text = format!("mean {}", brief(map.mean));
+    if map.nonfinite > 0 {
+        text += &format!("\n{} pixels are not finite: hatched", map.nonfinite);
+    }
+    pixel.into_iter().for_each(|pixel| text += &format!("\n{pixel}"));
+    text
+}
+
+fn coloured(bar: Rect, scale: &ColourScale) -> Mesh {
+    let mut mesh = Mesh::default();
+    for step in 0..STEPS {
+        let [from, to] = [step, step + 1].map(|step| bar.left() + bar.width() * step as f32 / STEPS as f32);
+        let [r, g, b] = scale.map.srgb((step as f32 + 0.5) / STEPS as f32);
+        let strip = Rect::from_min_max(pos2(from, bar.top()), pos2(to, bar.bottom()));
+        mesh.add_colored_rect(strip, Color32::from_rgb(r, g, b));
+    }
+    mesh
+}
+
+/// Text and place of the marks that have room beside each other.
+fn ticks(scale: &ColourScale, bar: Rect, lay: impl Fn(String) -> Arc<Galley>) -> Vec<(String, Arc<Galley>, f32)> {
+    let mut shown: Vec<(String, Arc<Galley>, f32)> = Vec::new();
+    let mut free = f32::NEG_INFINITY;
+    for tick in scale.ticks(4) {
+        let galley = lay(tick.text.clone());
+        let at = bar.left() + tick.position * bar.width();
+        let left = (at - 0.5 * galley.size().x).clamp(bar.left(), bar.right() - galley.size().x);
+        if left >= free {
+            free = left + galley.size().x + 4.0;
+            shown.push((tick.text, galley, at));
+        }
+    }
+    shown
+}

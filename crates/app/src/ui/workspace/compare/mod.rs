@@ -1,0 +1,109 @@
+//! The first workspace: two pictures of one scene, one against the other or both against the reference.
+
+mod comparison;
+mod label;
+mod map;
+mod mouse;
+mod picture;
+
+use super::{HelpLine, Workspace};
+use crate::model::{Model, PaneId, View, Wanted};
+use crate::ui::keys::Keys;
+use crate::ui::{UiContext, controls};
+use egui::{Key, Ui};
+
+/// Two pictures, compared.
+pub struct Compare;
+
+/// The keys of the views, in the order of [`View::ALL`].
+const VIEW_KEYS: [Key; View::ALL.len()] = [Key::Num1, Key::Num2, Key::Num3, Key::Num4, Key::Num5];
+
+impl Workspace for Compare {
+    fn id(&self) -> &'static str {
+        "compare"
+    }
+
+    fn name(&self) -> &'static str {
+        "Compare"
+    }
+
+    fn bar(&mut self, cx: &mut UiContext, ui: &mut Ui) {
+        for view in View::ALL {
+            let chosen = cx.model.session.view == view;
+            let button = ui.selectable_label(chosen, view.name()).on_hover_text(explain(view));
+            if cx.dump.note(&format!("view {}", view.name()), chosen, button).clicked() {
+                cx.model.session.choose(view);
+            }
+        }
+    }
+
+    fn keys(&mut self, cx: &mut UiContext, keys: &Keys) {
+        for _ in 0..keys.presses(Key::T) {
+            cx.model.session.toggle();
+            cx.model.state.hint = false;
+        }
+        for (key, view) in VIEW_KEYS.into_iter().zip(View::ALL) {
+            for _ in 0..keys.presses(key) {
+                cx.model.session.choose(view);
+            }
+        }
+    }
+
+    fn ui(&mut self, cx: &mut UiContext, ui: &mut Ui) {
+        controls::panel(cx, ui, panel);
+        // no ground under the pictures, which cover it: where the processor draws, every layer is paid for
+        let bare = egui::CentralPanel::default().frame(egui::Frame::NONE);
+        bare.show(ui, |ui| picture::show(cx, ui));
+    }
+
+    fn wanted(&self, model: &Model) -> Wanted {
+        let session = &model.session;
+        let panes = session.panes.ids();
+        Wanted {
+            comparisons: panes.map(|id| session.comparison.comparison(id)).collect(),
+            map: (session.view == View::ErrorMap).then(|| session.comparison.map()),
+            ..model.wanted(session.panes.ids())
+        }
+    }
+
+    fn help(&self) -> Vec<HelpLine> {
+        vec![
+            ("drag the line", "wipe; double click: back to the middle"),
+            ("drag the picture", "orbit about the target"),
+            ("Shift or right drag", "pan"),
+            ("wheel", "dolly: move nearer or farther"),
+            ("Ctrl+wheel, pinch", "zoom: narrow or widen the view"),
+            ("T", "swap A and B"),
+            ("1 2", "A alone, B alone"),
+            ("3", "wipe; again: turn the line"),
+            ("4", "side by side"),
+            ("5", "error map"),
+        ]
+    }
+}
+
+/// The controls beside the pictures.
+fn panel(cx: &mut UiContext, ui: &mut Ui) {
+    let low = controls::is_low(ui);
+    if cx.model.session.view == View::ErrorMap {
+        controls::group(cx, ui, "Error map", true, comparison::map);
+    }
+    controls::scene(cx, ui);
+    let panes: Vec<PaneId> = cx.model.session.panes.ids().collect();
+    for pane in panes {
+        controls::pane(cx, pane, !low || pane != PaneId::A, ui);
+    }
+    controls::display(cx, ui);
+    controls::group(cx, ui, "Compare with", false, comparison::against);
+    controls::camera(cx, ui);
+}
+
+fn explain(view: View) -> &'static str {
+    match view {
+        View::Pane(PaneId::A) => "Pane A alone (1, T swaps A and B)",
+        View::Pane(_) => "Pane B alone (2, T swaps A and B)",
+        View::Wipe => "Both, with a line to drag (3; again: turn the line)",
+        View::SideBySide => "Both whole, each in half of the window (4)",
+        View::ErrorMap => "Where the errors are, and how large (5)",
+    }
+}

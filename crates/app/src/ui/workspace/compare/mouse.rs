@@ -1,0 +1,103 @@
+//! The mouse on the picture, and the arrow keys once it has the focus: the line, orbit, pan, dolly and zoom.
+
+use crate::model::{Line, View};
+use crate::ui::UiContext;
+use egui::{CursorIcon, EventFilter, Key, PointerButton, Pos2, Rect, Ui, Vec2};
+use scene::{Camera, glam};
+use std::f32::consts::PI;
+
+/// How far from the line a drag still takes it, in points.
+const GRAB: f32 = 16.0;
+/// How far an arrow key moves the line, as a share of the picture.
+const NUDGE: f32 = 0.02;
+
+pub fn listen(cx: &mut UiContext, ui: &Ui, response: &egui::Response, rect: Rect) {
+    move_line(cx, ui, response, rect);
+    if response.dragged() && !cx.model.state.dragging_line {
+        turn_camera(cx, ui, response, rect);
+    }
+    if response.drag_stopped() {
+        cx.model.state.dragging_line = false;
+    }
+    if response.hovered() {
+        let (scroll, zoom) = ui.input(|i| (i.smooth_scroll_delta().y, i.zoom_delta()));
+        if zoom != 1.0 {
+            take(cx, cx.model.document.camera.zoomed(zoom));
+        } else if scroll != 0.0 {
+            take(cx, cx.model.document.camera.dollied((scroll * 0.002).exp()));
+        }
+    }
+}
+
+/// Where the line stands, in points: x of a vertical one, y of a horizontal one.
+pub fn line_at(rect: Rect, line: Line, wipe: f32) -> f32 {
+    match line {
+        Line::Vertical => rect.left() + wipe * rect.width(),
+        Line::Horizontal => rect.top() + wipe * rect.height(),
+    }
+}
+
+fn move_line(cx: &mut UiContext, ui: &Ui, response: &egui::Response, rect: Rect) {
+    if cx.model.session.view != View::Wipe {
+        return;
+    }
+    let line = cx.model.session.line;
+    let at = line_at(rect, line, cx.model.session.wipe);
+    let along = |p: Pos2| if line == Line::Vertical { p.x } else { p.y };
+    let near = |p: Pos2| (along(p) - at).abs() < GRAB;
+    if response.drag_started() {
+        cx.model.state.dragging_line = ui.input(|i| i.pointer.press_origin()).is_some_and(near);
+    }
+    if cx.model.state.dragging_line || response.hover_pos().is_some_and(near) {
+        let vertical = line == Line::Vertical;
+        ui.ctx().set_cursor_icon(if vertical { CursorIcon::ResizeHorizontal } else { CursorIcon::ResizeVertical });
+    }
+    if response.double_clicked() && response.interact_pointer_pos().is_some_and(near) {
+        cx.model.session.wipe = 0.5;
+    }
+    if response.dragged()
+        && cx.model.state.dragging_line
+        && let Some(p) = response.interact_pointer_pos()
+    {
+        cx.model.state.hint = false;
+        let (start, length) = (line_at(rect, line, 0.0), line_at(rect, line, 1.0) - line_at(rect, line, 0.0));
+        cx.model.session.wipe = ((along(p) - start) / length).clamp(0.0, 1.0);
+    }
+    if response.has_focus() {
+        arrows(cx, ui, response);
+    }
+}
+
+fn arrows(cx: &mut UiContext, ui: &Ui, response: &egui::Response) {
+    let filter = EventFilter { horizontal_arrows: true, vertical_arrows: true, ..EventFilter::default() };
+    ui.memory_mut(|m| m.set_focus_lock_filter(response.id, filter));
+    let (back, forth) = match cx.model.session.line {
+        Line::Vertical => (Key::ArrowLeft, Key::ArrowRight),
+        Line::Horizontal => (Key::ArrowUp, Key::ArrowDown),
+    };
+    let presses = |key| ui.input(|i| i.num_presses(key)) as f32;
+    cx.model.session.wipe = (cx.model.session.wipe + NUDGE * (presses(forth) - presses(back))).clamp(0.0, 1.0);
+}
+
+fn turn_camera(cx: &mut UiContext, ui: &Ui, response: &egui::Response, rect: Rect) {
+    let drag: Vec2 = response.drag_delta() / rect.height();
+    if drag == Vec2::ZERO {
+        return;
+    }
+    let other_button = response.dragged_by(PointerButton::Secondary) || response.dragged_by(PointerButton::Middle);
+    let pan = other_button || ui.input(|i| i.modifiers.shift);
+    let moved = if pan {
+        cx.model.document.camera.panned(glam::Vec2::new(drag.x, drag.y))
+    } else {
+        cx.model.document.camera.orbited(-drag.x * PI, drag.y * PI)
+    };
+    take(cx, moved);
+}
+
+/// Goes to a camera, unless it would see nothing.
+fn take(cx: &mut UiContext, camera: Camera) {
+    cx.model.state.hint = false;
+    if camera.fault().is_none() {
+        cx.model.document.camera = camera;
+    }
+}

@@ -1,0 +1,122 @@
+//! The picture area: one pane, both under the wipe or both side by side, or the map of their errors, and what is known
+//! about each on top.
+
+use super::{label, map, mouse};
+use crate::model::{Line, PaneId, PictureArea, View};
+use crate::ui::UiContext;
+use crate::ui::overlay::{say, text_box};
+use egui::{Align2, Color32, Rect, Sense, Stroke, Ui, pos2, vec2};
+
+/// All of a texture.
+pub const WHOLE: Rect = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
+
+/// One pane in the picture area.
+struct Shown {
+    pane: PaneId,
+    /// Where its picture lies.
+    place: Rect,
+    /// What of it is seen.
+    clip: Rect,
+}
+
+pub fn show(cx: &mut UiContext, ui: &mut Ui) {
+    let scale = ui.ctx().pixels_per_point();
+    let rect = whole_pixels(ui.max_rect(), scale);
+    let frame = if cx.model.session.view == View::SideBySide { left_half(rect, scale) } else { rect };
+    let pixels = frame.size() * scale;
+    let shrink = cx.model.session.resolution.shrink();
+    let side = |pixels: f32| (pixels.round().max(1.0) as u32).div_ceil(shrink);
+    cx.model.state.picture = PictureArea {
+        size: (side(pixels.x), side(pixels.y)),
+        corners: [rect.left(), rect.top(), rect.right(), rect.bottom()],
+    };
+
+    let response = ui.allocate_rect(rect, Sense::click_and_drag());
+    mouse::listen(cx, ui, &response, rect);
+    let shown = arranged(cx, rect, frame);
+    for Shown { pane, place, clip } in &shown {
+        picture(cx, ui, *place, *clip, *pane);
+    }
+    if cx.model.session.view == View::Wipe {
+        line(ui, rect, cx.model.session.line, cx.model.session.wipe);
+    }
+    if cx.model.session.view == View::ErrorMap {
+        map::show(cx, ui, rect, response.hover_pos());
+    }
+    for Shown { pane, clip, .. } in &shown {
+        label::show(cx, ui, *clip, *pane);
+    }
+    if !cx.model.state.posing {
+        let line = if cx.model.session.view == View::Wipe { "Drag the line. " } else { "" };
+        let hint = format!("{line}T swaps A and B. Drag the picture to orbit. ? shows all keys.");
+        say(cx, ui, rect, &hint);
+    }
+    let response = response.accessible_name(format!("Picture: {}", cx.model.session.view.name()));
+    if response.has_focus() {
+        ui.painter().rect_stroke(rect, 0.0, Stroke::new(2.0, Color32::YELLOW), egui::StrokeKind::Inside);
+    }
+    cx.dump.note("picture", cx.model.session.view.name(), response);
+}
+
+fn arranged(cx: &UiContext, rect: Rect, frame: Rect) -> Vec<Shown> {
+    let shown = |pane, place, clip| Shown { pane, place, clip };
+    match cx.model.session.view {
+        View::Pane(pane) => vec![shown(pane, rect, rect)],
+        View::Wipe => {
+            let (of_a, of_b) = match cx.model.session.line {
+                Line::Vertical => rect.split_left_right_at_fraction(cx.model.session.wipe),
+                Line::Horizontal => rect.split_top_bottom_at_fraction(cx.model.session.wipe),
+            };
+            vec![shown(PaneId::A, rect, of_a), shown(PaneId::B, rect, of_b)]
+        }
+        View::SideBySide => {
+            let beside = frame.translate(vec2(rect.width() - frame.width(), 0.0));
+            vec![shown(PaneId::A, frame, frame), shown(PaneId::B, beside, beside)]
+        }
+        View::ErrorMap => Vec::new(),
+    }
+}
+
+/// The largest rectangle on whole physical pixels inside: a pane is shown 1:1.
+fn whole_pixels(rect: Rect, pixels_per_point: f32) -> Rect {
+    let (min, max) = (rect.min.to_vec2() * pixels_per_point, rect.max.to_vec2() * pixels_per_point);
+    Rect::from_min_max((min.ceil() / pixels_per_point).to_pos2(), (max.floor() / pixels_per_point).to_pos2())
+}
+
+/// The left half, of whole physical pixels and one short of the middle, so that a line stays between the halves.
+fn left_half(rect: Rect, pixels_per_point: f32) -> Rect {
+    let half = ((rect.width() * pixels_per_point - 1.0) / 2.0).floor().max(1.0) / pixels_per_point;
+    Rect::from_min_size(rect.min, vec2(half, rect.height()))
+}
+
+fn picture(cx: &UiContext, ui: &Ui, rect: Rect, clip: Rect, pane: PaneId) {
+    let in_the_middle = |text: &str, colour| {
+        text_box(cx, ui, clip, clip.center(), Align2::CENTER_CENTER, text, colour);
+    };
+    let fault = cx.shown.panes.get(pane).and_then(|shown| shown.fault.as_ref());
+    match (fault, cx.textures.panes.get(pane)) {
+        (Some(fault), _) => in_the_middle(fault, Color32::from_rgb(255, 150, 150)),
+        (None, Some(texture)) => {
+            ui.painter().with_clip_rect(clip).image(*texture, rect, WHOLE, Color32::WHITE);
+        }
+        (None, None) => in_the_middle("rendering ...", Color32::WHITE),
+    }
+}
+
+fn line(ui: &Ui, rect: Rect, line: Line, wipe: f32) {
+    let painter = ui.painter();
+    let ends = |width, colour| Stroke::new(width, colour);
+    let at = mouse::line_at(rect, line, wipe);
+    let (middle, handle) = match line {
+        Line::Vertical => (pos2(at, rect.center().y), vec2(12.0, 44.0)),
+        Line::Horizontal => (pos2(rect.center().x, at), vec2(44.0, 12.0)),
+    };
+    for stroke in [ends(4.0, Color32::from_black_alpha(140)), ends(2.0, Color32::WHITE)] {
+        match line {
+            Line::Vertical => painter.vline(at, rect.y_range(), stroke),
+            Line::Horizontal => painter.hline(rect.x_range(), at, stroke),
+        };
+    }
+    let handle = Rect::from_center_size(middle, handle);
+    painter.rect(handle, 6.0, Color32::WHITE, ends(1.0, Color32::BLACK), egui::StrokeKind::Outside);
+}

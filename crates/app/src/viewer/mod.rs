@@ -1,0 +1,214 @@
+//! Model, workspaces, engine and what they have brought as one: what happens in a frame, whoever has a window for it. The
+//! real one is `window`; tests drive it without any.
+
+mod presentation;
+mod stopwatch;
+
+pub use presentation::{Place, TextureStore};
+
+use crate::engine::Picture;
+use crate::engine::ask::Engine;
+use crate::engine::capture::Capture;
+use crate::engine::export::{Content, Export};
+use crate::engine::post_process::PaneUpdate;
+use crate::model::{Destination, ExportSubject, Model, PaneId, PaneView};
+use crate::ui::{self, Dump, UiCommand, UiContext, Workspaces};
+use gpu::Gpu;
+use presentation::Presentation;
+use serde_json::{Value, json};
+use std::time::{Duration, Instant};
+use stopwatch::Stopwatch;
+
+/// A viewer without its window.
+pub struct Viewer {
+    /// All that the user can change.
+    pub model: Model,
+    workspaces: Workspaces,
+    engine: Engine,
+    presentation: Presentation,
+    stopwatch: Stopwatch,
+    /// The last frame's widgets.
+    dump: Dump,
+    commands: Vec<UiCommand>,
+}
+
+impl Viewer {
+    /// A viewer at its first frame; `started` is when the program was.
+    pub fn new(model: Model, workspaces: Workspaces, engine: Engine, started: Instant) -> Self {
+        Viewer {
+            model,
+            workspaces,
+            engine,
+            presentation: Presentation::default(),
+            stopwatch: Stopwatch::new(started),
+            dump: Dump::default(),
+            commands: Vec::new(),
+        }
+    }
+
+    /// Takes what the workers have finished.
+    pub fn collect(&mut self, textures: &mut impl TextureStore) {
+        let updates = self.engine.collect().unwrap_or_default();
+        for (pane, update) in updates.iter() {
+            if let PaneUpdate::Picture(frame) = update {
+                self.stopwatch.received(frame.picture.order.job);
+                self.tell_of_refusal(pane, &frame.picture);
+            }
+        }
+        self.presentation.update(updates, textures);
+        if let Some(drawn) = self.engine.error_map() {
+            self.presentation.update_map(drawn, textures);
+        }
+        self.follow_the_reference();
+        match self.engine.loaded() {
+            Some(Ok(opened)) => {
+                self.model.say(Ok(format!("Opened {}", opened.scene.name)));
+                self.model.open(opened.scene, opened.source);
+                self.presentation.clear();
+            }
+            Some(Err(fault)) => self.model.say(Err(fault)),
+            None => {}
+        }
+        self.engine.exported().into_iter().for_each(|outcome| self.model.say(outcome));
+    }
+
+    /// Says once that a pane's rays are not traced where they should be.
+    fn tell_of_refusal(&mut self, pane: PaneId, picture: &Picture) {
+        let known = self.presentation.shown.panes.get(pane).and_then(|shown| shown.refused.as_ref());
+        if let Some(why) = picture.refused.as_ref().filter(|why| known != Some(why)) {
+            self.model.say(Err(format!("{pane} goes on on the CPU, the GPU failed: {why}. R tries it again")));
+        }
+    }
+
+    fn follow_the_reference(&mut self) {
+        let view = self.engine.view_of_the_reference();
+        self.presentation.shown.reference.take_if(|progress| Some(progress.view) != view);
+        let Some(update) = self.engine.update() else { return };
+        self.presentation.shown.reference = update.progress.or_else(|| self.presentation.shown.reference.take());
+        update.faults.into_iter().for_each(|fault| self.model.say(Err(fault)));
+    }
+
+    /// Draws everything and changes the model as the user wants; what else the user wants waits in
+    /// [`Viewer::take_commands`].
+    pub fn draw(&mut self, ui: &mut egui::Ui) {
+        self.dump = Dump::default();
+        let mut cx = UiContext {
+            model: &mut self.model,
+            shown: &self.presentation.shown,
+            textures: &self.presentation.textures,
+            dump: &mut self.dump,
+            commands: &mut self.commands,
+        };
+        ui::show(&mut self.workspaces, &mut cx, ui);
+    }
+
+    /// What the user has asked for since the last call.
+    pub fn take_commands(&mut self) -> Vec<UiCommand> {
+        std::mem::take(&mut self.commands)
+    }
+
+    /// Does a command; those for a window are handed back.
+    pub fn handle(&mut self, command: UiCommand) -> Option<UiCommand> {
+        match command {
+            UiCommand::Export(request) => match request.subject {
+                ExportSubject::AsSeen => return Some(UiCommand::Export(request)),
+                ExportSubject::Pane(pane) => self.export_pane(pane, request.to),
+                ExportSubject::ErrorMap => self.export_map(request.to),
+            },
+            UiCommand::Open(name) => self.engine.load(name),
+            UiCommand::LoadReference(file) => self.engine.load_reference(file),
+            UiCommand::Quit => return Some(command),
+        }
+        None
+    }
+
+    fn export_pane(&mut self, pane: PaneId, to: Destination) {
+        match self.presentation.pane(pane, self.model.session.display) {
+            Some((content, records)) => self.engine.export(Export { content, records, to }),
+            None => self.model.say(Err(format!("{pane} has no whole picture yet; try again in a moment"))),
+        }
+    }
+
+    fn export_map(&mut self, to: Destination) {
+        match self.presentation.map(&self.model) {
+            Some((content, records)) => self.engine.export(Export { content, records, to }),
+            None => self.model.say(Err("there is no error map yet; try again in a moment".into())),
+        }
+    }
+
+    /// Exports the picture area as it was drawn, line and labels included.
+    pub fn export_as_seen(&mut self, capture: Capture, to: Destination) {
+        let records = self.presentation.records_of_all(&self.model);
+        self.engine.export(Export { content: Content::Seen(capture), records, to });
+    }
+
+    /// Asks the engine for what is wanted now.
+    pub fn ask(&mut self) {
+        let wanted = self.workspaces.open().wanted(&self.model);
+        self.presentation.keep(&wanted);
+        self.engine.ask(&wanted).values().for_each(|job| self.stopwatch.asked(*job));
+    }
+
+    /// A frame is on the screen.
+    pub fn shown(&mut self) {
+        let textures = &self.presentation.textures.panes;
+        self.stopwatch.shown(self.model.session.panes.ids().all(|pane| textures.get(pane).is_some()));
+    }
+
+    /// Goes on with another device of the window, whose textures are lost.
+    pub fn move_to(&mut self, gpu: &Gpu) {
+        self.presentation.lose_textures();
+        self.engine.move_to(gpu);
+    }
+
+    /// The last frame's widgets and the state behind them, for tests. `more` adds to the state.
+    pub fn dump(&self, context: &egui::Context, pixels_per_point: f32, more: Value) -> String {
+        let ready = |pane| self.presentation.textures.panes.get(pane).is_some();
+        let shown = &self.presentation.shown;
+        let pane = |id| dump_of(shown.panes.get(id).unwrap_or(&PaneView::default()), ready(id));
+        let milliseconds = |time: Option<Duration>| time.map(|time| time.as_millis() as u64);
+        let Model { document, session, state, .. } = &self.model;
+        let mut state = json!({
+            "scene": document.scene.name,
+            "view": session.view.name(),
+            "line": session.line.name(),
+            "wipe": session.wipe,
+            "paused": state.paused,
+            "theme": state.theme.name(),
+            "picture_size": state.picture.size,
+            "eye": document.camera.eye.to_array(),
+            "fov": document.camera.fov_y,
+            "message": state.message.as_ref().map(|m| &m.text),
+            "focus_id": context.memory(|m| m.focused()).map(|id| id.value()),
+            "pressing": context.input(|i| i.pointer.any_down()),
+            "typing": context.text_edit_focused(),
+            "map": shown.map.as_ref().map(|map| &map.map.label),
+            "reference": shown.reference.as_ref().map(|r| [r.pictures, u32::from(r.done)]),
+            "a": pane(PaneId::A),
+            "b": pane(PaneId::B),
+            "frames": self.stopwatch.frames(),
+            "latency_ms": milliseconds(self.stopwatch.latency()),
+            "first_pictures_ms": milliseconds(self.stopwatch.first_pictures()),
+        });
+        if let (Some(state), Value::Object(more)) = (state.as_object_mut(), more) {
+            state.extend(more);
+        }
+        self.dump.json(pixels_per_point, state)
+    }
+}
+
+fn dump_of(pane: &PaneView, ready: bool) -> Value {
+    json!({
+        "ready": ready,
+        "label": pane.provenance.as_ref().map(|p| p.technique.label()),
+        "spp": pane.spp,
+        "rough": pane.rough,
+        "unfinished": pane.unfinished,
+        "nonfinite": pane.nonfinite,
+        "rel_mse": pane.errors.map(|(_, e)| e.rel_mse),
+        "fault": pane.fault,
+        "adapter": pane.adapter.as_deref(),
+        "device": pane.provenance.as_ref().map(|p| p.device.name()),
+        "refused": pane.refused.as_deref(),
+    })
+}

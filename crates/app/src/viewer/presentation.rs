@@ -1,0 +1,160 @@
+//! What is shown: for each pane its texture, what the UI says about it, and the picture itself for
+//! export; and the map of errors.
+
+use crate::engine::Picture;
+use crate::engine::export::Content;
+use crate::engine::post_process::{DisplayFrame, PaneUpdate, PaneUpdates};
+use crate::model::{Against, ErrorMap, Model, PaneId, PaneView, Panes, ViewModel, Wanted};
+use crate::ruler::error_records;
+use crate::ui::Textures;
+use egui::TextureId;
+use film::DisplayTransform;
+use image_file::Records;
+use std::sync::Arc;
+use technique::Made;
+
+/// All panes and the map.
+#[derive(Default)]
+pub struct Presentation {
+    /// What the UI is told.
+    pub shown: ViewModel,
+    /// The pixels of that.
+    pub textures: Textures,
+    pictures: Panes<Picture>,
+}
+
+/// Where pixels are kept to be drawn: one texture for each place.
+pub trait TextureStore {
+    /// Replaces what a place shows by `size` pixels of RGBA, rows from the top.
+    fn upload(&mut self, place: Place, size: (u32, u32), rgba: &[u8]) -> TextureId;
+}
+
+/// Something that shows pixels.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Place {
+    /// The picture of a pane.
+    Pane(PaneId),
+    /// The map of errors.
+    ErrorMap,
+}
+
+impl Presentation {
+    /// Takes everything down.
+    pub fn clear(&mut self) {
+        (self.shown, self.textures) = Default::default();
+        self.pictures = Panes::default();
+    }
+
+    /// Takes all textures down, whose device has failed; the pictures stay for the next device.
+    pub fn lose_textures(&mut self) {
+        self.textures = Textures::default();
+        self.shown.map = None;
+    }
+
+    /// Puts up what is new.
+    pub fn update(&mut self, updates: PaneUpdates, textures: &mut impl TextureStore) {
+        let changed: Vec<PaneId> = updates.ids().collect();
+        for (pane, update) in updates {
+            match update {
+                PaneUpdate::Fault(fault) => {
+                    self.shown.panes.insert(pane, PaneView::failed(fault));
+                    self.textures.panes.remove(pane);
+                    self.pictures.remove(pane);
+                }
+                PaneUpdate::Picture(frame) => self.put_up(pane, *frame, textures),
+            }
+        }
+        // the error of one belongs to the picture of the other
+        changed.into_iter().for_each(|pane| self.shown.note_errors(pane));
+    }
+
+    fn put_up(&mut self, pane: PaneId, frame: DisplayFrame, textures: &mut impl TextureStore) {
+        let DisplayFrame { picture, rgba, errors } = frame;
+        let shown = self.shown.panes.entry(pane);
+        if let Some(rgba) = &rgba {
+            let texture = textures.upload(Place::Pane(pane), picture.image.size(), rgba);
+            self.textures.panes.insert(pane, texture);
+            shown.fault = None;
+        }
+        shown.provenance = Some(picture.order.provenance.clone());
+        (shown.spp, shown.seconds, shown.nonfinite) = (picture.spp, picture.seconds, picture.nonfinite);
+        shown.refused = picture.refused.clone();
+        shown.adapter = Some(picture.adapter.clone());
+        (shown.rough, shown.unfinished) = (picture.rough, picture.unfinished);
+        shown.shrink = picture.order.size().0.div_ceil(picture.image.width().max(1)) * picture.order.shrink;
+        shown.errors = errors;
+        self.pictures.insert(pane, picture);
+    }
+
+    /// Takes down what is no longer wanted: it is not made again, and would grow old.
+    pub fn keep(&mut self, wanted: &Wanted) {
+        let is_wanted = |pane| wanted.panes.get(pane).is_some();
+        self.shown.panes.retain(|pane, _| is_wanted(pane));
+        self.textures.panes.retain(|pane, _| is_wanted(pane));
+        self.pictures.retain(|pane, _| is_wanted(pane));
+        if wanted.map.is_none() {
+            (self.shown.map, self.textures.map) = (None, None);
+        }
+    }
+
+    /// Puts up a map of errors, or takes it down.
+    pub fn update_map(&mut self, drawn: Option<ErrorMap>, textures: &mut impl TextureStore) {
+        self.textures.map = drawn
+            .as_ref()
+            .map(|drawn| textures.upload(Place::ErrorMap, (drawn.map.width, drawn.map.height()), &drawn.rgba));
+        self.shown.map = drawn.map(Arc::new);
+    }
+
+    /// The map for export, if there is one.
+    pub fn map(&self, model: &Model) -> Option<(Content, Records)> {
+        let drawn = self.shown.map.clone()?;
+        Some((Content::Map(drawn), self.records_of_all(model)))
+    }
+
+    /// One pane for export; `None` while there is nothing but a rough picture.
+    pub fn pane(&self, pane: PaneId, display: DisplayTransform) -> Option<(Content, Records)> {
+        let picture = self.pictures.get(pane).filter(|picture| !picture.rough)?;
+        let made = Made {
+            spp: picture.spp.unwrap_or(1),
+            seconds: picture.seconds,
+            adapter: &picture.adapter,
+            exposure: display.exposure,
+        };
+        let mut records = picture.order.provenance.records(made);
+        if let Some((against, errors)) = self.shown.panes.get(pane).and_then(|shown| shown.errors)
+            && let Some(judge) = self.name_of_what_judges(against, display)
+        {
+            records.extend(error_records(&errors, judge));
+        }
+        Some((Content::Pane(picture.clone(), display), records))
+    }
+
+    /// "B: the command that makes it", or "reference".
+    fn name_of_what_judges(&self, against: Against, display: DisplayTransform) -> Option<String> {
+        let Against::Pane(judge) = against else { return Some(against.name().into()) };
+        let picture = self.pictures.get(judge)?;
+        let command = picture.order.provenance.command(picture.spp.unwrap_or(1), display.exposure, &file_of(judge));
+        Some(format!("{judge}: {command}"))
+    }
+
+    /// What a file keeps about the picture as seen: the view, and for each pane the command that makes it.
+    pub fn records_of_all(&self, model: &Model) -> Records {
+        let session = &model.session;
+        let exposure = session.display.exposure;
+        let mut records = vec![
+            ("view", session.view.name().to_owned()),
+            ("line", format!("{} at {}", session.line.name(), session.wipe)),
+            ("exposure", exposure.to_string()),
+        ];
+        for (pane, picture) in self.pictures.iter() {
+            let command = picture.order.provenance.command(picture.spp.unwrap_or(1), exposure, &file_of(pane));
+            records.push((pane.name(), if picture.rough { format!("rough, in full: {command}") } else { command }));
+        }
+        records
+    }
+}
+
+/// "a.png".
+fn file_of(pane: PaneId) -> String {
+    format!("{}.png", pane.name().to_lowercase())
+}

@@ -1,0 +1,50 @@
+//! Rays on the graphics device: chosen, shown and recorded.
+
+use super::export::export;
+use super::{User, both_whole};
+use technique::DeviceChoice;
+use visavis_tests::Frame;
+
+fn made_by(frame: &Frame, device: &str) -> bool {
+    frame.state("b")["device"] == device && both_whole(frame)
+}
+
+#[test]
+fn the_gpu_traces_b_says_so_and_is_recorded() {
+    let mut user = User::of("cornell");
+    let first = user.wait_for("both pictures", both_whole);
+    assert_eq!(first.state("b")["device"], "cpu", "auto, where the processor plays the adapter");
+    user.click_in("B", "More");
+    let chosen = user.click_in("B", "the GPU");
+    assert_eq!(chosen.value("B device the GPU"), "true");
+    let traced = user.wait_for("a picture by the GPU", |f| made_by(f, "gpu"));
+    assert!(traced.value("label B").contains("on the GPU"), "{}", traced.value("label B"));
+    assert!(traced.state("b")["refused"].is_null() && traced.state("b")["fault"].is_null());
+    let file = user.file("b.exr");
+    export(&mut user, &["B alone", "EXR linear"], &file);
+    let records = image_file::records(&file).expect("records");
+    let value = |name: &str| records.iter().find(|(known, _)| known == name).map(|(_, value)| value.as_str());
+    assert_eq!(value("device"), Some("gpu"));
+    assert!(value("command").is_some_and(|command| command.contains("--device gpu")), "{records:?}");
+    assert!(value("adapter").is_some_and(|adapter| !adapter.contains("threads")), "{records:?}");
+
+    user.click("Undo");
+    let undone = user.wait_for("the processor again", |f| made_by(f, "cpu"));
+    assert!(!undone.value("label B").contains("GPU"), "{}", undone.value("label B"));
+}
+
+/// Both of Mesa's interfaces are there to choose from, by name.
+#[test]
+fn an_adapter_is_chosen_by_its_name() {
+    let mut user = User::beside("cornell", egui::vec2(1280.0, 720.0), 1.0, DeviceChoice::Gpu);
+    let more = user.click_in("B", "More");
+    assert!(more.value("text B adapter").ends_with("Vulkan"), "{}", more.value("text B adapter"));
+    let open = user.click_in("B", "Adapter");
+    let entry = open.names().into_iter().find(|name| name.starts_with("B adapter") && name.ends_with("OpenGL"));
+    let name = entry.expect("an entry").trim_start_matches("B adapter ").to_owned();
+    let chosen = user.click(&name);
+    assert!(chosen.value("text B adapter").ends_with("OpenGL"));
+    user.wait_for("its picture", |f| {
+        made_by(f, "gpu") && f.state("b")["adapter"].as_str().is_some_and(|adapter| adapter.ends_with("OpenGL"))
+    });
+}

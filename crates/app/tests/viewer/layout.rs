@@ -1,0 +1,60 @@
+//! Nothing overlaps, and pictures have the pixels that were asked for.
+
+use super::{User, both_whole};
+use egui::{Key, Modifiers};
+use technique::DeviceChoice;
+use visavis_tests::Frame;
+
+/// The most controls that can be there at once, on the smallest screen: what does not fit is reached by scrolling, and
+/// still nothing overlaps or sticks out at the side.
+#[test]
+fn all_controls_at_once_still_do_not_overlap() {
+    let size = egui::vec2(1024.0, 768.0) / 1.5;
+    let mut user = User::beside("whitted", size, 1.5, DeviceChoice::Auto);
+    user.wait_for("both pictures", both_whole);
+    user.click("Camera (both)");
+    user.click_in("B", "P");
+    let frame = user.click_in("B", "Limit bounces");
+    assert!(frame.shows("field of view") && frame.shows("B roulette probability") && frame.shows("B bounces"));
+    let controls = controls(&frame);
+    for (index, a) in controls.iter().enumerate() {
+        for b in &controls[index + 1..] {
+            let ([al, at, ar, ab], [bl, bt, br, bb]) = (frame.rect(a), frame.rect(b));
+            let overlap = ar.min(br) - al.max(bl) > 0.5 && ab.min(bb) - at.max(bt) > 0.5;
+            assert!(!overlap, "'{a}' {:?} overlaps '{b}' {:?}", frame.rect(a), frame.rect(b));
+        }
+    }
+    let [_, bar, edge, _] = frame.rect("picture");
+    for name in controls {
+        let [left, top, right, _] = frame.rect(name);
+        assert!(right <= 1024.0 && (top < bar || left >= edge), "{name} sticks out: {:?}", frame.rect(name));
+    }
+    user.scroll_to("Vertical field of view in degrees");
+    user.wait_for("the last control to come into view", |f| {
+        let (whole, seen) = (f.rect("field of view"), f.visible("field of view"));
+        whole == seen
+    });
+}
+
+/// Widgets that are not the picture and not on it.
+fn controls(frame: &Frame) -> Vec<&str> {
+    let on_the_picture = ["picture", "label ", "bar map", "hint", "message"];
+    frame.names().into_iter().filter(|name| !on_the_picture.iter().any(|start| name.starts_with(start))).collect()
+}
+
+/// Both pictures have a pixel for two by two, and their labels say so; undo gives every pixel back.
+#[test]
+fn pictures_are_made_at_half_the_resolution_if_asked() {
+    let mut user = User::of("cornell");
+    let first = user.wait_for("both pictures", both_whole);
+    let size = |f: &Frame, i: usize| f.state("picture_size")[i].as_u64().expect("a size");
+    let said = |f: &Frame, pane: &str| f.value(&format!("label {pane}")).contains("at 1/2 of the resolution");
+    assert!(!said(&first, "A") && !said(&first, "B"));
+    user.click("Camera (both)");
+    let half = user.click("1/2");
+    assert_eq!([size(&half, 0), size(&half, 1)], [0, 1].map(|i| size(&first, i).div_ceil(2)));
+    let half = user.wait_for("labels that say so", |f| both_whole(f) && said(f, "A") && said(f, "B"));
+    assert!(half.state("a")["rel_mse"].is_number());
+    user.key_with(Key::Z, Modifiers::COMMAND);
+    user.wait_for("every pixel", |f| both_whole(f) && size(f, 0) == size(&first, 0) && !said(f, "B"));
+}

@@ -1,0 +1,85 @@
+//! A change of a setting: what it brings, what it keeps, and that it can be taken back.
+
+use super::{User, both_whole};
+use egui::{Key, Modifiers};
+use visavis_tests::Frame;
+
+fn spp(frame: &Frame) -> Option<u64> {
+    frame.state("b")["spp"].as_u64()
+}
+
+#[test]
+fn either_pane_holds_any_technique() {
+    let mut user = User::of("cornell");
+    user.wait_for("both pictures", both_whole);
+    user.click_nth("Truth", 0);
+    user.click_in("A", "cosine");
+    let both = user.wait_for("two truths, compared", |f| {
+        f.state("a")["label"] == "truth (path, cosine)" && f.state("a")["rel_mse"].is_number() && both_whole(f)
+    });
+    assert_eq!(both.state("b")["label"], "truth (path, light)");
+    user.click_nth("Fake", 1);
+    let swapped = user.wait_for("the fake in B", |f| f.state("b")["label"] == "fake (raster, fair)" && both_whole(f));
+    assert!(swapped.shows("B fake as-taught") && !swapped.shows("B spp"));
+}
+
+#[test]
+fn a_change_of_a_setting_can_be_taken_back_and_done_again() {
+    let mut user = User::of("whitted");
+    user.wait_for("both pictures", both_whole);
+    let slid = user.set_slider("Refraction ratio (n = 1.43)", 0.55);
+    let moved = slid.value("refraction ratio").to_owned();
+    assert_eq!(moved, "0.55");
+    user.click_nth("Truth", 0);
+    user.wait_for("two truths", |f| f.state("a")["label"] == "truth (path, light)" && both_whole(f));
+    user.key_with(Key::Z, Modifiers::COMMAND);
+    let back = user.wait_for("the fake again", |f| f.state("a")["label"] == "fake (raster, fair)");
+    assert_eq!(back.value("undo"), "true");
+    let undone = user.key_with(Key::Z, Modifiers::COMMAND);
+    assert_eq!([undone.value("refraction ratio"), undone.value("undo")], ["0.7", "false"], "the ratio of before");
+    let again = user.key_with(Key::Z, Modifiers::COMMAND | Modifiers::SHIFT);
+    assert_eq!(again.value("refraction ratio"), moved);
+}
+
+#[test]
+fn asking_for_more_samples_keeps_those_that_are_there() {
+    let mut user = User::of("cornell");
+    let some = user.wait_for("some samples", |f| f.state("b")["rough"] == false && spp(f) >= Some(4));
+    let more = user.set_slider("Samples per pixel (spp)", 10.0);
+    assert_eq!(more.value("B spp"), "1024");
+    for _ in 0..20 {
+        let later = user.frame();
+        assert!(spp(&later) >= spp(&some) && later.state("b")["rough"] == false, "the samples are gone");
+        std::thread::sleep(std::time::Duration::from_millis(50));
+    }
+    // another view and back: the picture that was left is there again
+    user.click("Pause");
+    let held = user.wait_for("the pause", |f| f.value("label B").contains("paused"));
+    user.click("Side by side");
+    user.wait_for("another size", |f| f.state("view") == "Side by side" && both_whole(f));
+    user.click("Wipe");
+    user.wait_for("the samples of before", |f| f.state("view") == "Wipe" && spp(f) >= spp(&held) && both_whole(f));
+}
+
+/// How soon is measured by `--ui-dump` under a window; that it need not wait for the picture in hand is seen by what
+/// comes: the next picture is of the new settings, and a rough one.
+#[test]
+fn a_change_drops_the_picture_in_hand_and_brings_a_rough_one_first() {
+    let mut user = User::of("cornell");
+    let before = user.wait_for("a full picture", |f| both_whole(f) && spp(f) >= Some(2));
+    user.click_in("B", "cosine");
+    let of_the_old = |f: &Frame| f.state("b")["label"] == "truth (path, light)";
+    let mut old_pictures = vec![spp(&before)];
+    let first = loop {
+        let frame = user.frame();
+        if !of_the_old(&frame) {
+            break frame;
+        }
+        if old_pictures.last() != Some(&spp(&frame)) {
+            old_pictures.push(spp(&frame));
+        }
+    };
+    assert!(old_pictures.len() <= 2, "the old picture went on: {old_pictures:?} spp");
+    assert_eq!(first.state("b")["label"], "truth (path, cosine)");
+    assert!(first.state("b")["rough"] == true || spp(&first) == Some(1), "{:?}", first.state("b"));
+}

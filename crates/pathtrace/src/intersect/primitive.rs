@@ -1,0 +1,130 @@
+//! What a ray can hit, made from a scene's shapes.
+
+use super::disk::Disk;
+use super::sphere::{Sphere, SphereLanes};
+use super::triangle::{ShearedRay, Triangle, triangle_normal};
+use super::{Hit, NO_LIGHT, Ray, Rays, SurfaceInteraction, SurfacePoints, gamma};
+use crate::vectors::lane_vector;
+use rayon::prelude::*;
+use scene::{Geometry, Scene, Vec3};
+
+/// What a ray can hit.
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum Primitive {
+    Triangle(Triangle),
+    Sphere(Sphere),
+    Disk(Disk),
+}
+
+/// A primitive and what shading needs of it, beside the part that intersection reads.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Surface {
+    /// Unit normal of a triangle; others have their own.
+    pub normal: Vec3,
+    pub material: u32,
+    /// See [`SurfaceInteraction::light`].
+    pub light: u32,
+}
+
+impl Surface {
+    /// What a ray has met that has hit this surface at a point of it.
+    #[inline(always)]
+    pub(super) fn interaction(&self, point: SurfacePoints<f32>) -> SurfaceInteraction {
+        SurfaceInteraction { point: point.into(), material: self.material, light: self.light }
+    }
+}
+
+impl Primitive {
+    #[inline(always)]
+    pub(super) fn intersect(&self, ray: &Ray, sheared: &ShearedRay, tmax: f32) -> Option<(f32, [f32; 3])> {
+        match self {
+            Primitive::Triangle(triangle) => triangle.intersect(sheared, tmax).map(|hit| (hit.t, hit.barycentrics)),
+            Primitive::Sphere(sphere) => sphere.intersect(ray, tmax).map(|t| (t, [0.0; 3])),
+            Primitive::Disk(disk) => {
+                let (met, t) = disk.intersect(&Rays { tmax, ..ray.lane() });
+                met.then_some((t, [0.0; 3]))
+            }
+        }
+    }
+
+    /// What a ray has met that has hit this.
+    pub(super) fn interaction(&self, ray: &Ray, hit: &Hit, surface: &Surface) -> SurfaceInteraction {
+        let normal = lane_vector(surface.normal);
+        let point = match self {
+            Primitive::Triangle(triangle) => {
+                SurfacePoints::on_triangle(triangle.corners.map(lane_vector), hit.barycentrics, normal)
+            }
+            Primitive::Sphere(sphere) => {
+                let SphereLanes { center, radius } = sphere.lanes();
+                SurfacePoints::on_sphere(center, radius, sphere.lanes().meeting(&ray.lane(), hit.t))
+            }
+            Primitive::Disk(disk) => {
+                let Rays { origin, direction, .. } = ray.lane();
+                SurfacePoints::on_disk(lane_vector(disk.center), origin + direction * hit.t, normal)
+            }
+        };
+        surface.interaction(point)
+    }
+
+    pub(super) fn bounds(&self) -> (Vec3, Vec3) {
+        match self {
+            Primitive::Triangle(Triangle { corners: [a, b, c], .. }) => (a.min(*b).min(*c), a.max(*b).max(*c)),
+            Primitive::Sphere(s) => (s.center - Vec3::splat(s.radius), s.center + Vec3::splat(s.radius)),
+            Primitive::Disk(Disk { center, normal, radius }) => {
+                Geometry::Disk { center: *center, normal: *normal, radius: *radius }.bounds()
+            }
+        }
+    }
+}
+
+/// The shapes' indices in the order that decides ties: area lights first, so that an area light in the plane of a wall
+/// wins against the wall.
+pub fn area_lights_first(scene: &Scene) -> impl Iterator<Item = usize> {
+    let is_area_light = |index: &usize| scene.material_of(&scene.shapes[*index]).emission.is_some();
+    let (area_lights, others): (Vec<_>, Vec<_>) = (0..scene.shapes.len()).partition(is_area_light);
+    area_lights.into_iter().chain(others)
+}
+
+/// A scene's primitives in the order that decides ties, without triangles that have no area: no ray can meet them.
+pub(super) fn primitives(scene: &Scene, light_of_shape: &[u32]) -> (Vec<Primitive>, Vec<Surface>) {
+    let (mut primitives, mut surfaces) = (Vec::new(), Vec::new());
+    for index in area_lights_first(scene) {
+        let shape = &scene.shapes[index];
+        let material = shape.material as u32;
+        let first_light = light_of_shape[index];
+        let mut light = first_light;
+        let mut add = |primitive, normal, light| {
+            primitives.push(primitive);
+            surfaces.push(Surface { normal, material, light });
+        };
+        match shape.geometry {
+            Geometry::Sphere { center, radius } => add(Primitive::Sphere(Sphere { center, radius }), Vec3::ZERO, light),
+            Geometry::Disk { center, normal, radius } => {
+                add(Primitive::Disk(Disk { center, normal, radius }), normal, light);
+            }
+            Geometry::Rectangle { .. } | Geometry::Box { .. } | Geometry::Mesh(_) => {
+                let (positions, triangles) = shape.geometry.flat_triangles();
+                // the two halves of a rectangle are one light, other triangles are each their own
+                let step = u32::from(first_light != NO_LIGHT && !matches!(shape.geometry, Geometry::Rectangle { .. }));
+                for corners in triangles.iter().map(|t| t.map(|i| positions[i as usize])) {
+                    if let Some(normal) = triangle_normal(corners) {
+                        add(Primitive::Triangle(Triangle::new(corners)), normal, light);
+                        light += step;
+                    }
+                }
+            }
+        }
+    }
+    (primitives, surfaces)
+}
+
+/// How much boxes are grown: 2^-20 of (largest coordinate + extent): the box test rounds, and treats directions below
+/// 1.2e-7 as if they were that. Measured on a bumpy sphere of 100,000 triangles: without, up to 2 % of axis-parallel
+/// rays are lost; with it none of 10 million.
+pub(super) fn padding(primitives: &[Primitive]) -> Vec3 {
+    let none = (Vec3::INFINITY, Vec3::NEG_INFINITY);
+    let union = |a: (Vec3, Vec3), b: (Vec3, Vec3)| (a.0.min(b.0), a.1.max(b.1));
+    let scene = primitives.par_iter().with_min_len(4096).map(Primitive::bounds).reduce(|| none, union);
+    let largest = scene.0.abs().max(scene.1.abs()).max_element();
+    Vec3::splat((largest + (scene.1 - scene.0).max_element()) / 1_048_576.0 + gamma(1) * largest)
+}

@@ -1,0 +1,181 @@
+//! Bytes that say what the truth of a scene depends on, and nothing else: equal bytes, equal pictures. Hashed, they name
+//! what was made of the scene.
+//!
+//! Numbers are the bits of their f32, little-endian; lists say how long they are and choices which one they are, so that
+//! no two scenes run into the same bytes. Structures are taken apart without `..`: a new field does not compile before it
+//! has found its place here, or its reason not to have one.
+
+use crate::light::{PointLight, Sun};
+use crate::material::{Checkerboard, Emission};
+use crate::{Bsdf, Camera, Conductor, EnvironmentMap, Geometry, Material, Mesh, Scene, Shape, Texture};
+use glam::Vec3;
+
+/// Takes the bytes, one piece after the other.
+pub struct Canonical<'a>(pub &'a mut dyn FnMut(&[u8]));
+
+impl Canonical<'_> {
+    /// All that light meets in a scene. Not its name, not its own camera, and not the fake's numbers.
+    pub fn scene(&mut self, scene: &Scene) {
+        let Scene { name: _, camera: _, materials, shapes, sun, point_lights, sky, environment, fake: _ } = scene;
+        self.count(materials.len());
+        materials.iter().for_each(|material| self.material(material));
+        self.count(shapes.len());
+        shapes.iter().for_each(|shape| self.shape(shape));
+        self.option(sun.as_ref(), Self::sun);
+        self.count(point_lights.len());
+        point_lights.iter().for_each(|light| self.point_light(light));
+        self.vector(*sky);
+        self.option(environment.as_deref(), Self::environment);
+    }
+
+    /// What a camera shows. Its near and far planes are the raster's.
+    pub fn camera(&mut self, camera: &Camera) {
+        let Camera { eye, target, up, fov_y, near: _, far: _ } = camera;
+        [eye, target, up].into_iter().for_each(|v| self.vector(*v));
+        self.number(*fov_y);
+    }
+
+    /// A whole number.
+    pub fn word(&mut self, word: u32) {
+        (self.0)(&word.to_le_bytes());
+    }
+
+    fn count(&mut self, count: usize) {
+        (self.0)(&(count as u64).to_le_bytes());
+    }
+
+    fn number(&mut self, number: f32) {
+        self.word(number.to_bits());
+    }
+
+    fn vector(&mut self, v: Vec3) {
+        let mut bytes = [0; 12];
+        for (bytes, number) in bytes.as_chunks_mut().0.iter_mut().zip(v.to_array()) {
+            *bytes = number.to_le_bytes();
+        }
+        (self.0)(&bytes);
+    }
+
+    fn option<T>(&mut self, value: Option<&T>, write: impl FnOnce(&mut Self, &T)) {
+        self.word(u32::from(value.is_some()));
+        if let Some(value) = value {
+            write(self, value);
+        }
+    }
+
+    fn material(&mut self, material: &Material) {
+        let Material { name: _, bsdf, emission, fake: _ } = material;
+        match bsdf {
+            Bsdf::Diffuse { albedo } => {
+                self.word(0);
+                self.texture(albedo);
+            }
+            Bsdf::Mirror { reflectance } => {
+                self.word(1);
+                self.vector(*reflectance);
+            }
+            Bsdf::Dielectric { ior } => {
+                self.word(2);
+                self.number(*ior);
+            }
+            Bsdf::RoughConductor { conductor, roughness } => {
+                self.word(3);
+                self.conductor(conductor);
+                self.number(*roughness);
+            }
+        }
+        self.option(emission.as_ref(), |this, Emission { radiance, two_sided }| {
+            this.vector(*radiance);
+            this.word(u32::from(*two_sided));
+        });
+    }
+
+    fn conductor(&mut self, conductor: &Conductor) {
+        match conductor {
+            Conductor::Constant(reflectance) => {
+                self.word(0);
+                self.vector(*reflectance);
+            }
+            Conductor::Fresnel { eta, k } => {
+                self.word(1);
+                [eta, k].into_iter().for_each(|v| self.vector(*v));
+            }
+        }
+    }
+
+    fn texture(&mut self, texture: &Texture) {
+        match texture {
+            Texture::Constant(colour) => {
+                self.word(0);
+                self.vector(*colour);
+            }
+            Texture::Checkerboard(Checkerboard { even, odd, origin, cell }) => {
+                self.word(1);
+                [even, odd, origin, cell].into_iter().for_each(|v| self.vector(*v));
+            }
+        }
+    }
+
+    fn shape(&mut self, Shape { geometry, material }: &Shape) {
+        self.count(*material);
+        match geometry {
+            Geometry::Sphere { center, radius } => {
+                self.word(0);
+                self.vector(*center);
+                self.number(*radius);
+            }
+            Geometry::Rectangle { corner, edge_u, edge_v } => {
+                self.word(1);
+                [corner, edge_u, edge_v].into_iter().for_each(|v| self.vector(*v));
+            }
+            Geometry::Disk { center, normal, radius } => {
+                self.word(2);
+                self.vector(*center);
+                self.vector(*normal);
+                self.number(*radius);
+            }
+            Geometry::Box { corner, size, turn_y } => {
+                self.word(3);
+                self.vector(*corner);
+                self.vector(*size);
+                self.number(*turn_y);
+            }
+            Geometry::Mesh(mesh) => {
+                self.word(4);
+                self.mesh(mesh);
+            }
+        }
+    }
+
+    fn mesh(&mut self, mesh: &Mesh) {
+        self.count(mesh.positions().len());
+        mesh.positions().iter().for_each(|position| self.vector(*position));
+        self.count(mesh.triangles().len());
+        for triangle in mesh.triangles() {
+            triangle.iter().for_each(|corner| self.word(*corner));
+        }
+    }
+
+    /// Its picture may hold more than its pixels, but they are all that shines.
+    fn environment(&mut self, map: &EnvironmentMap) {
+        let (width, height) = map.image().size();
+        [width, height].into_iter().for_each(|side| self.word(side));
+        map.image().radiances().iter().for_each(|radiance| self.vector(*radiance));
+        self.number(map.scale());
+        self.number(map.rotation());
+    }
+
+    fn sun(&mut self, Sun { towards, angular_radius, irradiance }: &Sun) {
+        self.vector(*towards);
+        self.number(*angular_radius);
+        self.vector(*irradiance);
+    }
+
+    fn point_light(&mut self, PointLight { position, intensity }: &PointLight) {
+        self.vector(*position);
+        self.vector(*intensity);
+    }
+}
+
+#[cfg(test)]
+mod tests;

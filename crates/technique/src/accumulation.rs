@@ -1,0 +1,139 @@
+//! A film on its way: what is in it, what a device has added to it meanwhile, and who has.
+
+use film::{Film, Pixel};
+use gpu::Gpu;
+use pathtrace::Stats;
+use pathtrace::gpu::{GpuFilm, GpuTraceError, GpuTracer};
+use std::time::Duration;
+
+/// A film, and what a device has added to it.
+pub struct Accumulation {
+    /// The film as last read.
+    pub(crate) film: Film,
+    /// What it took.
+    pub(crate) stats: Stats,
+    /// Samples that every pixel has, on the device too.
+    pub(crate) spp: u32,
+    /// Samples that a pixel may have at most: a pass that was stopped leaves some with more than others.
+    pub(crate) most: u32,
+    pub(crate) spent: Duration,
+    on_device: Option<OnDevice>,
+    /// What has added to it, one after the other.
+    makers: Vec<String>,
+    /// How many of them have added to the film as last read.
+    resolved_by: usize,
+}
+
+struct OnDevice {
+    film: GpuFilm,
+    /// What the film had taken before it came to the device.
+    before: Stats,
+    /// Whether something was added since it was last read.
+    has_more: bool,
+}
+
+impl Accumulation {
+    /// A film without light; `None` if there is no memory for it.
+    pub fn blank((width, height): (u32, u32)) -> Option<Self> {
+        Film::try_new(width, height).map(Accumulation::of)
+    }
+
+    fn of(film: Film) -> Self {
+        Accumulation {
+            film,
+            stats: Stats::default(),
+            spp: 0,
+            most: 0,
+            spent: Duration::ZERO,
+            on_device: None,
+            makers: Vec::new(),
+            resolved_by: 0,
+        }
+    }
+
+    /// Begins another picture of the same size.
+    pub fn clear(&mut self) {
+        let mut film = std::mem::replace(&mut self.film, Film::new(0, 0));
+        film.pixels_mut().fill(Pixel::default());
+        film.nonfinite = 0;
+        *self = Accumulation::of(film);
+    }
+
+    /// The film as last read.
+    pub fn film(&self) -> &Film {
+        &self.film
+    }
+
+    /// The film as last read, alone.
+    pub fn into_film(self) -> Film {
+        self.film
+    }
+
+    /// What the film took, as last read.
+    pub fn stats(&self) -> Stats {
+        self.stats
+    }
+
+    /// Samples that every pixel has, on the device too.
+    pub fn spp(&self) -> u32 {
+        self.spp
+    }
+
+    /// Samples that a pixel may have at most.
+    pub fn most(&self) -> u32 {
+        self.most
+    }
+
+    /// Time of tracing.
+    pub fn spent(&self) -> Duration {
+        self.spent
+    }
+
+    /// What has made it: an adapter's name, or how many threads; both where one took over.
+    pub fn made_by(&self) -> String {
+        self.makers.join(", then ")
+    }
+
+    /// Goes on from the film as last read.
+    pub fn forget_the_device(&mut self) {
+        self.makers.truncate(self.resolved_by);
+        if self.on_device.take().is_some() {
+            self.spp = self.film.samples_per_pixel();
+        }
+    }
+
+    /// Someone adds up to so many samples.
+    pub(crate) fn begin_pass(&mut self, maker: String, until: u32) {
+        self.most = self.most.max(until);
+        if self.makers.last() != Some(&maker) {
+            self.makers.push(maker);
+        }
+    }
+
+    /// The film holds all that was added.
+    pub(crate) fn is_read(&mut self) {
+        self.resolved_by = self.makers.len();
+    }
+
+    /// The film on the device to add to, brought there if it is not.
+    pub(crate) fn on_device(&mut self, tracer: &GpuTracer) -> Result<&mut GpuFilm, GpuTraceError> {
+        let on_device = match self.on_device.take() {
+            Some(on_device) => on_device,
+            None => OnDevice { film: tracer.film(self.film.clone())?, before: self.stats, has_more: false },
+        };
+        let on_device = self.on_device.insert(on_device);
+        on_device.has_more = true;
+        Ok(&mut on_device.film)
+    }
+
+    /// Brings what the device has added into the film.
+    pub(crate) fn read(&mut self, gpu: &Gpu) -> Result<(), GpuTraceError> {
+        if let Some(OnDevice { film, before, has_more: has_more @ true }) = &mut self.on_device {
+            let (read, stats) = film.read(gpu)?;
+            *has_more = false;
+            (self.film, self.stats) = (read, before.plus(stats));
+            self.is_read();
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,120 @@
+//! Ways to make a picture of a scene.
+//!
+//! A [`Technique`] is the fake or what is traced, each with its settings; a [`Shot`] is what it looks at. Together with
+//! the [`Device`] that worked they are a [`Provenance`], which a picture keeps in its file and which makes it again.
+//! Window, command line, bench, check and reference name techniques by these types alone.
+//!
+//! What is traced is made by a [`Renderer`]: a scene on a [`Backend`], the processor or a graphics device, that adds
+//! samples to an [`Accumulation`] and goes on with the processor where a device fails. A [`ProgressiveRenderer`] is one
+//! for somebody who looks on and changes their mind. All who trace beside each other share [`Threads`].
+
+mod accumulation;
+mod backend;
+mod command;
+mod device;
+mod fake;
+mod pane;
+mod progressive;
+mod provenance;
+mod renderer;
+pub mod settings;
+mod shot;
+mod threads;
+mod traced;
+
+pub use accumulation::Accumulation;
+pub use backend::{Backend, GpuBackend};
+pub use device::{Adapter, Adapters, Device, DeviceChoice, INSTEAD};
+pub use fake::FakeSettings;
+pub use pane::PaneSettings;
+pub use progressive::{NoMemory, ProgressiveRenderer, Request};
+pub use provenance::{Made, Provenance, made_from};
+pub use renderer::{Frame, Pacing, Rendered, Renderer, Watch};
+pub use shot::{SceneChanges, Shot};
+pub use threads::{Rank, Threads};
+pub use traced::{TracedSettings, TreeSettings, TruthSettings, bounces_name, roulette_name};
+
+use pathtrace::Integrator;
+
+/// A way to turn a scene into a film, by the name on the command line.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum TechniqueName {
+    /// The fake: rasterised on the GPU.
+    Raster,
+    /// Whitted's trees of rays.
+    Whitted,
+    /// The truth: path traced.
+    Path,
+}
+
+impl TechniqueName {
+    /// All, in the order of the lecture.
+    pub const ALL: [TechniqueName; 3] = [TechniqueName::Raster, TechniqueName::Whitted, TechniqueName::Path];
+
+    /// The name on the command line.
+    pub fn name(self) -> &'static str {
+        match self {
+            TechniqueName::Raster => "raster",
+            TechniqueName::Whitted => "whitted",
+            TechniqueName::Path => "path",
+        }
+    }
+
+    /// The technique of that name.
+    pub fn named(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|t| t.name() == name)
+    }
+
+    /// What a lecture calls it.
+    pub fn title(self) -> &'static str {
+        match self {
+            TechniqueName::Raster => "Fake",
+            TechniqueName::Whitted => "Whitted",
+            TechniqueName::Path => "Truth",
+        }
+    }
+
+    /// What runs it if nobody says otherwise.
+    pub fn usual_device(self) -> Device {
+        match self {
+            TechniqueName::Raster => Device::Gpu,
+            TechniqueName::Whitted | TechniqueName::Path => Device::Cpu,
+        }
+    }
+}
+
+/// A technique with its settings: all that a picture depends on beside what is seen.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Technique {
+    /// Rasterised.
+    Fake(FakeSettings),
+    /// Traced by an integrator.
+    Traced(TracedSettings),
+}
+
+impl Technique {
+    /// Which it is.
+    pub fn name(&self) -> TechniqueName {
+        match self {
+            Technique::Fake(_) => TechniqueName::Raster,
+            Technique::Traced(TracedSettings { integrator: Integrator::Whitted(_), .. }) => TechniqueName::Whitted,
+            Technique::Traced(TracedSettings { integrator: Integrator::Path(_), .. }) => TechniqueName::Path,
+        }
+    }
+
+    /// For a pane's label: "fake (raster, fair)".
+    pub fn label(&self) -> String {
+        match self {
+            Technique::Fake(fake) => fake.label(),
+            Technique::Traced(traced) => traced.label(),
+        }
+    }
+
+    /// Whether it shows the scene, so that its error means something; a shadow map does not.
+    pub fn shows_the_scene(&self) -> bool {
+        match self {
+            Technique::Fake(fake) => fake.shows_the_scene(),
+            Technique::Traced(_) => true,
+        }
+    }
+}

@@ -1,0 +1,71 @@
+//! What a pane of the viewer or one call of `visavis render` is set to.
+
+use crate::{DeviceChoice, FakeSettings, Technique, TechniqueName, TracedSettings, TreeSettings, TruthSettings};
+use pathtrace::Estimator;
+use scene::Scene;
+
+/// What a pane is set to: a technique, and the settings of each so that coming back to one finds them again.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PaneSettings {
+    /// The technique that is used.
+    pub technique: TechniqueName,
+    /// Where its rays are traced.
+    pub device: DeviceChoice,
+    /// By which of the adapters, where by one.
+    pub adapter: u8,
+    /// The settings of the fake.
+    pub fake: FakeSettings,
+    /// The settings of Whitted's method.
+    pub whitted: TreeSettings,
+    /// The settings of the truth.
+    pub truth: TruthSettings,
+}
+
+impl PaneSettings {
+    /// A pane of this technique with its default settings.
+    pub fn of(technique: TechniqueName) -> Self {
+        PaneSettings {
+            technique,
+            device: DeviceChoice::default(),
+            adapter: 0,
+            fake: FakeSettings::default(),
+            whitted: TreeSettings::default(),
+            truth: TruthSettings::default(),
+        }
+    }
+
+    /// The technique in use with its settings.
+    pub fn in_use(&self) -> Technique {
+        match self.technique {
+            TechniqueName::Raster => Technique::Fake(self.fake),
+            TechniqueName::Whitted => Technique::Traced(self.here(self.whitted.into())),
+            TechniqueName::Path => Technique::Traced(self.here(self.truth.into())),
+        }
+    }
+
+    fn here(&self, traced: TracedSettings) -> TracedSettings {
+        TracedSettings { device: self.device, adapter: self.adapter, ..traced }
+    }
+
+    /// Takes `scene`'s own numbers again, and looks at the picture where it has no such map.
+    pub fn forget_the_scene(&mut self, scene: &Scene) {
+        self.fake.forget_the_scene(scene);
+        self.whitted.tree.ambient = None;
+    }
+
+    /// Takes the estimator that `scene` asks for, unless another than the usual one was chosen.
+    pub fn take_usual_estimator(&mut self, scene: &Scene) {
+        let estimator = &mut self.truth.path.estimator;
+        if *estimator == Estimator::default() {
+            *estimator = Estimator::usual_for(&scene.needs());
+        }
+    }
+
+    /// Samples per pixel at which rendering stops; `None` for a technique that does not sample.
+    pub fn wished_spp(&self) -> Option<u32> {
+        match self.in_use() {
+            Technique::Fake(_) => None,
+            Technique::Traced(traced) => Some(traced.spp),
+        }
+    }
+}

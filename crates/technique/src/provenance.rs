@@ -1,0 +1,97 @@
+//! Where a picture comes from: everything that makes it again, as records to keep in its file and as a command to type.
+
+use crate::command::{camera_options, size_option};
+use crate::{Device, Shot, Technique, TechniqueName};
+use image_file::Records;
+
+/// All that a picture depends on.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Provenance {
+    /// What is seen.
+    pub shot: Shot,
+    /// How it is made.
+    pub technique: Technique,
+    /// What has made it.
+    pub device: Device,
+}
+
+/// What a picture took, and how it is shown.
+#[derive(Debug, Clone, Copy)]
+pub struct Made<'a> {
+    /// Samples per pixel; 1 for a technique that does not sample.
+    pub spp: u32,
+    /// Seconds of rendering.
+    pub seconds: f64,
+    /// What made it: a GPU's name, or a number of threads.
+    pub adapter: &'a str,
+    /// In stops.
+    pub exposure: f32,
+}
+
+/// Version of the records; it grows when an older program would misread them.
+const RECORDS_VERSION: &str = "1";
+
+/// Records that say what a picture took, and are no options of `visavis render`.
+const NO_OPTIONS: [&str; 6] = ["records", "version", "scene", "adapter", "seconds", "command"];
+
+/// Records that say how far a picture is from another begin with this.
+const MEASURED: &str = "error.";
+
+/// What makes a picture with these records again: the scene, and options of `visavis render`. `None` if they are not
+/// those of one pane's picture.
+///
+/// # Errors
+/// If the records are of a later version.
+pub fn made_from(records: &[(String, String)]) -> anyhow::Result<Option<(String, Vec<String>)>> {
+    let value = |name: &str| records.iter().find(|(known, _)| known == name).map(|(_, value)| value.as_str());
+    let (Some(version), Some(scene)) = (value("records"), value("scene")) else { return Ok(None) };
+    anyhow::ensure!(
+        version == RECORDS_VERSION,
+        "its records are of version {version}, and this program reads version {RECORDS_VERSION}: use a newer one"
+    );
+    // only rays traced on the graphics device ask for it: the fake has no other, and the processor is the usual one
+    let asks_for_gpu = value("device") == Some("gpu") && value("technique") != Some(TechniqueName::Raster.name());
+    let says_nothing = |name: &str| NO_OPTIONS.contains(&name) || (name == "device" && !asks_for_gpu);
+    let is_option = |name: &str| !says_nothing(name) && !name.starts_with(MEASURED);
+    let options = records.iter().filter(|(name, _)| is_option(name));
+    let words = options.map(|(name, value)| format!("--{name}={value}"));
+    Ok(Some((scene.to_owned(), words.collect())))
+}
+
+impl Provenance {
+    /// What a file keeps of it, with the command that makes it as a PNG.
+    pub fn records(&self, made: Made) -> Records {
+        let Made { spp, seconds, adapter, exposure } = made;
+        let Shot { source, changes, scene: _, camera, size } = &self.shot;
+        let mut records = vec![
+            ("records", RECORDS_VERSION.into()),
+            ("version", env!("CARGO_PKG_VERSION").into()),
+            ("scene", source.clone()),
+            ("technique", self.technique.name().name().into()),
+            ("device", self.device.name().into()),
+            ("adapter", adapter.into()),
+            size_option(*size),
+            ("seconds", seconds.to_string()),
+        ];
+        records.extend(camera_options(camera));
+        // the fake does not see the sun's radius, but what it is compared with does
+        records.extend(changes.options());
+        records.extend(self.technique.options(spp));
+        records.push(("exposure", exposure.to_string()));
+        records.push(("command", self.command(spp, exposure, "picture.png")));
+        records
+    }
+}
+
+impl Shot {
+    /// What the file of its reference keeps of it, with the command that makes that.
+    pub fn reference_records(&self, estimator: &str) -> Records {
+        let mut records =
+            vec![("version", env!("CARGO_PKG_VERSION").into()), ("scene", self.source.clone()), size_option(self.size)];
+        records.extend(camera_options(&self.camera));
+        records.push(("estimator", estimator.into()));
+        records.extend(self.changes.options());
+        records.push(("command", self.reference_command()));
+        records
+    }
+}

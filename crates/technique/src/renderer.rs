@@ -1,0 +1,322 @@
+//! Adding samples to a film, pass by pass, until there are as many as are wanted. A graphics device that fails is
+//! replaced by the processor, which goes on from the film as it was last read; nowhere else is the loss of a device that
+//! traces rays dealt with.
+
+use crate::{Accumulation, Backend, Device, Rank, Threads};
+use film::Film;
+use pathtrace::gpu::GpuTraceError;
+use pathtrace::{Integrator, Stats};
+use scene::{Camera, Scene};
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+/// Seconds that one sample of one pixel takes, by device, as measured on the last passes; a guess at first.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Speeds([f64; 2]);
+
+impl Default for Speeds {
+    fn default() -> Self {
+        Speeds([1e-6; 2])
+    }
+}
+
+/// Samples below which a pass says nothing about its speed.
+const TOO_FEW_TO_MEASURE: u64 = 1000;
+
+/// How long things may take from one look at a picture to the next.
+#[derive(Debug, Clone, Copy)]
+pub struct Pacing {
+    /// A pass.
+    pub pass: Duration,
+    /// A film is read from the device, and shown, after this.
+    pub show: Duration,
+    /// A pass adds at most this many times the samples that are there.
+    pub growth: u32,
+}
+
+/// A picture as far as it is made.
+pub struct Frame<'a> {
+    /// The film.
+    pub film: &'a Film,
+    /// Seconds of tracing.
+    pub seconds: f64,
+    /// Names of what has made it.
+    pub made_by: String,
+    /// What traces now.
+    pub device: Device,
+    /// Why the graphics device does not, where it should: one line.
+    pub refused: Option<Arc<str>>,
+    /// Whether this is a rough picture at a lower resolution.
+    pub rough: bool,
+    /// Whether more of it will come.
+    pub unfinished: bool,
+}
+
+/// Who has asked for a picture: says how it goes on, and is shown what there is.
+pub trait Watch: Sync {
+    /// Whether to end at once, in the middle of a pass. Every thread asks this before every segment of a path.
+    fn ends_now(&self) -> bool {
+        false
+    }
+
+    /// Whether to end after the pass in hand, where every pixel has `spp` samples.
+    fn ends_soon(&self, spp: u32) -> bool;
+
+    /// Whether to wait where the film is.
+    fn is_held(&self) -> bool {
+        false
+    }
+
+    /// Waits until it is held no more, or ends.
+    fn wait(&self) {}
+
+    /// How long the next pass may take, after so much time of tracing.
+    fn pacing(&self, spent: Duration) -> Pacing;
+
+    /// What there is.
+    fn show(&self, frame: Frame);
+
+    /// A pass is done: every pixel has `spp` samples.
+    fn count(&self, _spp: u32) {}
+
+    /// The graphics device has failed, and the processor goes on from `spp` samples.
+    fn told_of_loss(&self, _fault: &GpuTraceError, _spp: u32) {}
+}
+
+/// A scene on what traces it.
+pub struct Renderer {
+    scene: Arc<Scene>,
+    backend: Backend,
+    threads: Arc<Threads>,
+    /// How urgent its passes are.
+    pub rank: Rank,
+    speeds: Speeds,
+    /// Why the graphics device does not trace, where it should.
+    refusal: Option<Arc<str>>,
+}
+
+impl Renderer {
+    /// A scene on a backend that was made for it.
+    pub fn new(scene: Arc<Scene>, backend: Backend, threads: Arc<Threads>) -> Self {
+        let (rank, speeds) = (Rank::Refinement, Speeds::default());
+        Renderer { scene, backend, threads, rank, speeds, refusal: None }
+    }
+
+    /// A scene on the processor.
+    pub fn on_the_processor(scene: Arc<Scene>, threads: Arc<Threads>) -> Self {
+        let backend = threads.turn(Rank::Refinement, || Backend::on_the_processor(&scene));
+        Renderer::new(scene, backend, threads)
+    }
+
+    /// The scene.
+    pub fn scene(&self) -> &Arc<Scene> {
+        &self.scene
+    }
+
+    /// What traces now.
+    pub fn device(&self) -> Device {
+        self.backend.device()
+    }
+
+    /// The scene as it is ready.
+    pub fn backend(&self) -> &Backend {
+        &self.backend
+    }
+
+    /// Why the graphics device does not trace, where it should.
+    pub fn refusal(&self) -> Option<&Arc<str>> {
+        self.refusal.as_ref()
+    }
+
+    pub(crate) fn with_refusal(self, refusal: Option<Arc<str>>) -> Self {
+        Renderer { refusal, ..self }
+    }
+
+    pub(crate) fn with_speeds(self, speeds: Speeds) -> Self {
+        Renderer { speeds, ..self }
+    }
+
+    pub(crate) fn speeds(&self) -> Speeds {
+        self.speeds
+    }
+
+    pub(crate) fn into_backend(self) -> Backend {
+        self.backend
+    }
+
+    /// Whether it has this scene on this device.
+    pub(crate) fn is_ready_for(&self, scene: &Arc<Scene>, device: Device, adapter: &str) -> bool {
+        let same_adapter = self.backend.adapter().is_none_or(|own| own == adapter);
+        Arc::ptr_eq(&self.scene, scene) && self.device() == device && same_adapter
+    }
+
+    /// Takes a film off the device, as far as that still gives it back.
+    pub(crate) fn release(&self, accumulation: &mut Accumulation) {
+        self.backend.release(accumulation);
+    }
+
+    /// Seconds that so many samples of one pixel take, by the speed of the last pass.
+    pub fn forecast(&self, samples: f64) -> f64 {
+        samples * self.speeds.0[self.device() as usize]
+    }
+
+    /// Adds `samples` to every pixel, unless `stop` says so. Where someone of a higher rank waits for the threads it
+    /// returns as well, and the next pass completes this one.
+    ///
+    /// # Errors
+    /// What has failed: the processor has taken over, and the film is as it was last read.
+    pub fn add(
+        &mut self,
+        accumulation: &mut Accumulation,
+        camera: &Camera,
+        integrator: &Integrator,
+        samples: u32,
+        stop: &(impl Fn() -> bool + Sync),
+    ) -> Result<(), GpuTraceError> {
+        let (threads, rank, backend) = (&*self.threads, self.rank, &mut self.backend);
+        let mut start = Instant::now();
+        let added = match backend.device() {
+            Device::Cpu => threads.turn(rank, || {
+                start = Instant::now();
+                let stop = || stop() || threads.are_wanted_by_more_than(rank);
+                backend.accumulate(accumulation, camera, integrator, samples, &stop)
+            }),
+            Device::Gpu => backend.accumulate(accumulation, camera, integrator, samples, stop),
+        };
+        let spent = start.elapsed();
+        accumulation.spent += spent;
+        match added {
+            Ok(taken) if taken > TOO_FEW_TO_MEASURE => {
+                self.speeds.0[self.device() as usize] = spent.as_secs_f64() / taken as f64;
+                Ok(())
+            }
+            Ok(_) => Ok(()),
+            Err(fault) => Err(self.replace(accumulation, fault)),
+        }
+    }
+
+    /// Brings what the device has added into the film.
+    ///
+    /// # Errors
+    /// As [`Renderer::add`].
+    pub fn resolve(&mut self, accumulation: &mut Accumulation) -> Result<(), GpuTraceError> {
+        self.backend.resolve(accumulation).map_err(|fault| self.replace(accumulation, fault))
+    }
+
+    /// The processor takes over from a device that has failed.
+    fn replace(&mut self, accumulation: &mut Accumulation, fault: GpuTraceError) -> GpuTraceError {
+        self.refusal = Some(fault.to_string().into());
+        let processor = self.threads.turn(self.rank, || Backend::on_the_processor(&self.scene));
+        std::mem::replace(&mut self.backend, processor).abandon(&fault);
+        accumulation.forget_the_device();
+        fault
+    }
+
+    /// Adds samples up to the wished number, or as many as there is time for. A pass that was stopped in the middle is
+    /// completed by the next one.
+    pub fn refine(
+        &mut self,
+        accumulation: &mut Accumulation,
+        camera: &Camera,
+        (integrator, wished): (&Integrator, u32),
+        watch: &impl Watch,
+    ) {
+        let mut shown = Instant::now();
+        // a film that goes on is shown at once, for its label says how far it shall go
+        if accumulation.spp > 0 {
+            self.show(accumulation, wished, watch);
+        }
+        while accumulation.spp < wished {
+            let before = accumulation.spp;
+            // while held, a new picture still gets its first pass
+            if before > 0 && watch.is_held() {
+                self.show(accumulation, wished, watch);
+                watch.wait();
+            }
+            if watch.ends_soon(accumulation.spp) {
+                break;
+            }
+            let pacing = watch.pacing(accumulation.spent);
+            let samples = self.samples_of_a_pass(accumulation, &pacing).min(wished - accumulation.spp);
+            self.rank = if before > 0 { Rank::Refinement } else { Rank::FirstPicture };
+            if let Err(fault) = self.add(accumulation, camera, integrator, samples, &|| watch.ends_now()) {
+                watch.told_of_loss(&fault, accumulation.spp);
+            }
+            if watch.ends_now() {
+                break;
+            }
+            let spp = accumulation.spp;
+            watch.count(spp);
+            if spp > 0 && (before == 0 || spp == wished || shown.elapsed() >= pacing.show) {
+                self.show(accumulation, wished, watch);
+                shown = Instant::now();
+            }
+        }
+    }
+
+    /// As many as there is time for, but not many times what is there: the speed is a guess at first.
+    fn samples_of_a_pass(&self, accumulation: &Accumulation, pacing: &Pacing) -> u32 {
+        let pixels = accumulation.film().pixels().len() as f64;
+        let fitting = (pacing.pass.as_secs_f64() / self.forecast(pixels)) as u32;
+        fitting.clamp(1, accumulation.spp.saturating_mul(pacing.growth).max(1))
+    }
+
+    fn show(&mut self, accumulation: &mut Accumulation, wished: u32, watch: &impl Watch) {
+        if let Err(fault) = self.resolve(accumulation) {
+            watch.told_of_loss(&fault, accumulation.spp);
+        }
+        if accumulation.spp > 0 {
+            watch.show(self.frame(accumulation, [false, accumulation.spp < wished]));
+        }
+    }
+
+    /// A film as it was last read.
+    pub(crate) fn frame<'a>(&self, accumulation: &'a Accumulation, [rough, unfinished]: [bool; 2]) -> Frame<'a> {
+        Frame {
+            film: accumulation.film(),
+            seconds: accumulation.spent.as_secs_f64(),
+            made_by: accumulation.made_by(),
+            device: self.device(),
+            refused: self.refusal.clone(),
+            rough,
+            unfinished,
+        }
+    }
+}
+
+/// A film that is done.
+pub struct Rendered {
+    /// The film.
+    pub film: Film,
+    /// What it took.
+    pub stats: Stats,
+    /// What it was made by in the end.
+    pub device: Device,
+    /// Names of all that has made it.
+    pub made_by: String,
+}
+
+impl Renderer {
+    /// Makes a picture from the beginning to the end, wherever it was made in the end: what a device loses is made again,
+    /// unless it is too late. `accumulation` is blank.
+    pub fn finish(
+        mut self,
+        mut accumulation: Accumulation,
+        camera: &Camera,
+        wanted: (&Integrator, u32),
+        watch: &impl Watch,
+    ) -> Rendered {
+        loop {
+            self.refine(&mut accumulation, camera, wanted, watch);
+            match self.resolve(&mut accumulation) {
+                Ok(()) => break,
+                Err(fault) => watch.told_of_loss(&fault, accumulation.spp),
+            }
+            if watch.ends_soon(accumulation.spp) {
+                break;
+            }
+        }
+        let (device, made_by) = (self.device(), accumulation.made_by());
+        Rendered { stats: accumulation.stats(), film: accumulation.into_film(), device, made_by }
+    }
+}

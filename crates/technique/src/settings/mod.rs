@@ -1,0 +1,318 @@
+//! The table of settings: a row says all that there is to say about one. Options, --help, records in pictures, --json and
+//! what has no effect are read from it. A new setting is a row in [`rows`].
+
+mod rows;
+
+pub use rows::{OF_PANES, OF_SCENES};
+
+use crate::{DeviceChoice, PaneSettings, SceneChanges, Technique, TechniqueName, roulette_name};
+use crate::{TreeSettings, TruthSettings, bounces_name};
+use image_file::Records;
+use pathtrace::{Integrator, Roulette};
+use scene::Scene;
+use std::fmt;
+use std::ops::RangeInclusive;
+use std::str::FromStr;
+
+/// A setting of a `T`.
+pub struct Setting<T> {
+    /// Of the option without dashes, and of the record.
+    pub name: &'static str,
+    /// The techniques whose pictures it changes.
+    pub of: &'static [TechniqueName],
+    /// What it may be.
+    pub kind: Kind,
+    /// The letter that stands for its value in --help; empty where the choices do.
+    pub letter: &'static str,
+    /// What it is where nobody says otherwise; `None` for the scene's own.
+    pub default: Option<Value>,
+    /// What a scene must have for it to change anything.
+    pub needs: Need,
+    /// What it does, for --help.
+    pub help: &'static str,
+    /// Whether a picture's file keeps it even where it is the default.
+    pub always_recorded: bool,
+    /// What it is; `None` for the scene's own.
+    pub get: fn(&T) -> Option<Value>,
+    /// Takes a value of its kind.
+    pub set: fn(&mut T, Value),
+}
+
+/// What a setting may be.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Kind {
+    /// A number of this range.
+    Number(RangeInclusive<f32>),
+    /// Degrees from 0 to below this.
+    DegreesBelow(f32),
+    /// A whole number of this range.
+    Whole(RangeInclusive<u32>),
+    /// One of these words.
+    Choice(&'static [&'static str]),
+    /// A whole number, or without limit.
+    Bounces,
+    /// When paths end early.
+    Roulette,
+}
+
+/// A value of a setting.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Value {
+    /// A number.
+    Number(f32),
+    /// A whole number.
+    Whole(u32),
+    /// One of the choices.
+    Word(&'static str),
+    /// `None` for no limit.
+    Bounces(Option<u32>),
+    /// When paths end early.
+    Roulette(Roulette),
+}
+
+/// What a scene must have.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Need {
+    /// Nothing.
+    Nothing,
+    /// A dielectric.
+    Glass,
+    /// A sun.
+    Sun,
+}
+
+impl Need {
+    /// What is missing in this scene, if it is.
+    pub fn missing_in(self, scene: &Scene) -> Option<&'static str> {
+        match self {
+            Need::Glass if scene.refraction_ratio().is_none() => Some("glass"),
+            Need::Sun if scene.sun.is_none() => Some("sun"),
+            _ => None,
+        }
+    }
+}
+
+impl Kind {
+    /// The value that a word says.
+    ///
+    /// # Errors
+    /// What was expected.
+    pub fn parse(&self, word: &str) -> Result<Value, String> {
+        let value = match self {
+            Kind::Number(range) => number(word).filter(|v| range.contains(v)).map(Value::Number),
+            Kind::DegreesBelow(most) => number(word).filter(|v| (0.0..*most).contains(v)).map(Value::Number),
+            Kind::Whole(range) => word.trim().parse().ok().filter(|v| range.contains(v)).map(Value::Whole),
+            Kind::Choice(words) => words.iter().find(|known| **known == word).map(|known| Value::Word(known)),
+            Kind::Bounces if word == "inf" => Some(Value::Bounces(None)),
+            Kind::Bounces => word.parse().ok().map(|n| Value::Bounces(Some(n))),
+            Kind::Roulette => roulette(word).map(Value::Roulette),
+        };
+        value.ok_or_else(|| self.expected())
+    }
+
+    fn expected(&self) -> String {
+        match self {
+            Kind::Number(range) => format!("a number from {} to {}", range.start(), range.end()),
+            Kind::DegreesBelow(most) => format!("degrees from 0 to below {most}"),
+            Kind::Whole(range) if *range.end() == u32::MAX => {
+                format!("a whole number from {} to {}", range.start(), range.end())
+            }
+            Kind::Whole(range) => format!("a number from {} to {}", range.start(), range.end()),
+            Kind::Choice(words) => match words {
+                [first @ .., last] if !first.is_empty() => format!("{} or {last}", first.join(", ")),
+                words => words.concat(),
+            },
+            Kind::Bounces => format!("a whole number from 0 to {} or inf", u32::MAX),
+            Kind::Roulette => "a probability above 0 and at most 1, throughput, both as P+throughput, or off".into(),
+        }
+    }
+
+    /// Its bounds, where --help tells them.
+    fn range(&self) -> Option<String> {
+        match self {
+            Kind::Number(range) => Some(format!("{} to {}", range.start(), range.end())),
+            Kind::Whole(range) if *range.end() < u32::MAX => Some(format!("{} to {}", range.start(), range.end())),
+            _ => None,
+        }
+    }
+}
+
+fn number(word: &str) -> Option<f32> {
+    f32::from_str(word.trim()).ok().filter(|v| v.is_finite())
+}
+
+/// "off", "throughput", a probability, or both as "0.8+throughput".
+fn roulette(word: &str) -> Option<Roulette> {
+    let probability = |word: &str| number(word).filter(|p| *p > 0.0 && *p <= 1.0);
+    let (first, throughput) = word.strip_suffix("+throughput").map_or((word, false), |first| (first, true));
+    match word {
+        "off" => Some(Roulette::OFF),
+        "throughput" => Some(Roulette::THROUGHPUT),
+        _ => probability(first).map(|p| Roulette { probability: Some(p), throughput }),
+    }
+}
+
+impl fmt::Display for Value {
+    /// As it is read back.
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        match self {
+            Value::Number(number) => number.fmt(f),
+            Value::Whole(number) => number.fmt(f),
+            Value::Word(word) => f.write_str(word),
+            Value::Bounces(bounces) => f.write_str(&bounces_name(*bounces)),
+            Value::Roulette(roulette) => f.write_str(&roulette_name(*roulette)),
+        }
+    }
+}
+
+impl<T> Setting<T> {
+    /// The option: "--depth N".
+    pub fn usage(&self) -> String {
+        match &self.kind {
+            Kind::Choice(words) if self.letter.is_empty() => format!("--{} {}", self.name, words.join("|")),
+            _ => format!("--{} {}", self.name, self.letter),
+        }
+    }
+
+    /// What it does, its bounds and its default.
+    pub fn description(&self) -> String {
+        let range = self.kind.range().map_or_else(String::new, |range| format!(", {range}"));
+        let default = self.default.map_or_else(|| "the scene's".into(), |value| value.to_string());
+        format!("{}{range} (default {default})", self.help)
+    }
+
+    /// Whether it changes pictures of this technique.
+    pub fn is_of(&self, technique: TechniqueName) -> bool {
+        self.of.contains(&technique)
+    }
+
+    /// What a file keeps of it.
+    fn record(&self, of: &T) -> Option<(&'static str, Value)> {
+        let value = (self.get)(of)?;
+        (self.always_recorded || Some(value) != self.default).then_some((self.name, value))
+    }
+}
+
+/// The setting of this name.
+pub fn of_panes(name: &str) -> Option<&'static Setting<PaneSettings>> {
+    OF_PANES.iter().find(|setting| setting.name == name)
+}
+
+/// The setting of this name.
+pub fn of_scenes(name: &str) -> Option<&'static Setting<SceneChanges>> {
+    OF_SCENES.iter().find(|setting| setting.name == name)
+}
+
+impl Technique {
+    /// Its settings with their values, as far as a file keeps them; `spp` is what the picture has.
+    pub fn values(&self, spp: u32) -> Vec<(&'static str, Value)> {
+        let pane = PaneSettings::from(self.with_spp(spp));
+        OF_PANES
+            .iter()
+            .filter(|setting| setting.is_of(self.name()))
+            .filter_map(|setting| setting.record(&pane))
+            .collect()
+    }
+
+    /// The options of `visavis render` that say how, by their names without dashes.
+    pub fn options(&self, spp: u32) -> Records {
+        self.values(spp).into_iter().map(|(name, value)| (name, value.to_string())).collect()
+    }
+
+    fn with_spp(mut self, wished: u32) -> Self {
+        if let Technique::Traced(traced) = &mut self {
+            traced.spp = wished;
+        }
+        self
+    }
+}
+
+impl SceneChanges {
+    /// What was changed, by the options' names without dashes. What was not is the scene's, and may differ from glass to
+    /// glass.
+    pub fn options(&self) -> Records {
+        let changed = OF_SCENES.iter().filter_map(|setting| setting.record(self));
+        changed.map(|(name, value)| (name, value.to_string())).collect()
+    }
+}
+
+impl From<Technique> for PaneSettings {
+    /// A pane that is set to it.
+    fn from(technique: Technique) -> Self {
+        let pane = PaneSettings::of(technique.name());
+        match technique {
+            Technique::Fake(fake) => PaneSettings { fake, ..pane },
+            Technique::Traced(traced) => {
+                let (device, adapter, spp): (DeviceChoice, u8, u32) = (traced.device, traced.adapter, traced.spp);
+                let pane = PaneSettings { device, adapter, ..pane };
+                match traced.integrator {
+                    Integrator::Path(path) => PaneSettings { truth: TruthSettings { path, spp }, ..pane },
+                    Integrator::Whitted(tree) => PaneSettings { whitted: TreeSettings { tree, spp }, ..pane },
+                }
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Every setting is read back as it is told, shown in every kind, and refused with what was expected.
+    #[test]
+    fn what_a_setting_says_is_what_it_takes() {
+        for technique in TechniqueName::ALL {
+            let mut pane = PaneSettings::of(technique);
+            for setting in OF_PANES.iter().filter(|setting| setting.is_of(technique)) {
+                for word in examples(&setting.kind) {
+                    let value = setting.kind.parse(&word).unwrap_or_else(|e| panic!("{} {word}: {e}", setting.name));
+                    (setting.set)(&mut pane, value);
+                    assert_eq!((setting.get)(&pane), Some(value), "{} {word}", setting.name);
+                    assert_eq!(setting.kind.parse(&value.to_string()), Ok(value), "{}", setting.name);
+                }
+                assert!(setting.kind.parse("nonsense").is_err(), "{}", setting.name);
+            }
+        }
+        let mut changes = SceneChanges::default();
+        for setting in OF_SCENES {
+            for word in examples(&setting.kind) {
+                let value = setting.kind.parse(&word).unwrap();
+                (setting.set)(&mut changes, value);
+                assert_eq!((setting.get)(&changes), Some(value), "{}", setting.name);
+            }
+        }
+    }
+
+    #[test]
+    fn the_defaults_are_those_of_a_new_pane() {
+        for technique in TechniqueName::ALL {
+            let pane = PaneSettings::of(technique);
+            for setting in OF_PANES.iter().filter(|setting| setting.is_of(technique)) {
+                // how many samples there are depends on who asks
+                if setting.name != "spp" {
+                    assert_eq!((setting.get)(&pane), setting.default, "{}", setting.name);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn names_are_unique() {
+        let mut names: Vec<_> = OF_PANES.iter().map(|s| s.name).chain(OF_SCENES.iter().map(|s| s.name)).collect();
+        let count = names.len();
+        names.sort_unstable();
+        names.dedup();
+        assert_eq!(names.len(), count);
+    }
+
+    fn examples(kind: &Kind) -> Vec<String> {
+        match kind {
+            Kind::Number(range) => [range.start(), range.end()].map(f32::to_string).into(),
+            Kind::DegreesBelow(most) => ["0".into(), most.next_down().to_string()].into(),
+            Kind::Whole(range) => [range.start(), range.end()].map(u32::to_string).into(),
+            Kind::Choice(words) => words.iter().map(|word| (*word).to_owned()).collect(),
+            Kind::Bounces => ["0", "7", "inf"].map(str::to_owned).into(),
+            Kind::Roulette => ["off", "throughput", "0.5", "0.8+throughput"].map(str::to_owned).into(),
+        }
+    }
+}

@@ -1,0 +1,51 @@
+//! What is seen: a scene with what was changed in it, from where, at which size. All that a picture depends on beside
+//! the technique and the device.
+
+use scene::{Camera, Scene};
+use std::sync::Arc;
+
+/// What is seen.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Shot {
+    /// The scene as the user asked for it: a built-in name or a file.
+    pub source: String,
+    /// What was changed in it.
+    pub changes: SceneChanges,
+    /// The scene with those changes.
+    pub scene: Arc<Scene>,
+    /// Seen from here rather than from the scene's own camera.
+    pub camera: Camera,
+    /// Width and height in pixels.
+    pub size: (u32, u32),
+}
+
+/// What sliders and options change in a scene for all techniques at once; `None` leaves it as the scene has it.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct SceneChanges {
+    /// Index of refraction outside over inside of all glass, above 0.
+    pub refraction_ratio: Option<f32>,
+    /// Angular radius of the sun in degrees, from 0 to below 90.
+    pub sun_radius: Option<f32>,
+}
+
+impl Shot {
+    /// A scene as it is, from its own camera.
+    pub fn of(scene: Scene, size: (u32, u32)) -> Self {
+        let (source, camera) = (scene.name.clone(), scene.camera);
+        Shot { source, changes: SceneChanges::default(), scene: Arc::new(scene), camera, size }
+    }
+}
+
+impl SceneChanges {
+    /// The scene with these changes; its shapes stay shared.
+    pub fn applied_to(&self, scene: &Scene) -> Scene {
+        let mut scene = scene.clone();
+        if let Some(ratio) = self.refraction_ratio {
+            scene.set_refraction_ratio(ratio);
+        }
+        if let (Some(radius), Some(sun)) = (self.sun_radius, &mut scene.sun) {
+            sun.angular_radius = radius;
+        }
+        scene
+    }
+}

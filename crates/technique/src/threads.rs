@@ -1,0 +1,148 @@
+//! The threads that trace, shared by all who have something to trace: panes and the reference take them in turns of one
+//! pass, so that two of them do not ask for twice the cores.
+
+use std::collections::BTreeSet;
+use std::sync::atomic::{AtomicU8, Ordering};
+use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
+
+/// Whose turn is next: the highest that waits, and of those the first that came.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Rank {
+    /// What goes on where nobody waits for it.
+    Background = 1,
+    /// More samples of a picture that is there.
+    Refinement = 2,
+    /// The first picture of what is asked for now.
+    FirstPicture = 3,
+    /// A rough one before it, in a few milliseconds.
+    RoughPicture = 4,
+}
+
+/// A pool of threads and whose turn it is.
+#[derive(Debug, Default)]
+pub struct Threads {
+    /// `None` for the pool of the whole process.
+    pool: Option<rayon::ThreadPool>,
+    turns: Mutex<Turns>,
+    passed_on: Condvar,
+    /// The highest rank that waits; 0 if nobody does. Read before every segment of a path, so without the lock.
+    wanted: AtomicU8,
+}
+
+#[derive(Debug, Default)]
+struct Turns {
+    taken: bool,
+    tickets: u64,
+    /// Rank and ticket; tickets count down, so that the last of the set is the next.
+    waiting: BTreeSet<(Rank, u64)>,
+}
+
+impl Threads {
+    /// Every core, for a program that does nothing else.
+    pub fn all() -> Self {
+        Threads::default()
+    }
+
+    /// All cores but one, which is the user interface's. `start` is run by each thread first.
+    ///
+    /// # Errors
+    /// If the system gives no threads.
+    pub fn beside_the_ui(start: fn()) -> Result<Self, rayon::ThreadPoolBuildError> {
+        let cores = std::thread::available_parallelism().map_or(1, usize::from);
+        let pool = rayon::ThreadPoolBuilder::new()
+            .num_threads(cores.saturating_sub(1).max(1))
+            .thread_name(|i| format!("rays {i}"))
+            .start_handler(move |_| start())
+            .build()?;
+        Ok(Threads { pool: Some(pool), ..Threads::default() })
+    }
+
+    /// How many there are.
+    pub fn count(&self) -> usize {
+        self.pool.as_ref().map_or_else(rayon::current_num_threads, rayon::ThreadPool::current_num_threads)
+    }
+
+    /// Waits for its turn and works on these threads.
+    pub fn turn<R: Send>(&self, rank: Rank, work: impl FnOnce() -> R + Send) -> R {
+        let _turn = self.wait(rank);
+        match &self.pool {
+            Some(pool) => pool.install(work),
+            None => work(),
+        }
+    }
+
+    /// Whether someone of a higher rank waits: a turn of `rank` should end soon.
+    pub fn are_wanted_by_more_than(&self, rank: Rank) -> bool {
+        self.wanted.load(Ordering::Relaxed) > rank as u8
+    }
+
+    fn wait(&self, rank: Rank) -> Turn<'_> {
+        let mut turns = self.lock();
+        turns.tickets += 1;
+        let own = (rank, u64::MAX - turns.tickets);
+        turns.waiting.insert(own);
+        self.tell_who_waits(&turns);
+        while turns.taken || turns.waiting.last() != Some(&own) {
+            turns = self.passed_on.wait(turns).unwrap_or_else(PoisonError::into_inner);
+        }
+        turns.waiting.remove(&own);
+        turns.taken = true;
+        self.tell_who_waits(&turns);
+        Turn(self)
+    }
+
+    fn tell_who_waits(&self, turns: &Turns) {
+        self.wanted.store(turns.waiting.last().map_or(0, |(rank, _)| *rank as u8), Ordering::Relaxed);
+    }
+
+    /// A panic within a turn happens outside the lock: what is locked is whole.
+    fn lock(&self) -> MutexGuard<'_, Turns> {
+        self.turns.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+/// Passes on when it goes, by a panic too.
+struct Turn<'a>(&'a Threads);
+
+impl Drop for Turn<'_> {
+    fn drop(&mut self) {
+        self.0.lock().taken = false;
+        self.0.passed_on.notify_all();
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::sync::mpsc::channel;
+
+    /// While a turn lasts others come; then the highest goes first, and of equals the one that came first.
+    #[test]
+    fn the_highest_goes_first_and_equals_in_the_order_in_which_they_came() {
+        let threads = Threads::beside_the_ui(|| ()).unwrap();
+        let (order, served) = channel();
+        std::thread::scope(|scope| {
+            let turn = threads.wait(Rank::Refinement);
+            let ranks = [Rank::Background, Rank::Refinement, Rank::FirstPicture, Rank::Refinement];
+            for (i, rank) in ranks.into_iter().enumerate() {
+                let (threads, order) = (&threads, order.clone());
+                scope.spawn(move || threads.turn(rank, || order.send(i)));
+                while threads.lock().waiting.len() <= i {
+                    std::thread::yield_now();
+                }
+            }
+            assert!(threads.are_wanted_by_more_than(Rank::Refinement));
+            assert!(!threads.are_wanted_by_more_than(Rank::FirstPicture));
+            drop(turn);
+        });
+        assert_eq!(served.try_iter().collect::<Vec<_>>(), [2, 1, 3, 0]);
+    }
+
+    #[test]
+    fn a_panic_passes_the_turn_on() {
+        let threads = Threads::beside_the_ui(|| ()).unwrap();
+        let fails = || threads.turn(Rank::Background, || panic!("on purpose"));
+        assert!(std::panic::catch_unwind(std::panic::AssertUnwindSafe(fails)).is_err());
+        assert_eq!(threads.turn(Rank::Background, || 1), 1);
+    }
+}
