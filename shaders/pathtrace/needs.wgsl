@@ -10,6 +10,7 @@ override SPHERES: bool = true;
 override DISKS: bool = true;
 override CHECKERBOARD: bool = true;
 override MIRROR: bool = true;
+override ROUGH_CONDUCTOR: bool = true;
 override DIELECTRIC: bool = true;
 // shapes that shine, by outline
 override RECTANGLE_LIGHTS: bool = true;

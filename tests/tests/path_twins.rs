@@ -153,6 +153,72 @@ fn pictures_agree_pixel_by_pixel() {
     }
 }
 
+/// What everything.toml lacks: rough metal, by each way to say what it reflects, beside glass, a mirror and tiles.
+const METALS: &str = r#"
+[camera]
+eye = [0, 1.2, 4]
+target = [0, 0.5, 0]
+fov_y = 45
+[sky]
+radiance = [0.2, 0.3, 0.4]
+[material.floor]
+diffuse = { albedo = { even = [0.8, 0.8, 0.7], odd = [0.2, 0.3, 0.2], origin = [0, 0, 0], cell = [0.5, 0, 0.5] } }
+[material.gold]
+rough_conductor = { metal = "gold", roughness = 0.3 }
+[material.satin]
+rough_conductor = { reflectance = [0.8, 0.9, 0.7], roughness = 0.9 }
+[material.polished]
+rough_conductor = { eta = [1.6, 0.9, 0.5], k = [9, 6, 5], roughness = 0.05 }
+[material.mirror]
+mirror = { reflectance = [0.9, 0.9, 0.9] }
+[material.glass]
+dielectric = { ior = 1.5 }
+[material.lamp]
+emissive = { radiance = [8, 7, 6] }
+[[rectangle]]
+corner = [-4, 0, -4]
+edge_u = [0, 0, 8]
+edge_v = [8, 0, 0]
+material = "floor"
+[[rectangle]]
+corner = [-1, 2.5, -1]
+edge_u = [2, 0, 0]
+edge_v = [0, 0, 2]
+material = "lamp"
+[[sphere]]
+center = [-1.1, 0.5, 0]
+radius = 0.5
+material = "gold"
+[[sphere]]
+center = [0, 0.5, -0.3]
+radius = 0.5
+material = "satin"
+[[sphere]]
+center = [1.1, 0.5, 0]
+radius = 0.5
+material = "polished"
+[[sphere]]
+center = [0.5, 0.2, 1]
+radius = 0.2
+material = "mirror"
+[[sphere]]
+center = [-0.4, 0.2, 1]
+radius = 0.2
+material = "glass"
+"#;
+
+/// As [`every_setting_agrees_pixel_by_pixel`], where there is rough metal.
+#[test]
+fn rough_metal_agrees_pixel_by_pixel() {
+    let gpu = Gpu::headless().unwrap();
+    let scene = scene::parse(METALS, "metals", Path::new("metals.toml")).unwrap();
+    for estimator in Estimator::EVERY {
+        let pair = paths(&gpu, &scene, (96, 64), 1, &settings(estimator, 3));
+        let (apart, rays) = (pair.apart(1e-3), pair.rays());
+        assert!(apart <= 5e-3 && (rays - 1.0).abs() < 2e-3, "{}: {apart} {rays}", estimator.name());
+    }
+}
+
 /// Every estimator, sampler, roulette and number of branches, where all kinds of lights and materials are.
 #[test]
 fn every_setting_agrees_pixel_by_pixel() {

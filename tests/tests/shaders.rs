@@ -150,7 +150,7 @@ fn mirrors_of_the_path_tracer_have_the_layout_of_their_structs() {
     assert_same_layout!(
         "pathtrace/scene.wgsl",
         Material,
-        [colour, emission, emitting_sides, lobe, ior, root, root_low]
+        [colour, emission, emitting_sides, lobe, ior, root, root_low, eta, alpha, k]
     );
     assert_same_layout!(
         "pathtrace/scene.wgsl",

@@ -47,6 +47,18 @@ impl PreparedScene {
         self.aggregate.interactions(rays, &hits)
     }
 
+    /// Where what was met shines.
+    #[inline(always)]
+    pub fn shines<F: Float>(&self, hit: &SurfaceInteractions<F>) -> F::M {
+        self.materials.kinds(hit.material).area_light()
+    }
+
+    /// What the surfaces that were met send out towards `wo`.
+    #[inline(always)]
+    pub fn emitted<F: Float>(&self, hit: &SurfaceInteractions<F>, wo: Vector<F>) -> Vector<F> {
+        self.materials.emitted(hit.material, hit.point.normal.dot(wo))
+    }
+
     /// The surfaces that were met, seen from `wo`.
     #[inline(always)]
     pub fn interaction<F: Float>(&self, hit: &SurfaceInteractions<F>, wo: Vector<F>) -> Interactions<F> {

@@ -1,6 +1,6 @@
 //! The path tracer's shaders: every file under `shaders/pathtrace/`. A new one is one line of [`SOURCES`].
 
-use crate::bsdf::materials::{CHECKERED, LOBE_DIELECTRIC, LOBE_LAMBERT, LOBE_MIRROR};
+use crate::bsdf::materials::{CHECKERED, HAS_INDEX, LOBE_DIELECTRIC, LOBE_LAMBERT, LOBE_MIRROR, LOBE_ROUGH_CONDUCTOR};
 use crate::drive::gpu::dispatch::GROUP;
 use crate::drive::gpu::film_data::CUT_SHIFT;
 use crate::drive::gpu::scene_data::*;
@@ -28,6 +28,7 @@ pub const SOURCES: &[Source<'static>] = gpu::wgsl_sources![
     "pathtrace/bsdf/interaction.wgsl",
     "pathtrace/bsdf/lambert.wgsl",
     "pathtrace/bsdf/mirror.wgsl",
+    "pathtrace/bsdf/rough_conductor.wgsl",
     "pathtrace/camera.wgsl",
     "pathtrace/drive/film.wgsl",
     "pathtrace/drive/pixels.wgsl",
@@ -91,6 +92,7 @@ pub fn shared_constants() -> Vec<(&'static str, f64)> {
         CUT_SHIFT,
         FRAC_1_PI,
         GROUP,
+        HAS_INDEX,
         KIND_DISK,
         KIND_SHIFT,
         KIND_SPHERE,
@@ -105,6 +107,7 @@ pub fn shared_constants() -> Vec<(&'static str, f64)> {
         LOBE_DIELECTRIC,
         LOBE_LAMBERT,
         LOBE_MIRROR,
+        LOBE_ROUGH_CONDUCTOR,
         MET_BY_CHANCE,
         MOST_BRANCHES,
         MOST_DEPTH,

@@ -33,10 +33,14 @@ struct Timed {
     seconds: f64,
 }
 
-pub fn run(args: &RenderArgs) -> anyhow::Result<()> {
+pub fn run(args: &mut RenderArgs) -> anyhow::Result<()> {
     tell_what_has_no_effect(args, &builtin::named(&args.scene)?);
     let shot = args.seen.of(&args.scene)?;
     let scene = shot.scene.clone();
+    if !args.chose_estimator {
+        args.pane.take_usual_estimator(&scene);
+    }
+    let args = &*args;
     let technique = args.pane.in_use();
     anyhow::ensure!(
         !args.errors || technique.shows_the_scene(),

@@ -86,7 +86,10 @@ impl Session {
 
     /// What was set against the scene before goes; techniques and their ways stay.
     pub fn forget_the_scene(&mut self, scene: &Scene) {
-        self.panes.values_mut().for_each(|pane| pane.forget_the_scene(scene));
+        for pane in self.panes.values_mut() {
+            pane.forget_the_scene(scene);
+            pane.take_usual_estimator(scene);
+        }
     }
 
     /// A becomes B and B becomes A; from a view of both it goes to A. Maps against the reference take turns too.

@@ -96,7 +96,9 @@ impl<P: LanePlan> Kernel for ChunkKernel<'_, P> {
 
     #[inline(always)]
     fn run<F: Float>(self) -> Tally {
-        fill::<F>(&self.job.order, self.chunk, self.plan.walk(self.job.scene), self.job.stop)
+        // a copy, which the compiler sees nobody else write to
+        let order = self.job.order;
+        fill::<F>(&order, self.chunk, self.plan.walk(self.job.scene), self.job.stop)
     }
 }
 

@@ -3,6 +3,7 @@
 //! usual pairs.
 
 use crate::integrator::path::MOST_BRANCHES;
+use scene::Needs;
 
 /// How a diffuse vertex draws the direction in which the path goes on. Mirrors and glass leave no choice, or Fresnel's.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -73,6 +74,12 @@ impl Estimator {
     /// The estimator of that name, one of [`Estimator::EVERY`].
     pub fn named(name: &str) -> Option<Self> {
         Self::EVERY.into_iter().find(|e| e.name() == name)
+    }
+
+    /// The one to begin with in a scene that asks for so much: a rough metal's lobe may be so narrow that light sampling
+    /// alone hardly ever hits it.
+    pub fn usual_for(needs: &Needs) -> Self {
+        if needs.rough_conductor { Self::MIS } else { Self::default() }
     }
 
     /// Whether area lights, point lights and sun are sampled.

@@ -258,11 +258,11 @@ impl<'a, F: Float> LaneIntegrator<F> for WhittedLanes<'a, F> {
         {
             self.receive(missed, environment.look_up_lanes(direction).0);
         }
-        let at = self.scene.interaction(&hit, -direction);
-        let shining = met & at.shines();
+        let shining = met & self.scene.shines(&hit);
         if self.scene.materials.has().area_lights && shining.any() {
-            self.receive(shining, self.scene.materials.emitted(&at));
+            self.receive(shining, self.scene.emitted(&hit, -direction));
         }
+        let at = self.scene.interaction(&hit, -direction);
         let alive = self.scatter(met, &at, sampler);
         let ended = taken & !alive;
         let alive = alive | self.waiting.pop(ended, &mut self.branch);

@@ -17,7 +17,7 @@ pub fn show(cx: &mut UiContext, pane: PaneId, ui: &mut Ui) {
     let needs = scene.needs();
     let whitted = &mut cx.model.session.panes[pane].whitted;
     let tree = &mut whitted.tree;
-    if needs.dielectric || needs.mirror {
+    if needs.dielectric || needs.mirror || needs.rough_conductor {
         let depth = [&*format!("{pane} depth"), "Depth of mirrors and glass"];
         whole(depth, &mut tree.depth, 0..=WhittedSettings::MOST_DEPTH.min(16), ui, cx.dump);
     }

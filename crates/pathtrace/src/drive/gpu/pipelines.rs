@@ -111,6 +111,7 @@ impl SceneNeeds {
         constants.extend([
             ("CHECKERBOARD", self.flag(self.needs.checkerboard)),
             ("MIRROR", self.flag(self.needs.mirror)),
+            ("ROUGH_CONDUCTOR", self.flag(self.needs.rough_conductor)),
             ("DIELECTRIC", self.flag(self.needs.dielectric)),
             ("RECTANGLE_LIGHTS", self.flag(self.lights.rectangles)),
             ("TRIANGLE_LIGHTS", self.flag(self.lights.triangles)),

@@ -8,7 +8,7 @@ use crate::light::{Environment, Light as HostLight, Lights, SunDisc};
 use crate::sampling::sobol::reversed_point;
 use bytemuck::{Pod, Zeroable};
 use scene::material::Emission;
-use scene::{Bsdf, Scene, Texture, Vec3};
+use scene::{Bsdf, Conductor, Scene, Texture, Vec3};
 
 /// What the whole scene shares.
 #[repr(C)]
@@ -84,6 +84,14 @@ pub struct Material {
     pub root: f32,
     /// What a float could not hold of it.
     pub root_low: f32,
+    /// Of a rough conductor: index of refraction.
+    pub eta: Vec3,
+    /// Width of the distribution of its slopes.
+    pub alpha: f32,
+    /// Extinction coefficient.
+    pub k: Vec3,
+    /// Padding.
+    pub unused: u32,
 }
 
 /// Codes of [`Light::outline`].
@@ -165,6 +173,13 @@ fn material(from: &scene::Material) -> Material {
             to.colour.cells_per_unit = board.cells_per_unit();
         }
         Bsdf::Mirror { reflectance } => to.colour.even = reflectance,
+        Bsdf::RoughConductor { conductor, roughness } => {
+            to.colour.even = conductor.at_normal_incidence();
+            to.alpha = roughness * roughness;
+            if let Conductor::Fresnel { eta, k } = conductor {
+                (to.eta, to.k) = (eta, k);
+            }
+        }
         Bsdf::Dielectric { ior } => {
             let n = f64::from(ior);
             let root = ((n - 1.0) * (n + 1.0)).abs().sqrt();
