@@ -21,8 +21,8 @@ fn sides() -> [Side; 2] {
     [
         Side {
             library: pathtrace::shaders::LIBRARY,
-            constants: pathtrace::shaders::shared_constants(),
-            overrides: pathtrace::shaders::override_names(),
+            constants: pathtrace::twins::shared_constants(),
+            overrides: pathtrace::twins::override_names(),
         },
         Side {
             library: raster::shaders::LIBRARY,

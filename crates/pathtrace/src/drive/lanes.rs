@@ -4,12 +4,12 @@
 //! Twins: `shaders/pathtrace/drive/pixels.wgsl`, where a thread has one pixel and its own loop, and, of the camera's rays,
 //! `shaders/pathtrace/camera.wgsl`.
 
-use crate::integrator::settings::SamplerKind;
 use crate::intersect::Rays;
 use crate::intersect::aggregate::lanes_of;
 use crate::prepared::{Outcomes, PreparedScene};
 use crate::sampling::sampler::Sampler;
-use crate::tracer::Stats;
+use crate::sampling::sampler::SamplerKind;
+use crate::stats::Stats;
 use crate::vectors::{each_lane, in_all_lanes};
 use film::Film;
 use film::Pixel;

@@ -12,10 +12,11 @@ pub mod whitted;
 
 use crate::drive::gpu::{PipelineKey, film_data::RenderParams};
 use crate::drive::lanes::FilmJob;
-use crate::tracer::Stats;
+use crate::sampling::sampler::SamplerKind;
+use crate::stats::Stats;
 use film::Film;
 use scene::stand_ins::FakeNumbers;
-use settings::{PathSettings, SamplerKind, SettingsError};
+use settings::{PathSettings, SettingsError};
 use whitted::WhittedSettings;
 
 /// How light is followed, with its settings.

@@ -6,10 +6,9 @@ use super::GpuTraceError;
 use super::film_data::RenderParams;
 use super::scene_data::Header;
 use super::shape_data::{FewShape, MOST_SHAPES, ShapeKinds};
-use crate::integrator::Integrator;
-use crate::integrator::settings::SamplerKind;
 use crate::light::flat::Outline;
 use crate::light::{Light, Lights};
+use crate::sampling::sampler::SamplerKind;
 use crate::shaders;
 use gpu::{Gpu, wgpu};
 use scene::{Needs, Scene};
@@ -84,6 +83,11 @@ pub struct SceneNeeds {
 }
 
 impl SceneNeeds {
+    /// Whether code for everything is wanted, also for what no scene of this kind asks for.
+    pub fn everything(&self) -> bool {
+        self.everything
+    }
+
     /// What this scene needs.
     pub(crate) fn of(scene: &Scene, lights: &Lights, shapes: ShapeKinds) -> Self {
         SceneNeeds { needs: scene.needs(), shapes, lights: LightKinds::of(lights), everything: false }
@@ -176,11 +180,6 @@ impl Pipelines {
     /// What they are compiled for.
     pub fn needs(&self) -> SceneNeeds {
         self.needs
-    }
-
-    /// The key of an integrator's pipeline.
-    pub fn key(&self, integrator: &Integrator) -> PipelineKey {
-        integrator.pipeline_key(self.needs.everything)
     }
 
     /// Whether a pipeline is there already.

@@ -2,7 +2,8 @@
 //!
 //! Mirrors of the structs in `shaders/pathtrace/drive/rays.wgsl`.
 
-use super::{GpuTraceError, GpuTracer};
+use super::GpuTraceError;
+use crate::gpu_tracer::GpuTracer;
 use crate::intersect::{Ray, SurfacePoint};
 use crate::shaders;
 use bytemuck::{Pod, Zeroable};
