@@ -18,6 +18,8 @@ mesh = [{ positions = [[1, 2, 3], [2, 3, 5], [3, 5, 7], [4, 4, 4]], triangles = 
 material.grey.diffuse.albedo = [0.5, 0.4, 0.3]
 material.board.diffuse.albedo = { even = [0.1, 0.2, 0.3], odd = [0.4, 0.5, 0.6], origin = [1, 2, 3], cell = [3, 2, 1] }
 material.mirror.mirror.reflectance = [0.7, 0.8, 0.9]
+material.satin.rough_conductor = { reflectance = [0.7, 0.8, 0.9], roughness = 0.5 }
+material.metal.rough_conductor = { eta = [0.2, 0.4, 1.5], k = [4, 2.5, 1.5], roughness = 0.25 }
 material.glass.dielectric.ior = 1.5
 material.satin.rough_conductor = { reflectance = [0.7, 0.6, 0.5], roughness = 0.3 }
 material.metal.rough_conductor = { eta = [0.2, 0.9, 1.1], k = [3.9, 2.5, 2.1], roughness = 0.2 }
@@ -88,6 +90,13 @@ impl<'a> Numbers<'a> {
                 [even, odd, origin, cell].into_iter().for_each(|v| self.add(v.as_mut()));
             }
             Bsdf::Mirror { reflectance } => self.add(reflectance.as_mut()),
+            Bsdf::RoughConductor { conductor, roughness } => {
+                match conductor {
+                    Conductor::Constant(reflectance) => self.add(reflectance.as_mut()),
+                    Conductor::Fresnel { eta, k } => [eta, k].into_iter().for_each(|v| self.add(v.as_mut())),
+                }
+                self.physical.push(roughness);
+            }
             Bsdf::Dielectric { ior } => self.physical.push(ior),
             Bsdf::RoughConductor { conductor, roughness } => {
                 match conductor {
