@@ -21,8 +21,6 @@ material.mirror.mirror.reflectance = [0.7, 0.8, 0.9]
 material.satin.rough_conductor = { reflectance = [0.7, 0.8, 0.9], roughness = 0.5 }
 material.metal.rough_conductor = { eta = [0.2, 0.4, 1.5], k = [4, 2.5, 1.5], roughness = 0.25 }
 material.glass.dielectric.ior = 1.5
-material.satin.rough_conductor = { reflectance = [0.7, 0.6, 0.5], roughness = 0.3 }
-material.metal.rough_conductor = { eta = [0.2, 0.9, 1.1], k = [3.9, 2.5, 2.1], roughness = 0.2 }
 material.lamp = { diffuse.albedo = [0.2, 0.3, 0.4], emissive.radiance = [5, 6, 7] }
 "#;
 
@@ -98,13 +96,6 @@ impl<'a> Numbers<'a> {
                 self.physical.push(roughness);
             }
             Bsdf::Dielectric { ior } => self.physical.push(ior),
-            Bsdf::RoughConductor { conductor, roughness } => {
-                match conductor {
-                    Conductor::Constant(reflectance) => self.add(reflectance.as_mut()),
-                    Conductor::Fresnel { eta, k } => [eta, k].into_iter().for_each(|v| self.add(v.as_mut())),
-                }
-                self.physical.push(roughness);
-            }
         }
         if let Some(Emission { radiance, two_sided: _ }) = emission {
             self.add(radiance.as_mut());
