@@ -1,4 +1,5 @@
 // The box filter: the mean of the picture's sub-pixel passes. Texels are bits of f32, which every backend can draw.
+// No twin: the rasteriser runs on devices alone.
 
 @group(0) @binding(0) var passes: texture_2d_array<u32>;
 

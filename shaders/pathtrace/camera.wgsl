@@ -1,5 +1,6 @@
 //#import pathtrace/intersect/ray.wgsl
-// A pinhole camera. Twin: crates/scene/src/camera.rs.
+// A pinhole camera. Twins: crates/scene/src/camera.rs, and crates/pathtrace/src/drive/lanes.rs, which makes the
+// rays.
 
 // A camera's orthonormal axes scaled so that forward + x * right + y * up passes through the point (x, y) of the
 // picture, x and y in [-1, 1].

@@ -1,7 +1,7 @@
 //#import pathtrace/scene.wgsl
 // Arithmetic with more bits than a float has, where the processor uses f64. A shader's compiler may fuse, reorder and
 // cancel sums, which breaks the usual algorithms. Here products have few enough bits to be exact, fused or not, and
-// every rounded sum passes through `opaque`, which no compiler sees through.
+// every rounded sum passes through `opaque`, which no compiler sees through. No twin: the processor has f64.
 
 // The same vector, as far as a compiler knows another one.
 fn opaque(x: vec3f) -> vec3f {
@@ -43,7 +43,7 @@ fn exact_dot(a: vec3f, a_low: vec3f, b: vec3f, b_low: vec3f) -> f32 {
     return three.sum.x + (three.sum.y + (rest.x + (three.sum.z + rest.y)));
 }
 
-// Below this share of the sum of |a_i b_i| a plain dot product is not good to 20 bits.
+// Below this share of the sum of |a_i b_i| a plain dot product is not good to 20 bits. Here alone: f64 is.
 const CANCELLED: f32 = 0.25;
 
 // `size` with the sign of `sign_of`.

@@ -1,5 +1,6 @@
 // What a scene and its settings ask for. Pipelines are compiled for each choice, so that what is not asked for costs
-// neither time nor registers; what one integrator alone asks is beside it. Twin: crates/scene/src/needs.rs.
+// neither time nor registers; what one integrator alone asks is beside it. Twins: crates/scene/src/needs.rs, and
+// crates/pathtrace/src/drive/gpu/pipelines.rs, which sets them.
 
 // whether all shapes are met one by one; through a tree if not
 override FEW_SHAPES: bool = false;
@@ -9,6 +10,7 @@ override SPHERES: bool = true;
 override DISKS: bool = true;
 override CHECKERBOARD: bool = true;
 override MIRROR: bool = true;
+override ROUGH_CONDUCTOR: bool = true;
 override DIELECTRIC: bool = true;
 // shapes that shine, by outline
 override RECTANGLE_LIGHTS: bool = true;

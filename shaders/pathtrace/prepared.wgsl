@@ -1,7 +1,8 @@
 //#import pathtrace/intersect/aggregate.wgsl
 //#import pathtrace/light/light.wgsl
 //#import pathtrace/bsdf/interaction.wgsl
-// What a ray meets in the scene. Twin: crates/pathtrace/src/prepared.rs.
+// What a ray meets in the scene. Twins: crates/pathtrace/src/prepared.rs and
+// crates/pathtrace/src/bsdf/materials.rs.
 
 // Whether something stands between a point and what shines on it.
 fn in_shadow(at: SurfacePoint, sample: LightSample) -> bool {

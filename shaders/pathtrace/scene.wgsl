@@ -1,5 +1,6 @@
 //#import shared/checkerboard.wgsl
-// The scene as the device holds it. Mirrors: crates/pathtrace/src/gpu/scene_data.rs and, of shapes, shape_data.rs.
+// The scene as the device holds it. Mirrors: crates/pathtrace/src/drive/gpu/scene_data.rs and shape_data.rs, so
+// called beside `scene`, the crate.
 
 struct Header {
     // radiance where nothing is hit, of a sky of one colour
@@ -104,14 +105,21 @@ struct Material {
     // root of |ior^2 - 1| as a sum of two floats
     root: f32,
     root_low: f32,
+    // of a rough conductor: index of refraction, width of the distribution of its slopes, extinction coefficient
+    eta: vec3f,
+    alpha: f32,
+    k: vec3f,
 }
 
 // Codes of lobes and of what varies them. Mirror: crates/pathtrace/src/bsdf/materials.rs.
 const LOBE_LAMBERT: u32 = 1u;
 const LOBE_MIRROR: u32 = 2u;
 const LOBE_DIELECTRIC: u32 = 4u;
+const LOBE_ROUGH_CONDUCTOR: u32 = 8u;
 // of a Lambert lobe: its albedo is a checkerboard
 const CHECKERED: u32 = 256u;
+// of a conductor: it reflects by Fresnel's equations
+const HAS_INDEX: u32 = 512u;
 
 struct Light {
     // corner of a flat area light, centre of a disk or ball, a point light, the direction to the sun

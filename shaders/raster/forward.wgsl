@@ -4,8 +4,9 @@
 //#import raster/shading.wgsl
 //#import raster/shadow.wgsl
 // Pass 2: every shape, shaded where it is drawn. The same pass fills the faces of the cube maps and the picture.
-// Mirrors of the structs: crates/raster/src/gpu_data.rs.
+// Mirror of the structs: crates/raster/src/gpu_data.rs, which has those of all passes.
 
+const SHADING_THREE: u32 = 0u;
 const SHADING_PHONG: u32 = 1u;
 const SHADING_BLINN_PHONG: u32 = 2u;
 
@@ -13,19 +14,20 @@ const AREA_LIGHT_NONE: u32 = 0u;
 const AREA_LIGHT_WITHOUT_DECAY: u32 = 1u;
 const AREA_LIGHT_ALL_AROUND: u32 = 2u;
 const AREA_LIGHT_ONE_SIDED: u32 = 3u;
+const AREA_LIGHT_TWO_SIDED: u32 = 4u;
 
 // What fragments branch on is compiled in. Uniforms must not decide it: Mesa's lavapipe 22.3 compiles a fragment shader
 // that branches on a uniform anew for every draw, and keeps all of them until the pipeline goes. So `select` and `&`
 // stand below where `if` and `&&` could.
 
-// 0 hard, 1 PCF, 2 PCF soft
-override SHADOW_FILTER: u32 = 2u;
+// one of FILTER_*
+override SHADOW_FILTER: u32 = FILTER_PCF_SOFT;
 override GLASS: bool = false;
 override SUN: bool = true;
 // one of AREA_LIGHT_*
-override AREA_LIGHT: u32 = 0u;
-// 0 three, or one of SHADING_*
-override SHADING: u32 = 0u;
+override AREA_LIGHT: u32 = AREA_LIGHT_NONE;
+// one of SHADING_*
+override SHADING: u32 = SHADING_THREE;
 
 struct Lights {
     sun_towards: vec3f,
@@ -81,7 +83,7 @@ fn vertex(@location(0) position: vec3f, @location(1) normal: vec3f) -> Varying {
     return Varying(clip, position, normal, refracted(position, normal));
 }
 
-// What a half float holds: beyond it lies infinity, which filtering turns into NaN.
+// What a half float holds: beyond it lies infinity, which filtering turns into NaN. Here alone: only devices draw.
 const LARGEST_HALF: f32 = 65504.0;
 
 @fragment

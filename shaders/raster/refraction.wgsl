@@ -1,4 +1,5 @@
-// Snell's law, and where the refracted direction is found in a cube map. Twin: crates/raster/src/shading.rs.
+// Snell's law, and where the refracted direction is found in a cube map. Twin:
+// crates/raster/src/shading.rs, which has all formulas of the rasteriser.
 
 // Unit direction behind a surface of unit normal n (against d) for light along the unit direction d; `ratio` is the
 // index of refraction in front over the one behind. Beyond the critical angle nothing is refracted and all of it is

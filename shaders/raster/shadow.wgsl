@@ -1,6 +1,6 @@
 // Percentage-closer filtering over a shadow map's nearest depths, Reeves et al. 1987; the kernels are those of three.js
 // r115. A map's texels are the bits of f32 depths: unlike floats, integers can be drawn by every backend.
-// Twin: crates/raster/src/shading.rs.
+// Twin: crates/raster/src/shading.rs, which has all formulas of the rasteriser.
 
 // 1 where nothing lies before `depth`, else 0; the border texels go on outside of the map.
 fn lit(map: texture_2d_array<u32>, layer: u32, texel: vec2i, depth: f32) -> f32 {
@@ -10,6 +10,7 @@ fn lit(map: texture_2d_array<u32>, layer: u32, texel: vec2i, depth: f32) -> f32 
 
 const FILTER_HARD: u32 = 0u;
 const FILTER_PCF: u32 = 1u;
+const FILTER_PCF_SOFT: u32 = 2u;
 
 // The lit share about uv in [0, 1]^2 (from the map's top left corner) by one of the filters.
 fn lit_share(filter_code: u32, map: texture_2d_array<u32>, layer: u32, uv: vec2f, depth: f32) -> f32 {

@@ -1,6 +1,6 @@
 //#import raster/view.wgsl
 // Pass 1: the depths nearest to a light, as a colour of f32 bits: not every backend reads single texels of a depth
-// texture, nor draws floats.
+// texture, nor draws floats. No twin: the rasteriser runs on devices alone.
 
 @group(0) @binding(0) var<uniform> view: View;
 

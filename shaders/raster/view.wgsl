@@ -1,4 +1,5 @@
-// A camera of any pass: the picture's, a cube map's face, a light. Mirror: crates/raster/src/gpu_data.rs.
+// A camera of any pass: the picture's, a cube map's face, a light. Mirror:
+// crates/raster/src/gpu_data.rs, which has the structs of all passes.
 
 struct View {
     clip_from_world: mat4x4f,

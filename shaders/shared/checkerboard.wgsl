@@ -1,4 +1,5 @@
-// Cells of two colours that fill space. Twin: crates/raster/src/shading.rs.
+// Cells of two colours that fill space. Twins: crates/pathtrace/src/bsdf/materials.rs and
+// crates/scene/src/material.rs, where it is the texture of a material.
 
 struct Checkerboard {
     even: vec3f,

@@ -6,11 +6,6 @@ use pathtrace::{Estimator, GlassShadows, PathSettings, Roulette, SamplerKind, Tr
 use scene::Scene;
 use std::path::Path;
 
-/// The default settings, with samples whose spread tells their error.
-fn independent() -> PathSettings {
-    PathSettings { sampler: SamplerKind::Independent, ..PathSettings::default() }
-}
-
 fn scene(text: &str) -> Scene {
     scene::parse(text, "test", Path::new("test.toml")).expect("a scene")
 }
@@ -23,7 +18,7 @@ fn render(scene: &Scene, size: u32, spp: u32, settings: &PathSettings) -> Film {
 }
 
 fn with(estimator: Estimator, bounces: Option<u32>, roulette: Roulette) -> PathSettings {
-    PathSettings { estimator, bounces, roulette, seed: 3, ..independent() }
+    PathSettings { estimator, bounces, roulette, seed: 3, ..PathSettings::independent() }
 }
 
 /// The mean is within four standard errors of `expected`, and these are small enough to notice `power` of it.
@@ -243,7 +238,7 @@ fn branches_multiply_the_rays_and_change_no_mean() {
 fn a_film_knows_when_its_standard_error_means_little() {
     let film = |name: &str| {
         let scene = scene::builtin::named(name).expect("built in");
-        render(&scene, 64, 16, &independent())
+        render(&scene, 64, 16, &PathSettings::independent())
     };
     let (calm, caustic) = (film("cornell"), film("whitted"));
     assert!(calm.standard_error_is_reliable(), "{}", calm.tail_weight());

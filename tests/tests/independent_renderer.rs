@@ -5,11 +5,6 @@ use pathtrace::{Estimator, PathSettings, Roulette, SamplerKind, Tracer};
 use scene::{Scene, builtin};
 use serde_json::Value;
 
-/// The default settings, with samples whose spread tells their error.
-fn independent() -> PathSettings {
-    PathSettings { sampler: SamplerKind::Independent, ..PathSettings::default() }
-}
-
 fn reference(text: &str) -> Value {
     serde_json::from_str(text).expect("reference values")
 }
@@ -78,7 +73,7 @@ fn cornell_agrees_block_by_block_and_outside_the_area_light() {
         (include_str!("../data/cornell.json"), None, Roulette::THROUGHPUT),
         (include_str!("../data/cornell-2-bounces.json"), Some(2), Roulette::OFF),
     ] {
-        let settings = PathSettings { bounces, roulette, ..independent() };
+        let settings = PathSettings { bounces, roulette, ..PathSettings::independent() };
         let film = render(&scene, (128, 128), 512, &settings);
         let expected = reference(text);
         for (mean, theirs) in film.mean().into_iter().zip(rgb(&expected["mean"])) {
@@ -99,11 +94,11 @@ fn every_estimator_agrees_on_cornell_block_by_block() {
     let scene = builtin::named("cornell").expect("built in");
     let expected = reference(include_str!("../data/cornell.json"));
     for estimator in Estimator::EVERY {
-        let film = render(&scene, (128, 128), 384, &PathSettings { estimator, seed: 9, ..independent() });
+        let film = render(&scene, (128, 128), 384, &PathSettings { estimator, seed: 9, ..PathSettings::independent() });
         print!("{}: ", estimator.name());
         assert_blocks_agree(&film, &expected, 8);
     }
-    let sobol = PathSettings { sampler: SamplerKind::Sobol, estimator: Estimator::MIS, ..independent() };
+    let sobol = PathSettings { sampler: SamplerKind::Sobol, estimator: Estimator::MIS, ..PathSettings::independent() };
     let film = render(&scene, (128, 128), 128, &sobol);
     for (mean, theirs) in film.mean().into_iter().zip(rgb(&expected["mean"])) {
         assert!((mean / theirs - 1.0).abs() < 0.005, "Sobol: {mean} against {theirs}");
@@ -119,7 +114,7 @@ fn whitted_under_a_delta_sun_agrees_block_by_block() {
     }
     let expected = reference(include_str!("../data/whitted-sun-0.json"));
     for estimator in Estimator::EVERY.into_iter().filter(|estimator| estimator.samples_lights()) {
-        let film = render(&scene, (192, 108), 256, &PathSettings { estimator, ..independent() });
+        let film = render(&scene, (192, 108), 256, &PathSettings { estimator, ..PathSettings::independent() });
         print!("{}: ", estimator.name());
         assert_blocks_agree(&film, &expected, 12);
     }
@@ -130,7 +125,7 @@ fn whitted_under_a_delta_sun_agrees_block_by_block() {
 #[test]
 fn whitted_under_a_wide_sun_agrees_as_a_whole() {
     let scene = builtin::named("whitted").expect("built in");
-    let film = render(&scene, (192, 108), 2048, &independent());
+    let film = render(&scene, (192, 108), 2048, &PathSettings::independent());
     let expected = reference(include_str!("../data/whitted-sun-2.5.json"));
     for (mean, theirs) in film.mean().into_iter().zip(rgb(&expected["mean"])) {
         assert!((mean / theirs - 1.0).abs() < 0.01, "{mean} against {theirs}");

@@ -4,12 +4,12 @@
 mod twin;
 
 use pathtrace::SamplerKind;
-use pathtrace::bsdf::Interface;
+use pathtrace::bsdf::{Interface, RoughConductor};
 use pathtrace::gpu::GpuTracer;
 use pathtrace::intersect::SurfacePoint;
 use pathtrace::sampling::sampler::Sampler;
 use pathtrace::sampling::{self, rng};
-use scene::{Vec3, builtin};
+use scene::{Conductor, Vec3, builtin};
 use twin::{ITEMS, direction, farthest, input, numbers, run, units, words};
 
 fn devices() -> Vec<GpuTracer> {
@@ -176,6 +176,80 @@ fn fresnel_and_refraction_agree_also_at_the_critical_angle() {
         });
         let reflected = (0..ITEMS).filter(|&item| of(item).0.refracted_cosine(of(item).1).is_none()).count();
         assert!(reflected > 200 && off < 3e-6, "{off}, {reflected} reflected");
+    }
+}
+
+/// Rough metal of each width, with and without an index: directions, weights, values and densities. What rounding does to
+/// a facet is larger the narrower the lobe is.
+#[test]
+fn microfacets_agree() {
+    let of = |item: u32| {
+        let [a, b, c, d] = units(item, 10);
+        let alpha = [1e-4, 0.01, 0.1, 0.5, 1.0][item as usize % 5];
+        let turn = b * std::f32::consts::TAU;
+        let sine = (1.0 - a * a).sqrt();
+        (alpha, Vec3::new(sine * turn.cos(), sine * turn.sin(), a.max(1e-3)).normalize(), [c, d])
+    };
+    let constant = Conductor::Constant(Vec3::new(0.9, 0.5, 0.1));
+    let index = Conductor::Fresnel { eta: Vec3::new(0.143, 0.375, 1.442), k: Vec3::new(3.983, 2.386, 1.603) };
+    for tracer in devices() {
+        for (conductor, has_index) in [(constant, false), (index, true)] {
+            let metal = format!(
+                "let metal = RoughConductor(f(at + 3u), vec3f(0.9, 0.5, 0.1), {has_index}, vec3f(0.143, 0.375, 1.442),
+                    vec3f(3.983, 2.386, 1.603));
+                let wo = vec(at);
+                let sample = sample_microfacets(metal, wo, vec2f(f(at + 4u), f(at + 5u)));"
+            );
+            let given = input(|item| {
+                let (alpha, wo, u) = of(item);
+                numbers(wo, [alpha, u[0], u[1], 0.0, 0.0])
+            });
+            let run = |answer: &str| {
+                run(&tracer, "pathtrace/bsdf/rough_conductor.wgsl", &format!("{metal}\n{answer}"), &[], &given)
+            };
+            let sampled = |item: u32| {
+                let (alpha, wo, u) = of(item);
+                let lobe = RoughConductor { alpha, conductor };
+                (lobe, wo, lobe.sample(wo, u))
+            };
+            let directions = run("return bits(sample.wi.x, sample.wi.y, sample.wi.z, 0.0);");
+            let off = farthest(&directions, |item| {
+                let (_, _, (wi, ..)) = sampled(item);
+                [wi.x, wi.y, wi.z, 0.0]
+            });
+            assert!(off < 5e-6, "{has_index}: directions are off by {off}");
+            let weights = run("let w = sample.weight.colour * sample.weight.factor; return bits(w.x, w.y, w.z, 0.0);");
+            let off = farthest(&weights, |item| {
+                let (_, _, (_, weight, _)) = sampled(item);
+                [weight.x, weight.y, weight.z, 0.0]
+            });
+            assert!(off < 1e-3, "{has_index}: weights are off by {off}");
+            // as shares of the processor's; at directions of its own, so that both look at one facet
+            let given = input(|item| {
+                let (lobe, wo, (wi, ..)) = sampled(item);
+                let [x, y, z] = if wi.z > 1e-3 { wi } else { Vec3::Z }.to_array();
+                numbers(wo, [lobe.alpha, x, y, z, 0.0])
+            });
+            let metal = metal.lines().take(3).collect::<Vec<_>>().join("\n");
+            let body = format!(
+                "{metal}
+                let wi = vec(at + 4u);
+                let value = eval_microfacets(metal, wo, wi);
+                return bits(value.factor * value.colour.x, value.factor, pdf_microfacets(metal, wo, wi), 0.0);"
+            );
+            let found = twin::run(&tracer, "pathtrace/bsdf/rough_conductor.wgsl", &body, &[], &given);
+            for (item, found) in (0..).zip(&found) {
+                let (lobe, wo, (wi, ..)) = sampled(item);
+                let wi = if wi.z > 1e-3 { wi } else { Vec3::Z };
+                let (value, pdf) = (lobe.eval(wo, wi).x, lobe.pdf(wo, wi));
+                // of a facet's slope, in widths of the distribution
+                let tolerance = 1e-4 + 4e-6 / lobe.alpha;
+                for (found, expected) in [(f32::from_bits(found[0]), value), (f32::from_bits(found[2]), pdf)] {
+                    let off = (found - expected).abs();
+                    assert!(off <= tolerance * expected, "{item}, alpha {}: {found} {expected}", lobe.alpha);
+                }
+            }
+        }
     }
 }
 

@@ -1,8 +1,8 @@
 //! Rays on the GPU find what is there, and nothing else: closed rooms let none out, walls do not shadow themselves,
-//! boxes of the tree are met from far away and in tiny scenes, area lights win in their plane. Through Vulkan and
-//! through OpenGL.
+//! boxes of the tree are met from far away and in tiny scenes, area lights win in their plane. On every
+//! device of this computer.
 
-use gpu::{Gpu, wgpu};
+use gpu::Gpu;
 use pathtrace::Tracer;
 use pathtrace::gpu::GpuTracer;
 use pathtrace::intersect::Ray;
@@ -11,8 +11,8 @@ use pathtrace::sampling::{self, rng};
 use scene::{Geometry, Scene, Vec3, builtin};
 use std::path::Path;
 
-fn devices() -> [Gpu; 2] {
-    [wgpu::Backends::VULKAN, wgpu::Backends::GL].map(|through| Gpu::headless_through(through).unwrap())
+fn devices() -> Vec<Gpu> {
+    Gpu::each().unwrap()
 }
 
 fn named(name: &str) -> Scene {

@@ -35,6 +35,7 @@ impl Body {
         let (kd, glass) = match material.bsdf {
             Bsdf::Diffuse { albedo } => (albedo, None),
             Bsdf::Mirror { reflectance } => (Texture::Constant(reflectance), None),
+            Bsdf::RoughConductor { .. } => panic!("no scene here has any"),
             Bsdf::Dielectric { .. } => (
                 Texture::Constant(Vec3::ONE),
                 Some((material.fake.refraction_ratio.unwrap(), material.fake.reflectivity)),

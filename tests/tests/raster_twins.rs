@@ -1,22 +1,23 @@
 //! The fake's functions in WGSL and in Rust give the same numbers: each is run on the device over random inputs.
 
+use gpu::compute::{Binding, Compute};
 use gpu::upload::TexturePlan;
-use gpu::{Gpu, wgpu, wgsl};
+use gpu::wgsl::{self, Source};
+use gpu::{Gpu, wgpu};
+use pathtrace::sampling::rng;
 use raster::shading;
 use scene::Vec3;
 use scene::material::Checkerboard;
 
 const ITEMS: usize = 4096;
 
-/// Splitmix-like generator: the inputs are the same on every machine.
-struct Random(u64);
+/// A stream of random numbers: which one, and how many were taken.
+struct Random(u32, u32);
 
 impl Random {
     fn unit(&mut self) -> f32 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let x = (self.0 ^ self.0 >> 30).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        let x = (x ^ x >> 27).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((x ^ x >> 31) >> 40) as f32 / (1u64 << 24) as f32
+        self.1 += 1;
+        rng::unit_float(rng::pcg4d([self.0, self.1, 0, 0])[0])
     }
 
     fn between(&mut self, low: f32, high: f32) -> f32 {
@@ -54,12 +55,12 @@ fn run(import: &str, body: &str, width: usize, input: &[f32], map: &[f32]) -> Ve
             results[id.x * 3u + 2u] = r.z;
         }}"
     );
-    let find = |path: &str| match path {
-        "test.wgsl" => Some(shader.as_str()),
-        _ => wgsl::FILES.iter().find(|(name, _)| *name == path).map(|(_, text)| *text),
-    };
+    let test = [Source { path: "test.wgsl", text: &shader }];
+    let [own, shared] = raster::shaders::LIBRARY;
     let gpu = Gpu::headless().unwrap();
-    let module = wgsl::compose_from("test.wgsl", &find).unwrap().create(&gpu).unwrap();
+    let shader = wgsl::compose(&[&test, own, shared], "test.wgsl").unwrap();
+    let bindings = [Binding::Read, Binding::Written, Binding::WordTexture];
+    let compute = Compute::new(&gpu, &shader, "main", None, &bindings, &[]).unwrap();
     let items = input.len() / width;
     let storage = wgpu::BufferUsages::STORAGE;
     let numbers = gpu.buffer("numbers", input, storage).unwrap();
@@ -80,73 +81,11 @@ fn run(import: &str, body: &str, width: usize, input: &[f32], map: &[f32]) -> Ve
         dimension: Some(wgpu::TextureViewDimension::D2Array),
         ..wgpu::TextureViewDescriptor::default()
     });
-    dispatch(&gpu, &module, &numbers, &results, &view, items);
+    let map = wgpu::BindingResource::TextureView(&view);
+    compute.run(&gpu, None, &[numbers.as_entire_binding(), results.as_entire_binding(), map], items).unwrap();
     let bytes = gpu.read_buffer("results", &results).unwrap();
     assert_eq!(gpu.fault(), None);
     bytemuck::pod_collect_to_vec::<u8, f32>(&bytes).chunks_exact(3).map(Vec3::from_slice).collect()
-}
-
-fn dispatch(
-    gpu: &Gpu,
-    module: &wgpu::ShaderModule,
-    numbers: &wgpu::Buffer,
-    results: &wgpu::Buffer,
-    map: &wgpu::TextureView,
-    items: usize,
-) {
-    let storage = |binding, read_only| wgpu::BindGroupLayoutEntry {
-        binding,
-        visibility: wgpu::ShaderStages::COMPUTE,
-        ty: wgpu::BindingType::Buffer {
-            ty: wgpu::BufferBindingType::Storage { read_only },
-            has_dynamic_offset: false,
-            min_binding_size: None,
-        },
-        count: None,
-    };
-    let texture = wgpu::BindGroupLayoutEntry {
-        binding: 2,
-        visibility: wgpu::ShaderStages::COMPUTE,
-        ty: wgpu::BindingType::Texture {
-            sample_type: wgpu::TextureSampleType::Uint,
-            view_dimension: wgpu::TextureViewDimension::D2Array,
-            multisampled: false,
-        },
-        count: None,
-    };
-    let entries = [storage(0, true), storage(1, false), texture];
-    let layout =
-        gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label: None, entries: &entries });
-    let pipeline_layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-        label: None,
-        bind_group_layouts: &[Some(&layout)],
-        immediate_size: 0,
-    });
-    let pipeline = gpu.device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
-        label: None,
-        layout: Some(&pipeline_layout),
-        module,
-        entry_point: Some("main"),
-        compilation_options: wgpu::PipelineCompilationOptions::default(),
-        cache: None,
-    });
-    let group = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
-        label: None,
-        layout: &layout,
-        entries: &[
-            wgpu::BindGroupEntry { binding: 0, resource: numbers.as_entire_binding() },
-            wgpu::BindGroupEntry { binding: 1, resource: results.as_entire_binding() },
-            wgpu::BindGroupEntry { binding: 2, resource: wgpu::BindingResource::TextureView(map) },
-        ],
-    });
-    let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-    {
-        let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
-        pass.set_pipeline(&pipeline);
-        pass.set_bind_group(0, &group, &[]);
-        pass.dispatch_workgroups(items.div_ceil(64) as u32, 1, 1);
-    }
-    gpu.queue.submit([encoder.finish()]);
 }
 
 /// The largest difference, relative to values above 1; at least one pair must be there and all must be finite.
@@ -175,7 +114,7 @@ fn shading_body(name: &str) -> String {
 
 #[test]
 fn illumination_models_agree() {
-    let mut random = Random(1);
+    let mut random = Random(1, 0);
     let mut input = Vec::new();
     for _ in 0..ITEMS {
         for direction in [random.direction(), random.direction(), random.direction()] {
@@ -212,7 +151,7 @@ fn phong_and_blinn_phong_have_their_closed_form_values() {
 
 #[test]
 fn refraction_agrees_on_both_sides_of_the_critical_angle() {
-    let mut random = Random(2);
+    let mut random = Random(2, 0);
     let (mut input, mut mirrored) = (Vec::new(), 0);
     while input.len() < 7 * ITEMS {
         let (n, ratio) = (random.direction(), random.between(0.4, 2.5));
@@ -243,7 +182,7 @@ fn checkerboards_agree_away_from_their_edges() {
         origin: Vec3::new(-23.0, 0.0, -7.5),
         cell: Vec3::new(1.0, 0.0, 0.5),
     };
-    let mut random = Random(3);
+    let mut random = Random(3, 0);
     let mut inside = || random.between(-40.0, 40.0).floor() + random.between(0.01, 0.99);
     let points: Vec<_> = (0..ITEMS).map(|_| Vec3::new(inside(), inside(), 0.5 * inside())).collect();
     let input: Vec<f32> = points.iter().flat_map(|p| p.to_array()).collect();
@@ -260,7 +199,7 @@ type Twin<'a> = &'a dyn Fn(&[f32]) -> f32;
 
 #[test]
 fn shadow_kernels_agree_inside_and_at_the_border() {
-    let mut random = Random(4);
+    let mut random = Random(4, 0);
     let size = 16;
     let map: Vec<f32> = (0..size * size).map(|_| random.unit()).collect();
     let input: Vec<f32> =

@@ -1,42 +1,58 @@
 //! Every shader that ships is valid WGSL, and every struct that Rust and WGSL share has the same layout on both sides.
 
-use gpu::wgsl;
+use gpu::wgsl::{self, Composed, Source, WgslError};
 use pathtrace::gpu::film_data::{PictureFrame, Pixel, RenderParams};
 use pathtrace::gpu::rays::{RayAnswer, RayQuery};
 use pathtrace::gpu::scene_data::{Checkerboard, Header, Light, Material};
 use pathtrace::gpu::shape_data::{FewShape as Shape, Node, ShapeData as Primitive, Surface};
 use raster::gpu_data::{Lights, Object, View};
 use std::mem::offset_of;
+use std::path::{Path, PathBuf};
+
+/// The crates that bring shaders, with the folders under `shaders/` that are theirs.
+const LISTS: [(&[Source<'static>], &[&str]); 3] = [
+    (pathtrace::shaders::SOURCES, &["pathtrace/"]),
+    (raster::shaders::SOURCES, &["raster/"]),
+    (gpu::shared_shaders::SOURCES, &["shared/", "film/"]),
+];
+
+fn compose(root: &str) -> Result<Composed, WgslError> {
+    wgsl::compose(&LISTS.map(|(sources, _)| sources), root)
+}
 
 #[test]
 fn every_shader_composes_and_validates() {
-    // the driver asks its importer, an integrator, for two functions
-    for (name, _) in wgsl::FILES.iter().filter(|(name, _)| *name != "pathtrace/drive/pixels.wgsl") {
-        if let Err(fault) = wgsl::compose(name) {
+    let sources = LISTS.into_iter().flat_map(|(sources, _)| sources);
+    for source in sources.filter(|source| source.path != pathtrace::shaders::DRIVER) {
+        if let Err(fault) = compose(source.path) {
             panic!("{fault}");
         }
     }
 }
 
+/// Files in a folder and its folders, relative to `root`.
+fn files_under(folder: &Path, root: &Path) -> Vec<String> {
+    let entries = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
+    let files = |path: PathBuf| match path.is_dir() {
+        true => files_under(&path, root),
+        false => vec![path.strip_prefix(root).unwrap().to_string_lossy().replace('\\', "/")],
+    };
+    entries.flat_map(files).collect()
+}
+
 #[test]
-fn every_shader_file_is_embedded() {
-    let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../shaders");
-    let mut found = Vec::new();
-    let mut folders = vec![folder.clone()];
-    while let Some(part) = folders.pop() {
-        for entry in std::fs::read_dir(&part).unwrap() {
-            let path = entry.unwrap().path();
-            if path.is_dir() {
-                folders.push(path);
-            } else {
-                found.push(path.strip_prefix(&folder).unwrap().to_string_lossy().replace('\\', "/"));
-            }
+fn every_shader_file_is_listed_once_and_by_the_crate_whose_tree_it_mirrors() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shaders");
+    let mut found = files_under(&folder, &folder);
+    found.sort();
+    let mut listed: Vec<_> = LISTS.into_iter().flat_map(|(sources, _)| sources).map(|source| source.path).collect();
+    listed.sort_unstable();
+    assert_eq!(found, listed);
+    for (sources, folders) in LISTS {
+        for source in sources {
+            assert!(folders.iter().any(|folder| source.path.starts_with(folder)), "{} in {folders:?}", source.path);
         }
     }
-    found.sort();
-    let mut embedded: Vec<_> = wgsl::FILES.iter().map(|(name, _)| *name).collect();
-    embedded.sort_unstable();
-    assert_eq!(found, embedded);
 }
 
 /// Size and named offsets of a struct as the shader compiler lays it out.
@@ -52,7 +68,7 @@ fn layout_in_wgsl(module: &naga::Module, name: &str) -> (usize, Vec<(String, usi
 
 macro_rules! assert_same_layout {
     ($file:literal, $name:ident, [$($field:ident),* $(,)?]) => {{
-        let (size, fields) = layout_in_wgsl(&wgsl::compose($file).unwrap().module, stringify!($name));
+        let (size, fields) = layout_in_wgsl(&compose($file).unwrap().module, stringify!($name));
         let mirrored = vec![$((stringify!($field).to_owned(), offset_of!($name, $field))),*];
         assert_eq!(fields, mirrored, "offsets of {}", stringify!($name));
         assert_eq!(size, size_of::<$name>(), "size of {}", stringify!($name));
@@ -134,7 +150,7 @@ fn mirrors_of_the_path_tracer_have_the_layout_of_their_structs() {
     assert_same_layout!(
         "pathtrace/scene.wgsl",
         Material,
-        [colour, emission, emitting_sides, lobe, ior, root, root_low]
+        [colour, emission, emitting_sides, lobe, ior, root, root_low, eta, alpha, k]
     );
     assert_same_layout!(
         "pathtrace/scene.wgsl",

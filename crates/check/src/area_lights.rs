@@ -1,13 +1,13 @@
 //! Direct light of area lights over a grey floor.
 
 use crate::hard::{known, spot, with_geometry};
-use crate::measure::{Trial, independent};
+use crate::measure::Trial;
 use pathtrace::{Estimator, PathSettings, Roulette, Tracer, WhittedSettings};
 use scene::{Camera, Geometry, Scene, Vec3};
 
 /// Direct light alone.
 pub fn direct(estimator: Estimator) -> PathSettings {
-    PathSettings { estimator, bounces: Some(0), roulette: Roulette::OFF, ..independent() }
+    PathSettings { estimator, bounces: Some(0), roulette: Roulette::OFF, ..PathSettings::independent() }
 }
 
 /// Whitted's direct light, by so many shadow rays to each area light.

@@ -1,7 +1,7 @@
 //! Glass.
 
 use crate::hard::{known, spot, with_geometry};
-use crate::measure::{Trial, farthest, independent};
+use crate::measure::{Trial, farthest};
 use film::Film;
 use pathtrace::bsdf::Interface;
 use pathtrace::intersect::{Accel, Ray};
@@ -13,7 +13,7 @@ const OUT_OF_GLASS: Interface = Interface { ior: 1.5, entering: false };
 
 /// Independent samples of paths that end by themselves.
 pub fn without_roulette() -> PathSettings {
-    PathSettings { roulette: Roulette::OFF, ..independent() }
+    PathSettings { roulette: Roulette::OFF, ..PathSettings::independent() }
 }
 
 /// Whitted's trees without ambient light.
@@ -352,7 +352,7 @@ pub fn camera_inside(trial: &mut Trial) {
     let scene = known("camera-inside-glass");
     let seen = (&Tracer::new(&scene), &scene.camera);
     for roulette in [Roulette::OFF, Roulette::THROUGHPUT] {
-        let film = trial.film(seen, PathSettings { roulette, ..independent() }, 32, 16);
+        let film = trial.film(seen, PathSettings { roulette, ..PathSettings::independent() }, 32, 16);
         trial.equal("path light", "every pixel", 1.0, farthest(&film, 1.0), 1e-5);
     }
     let film = trial.film(seen, to_depth(64), 32, 1);

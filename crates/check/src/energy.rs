@@ -1,14 +1,15 @@
 //! Closed scenes that keep all their light.
 
 use crate::hard::{known, spot, with_geometry};
-use crate::measure::{Trial, adding, farthest, independent};
+use crate::measure::{Trial, adding, farthest};
 use pathtrace::{Estimator, PathSettings, Roulette, Tracer, WhittedSettings};
-use scene::{Bsdf, Camera, Geometry, Scene, Texture, Vec3};
+use scene::{Bsdf, Camera, Conductor, Geometry, Scene, Shape, Texture, Vec3};
 use std::f32::consts::PI;
+use std::f64::consts::LN_2;
 
 /// Independent samples of paths.
 pub fn with(estimator: Estimator, bounces: Option<u32>, roulette: Roulette) -> PathSettings {
-    PathSettings { estimator, bounces, roulette, ..independent() }
+    PathSettings { estimator, bounces, roulette, ..PathSettings::independent() }
 }
 
 /// Light that paths have lost at the middle of the floor when they stop after so many scatterings: a random walk in
@@ -20,7 +21,25 @@ pub fn floor_centre() -> Camera {
     spot(Vec3::new(0.5, 0.5, 0.5), Vec3::new(0.5, 0.5, 0.0))
 }
 
+/// Of a sphere of rough white metal, alpha 1, under a sky of 1, what single scattering reflects straight back.
+pub const ROUGH_METAL: f64 = 1.0 - LN_2;
+
+/// That sphere, seen in its middle.
+pub fn rough_metal() -> Scene {
+    let mut scene = known("white-furnace");
+    let conductor = Conductor::Constant(Vec3::ONE);
+    scene.materials[0].bsdf = Bsdf::RoughConductor { conductor, roughness: 1.0 };
+    scene.shapes = [Shape { geometry: Geometry::Sphere { center: Vec3::ZERO, radius: 1.0 }, material: 0 }].into();
+    scene.camera = spot(Vec3::new(0.0, 0.0, 3.0), Vec3::new(0.0, 0.0, 1.0));
+    scene
+}
+
 pub fn white_furnace(trial: &mut Trial) {
+    let metal = rough_metal();
+    for estimator in [Estimator::UNIFORM, Estimator::COSINE, Estimator::MIS] {
+        let seen = (&Tracer::new(&metal), &metal.camera);
+        trial.traced("rough metal, alpha 1", ROUGH_METAL, seen, with(estimator, None, Roulette::OFF));
+    }
     let scene = known("white-furnace");
     let seen = (&Tracer::new(&scene), &scene.camera);
     for estimator in [Estimator::COSINE, Estimator::LIGHT, Estimator::MIS] {

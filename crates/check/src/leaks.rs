@@ -1,7 +1,7 @@
 //! Closed meshes and rays that must not get out.
 
 use crate::hard::known;
-use crate::measure::{Trial, independent};
+use crate::measure::Trial;
 use crate::meshes::{Mesh, any_direction};
 use film::Film;
 use pathtrace::intersect::Ray;
@@ -110,7 +110,7 @@ pub fn closed_mesh(trial: &mut Trial) {
 pub fn light_tight_box(trial: &mut Trial) {
     let rays = trial.pick(500_000, 10_000_000);
     let side = 64;
-    let settings = PathSettings { estimator: Estimator::COSINE, ..independent() };
+    let settings = PathSettings { estimator: Estimator::COSINE, ..PathSettings::independent() };
     for (name, scene, camera) in tight_boxes() {
         let film = trial.film((&Tracer::new(&scene), &camera), settings, side, rays / (side * side));
         trial.equal("path cosine", &format!("brightest pixel{name}"), 0.0, brightest(&film), 0.0);

@@ -2,7 +2,7 @@
 
 use crate::row::{Relation, Row, Verdict};
 use film::Film;
-use pathtrace::{Integrator, PathSettings, SamplerKind, Tracer};
+use pathtrace::{Integrator, Tracer};
 use rayon::prelude::*;
 use scene::Camera;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -223,11 +223,6 @@ impl<'a> Trial<'a> {
         self.count_nonfinite(&film);
         film
     }
-}
-
-/// The default settings, with samples whose spread tells their error.
-pub fn independent() -> PathSettings {
-    PathSettings { sampler: SamplerKind::Independent, ..PathSettings::default() }
 }
 
 /// What adds samples to a film, given a seed and their number; it can be stopped.

@@ -2,7 +2,7 @@
 
 use crate::area_lights::{RECTANGLE, direct};
 use crate::hard::{known, spot};
-use crate::measure::{Trial, independent};
+use crate::measure::Trial;
 use crate::meshes::Mesh;
 use pathtrace::intersect::Ray;
 use pathtrace::{Estimator, PathSettings, Tracer, WhittedSettings};
@@ -69,7 +69,7 @@ pub fn invariants() -> [Invariant; 4] {
         expected,
     };
     [
-        one("closed box", (furnace, whole), independent(), 1.0),
+        one("closed box", (furnace, whole), PathSettings::independent(), 1.0),
         one("rectangle light", (lit.clone(), over_floor), light, lambert),
         one("rectangle light, mis", (lit, over_floor), direct(Estimator::MIS), lambert),
         Invariant { trees: Some(trees), ..one("slab at 60 degrees", (known("slab"), slanting), glass, 0.8362324627) },

@@ -1,6 +1,6 @@
 //! Errors pixel by pixel, as numbers: what a difference image colours.
 
-use crate::flip::{PIXELS_PER_DEGREE, displayed, flip};
+use crate::flip::{PIXELS_PER_DEGREE, flip};
 use crate::metrics::same_size;
 use crate::{CompareError, Errors};
 use film::{DisplayTransform, Image, Vec3};
@@ -78,7 +78,8 @@ impl ErrorMetric {
         let pairs = image.radiances().iter().zip(reference.radiances());
         let finite = |a: &Vec3, r: &Vec3| a.is_finite() && r.is_finite();
         if self == ErrorMetric::Flip {
-            let mut values = flip(&displayed(image, display), &displayed(reference, display), PIXELS_PER_DEGREE)?;
+            let shown = [image, reference].map(|image| display.code_values_of(image));
+            let mut values = flip(&shown[0], &shown[1], PIXELS_PER_DEGREE)?;
             for (value, (a, r)) in values.iter_mut().zip(pairs) {
                 if !finite(a, r) {
                     *value = f32::NAN;

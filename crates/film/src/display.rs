@@ -24,6 +24,15 @@ impl DisplayTransform {
         image.radiances().iter().flat_map(|radiance| self.encode(*radiance, scale)).collect()
     }
 
+    /// The sRGB code values, in [0, 1], of those bytes.
+    pub fn code_values_of(&self, image: &Image) -> Image {
+        let scale = self.scale();
+        image.map(|radiance| {
+            let [r, g, b, _] = self.encode(radiance, scale).map(f32::from);
+            Vec3::new(r / 255.0, g / 255.0, b / 255.0)
+        })
+    }
+
     fn scale(&self) -> f32 {
         self.exposure.exp2()
     }
@@ -90,6 +99,16 @@ mod tests {
     fn odd_values_become_black_or_white_bytes() {
         assert_eq!([f32::NAN, -1.0, f32::NEG_INFINITY, -0.0].map(srgb_byte), [0; 4]);
         assert_eq!([1.0, 7.0, f32::INFINITY].map(srgb_byte), [255; 3]);
+    }
+
+    #[test]
+    fn code_values_are_the_bytes_over_255() {
+        let image = Image::new(2, 1, [Vec3::new(0.0, 0.5, f32::NAN), Vec3::new(-1.0, 0.1, 7.0)]).unwrap();
+        let display = DisplayTransform { exposure: 0.5 };
+        let values = display.code_values_of(&image).radiances().iter().flat_map(|v| v.to_array()).collect::<Vec<_>>();
+        let bytes = display.rgba8_of(&image);
+        let expected = bytes.chunks_exact(4).flat_map(|p| [0, 1, 2].map(|c| f32::from(p[c]) / 255.0));
+        assert!(values.into_iter().eq(expected));
     }
 
     #[test]

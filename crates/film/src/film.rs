@@ -1,6 +1,8 @@
 //! The film: what every technique fills and what display and ruler read. Linear RGB radiance, rows from the top, with
 //! the sums that a mean and its standard error need. Sums are f64: a plain f32 sum of a million samples of .1 is off by
 //! a percent.
+//!
+//! Twin of [`Pixel::add`]: `shaders/pathtrace/drive/film.wgsl`.
 
 use glam::Vec3;
 

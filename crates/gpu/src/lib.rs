@@ -4,9 +4,11 @@
 //! A fault of the device never panics: it is kept, and [`Gpu::fault`] tells it.
 
 mod adapter;
+pub mod compute;
 mod error;
 mod fault_injection;
 pub mod readback;
+pub mod shared_shaders;
 pub mod upload;
 pub mod waiting;
 pub mod wgsl;
@@ -74,6 +76,21 @@ impl Gpu {
         let found = adapter::report(&adapters).iter().position(|adapter| adapter.describe() == described);
         let only = found.map(|index| adapters.swap_remove(index));
         Gpu::open(instance, only.into_iter().collect(), GpuError::NoSuchAdapter(described.to_owned()))
+    }
+
+    /// Every device of this computer, the best first, without a window: for tests that must hold on all of them.
+    ///
+    /// # Errors
+    /// [`GpuError::NoAdapter`] if there is none, [`GpuError::Device`] if one refuses.
+    pub fn each() -> Result<Vec<Gpu>, GpuError> {
+        let instance = new_instance(None);
+        let mut adapters = adapter::all(&instance);
+        adapters.sort_by_key(|adapter| std::cmp::Reverse(Rank::of(&adapter.get_info())));
+        if adapters.is_empty() {
+            return Err(GpuError::NoAdapter);
+        }
+        let open = |adapter| Gpu::open(instance.clone(), vec![adapter], GpuError::NoAdapter);
+        adapters.into_iter().map(open).collect()
     }
 
     /// The best device that can present on `surface`, which `instance` made, and every adapter there is, whether it can

@@ -1,58 +1,36 @@
-//! WGSL from plain files. A file names what it needs in its leading lines, `//#import raster/shading.wgsl`; [`compose`]
+//! WGSL from plain files, which the crates that run them bring along as lists of [`Source`]s. A file names what it needs in its leading lines, `//#import raster/shading.wgsl`; [`compose`]
 //! puts the parts together depth first, each once, validates the whole with naga and reports every fault as
 //! `shaders/FILE:LINE:COLUMN: what`, in the file where it is.
 
-/// The shaders, by their path under `shaders/`; embedded, so that the program is one file.
-pub const FILES: &[(&str, &str)] = &[
-    ("film/resolve.wgsl", include_str!("../../../shaders/film/resolve.wgsl")),
-    ("pathtrace/bsdf/bsdf.wgsl", include_str!("../../../shaders/pathtrace/bsdf/bsdf.wgsl")),
-    ("pathtrace/bsdf/dielectric.wgsl", include_str!("../../../shaders/pathtrace/bsdf/dielectric.wgsl")),
-    ("pathtrace/bsdf/interaction.wgsl", include_str!("../../../shaders/pathtrace/bsdf/interaction.wgsl")),
-    ("pathtrace/bsdf/lambert.wgsl", include_str!("../../../shaders/pathtrace/bsdf/lambert.wgsl")),
-    ("pathtrace/bsdf/mirror.wgsl", include_str!("../../../shaders/pathtrace/bsdf/mirror.wgsl")),
-    ("pathtrace/camera.wgsl", include_str!("../../../shaders/pathtrace/camera.wgsl")),
-    ("pathtrace/drive/film.wgsl", include_str!("../../../shaders/pathtrace/drive/film.wgsl")),
-    ("pathtrace/drive/pixels.wgsl", include_str!("../../../shaders/pathtrace/drive/pixels.wgsl")),
-    ("pathtrace/drive/rays.wgsl", include_str!("../../../shaders/pathtrace/drive/rays.wgsl")),
-    ("pathtrace/exact.wgsl", include_str!("../../../shaders/pathtrace/exact.wgsl")),
-    ("pathtrace/integrator/path.wgsl", include_str!("../../../shaders/pathtrace/integrator/path.wgsl")),
-    ("pathtrace/integrator/whitted.wgsl", include_str!("../../../shaders/pathtrace/integrator/whitted.wgsl")),
-    ("pathtrace/intersect/aggregate.wgsl", include_str!("../../../shaders/pathtrace/intersect/aggregate.wgsl")),
-    ("pathtrace/intersect/bvh2.wgsl", include_str!("../../../shaders/pathtrace/intersect/bvh2.wgsl")),
-    ("pathtrace/intersect/disk.wgsl", include_str!("../../../shaders/pathtrace/intersect/disk.wgsl")),
-    ("pathtrace/intersect/nearest.wgsl", include_str!("../../../shaders/pathtrace/intersect/nearest.wgsl")),
-    ("pathtrace/intersect/quadrilateral.wgsl", include_str!("../../../shaders/pathtrace/intersect/quadrilateral.wgsl")),
-    ("pathtrace/intersect/ray.wgsl", include_str!("../../../shaders/pathtrace/intersect/ray.wgsl")),
-    ("pathtrace/intersect/shape_list.wgsl", include_str!("../../../shaders/pathtrace/intersect/shape_list.wgsl")),
-    ("pathtrace/intersect/sphere.wgsl", include_str!("../../../shaders/pathtrace/intersect/sphere.wgsl")),
-    ("pathtrace/intersect/surface_point.wgsl", include_str!("../../../shaders/pathtrace/intersect/surface_point.wgsl")),
-    ("pathtrace/intersect/triangle.wgsl", include_str!("../../../shaders/pathtrace/intersect/triangle.wgsl")),
-    ("pathtrace/light/ball.wgsl", include_str!("../../../shaders/pathtrace/light/ball.wgsl")),
-    ("pathtrace/light/environment.wgsl", include_str!("../../../shaders/pathtrace/light/environment.wgsl")),
-    ("pathtrace/light/flat.wgsl", include_str!("../../../shaders/pathtrace/light/flat.wgsl")),
-    ("pathtrace/light/light.wgsl", include_str!("../../../shaders/pathtrace/light/light.wgsl")),
-    ("pathtrace/light/light_sample.wgsl", include_str!("../../../shaders/pathtrace/light/light_sample.wgsl")),
-    (
-        "pathtrace/light/spherical_rectangle.wgsl",
-        include_str!("../../../shaders/pathtrace/light/spherical_rectangle.wgsl"),
-    ),
-    ("pathtrace/light/sun.wgsl", include_str!("../../../shaders/pathtrace/light/sun.wgsl")),
-    ("pathtrace/needs.wgsl", include_str!("../../../shaders/pathtrace/needs.wgsl")),
-    ("pathtrace/prepared.wgsl", include_str!("../../../shaders/pathtrace/prepared.wgsl")),
-    ("pathtrace/sampling/angles.wgsl", include_str!("../../../shaders/pathtrace/sampling/angles.wgsl")),
-    ("pathtrace/sampling/rng.wgsl", include_str!("../../../shaders/pathtrace/sampling/rng.wgsl")),
-    ("pathtrace/sampling/sampler.wgsl", include_str!("../../../shaders/pathtrace/sampling/sampler.wgsl")),
-    ("pathtrace/sampling/sobol.wgsl", include_str!("../../../shaders/pathtrace/sampling/sobol.wgsl")),
-    ("pathtrace/sampling/warp.wgsl", include_str!("../../../shaders/pathtrace/sampling/warp.wgsl")),
-    ("pathtrace/scene.wgsl", include_str!("../../../shaders/pathtrace/scene.wgsl")),
-    ("raster/forward.wgsl", include_str!("../../../shaders/raster/forward.wgsl")),
-    ("raster/refraction.wgsl", include_str!("../../../shaders/raster/refraction.wgsl")),
-    ("raster/shading.wgsl", include_str!("../../../shaders/raster/shading.wgsl")),
-    ("raster/shadow.wgsl", include_str!("../../../shaders/raster/shadow.wgsl")),
-    ("raster/shadow_map.wgsl", include_str!("../../../shaders/raster/shadow_map.wgsl")),
-    ("raster/view.wgsl", include_str!("../../../shaders/raster/view.wgsl")),
-    ("shared/checkerboard.wgsl", include_str!("../../../shaders/shared/checkerboard.wgsl")),
-];
+/// A file of WGSL.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Source<'a> {
+    /// Path under `shaders/`, by which others import it.
+    pub path: &'a str,
+    /// What it says.
+    pub text: &'a str,
+}
+
+/// The [`Source`]s at these paths under `shaders/`, embedded, so that the program is one file. For any crate of the
+/// workspace: `gpu::wgsl_sources!["raster/forward.wgsl", "raster/view.wgsl"]`.
+#[macro_export]
+macro_rules! wgsl_sources {
+    ($($path:literal),* $(,)?) => {
+        &[$($crate::wgsl::Source {
+            path: $path,
+            text: include_str!(concat!(env!("CARGO_MANIFEST_DIR"), "/../../shaders/", $path)),
+        }),*]
+    };
+}
+
+/// Constants by their names, as `(name, value)`, for tests that hold them against their twins in WGSL: what fits an
+/// `f64` without rounding.
+#[macro_export]
+macro_rules! named_values {
+    ($($constant:ident),* $(,)?) => {
+        vec![$((stringify!($constant), $constant as f64)),*]
+    };
+}
 
 const IMPORT: &str = "//#import ";
 
@@ -118,36 +96,27 @@ impl Composed {
     }
 }
 
-/// The shader at `root` under `shaders/`, with what it imports.
+/// The shader at `root`, with what it imports from the same library: lists of sources, of which each crate has its own.
 ///
 /// # Errors
 /// [`WgslError`] with file, line and column.
-pub fn compose(root: &str) -> Result<Composed, WgslError> {
-    let find = |path: &str| FILES.iter().find(|(name, _)| *name == path).map(|(_, text)| *text);
-    compose_from(root, &find)
-}
-
-/// [`compose`] over files that `find` knows.
-///
-/// # Errors
-/// [`WgslError`] with file, line and column.
-pub fn compose_from<'a>(root: &str, find: &dyn Fn(&str) -> Option<&'a str>) -> Result<Composed, WgslError> {
-    let mut parts = Parts { find, source: String::new(), lines: Vec::new(), done: Vec::new(), open: Vec::new() };
+pub fn compose(library: &[&[Source<'_>]], root: &str) -> Result<Composed, WgslError> {
+    let mut parts = Parts { library, source: String::new(), lines: Vec::new(), done: Vec::new(), open: Vec::new() };
     parts.add(root, (root, 1))?;
     let Parts { source, lines, .. } = parts;
     let module = validated(&source, &lines)?;
     Ok(Composed { name: root.to_owned(), source, lines, module })
 }
 
-struct Parts<'a, 'f> {
-    find: &'f dyn Fn(&str) -> Option<&'a str>,
+struct Parts<'a> {
+    library: &'a [&'a [Source<'a>]],
     source: String,
     lines: Vec<(String, usize)>,
     done: Vec<String>,
     open: Vec<String>,
 }
 
-impl Parts<'_, '_> {
+impl Parts<'_> {
     fn add(&mut self, path: &str, (file, line): (&str, usize)) -> Result<(), WgslError> {
         if self.done.iter().any(|done| done == path) {
             return Ok(());
@@ -156,7 +125,7 @@ impl Parts<'_, '_> {
         if self.open.contains(&import) {
             return Err(WgslError::Cycle { file, line, import });
         }
-        let Some(text) = (self.find)(path) else {
+        let Some(text) = self.library.iter().copied().flatten().find(|s| s.path == path).map(|s| s.text) else {
             return Err(WgslError::Missing { file, line, import });
         };
         self.open.push(import);
@@ -200,7 +169,8 @@ mod tests {
     use super::*;
 
     fn composed(files: &[(&'static str, &'static str)]) -> Result<Composed, WgslError> {
-        compose_from(files[0].0, &|path| files.iter().find(|(name, _)| *name == path).map(|(_, text)| *text))
+        let sources: Vec<_> = files.iter().map(|&(path, text)| Source { path, text }).collect();
+        compose(&[&sources], files[0].0)
     }
 
     #[test]

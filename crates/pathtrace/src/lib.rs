@@ -12,21 +12,30 @@
 
 pub mod bsdf;
 pub mod drive;
+mod gpu_tracer;
 pub mod integrator;
 pub mod intersect;
 pub mod light;
 pub mod prepared;
 mod replicates;
 pub mod sampling;
+pub mod shaders;
+mod stats;
 mod tracer;
+pub mod twins;
 mod vectors;
 
-pub use drive::gpu;
 pub use integrator::Integrator;
-pub use integrator::settings::{
-    Directions, Estimator, LightSampling, PathSettings, Roulette, SamplerKind, SettingsError,
-};
+pub use integrator::settings::{Directions, Estimator, LightSampling, PathSettings, Roulette, SettingsError};
 pub use integrator::whitted::{GlassShadows, WhittedSettings};
 pub use replicates::{FEWEST_REPLICATES, estimate_with_replicates};
+pub use sampling::sampler::SamplerKind;
 pub use simd::Lanes;
-pub use tracer::{Stats, Tracer};
+pub use stats::Stats;
+pub use tracer::Tracer;
+
+/// Tracing on a graphics device.
+pub mod gpu {
+    pub use crate::drive::gpu::*;
+    pub use crate::gpu_tracer::GpuTracer;
+}

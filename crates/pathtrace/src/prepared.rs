@@ -1,4 +1,6 @@
 //! What every walk of rays needs: the scene made ready, and what rays meet in it.
+//!
+//! Twin: `shaders/pathtrace/prepared.wgsl`.
 
 use crate::bsdf::Interactions;
 use crate::bsdf::interaction::facing;
@@ -43,6 +45,18 @@ impl PreparedScene {
     pub fn closest<F: Float>(&self, rays: &Rays<F>, wanted: F::M, scratch: &mut Scratch<F>) -> SurfaceInteractions<F> {
         let hits = self.aggregate.closest(rays, wanted, scratch);
         self.aggregate.interactions(rays, &hits)
+    }
+
+    /// Where what was met shines.
+    #[inline(always)]
+    pub fn shines<F: Float>(&self, hit: &SurfaceInteractions<F>) -> F::M {
+        self.materials.kinds(hit.material).area_light()
+    }
+
+    /// What the surfaces that were met send out towards `wo`.
+    #[inline(always)]
+    pub fn emitted<F: Float>(&self, hit: &SurfaceInteractions<F>, wo: Vector<F>) -> Vector<F> {
+        self.materials.emitted(hit.material, hit.point.normal.dot(wo))
     }
 
     /// The surfaces that were met, seen from `wo`.

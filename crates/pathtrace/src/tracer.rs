@@ -7,6 +7,7 @@ use crate::intersect::Accel;
 use crate::intersect::aggregate::Aggregate;
 use crate::light::{Lights, SunDisc};
 use crate::prepared::PreparedScene;
+use crate::stats::Stats;
 use film::Film;
 use scene::stand_ins::FakeNumbers;
 use scene::{Camera, Scene, Vec3};
@@ -17,18 +18,6 @@ pub struct Tracer {
     scene: PreparedScene,
     stand_ins: FakeNumbers,
     lanes: Lanes,
-}
-
-/// What a call of [`Tracer::render`] did.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct Stats {
-    /// Samples taken, one camera ray each.
-    pub samples: u64,
-    /// Rays traced, shadow rays included.
-    pub rays: u64,
-    /// Samples that lost light to [`PathSettings::HARD_CAP`](crate::PathSettings::HARD_CAP)
-    /// or [`MOST_BRANCHES`](crate::integrator::whitted::MOST_BRANCHES).
-    pub cut_paths: u64,
 }
 
 impl Tracer {
@@ -111,16 +100,5 @@ impl Tracer {
         let Tracer { scene, stand_ins, lanes } = self;
         // not generic: kernels are large, and compiled in this crate once
         integrator.fill(film, &FilmJob { scene, stand_ins, lanes: *lanes, order, stop })
-    }
-}
-
-impl Stats {
-    /// Both together.
-    pub fn plus(self, other: Stats) -> Stats {
-        Stats {
-            samples: self.samples + other.samples,
-            rays: self.rays + other.rays,
-            cut_paths: self.cut_paths + other.cut_paths,
-        }
     }
 }

@@ -14,94 +14,11 @@ use std::time::{Duration, Instant};
 /// Not a multiple of any number of lanes, and more than one chunk of pixels.
 const SIZE: (u32, u32) = (37, 29);
 
-/// What the built-in scenes lack: area lights of each outline and shapes that lie in one plane, beside glass, a mirror,
-/// a point light, a sun with a disc and a sky.
-const EVERYTHING: &str = r#"
-[camera]
-eye = [0.3, 1.2, 4]
-target = [0, 0.6, 0]
-fov_y = 55
-[sky]
-radiance = [0.2, 0.3, 0.5]
-[sun]
-towards = [0.48, 0.6, 0.64]
-angular_radius = 3
-irradiance = [1, 0.9, 0.7]
-[[point_light]]
-position = [-1.5, 1.5, 1]
-intensity = [0.5, 0.4, 0.9]
-[material.board]
-diffuse = { albedo = { even = [0.8, 0.8, 0.7], odd = [0.2, 0.3, 0.2], origin = [0, 0, 0], cell = [0.5, 0, 0.5] } }
-[material.white]
-diffuse = { albedo = [0.7, 0.7, 0.7] }
-[material.mirror]
-mirror = { reflectance = [0.9, 0.8, 0.7] }
-[material.glass]
-dielectric = { ior = 1.5 }
-[material.lamp]
-emissive = { radiance = [4, 3, 2] }
-[material.two_sided]
-emissive = { radiance = [1, 2, 3], two_sided = true }
-[[rectangle]]
-corner = [-3, 0, -3]
-edge_u = [0, 0, 6]
-edge_v = [6, 0, 0]
-material = "board"
-[[rectangle]]
-corner = [-0.5, 0, 0.8]
-edge_u = [0, 0, 0.5]
-edge_v = [0.5, 0, 0.1]
-material = "lamp"
-[[rectangle]]
-corner = [-1, 2, -1]
-edge_u = [2, 0, 0]
-edge_v = [0, 0, 2]
-material = "lamp"
-[[box]]
-corner = [-1.6, 0.1, -1]
-size = [0.8, 1, 0.7]
-turn_y = 20
-material = "white"
-[[box]]
-corner = [0.2, 0.2, -0.6]
-size = [0.5, 0.5, 0.5]
-turn_y = -35
-material = "glass"
-[[box]]
-corner = [1.5, 0.3, -1]
-size = [0.3, 0.3, 0.3]
-turn_y = 10
-material = "two_sided"
-[[sphere]]
-center = [-0.4, 0.5, 0.3]
-radius = 0.4
-material = "glass"
-[[sphere]]
-center = [1, 1.3, -1]
-radius = 0.5
-material = "mirror"
-[[sphere]]
-center = [-2, 0.6, 0.8]
-radius = 0.2
-material = "two_sided"
-[[disk]]
-center = [0.9, 0.8, 0.6]
-normal = [0, 0.6, -0.8]
-radius = 0.3
-material = "two_sided"
-[[disk]]
-center = [-1, 1.4, -1.5]
-normal = [0, 0, 1]
-radius = 0.6
-material = "mirror"
-[[mesh]]
-positions = [[1.8, 0, 1], [2.4, 0.1, 0.6], [2, 0.9, 0.7], [2.2, 0.2, 1.4]]
-triangles = [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]]
-material = "lamp"
-"#;
+/// What the built-in scenes lack.
+const EVERYTHING: &str = include_str!("../../../tests/tests/scenes/everything-more.toml");
 
 fn everything() -> Scene {
-    scene::parse(EVERYTHING, "everything", Path::new("everything.toml")).expect("a scene")
+    scene::parse(EVERYTHING, "everything", Path::new("everything-more.toml")).expect("a scene")
 }
 
 /// As a mesh of many triangles: too many to be met one by one.

@@ -1,9 +1,34 @@
-//! Mirrors of the structs that the shaders read; field for field the ones in `shaders/raster/`. A test compares every
-//! offset with the shader compiler's. Padding is spelled out as `unused*`.
+//! Mirrors of the structs that the shaders read; field for field the ones in `shaders/raster/view.wgsl` and
+//! `forward.wgsl`. A test compares every offset with the shader compiler's. Padding is spelled out as `unused*`.
 
 use bytemuck::{Pod, Zeroable};
 use scene::Vec3;
 use scene::glam::{Mat4, Vec2, Vec4};
+
+/// The illumination model of [`Lights::shading`].
+pub const SHADING_THREE: u32 = 0;
+/// See [`SHADING_THREE`].
+pub const SHADING_PHONG: u32 = 1;
+/// See [`SHADING_THREE`].
+pub const SHADING_BLINN_PHONG: u32 = 2;
+
+/// [`Lights::area_light_pattern`] where there is no area light.
+pub const AREA_LIGHT_NONE: u32 = 0;
+/// As taught: the same at every distance.
+pub const AREA_LIGHT_WITHOUT_DECAY: u32 = 1;
+/// A sphere or a box, seen as convex.
+pub const AREA_LIGHT_ALL_AROUND: u32 = 2;
+/// A rectangle, one side of which shines.
+pub const AREA_LIGHT_ONE_SIDED: u32 = 3;
+/// A rectangle, both sides of which shine.
+pub const AREA_LIGHT_TWO_SIDED: u32 = 4;
+
+/// How shadow maps are looked up: [`crate::ShadowFilter::Hard`].
+pub const FILTER_HARD: u32 = 0;
+/// [`crate::ShadowFilter::Pcf`].
+pub const FILTER_PCF: u32 = 1;
+/// [`crate::ShadowFilter::PcfSoft`].
+pub const FILTER_PCF_SOFT: u32 = 2;
 
 /// `View` in `shaders/raster/view.wgsl`: a camera of any pass.
 #[repr(C)]
@@ -29,7 +54,7 @@ pub struct View {
 pub struct Lights {
     /// Unit direction.
     pub sun_towards: Vec3,
-    /// 0 three, 1 Phong, 2 Blinn-Phong; shaders have it compiled in.
+    /// One of `SHADING_*`; shaders have it compiled in.
     pub shading: u32,
     /// What a white Lambert surface facing the sun sends back; zero for no sun.
     pub sun_incident: Vec3,
@@ -37,7 +62,7 @@ pub struct Lights {
     pub refracts_per_vertex: u32,
     /// Middle of the area light.
     pub area_light_position: Vec3,
-    /// How the area light's light spreads, 0 for no area light; compiled in too.
+    /// How the area light's light spreads: one of `AREA_LIGHT_*`; compiled in too.
     pub area_light_pattern: u32,
     /// Unit normal of a flat area light.
     pub area_light_normal: Vec3,

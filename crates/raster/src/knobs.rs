@@ -1,5 +1,6 @@
 //! The knobs of the fake: numbers that a picture may take instead of the scene's, and how its shadows are filtered.
 
+use crate::gpu_data;
 use scene::{Scene, Vec3};
 use std::fmt::Display;
 use std::ops::RangeInclusive;
@@ -68,9 +69,9 @@ impl ShadowFilter {
     /// The number by which `shaders/raster/shadow.wgsl` knows it.
     pub(crate) fn code(self) -> u32 {
         match self {
-            ShadowFilter::Hard => 0,
-            ShadowFilter::Pcf => 1,
-            ShadowFilter::PcfSoft => 2,
+            ShadowFilter::Hard => gpu_data::FILTER_HARD,
+            ShadowFilter::Pcf => gpu_data::FILTER_PCF,
+            ShadowFilter::PcfSoft => gpu_data::FILTER_PCF_SOFT,
         }
     }
 }

@@ -27,6 +27,7 @@ mod passes;
 mod pipelines;
 mod plan;
 mod settings;
+pub mod shaders;
 pub mod shading;
 mod targets;
 mod tessellation;

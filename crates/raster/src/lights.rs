@@ -5,7 +5,7 @@
 //! silhouette is a quarter of its surface: Cauchy). As taught it is three.js' PointLight: it does not decay.
 
 use crate::cube;
-use crate::gpu_data::{Lights, View};
+use crate::gpu_data::*;
 use crate::settings::{Fake, RasterSettings, Shading};
 use bytemuck::Zeroable;
 use film::colour;
@@ -38,12 +38,13 @@ impl AreaLight {
     fn of(scene: &Scene, shape: &Shape) -> Option<AreaLight> {
         let emission = scene.material_of(shape).emission.filter(|e| e.radiance.max_element() > 0.0)?;
         let (normal, pattern) = match &shape.geometry {
-            Geometry::Rectangle { edge_u, edge_v, .. } => {
-                (edge_u.cross(*edge_v).normalize_or_zero(), if emission.two_sided { 4 } else { 3 })
-            }
-            _ => (Vec3::ZERO, 2),
+            Geometry::Rectangle { edge_u, edge_v, .. } => (
+                edge_u.cross(*edge_v).normalize_or_zero(),
+                if emission.two_sided { AREA_LIGHT_TWO_SIDED } else { AREA_LIGHT_ONE_SIDED },
+            ),
+            _ => (Vec3::ZERO, AREA_LIGHT_ALL_AROUND),
         };
-        let sides = if pattern == 4 { 2.0 } else { 1.0 };
+        let sides = if pattern == AREA_LIGHT_TWO_SIDED { 2.0 } else { 1.0 };
         let power = emission.radiance * (area(&shape.geometry) * sides);
         Some(AreaLight { position: shape.geometry.center(), normal, power, pattern })
     }
@@ -51,8 +52,8 @@ impl AreaLight {
     /// What a white Lambert surface at distance 1, facing the area light, sends back: irradiance / pi.
     fn incident(&self) -> Vec3 {
         let silhouette = match self.pattern {
-            2 => 0.25,
-            4 => 0.5,
+            AREA_LIGHT_ALL_AROUND => 0.25,
+            AREA_LIGHT_TWO_SIDED => 0.5,
             _ => 1.0,
         };
         self.power * (silhouette * FRAC_1_PI)
@@ -82,9 +83,9 @@ pub fn lights(scene: &Scene, settings: &RasterSettings, casts: impl Fn(usize) ->
     let intensity = Vec3::splat(scene.fake.intensity);
     let mut lights = Lights {
         shading: match settings.shading {
-            Shading::Three => 0,
-            Shading::Phong => 1,
-            Shading::BlinnPhong => 2,
+            Shading::Three => SHADING_THREE,
+            Shading::Phong => SHADING_PHONG,
+            Shading::BlinnPhong => SHADING_BLINN_PHONG,
         },
         refracts_per_vertex: u32::from(as_taught),
         ambient: if as_taught { settings.knobs.grey(scene) } else { settings.knobs.sky_light(scene) },
@@ -100,7 +101,7 @@ pub fn lights(scene: &Scene, settings: &RasterSettings, casts: impl Fn(usize) ->
     if let Some(area_light) = area_light {
         lights.area_light_position = area_light.position;
         lights.area_light_normal = area_light.normal;
-        lights.area_light_pattern = if as_taught { 1 } else { area_light.pattern };
+        lights.area_light_pattern = if as_taught { AREA_LIGHT_WITHOUT_DECAY } else { area_light.pattern };
         lights.area_light_incident = if as_taught { intensity } else { area_light.incident() };
         for axis in 0..6 {
             lights.shadow_views[1 + axis] = area_light_view(scene, area_light.position, axis);

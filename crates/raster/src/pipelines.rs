@@ -5,9 +5,10 @@ use crate::gpu_data::Lights;
 use crate::knobs::ShadowFilter;
 use crate::plan::Casting;
 use crate::settings::Fake;
+use crate::shaders;
 use crate::targets::{Colours, DEPTH, SHADOW};
 use crate::tessellation::Vertex;
-use gpu::{Gpu, GpuError, wgsl};
+use gpu::{Gpu, GpuError};
 use scene::Vec3;
 use std::num::NonZeroU64;
 use wgpu::{BindGroupLayout, BindingType, Face, RenderPipeline, ShaderStages, TextureFormat, TextureViewDimension};
@@ -52,6 +53,17 @@ impl Choice {
         let sun = lights.sun_incident.cmpgt(Vec3::ZERO).any();
         Choice { fake, filter, sun, area_light: lights.area_light_pattern, shading: lights.shading }
     }
+
+    /// Values of the overrides in `shaders/raster/forward.wgsl`, for glass or for everything else.
+    pub fn constants(&self, glass: bool) -> [(&'static str, f64); 5] {
+        [
+            ("SHADOW_FILTER", f64::from(self.filter.code())),
+            ("GLASS", f64::from(u8::from(glass))),
+            ("SUN", f64::from(u8::from(self.sun))),
+            ("AREA_LIGHT", f64::from(self.area_light)),
+            ("SHADING", f64::from(self.shading)),
+        ]
+    }
 }
 
 /// All pipelines.
@@ -80,9 +92,9 @@ pub struct Pipelines {
 impl Pipelines {
     /// Composes and compiles all of them.
     pub fn new(gpu: &Gpu) -> Result<Pipelines, RasterError> {
-        let shadow = wgsl::compose("raster/shadow_map.wgsl")?.create(gpu)?;
-        let forward = wgsl::compose("raster/forward.wgsl")?.create(gpu)?;
-        let resolve = wgsl::compose("film/resolve.wgsl")?.create(gpu)?;
+        let shadow = shaders::compose("raster/shadow_map.wgsl")?.create(gpu)?;
+        let forward = shaders::compose("raster/forward.wgsl")?.create(gpu)?;
+        let resolve = shaders::compose("film/resolve.wgsl")?.create(gpu)?;
         Ok(gpu.checked("the fake's pipelines", || compile(gpu, &shadow, forward, &resolve))?)
     }
 
@@ -105,21 +117,15 @@ impl Pipelines {
 
     fn compile_forward(&self, gpu: &Gpu, choice: Choice) -> ForwardPasses {
         let groups: &[_] = &[&self.frame_layout, &self.object_layout];
-        let constants = |glass| {
-            [
-                ("SHADOW_FILTER", f64::from(choice.filter.code())),
-                ("GLASS", f64::from(u8::from(glass))),
-                ("SUN", f64::from(u8::from(choice.sun))),
-                ("AREA_LIGHT", f64::from(choice.area_light)),
-                ("SHADING", f64::from(choice.shading)),
-            ]
-        };
         let into = |format, samples| {
             let module = &self.forward_module;
             let build = |cull_mode, constants: &[_]| {
                 Build { groups, module, format, samples, cull_mode, full_screen: false, constants }.pipeline(gpu)
             };
-            Forward { surface: build(None, &constants(false)), glass: build(Some(Face::Front), &constants(true)) }
+            Forward {
+                surface: build(None, &choice.constants(false)),
+                glass: build(Some(Face::Front), &choice.constants(true)),
+            }
         };
         let colours = Colours::of(choice.fake, gpu);
         ForwardPasses { cube_map: into(colours.cube_map, 1), picture: into(colours.picture, colours.samples) }

@@ -213,6 +213,10 @@ fn object(scene: &Scene, index: usize, casting: Casting, settings: &RasterSettin
             (object.origin, object.cells_per_unit) = (board.origin, board.cells_per_unit());
         }
         Bsdf::Mirror { reflectance } => (object.even, object.odd) = (reflectance, reflectance),
+        // as a mirror, whose highlight is as wide as the metal's lobe
+        Bsdf::RoughConductor { conductor, .. } => {
+            (object.even, object.odd) = (conductor.at_normal_incidence(), conductor.at_normal_incidence());
+        }
         Bsdf::Dielectric { ior } => {
             object.kind = 1;
             object.refraction_ratio = material.fake.refraction_ratio.unwrap_or(1.0 / ior);

@@ -1,5 +1,5 @@
-//! The fake's formulas on the CPU: twins, by name and parameters, of the functions in `shaders/lib/`. Tests hold the
-//! two against each other, and closed forms are computed with them.
+//! The fake's formulas on the CPU: twins, by name and parameters, of the functions in `shaders/raster/shading.wgsl`,
+//! `refraction.wgsl` and `shadow.wgsl`. Tests hold the two against each other, and closed forms are computed with them.
 //!
 //! `n` unit normal, `l` unit direction to the light, `v` unit direction to the viewer, `incident` the light that a
 //! white Lambert surface facing the light would send back. Ambient light, `kd * ambient`, is the caller's.
@@ -8,7 +8,7 @@ use scene::Vec3;
 use scene::material::Checkerboard;
 
 /// See the same name in `shaders/raster/shading.wgsl`.
-const SMALLEST: f32 = 1e-37;
+pub(crate) const SMALLEST: f32 = 1e-37;
 
 fn power(base: f32, exponent: f32) -> f32 {
     base.max(SMALLEST).powf(exponent)

@@ -1,4 +1,6 @@
 //! A pinhole camera: eye, target and vertical field of view. Raster and rays see the same picture through it.
+//!
+//! Twin: `shaders/pathtrace/camera.wgsl`.
 
 use glam::{Mat4, Vec2, Vec3, camera::rh};
 

@@ -7,7 +7,7 @@
 
 use crate::light::{PointLight, Sun};
 use crate::material::{Checkerboard, Emission};
-use crate::{Bsdf, Camera, EnvironmentMap, Geometry, Material, Mesh, Scene, Shape, Texture};
+use crate::{Bsdf, Camera, Conductor, EnvironmentMap, Geometry, Material, Mesh, Scene, Shape, Texture};
 use glam::Vec3;
 
 /// Takes the bytes, one piece after the other.
@@ -78,11 +78,29 @@ impl Canonical<'_> {
                 self.word(2);
                 self.number(*ior);
             }
+            Bsdf::RoughConductor { conductor, roughness } => {
+                self.word(3);
+                self.conductor(conductor);
+                self.number(*roughness);
+            }
         }
         self.option(emission.as_ref(), |this, Emission { radiance, two_sided }| {
             this.vector(*radiance);
             this.word(u32::from(*two_sided));
         });
+    }
+
+    fn conductor(&mut self, conductor: &Conductor) {
+        match conductor {
+            Conductor::Constant(reflectance) => {
+                self.word(0);
+                self.vector(*reflectance);
+            }
+            Conductor::Fresnel { eta, k } => {
+                self.word(1);
+                [eta, k].into_iter().for_each(|v| self.vector(*v));
+            }
+        }
     }
 
     fn texture(&mut self, texture: &Texture) {

@@ -6,6 +6,7 @@
 pub mod builtin;
 pub mod camera;
 pub mod canonical;
+pub mod conductor;
 pub mod environment;
 pub mod file;
 pub mod light;
@@ -16,6 +17,7 @@ pub mod shape;
 pub mod stand_ins;
 
 pub use camera::Camera;
+pub use conductor::Conductor;
 pub use environment::EnvironmentMap;
 pub use file::{SceneError, load, parse};
 pub use glam::{self, Vec3};
@@ -47,7 +49,7 @@ pub struct Scene {
     pub sky: Vec3,
     /// The picture that is the sky, if it is one; shared.
     pub environment: Option<Arc<EnvironmentMap>>,
-    /// Numbers that only the rasterised fake reads.
+    /// Numbers that stand in for physics.
     pub fake: FakeNumbers,
 }
 

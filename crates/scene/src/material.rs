@@ -1,5 +1,8 @@
 //! Materials, written once and physically. What the fake sees of one is derived in [`crate::stand_ins`].
+//!
+//! Twin of [`Checkerboard::at`]: `shaders/shared/checkerboard.wgsl`.
 
+use crate::conductor::Conductor;
 use crate::stand_ins::FakeMaterial;
 use glam::Vec3;
 
@@ -28,6 +31,13 @@ pub enum Bsdf {
     Mirror {
         /// Share of the light that is reflected, each channel in [0, 1].
         reflectance: Vec3,
+    },
+    /// Metal with a rough surface, on both sides: single scattering by microfacets whose slopes have GGX' distribution.
+    RoughConductor {
+        /// What each microfacet reflects.
+        conductor: Conductor,
+        /// From .01, all but a mirror, to 1. The distribution's width, alpha, is its square.
+        roughness: f32,
     },
     /// Smooth clear glass inside a closed shape.
     Dielectric {

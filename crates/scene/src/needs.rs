@@ -1,4 +1,6 @@
 //! What a scene asks for, so that techniques, controls and reports leave out what it does not.
+//!
+//! Twin: `shaders/pathtrace/needs.wgsl`.
 
 use crate::{Bsdf, Geometry, Scene, Texture};
 
@@ -15,6 +17,8 @@ pub struct Needs {
     pub checkerboard: bool,
     /// A mirror.
     pub mirror: bool,
+    /// Rough metal.
+    pub rough_conductor: bool,
     /// Glass.
     pub dielectric: bool,
     /// A shape that shines.
@@ -47,6 +51,7 @@ impl Scene {
             match material.bsdf {
                 Bsdf::Diffuse { albedo } => needs.checkerboard |= matches!(albedo, Texture::Checkerboard(_)),
                 Bsdf::Mirror { .. } => needs.mirror = true,
+                Bsdf::RoughConductor { .. } => needs.rough_conductor = true,
                 Bsdf::Dielectric { .. } => needs.dielectric = true,
             }
         }

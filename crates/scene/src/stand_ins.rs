@@ -1,5 +1,7 @@
-//! Numbers that only the rasterised fake reads. Their defaults are the ones of the tutorial's three.js viewer; physics
-//! never sees them.
+//! Numbers that stand in for physics: the rasterised fake reads them, and of the scene's Whitted's method the ambient
+//! light. Their defaults are the ones of the tutorial's three.js viewer; the truth never sees them.
+
+use crate::Bsdf;
 
 /// What stands in for physics in one material.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -17,6 +19,16 @@ pub struct FakeMaterial {
 impl Default for FakeMaterial {
     fn default() -> Self {
         FakeMaterial { refraction_ratio: None, reflectivity: 1.0, specular: 17.0 / 255.0, shininess: 30.0 }
+    }
+}
+
+/// The exponent of a highlight if the scene states none: of rough metal that of the Blinn-Phong lobe which is about as
+/// wide, `2 / alpha^2 - 2` (Walter et al., "Microfacet Models for Refraction through Rough Surfaces", 2007), from 1 to
+/// 1000.
+pub fn usual_shininess(bsdf: &Bsdf) -> f32 {
+    match bsdf {
+        Bsdf::RoughConductor { roughness, .. } => (2.0 / roughness.powi(4) - 2.0).clamp(1.0, 1000.0),
+        _ => FakeMaterial::default().shininess,
     }
 }
 

@@ -1,6 +1,7 @@
 //! What a pane of the viewer or one call of `visavis render` is set to.
 
 use crate::{DeviceChoice, FakeSettings, Technique, TechniqueName, TracedSettings, TreeSettings, TruthSettings};
+use pathtrace::Estimator;
 use scene::Scene;
 
 /// What a pane is set to: a technique, and the settings of each so that coming back to one finds them again.
@@ -50,6 +51,14 @@ impl PaneSettings {
     pub fn forget_the_scene(&mut self, scene: &Scene) {
         self.fake.forget_the_scene(scene);
         self.whitted.tree.ambient = None;
+    }
+
+    /// Takes the estimator that `scene` asks for, unless another than the usual one was chosen.
+    pub fn take_usual_estimator(&mut self, scene: &Scene) {
+        let estimator = &mut self.truth.path.estimator;
+        if *estimator == Estimator::default() {
+            *estimator = Estimator::usual_for(&scene.needs());
+        }
     }
 
     /// Samples per pixel at which rendering stops; `None` for a technique that does not sample.

@@ -240,6 +240,7 @@ impl ProgressiveRenderer {
         } else {
             let processor = self.processor(request);
             self.rough(&mut self.renderer(request, processor), request, watch);
+            renderer.set_speeds(self.speeds);
         }
     }
 

@@ -136,6 +136,10 @@ impl Renderer {
         Renderer { speeds, ..self }
     }
 
+    pub(crate) fn set_speeds(&mut self, speeds: Speeds) {
+        self.speeds = speeds;
+    }
+
     pub(crate) fn speeds(&self) -> Speeds {
         self.speeds
     }

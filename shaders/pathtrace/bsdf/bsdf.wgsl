@@ -1,6 +1,7 @@
 //#import pathtrace/bsdf/lambert.wgsl
 //#import pathtrace/bsdf/mirror.wgsl
 //#import pathtrace/bsdf/dielectric.wgsl
+//#import pathtrace/bsdf/rough_conductor.wgsl
 // How surfaces scatter light: what integrators ask of whatever lobe a surface has. Directions point away from the
 // surface; wo is where the path came from, wi where it goes on. Twin: crates/pathtrace/src/bsdf/mod.rs.
 
@@ -12,16 +13,25 @@ fn sample_bsdf(at: Interaction, u: vec3f) -> BsdfSample {
     if DIELECTRIC && at.lobe == LOBE_DIELECTRIC {
         return sample_dielectric(at, u.z);
     }
+    if ROUGH_CONDUCTOR && (at.lobe & LOBE_ROUGH_CONDUCTOR) != 0u {
+        return sample_rough_conductor(at, u.xy);
+    }
     return sample_lambert(at, u.xy);
 }
 
 // The BSDF for light from the unit direction wi, on the side of wo. Not of lobes that leave no choice.
 fn eval_bsdf(at: Interaction, wi: vec3f) -> ScaledColour {
+    if ROUGH_CONDUCTOR && (at.lobe & LOBE_ROUGH_CONDUCTOR) != 0u {
+        return eval_rough_conductor(at, wi);
+    }
     return eval_lambert(at);
 }
 
 // Density per solid angle of sample_bsdf at wi, whose cosine to the normal is above 0. Not of lobes that leave no choice.
 fn bsdf_pdf(at: Interaction, wi: vec3f, cosine: f32) -> f32 {
+    if ROUGH_CONDUCTOR && (at.lobe & LOBE_ROUGH_CONDUCTOR) != 0u {
+        return pdf_rough_conductor(at, wi);
+    }
     return pdf_lambert(cosine);
 }
 
@@ -35,7 +45,7 @@ struct Specular {
     transmittance: f32,
 }
 
-// Both directions in which a mirror or glass sends light on.
+// Both directions in which a mirror or glass sends light on. Rough metal is taken for a mirror that reflects as much.
 fn specular_of(at: Interaction) -> Specular {
     let mirrored = reflect(at.wo, at.normal);
     if DIELECTRIC && at.lobe == LOBE_DIELECTRIC {
@@ -47,6 +57,10 @@ fn specular_of(at: Interaction) -> Specular {
             refracted = wi / sqrt(dot(wi, wi));
         }
         return Specular(share > 0.0, share < 1.0, mirrored, refracted, ScaledColour(at.colour, share), 1.0 - share);
+    }
+    if ROUGH_CONDUCTOR && (at.lobe & LOBE_ROUGH_CONDUCTOR) != 0u {
+        let share = conductor_fresnel(rough_conductor_of(at), dot(at.normal, at.wo));
+        return Specular(any(share != vec3f(0.0)), false, mirrored, mirrored, ScaledColour(share, 1.0), 0.0);
     }
     return Specular(any(at.colour != vec3f(0.0)), false, mirrored, mirrored, ScaledColour(at.colour, 1.0), 0.0);
 }

@@ -31,7 +31,7 @@ struct Interface {
     root_low: f32,
 }
 
-// Nothing is refracted.
+// Nothing is refracted. Here alone: lanes have a mask for it.
 const ALL_REFLECTED: f32 = -1.0;
 
 // Cosine of the refracted direction for cos_i >= 0; ALL_REFLECTED beyond the critical angle. The twin subtracts squares

@@ -11,7 +11,7 @@ struct Interaction {
     normal: vec3f,
     // unit direction back along the ray
     wo: vec3f,
-    // albedo of diffuse surfaces there, reflectance of mirrors, 1 for glass
+    // albedo of diffuse surfaces there, reflectance of mirrors and of metal at normal incidence, 1 for glass
     colour: vec3f,
     // what the surface does to light
     lobe: u32,
@@ -35,7 +35,7 @@ struct BsdfSample {
     pdf: f32,
 }
 
-// Stands for infinity, which shaders may take away.
+// Stands for infinity. Here alone: lanes have infinity, which shaders may take away.
 const DELTA_PDF: f32 = -1.0;
 
 fn delta_sample(at: Interaction, wi: vec3f) -> BsdfSample {

@@ -1,8 +1,9 @@
 //#import pathtrace/camera.wgsl
 //#import pathtrace/sampling/sampler.wgsl
 //#import pathtrace/exact.wgsl
-// What a dispatch is asked for, and the film that it adds to. Mirror: crates/pathtrace/src/gpu/film_data.rs. Sums are
-// pairs of floats: a plain f32 sum of a million samples of .1 is off by a percent, and one of a thousand by 1e-5.
+// What a dispatch is asked for, and the film that it adds to. Twin: crates/film/src/film.rs. Mirror of the structs:
+// crates/pathtrace/src/drive/gpu/film_data.rs. Sums are pairs of floats, where the twin has f64: a plain f32 sum of a
+// million samples of .1 is off by a percent, and one of a thousand by 1e-5.
 
 struct RenderParams {
     frame: PictureFrame,
@@ -48,10 +49,14 @@ struct Pixel {
     faults: u32,
 }
 
-// Radiance beyond which the sum of squares takes a sample for no brighter.
+// Radiance beyond which the sum of squares takes a sample for no brighter. Here alone: f64 holds every square of an
+// f32.
 const MOST_IN_SQUARES: f32 = 1e17;
 
 const CUT_SHIFT: u32 = 16u;
+
+// Threads along each side of a group: a thread is a pixel.
+const GROUP: u32 = 8u;
 
 // What a sample of a pixel brought home.
 struct Outcome {

@@ -1,6 +1,7 @@
 //#import pathtrace/drive/film.wgsl
 // The driver of an integrator: a thread is a pixel. Each iteration of its one loop is one step of the integrator; a
-// thread whose sample is complete begins its next one in the same iteration. Twin: crates/pathtrace/src/drive/lanes.rs.
+// thread whose sample is complete begins its next one in the same iteration. Twin:
+// crates/pathtrace/src/drive/lanes.rs, where a lane has many pixels, one after another.
 //
 // The importing integrator supplies begin(ray), which starts along a camera ray, and step_on(), one segment, which
 // returns false when the sample is complete and its radiance in `outcome`.
@@ -8,7 +9,7 @@
 var<private> sampler_: Sampler;
 var<private> outcome: Outcome;
 
-@compute @workgroup_size(8, 8)
+@compute @workgroup_size(GROUP, GROUP)
 fn trace(@builtin(global_invocation_id) id: vec3u) {
     let place = id.xy + vec2u(params.first_column, params.first_row);
     let width = u32(params.size.x);

@@ -1,6 +1,7 @@
 //#import pathtrace/prepared.wgsl
 //#import pathtrace/bsdf/bsdf.wgsl
-// Rays by themselves, for whoever wants to know what they meet. Mirror: crates/pathtrace/src/gpu/rays.rs.
+// Rays by themselves, for whoever wants to know what they meet. Mirror:
+// crates/pathtrace/src/drive/gpu/rays.rs.
 
 struct RayQuery {
     origin: vec3f,

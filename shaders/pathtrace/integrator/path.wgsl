@@ -2,14 +2,14 @@
 //#import pathtrace/bsdf/bsdf.wgsl
 //#import pathtrace/drive/pixels.wgsl
 // One path: the tutorial's `shade`, turned from recursion into a state that moves from vertex to vertex (Task 2 d).
-// Twin: crates/pathtrace/src/integrator/path.rs.
+// Twins: crates/pathtrace/src/integrator/path.rs, path_state.rs, forks.rs and roulette.rs.
 //
 // Each step is one segment: meet a surface, take its emission, sample a light, draw a direction, play roulette.
 
 // whether diffuse vertices draw directions uniformly; by the cosine if not
 override UNIFORM_DIRECTIONS: bool = true;
-// how light is found: 0 by chance, 1 by sampling, 2 both, weighted
-override LIGHT_SEARCH: u32 = 2u;
+// how light is found: by chance, by sampling, or both, weighted
+override LIGHT_SEARCH: u32 = BY_BOTH;
 // whether a diffuse vertex may be left in more than one direction
 override BRANCHING: bool = true;
 
@@ -33,7 +33,8 @@ struct PathState {
     direction_pdf: f32,
 }
 
-// No light was sampled at the last vertex, or none could be: the camera, a mirror, glass.
+// No light was sampled at the last vertex, or none could be: the camera, a mirror, glass. Other than
+// the twin's: shaders may take infinity away.
 const MET_BY_CHANCE: f32 = -1.0;
 // Light was sampled at the last vertex: meeting it now would count it twice.
 const ALREADY_COUNTED: f32 = 0.0;
@@ -41,7 +42,7 @@ const ALREADY_COUNTED: f32 = 0.0;
 // Vertices that can wait for more branches at a time.
 const MOST_FORKS: u32 = 16u;
 
-// What comes after a segment.
+// What comes after a segment. Here alone: lanes have masks for it.
 const PATH_ENDS: u32 = 0u;
 const PATH_GOES_ON: u32 = 1u;
 const PATH_SCATTERS: u32 = 2u;

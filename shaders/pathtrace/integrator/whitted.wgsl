@@ -90,7 +90,7 @@ fn follow() -> bool {
     let hit = hit_of(nearest, branch.ray);
     let at = interaction_of(hit, -branch.ray.direction);
     outcome.radiance += branch.weight * emitted(at);
-    if is_delta(at) {
+    if !is_diffuse(at) {
         return branch.depth < params.limit && send_on(at);
     }
     var direct = vec3f(0.0);

@@ -10,6 +10,7 @@ const MOST_WAITING: u32 = 64u;
 
 // A node's contents: primitives of a leaf above, 0 for an inner node; index below.
 const COUNT_SHIFT: u32 = 27u;
+// Here alone: the host writes these bits, and reads none.
 const FIRST_MASK: u32 = 0x7ffffffu;
 
 // Nodes that wait. Not the traversal's own: it would be cleared each time.
@@ -77,7 +78,7 @@ fn safe_inverse(direction: vec3f) -> vec3f {
 }
 
 // What rounds in the distances to a box's planes, seen from far away: Ize, "Robust BVH Ray Traversal" (JCGT 2(2),
-// 2013).
+// 2013). Here alone: obvhs' traversal has its own.
 const BOX_SLACK: f32 = 1.0 + 1e-6;
 
 // Where a ray enters a box before tmax; FAR if it does not.

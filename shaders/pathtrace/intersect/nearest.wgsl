@@ -1,7 +1,8 @@
 //#import pathtrace/needs.wgsl
 //#import pathtrace/scene.wgsl
 //#import pathtrace/intersect/surface_point.wgsl
-// What rays find, whatever the structure that they are traced through. Twin: crates/pathtrace/src/intersect/hit.rs.
+// What rays find, whatever the structure that they are traced through. Twin:
+// crates/pathtrace/src/intersect/hit.rs, which has what is found and not the comparison.
 
 // The nearest meeting so far.
 struct Nearest {
@@ -12,6 +13,7 @@ struct Nearest {
     id: u32,
 }
 
+// Here alone: lanes have a mask for it.
 const NOTHING: u32 = 0xffffffffu;
 
 struct Hit {

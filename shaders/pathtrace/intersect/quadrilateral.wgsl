@@ -1,7 +1,7 @@
 //#import pathtrace/intersect/triangle.wgsl
 // Watertight ray/quadrilateral intersection: rectangles and the sides of boxes, whose two halves are one shape of four
-// edges.
-// Twin: crates/pathtrace/src/intersect/shape_list/mod.rs.
+// edges. Twin: crates/pathtrace/src/intersect/shape_list/mod.rs, which takes the corners into the rays' frames once for
+// all shapes.
 
 struct Quadrilateral {
     // around it: a comes before b and d in lexicographic order, and c after them

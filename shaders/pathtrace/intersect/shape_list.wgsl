@@ -3,7 +3,8 @@
 //#import pathtrace/intersect/sphere.wgsl
 //#import pathtrace/intersect/disk.wgsl
 // A small scene: every ray meets every shape, without a tree. Threads that go together go through the same shapes
-// together, and all read the same at a time. Twin: crates/pathtrace/src/intersect/shape_list/mod.rs.
+// together, and all read the same at a time. Twins:
+// crates/pathtrace/src/intersect/shape_list/mod.rs and surfaces.rs.
 
 // What a ray meets among the shapes of each kind up to these ends: the nearest, or whichever comes first.
 fn meet_all(ray: Ray, ends: vec4u, any_will_do: bool) -> Nearest {

@@ -5,6 +5,7 @@
 // A sky from a picture as a light: a texel is drawn by its luminance and solid angle, row first and then column, and a
 // direction uniformly within it. Twin: crates/pathtrace/src/light/environment.rs.
 
+// Here alone: lanes have it from the standard library.
 const TURN: f32 = 6.28318530718;
 
 // Upper bounds of a row: running sum of the probabilities, and minus the height on the unit sphere.

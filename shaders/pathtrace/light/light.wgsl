@@ -3,7 +3,8 @@
 //#import pathtrace/light/sun.wgsl
 //#import pathtrace/light/environment.wgsl
 // What shines, as light sampling sees it: area lights, point lights, the sun and a sky from a picture. Task 2 c),
-// "Sampling Area Light". One light is chosen, then a direction to it. Twin: crates/pathtrace/src/light/mod.rs.
+// "Sampling Area Light". One light is chosen, then a direction to it. Twin: crates/pathtrace/src/light/table.rs, in
+// lanes.
 
 // The light that u in [0, 1) chooses: the first whose running sum exceeds it.
 fn choose(u: f32) -> u32 {

@@ -1,5 +1,5 @@
 // Light that arrives at a point from one sampled direction, if nothing stands between. Twin:
-// crates/pathtrace/src/light/mod.rs.
+// crates/pathtrace/src/light/table.rs, in lanes.
 
 struct LightSample {
     // unit direction towards the light
@@ -14,7 +14,7 @@ struct LightSample {
     end: vec3f,
 }
 
-// Of a single direction: shaders may take infinity away.
+// Of a single direction. Here alone: lanes have infinity, which shaders may take away.
 const INFINITE_PDF: f32 = 1e30;
 
 fn no_light() -> LightSample {

@@ -1,4 +1,5 @@
-// Sine, cosine and arc tangent by polynomials (Cephes' coefficients): the built-in ones may be off by 5e-4.
+// Sine, cosine and arc tangent by polynomials (Cephes' coefficients): the built-in ones may be off by 5e-4. Twin:
+// crates/pathtrace/src/sampling/warp.rs, which needs them for azimuths.
 
 // Sine and cosine of `x + quadrant pi / 2`, x within an eighth of a turn.
 fn sin_cos_of_quadrant(x: f32, quadrant: u32) -> vec2f {

@@ -1,6 +1,8 @@
 //! Runs functions of the path tracer's shaders over many inputs at once.
 
-use gpu::{Gpu, wgpu, wgsl};
+use gpu::compute::{Binding, Compute};
+use gpu::wgsl::{self, Source};
+use gpu::{Gpu, wgpu};
 use pathtrace::gpu::GpuTracer;
 use pathtrace::sampling::{self, rng};
 use scene::{Scene, Vec3};
@@ -21,10 +23,9 @@ pub fn direction(item: u32, block: u32) -> Vec3 {
     sampling::cone(2.0, [u, v])
 }
 
-/// Both interfaces, and a tracer on each that holds a scene for shaders to read.
+/// A tracer on each device of this computer, which holds a scene for shaders to read.
 pub fn devices(scene: &Scene) -> Vec<GpuTracer> {
-    let through = [wgpu::Backends::VULKAN, wgpu::Backends::GL].map(Gpu::headless_through);
-    through.into_iter().map(|gpu| GpuTracer::new(&gpu.unwrap(), scene).unwrap()).collect()
+    Gpu::each().unwrap().iter().map(|gpu| GpuTracer::new(gpu, scene).unwrap()).collect()
 }
 
 /// Runs `body`, which turns the words from `at` on into four words, for each item, on one device.
@@ -49,60 +50,19 @@ pub fn run(
             results[id.x] = result(id.x * 8u) ^ vec4u(header.zero);
         }}"
     );
-    let find = |path: &str| match path {
-        "test.wgsl" => Some(shader.as_str()),
-        _ => wgsl::FILES.iter().find(|(name, _)| *name == path).map(|(_, text)| *text),
-    };
+    let test = [Source { path: "test.wgsl", text: &shader }];
+    let [own, shared] = pathtrace::shaders::LIBRARY;
     let gpu = tracer.gpu();
-    let module = wgsl::compose_from("test.wgsl", &find).unwrap().create(gpu).unwrap();
+    let (scene_layout, scene) = tracer.scene_group();
+    let shader = wgsl::compose(&[&test, own, shared], "test.wgsl").unwrap();
+    let bindings = [Binding::Read, Binding::Written];
+    let compute = Compute::new(gpu, &shader, "main", Some(scene_layout), &bindings, constants).unwrap();
     let storage = wgpu::BufferUsages::STORAGE;
     let numbers = gpu.buffer("numbers", input, storage).unwrap();
     let empty = vec![[u32::MAX; 4]; input.len()];
     let results = gpu.buffer("results", &empty, storage | wgpu::BufferUsages::COPY_SRC).unwrap();
-    let binding = |binding, read_only| wgpu::BindGroupLayoutEntry {
-        binding,
-        visibility: wgpu::ShaderStages::COMPUTE,
-        ty: wgpu::BindingType::Buffer {
-            ty: wgpu::BufferBindingType::Storage { read_only },
-            has_dynamic_offset: false,
-            min_binding_size: None,
-        },
-        count: None,
-    };
-    let entries = [binding(0, true), binding(1, false)];
-    let layout =
-        gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label: None, entries: &entries });
-    let pipeline_layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-        label: None,
-        bind_group_layouts: &[Some(tracer.scene_group().0), Some(&layout)],
-        immediate_size: 0,
-    });
-    let compilation_options = wgpu::PipelineCompilationOptions { constants, ..Default::default() };
-    let pipeline = gpu.device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
-        label: None,
-        layout: Some(&pipeline_layout),
-        module: &module,
-        entry_point: Some("main"),
-        compilation_options,
-        cache: None,
-    });
-    let group = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
-        label: None,
-        layout: &layout,
-        entries: &[
-            wgpu::BindGroupEntry { binding: 0, resource: numbers.as_entire_binding() },
-            wgpu::BindGroupEntry { binding: 1, resource: results.as_entire_binding() },
-        ],
-    });
-    let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-    {
-        let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
-        pass.set_pipeline(&pipeline);
-        pass.set_bind_group(0, tracer.scene_group().1, &[]);
-        pass.set_bind_group(1, &group, &[]);
-        pass.dispatch_workgroups(input.len().div_ceil(64) as u32, 1, 1);
-    }
-    gpu.queue.submit([encoder.finish()]);
+    let bound = [numbers.as_entire_binding(), results.as_entire_binding()];
+    compute.run(gpu, Some(scene), &bound, input.len()).unwrap();
     let bytes = gpu.read_buffer("results", &results).unwrap();
     assert_eq!(gpu.fault(), None);
     bytemuck::pod_collect_to_vec(&bytes)

@@ -5,7 +5,6 @@ mod args;
 mod bench;
 mod check;
 mod compare;
-mod help;
 mod info;
 mod reference;
 mod render;
@@ -76,7 +75,7 @@ impl Command {
     pub fn execute(self) -> Result<(), CliError> {
         match self {
             Command::View(args) => crate::window::open(&args)?,
-            Command::Render(args) => render::run(&args)?,
+            Command::Render(mut args) => render::run(&mut args)?,
             Command::Compare(args) => compare::run(&args)?,
             Command::Bench(args) => bench::run(&args)?,
             Command::Reference(args) => reference::run(&args)?,

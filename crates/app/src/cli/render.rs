@@ -33,10 +33,14 @@ struct Timed {
     seconds: f64,
 }
 
-pub fn run(args: &RenderArgs) -> anyhow::Result<()> {
+pub fn run(args: &mut RenderArgs) -> anyhow::Result<()> {
     tell_what_has_no_effect(args, &builtin::named(&args.scene)?);
     let shot = args.seen.of(&args.scene)?;
     let scene = shot.scene.clone();
+    if !args.chose_estimator {
+        args.pane.take_usual_estimator(&scene);
+    }
+    let args = &*args;
     let technique = args.pane.in_use();
     anyhow::ensure!(
         !args.errors || technique.shows_the_scene(),
@@ -111,7 +115,9 @@ fn tell_what_has_no_effect(args: &RenderArgs, scene: &Scene) {
     let of_scene = of_scene.map(|setting| (setting.name, setting.needs));
     let chosen = |setting: &&Setting<PaneSettings>| (setting.get)(&args.pane) != setting.default;
     let of_pane = all_of_panes().filter(|setting| setting.is_of(technique)).filter(chosen);
-    for (name, needs) in of_scene.chain(of_pane.map(|setting| (setting.name, setting.needs))) {
+    let mut given: Vec<_> = of_scene.chain(of_pane.map(|setting| (setting.name, setting.needs))).collect();
+    given.sort_by_key(|(_, needs)| *needs);
+    for (name, needs) in given {
         if let Some(missing) = needs.missing_in(scene) {
             note!("note: --{name} has no effect: {} has no {missing}", scene.name);
         }

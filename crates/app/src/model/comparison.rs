@@ -1,11 +1,12 @@
 //! What is compared with what, and which map of the errors is looked at. Not part of undo: changing it loses nothing.
 
-use super::PaneId;
 use super::session::other;
+use super::{PaneId, saved};
 use compare::ErrorMetric;
+use serde::{Deserialize, Serialize};
 
 /// What the user compares with.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub enum CompareWith {
     /// Each pane with the other.
     #[default]
@@ -67,13 +68,14 @@ pub struct MapWish {
 }
 
 /// How errors are measured and drawn.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct ComparisonSettings {
     /// With what both panes are compared.
     pub with: CompareWith,
     /// Whose errors the map shows; against each other always A's.
     pub of: PaneId,
     /// Which errors it shows.
+    #[serde(with = "saved::metric")]
     pub metric: ErrorMetric,
     /// Where the scale of each map ends, in the order of [`ErrorMetric::ALL`]; `None` fits it to every picture.
     pub held: [Option<f32>; ErrorMetric::ALL.len()],

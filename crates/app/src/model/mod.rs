@@ -13,6 +13,7 @@ mod history;
 mod message;
 mod pane;
 mod reference;
+mod saved;
 mod session;
 mod theme;
 mod ui_state;
@@ -58,7 +59,8 @@ pub struct Model {
 impl Model {
     /// The first view of a scene that was opened by the name `source`.
     pub fn new(scene: Scene, source: String, theme: Theme) -> Self {
-        let (document, session) = (Document::new(scene, source), Session::default());
+        let (document, mut session) = (Document::new(scene, source), Session::default());
+        session.forget_the_scene(&document.scene);
         let history = History::new(Settings::of(&document, &session));
         Model { document, session, state: UiState::new(theme), adapters: Adapters::default(), history }
     }

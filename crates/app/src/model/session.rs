@@ -1,16 +1,19 @@
 //! How it is looked at: what one would want to find again after a pause.
 
-use super::{CompareWith, ComparisonSettings, Line, PaneId, Panes, View};
+use super::{CompareWith, ComparisonSettings, Line, PaneId, Panes, View, saved};
 use film::DisplayTransform;
 use scene::Scene;
+use serde::{Deserialize, Serialize};
 use technique::{DeviceChoice, PaneSettings, TechniqueName};
 
 /// The panes and how they are shown.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Session {
     /// How each is made.
+    #[serde(with = "saved::panes")]
     pub panes: Panes<PaneSettings>,
     /// How all are shown.
+    #[serde(with = "saved::display")]
     pub display: DisplayTransform,
     /// How many pixels pictures have.
     pub resolution: Resolution,
@@ -25,7 +28,7 @@ pub struct Session {
 }
 
 /// How many pixels a picture has.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub enum Resolution {
     /// As many as the picture area. While something changes, pictures that take too long for that begin coarser.
     #[default]
@@ -83,7 +86,10 @@ impl Session {
 
     /// What was set against the scene before goes; techniques and their ways stay.
     pub fn forget_the_scene(&mut self, scene: &Scene) {
-        self.panes.values_mut().for_each(|pane| pane.forget_the_scene(scene));
+        for pane in self.panes.values_mut() {
+            pane.forget_the_scene(scene);
+            pane.take_usual_estimator(scene);
+        }
     }
 
     /// A becomes B and B becomes A; from a view of both it goes to A. Maps against the reference take turns too.

@@ -1,9 +1,10 @@
 //! Which picture is shown, and how two share the window.
 
 use super::PaneId;
+use serde::{Deserialize, Serialize};
 
 /// Which picture is shown.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum View {
     /// One pane alone.
     Pane(PaneId),
@@ -16,7 +17,7 @@ pub enum View {
 }
 
 /// How the wipe's line stands.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Line {
     /// A left, B right.
     Vertical,

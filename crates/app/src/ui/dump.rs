@@ -1,6 +1,6 @@
 //! What is on the screen, for tests that click: names, rectangles and values of the widgets.
 
-use egui::{Rect, Response};
+use egui::{Id, Rect, Response};
 
 /// A widget as last drawn.
 #[derive(Debug, Clone, PartialEq)]
@@ -13,26 +13,25 @@ pub struct Widget {
     pub visible: Rect,
     /// Its state as text.
     pub value: String,
+    /// What egui knows it by; `None` for painted text.
+    pub id: Option<Id>,
 }
 
 /// The widgets of one frame.
 #[derive(Debug, Default)]
 pub struct Dump {
     widgets: Vec<Widget>,
-    focused: Option<String>,
 }
 
 impl Dump {
     /// Notes a widget and hands its response on.
     pub fn note(&mut self, name: &str, value: impl ToString, response: Response) -> Response {
-        if response.has_focus() {
-            self.focused = Some(name.to_owned());
-        }
         self.widgets.push(Widget {
             name: name.to_owned(),
             rect: response.rect,
             visible: response.interact_rect,
             value: value.to_string(),
+            id: Some(response.id),
         });
         response
     }
@@ -40,7 +39,7 @@ impl Dump {
     /// Notes a text that is painted without being a widget.
     pub fn note_text(&mut self, name: &str, text: &str, rect: Rect, clip: Rect) {
         let visible = rect.intersect(clip);
-        self.widgets.push(Widget { name: name.to_owned(), rect, visible, value: text.to_owned() });
+        self.widgets.push(Widget { name: name.to_owned(), rect, visible, value: text.to_owned(), id: None });
     }
 
     /// The widgets noted so far, in drawing order.
@@ -48,8 +47,10 @@ impl Dump {
         &self.widgets
     }
 
-    /// One JSON object; rectangles `[left, top, right, bottom]` in physical pixels. `state` adds to it.
-    pub fn json(&self, pixels_per_point: f32, state: serde_json::Value) -> String {
+    /// One JSON object; rectangles `[left, top, right, bottom]` in physical pixels. `focused` has the keyboard after the
+    /// frame, which Tab may have moved in its course; `state` adds to the object.
+    pub fn json(&self, pixels_per_point: f32, focused: Option<Id>, state: serde_json::Value) -> String {
+        let focus = self.widgets.iter().find(|w| focused.is_some() && w.id == focused).map(|w| &w.name);
         let corners =
             |r: &Rect| [r.left(), r.top(), r.right(), r.bottom()].map(|points| f64::from(points * pixels_per_point));
         let widgets: Vec<_> = self
@@ -60,6 +61,6 @@ impl Dump {
                 serde_json::json!({ "name": w.name, "rect": rect, "visible": visible, "value": w.value })
             })
             .collect();
-        serde_json::json!({ "widgets": widgets, "focus": self.focused, "state": state }).to_string()
+        serde_json::json!({ "widgets": widgets, "focus": focus, "state": state }).to_string()
     }
 }

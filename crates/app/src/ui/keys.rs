@@ -1,7 +1,7 @@
 //! The keys of the whole window. Letters are ignored while typing; Tab, arrows, space and enter belong to the widgets;
 //! PageUp, PageDown, '.', F5 and Esc stay free for a presenter's remote.
 
-use super::workspace::HelpLine;
+use super::pressed::{HelpLine, Keys};
 use super::{UiCommand, UiContext, Workspaces, export_menu};
 use crate::model::{Destination, ExportRequest, ExportSubject};
 use egui::{Context, Event, Key, Modifiers};
@@ -20,34 +20,8 @@ pub const KEYS: [HelpLine; 10] = [
     ("?", "this help"),
 ];
 
-/// The keys that went down since the last frame.
-pub struct Keys<'a>(&'a Context);
-
-impl Keys<'_> {
-    /// How often a key went down alone.
-    pub fn presses(&self, key: Key) -> usize {
-        self.presses_with(key, Modifiers::NONE)
-    }
-
-    /// How often a key went down with just these modifiers. Two presses within one slow frame are two; a key that is
-    /// held is one.
-    fn presses_with(&self, wanted: Key, with: Modifiers) -> usize {
-        let is_wanted = |event: &&Event| match event {
-            Event::Key { key, pressed: true, repeat: false, modifiers, .. } => {
-                *key == wanted && modifiers.matches_exact(with)
-            }
-            _ => false,
-        };
-        self.0.input(|i| i.events.iter().filter(is_wanted).count())
-    }
-
-    fn command(&self, key: Key) -> usize {
-        self.presses_with(key, Modifiers::COMMAND)
-    }
-}
-
 pub fn listen(workspaces: &mut Workspaces, cx: &mut UiContext, context: &Context) {
-    let keys = Keys(context);
+    let keys = Keys::of(context);
     if keys.command(Key::S) > 0 {
         export_as_seen(cx, Destination::File(export_menu::seen_file(cx.model)));
     }
@@ -83,7 +57,7 @@ fn letters(cx: &mut UiContext, keys: &Keys) {
     if keys.presses(Key::C) > 0 {
         cx.model.document.camera = cx.model.document.scene.camera;
     }
-    if keys.0.input(|i| i.key_pressed(Key::Questionmark)) {
+    if keys.is_pressed(Key::Questionmark) {
         cx.model.state.help = !cx.model.state.help;
     }
 }

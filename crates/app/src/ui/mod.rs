@@ -8,13 +8,16 @@ mod export_menu;
 mod help;
 mod keys;
 mod overlay;
+mod pressed;
 mod theme;
 mod top_bar;
 mod widgets;
 mod workspace;
+mod workspaces;
 
 pub use dump::{Dump, Widget};
-pub use workspace::{Workspace, Workspaces};
+pub use workspace::Workspace;
+pub use workspaces::Workspaces;
 
 use crate::model::{ExportRequest, Model, Panes, ViewModel};
 use egui::{TextureId, Ui};

@@ -167,6 +167,7 @@ impl Viewer {
         let shown = &self.presentation.shown;
         let pane = |id| dump_of(shown.panes.get(id).unwrap_or(&PaneView::default()), ready(id));
         let milliseconds = |time: Option<Duration>| time.map(|time| time.as_millis() as u64);
+        let focused = context.memory(|m| m.focused());
         let Model { document, session, state, .. } = &self.model;
         let mut state = json!({
             "scene": document.scene.name,
@@ -179,7 +180,7 @@ impl Viewer {
             "eye": document.camera.eye.to_array(),
             "fov": document.camera.fov_y,
             "message": state.message.as_ref().map(|m| &m.text),
-            "focus_id": context.memory(|m| m.focused()).map(|id| id.value()),
+            "focus_id": focused.map(|id| id.value()),
             "pressing": context.input(|i| i.pointer.any_down()),
             "typing": context.text_edit_focused(),
             "map": shown.map.as_ref().map(|map| &map.map.label),
@@ -193,7 +194,7 @@ impl Viewer {
         if let (Some(state), Value::Object(more)) = (state.as_object_mut(), more) {
             state.extend(more);
         }
-        self.dump.json(pixels_per_point, state)
+        self.dump.json(pixels_per_point, focused, state)
     }
 }
 

@@ -57,6 +57,38 @@ material = "diamond"
     assert_refused(&["render", "--from", &file("plain.png"), "-o", &again], 1, &["does not say how it was made"]);
 }
 
+/// The records of version 1, word for word as the program wrote them before there was a table of settings. A picture that
+/// keeps them is made again, and keeps the same.
+#[test]
+fn records_of_older_pictures_are_read_and_written_as_they_were() {
+    let path = "technique=path size=8x6 eye=7.5,2.3,-4.2 target=3,2,-4 fov=50 refraction-ratio=0.8 sun-radius=5 spp=3 \
+                sampler=independent bounces=3 roulette=0.8+throughput estimator=mis branches=2 seed=9 exposure=1";
+    let whitted = "technique=whitted size=8x6 eye=6,3,-1 target=3,2,-4 fov=40 spp=2 sampler=sobol depth=3 \
+                   glass-shadows=clear shadow-rays=2 seed=4 ambient=0.3 exposure=0";
+    let raster = "technique=raster size=8x6 eye=6,3,-1 target=3,2,-4 fov=40 refraction-ratio=0.9 sun-radius=3 fake=as-taught \
+                  shading=phong reflectivity=0.4 shininess=12 ambient=0.2 cube-map=64 shadow-map=128 shadow-filter=hard \
+                  shadow-bias=0.001 segments=20 show=shadow-map exposure=0";
+    let folder = TestFolder::new();
+    let (old, new) = (folder.file("old.png"), folder.file("new.png"));
+    for (words, device) in [(path, "cpu"), (whitted, "cpu"), (raster, "gpu")] {
+        let kept = words.split_whitespace().map(|word| word.split_once('=').expect("a record"));
+        let first =
+            [("records", "1"), ("version", "0.1.0"), ("scene", "whitted"), ("device", device), ("seconds", "1")];
+        let all = first.into_iter().chain(kept.clone());
+        // names of records live as long as the program
+        let records = all.map(|(name, value)| (&*name.to_owned().leak(), value.to_owned())).collect();
+        std::fs::write(&old, image_file::encode_rgba8(1, 1, &[0; 4], &records).expect("a PNG")).expect("a file");
+        let made = visavis(&["render", "--from", old.to_str().unwrap(), "-o", new.to_str().unwrap()]);
+        assert!(made.status.success(), "{}", String::from_utf8_lossy(&made.stderr));
+        let again = image_file::records(&new).expect("records");
+        let says_how =
+            |name: &str| !["version", "records", "scene", "device", "adapter", "seconds", "command"].contains(&name);
+        let again: Vec<_> =
+            again.iter().map(|(name, value)| (&**name, &**value)).filter(|(name, _)| says_how(name)).collect();
+        assert_eq!(again, kept.collect::<Vec<_>>());
+    }
+}
+
 /// Both machines follow the same rays: the pictures differ by rounding, and each says where it was made.
 #[test]
 fn the_gpu_traces_the_picture_of_the_cpu() {

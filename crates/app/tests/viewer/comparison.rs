@@ -31,7 +31,8 @@ fn choose_the_reference(user: &mut User) -> Frame {
     user.resize(vec2(480.0, 320.0));
     user.click("Side by side");
     user.wait_for("small pictures that are compared with no other", |f| {
-        f.state("picture_size")[1].as_u64() < Some(320) && both_whole(f) && !f.value("label A").contains("A - B")
+        let small = f.state("view") == "Side by side" && f.state("picture_size")[1].as_u64() < Some(320);
+        small && both_whole(f) && !f.value("label A").contains("A - B")
     })
 }
 

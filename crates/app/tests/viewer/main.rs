@@ -200,6 +200,8 @@ impl User {
     /// Another size of the window, in points.
     pub fn resize(&mut self, size: Vec2) {
         self.harness.set_size(size);
+        // widgets are where the last frame has put them
+        self.harness.run_steps(2);
     }
 
     /// The same scene from a file.

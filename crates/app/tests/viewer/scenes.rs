@@ -32,7 +32,6 @@ fn scenes_change_and_controls_that_do_not_apply_go() {
     user.click("Wipe");
     for (width, height) in [(900.0, 500.0), (500.0, 330.0), (1100.0, 700.0)] {
         user.resize(egui::vec2(width, height));
-        user.frame();
     }
     let resized = user.wait_for("pictures of the new size", |f| {
         both_whole(f) && f.rect("picture")[3] > 650.0 && f.rect("picture")[3] <= 700.0

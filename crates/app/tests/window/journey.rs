@@ -39,7 +39,7 @@ fn a_lecturer_toggles_slides_wipes_orbits_saves_and_closes() {
 
     let middle = first.point("picture", 0.5, 0.5);
     screen.drag(middle, first.point("picture", 0.25, 0.6));
-    let wiped = viewer.wait_for("the line to move", |f| f.state("wipe").as_f64().is_some_and(|w| w < 0.3));
+    let wiped = viewer.wait_for("the line to move", |f| f.state("wipe").as_f64().is_some_and(|w| w < 0.4));
     assert_eq!(wiped.state("eye"), first.state("eye"), "dragging the line must not move the camera");
 
     screen.drag(first.point("picture", 0.7, 0.7), first.point("picture", 0.75, 0.65));

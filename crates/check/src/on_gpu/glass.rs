@@ -7,7 +7,6 @@ use crate::dielectrics::{
     rays_at_the_sphere, reflectances, slab_of, slanting_ray, small_slab, to_depth, with_and_without, without_roulette,
 };
 use crate::hard::known;
-use crate::measure::independent;
 use pathtrace::gpu::{GpuTraceError, GpuTracer};
 use pathtrace::intersect::Ray;
 use pathtrace::{Estimator, PathSettings, Roulette, SamplerKind};
@@ -161,7 +160,7 @@ pub fn camera_inside(bench: &mut Bench) -> Outcome {
     let scene = known("camera-inside-glass");
     let tracer = &mut bench.tracer(&scene)?;
     for roulette in [Roulette::OFF, Roulette::THROUGHPUT] {
-        let settings = PathSettings { roulette, ..independent() };
+        let settings = PathSettings { roulette, ..PathSettings::independent() };
         bench.exactly("every pixel", 1.0, (tracer, &scene.camera), settings)?;
     }
     bench.exactly("every pixel", 1.0, (tracer, &scene.camera), to_depth(64))

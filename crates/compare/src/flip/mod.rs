@@ -10,7 +10,7 @@ mod hdr;
 pub use hdr::{HdrFlip, hdr_flip};
 
 use crate::{CompareError, metrics::same_size};
-use film::{DisplayTransform, Image, Vec3};
+use film::{Image, Vec3};
 use filter::{Features, Sensitivity, along_columns, along_rows};
 use rayon::prelude::*;
 
@@ -27,8 +27,8 @@ const P_T: f32 = 0.95;
 /// Exponent of the feature difference.
 const Q_F: f32 = 0.5;
 
-/// FLIP of two pictures as a screen shows them, with sRGB code values in [0, 1] for radiance, as [`displayed`] makes
-/// them; one value in [0, 1] a pixel, rows from the top. A pixel that is not finite in either picture is NaN, and black
+/// FLIP of two pictures as a screen shows them, with sRGB code values in [0, 1] for radiance, as
+/// [`film::DisplayTransform::code_values_of`] makes them; one value in [0, 1] a pixel, rows from the top. A pixel that is not finite in either picture is NaN, and black
 /// to its neighbours.
 ///
 /// `pixels_per_degree` of visual angle, > 0: [`PIXELS_PER_DEGREE`] where nothing better is known.
@@ -44,14 +44,6 @@ pub fn flip(picture: &Image, reference: &Image, pixels_per_degree: f32) -> Resul
     let mut values = evaluator.flip(&finite_or_black(picture), &finite_or_black(reference));
     mark_nonfinite(&mut values, picture, reference);
     Ok(values)
-}
-
-/// The sRGB code values, in [0, 1], of the bytes that a display transform shows of a picture.
-pub fn displayed(image: &Image, display: &DisplayTransform) -> Image {
-    image.map(|radiance| {
-        let [r, g, b, _] = display.rgba8(radiance).map(f32::from);
-        Vec3::new(r / 255.0, g / 255.0, b / 255.0)
-    })
 }
 
 fn finite_or_black(picture: &Image) -> Vec<Vec3> {

@@ -14,7 +14,7 @@ pub struct Interactions<F: Float> {
     pub normal: Vector<F>,
     /// Unit direction back along the ray.
     pub wo: Vector<F>,
-    /// Albedo of diffuse surfaces there, reflectance of mirrors, 1 for glass.
+    /// Albedo of diffuse surfaces there, reflectance of mirrors and of metal at normal incidence, 1 for glass.
     pub colour: Vector<F>,
     /// What the surface does to light.
     pub kinds: Kinds<F::U>,
@@ -34,12 +34,6 @@ impl<F: Float> Interactions<F> {
     #[inline(always)]
     pub fn is_delta(&self) -> F::M {
         self.kinds.delta()
-    }
-
-    /// Where the surface shines.
-    #[inline(always)]
-    pub fn shines(&self) -> F::M {
-        self.kinds.area_light()
     }
 
     /// Where a path goes on with a diffuse vertex of its own instead.

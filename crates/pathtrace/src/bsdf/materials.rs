@@ -1,8 +1,11 @@
 //! A scene's materials by columns, as lanes look them up: the table of lobes.
+//!
+//! Twins: `shaders/pathtrace/prepared.wgsl` and `shaders/shared/checkerboard.wgsl`.
 
 use super::Interactions;
+use super::rough_conductor::RoughConductors;
 use crate::vectors::VectorColumn;
-use scene::{Bsdf, Material, Texture, Vec3};
+use scene::{Bsdf, Conductor, Material, Texture, Vec3};
 use simd::{Column, Float, Vector, Word, WordColumn};
 
 /// All materials.
@@ -14,6 +17,9 @@ pub struct Materials {
     board_origin: VectorColumn,
     cells_per_unit: VectorColumn,
     ior: Column,
+    alpha: Column,
+    eta: VectorColumn,
+    k: VectorColumn,
     radiance: VectorColumn,
     kind: WordColumn,
     has: Has,
@@ -28,6 +34,8 @@ pub struct Has {
     pub mirrors: bool,
     /// Any glass.
     pub glass: bool,
+    /// Any rough metal.
+    pub rough_conductors: bool,
     checkerboards: bool,
 }
 
@@ -41,8 +49,12 @@ pub const LOBE_LAMBERT: u32 = 1;
 pub const LOBE_MIRROR: u32 = 2;
 /// See [`LOBE_LAMBERT`].
 pub const LOBE_DIELECTRIC: u32 = 4;
+/// See [`LOBE_LAMBERT`].
+pub const LOBE_ROUGH_CONDUCTOR: u32 = 8;
 /// Of a Lambert lobe: its albedo is a checkerboard.
 pub const CHECKERED: u32 = 1 << 8;
+/// Of a conductor: it reflects by Fresnel's equations.
+pub const HAS_INDEX: u32 = 1 << 9;
 
 const AREA_LIGHT: u32 = 1 << 16;
 const TWO_SIDED: u32 = 1 << 17;
@@ -86,6 +98,12 @@ impl<U: Word> Kinds<U> {
         self.has(LOBE_DIELECTRIC)
     }
 
+    /// Is rough metal.
+    #[inline(always)]
+    pub fn rough_conductor(self) -> U::M {
+        self.has(LOBE_ROUGH_CONDUCTOR)
+    }
+
     /// Shines.
     #[inline(always)]
     pub fn area_light(self) -> U::M {
@@ -104,6 +122,7 @@ impl Materials {
                 Bsdf::Diffuse { albedo: Texture::Constant(colour) } => colour,
                 Bsdf::Diffuse { albedo: Texture::Checkerboard(board) } => board.even,
                 Bsdf::Mirror { reflectance } => reflectance,
+                Bsdf::RoughConductor { conductor, .. } => conductor.at_normal_incidence(),
                 Bsdf::Dielectric { .. } => Vec3::ONE,
             }),
             odd: vectors(|material| board_of(material).map_or(Vec3::ZERO, |board| board.odd)),
@@ -111,13 +130,20 @@ impl Materials {
             cells_per_unit: vectors(|material| board_of(material).map_or(Vec3::ZERO, |board| board.cells_per_unit())),
             ior: Column::new(materials.iter().map(|material| match material.bsdf {
                 Bsdf::Dielectric { ior } => ior,
-                Bsdf::Diffuse { .. } | Bsdf::Mirror { .. } => 1.0,
+                _ => 1.0,
             })),
+            alpha: Column::new(materials.iter().map(|material| match material.bsdf {
+                Bsdf::RoughConductor { roughness, .. } => roughness * roughness,
+                _ => 1.0,
+            })),
+            eta: vectors(|material| index_of(material).0),
+            k: vectors(|material| index_of(material).1),
             radiance: vectors(|material| material.emission.map_or(Vec3::ZERO, |emission| emission.radiance)),
             has: Has {
                 area_lights: any(AREA_LIGHT),
                 mirrors: any(LOBE_MIRROR),
                 glass: any(LOBE_DIELECTRIC),
+                rough_conductors: any(LOBE_ROUGH_CONDUCTOR),
                 checkerboards: any(CHECKERED),
             },
             kind: WordColumn::new(kinds),
@@ -126,7 +152,7 @@ impl Materials {
 
     /// Looks for every kind of material from now on.
     pub fn expect_everything(&mut self) {
-        self.has = Has { area_lights: true, mirrors: true, glass: true, checkerboards: true };
+        self.has = Has { area_lights: true, mirrors: true, glass: true, rough_conductors: true, checkerboards: true };
     }
 
     /// What occurs among them.
@@ -160,18 +186,38 @@ impl Materials {
         material.look_up(&self.ior)
     }
 
-    /// What surfaces send out towards `wo`.
+    /// The rough metals among these.
     #[inline(always)]
-    pub fn emitted<F: Float>(&self, at: &Interactions<F>) -> Vector<F> {
-        let shines = at.kinds.has(TWO_SIDED) | at.point.normal.dot(at.wo).gt(F::splat(0.0));
-        Vector::select(shines, self.radiance.look_up(at.material), Vector::zero())
+    pub fn rough_conductor<F: Float>(&self, at: &Interactions<F>) -> RoughConductors<F> {
+        RoughConductors {
+            alpha: at.material.look_up(&self.alpha),
+            reflectance: at.colour,
+            has_index: at.kinds.has(HAS_INDEX),
+            eta: self.eta.look_up(at.material),
+            k: self.k.look_up(at.material),
+        }
+    }
+
+    /// What surfaces send out in a direction at this cosine to their outward normal.
+    #[inline(always)]
+    pub fn emitted<F: Float>(&self, material: F::U, cosine: F) -> Vector<F> {
+        let shines = self.kinds(material).has(TWO_SIDED) | cosine.gt(F::splat(0.0));
+        Vector::select(shines, self.radiance.look_up(material), Vector::zero())
     }
 }
 
 fn board_of(material: &Material) -> Option<scene::material::Checkerboard> {
     match material.bsdf {
         Bsdf::Diffuse { albedo: Texture::Checkerboard(board) } => Some(board),
-        Bsdf::Diffuse { .. } | Bsdf::Mirror { .. } | Bsdf::Dielectric { .. } => None,
+        _ => None,
+    }
+}
+
+/// Index of refraction and extinction coefficient of metals.
+fn index_of(material: &Material) -> (Vec3, Vec3) {
+    match material.bsdf {
+        Bsdf::RoughConductor { conductor: Conductor::Fresnel { eta, k }, .. } => (eta, k),
+        _ => (Vec3::ONE, Vec3::ZERO),
     }
 }
 
@@ -181,6 +227,8 @@ pub fn lobe_of(bsdf: &Bsdf) -> u32 {
         Bsdf::Diffuse { albedo: Texture::Constant(_) } => LOBE_LAMBERT,
         Bsdf::Diffuse { albedo: Texture::Checkerboard(_) } => LOBE_LAMBERT | CHECKERED,
         Bsdf::Mirror { .. } => LOBE_MIRROR,
+        Bsdf::RoughConductor { conductor: Conductor::Constant(_), .. } => LOBE_ROUGH_CONDUCTOR,
+        Bsdf::RoughConductor { conductor: Conductor::Fresnel { .. }, .. } => LOBE_ROUGH_CONDUCTOR | HAS_INDEX,
         Bsdf::Dielectric { .. } => LOBE_DIELECTRIC,
     }
 }

@@ -11,10 +11,12 @@ pub mod interaction;
 pub mod lambert;
 pub mod materials;
 pub mod mirror;
+pub mod rough_conductor;
 
 pub use dielectric::{Interface, Interfaces};
 pub use interaction::Interactions;
 use materials::Materials;
+pub use rough_conductor::RoughConductor;
 use simd::{Float, Mask, Vector};
 
 /// A colour times a number, kept apart so that products are rounded in one order whatever the lobe.
@@ -68,23 +70,38 @@ impl Materials {
         if self.has().glass && glass.any() {
             sample = BsdfSamples::select(glass, dielectric::sample(at, self.ior(at.material), u[2]), sample);
         }
+        let rough = here & at.kinds.rough_conductor();
+        if self.has().rough_conductors && rough.any() {
+            let drawn = rough_conductor::sample(at, &self.rough_conductor(at), [u[0], u[1]]);
+            sample = BsdfSamples::select(rough, drawn, sample);
+        }
         sample
     }
 
     /// The BSDF for light from the unit direction `wi`, on the side of `wo`. Not of lobes that leave no choice.
     #[inline(always)]
-    pub fn eval<F: Float>(&self, at: &Interactions<F>, _wi: Vector<F>) -> ScaledColours<F> {
+    pub fn eval<F: Float>(&self, at: &Interactions<F>, wi: Vector<F>) -> ScaledColours<F> {
+        let rough = at.kinds.rough_conductor();
+        if self.has().rough_conductors && rough.any() {
+            let value = rough_conductor::eval(at, &self.rough_conductor(at), wi);
+            return ScaledColours::select(rough, value, lambert::eval(at));
+        }
         lambert::eval(at)
     }
 
     /// Density per solid angle of [`Materials::sample`] at `wi`, whose cosine to the normal is above 0. Not of lobes that
     /// leave no choice.
     #[inline(always)]
-    pub fn pdf<F: Float>(&self, _at: &Interactions<F>, _wi: Vector<F>, cosine: F) -> F {
+    pub fn pdf<F: Float>(&self, at: &Interactions<F>, wi: Vector<F>, cosine: F) -> F {
+        let rough = at.kinds.rough_conductor();
+        if self.has().rough_conductors && rough.any() {
+            return F::select(rough, rough_conductor::pdf(at, &self.rough_conductor(at), wi), lambert::pdf(cosine));
+        }
         lambert::pdf(cosine)
     }
 
-    /// Both directions in which mirrors and glass send light on, `here`.
+    /// Both directions in which mirrors and glass send light on, `here`. Rough metal is taken for a mirror that reflects as
+    /// much: what a tree of rays, of which each has one direction, can follow.
     #[inline(always)]
     pub fn speculars<F: Float>(&self, here: F::M, at: &Interactions<F>) -> Speculars<F> {
         let (nowhere, one) = (F::M::splat(false), F::splat(1.0));
@@ -97,11 +114,17 @@ impl Materials {
             refracted: at.wo,
             transmittance: one,
         };
+        let rough = here & at.kinds.rough_conductor();
+        if self.has().rough_conductors && rough.any() {
+            let share = self.rough_conductor(at).fresnel(at.normal.dot(at.wo));
+            speculars.reflectance.colour = Vector::select(rough, share, at.colour);
+            speculars.reflects = mirrors | (rough & !share.is_zero());
+        }
         let glass = here & at.kinds.glass();
         if self.has().glass && glass.any() {
             let split = dielectric::split(at, self.ior(at.material));
             speculars.reflectance.factor = F::select(glass, split.reflectance, one);
-            speculars.reflects = mirrors | (glass & split.reflectance.gt(F::splat(0.0)));
+            speculars.reflects = speculars.reflects | (glass & split.reflectance.gt(F::splat(0.0)));
             speculars.refracts = glass & split.refracts;
             speculars.refracted = split.refracted;
             speculars.transmittance = one - split.reflectance;

@@ -1,14 +1,15 @@
 //! The driver of lanes that fill a film: a lane owns a pixel, and starts its next sample, or its next pixel, in the
 //! same turn in which the last one ended. There are no queues, and lanes stay busy up to the end of a chunk.
 //!
-//! Twin: `shaders/pathtrace/drive/pixels.wgsl`, where a thread has one pixel and its own loop.
+//! Twins: `shaders/pathtrace/drive/pixels.wgsl`, where a thread has one pixel and its own loop, and, of the camera's rays,
+//! `shaders/pathtrace/camera.wgsl`.
 
-use crate::integrator::settings::SamplerKind;
 use crate::intersect::Rays;
 use crate::intersect::aggregate::lanes_of;
 use crate::prepared::{Outcomes, PreparedScene};
 use crate::sampling::sampler::Sampler;
-use crate::tracer::Stats;
+use crate::sampling::sampler::SamplerKind;
+use crate::stats::Stats;
 use crate::vectors::{each_lane, in_all_lanes};
 use film::Film;
 use film::Pixel;
@@ -95,7 +96,9 @@ impl<P: LanePlan> Kernel for ChunkKernel<'_, P> {
 
     #[inline(always)]
     fn run<F: Float>(self) -> Tally {
-        fill::<F>(&self.job.order, self.chunk, self.plan.walk(self.job.scene), self.job.stop)
+        // a copy, which the compiler sees nobody else write to
+        let order = self.job.order;
+        fill::<F>(&order, self.chunk, self.plan.walk(self.job.scene), self.job.stop)
     }
 }
 

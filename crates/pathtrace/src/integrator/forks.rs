@@ -1,4 +1,6 @@
 //! Vertices that wait for their other branches ("When N>1: Distributed ray tracing"), a small stack in each lane.
+//!
+//! Twin: `shaders/pathtrace/integrator/path.wgsl`.
 
 use crate::integrator::path_state::{DiffuseVertices, PathStates};
 use simd::{Float, Mask, Word};

@@ -3,19 +3,20 @@
 //! A new integrator is a file here with its settings and lanes, its twin in `shaders/pathtrace/integrator/`, and a
 //! variant of [`Integrator`] with an arm in each of the matches below: all that the machines ask an integrator for.
 
-mod forks;
+pub(crate) mod forks;
 pub mod path;
-mod path_state;
-mod roulette;
+pub(crate) mod path_state;
+pub(crate) mod roulette;
 pub mod settings;
 pub mod whitted;
 
 use crate::drive::gpu::{PipelineKey, film_data::RenderParams};
 use crate::drive::lanes::FilmJob;
-use crate::tracer::Stats;
+use crate::sampling::sampler::SamplerKind;
+use crate::stats::Stats;
 use film::Film;
 use scene::stand_ins::FakeNumbers;
-use settings::{PathSettings, SamplerKind, SettingsError};
+use settings::{PathSettings, SettingsError};
 use whitted::WhittedSettings;
 
 /// How light is followed, with its settings.

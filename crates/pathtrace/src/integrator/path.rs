@@ -74,16 +74,21 @@ impl LanePlan for Plan {
     }
 }
 
+/// How light is found.
+pub(crate) const BY_CHANCE: u32 = 0;
+pub(crate) const BY_SAMPLING: u32 = 1;
+pub(crate) const BY_BOTH: u32 = 2;
+
 impl PathSettings {
     pub(super) fn pipeline_key(&self, everything: bool) -> PipelineKey {
         let light_search = match self.estimator.light {
-            LightSampling::BsdfOnly => 0.0,
-            LightSampling::NextEvent => 1.0,
-            LightSampling::Mis => 2.0,
+            LightSampling::BsdfOnly => BY_CHANCE,
+            LightSampling::NextEvent => BY_SAMPLING,
+            LightSampling::Mis => BY_BOTH,
         };
         let constants = [
             ("UNIFORM_DIRECTIONS", flag(self.estimator.directions == Directions::Uniform)),
-            ("LIGHT_SEARCH", light_search),
+            ("LIGHT_SEARCH", f64::from(light_search)),
             ("BRANCHING", flag(self.branches > 1 || everything)),
         ];
         PipelineKey::new("pathtrace/integrator/path.wgsl", self.sampler, &constants)
@@ -141,18 +146,19 @@ impl<'a, F: Float> LaneIntegrator<F> for PathLanes<'a, F> {
         if let Some(environment) = self.scene.lights.environment()
             && missed.any()
         {
-            let (radiance, pdf) = environment.look_up(self.path.rays.direction);
+            let (radiance, pdf) = environment.look_up_lanes(self.path.rays.direction);
             self.receive(missed, radiance * self.path.weight_of_meeting(pdf));
         }
-        let mut vertex = self.scene.interaction(&hit, -self.path.rays.direction);
-        let shining = met & vertex.shines();
+        let wo = -self.path.rays.direction;
+        let shining = met & self.scene.shines(&hit);
         if self.scene.materials.has().area_lights && shining.any() {
             let mis = self.plan.light == LightSampling::Mis;
             let weight = self.path.weight_of_meeting(if mis { self.light_pdf(&hit) } else { F::splat(0.0) });
-            self.receive(shining, self.scene.materials.emitted(&vertex) * weight);
+            self.receive(shining, self.scene.emitted(&hit, wo) * weight);
         }
         let at_limit = met & self.path.vertices.eq(F::U::splat(self.plan.limit));
         self.cut(at_limit);
+        let mut vertex = self.scene.interaction(&hit, wo);
         let mut scattering = met & !at_limit & !vertex.colour.is_zero();
         if self.plan.branching_vertices > 0 {
             self.fork(scattering & vertex.is_diffuse(), &vertex);
@@ -233,21 +239,21 @@ impl<'a, F: Float> PathLanes<'a, F> {
         self.path = PathStates::select(here, path, self.path);
     }
 
-    /// Samples a light, and takes the directions in which paths leave their vertices, from three random numbers.
+    /// Samples a light, and takes the directions in which paths leave their vertices, from three random numbers. Paths that
+    /// are not `here` have ended, and what becomes of them is of no account: nothing has to be kept.
     #[inline(always)]
     fn scatter(&mut self, here: F::M, at: &Interactions<F>, sampler: &Sampler<F::U>, u: [F; 3]) {
         let delta = at.is_delta();
+        let uniform = self.plan.directions == Directions::Uniform;
+        // before the light, whose shadow rays the processor can begin while roots and quotients are on their way
+        let mut sample = self.scene.materials.sample(if uniform { here & delta } else { here }, at, u);
+        if uniform {
+            sample = BsdfSamples::select(delta, sample, self.sample_uniformly(at, [u[0], u[1]]));
+        }
         let choosing = here & !delta;
         if self.plan.light != LightSampling::BsdfOnly && !self.scene.lights.is_empty() && choosing.any() {
             self.sample_lights(choosing, at, sampler.unit4(self.path.light_dimension()));
         }
-        let sample = match self.plan.directions {
-            Directions::Cosine => self.scene.materials.sample(here, at, u),
-            Directions::Uniform => {
-                let sample = self.scene.materials.sample(here & delta, at, u);
-                BsdfSamples::select(delta, sample, self.sample_uniformly(at, [u[0], u[1]]))
-            }
-        };
         let direction_pdf = match self.plan.light {
             LightSampling::BsdfOnly => F::splat(MET_BY_CHANCE),
             LightSampling::NextEvent => F::select(delta, F::splat(MET_BY_CHANCE), F::splat(ALREADY_COUNTED)),
@@ -255,8 +261,7 @@ impl<'a, F: Float> PathLanes<'a, F> {
         };
         let rays = Rays::new(at.point.leaving_towards(sample.wi), sample.wi);
         let throughput = sample.weight.times(self.path.throughput);
-        let left = PathStates { rays, throughput, from: at.point.position, direction_pdf, ..self.path };
-        self.path = PathStates::select(here, left, self.path);
+        self.path = PathStates { rays, throughput, from: at.point.position, direction_pdf, ..self.path };
     }
 
     /// Directions of the tutorial's naive tracer, whatever the surface (Task 2 b).
@@ -273,7 +278,7 @@ impl<'a, F: Float> PathLanes<'a, F> {
     #[inline(always)]
     fn goes_on(&mut self, alive: F::M, u_roulette: F) -> F::M {
         let path = &mut self.path;
-        path.vertices = F::U::select(alive, path.vertices.wrapping_add(F::U::splat(1)), path.vertices);
+        path.vertices = path.vertices.wrapping_add(F::U::splat(1));
         let mut alive = alive;
         if self.scene.sky == Vec3::ZERO {
             let all_counted = path.direction_pdf.eq(F::splat(ALREADY_COUNTED));

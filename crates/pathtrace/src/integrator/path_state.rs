@@ -1,4 +1,6 @@
 //! A path between two of its vertices, and a vertex, in each lane.
+//!
+//! Twin: `shaders/pathtrace/integrator/path.wgsl`.
 
 use crate::intersect::{Rays, SurfacePoints};
 use simd::{Float, Vector, Word};

@@ -1,4 +1,6 @@
 //! Russian roulette: paths that carry little end early, and those that go on carry their light.
+//!
+//! Twin: `shaders/pathtrace/integrator/path.wgsl`.
 
 use crate::integrator::settings::Roulette;
 use simd::{Float, Vector};
@@ -6,11 +8,11 @@ use simd::{Float, Vector};
 /// Survival for each unit of throughput. Measured on both of the tutorial's scenes: relMSE times seconds is 1.26e-3 at
 /// 1, 1.02e-3 at 1.5, 0.86e-3 at 2, 0.92e-3 at 4 and 2.2e-3 at 16 for the Cornell box, and flat from 1 to 2 for the
 /// spheres.
-const ROULETTE_SLOPE: f32 = 2.0;
+pub(crate) const ROULETTE_SLOPE: f32 = 2.0;
 
 /// Random numbers are multiples of 2^-24: a probability is one as well, or the survivors would be too many by up to
 /// that.
-const STEPS: f32 = 16_777_216.0;
+pub(crate) const STEPS: f32 = 16_777_216.0;
 
 /// Russian roulette: where paths survive, and the throughput of survivors, who carry the light of those that did not.
 /// `branches` paths share what one would carry.

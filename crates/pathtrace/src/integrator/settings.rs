@@ -3,6 +3,8 @@
 //! usual pairs.
 
 use crate::integrator::path::MOST_BRANCHES;
+use crate::sampling::sampler::SamplerKind;
+use scene::Needs;
 
 /// How a diffuse vertex draws the direction in which the path goes on. Mirrors and glass leave no choice, or Fresnel's.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -75,6 +77,12 @@ impl Estimator {
         Self::EVERY.into_iter().find(|e| e.name() == name)
     }
 
+    /// The one to begin with in a scene that asks for so much: a rough metal's lobe may be so narrow that light sampling
+    /// alone hardly ever hits it.
+    pub fn usual_for(needs: &Needs) -> Self {
+        if needs.rough_conductor { Self::MIS } else { Self::default() }
+    }
+
     /// Whether area lights, point lights and sun are sampled.
     pub fn samples_lights(self) -> bool {
         self.light != LightSampling::BsdfOnly
@@ -112,36 +120,6 @@ impl Roulette {
 impl Default for Roulette {
     fn default() -> Self {
         Self::THROUGHPUT
-    }
-}
-
-/// Where the random numbers of a sample come from; see [`crate::sampling::sampler`].
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
-pub enum SamplerKind {
-    /// Each number independent of all others. The spread inside a pixel tells the error.
-    Independent,
-    /// Owen-scrambled Sobol points: a pixel's samples keep apart from each other, so that errors fall faster. Measured,
-    /// time to a relMSE of .003: half of the independent sampler's for the Cornell box, a sixth for the spheres under a
-    /// delta sun. The spread inside a pixel overstates the error then: see [`crate::estimate_with_replicates`].
-    #[default]
-    Sobol,
-}
-
-impl SamplerKind {
-    /// All, the plainest first.
-    pub const ALL: [Self; 2] = [Self::Independent, Self::Sobol];
-
-    /// The name on the command line and in the window.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Independent => "independent",
-            Self::Sobol => "sobol",
-        }
-    }
-
-    /// The sampler of that name.
-    pub fn named(name: &str) -> Option<Self> {
-        Self::ALL.into_iter().find(|s| s.name() == name)
     }
 }
 
@@ -193,6 +171,11 @@ impl PathSettings {
     /// Scattering vertices at which an unlimited path is cut, and counted in [`crate::Stats::cut_paths`]: without it a
     /// ray between perfect mirrors would never end.
     pub const HARD_CAP: u32 = 1000;
+
+    /// The default settings, with samples that are independent of each other: their spread tells their error.
+    pub fn independent() -> Self {
+        PathSettings { sampler: SamplerKind::Independent, ..Self::default() }
+    }
 
     /// The number of vertices at which a path may scatter.
     pub fn scattering_vertices(&self) -> u32 {

@@ -15,11 +15,11 @@ use crate::bsdf::Interactions;
 use crate::drive::gpu::film_data::RenderParams;
 use crate::drive::gpu::{PipelineKey, flag};
 use crate::drive::lanes::{LaneIntegrator, LanePlan};
-use crate::integrator::settings::SamplerKind;
 use crate::intersect::shape_list::Scratch;
 use crate::intersect::{Rays, SurfacePoints};
 use crate::prepared::{Outcomes, PreparedScene};
 use crate::sampling::sampler::Sampler;
+use crate::sampling::sampler::SamplerKind;
 use scene::stand_ins::FakeNumbers;
 use simd::{Float, Mask, Vector, Word};
 use std::f32::consts::FRAC_1_PI;
@@ -138,7 +138,7 @@ impl LanePlan for Plan {
 pub const MOST_BRANCHES: u32 = 65_536;
 
 /// Lights up to which each is sampled; of more, this many are chosen by power.
-const MOST_LIGHTS: usize = 16;
+pub(crate) const MOST_LIGHTS: usize = 16;
 
 /// A ray on its way, or waiting, in each lane.
 #[derive(Clone, Copy)]
@@ -256,13 +256,13 @@ impl<'a, F: Float> LaneIntegrator<F> for WhittedLanes<'a, F> {
         if let Some(environment) = self.scene.lights.environment()
             && missed.any()
         {
-            self.receive(missed, environment.look_up(direction).0);
+            self.receive(missed, environment.look_up_lanes(direction).0);
+        }
+        let shining = met & self.scene.shines(&hit);
+        if self.scene.materials.has().area_lights && shining.any() {
+            self.receive(shining, self.scene.emitted(&hit, -direction));
         }
         let at = self.scene.interaction(&hit, -direction);
-        let shining = met & at.shines();
-        if self.scene.materials.has().area_lights && shining.any() {
-            self.receive(shining, self.scene.materials.emitted(&at));
-        }
         let alive = self.scatter(met, &at, sampler);
         let ended = taken & !alive;
         let alive = alive | self.waiting.pop(ended, &mut self.branch);

@@ -1,5 +1,7 @@
 //! What rays are traced through: all shapes at once in each lane while they are few, else one ray at a time through a
 //! tree.
+//!
+//! Twin: `shaders/pathtrace/intersect/aggregate.wgsl`.
 
 use super::shape_list::{Scratch, ShapeList};
 use super::{Accel, Hit, Hits, NO_LIGHT, NO_PRIMITIVE, Rays, SurfaceInteractions, SurfacePoints};

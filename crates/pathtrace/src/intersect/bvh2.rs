@@ -1,5 +1,7 @@
 //! The acceleration structure where primitives are few: obvhs' BVH of two children a node. It lies on the device as
 //! well.
+//!
+//! Twin: `shaders/pathtrace/intersect/bvh2.wgsl`.
 
 use super::primitive::{Primitive, Surface, padding, primitives};
 use super::triangle::ShearedRay;

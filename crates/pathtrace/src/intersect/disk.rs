@@ -1,4 +1,6 @@
 //! Ray/disk intersection.
+//!
+//! Twin: `shaders/pathtrace/intersect/disk.wgsl`.
 
 use super::Rays;
 use scene::Vec3;

@@ -1,5 +1,7 @@
 //! What rays meet, in two steps: a hit is as little as a search for the nearest one can carry; where its surface lies and
 //! what it is made of is fetched once, for the hit that is left. Of one ray, and of a ray in each lane.
+//!
+//! Twin: `shaders/pathtrace/intersect/nearest.wgsl`.
 
 use super::{SurfacePoint, SurfacePoints};
 use simd::{Float, Word};

@@ -1,4 +1,6 @@
 //! Rays: one, and one in each lane.
+//!
+//! Twin: `shaders/pathtrace/intersect/ray.wgsl`.
 
 use super::gamma;
 use crate::vectors::each_lane;

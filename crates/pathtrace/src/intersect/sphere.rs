@@ -1,5 +1,7 @@
 //! Ray/sphere intersection that survives distance and size. The textbook's `b^2 - 4ac` loses three quarters of the rays
 //! at a unit sphere 10,000 units away.
+//!
+//! Twin: `shaders/pathtrace/intersect/sphere.wgsl`.
 
 use super::{Ray, Rays};
 use crate::vectors::in_all_lanes;

@@ -1,4 +1,6 @@
 //! A point on a surface with a bound on its rounding error, in each lane and for one.
+//!
+//! Twin: `shaders/pathtrace/intersect/surface_point.wgsl`.
 
 use super::gamma;
 use crate::vectors::{glam_vector, lane_vector};

@@ -1,5 +1,7 @@
 //! Watertight ray/triangle intersection: Woop, Benthin and Wald, "Watertight Ray/Triangle Intersection" (JCGT 2(1),
 //! 2013).
+//!
+//! Twin: `shaders/pathtrace/intersect/triangle.wgsl`.
 
 use super::Ray;
 use scene::Vec3;

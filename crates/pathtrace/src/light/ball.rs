@@ -1,5 +1,7 @@
 //! A sphere as an area light: uniform in the cone that it fills as seen from a point outside; from inside, where only a
 //! two-sided area light shines, uniform in all directions.
+//!
+//! Twin: `shaders/pathtrace/light/ball.wgsl`.
 
 use crate::intersect::sphere::SphereLanes;
 use crate::intersect::{SurfacePoints, gamma};
@@ -7,7 +9,7 @@ use crate::sampling::warp;
 use simd::{Float, Vector};
 
 /// `1 - cos` of the cone of all directions.
-const ALL_DIRECTIONS: f32 = 2.0;
+pub(crate) const ALL_DIRECTIONS: f32 = 2.0;
 
 /// A sample of a ball in each lane.
 #[derive(Debug, Clone, Copy)]

@@ -1,13 +1,15 @@
 //! A sky from a picture as a light: a texel is drawn by its luminance and solid angle, row first and then column, and a
 //! direction uniformly within it (pbrt-v4, 12.5 and A.5.3). Piecewise constant in solid angle rather than in latitude:
 //! no density has a pole.
+//!
+//! Twin: `shaders/pathtrace/light/environment.wgsl`.
 
 use crate::sampling::warp::{angle_of_upper, sin_cos_2pi};
-use crate::vectors::VectorColumn;
+use crate::vectors::{VectorColumn, each_lane, glam_vector, lane_vector, of_lanes};
 use film::colour;
-use scene::EnvironmentMap;
 use scene::environment::row_bounds;
-use simd::{Column, Float, Vector, Word};
+use scene::{EnvironmentMap, Vec3};
+use simd::{Column, Float, MOST_LANES, Vector, Word};
 use std::f32::consts::TAU;
 
 /// A map that can be sampled.
@@ -37,6 +39,14 @@ pub struct EnvironmentSamples<F> {
     pub radiance: Vector<F>,
     /// Density per solid angle.
     pub pdf: F,
+}
+
+/// What all lanes have found.
+#[derive(Default)]
+struct Found {
+    directions: [Vec3; MOST_LANES],
+    radiances: [Vec3; MOST_LANES],
+    pdfs: [f32; MOST_LANES],
 }
 
 impl Environment {
@@ -122,6 +132,50 @@ impl Environment {
         let across = (turned - turned.floor()) * self.width as f32;
         let column = across.min(F::splat(self.width as f32 - 1.0)).to_word();
         (self.radiance_of(row, column), self.density::<F>(row, column) * self.probability)
+    }
+
+    /// [`Environment::sample`] in each lane. One after the other and out of line: it is mostly loads, and inline it would
+    /// slow kernels down that never come here.
+    #[inline(always)]
+    pub fn sample_lanes<F: Float>(&self, u: [F; 2]) -> EnvironmentSamples<F> {
+        let mut numbers = [[0.0; MOST_LANES]; 2];
+        u[0].store(&mut numbers[0]);
+        u[1].store(&mut numbers[1]);
+        let found = self.sample_each(F::LANES, &numbers);
+        let [wi, radiance] = [of_lanes(&found.directions), of_lanes(&found.radiances)];
+        EnvironmentSamples { wi, radiance, pdf: F::load(&found.pdfs) }
+    }
+
+    /// [`Environment::look_up`] in each lane, as [`Environment::sample_lanes`].
+    #[inline(always)]
+    pub fn look_up_lanes<F: Float>(&self, direction: Vector<F>) -> (Vector<F>, F) {
+        let found = self.look_up_each(F::LANES, each_lane(direction));
+        (of_lanes(&found.radiances), F::load(&found.pdfs))
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn sample_each(&self, lanes: usize, u: &[[f32; MOST_LANES]; 2]) -> Found {
+        let mut found = Found::default();
+        for lane in 0..lanes {
+            let sample = self.sample([u[0][lane], u[1][lane]]);
+            found.directions[lane] = glam_vector(sample.wi);
+            found.radiances[lane] = glam_vector(sample.radiance);
+            found.pdfs[lane] = sample.pdf;
+        }
+        found
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn look_up_each(&self, lanes: usize, directions: [Vec3; MOST_LANES]) -> Found {
+        let mut found = Found { directions, ..Found::default() };
+        for lane in 0..lanes {
+            let (radiance, pdf) = self.look_up(lane_vector(found.directions[lane]));
+            found.radiances[lane] = glam_vector(radiance);
+            found.pdfs[lane] = pdf;
+        }
+        found
     }
 
     #[inline(always)]

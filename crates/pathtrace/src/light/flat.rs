@@ -1,6 +1,8 @@
 //! A flat area light: the tutorial's `L cos' S / |x - x'|^2`, a point uniform on the area light and its density `1 / S`
 //! turned into solid angle. From nearby that weight has no bound; a rectangle is then sampled uniformly in solid angle
 //! instead.
+//!
+//! Twin: `shaders/pathtrace/light/flat.wgsl`.
 
 use super::spherical_rectangle::SphericalRectangles;
 use crate::intersect::SurfacePoints;
@@ -37,7 +39,7 @@ pub struct Flat {
 }
 
 /// Solid angle from which on a rectangle may be sampled by it: below, single precision knows the angle too badly.
-const SMALLEST_SOLID_ANGLE: f32 = 0.05;
+pub(crate) const SMALLEST_SOLID_ANGLE: f32 = 0.05;
 
 impl Flat {
     /// A parallelogram; `None` without area. In f64, whose squares hold what f32's do not.

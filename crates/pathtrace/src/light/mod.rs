@@ -1,8 +1,8 @@
 //! What shines, as light sampling sees it: area lights (emissive shapes), point lights, the sun and a sky from a
-//! picture. Task 2 c), "Sampling Area Light". One light is chosen, then a direction to it; [`Lights::pdf`] is the density of doing so, as
-//! MIS needs it.
+//! picture. Task 2 c), "Sampling Area Light". One light is chosen, then a direction to it; [`Lights::pdf`] is the
+//! density of doing so, as MIS needs it.
 
-mod ball;
+pub(crate) mod ball;
 mod environment;
 pub(crate) mod flat;
 mod spherical_rectangle;

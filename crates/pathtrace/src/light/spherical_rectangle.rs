@@ -1,5 +1,7 @@
 //! A rectangle sampled uniformly in the solid angle that it fills: Ureña, Fajardo and King, "An Area-Preserving
 //! Parametrization for Spherical Rectangles" (EGSR 2013).
+//!
+//! Twin: `shaders/pathtrace/light/spherical_rectangle.wgsl`.
 
 use crate::sampling::warp::{angle_of_upper, sin_cos_2pi};
 use crate::vectors::lane_vector;

@@ -1,4 +1,6 @@
 //! The sun that a ray can hit. As a light it is a cone of directions, or one.
+//!
+//! Twin: `shaders/pathtrace/light/sun.wgsl`.
 
 use crate::vectors::in_all_lanes;
 use scene::{Sun, Vec3};

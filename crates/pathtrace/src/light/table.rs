@@ -1,4 +1,6 @@
 //! The lights of a scene by columns, sampled in each lane.
+//!
+//! Twins: `shaders/pathtrace/light/light.wgsl` and `light_sample.wgsl`.
 
 use super::ball;
 use super::flat::{Flats, Outline};
@@ -244,7 +246,7 @@ impl Table {
             sample = LightSamples::select(is(kind, kind::SUN), sun, sample);
         }
         if let Some(environment) = &self.environment {
-            let of = environment.sample(u);
+            let of = environment.sample_lanes(u);
             let environment = LightSamples {
                 shines: !never,
                 wi: of.wi,

@@ -1,5 +1,7 @@
 //! Random words as a function of four words: PCG4D of Jarzynski and Olano, "Hash Functions for
 //! GPU Rendering" (JCGT 9(3), 2020). 32-bit integers alone, so that a shader computes the same bits.
+//!
+//! Twin: `shaders/pathtrace/sampling/rng.wgsl`, bit for bit.
 
 use simd::Word;
 

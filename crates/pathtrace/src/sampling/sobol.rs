@@ -1,6 +1,8 @@
 //! Owen-scrambled Sobol points by hashing: Burley, "Practical Hash-based Owen Scrambling" (JCGT 9(4), 2020), with the
 //! hash of Vegdahl, "Building a Better LK Hash" (2021). Points of four dimensions; more dimensions are padded with
 //! points whose order is shuffled anew, which works for any number of samples and dimensions.
+//!
+//! Twin: `shaders/pathtrace/sampling/sobol.wgsl`, bit for bit.
 
 use simd::{BitMatrix, Word};
 

@@ -1,4 +1,6 @@
 //! Warps of uniform random numbers to directions and points, in each lane. [`crate::sampling`] has them for one.
+//!
+//! Twins: `shaders/pathtrace/sampling/warp.wgsl` and `angles.wgsl`.
 
 use crate::sampling::UNIFORM_HEMISPHERE_PDF;
 use simd::{Float, Vector, Word};

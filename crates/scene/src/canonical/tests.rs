@@ -18,7 +18,11 @@ mesh = [{ positions = [[1, 2, 3], [2, 3, 5], [3, 5, 7], [4, 4, 4]], triangles = 
 material.grey.diffuse.albedo = [0.5, 0.4, 0.3]
 material.board.diffuse.albedo = { even = [0.1, 0.2, 0.3], odd = [0.4, 0.5, 0.6], origin = [1, 2, 3], cell = [3, 2, 1] }
 material.mirror.mirror.reflectance = [0.7, 0.8, 0.9]
+material.satin.rough_conductor = { reflectance = [0.7, 0.8, 0.9], roughness = 0.5 }
+material.metal.rough_conductor = { eta = [0.2, 0.4, 1.5], k = [4, 2.5, 1.5], roughness = 0.25 }
 material.glass.dielectric.ior = 1.5
+material.satin.rough_conductor = { reflectance = [0.7, 0.6, 0.5], roughness = 0.3 }
+material.metal.rough_conductor = { eta = [0.2, 0.9, 1.1], k = [3.9, 2.5, 2.1], roughness = 0.2 }
 material.lamp = { diffuse.albedo = [0.2, 0.3, 0.4], emissive.radiance = [5, 6, 7] }
 "#;
 
@@ -86,7 +90,21 @@ impl<'a> Numbers<'a> {
                 [even, odd, origin, cell].into_iter().for_each(|v| self.add(v.as_mut()));
             }
             Bsdf::Mirror { reflectance } => self.add(reflectance.as_mut()),
+            Bsdf::RoughConductor { conductor, roughness } => {
+                match conductor {
+                    Conductor::Constant(reflectance) => self.add(reflectance.as_mut()),
+                    Conductor::Fresnel { eta, k } => [eta, k].into_iter().for_each(|v| self.add(v.as_mut())),
+                }
+                self.physical.push(roughness);
+            }
             Bsdf::Dielectric { ior } => self.physical.push(ior),
+            Bsdf::RoughConductor { conductor, roughness } => {
+                match conductor {
+                    Conductor::Constant(reflectance) => self.add(reflectance.as_mut()),
+                    Conductor::Fresnel { eta, k } => [eta, k].into_iter().for_each(|v| self.add(v.as_mut())),
+                }
+                self.physical.push(roughness);
+            }
         }
         if let Some(Emission { radiance, two_sided: _ }) = emission {
             self.add(radiance.as_mut());
@@ -121,7 +139,7 @@ impl<'a> Numbers<'a> {
 #[test]
 fn the_last_bit_of_every_physical_number_is_in_the_bytes() {
     let (plain, count) = (bytes_of(&everything()), Numbers::of(&mut everything()).physical.len());
-    assert_eq!(count, 72, "numbers of the scene above");
+    assert_eq!(count, 83, "numbers of the scene above");
     let mut seen = BTreeSet::from([plain]);
     for number in 0..count {
         let mut scene = everything();

@@ -7,7 +7,7 @@ mod sky;
 
 use crate::material::{Checkerboard, Emission};
 use crate::stand_ins::{FakeMaterial, FakeNumbers};
-use crate::{Bsdf, Camera, Geometry, Material, PointLight, Scene, Shape, Sun, Texture, nesting};
+use crate::{Bsdf, Camera, Conductor, Geometry, Material, PointLight, Scene, Shape, Sun, Texture, nesting, stand_ins};
 use glam::Vec3;
 use raw::{RawMaterial, RawScene, RawTexture};
 use std::ops::Range;
@@ -214,26 +214,25 @@ fn sun(raw: raw::RawSun) -> Result<Sun, Fault> {
 
 fn material(name: String, raw: Spanned<RawMaterial>) -> Result<Material, Fault> {
     let (at, raw) = (raw.span(), raw.into_inner());
-    let kinds = [raw.diffuse.is_some(), raw.mirror.is_some(), raw.dielectric.is_some()];
+    let kinds = [raw.diffuse.is_some(), raw.mirror.is_some(), raw.rough_conductor.is_some(), raw.dielectric.is_some()];
     if kinds.iter().filter(|&&k| k).count() > 1 {
-        return fault(
-            at,
-            format!("material '{name}' scatters in several ways: expected one of diffuse, mirror, dielectric"),
-        );
+        return fault(at, format!("material '{name}' scatters in several ways: expected one of {LOBES}"));
     }
     let bsdf = if let Some(diffuse) = raw.diffuse {
         Bsdf::Diffuse { albedo: texture(diffuse.albedo) }
     } else if let Some(mirror) = raw.mirror {
         Bsdf::Mirror { reflectance: mirror.reflectance.into() }
+    } else if let Some(metal) = raw.rough_conductor {
+        Bsdf::RoughConductor { roughness: metal.roughness.get(), conductor: conductor(metal, &name, at.clone())? }
     } else if let Some(glass) = raw.dielectric {
         Bsdf::Dielectric { ior: glass.ior.get() }
     } else if raw.emissive.is_some() {
         Bsdf::Diffuse { albedo: Texture::Constant(Vec3::ZERO) }
     } else {
-        return fault(at, format!("material '{name}' is empty: expected diffuse, mirror, dielectric or emissive"));
+        return fault(at, format!("material '{name}' is empty: expected {LOBES} or emissive"));
     };
     if raw.emissive.is_some() && matches!(bsdf, Bsdf::Dielectric { .. }) {
-        return fault(at, format!("material '{name}': expected emissive alone, with diffuse or with mirror"));
+        return fault(at, format!("material '{name}': expected emissive alone, or with another lobe than dielectric"));
     }
     let emission = raw.emissive.map(|e| Emission { radiance: e.radiance.into(), two_sided: e.two_sided });
     let d = FakeMaterial::default();
@@ -241,9 +240,27 @@ fn material(name: String, raw: Spanned<RawMaterial>) -> Result<Material, Fault> 
         refraction_ratio: raw.fake.refraction_ratio.map(|v| v.get()),
         reflectivity: raw.fake.reflectivity.map_or(d.reflectivity, |v| v.get()),
         specular: raw.fake.specular.map_or(d.specular, |v| v.get()),
-        shininess: raw.fake.shininess.map_or(d.shininess, |v| v.get()),
+        shininess: raw.fake.shininess.map_or_else(|| stand_ins::usual_shininess(&bsdf), |v| v.get()),
     };
     Ok(Material { name, bsdf, emission, fake })
+}
+
+/// Ways to scatter.
+const LOBES: &str = "diffuse, mirror, rough_conductor, dielectric";
+
+fn conductor(raw: raw::RawRoughConductor, material: &str, at: Range<usize>) -> Result<Conductor, Fault> {
+    match (raw.reflectance, raw.eta, raw.k, raw.metal) {
+        (Some(reflectance), None, None, None) => Ok(Conductor::Constant(reflectance.into())),
+        (None, Some(eta), Some(k), None) => Ok(Conductor::Fresnel { eta: eta.into(), k: k.into() }),
+        (None, None, None, Some(name)) => match Conductor::named(name.get_ref()) {
+            Some(metal) => Ok(metal),
+            None => {
+                let known = Conductor::names().collect::<Vec<_>>().join(", ");
+                fault(name.span(), format!("no metal is called '{}': known are {known}", name.get_ref()))
+            }
+        },
+        _ => fault(at, format!("material '{material}': expected one of reflectance, eta with k, or metal")),
+    }
 }
 
 fn texture(raw: RawTexture) -> Texture {

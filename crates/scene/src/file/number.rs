@@ -35,6 +35,9 @@ ranges! {
     AboveZero, "a finite number above 0 and at most 1e12", |v| v > 0.0 && v <= LARGEST;
     AtLeastZero, "a finite number from 0 to 1e12", |v| (0.0..=LARGEST).contains(&v);
     ZeroToOne, "a number from 0 to 1", |v| (0.0..=1.0).contains(&v);
+    Roughness, "a number from 0.01 to 1", |v| (0.01..=1.0).contains(&v);
+    Index, "a number above 0 and at most 100", |v| v > 0.0 && v <= 100.0;
+    Extinction, "a number from 0 to 100", |v| (0.0..=100.0).contains(&v);
 }
 
 /// A finite f32 in a [`Range`].

@@ -1,6 +1,6 @@
 //! The scene file as it is written, value by value.
 
-use super::number::{AboveZero, Any, AtLeastZero, Number, Triple, Whole, ZeroToOne};
+use super::number::{AboveZero, Any, AtLeastZero, Extinction, Index, Number, Roughness, Triple, Whole, ZeroToOne};
 use serde::Deserialize;
 use std::collections::BTreeMap;
 use toml::Spanned;
@@ -46,6 +46,7 @@ pub struct RawCamera {
 pub struct RawMaterial {
     pub diffuse: Option<RawDiffuse>,
     pub mirror: Option<RawMirror>,
+    pub rough_conductor: Option<RawRoughConductor>,
     pub dielectric: Option<RawDielectric>,
     pub emissive: Option<RawEmissive>,
     #[serde(default)]
@@ -100,6 +101,16 @@ impl<'de> Deserialize<'de> for RawTexture {
 #[serde(deny_unknown_fields)]
 pub struct RawMirror {
     pub reflectance: Triple<ZeroToOne>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct RawRoughConductor {
+    pub reflectance: Option<Triple<ZeroToOne>>,
+    pub eta: Option<Triple<Index>>,
+    pub k: Option<Triple<Extinction>>,
+    pub metal: Option<Spanned<String>>,
+    pub roughness: Number<Roughness>,
 }
 
 #[derive(Deserialize)]

@@ -42,6 +42,34 @@ fn syntax_errors_name_line_and_column() {
 }
 
 #[test]
+fn rough_metal_is_read_in_each_of_its_ways_and_no_other() {
+    let metal = |text: &str| SMALL.replace("diffuse = { albedo = [0.5, 0.5, 0.5] }", text);
+    let read = |text: &str| parse(&metal(text), "test", Path::new("test.toml")).unwrap().materials[0].clone();
+    let constant = read("rough_conductor = { reflectance = [0.9, 0.8, 0.5], roughness = 0.5 }");
+    let expected = Conductor::Constant(Vec3::new(0.9, 0.8, 0.5));
+    assert_eq!(constant.bsdf, Bsdf::RoughConductor { conductor: expected, roughness: 0.5 });
+    assert_eq!(constant.fake.shininess, 30.0, "2 / alpha^2 - 2 at alpha 1/4");
+    let measured = read("rough_conductor = { eta = [0.1, 1, 2], k = [4, 0, 1], roughness = 1 }");
+    let expected = Conductor::Fresnel { eta: Vec3::new(0.1, 1.0, 2.0), k: Vec3::new(4.0, 0.0, 1.0) };
+    assert_eq!(measured.bsdf, Bsdf::RoughConductor { conductor: expected, roughness: 1.0 });
+    let gold = read("rough_conductor = { metal = \"gold\", roughness = 0.01 }");
+    let expected = Conductor::named("gold").unwrap();
+    assert_eq!(gold.bsdf, Bsdf::RoughConductor { conductor: expected, roughness: 0.01 });
+    let faults = [
+        ("{ reflectance = [1, 1, 1], roughness = 0 }", "test.toml:8:56: 0 is not a number from 0.01 to 1"),
+        ("{ metal = \"tin\", roughness = 1 }", "test.toml:8:29: no metal is called 'tin': known are gold, silver, "),
+        ("{ eta = [1, 1, 1], roughness = 1 }", "expected one of reflectance, eta with k, or metal"),
+        ("{ eta = [1, 1, 1], k = [1, 1, 1], metal = \"gold\", roughness = 1 }", "expected one of reflectance, eta "),
+        ("{ eta = [0, 1, 1], k = [1, 1, 1], roughness = 1 }", "0 is not a number above 0 and at most 100"),
+        ("{ reflectance = [1, 1, 1] }", "missing field `roughness`"),
+    ];
+    for (lobe, expected) in faults {
+        let said = fault_of(&metal(&format!("rough_conductor = {lobe}")));
+        assert!(said.contains(expected) && said.lines().count() == 1, "{said}");
+    }
+}
+
+#[test]
 fn numbers_that_are_not_finite_are_refused_where_they_stand() {
     for bad in ["nan", "inf", "-inf", "1e300"] {
         let said = fault_of(&SMALL.replace("eye = [0, 0, 5]", &format!("eye = [0, {bad}, 5]")));

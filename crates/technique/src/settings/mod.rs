@@ -78,13 +78,13 @@ pub enum Value {
 }
 
 /// What a scene must have.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Need {
     /// Nothing.
     Nothing,
     /// A dielectric.
     Glass,
-    /// A mirror or a dielectric.
+    /// A mirror, which rough metal is one of for Whitted's trees, or a dielectric.
     Specular,
     /// A sphere.
     Spheres,
@@ -101,7 +101,7 @@ impl Need {
         let (there, name) = match self {
             Need::Nothing => return None,
             Need::Glass => (needs.dielectric, "glass"),
-            Need::Specular => (needs.dielectric || needs.mirror, "mirror or glass"),
+            Need::Specular => (needs.dielectric || needs.mirror || needs.rough_conductor, "mirror, metal or glass"),
             Need::Spheres => (needs.spheres, "sphere"),
             Need::Sun => (needs.sun, "sun"),
             Need::ShadowMap => (Show::ShadowMap.available(scene), "light that casts shadows in the fake"),
@@ -265,12 +265,17 @@ impl SceneChanges {
 impl PaneSettings {
     /// Takes a value for the technique in use; the others are found as they were left.
     pub fn set(&mut self, setting: &Setting<PaneSettings>, value: Value) {
-        let mut all = *self;
-        (setting.set)(&mut all, value);
-        match self.technique {
-            TechniqueName::Raster => self.fake = all.fake,
-            TechniqueName::Whitted => self.whitted = all.whitted,
-            TechniqueName::Path => self.truth = all.truth,
+        let mut told = *self;
+        (setting.set)(&mut told, value);
+        self.take_settings_in_use(&told);
+    }
+
+    /// Takes what `other` has set for the technique that it uses.
+    pub fn take_settings_in_use(&mut self, other: &PaneSettings) {
+        match other.technique {
+            TechniqueName::Raster => self.fake = other.fake,
+            TechniqueName::Whitted => self.whitted = other.whitted,
+            TechniqueName::Path => self.truth = other.truth,
         }
     }
 }

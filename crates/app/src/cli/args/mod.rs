@@ -3,6 +3,7 @@
 pub mod bench;
 pub mod check;
 pub mod compare;
+mod help;
 pub mod options;
 pub mod reference;
 pub mod render;

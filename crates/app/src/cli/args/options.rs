@@ -1,10 +1,11 @@
 //! Tables of options: a row says what an option is called, what it does and how it is read. The parser knows no option that
 //! is not in a table, and --help is made from the tables: it lists every one.
 
+use super::help;
 use super::seen::Seen;
 use super::usage;
 use super::values::text;
-use crate::cli::{CliError, help};
+use crate::cli::CliError;
 use lexopt::prelude::*;
 use std::ffi::OsString;
 use technique::settings::{Setting, of_scenes};

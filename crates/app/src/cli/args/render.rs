@@ -31,6 +31,8 @@ pub struct RenderArgs {
     pub json: bool,
     /// Options given that this technique ignores.
     pub without_effect: Vec<String>,
+    /// Whether the estimator was chosen; if not it is the one that the scene asks for.
+    pub chose_estimator: bool,
 }
 
 /// The words after `render` on their way.
@@ -222,6 +224,7 @@ fn parse_words(words: Vec<OsString>, scene: Option<String>) -> Result<Command, C
         errors: false,
         json: false,
         without_effect: Vec::new(),
+        chose_estimator: false,
     };
     let mut options = options();
     options.extend(options_of_some().map(|(_, option)| option));
@@ -254,6 +257,7 @@ fn parse_words(words: Vec<OsString>, scene: Option<String>) -> Result<Command, C
     {
         return usage(fault.to_string());
     }
+    args.chose_estimator = is_given("--estimator");
     args.spp = is_given("--spp").then_some(args.pane.truth.spp);
     let ignored = given.into_iter().filter(|(_, of)| !of.contains(&technique));
     args.without_effect = ignored.map(|(option, _)| option).collect();

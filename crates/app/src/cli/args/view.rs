@@ -1,8 +1,9 @@
 //! The words of `visavis [SCENE]`.
 
+use super::help;
 use super::options::{CommandOption, Typed, no_more, read};
 use super::values::{DEVICES, choice};
-use crate::cli::{CliError, Command, help};
+use crate::cli::{CliError, Command};
 use crate::model::{Theme, ViewArgs};
 use crate::ui::Workspaces;
 use lexopt::ValueExt;

@@ -9,7 +9,7 @@ use gpu::waiting::PATIENCE;
 use gpu::{Gpu, wgpu};
 
 /// Threads of a group along x and y, as in the shaders.
-const GROUP: u32 = 8;
+pub(crate) const GROUP: u32 = 8;
 
 /// Samples of a pixel in one dispatch where a whole picture does not fit the budget: threads whose paths end early go
 /// on with their next sample, which keeps their neighbours company ...
@@ -19,7 +19,7 @@ const SAMPLES_OF_A_PART: f64 = 16.0;
 const FEWEST_THREADS: f64 = 4096.0;
 
 /// What runs the dispatches of one call.
-pub(super) struct Dispatcher<'a> {
+pub(crate) struct Dispatcher<'a> {
     pub gpu: &'a Gpu,
     pub pipeline: &'a wgpu::ComputePipeline,
     pub scene: &'a wgpu::BindGroup,
@@ -38,7 +38,7 @@ pub(super) struct Dispatcher<'a> {
 
 /// Some samples of every pixel, as far as they have come: tiles from left to right in strips of rows.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Pass {
+pub(crate) struct Pass {
     samples: u32,
     band: usize,
     row: u32,

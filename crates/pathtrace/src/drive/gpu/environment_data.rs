@@ -6,7 +6,7 @@ use gpu::{Gpu, GpuError, wgpu};
 use scene::EnvironmentMap;
 
 /// `environment_texels` and `environment_rows` of `shaders/pathtrace/scene.wgsl`: of one black texel without a sky.
-pub(super) fn textures(
+pub(crate) fn textures(
     gpu: &Gpu,
     sky: Option<(&EnvironmentMap, &Environment)>,
 ) -> Result<[wgpu::Texture; 2], GpuError> {

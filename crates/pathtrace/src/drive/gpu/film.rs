@@ -4,7 +4,7 @@
 use super::GpuTraceError;
 use super::dispatch::Pass;
 use super::film_data::{Pixel, RenderParams};
-use crate::tracer::Stats;
+use crate::stats::Stats;
 use film::Film;
 use gpu::waiting::PATIENCE;
 use gpu::{Gpu, GpuError, wgpu};
@@ -19,13 +19,13 @@ pub struct GpuFilm {
     before: Film,
     /// What the sums in `before` took, as far as this film made them.
     stats: Stats,
-    pub(super) bands: Vec<Band>,
+    pub(crate) bands: Vec<Band>,
     /// Samples that every pixel has, those of `before` too.
-    pub(super) samples_done: u32,
+    pub(crate) samples_done: u32,
     /// Samples of a pixel that the device may have summed since `before`.
-    pub(super) unfolded: u32,
+    pub(crate) unfolded: u32,
     /// A pass that was stopped.
-    pub(super) pass: Option<Pass>,
+    pub(crate) pass: Option<Pass>,
     reading: Option<Reading>,
     /// Where the last reading arrived, for the next.
     staging: Vec<wgpu::Buffer>,
@@ -33,12 +33,12 @@ pub struct GpuFilm {
 
 /// Rows of a film.
 #[derive(Debug)]
-pub(super) struct Band {
-    pub(super) first_row: u32,
-    pub(super) rows: u32,
-    pub(super) sums: wgpu::Buffer,
-    pub(super) asked: wgpu::Buffer,
-    pub(super) group: wgpu::BindGroup,
+pub(crate) struct Band {
+    pub(crate) first_row: u32,
+    pub(crate) rows: u32,
+    pub(crate) sums: wgpu::Buffer,
+    pub(crate) asked: wgpu::Buffer,
+    pub(crate) group: wgpu::BindGroup,
 }
 
 /// Sums on their way to the host.
@@ -52,7 +52,7 @@ struct Reading {
 const WHAT: &str = "the path traced film";
 
 impl GpuFilm {
-    pub(super) fn new(gpu: &Gpu, layout: &wgpu::BindGroupLayout, before: Film) -> Result<Self, GpuTraceError> {
+    pub(crate) fn new(gpu: &Gpu, layout: &wgpu::BindGroupLayout, before: Film) -> Result<Self, GpuTraceError> {
         let (width, height) = (before.width(), before.height());
         gpu.check_size(WHAT, width, height)?;
         let limits = gpu.device.limits();
@@ -194,7 +194,7 @@ impl GpuFilm {
     }
 
     /// Moves the device's sums to the host, whose sums are f64, and begins new ones.
-    pub(super) fn fold(&mut self, gpu: &Gpu) -> Result<(), GpuTraceError> {
+    pub(crate) fn fold(&mut self, gpu: &Gpu) -> Result<(), GpuTraceError> {
         self.reading = None;
         self.unfolded = 0;
         (self.before, self.stats) = self.read(gpu)?;
@@ -208,7 +208,7 @@ impl GpuFilm {
     }
 }
 
-pub(super) fn lost(gpu: &Gpu, why: String) -> GpuTraceError {
+pub(crate) fn lost(gpu: &Gpu, why: String) -> GpuTraceError {
     gpu.lost(WHAT, why).into()
 }
 

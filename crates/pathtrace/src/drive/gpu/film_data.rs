@@ -90,6 +90,9 @@ pub struct Pixel {
     pub faults: u32,
 }
 
+/// Samples cut short are counted above this bit of [`Pixel::faults`].
+pub(crate) const CUT_SHIFT: u32 = 16;
+
 /// Samples between two readings after which no counter of a pixel has overflowed.
 pub const MOST_SAMPLES: u32 = 16_384;
 
@@ -108,7 +111,7 @@ impl Pixel {
         }
         pixel.samples = self.samples;
         pixel.largest = pixel.largest.max(self.largest);
-        (u64::from(self.rays), u64::from(self.faults >> 16), u64::from(self.faults & 0xffff))
+        (u64::from(self.rays), u64::from(self.faults >> CUT_SHIFT), u64::from(self.faults & ((1 << CUT_SHIFT) - 1)))
     }
 
     fn squares(&self) -> scene::glam::DVec3 {

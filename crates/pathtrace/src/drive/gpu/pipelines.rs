@@ -1,14 +1,16 @@
 //! Pipelines, compiled for what a scene needs and its settings choose, and the layouts of what is bound to them.
+//!
+//! What they are compiled for is named in `shaders/pathtrace/needs.wgsl`.
 
 use super::GpuTraceError;
 use super::film_data::RenderParams;
 use super::scene_data::Header;
 use super::shape_data::{FewShape, MOST_SHAPES, ShapeKinds};
-use crate::integrator::Integrator;
-use crate::integrator::settings::SamplerKind;
 use crate::light::flat::Outline;
 use crate::light::{Light, Lights};
-use gpu::{Gpu, wgpu, wgsl};
+use crate::sampling::sampler::SamplerKind;
+use crate::shaders;
+use gpu::{Gpu, wgpu};
 use scene::{Needs, Scene};
 use std::num::NonZeroU64;
 use wgpu::{BindGroupLayout, BindingType, BufferBindingType, ComputePipeline};
@@ -26,6 +28,11 @@ impl PipelineKey {
     pub fn new(shader: &'static str, sampler: SamplerKind, constants: &[(&'static str, f64)]) -> Self {
         let sobol = ("SOBOL", flag(sampler == SamplerKind::Sobol));
         PipelineKey { shader, constants: [&[sobol], constants].concat() }
+    }
+
+    /// Names of the overrides that speak of the settings.
+    pub(crate) fn constant_names(self) -> impl Iterator<Item = &'static str> {
+        self.constants.into_iter().map(|(name, _)| name)
     }
 }
 
@@ -76,6 +83,11 @@ pub struct SceneNeeds {
 }
 
 impl SceneNeeds {
+    /// Whether code for everything is wanted, also for what no scene of this kind asks for.
+    pub fn everything(&self) -> bool {
+        self.everything
+    }
+
     /// What this scene needs.
     pub(crate) fn of(scene: &Scene, lights: &Lights, shapes: ShapeKinds) -> Self {
         SceneNeeds { needs: scene.needs(), shapes, lights: LightKinds::of(lights), everything: false }
@@ -103,6 +115,7 @@ impl SceneNeeds {
         constants.extend([
             ("CHECKERBOARD", self.flag(self.needs.checkerboard)),
             ("MIRROR", self.flag(self.needs.mirror)),
+            ("ROUGH_CONDUCTOR", self.flag(self.needs.rough_conductor)),
             ("DIELECTRIC", self.flag(self.needs.dielectric)),
             ("RECTANGLE_LIGHTS", self.flag(self.lights.rectangles)),
             ("TRIANGLE_LIGHTS", self.flag(self.lights.triangles)),
@@ -113,6 +126,13 @@ impl SceneNeeds {
             ("ENVIRONMENT", self.flag(self.lights.environment)),
         ]);
         constants
+    }
+
+    /// Names of the overrides that speak of the scene.
+    pub(crate) fn constant_names() -> impl Iterator<Item = &'static str> {
+        let (needs, shapes, lights) = (Needs::default(), ShapeKinds::default(), LightKinds::default());
+        let nothing = SceneNeeds { needs, shapes, lights, everything: false };
+        nothing.constants().into_iter().map(|(name, _)| name)
     }
 
     fn flag(&self, needed: bool) -> f64 {
@@ -162,11 +182,6 @@ impl Pipelines {
         self.needs
     }
 
-    /// The key of an integrator's pipeline.
-    pub fn key(&self, integrator: &Integrator) -> PipelineKey {
-        integrator.pipeline_key(self.needs.everything)
-    }
-
     /// Whether a pipeline is there already.
     pub fn has_compiled(&self, key: &PipelineKey) -> bool {
         self.compiled.iter().any(|(compiled, _)| compiled == key)
@@ -180,7 +195,7 @@ impl Pipelines {
         if let Some((_, pipeline)) = self.compiled.iter().find(|(compiled, _)| compiled == key) {
             return Ok(pipeline.clone());
         }
-        let module = wgsl::compose(key.shader)?.create(gpu)?;
+        let module = shaders::compose(key.shader)?.create(gpu)?;
         let constants = [self.needs.constants(), key.constants.clone()].concat();
         let pipeline = gpu.checked("the path tracer's pipeline", || {
             let layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {

@@ -1,11 +1,15 @@
 //! Rays by themselves: what each of a list meets on the device.
+//!
+//! Mirrors of the structs in `shaders/pathtrace/drive/rays.wgsl`.
 
-use super::{GpuTraceError, GpuTracer};
+use super::GpuTraceError;
+use crate::gpu_tracer::GpuTracer;
 use crate::intersect::{Ray, SurfacePoint};
+use crate::shaders;
 use bytemuck::{Pod, Zeroable};
-use gpu::{Gpu, wgpu, wgsl};
+use gpu::compute::{Binding, Compute};
+use gpu::wgpu::BufferUsages;
 use scene::Vec3;
-use wgpu::{BindGroupEntry, BufferUsages};
 
 /// `RayQuery` in `shaders/pathtrace/drive/rays.wgsl`.
 #[repr(C)]
@@ -66,15 +70,18 @@ impl GpuTracer {
     /// # Errors
     /// [`GpuTraceError`] if the device fails.
     pub fn meet(&self, rays: &[Ray]) -> Result<Vec<RayAnswer>, GpuTraceError> {
-        let pipeline = self.rays_pipeline()?;
+        let shader = shaders::compose("pathtrace/drive/rays.wgsl")?;
+        let bindings = [Binding::Read, Binding::Written];
+        let (scene, constants) = (self.scene_group().0, self.pipelines.needs().shape_constants());
+        let compute = Compute::new(self.gpu(), &shader, "trace", Some(scene), &bindings, &constants)?;
         let mut answers = Vec::with_capacity(rays.len());
         for rays in rays.chunks(MOST_RAYS) {
-            answers.extend(self.meet_some(&pipeline, rays)?);
+            answers.extend(self.meet_some(&compute, rays)?);
         }
         Ok(answers)
     }
 
-    fn meet_some(&self, pipeline: &wgpu::ComputePipeline, rays: &[Ray]) -> Result<Vec<RayAnswer>, GpuTraceError> {
+    fn meet_some(&self, compute: &Compute, rays: &[Ray]) -> Result<Vec<RayAnswer>, GpuTraceError> {
         let gpu = self.gpu();
         // shaders may take infinity away
         let query = |ray: &Ray| RayQuery {
@@ -87,64 +94,8 @@ impl GpuTracer {
         let empty = vec![RayAnswer::zeroed(); rays.len()];
         let queries = gpu.buffer("rays", &queries, BufferUsages::STORAGE)?;
         let answers = gpu.buffer("what rays meet", &empty, BufferUsages::STORAGE | BufferUsages::COPY_SRC)?;
-        gpu.checked("rays", || {
-            let group = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
-                label: None,
-                layout: &pipeline.get_bind_group_layout(1),
-                entries: &[
-                    BindGroupEntry { binding: 0, resource: queries.as_entire_binding() },
-                    BindGroupEntry { binding: 1, resource: answers.as_entire_binding() },
-                ],
-            });
-            let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: None });
-            {
-                let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
-                pass.set_pipeline(pipeline);
-                pass.set_bind_group(0, self.scene_group().1, &[]);
-                pass.set_bind_group(1, &group, &[]);
-                pass.dispatch_workgroups(rays.len().div_ceil(64) as u32, 1, 1);
-            }
-            gpu.queue.submit([encoder.finish()]);
-        })?;
+        let bound = [queries.as_entire_binding(), answers.as_entire_binding()];
+        compute.run(gpu, Some(self.scene_group().1), &bound, rays.len())?;
         Ok(bytemuck::pod_collect_to_vec(&gpu.read_buffer("what rays meet", &answers)?))
     }
-
-    fn rays_pipeline(&self) -> Result<wgpu::ComputePipeline, GpuTraceError> {
-        let gpu = self.gpu();
-        let module = wgsl::compose("pathtrace/drive/rays.wgsl")?.create(gpu)?;
-        Ok(gpu.checked("the pipeline for rays", || {
-            let groups = [Some(self.scene_group().0), Some(&rays_layout(gpu))].map(|g| g.cloned());
-            let layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-                label: None,
-                bind_group_layouts: &groups.each_ref().map(Option::as_ref),
-                immediate_size: 0,
-            });
-            gpu.device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
-                label: Some("rays"),
-                layout: Some(&layout),
-                module: &module,
-                entry_point: Some("trace"),
-                compilation_options: wgpu::PipelineCompilationOptions {
-                    constants: &self.pipelines.needs().shape_constants(),
-                    ..wgpu::PipelineCompilationOptions::default()
-                },
-                cache: None,
-            })
-        })?)
-    }
-}
-
-fn rays_layout(gpu: &Gpu) -> wgpu::BindGroupLayout {
-    let storage = |binding, read_only| wgpu::BindGroupLayoutEntry {
-        binding,
-        visibility: wgpu::ShaderStages::COMPUTE,
-        ty: wgpu::BindingType::Buffer {
-            ty: wgpu::BufferBindingType::Storage { read_only },
-            has_dynamic_offset: false,
-            min_binding_size: None,
-        },
-        count: None,
-    };
-    let entries = [storage(0, true), storage(1, false)];
-    gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label: None, entries: &entries })
 }

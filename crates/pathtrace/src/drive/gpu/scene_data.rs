@@ -8,7 +8,7 @@ use crate::light::{Environment, Light as HostLight, Lights, SunDisc};
 use crate::sampling::sobol::reversed_point;
 use bytemuck::{Pod, Zeroable};
 use scene::material::Emission;
-use scene::{Bsdf, Scene, Texture, Vec3};
+use scene::{Bsdf, Conductor, Scene, Texture, Vec3};
 
 /// What the whole scene shares.
 #[repr(C)]
@@ -76,7 +76,7 @@ pub struct Material {
     pub emission: Vec3,
     /// 0 none, 1 the one that the normal points away from, 2 both.
     pub emitting_sides: u32,
-    /// What the surface does to light, see [`lobe_of`].
+    /// One of `LOBE_*`, see [`lobe_of`].
     pub lobe: u32,
     /// Index of refraction of the inside over the outside.
     pub ior: f32,
@@ -84,7 +84,24 @@ pub struct Material {
     pub root: f32,
     /// What a float could not hold of it.
     pub root_low: f32,
+    /// Of a rough conductor: index of refraction.
+    pub eta: Vec3,
+    /// Width of the distribution of its slopes.
+    pub alpha: f32,
+    /// Extinction coefficient.
+    pub k: Vec3,
+    /// Padding.
+    pub unused: u32,
 }
+
+/// Codes of [`Light::outline`].
+pub(crate) const LIGHT_RECTANGLE: u32 = 0;
+pub(crate) const LIGHT_TRIANGLE: u32 = 1;
+pub(crate) const LIGHT_DISK: u32 = 2;
+pub(crate) const LIGHT_BALL: u32 = 3;
+pub(crate) const LIGHT_POINT: u32 = 4;
+pub(crate) const LIGHT_SUN: u32 = 5;
+pub(crate) const LIGHT_ENVIRONMENT: u32 = 6;
 
 /// What is sampled as a light.
 #[repr(C)]
@@ -92,7 +109,7 @@ pub struct Material {
 pub struct Light {
     /// Corner of a flat area light, centre of a disk or ball, a point light, the direction to the sun.
     pub position: Vec3,
-    /// 0 rectangle, 1 triangle, 2 disk, 3 ball, 4 point, 5 sun, 6 a sky from a picture.
+    /// One of `LIGHT_*`.
     pub outline: u32,
     /// First edge of a flat area light, a radius of a disk.
     pub u: Vec3,
@@ -156,6 +173,13 @@ fn material(from: &scene::Material) -> Material {
             to.colour.cells_per_unit = board.cells_per_unit();
         }
         Bsdf::Mirror { reflectance } => to.colour.even = reflectance,
+        Bsdf::RoughConductor { conductor, roughness } => {
+            to.colour.even = conductor.at_normal_incidence();
+            to.alpha = roughness * roughness;
+            if let Conductor::Fresnel { eta, k } = conductor {
+                (to.eta, to.k) = (eta, k);
+            }
+        }
         Bsdf::Dielectric { ior } => {
             let n = f64::from(ior);
             let root = ((n - 1.0) * (n + 1.0)).abs().sqrt();
@@ -186,24 +210,26 @@ fn light(from: &HostLight) -> Light {
     match from {
         HostLight::Flat(flat, emission) => {
             let (outline, square) = match flat.outline {
-                Outline::Rectangle => (0, 1),
-                Outline::Parallelogram => (0, 0),
-                Outline::Triangle => (1, 0),
-                Outline::Disk => (2, 0),
+                Outline::Rectangle => (LIGHT_RECTANGLE, 1),
+                Outline::Parallelogram => (LIGHT_RECTANGLE, 0),
+                Outline::Triangle => (LIGHT_TRIANGLE, 0),
+                Outline::Disk => (LIGHT_DISK, 0),
             };
             let (position, u, v) = (flat.corner, flat.edge_u, flat.edge_v);
             Light { position, u, v, outline, square, area: flat.area, normal: flat.normal, ..area_light(emission) }
         }
         HostLight::Sphere(sphere, emission) => {
-            Light { position: sphere.center, area: sphere.radius, outline: 3, ..area_light(emission) }
+            Light { position: sphere.center, area: sphere.radius, outline: LIGHT_BALL, ..area_light(emission) }
         }
-        HostLight::Point(point) => Light { position: point.position, radiance: point.intensity, outline: 4, ..none },
+        HostLight::Point(point) => {
+            Light { position: point.position, radiance: point.intensity, outline: LIGHT_POINT, ..none }
+        }
         HostLight::Sun(sun) => {
             let area = sun.one_minus_cos();
             let radiance = if area > 0.0 { sun.radiance() } else { sun.irradiance };
-            Light { position: sun.towards, area, radiance, outline: 5, ..none }
+            Light { position: sun.towards, area, radiance, outline: LIGHT_SUN, ..none }
         }
-        HostLight::Environment(_) => Light { outline: 6, ..none },
+        HostLight::Environment(_) => Light { outline: LIGHT_ENVIRONMENT, ..none },
     }
 }
 

@@ -97,10 +97,17 @@ pub const MOST_SHAPES: usize = 64;
 /// Mesa's llvmpipe; on hardware it was not measured. Twice as many find room, should each be split.
 const FEW: usize = MOST_SHAPES / 2;
 
-const KIND_SHIFT: u32 = 30;
-const COUNT_SHIFT: u32 = 27;
+/// The kind of a primitive stands above this bit of its tag, the number of a leaf's primitives above that of a node's.
+pub(crate) const KIND_SHIFT: u32 = 30;
+pub(crate) const COUNT_SHIFT: u32 = 27;
+
+/// Kinds of the tree's primitives.
+pub(crate) const KIND_TRIANGLE: u32 = 0;
+pub(crate) const KIND_SPHERE: u32 = 1;
+pub(crate) const KIND_DISK: u32 = 2;
+
 /// Inner nodes that can wait in a traversal.
-const MOST_WAITING: usize = 64;
+pub(crate) const MOST_WAITING: usize = 64;
 
 /// A scene's shapes as the device holds them.
 #[derive(Debug, Default)]
@@ -195,9 +202,9 @@ impl Shapes {
         ShapeKinds {
             few: self.primitives.is_empty(),
             quadrilaterals: quadrilaterals > 0,
-            triangles: triangles > quadrilaterals || has(0),
-            spheres: spheres > triangles || has(1),
-            disks: disks > spheres || has(2),
+            triangles: triangles > quadrilaterals || has(KIND_TRIANGLE),
+            spheres: spheres > triangles || has(KIND_SPHERE),
+            disks: disks > spheres || has(KIND_DISK),
         }
     }
 }
@@ -270,14 +277,14 @@ fn primitives(tree: &Bvh2) -> Vec<ShapeData> {
             let [a, b, c] = triangle.corners;
             let (normal, normal_low) = two_floats(triangle.normal / triangle.normal.abs().max_element());
             let [normal_x, normal_y, normal_z] = normal.to_array();
-            ShapeData { a, normal_x, b, normal_y, c, normal_z, normal_low, tag: id }
+            ShapeData { a, normal_x, b, normal_y, c, normal_z, normal_low, tag: id | KIND_TRIANGLE << KIND_SHIFT }
         }
         Primitive::Sphere(sphere) => {
-            let (a, normal_x, tag) = (sphere.center, sphere.radius, id | 1 << KIND_SHIFT);
+            let (a, normal_x, tag) = (sphere.center, sphere.radius, id | KIND_SPHERE << KIND_SHIFT);
             ShapeData { a, normal_x, tag, ..ShapeData::zeroed() }
         }
         Primitive::Disk(disk) => {
-            let (a, b, normal_x, tag) = (disk.center, disk.normal, disk.radius, id | 2 << KIND_SHIFT);
+            let (a, b, normal_x, tag) = (disk.center, disk.normal, disk.radius, id | KIND_DISK << KIND_SHIFT);
             ShapeData { a, b, normal_x, tag, ..ShapeData::zeroed() }
         }
     };

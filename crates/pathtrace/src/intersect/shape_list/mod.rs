@@ -8,6 +8,8 @@
 //! The distance to a plane is `(offset - n . origin) / (n . direction)`, above the division in f64, or exactly in f32
 //! where the plane is parallel to an axis: from a point just above a wall, its sign must be right. Parallel planes
 //! share their normal, and the division.
+//!
+//! Twins: `shaders/pathtrace/intersect/shape_list.wgsl` and `quadrilateral.wgsl`.
 
 mod pieces;
 mod prepare;

@@ -1,4 +1,6 @@
 //! What shading needs of the shape that each lane's ray met, looked up by the shape's id.
+//!
+//! Twin: `shaders/pathtrace/intersect/shape_list.wgsl`.
 
 use crate::intersect::sphere::SphereLanes;
 use crate::intersect::{Hits, Rays, SurfaceInteractions, SurfacePoints};

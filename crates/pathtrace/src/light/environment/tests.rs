@@ -1,9 +1,7 @@
 use super::*;
 use crate::sampling;
 use crate::sampling::sampler::Sampler;
-use crate::vectors::{glam_vector, lane_vector};
 use film::Image;
-use scene::Vec3;
 
 /// A sky of random greys with a black row, a black corner and a texel 1000 times as bright.
 fn sky(width: u32, height: u32, rotation: f32) -> Environment {

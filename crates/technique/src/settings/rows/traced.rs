@@ -90,7 +90,8 @@ pub const ROWS: &[Setting<PaneSettings>] = &[
         of: PATH,
         kind: Kind::Choice(&["uniform", "cosine", "light", "mis", "uniform-light", "uniform-mis"]),
         default: Some(Value::Word("light")),
-        help: "directions uniform or cosine-weighted, light found by chance, by sampling or by both, weighted",
+        help: "directions uniform or cosine-weighted, light found by chance, by sampling or by both, weighted; \
+               without it mis where there is rough metal",
         always_recorded: true,
         get: |pane| Some(Value::Word(pane.truth.path.estimator.name())),
         set: |pane, value| each(named(value, Estimator::named), [&mut pane.truth.path.estimator]),

@@ -6,9 +6,9 @@ mod map;
 mod mouse;
 mod picture;
 
-use super::{HelpLine, Workspace};
+use super::Workspace;
 use crate::model::{Model, PaneId, View, Wanted};
-use crate::ui::keys::Keys;
+use crate::ui::pressed::{HelpLine, Keys};
 use crate::ui::{UiContext, controls};
 use egui::{Key, Ui};
 

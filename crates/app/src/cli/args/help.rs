@@ -1,7 +1,7 @@
 //! The text of `--help`, made from the tables of options and of settings: what is in none of them is no option.
 
-use super::args::options::CommandOption;
-use super::args::{bench, check, compare, reference, render, view};
+use super::options::CommandOption;
+use super::{bench, check, compare, reference, render, view};
 use technique::TechniqueName;
 use technique::settings::{OF_SCENES, Setting, all_of_panes};
 
@@ -17,9 +17,9 @@ const TITLE: &str = "Visavis: the rasterised fake of a scene face to face with i
 const MORE: &str = "\
 References lie in the system's folder for caches, or in VISAVIS_CACHE; VISAVIS_CACHE_MIB limits their size (default 1024).
 Exit code: 0 done, 1 failed (one line on stderr), 2 wrong usage.
-In the window: drag the line to wipe, drag the picture to orbit (Shift: pan, wheel: dolly, Ctrl+wheel: zoom), T swaps A and
-B, 1 2 3 4 5 show A, B, wipe, side by side, error map, P pauses, R restarts, C resets the camera, H hides the panel, Ctrl+Z undoes,
-Ctrl+S saves and Ctrl+C copies the picture as seen, Ctrl+Q quits, ? shows all keys.
+In the window: drag the line to wipe, drag the picture to orbit (Shift: pan, wheel: dolly, Ctrl+wheel: zoom), T swaps A
+and B, 1 2 3 4 5 show A, B, wipe, side by side, error map, P pauses, R restarts, C resets the camera, H hides the panel,
+Ctrl+Z undoes, Ctrl+S saves and Ctrl+C copies the picture as seen, Ctrl+Q quits, ? shows all keys.
 ";
 
 /// What `visavis --help` prints.
@@ -173,6 +173,6 @@ mod tests {
         for line in all_of_panes().map(Setting::usage).chain(OF_SCENES.iter().map(Setting::usage)) {
             assert!(text.contains(&format!("    {line}")), "{line}");
         }
-        assert!(text.lines().all(|line| line.chars().count() <= 130), "{text}");
+        assert!(text.lines().all(|line| line.chars().count() <= COLUMNS), "{text}");
     }
 }

@@ -1,0 +1,271 @@
+//! A scene made ready on a device, the counterpart of [`crate::Tracer`].
+//!
+//! A [`GpuTracer`] adds samples to a [`GpuFilm`], which sums them where they are made and is read when someone looks;
+//! [`GpuTracer::render`] does both for a [`film::Film`]. Nothing here panics when the device fails: every fault is a
+//! [`GpuTraceError`], and the processor's [`crate::Tracer`] can take over.
+
+use crate::drive::gpu::dispatch::Dispatcher;
+use crate::drive::gpu::film_data::RenderParams;
+use crate::drive::gpu::pipelines::{PipelineKey, Pipelines, SceneNeeds};
+use crate::drive::gpu::shape_data::{FewShape, MOST_SHAPES, Shapes};
+use crate::drive::gpu::timing::{BUDGET_SECONDS, Pace, Stopwatch};
+use crate::drive::gpu::{GpuFilm, GpuTraceError, environment_data, scene_data};
+use crate::integrator::Integrator;
+use crate::light::Lights;
+use crate::stats::Stats;
+use bytemuck::Zeroable;
+use film::Film;
+use gpu::{Gpu, GpuError, wgpu};
+use scene::stand_ins::FakeNumbers;
+use scene::{Camera, Scene};
+use wgpu::BufferUsages;
+
+/// A scene on a device, ready for rays. Camera and settings come with each call.
+#[derive(Debug)]
+pub struct GpuTracer {
+    gpu: Gpu,
+    pub(crate) pipelines: Pipelines,
+    scene: wgpu::BindGroup,
+    leaves: Leaves,
+    stand_ins: FakeNumbers,
+    stopwatch: Stopwatch,
+    paces: Vec<(PipelineKey, RenderParams, Pace)>,
+    budget: f64,
+    /// What dispatches have taken.
+    seconds: f64,
+}
+
+impl GpuTracer {
+    /// Builds the acceleration structure and the list of lights, and uploads them.
+    ///
+    /// # Errors
+    /// [`GpuTraceError`] if the scene is too large for the device, or the device too small for any.
+    pub fn new(gpu: &Gpu, scene: &Scene) -> Result<Self, GpuTraceError> {
+        Self::leaving_out(gpu, scene, Leaves::default())
+    }
+
+    /// As [`GpuTracer::new`], with code for everything that any scene can ask for: to measure what leaving it out
+    /// saves.
+    ///
+    /// # Errors
+    /// As [`GpuTracer::new`].
+    pub fn with_everything(gpu: &Gpu, scene: &Scene) -> Result<Self, GpuTraceError> {
+        Self::leaving_out(gpu, scene, Leaves { nothing_out: true, ..Leaves::default() })
+    }
+
+    /// As [`GpuTracer::new`], through a tree even if there are few shapes: to measure what doing without saves.
+    ///
+    /// # Errors
+    /// As [`GpuTracer::new`].
+    pub fn through_a_tree(gpu: &Gpu, scene: &Scene) -> Result<Self, GpuTraceError> {
+        Self::leaving_out(gpu, scene, Leaves { always_a_tree: true, ..Leaves::default() })
+    }
+
+    fn leaving_out(gpu: &Gpu, scene: &Scene, leaves: Leaves) -> Result<Self, GpuTraceError> {
+        let made = Made::of(scene, leaves)?;
+        let pipelines = Pipelines::new(gpu, made.needs)?;
+        Ok(GpuTracer {
+            scene: made.upload(gpu, &pipelines.scene_layout, scene)?,
+            pipelines,
+            leaves,
+            stand_ins: scene.fake,
+            stopwatch: Stopwatch::new(gpu),
+            paces: Vec::new(),
+            budget: BUDGET_SECONDS,
+            seconds: 0.0,
+            gpu: gpu.clone(),
+        })
+    }
+
+    /// Takes another scene. What is compiled stays where that needs nothing else: while a slider moves, say.
+    ///
+    /// # Errors
+    /// As [`GpuTracer::new`]; the scene before is then still there.
+    pub fn set_scene(&mut self, scene: &Scene) -> Result<(), GpuTraceError> {
+        let made = Made::of(scene, self.leaves)?;
+        if made.needs != self.pipelines.needs() {
+            let pipelines = Pipelines::new(&self.gpu, made.needs)?;
+            self.scene = made.upload(&self.gpu, &pipelines.scene_layout, scene)?;
+            (self.pipelines, self.paces) = (pipelines, Vec::new());
+        } else {
+            self.scene = made.upload(&self.gpu, &self.pipelines.scene_layout, scene)?;
+            self.paces.iter_mut().for_each(|(.., pace)| pace.doubt());
+        }
+        self.stand_ins = scene.fake;
+        Ok(())
+    }
+
+    /// The device.
+    pub fn gpu(&self) -> &Gpu {
+        &self.gpu
+    }
+
+    /// Layout and contents of bind group 0, the scene, for shaders that import `pathtrace/scene.wgsl`.
+    pub fn scene_group(&self) -> (&wgpu::BindGroupLayout, &wgpu::BindGroup) {
+        (&self.pipelines.scene_layout, &self.scene)
+    }
+
+    /// Sets how long a dispatch may take, in seconds, > 0; a twentieth at first. What shares the device, such as a
+    /// window, waits about that long, and so does `stop`.
+    pub fn set_budget(&mut self, seconds: f64) {
+        self.budget = seconds;
+    }
+
+    /// Whether rays can be traced like this at once, without compiling anything first: that takes a software device
+    /// seconds.
+    pub fn has_compiled(&self, integrator: &Integrator) -> bool {
+        self.pipelines.has_compiled(&integrator.pipeline_key(self.pipelines.needs().everything()))
+    }
+
+    /// Whether dispatches are timed by the device's own clock.
+    pub fn has_a_clock(&self) -> bool {
+        self.stopwatch.is_exact()
+    }
+
+    /// Seconds that dispatches have taken since the last call, see [`GpuTracer::has_a_clock`]: tracing alone, without
+    /// compiling and without films on their way.
+    pub fn take_seconds(&mut self) -> f64 {
+        std::mem::take(&mut self.seconds)
+    }
+
+    /// A film on the device that goes on from `film`.
+    ///
+    /// # Errors
+    /// [`GpuTraceError::Gpu`] if the device can't hold it.
+    pub fn film(&self, film: Film) -> Result<GpuFilm, GpuTraceError> {
+        GpuFilm::new(&self.gpu, &self.pipelines.film_layout, film)
+    }
+
+    /// Adds to a film on the device until each of its pixels has `until` samples. `stop` is asked between dispatches;
+    /// once it says so the call returns, and pixels hold whole samples, but not all equally many. See
+    /// [`GpuTracer::set_budget`] for how long a dispatch takes.
+    ///
+    /// # Errors
+    /// [`GpuTraceError`] if the device fails; what it had done is then lost.
+    pub fn accumulate(
+        &mut self,
+        film: &mut GpuFilm,
+        camera: &Camera,
+        integrator: &Integrator,
+        until: u32,
+        stop: &impl Fn() -> bool,
+    ) -> Result<(), GpuTraceError> {
+        let key = integrator.pipeline_key(self.pipelines.needs().everything());
+        let pipeline = self.pipelines.prepare(&self.gpu, &key)?;
+        let params = integrator.render_params(params(film, camera), &self.stand_ins);
+        let effort = params.effort();
+        let known = self.paces.iter().position(|(known, ..)| *known == key).unwrap_or_else(|| {
+            self.paces.push((key, effort, Pace::default()));
+            self.paces.len() - 1
+        });
+        let (_, known_effort, pace) = &mut self.paces[known];
+        if *known_effort != effort {
+            (*known_effort, *pace) = (effort, Pace::default());
+        }
+        let dispatcher = Dispatcher {
+            gpu: &self.gpu,
+            pipeline: &pipeline,
+            scene: &self.scene,
+            stopwatch: &mut self.stopwatch,
+            pace,
+            budget: self.budget,
+            seconds: &mut self.seconds,
+            in_flight: Vec::new(),
+            submitted: 0,
+            learning: true,
+        };
+        dispatcher.run(film, params, until, stop)
+    }
+
+    /// Adds `samples` to every pixel of `film`, as [`crate::Tracer::render`] does, and waits for them.
+    ///
+    /// # Errors
+    /// [`GpuTraceError`] if the device fails; `film` is then as it was.
+    pub fn render(
+        &mut self,
+        film: &mut Film,
+        camera: &Camera,
+        integrator: &Integrator,
+        samples: u32,
+        stop: &impl Fn() -> bool,
+    ) -> Result<Stats, GpuTraceError> {
+        let until = film.samples_per_pixel().saturating_add(samples);
+        let mut on_device = self.film(film.clone())?;
+        self.accumulate(&mut on_device, camera, integrator, until, stop)?;
+        let (read, stats) = on_device.read(&self.gpu)?;
+        *film = read;
+        Ok(stats)
+    }
+}
+
+fn params(film: &GpuFilm, camera: &Camera) -> RenderParams {
+    let (width, height) = (film.width(), film.height());
+    RenderParams::of(&camera.frame(width as f32 / height as f32), (width, height))
+}
+
+/// What is left out of what any scene can ask for.
+#[derive(Debug, Clone, Copy, Default)]
+struct Leaves {
+    nothing_out: bool,
+    always_a_tree: bool,
+}
+
+/// A scene made ready, before it is on a device.
+struct Made {
+    lights: Lights,
+    shapes: Shapes,
+    needs: SceneNeeds,
+}
+
+impl Made {
+    fn of(scene: &Scene, leaves: Leaves) -> Result<Self, GpuTraceError> {
+        let lights = Lights::new(scene);
+        let shapes = if leaves.always_a_tree {
+            Shapes::in_a_tree(scene, lights.light_of_shape())
+        } else {
+            Shapes::new(scene, lights.light_of_shape())
+        }?;
+        let needs = SceneNeeds::of(scene, &lights, shapes.kinds());
+        let needs = if leaves.nothing_out { needs.with_everything() } else { needs };
+        Ok(Made { lights, shapes, needs })
+    }
+
+    fn upload(
+        &self,
+        gpu: &Gpu,
+        layout: &wgpu::BindGroupLayout,
+        scene: &Scene,
+    ) -> Result<wgpu::BindGroup, GpuTraceError> {
+        let Made { lights, shapes, .. } = self;
+        let mut few = [FewShape::zeroed(); MOST_SHAPES];
+        few[..shapes.few.len()].copy_from_slice(&shapes.few);
+        let buffers = [
+            gpu.buffer("the scene", &[scene_data::header(scene, shapes, lights)], BufferUsages::UNIFORM)?,
+            storage(gpu, "the tree of boxes", &shapes.nodes)?,
+            storage(gpu, "the shapes", &shapes.primitives)?,
+            storage(gpu, "the surfaces", &shapes.surfaces)?,
+            storage(gpu, "the materials", &scene_data::materials(scene))?,
+            storage(gpu, "the lights", &scene_data::lights(lights))?,
+            storage(gpu, "the Sobol points", &scene_data::sobol_bytes())?,
+            gpu.buffer("the shapes", &few, BufferUsages::UNIFORM)?,
+        ];
+        let sky = scene.environment.as_deref().zip(lights.environment());
+        let views = environment_data::textures(gpu, sky)?.map(|texture| texture.create_view(&Default::default()));
+        let views = views.iter().map(wgpu::BindingResource::TextureView);
+        let resources = buffers.iter().map(wgpu::Buffer::as_entire_binding).chain(views);
+        let bound = resources.zip(0..).map(|(resource, binding)| wgpu::BindGroupEntry { binding, resource });
+        let entries: Vec<_> = bound.collect();
+        let descriptor = wgpu::BindGroupDescriptor { label: Some("the scene"), layout, entries: &entries };
+        Ok(gpu.checked("the scene", || gpu.device.create_bind_group(&descriptor))?)
+    }
+}
+
+/// A buffer that shaders read, of at least one element.
+fn storage<T: bytemuck::Pod>(gpu: &Gpu, what: &str, data: &[T]) -> Result<wgpu::Buffer, GpuError> {
+    let (bytes, limit) = (size_of_val(data) as u64, gpu.device.limits().max_storage_buffer_binding_size);
+    if bytes > limit {
+        return Err(GpuError::TooManyBytes { what: what.to_owned(), bytes, limit });
+    }
+    let none = [T::zeroed()];
+    gpu.buffer(what, if data.is_empty() { &none } else { data }, BufferUsages::STORAGE)
+}

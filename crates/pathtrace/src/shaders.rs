@@ -1,0 +1,59 @@
+//! The path tracer's shaders: every file under `shaders/pathtrace/`. A new one is one line of [`SOURCES`].
+
+use gpu::wgsl::{self, Composed, Source, WgslError};
+
+/// One line a file.
+pub const SOURCES: &[Source<'static>] = gpu::wgsl_sources![
+    "pathtrace/bsdf/bsdf.wgsl",
+    "pathtrace/bsdf/dielectric.wgsl",
+    "pathtrace/bsdf/interaction.wgsl",
+    "pathtrace/bsdf/lambert.wgsl",
+    "pathtrace/bsdf/mirror.wgsl",
+    "pathtrace/bsdf/rough_conductor.wgsl",
+    "pathtrace/camera.wgsl",
+    "pathtrace/drive/film.wgsl",
+    "pathtrace/drive/pixels.wgsl",
+    "pathtrace/drive/rays.wgsl",
+    "pathtrace/exact.wgsl",
+    "pathtrace/integrator/path.wgsl",
+    "pathtrace/integrator/whitted.wgsl",
+    "pathtrace/intersect/aggregate.wgsl",
+    "pathtrace/intersect/bvh2.wgsl",
+    "pathtrace/intersect/disk.wgsl",
+    "pathtrace/intersect/nearest.wgsl",
+    "pathtrace/intersect/quadrilateral.wgsl",
+    "pathtrace/intersect/ray.wgsl",
+    "pathtrace/intersect/shape_list.wgsl",
+    "pathtrace/intersect/sphere.wgsl",
+    "pathtrace/intersect/surface_point.wgsl",
+    "pathtrace/intersect/triangle.wgsl",
+    "pathtrace/light/ball.wgsl",
+    "pathtrace/light/environment.wgsl",
+    "pathtrace/light/flat.wgsl",
+    "pathtrace/light/light.wgsl",
+    "pathtrace/light/light_sample.wgsl",
+    "pathtrace/light/spherical_rectangle.wgsl",
+    "pathtrace/light/sun.wgsl",
+    "pathtrace/needs.wgsl",
+    "pathtrace/prepared.wgsl",
+    "pathtrace/sampling/angles.wgsl",
+    "pathtrace/sampling/rng.wgsl",
+    "pathtrace/sampling/sampler.wgsl",
+    "pathtrace/sampling/sobol.wgsl",
+    "pathtrace/sampling/warp.wgsl",
+    "pathtrace/scene.wgsl",
+];
+
+/// The driver of integrators, no whole shader by itself: it asks the integrator that imports it for two functions.
+pub const DRIVER: &str = "pathtrace/drive/pixels.wgsl";
+
+/// [`SOURCES`], and what they import from beyond `shaders/pathtrace/`.
+pub const LIBRARY: [&[Source<'static>]; 2] = [SOURCES, gpu::shared_shaders::SOURCES];
+
+/// The shader at `root` under `shaders/`.
+///
+/// # Errors
+/// [`WgslError`] with file, line and column.
+pub fn compose(root: &str) -> Result<Composed, WgslError> {
+    wgsl::compose(&LIBRARY, root)
+}

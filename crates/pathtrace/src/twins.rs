@@ -1,0 +1,79 @@
+//! What both machines must agree on: constants and overrides by their names, for the test that holds them against what
+//! the shaders say.
+
+use crate::bsdf::materials::{CHECKERED, HAS_INDEX, LOBE_DIELECTRIC, LOBE_LAMBERT, LOBE_MIRROR, LOBE_ROUGH_CONDUCTOR};
+use crate::drive::gpu::dispatch::GROUP;
+use crate::drive::gpu::film_data::CUT_SHIFT;
+use crate::drive::gpu::scene_data::*;
+use crate::drive::gpu::shape_data::*;
+use crate::drive::gpu::{PipelineKey, SceneNeeds};
+use crate::integrator::Integrator;
+use crate::integrator::forks::MOST_FORKS;
+use crate::integrator::path::{BY_BOTH, BY_CHANCE, BY_SAMPLING};
+use crate::integrator::path_state::{ALREADY_COUNTED, MET_BY_CHANCE};
+use crate::integrator::roulette::{ROULETTE_SLOPE, STEPS};
+use crate::integrator::settings::PathSettings;
+use crate::integrator::whitted::{MOST_BRANCHES, MOST_LIGHTS, WhittedSettings};
+use crate::intersect::{NO_LIGHT, SHADOW_END};
+use crate::light::ball::ALL_DIRECTIONS;
+use crate::light::flat::SMALLEST_SOLID_ANGLE;
+use crate::sampling::UNIFORM_HEMISPHERE_PDF;
+use std::collections::BTreeSet;
+use std::f32::consts::FRAC_1_PI;
+
+/// Constants that stand on both sides under one name. A test holds each against what the shaders say.
+pub fn shared_constants() -> Vec<(&'static str, f64)> {
+    const MOST_DEPTH: u32 = WhittedSettings::MOST_DEPTH;
+    const SMALLEST_POSITIVE: f32 = f32::MIN_POSITIVE;
+    gpu::named_values![
+        ALL_DIRECTIONS,
+        ALREADY_COUNTED,
+        BY_BOTH,
+        BY_CHANCE,
+        BY_SAMPLING,
+        CHECKERED,
+        COUNT_SHIFT,
+        CUT_SHIFT,
+        FRAC_1_PI,
+        GROUP,
+        HAS_INDEX,
+        KIND_DISK,
+        KIND_SHIFT,
+        KIND_SPHERE,
+        KIND_TRIANGLE,
+        LIGHT_BALL,
+        LIGHT_DISK,
+        LIGHT_ENVIRONMENT,
+        LIGHT_POINT,
+        LIGHT_RECTANGLE,
+        LIGHT_SUN,
+        LIGHT_TRIANGLE,
+        LOBE_DIELECTRIC,
+        LOBE_LAMBERT,
+        LOBE_MIRROR,
+        LOBE_ROUGH_CONDUCTOR,
+        MET_BY_CHANCE,
+        MOST_BRANCHES,
+        MOST_DEPTH,
+        MOST_FORKS,
+        MOST_LIGHTS,
+        MOST_SHAPES,
+        MOST_WAITING,
+        NO_LIGHT,
+        ROULETTE_SLOPE,
+        SHADOW_END,
+        SMALLEST_POSITIVE,
+        SMALLEST_SOLID_ANGLE,
+        STEPS,
+        UNIFORM_HEMISPHERE_PDF,
+    ]
+}
+
+/// Names of the overrides that pipelines are compiled with: what scenes ask for, and the settings of any integrator.
+pub fn override_names() -> Vec<&'static str> {
+    let integrators: [Integrator; 2] = [PathSettings::default().into(), WhittedSettings::default().into()];
+    let keys = integrators.map(|integrator| integrator.pipeline_key(false));
+    // they share some
+    let of_settings: BTreeSet<_> = keys.into_iter().flat_map(PipelineKey::constant_names).collect();
+    SceneNeeds::constant_names().chain(of_settings).collect()
+}

@@ -1,0 +1,53 @@
+//! The rasteriser's shaders: every file under `shaders/raster/`. A new one is one line of [`SOURCES`].
+
+use crate::gpu_data::*;
+use crate::pipelines::Choice;
+use crate::shading::SMALLEST;
+use crate::{Fake, ShadowFilter};
+use bytemuck::Zeroable;
+use gpu::wgsl::{self, Composed, Source, WgslError};
+
+/// One line a file.
+pub const SOURCES: &[Source<'static>] = gpu::wgsl_sources![
+    "raster/forward.wgsl",
+    "raster/refraction.wgsl",
+    "raster/shading.wgsl",
+    "raster/shadow.wgsl",
+    "raster/shadow_map.wgsl",
+    "raster/view.wgsl",
+];
+
+/// [`SOURCES`], and what they import from beyond `shaders/raster/`.
+pub const LIBRARY: [&[Source<'static>]; 2] = [SOURCES, gpu::shared_shaders::SOURCES];
+
+/// The shader at `root` under `shaders/`.
+///
+/// # Errors
+/// [`WgslError`] with file, line and column.
+pub fn compose(root: &str) -> Result<Composed, WgslError> {
+    wgsl::compose(&LIBRARY, root)
+}
+
+/// Constants that stand on both sides under one name. A test holds each against what the shaders say.
+pub fn shared_constants() -> Vec<(&'static str, f64)> {
+    gpu::named_values![
+        AREA_LIGHT_ALL_AROUND,
+        AREA_LIGHT_NONE,
+        AREA_LIGHT_ONE_SIDED,
+        AREA_LIGHT_TWO_SIDED,
+        AREA_LIGHT_WITHOUT_DECAY,
+        FILTER_HARD,
+        FILTER_PCF,
+        FILTER_PCF_SOFT,
+        SHADING_BLINN_PHONG,
+        SHADING_PHONG,
+        SHADING_THREE,
+        SMALLEST,
+    ]
+}
+
+/// Names of the overrides that the forward pass is compiled with.
+pub fn override_names() -> Vec<&'static str> {
+    let choice = Choice::of(Fake::Fair, ShadowFilter::Hard, &Lights::zeroed());
+    choice.constants(false).map(|(name, _)| name).to_vec()
+}
