@@ -1,6 +1,6 @@
 //! The command lines that make a picture or a reference again, for a shell of the POSIX kind.
 
-use crate::{Provenance, SceneChanges, Shot, Technique};
+use crate::{Provenance, Shot};
 use image_file::Records;
 use scene::{Camera, Vec3};
 
@@ -12,14 +12,9 @@ impl Provenance {
         if *device != technique.name().usual_device() {
             options.push(("device", device.name().into()));
         }
-        let changes = match technique {
-            // the fake does not see the sun's radius
-            Technique::Fake(_) => SceneChanges { sun_radius: None, ..shot.changes },
-            Technique::Traced(_) => shot.changes,
-        };
         options.push(size_option(shot.size));
         options.extend(camera_options(&shot.camera));
-        options.extend(changes.options());
+        options.extend(shot.changes.options_of(technique.name()));
         if exposure != 0.0 {
             options.push(("exposure", exposure.to_string()));
         }

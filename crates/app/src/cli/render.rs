@@ -15,10 +15,10 @@ use serde_json::json;
 use std::io::IsTerminal;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
-use technique::settings::{OF_PANES, OF_SCENES, Value};
+use technique::settings::{OF_SCENES, Setting, Value, all_of_panes};
 use technique::{
-    Accumulation, Backend, Device, DeviceChoice, FakeSettings, Frame, INSTEAD, Made, Pacing, Provenance, Rendered,
-    Renderer, Shot, Technique, Threads, TracedSettings, Watch,
+    Accumulation, Backend, Device, DeviceChoice, FakeSettings, Frame, INSTEAD, Made, Pacing, PaneSettings, Provenance,
+    Rendered, Renderer, Shot, Technique, Threads, TracedSettings, Watch,
 };
 
 /// Samples per pixel where neither --spp nor --time says how many.
@@ -113,7 +113,8 @@ fn tell_what_has_no_effect(args: &RenderArgs, scene: &Scene) {
     }
     let of_scene = OF_SCENES.iter().filter(|setting| (setting.get)(&args.seen.changes).is_some());
     let of_scene = of_scene.map(|setting| (setting.name, setting.needs));
-    let of_pane = OF_PANES.iter().filter(|setting| setting.is_of(technique) && (setting.get)(&args.pane).is_some());
+    let chosen = |setting: &&Setting<PaneSettings>| (setting.get)(&args.pane) != setting.default;
+    let of_pane = all_of_panes().filter(|setting| setting.is_of(technique)).filter(chosen);
     let mut given: Vec<_> = of_scene.chain(of_pane.map(|setting| (setting.name, setting.needs))).collect();
     given.sort_by_key(|(_, needs)| *needs);
     for (name, needs) in given {

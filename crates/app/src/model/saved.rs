@@ -5,7 +5,7 @@ use super::{PaneId, Panes};
 use serde::de::Error;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use std::collections::BTreeMap;
-use technique::settings::{OF_PANES, of_panes};
+use technique::settings::{all_of_panes, of_panes};
 use technique::{DeviceChoice, PaneSettings, TechniqueName};
 
 impl Serialize for PaneId {
@@ -35,7 +35,7 @@ impl SavedPane {
     fn of(pane: &PaneSettings) -> Self {
         let words = |technique| {
             let pane = PaneSettings { technique, ..*pane };
-            let settings = OF_PANES.iter().filter(|setting| setting.is_of(technique));
+            let settings = all_of_panes().filter(|setting| setting.is_of(technique));
             let words =
                 settings.filter_map(|setting| Some((setting.name.to_owned(), (setting.get)(&pane)?.to_string())));
             (technique.name().to_owned(), words.collect())
@@ -60,11 +60,7 @@ impl SavedPane {
                     setting.kind.parse(word).map_err(|expected| format!("{name} {word}: expected {expected}"))?;
                 (setting.set)(&mut told, value);
             }
-            match told.technique {
-                TechniqueName::Raster => pane.fake = told.fake,
-                TechniqueName::Whitted => pane.whitted = told.whitted,
-                TechniqueName::Path => pane.truth = told.truth,
-            }
+            pane.take_settings_in_use(&told);
         }
         Ok(pane)
     }

@@ -39,16 +39,6 @@ impl Stepped<'_> {
     }
 }
 
-impl Stepped<'_> {
-    /// The same over a number that is the scene's `own` until the user moves it.
-    pub fn show_over(self, own: f32, chosen: &mut Option<f32>, ui: &mut Ui, dump: &mut Dump) {
-        let mut value = chosen.unwrap_or(own);
-        if self.show(&mut value, ui, dump) {
-            *chosen = Some(value);
-        }
-    }
-}
-
 /// A number with as many decimals as its step has, and up to three where it stands between two steps.
 fn digits(value: f64, step: f64) -> String {
     let least = [1.0, 0.1, 0.01, 0.001].iter().filter(|&&power| step < power).count();

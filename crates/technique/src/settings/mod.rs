@@ -1,14 +1,17 @@
-//! The table of settings: a row says all that there is to say about one. Options, --help, records in pictures, --json and
-//! what has no effect are read from it. A new setting is a row in [`rows`].
+//! The table of settings: a row says all that there is to say about one. Options, --help, records in pictures, --json,
+//! notes of what has no effect and the window's controls are read from it. A new setting is a row in [`rows`].
 
+mod control;
 mod rows;
 
-pub use rows::{OF_PANES, OF_SCENES};
+pub use control::{Control, Look};
+pub use rows::{OF_SCENES, all_of_panes};
 
 use crate::{DeviceChoice, PaneSettings, SceneChanges, Technique, TechniqueName, roulette_name};
 use crate::{TreeSettings, TruthSettings, bounces_name};
 use image_file::Records;
 use pathtrace::{Integrator, Roulette};
+use raster::Show;
 use scene::Scene;
 use std::fmt;
 use std::ops::RangeInclusive;
@@ -26,6 +29,8 @@ pub struct Setting<T> {
     pub letter: &'static str,
     /// What it is where nobody says otherwise; `None` for the scene's own.
     pub default: Option<Value>,
+    /// What a scene has of its own where there is no default.
+    pub own: fn(&Scene) -> Option<Value>,
     /// What a scene must have for it to change anything.
     pub needs: Need,
     /// What it does, for --help.
@@ -36,6 +41,8 @@ pub struct Setting<T> {
     pub get: fn(&T) -> Option<Value>,
     /// Takes a value of its kind.
     pub set: fn(&mut T, Value),
+    /// How the window shows it.
+    pub control: Control,
 }
 
 /// What a setting may be.
@@ -77,18 +84,29 @@ pub enum Need {
     Nothing,
     /// A dielectric.
     Glass,
+    /// A mirror, which rough metal is one of for Whitted's trees, or a dielectric.
+    Specular,
+    /// A sphere.
+    Spheres,
     /// A sun.
     Sun,
+    /// A light that the fake draws a shadow map of.
+    ShadowMap,
 }
 
 impl Need {
     /// What is missing in this scene, if it is.
     pub fn missing_in(self, scene: &Scene) -> Option<&'static str> {
-        match self {
-            Need::Glass if scene.refraction_ratio().is_none() => Some("glass"),
-            Need::Sun if scene.sun.is_none() => Some("sun"),
-            _ => None,
-        }
+        let needs = scene.needs();
+        let (there, name) = match self {
+            Need::Nothing => return None,
+            Need::Glass => (needs.dielectric, "glass"),
+            Need::Specular => (needs.dielectric || needs.mirror || needs.rough_conductor, "mirror, metal or glass"),
+            Need::Spheres => (needs.spheres, "sphere"),
+            Need::Sun => (needs.sun, "sun"),
+            Need::ShadowMap => (Show::ShadowMap.available(scene), "light that casts shadows in the fake"),
+        };
+        (!there).then_some(name)
     }
 }
 
@@ -195,7 +213,7 @@ impl<T> Setting<T> {
 
 /// The setting of this name.
 pub fn of_panes(name: &str) -> Option<&'static Setting<PaneSettings>> {
-    OF_PANES.iter().find(|setting| setting.name == name)
+    all_of_panes().find(|setting| setting.name == name)
 }
 
 /// The setting of this name.
@@ -207,8 +225,7 @@ impl Technique {
     /// Its settings with their values, as far as a file keeps them; `spp` is what the picture has.
     pub fn values(&self, spp: u32) -> Vec<(&'static str, Value)> {
         let pane = PaneSettings::from(self.with_spp(spp));
-        OF_PANES
-            .iter()
+        all_of_panes()
             .filter(|setting| setting.is_of(self.name()))
             .filter_map(|setting| setting.record(&pane))
             .collect()
@@ -228,11 +245,38 @@ impl Technique {
 }
 
 impl SceneChanges {
-    /// What was changed, by the options' names without dashes. What was not is the scene's, and may differ from glass to
-    /// glass.
+    /// What was changed, by the options' names without dashes. What was not is the scene's, and may differ from glass
+    /// to glass.
     pub fn options(&self) -> Records {
-        let changed = OF_SCENES.iter().filter_map(|setting| setting.record(self));
+        self.options_where(|_| true)
+    }
+
+    /// Those that this technique sees.
+    pub fn options_of(&self, technique: TechniqueName) -> Records {
+        self.options_where(|setting| setting.is_of(technique))
+    }
+
+    fn options_where(&self, wanted: impl Fn(&Setting<SceneChanges>) -> bool) -> Records {
+        let changed = OF_SCENES.iter().filter(|setting| wanted(setting)).filter_map(|setting| setting.record(self));
         changed.map(|(name, value)| (name, value.to_string())).collect()
+    }
+}
+
+impl PaneSettings {
+    /// Takes a value for the technique in use; the others are found as they were left.
+    pub fn set(&mut self, setting: &Setting<PaneSettings>, value: Value) {
+        let mut told = *self;
+        (setting.set)(&mut told, value);
+        self.take_settings_in_use(&told);
+    }
+
+    /// Takes what `other` has set for the technique that it uses.
+    pub fn take_settings_in_use(&mut self, other: &PaneSettings) {
+        match other.technique {
+            TechniqueName::Raster => self.fake = other.fake,
+            TechniqueName::Whitted => self.whitted = other.whitted,
+            TechniqueName::Path => self.truth = other.truth,
+        }
     }
 }
 
@@ -263,7 +307,7 @@ mod tests {
     fn what_a_setting_says_is_what_it_takes() {
         for technique in TechniqueName::ALL {
             let mut pane = PaneSettings::of(technique);
-            for setting in OF_PANES.iter().filter(|setting| setting.is_of(technique)) {
+            for setting in all_of_panes().filter(|setting| setting.is_of(technique)) {
                 for word in examples(&setting.kind) {
                     let value = setting.kind.parse(&word).unwrap_or_else(|e| panic!("{} {word}: {e}", setting.name));
                     (setting.set)(&mut pane, value);
@@ -287,7 +331,7 @@ mod tests {
     fn the_defaults_are_those_of_a_new_pane() {
         for technique in TechniqueName::ALL {
             let pane = PaneSettings::of(technique);
-            for setting in OF_PANES.iter().filter(|setting| setting.is_of(technique)) {
+            for setting in all_of_panes().filter(|setting| setting.is_of(technique)) {
                 // how many samples there are depends on who asks
                 if setting.name != "spp" {
                     assert_eq!((setting.get)(&pane), setting.default, "{}", setting.name);
@@ -298,7 +342,7 @@ mod tests {
 
     #[test]
     fn names_are_unique() {
-        let mut names: Vec<_> = OF_PANES.iter().map(|s| s.name).chain(OF_SCENES.iter().map(|s| s.name)).collect();
+        let mut names: Vec<_> = all_of_panes().map(|s| s.name).chain(OF_SCENES.iter().map(|s| s.name)).collect();
         let count = names.len();
         names.sort_unstable();
         names.dedup();

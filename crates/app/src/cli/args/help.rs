@@ -3,7 +3,7 @@
 use super::options::CommandOption;
 use super::{bench, check, compare, reference, render, view};
 use technique::TechniqueName;
-use technique::settings::{OF_PANES, OF_SCENES, Setting};
+use technique::settings::{OF_SCENES, Setting, all_of_panes};
 
 /// Columns of the text, and where descriptions begin.
 const COLUMNS: usize = 127;
@@ -61,7 +61,7 @@ impl Block {
         self.rows.extend(OF_SCENES.iter().filter(|setting| of_all(setting.of)).map(row));
         let mut groups: Vec<&[TechniqueName]> = Vec::new();
         let limited = render::options_of_some().map(|(of, _)| of);
-        for of in limited.chain(OF_PANES.iter().map(|setting| setting.of)) {
+        for of in limited.chain(all_of_panes().map(|setting| setting.of)) {
             if !groups.contains(&of) {
                 groups.push(of);
             }
@@ -71,7 +71,7 @@ impl Block {
             let of_group = render::options_of_some().filter(|(owners, _)| *owners == of);
             self.rows.extend(of_group.flat_map(|(_, option)| Block::new("", "", &[option]).rows));
             self.rows.extend(OF_SCENES.iter().filter(|setting| setting.of == of).map(row));
-            self.rows.extend(OF_PANES.iter().filter(|setting| setting.of == of).map(row));
+            self.rows.extend(all_of_panes().filter(|setting| setting.of == of).map(row));
         }
         self
     }
@@ -170,7 +170,7 @@ mod tests {
     #[test]
     fn every_setting_is_listed_with_its_default() {
         let text = text();
-        for line in OF_PANES.iter().map(Setting::usage).chain(OF_SCENES.iter().map(Setting::usage)) {
+        for line in all_of_panes().map(Setting::usage).chain(OF_SCENES.iter().map(Setting::usage)) {
             assert!(text.contains(&format!("    {line}")), "{line}");
         }
         assert!(text.lines().all(|line| line.chars().count() <= COLUMNS), "{text}");

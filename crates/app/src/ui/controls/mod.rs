@@ -3,10 +3,9 @@
 mod camera;
 mod device;
 mod display;
-mod fake;
+mod pane;
 mod scene;
-mod truth;
-mod whitted;
+mod setting;
 
 use super::UiContext;
 use crate::model::PaneId;
@@ -39,7 +38,7 @@ pub fn panel(cx: &mut UiContext, ui: &mut Ui, contents: fn(&mut UiContext, &mut 
 
 /// What is changed in the scene; absent where nothing can be.
 pub fn scene(cx: &mut UiContext, ui: &mut Ui) {
-    if cx.model.document.scene.refraction_ratio().is_some() || cx.model.document.scene.sun.is_some() {
+    if scene::usable(cx.model).next().is_some() {
         group(cx, ui, "Scene (both)", true, scene::show);
     }
 }
@@ -76,11 +75,7 @@ pub fn pane(cx: &mut UiContext, pane: PaneId, open: bool, ui: &mut Ui) {
                 node.set_role(egui::accesskit::Role::Group);
                 node.set_label(format!("Settings of {pane}"));
             });
-            match cx.model.session.panes[pane].technique {
-                TechniqueName::Raster => fake::show(cx, pane, ui),
-                TechniqueName::Whitted => whitted::show(cx, pane, ui),
-                TechniqueName::Path => truth::show(cx, pane, ui),
-            }
+            pane::show(cx, pane, ui);
         });
     cx.dump.note(&format!("group {pane}"), "", toggle.accessible_name(format!("Settings of {pane}")));
 }

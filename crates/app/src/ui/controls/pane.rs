@@ -1,0 +1,76 @@
+//! The settings of a pane's technique: in which order they stand, and what is no setting. Their table says the rest.
+
+use super::device;
+use super::setting::Place;
+use crate::model::PaneId;
+use crate::ui::UiContext;
+use egui::{CollapsingHeader, Ui};
+use technique::settings::{Setting, all_of_panes};
+use technique::{PaneSettings, Technique, TechniqueName};
+
+/// In which order a technique's controls stand; a setting that is not named stands behind those that are.
+fn order(technique: TechniqueName) -> &'static [&'static str] {
+    match technique {
+        TechniqueName::Raster => &[
+            "fake",
+            "reflectivity",
+            "show",
+            "shading",
+            "shininess",
+            "ambient",
+            "shadow-map",
+            "shadow-filter",
+            "shadow-bias",
+            "cube-map",
+            "segments",
+        ],
+        TechniqueName::Whitted => &["depth", "glass-shadows", "ambient", "spp", "shadow-rays", "sampler", "seed"],
+        TechniqueName::Path => &["estimator", "spp", "bounces", "roulette", "branches", "sampler", "seed"],
+    }
+}
+
+pub fn show(cx: &mut UiContext, pane: PaneId, ui: &mut Ui) {
+    let technique = cx.model.session.panes[pane].technique;
+    let scene = &cx.model.document.scene;
+    let mut usable: Vec<_> =
+        all_of_panes().filter(|row| row.is_of(technique) && row.needs.missing_in(scene).is_none()).collect();
+    let order = order(technique);
+    usable.sort_by_key(|row| order.iter().position(|name| *name == row.name).unwrap_or(order.len()));
+    let (more, first): (Vec<_>, Vec<_>) = usable.into_iter().partition(|row| row.control.more.contains(&technique));
+    rows(cx, pane, &first, ui);
+    let more = CollapsingHeader::new("More").id_salt(("more", pane)).show_unindented(ui, |ui| {
+        if matches!(cx.model.session.panes[pane].in_use(), Technique::Traced(_)) {
+            device::show(cx, pane, ui);
+        }
+        rows(cx, pane, &more, ui);
+    });
+    cx.dump.note(&format!("{pane} more"), more.fully_open(), more.header_response);
+    faults(cx, pane, ui);
+}
+
+fn rows(cx: &mut UiContext, pane: PaneId, rows: &[&Setting<PaneSettings>], ui: &mut Ui) {
+    let settings = &mut cx.model.session.panes[pane];
+    let mut place = Place {
+        pane: Some((pane, settings.technique)),
+        scene: &cx.model.document.scene,
+        kept: cx.model.state.switched_off.entry(pane),
+        dump: cx.dump,
+    };
+    for setting in rows {
+        if let Some(value) = place.show(setting, settings, ui) {
+            settings.set(setting, value);
+        }
+    }
+}
+
+/// Says what the settings of what is traced cannot do together, and what they cannot see.
+fn faults(cx: &UiContext, pane: PaneId, ui: &mut Ui) {
+    let Technique::Traced(traced) = cx.model.session.panes[pane].in_use() else { return };
+    if let Err(fault) = traced.integrator.check() {
+        ui.label(fault.to_string());
+    }
+    let scene = cx.model.document.changes.applied_to(&cx.model.document.scene);
+    if let Some(blind) = traced.blind_spot(&scene) {
+        ui.label(blind);
+    }
+}

@@ -1,0 +1,131 @@
+//! What the window shows of a setting.
+
+use super::{Setting, Value};
+use crate::TechniqueName;
+use scene::Scene;
+use std::ops::RangeInclusive;
+
+/// How the window shows a setting.
+pub struct Control {
+    /// What it is called, above it; empty where its words say enough.
+    pub label: &'static str,
+    /// What its value means, after the label.
+    pub aside: fn(Value) -> String,
+    /// An explanation under the mouse; empty for none.
+    pub hover: &'static str,
+    /// A technique that needs another explanation.
+    pub hover_in: Option<(TechniqueName, &'static str)>,
+    /// What is moved.
+    pub look: Look,
+    /// Whether this word of a choice makes sense in this scene.
+    pub offers: fn(&str, &Scene) -> bool,
+    /// The techniques among whose controls it stands under "More".
+    pub more: &'static [TechniqueName],
+    /// Its name in the dump of widgets, where that is not the option's.
+    pub dump_name: Option<&'static str>,
+}
+
+/// What is moved.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Look {
+    /// A slider over real numbers; narrower than what the option accepts where more is of no use.
+    Steps {
+        /// From where to where.
+        range: RangeInclusive<f32>,
+        /// How far apart its stops are.
+        step: f64,
+    },
+    /// A slider over whole numbers.
+    Whole(RangeInclusive<u32>),
+    /// A slider over powers of two with these exponents, and the number beside it to be typed.
+    Doubling(RangeInclusive<u32>),
+    /// A number to be dragged or typed.
+    Typed,
+    /// Words to choose from, with spaces where they read better than the option's hyphens, and what each means. Words
+    /// that are left out can be chosen by the option alone.
+    Words(&'static [(&'static str, &'static str)]),
+}
+
+impl Control {
+    /// Its label beside this value.
+    pub fn label_of(&self, value: Value) -> String {
+        format!("{}{}", self.label, (self.aside)(value))
+    }
+
+    /// The explanation among the controls of a technique, or among those of the scene.
+    pub fn hover_among(&self, technique: Option<TechniqueName>) -> &'static str {
+        self.hover_in.filter(|(other, _)| Some(*other) == technique).map_or(self.hover, |(_, hover)| hover)
+    }
+}
+
+impl<T> Setting<T> {
+    /// The words that a scene offers in the window, each with its value and what it means.
+    pub fn words(&self, scene: &Scene) -> Vec<(&'static str, Value, &'static str)> {
+        let Look::Words(words) = self.control.look else { return Vec::new() };
+        let valued = words.iter().filter_map(|(word, hover)| {
+            let value = self.kind.parse(&word.replace(' ', "-")).ok()?;
+            matches!(value, Value::Word(name) if (self.control.offers)(name, scene)).then_some((*word, value, *hover))
+        });
+        valued.collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::settings::{Kind, OF_SCENES, all_of_panes};
+
+    /// The kind and the look of a row belong together, and the slider goes nowhere where the option does not.
+    fn fits(kind: &Kind, look: &Look) -> bool {
+        let inside = |range: &RangeInclusive<f32>, least: f32, most: f32| {
+            range.start() < range.end() && *range.start() >= least && *range.end() <= most
+        };
+        match (kind, look) {
+            (Kind::Number(accepted), Look::Steps { range, step }) => {
+                *step > 0.0 && inside(range, *accepted.start(), *accepted.end())
+            }
+            (Kind::DegreesBelow(most), Look::Steps { range, step }) => {
+                *step > 0.0 && inside(range, 0.0, most.next_down())
+            }
+            (Kind::Roulette, Look::Steps { range, step }) => *step > 0.0 && inside(range, f32::MIN_POSITIVE, 1.0),
+            (Kind::Whole(accepted), Look::Whole(range)) => {
+                accepted.contains(range.start()) && accepted.contains(range.end())
+            }
+            (Kind::Whole(accepted), Look::Doubling(exponents)) => {
+                [exponents.start(), exponents.end()].iter().all(|exponent| accepted.contains(&(1 << **exponent)))
+            }
+            (Kind::Whole(_), Look::Typed) | (Kind::Bounces, Look::Whole(_)) => true,
+            (Kind::Choice(accepted), Look::Words(words)) => {
+                words.iter().all(|(word, _)| accepted.contains(&word.replace(' ', "-").as_str()))
+            }
+            _ => false,
+        }
+    }
+
+    #[test]
+    fn each_control_is_of_its_settings_kind_and_within_its_bounds() {
+        for setting in all_of_panes() {
+            assert!(fits(&setting.kind, &setting.control.look), "{}", setting.name);
+            let named = !setting.control.label.is_empty() || matches!(setting.kind, Kind::Choice(_));
+            assert!(named, "{} has no label", setting.name);
+        }
+        for setting in OF_SCENES {
+            assert!(
+                fits(&setting.kind, &setting.control.look) && !setting.control.label.is_empty(),
+                "{}",
+                setting.name
+            );
+        }
+        assert!(!fits(&Kind::Whole(1..=8), &Look::Doubling(0..=4)) && !fits(&Kind::Bounces, &Look::Typed));
+    }
+
+    #[test]
+    fn what_the_scene_has_is_known_where_the_setting_says_nothing() {
+        let scene = scene::builtin::named("whitted").expect("a built-in scene");
+        let unset =
+            all_of_panes().filter(|setting| setting.default.is_none()).map(|setting| (setting.name, setting.own));
+        for (name, own) in unset.chain(OF_SCENES.iter().map(|setting| (setting.name, setting.own))) {
+            assert!(own(&scene).is_some(), "{name}");
+        }
+    }
+}

@@ -1,0 +1,218 @@
+//! The rows of the fake.
+
+use super::{BLANK, LOCAL, PLAIN, RASTER, each, named, number, whole};
+use crate::settings::{Control, Kind, Look, Need, Setting, Value};
+use crate::{PaneSettings, TechniqueName};
+use raster::{Fake, FakeKnobs, Shading, ShadowFilter, Show};
+
+/// The settings of the fake; Whitted's method shares its ambient light.
+pub const ROWS: &[Setting<PaneSettings>] = &[
+    Setting {
+        name: "fake",
+        of: RASTER,
+        kind: Kind::Choice(&["fair", "as-taught"]),
+        default: Some(Value::Word("fair")),
+        help: "on the truth's data, linear; or as the tutorial's viewer drew it",
+        always_recorded: true,
+        get: |pane| Some(Value::Word(pane.fake.fake.name())),
+        set: |pane, value| each(named(value, Fake::named), [&mut pane.fake.fake]),
+        control: Control {
+            look: Look::Words(&[
+                ("fair", "The same fake on the truth's light, linear"),
+                ("as-taught", "As the tutorial's viewer drew it: its bytes are the light"),
+            ]),
+            ..BLANK
+        },
+        ..PLAIN
+    },
+    Setting {
+        name: "shading",
+        of: RASTER,
+        kind: Kind::Choice(&["three", "phong", "blinn-phong"]),
+        default: Some(Value::Word("three")),
+        help: "whose highlight",
+        always_recorded: true,
+        get: |pane| Some(Value::Word(pane.fake.shading.name())),
+        set: |pane, value| each(named(value, Shading::named), [&mut pane.fake.shading]),
+        control: Control {
+            label: "Highlight",
+            look: Look::Words(&[
+                ("three", "three.js' MeshPhong: a normalised Blinn-Phong with Fresnel"),
+                ("phong", "The slides' Phong: cosine between mirrored light and viewer"),
+                ("blinn-phong", "The slides' Blinn-Phong: cosine between normal and half vector"),
+            ]),
+            more: RASTER,
+            ..BLANK
+        },
+        ..PLAIN
+    },
+    Setting {
+        name: "reflectivity",
+        of: RASTER,
+        kind: Kind::Number(0.0..=1.0),
+        letter: "R",
+        needs: Need::Glass,
+        help: "share of the surroundings in fake glass",
+        get: |pane| pane.fake.reflectivity.map(Value::Number),
+        set: |pane, value| pane.fake.reflectivity = number(value),
+        own: |scene| scene.reflectivity().map(Value::Number),
+        control: Control {
+            label: "Reflectivity of the glass",
+            hover: "Share of the refracted surroundings; the rest is white",
+            look: Look::Steps { range: 0.0..=1.0, step: 0.01 },
+            ..BLANK
+        },
+        ..PLAIN
+    },
+    Setting {
+        name: "shininess",
+        of: RASTER,
+        kind: Kind::Number(FakeKnobs::SHININESS),
+        letter: "S",
+        help: "exponent of every highlight",
+        get: |pane| pane.fake.knobs.shininess.map(Value::Number),
+        set: |pane, value| pane.fake.knobs.shininess = number(value),
+        own: |scene| Some(Value::Number(scene.materials.first().map_or(30.0, |material| material.fake.shininess))),
+        control: Control {
+            label: "Shininess",
+            hover: "Exponent of the highlight: higher is smaller",
+            look: Look::Steps { range: 0.0..=200.0, step: 1.0 },
+            more: RASTER,
+            ..BLANK
+        },
+        ..PLAIN
+    },
+    Setting {
+        name: "ambient",
+        of: LOCAL,
+        kind: Kind::Number(FakeKnobs::AMBIENT),
+        letter: "A",
+        help: "ambient light, Whitted's and the fake's; fair scales the sky's by it",
+        get: |pane| {
+            let ambient = match pane.technique {
+                TechniqueName::Raster => pane.fake.knobs.ambient,
+                TechniqueName::Whitted | TechniqueName::Path => pane.whitted.tree.ambient,
+            };
+            ambient.map(Value::Number)
+        },
+        set: |pane, value| {
+            pane.fake.knobs.ambient = number(value);
+            pane.whitted.tree.ambient = number(value);
+        },
+        own: |scene| Some(Value::Number(scene.fake.ambient)),
+        control: Control {
+            label: "Ambient light",
+            hover: "The light that stands for all indirect light; fair scales the sky's by it",
+            hover_in: Some((
+                TechniqueName::Whitted,
+                "Stands for all light from one surface on another, and for the sky's",
+            )),
+            look: Look::Steps { range: FakeKnobs::AMBIENT, step: 0.01 },
+            more: RASTER,
+            ..BLANK
+        },
+        ..PLAIN
+    },
+    Setting {
+        name: "cube-map",
+        of: RASTER,
+        kind: Kind::Whole(FakeKnobs::CUBE_MAP),
+        letter: "N",
+        needs: Need::Glass,
+        help: "texels along a side of a cube map's face",
+        get: |pane| pane.fake.knobs.cube_map.map(Value::Whole),
+        set: |pane, value| pane.fake.knobs.cube_map = whole(value),
+        own: |scene| Some(Value::Whole(scene.fake.cube_map)),
+        control: Control { label: "Cube map (texels a side)", look: Look::Doubling(2..=11), more: RASTER, ..BLANK },
+        ..PLAIN
+    },
+    Setting {
+        name: "shadow-map",
+        of: RASTER,
+        kind: Kind::Whole(FakeKnobs::SHADOW_MAP),
+        letter: "N",
+        needs: Need::ShadowMap,
+        help: "texels along a side of the shadow map",
+        get: |pane| pane.fake.knobs.shadow_map.map(Value::Whole),
+        set: |pane, value| pane.fake.knobs.shadow_map = whole(value),
+        own: |scene| Some(Value::Whole(scene.fake.shadow_map)),
+        control: Control { label: "Shadow map (texels a side)", look: Look::Doubling(4..=12), more: RASTER, ..BLANK },
+        ..PLAIN
+    },
+    Setting {
+        name: "shadow-filter",
+        of: RASTER,
+        kind: Kind::Choice(&["hard", "pcf", "pcf-soft"]),
+        default: Some(Value::Word("pcf-soft")),
+        needs: Need::ShadowMap,
+        help: "how the shadow map is looked up",
+        get: |pane| Some(Value::Word(pane.fake.knobs.filter.name())),
+        set: |pane, value| each(named(value, ShadowFilter::named), [&mut pane.fake.knobs.filter]),
+        control: Control {
+            label: "Shadow filter",
+            look: Look::Words(&[
+                ("hard", "The nearest texel alone"),
+                ("pcf", "The mean of 17 comparisons"),
+                ("pcf-soft", "3 x 3 comparisons, blended: the tutorial's"),
+            ]),
+            more: RASTER,
+            dump_name: Some("filter"),
+            ..BLANK
+        },
+        ..PLAIN
+    },
+    Setting {
+        name: "shadow-bias",
+        of: RASTER,
+        kind: Kind::Number(FakeKnobs::BIAS),
+        letter: "B",
+        default: Some(Value::Number(0.0)),
+        needs: Need::ShadowMap,
+        help: "added to depths before they are compared",
+        get: |pane| Some(Value::Number(pane.fake.knobs.bias)),
+        set: |pane, value| each(number(value), [&mut pane.fake.knobs.bias]),
+        control: Control {
+            label: "Shadow bias",
+            hover: "Added to depths before they are compared: negative lights what shadows itself",
+            look: Look::Steps { range: -0.01..=0.01, step: 0.0005 },
+            more: RASTER,
+            dump_name: Some("bias"),
+            ..BLANK
+        },
+        ..PLAIN
+    },
+    Setting {
+        name: "segments",
+        of: RASTER,
+        kind: Kind::Whole(FakeKnobs::SEGMENTS),
+        letter: "N",
+        needs: Need::Spheres,
+        help: "segments of a sphere",
+        get: |pane| pane.fake.knobs.segments.map(Value::Whole),
+        set: |pane, value| pane.fake.knobs.segments = whole(value),
+        own: |scene| Some(Value::Whole(scene.fake.segments)),
+        control: Control { label: "Segments of a sphere", look: Look::Whole(3..=200), more: RASTER, ..BLANK },
+        ..PLAIN
+    },
+    Setting {
+        name: "show",
+        of: RASTER,
+        kind: Kind::Choice(&["picture", "cube-faces", "shadow-map"]),
+        default: Some(Value::Word("picture")),
+        help: "the picture, or a map that it is made from",
+        get: |pane| Some(Value::Word(pane.fake.show.name())),
+        set: |pane, value| each(named(value, Show::named), [&mut pane.fake.show]),
+        control: Control {
+            label: "Show",
+            look: Look::Words(&[
+                ("picture", "The scene"),
+                ("cube faces", "What surrounds the first glass, unfolded: where refracted rays are looked up"),
+                ("shadow map", "Depths as the light sees them: white is near"),
+            ]),
+            offers: |word, scene| Show::named(word).is_some_and(|show| show.available(scene)),
+            more: RASTER,
+            ..BLANK
+        },
+        ..PLAIN
+    },
+];

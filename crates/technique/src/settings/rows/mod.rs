@@ -1,0 +1,112 @@
+//! The rows, in the order in which files keep them.
+
+mod fake;
+mod traced;
+
+use super::{Control, Kind, Look, Need, Setting, Value};
+use crate::{PaneSettings, SceneChanges, TechniqueName};
+
+const RASTER: &[TechniqueName] = &[TechniqueName::Raster];
+const WHITTED: &[TechniqueName] = &[TechniqueName::Whitted];
+const PATH: &[TechniqueName] = &[TechniqueName::Path];
+const TRACED: &[TechniqueName] = &[TechniqueName::Whitted, TechniqueName::Path];
+const LOCAL: &[TechniqueName] = &[TechniqueName::Raster, TechniqueName::Whitted];
+
+/// What each row begins from.
+const PLAIN: Setting<PaneSettings> = Setting {
+    name: "",
+    of: &[],
+    kind: Kind::Bounces,
+    letter: "",
+    default: None,
+    own: |_| None,
+    needs: Need::Nothing,
+    help: "",
+    always_recorded: false,
+    get: |_| None,
+    set: |_, _| {},
+    control: BLANK,
+};
+
+/// What each control begins from.
+const BLANK: Control = Control {
+    label: "",
+    aside: |_| String::new(),
+    hover: "",
+    hover_in: None,
+    look: Look::Typed,
+    offers: |_, _| true,
+    more: &[],
+    dump_name: None,
+};
+
+/// What is changed in a scene, for all techniques at once.
+pub const OF_SCENES: &[Setting<SceneChanges>] = &[
+    Setting {
+        name: "refraction-ratio",
+        of: &TechniqueName::ALL,
+        kind: Kind::Number(0.001..=1000.0),
+        letter: "R",
+        default: None,
+        own: |scene| scene.refraction_ratio().map(Value::Number),
+        needs: Need::Glass,
+        help: "index outside over inside of all glass",
+        always_recorded: false,
+        get: |changes| changes.refraction_ratio.map(Value::Number),
+        set: |changes, value| changes.refraction_ratio = number(value),
+        control: Control {
+            label: "Refraction ratio",
+            aside: |value| number(value).map_or_else(String::new, |ratio| format!(" (n = {:.2})", 1.0 / ratio)),
+            hover: "Index of refraction outside over inside; 1 is no glass at all",
+            look: Look::Steps { range: 0.4..=1.0, step: 0.01 },
+            ..BLANK
+        },
+    },
+    Setting {
+        name: "sun-radius",
+        of: TRACED,
+        kind: Kind::DegreesBelow(90.0),
+        letter: "DEG",
+        default: None,
+        own: |scene| scene.sun.map(|sun| Value::Number(sun.angular_radius)),
+        needs: Need::Sun,
+        help: "angular radius of the sun, 0 is a delta light",
+        always_recorded: false,
+        get: |changes| changes.sun_radius.map(Value::Number),
+        set: |changes, value| changes.sun_radius = number(value),
+        control: Control {
+            label: "Sun radius (the fake's is 0)",
+            hover: "0: hard shadows and no caustic. Larger: softer shadows",
+            look: Look::Steps { range: 0.0..=5.0, step: 0.1 },
+            ..BLANK
+        },
+    },
+];
+
+/// What a pane is set to.
+pub fn all_of_panes() -> impl Iterator<Item = &'static Setting<PaneSettings>> {
+    traced::ROWS.iter().chain(fake::ROWS)
+}
+
+fn by_integrator<T>(pane: &PaneSettings, path: T, whitted: T) -> T {
+    if pane.technique == TechniqueName::Whitted { whitted } else { path }
+}
+
+fn number(value: Value) -> Option<f32> {
+    if let Value::Number(number) = value { Some(number) } else { None }
+}
+
+fn whole(value: Value) -> Option<u32> {
+    if let Value::Whole(number) = value { Some(number) } else { None }
+}
+
+fn named<T>(value: Value, named: fn(&str) -> Option<T>) -> Option<T> {
+    if let Value::Word(word) = value { named(word) } else { None }
+}
+
+/// Gives a value to each place; one of another kind to none.
+fn each<T: Copy, const N: usize>(value: Option<T>, places: [&mut T; N]) {
+    if let Some(value) = value {
+        places.into_iter().for_each(|place| *place = value);
+    }
+}
