@@ -157,8 +157,8 @@ impl Environment {
     #[inline(never)]
     fn sample_each(&self, lanes: usize, u: &[[f32; MOST_LANES]; 2]) -> Found {
         let mut found = Found::default();
-        for lane in 0..lanes {
-            let sample = self.sample([u[0][lane], u[1][lane]]);
+        for (lane, (&u, &v)) in u[0].iter().zip(&u[1]).enumerate().take(lanes) {
+            let sample = self.sample([u, v]);
             found.directions[lane] = glam_vector(sample.wi);
             found.radiances[lane] = glam_vector(sample.radiance);
             found.pdfs[lane] = sample.pdf;
@@ -170,8 +170,8 @@ impl Environment {
     #[inline(never)]
     fn look_up_each(&self, lanes: usize, directions: [Vec3; MOST_LANES]) -> Found {
         let mut found = Found { directions, ..Found::default() };
-        for lane in 0..lanes {
-            let (radiance, pdf) = self.look_up(lane_vector(found.directions[lane]));
+        for (lane, &direction) in directions.iter().enumerate().take(lanes) {
+            let (radiance, pdf) = self.look_up(lane_vector(direction));
             found.radiances[lane] = glam_vector(radiance);
             found.pdfs[lane] = pdf;
         }

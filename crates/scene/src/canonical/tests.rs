@@ -34,6 +34,9 @@ fn bytes_of(scene: &Scene) -> Vec<u8> {
     bytes
 }
 
+type Corners = Vec<Vec3>;
+type Triangles = Vec<[u32; 3]>;
+
 /// The numbers that light depends on, and those that it does not.
 #[derive(Default)]
 struct Numbers<'a> {
@@ -169,7 +172,7 @@ fn what_is_no_number_is_in_the_bytes_too() {
         scene.shapes = shapes.into();
         scene
     };
-    let mesh = |change: &dyn Fn(&mut Vec<Vec3>, &mut Vec<[u32; 3]>)| {
+    let mesh = |change: &dyn Fn(&mut Corners, &mut Triangles)| {
         shapes(&|shapes| {
             let last = shapes.last_mut().unwrap();
             let Geometry::Mesh(mesh) = &last.geometry else { panic!("the mesh is last") };
