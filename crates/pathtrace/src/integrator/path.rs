@@ -11,7 +11,7 @@
 //!
 //! Twin: `shaders/pathtrace/integrator/path.wgsl`.
 
-use crate::bsdf::{BsdfSamples, Interactions};
+use crate::bsdf::{BsdfSamples, Interactions, ScaledColours};
 use crate::drive::gpu::film_data::RenderParams;
 use crate::drive::gpu::{PipelineKey, flag};
 use crate::drive::lanes::{LaneIntegrator, LanePlan};
@@ -242,8 +242,11 @@ impl<'a, F: Float> PathLanes<'a, F> {
         let uniform = self.plan.directions == Directions::Uniform;
         // before the light, whose shadow rays the processor can begin while roots and quotients are on their way
         let mut sample = self.scene.materials.sample(if uniform { here & delta } else { here }, at, u);
+        let mut throughput = self.path.throughput * sample.weight;
         if uniform {
-            sample = BsdfSamples::select(delta, sample, self.sample_uniformly(at, [u[0], u[1]]));
+            let (drawn, weight) = self.sample_uniformly(at, [u[0], u[1]]);
+            throughput = Vector::select(delta, throughput, weight.times(self.path.throughput));
+            sample = BsdfSamples::select(delta, sample, drawn);
         }
         let choosing = here & !delta;
         if self.plan.light != LightSampling::BsdfOnly && !self.scene.lights.is_empty() && choosing.any() {
@@ -255,18 +258,17 @@ impl<'a, F: Float> PathLanes<'a, F> {
             LightSampling::Mis => sample.pdf,
         };
         let rays = Rays::new(at.point.leaving_towards(sample.wi), sample.wi);
-        let throughput = sample.weight.times(self.path.throughput);
         self.path = PathStates { rays, throughput, from: at.point.position, direction_pdf, ..self.path };
     }
 
-    /// Directions of the tutorial's naive tracer, whatever the surface (Task 2 b).
+    /// Directions of the tutorial's naive tracer, whatever the surface (Task 2 b), and their weights.
     #[inline(always)]
-    fn sample_uniformly(&self, at: &Interactions<F>, u: [F; 2]) -> BsdfSamples<F> {
+    fn sample_uniformly(&self, at: &Interactions<F>, u: [F; 2]) -> (BsdfSamples<F>, ScaledColours<F>) {
         let local = uniform_hemisphere(u);
         let wi = to_world(local, at.normal);
         let mut weight = self.scene.materials.eval(at, wi);
         weight.factor = local.z * (weight.factor / F::splat(UNIFORM_HEMISPHERE_PDF));
-        BsdfSamples { wi, weight, pdf: F::splat(UNIFORM_HEMISPHERE_PDF) }
+        (BsdfSamples { wi, weight: weight.colour, pdf: F::splat(UNIFORM_HEMISPHERE_PDF) }, weight)
     }
 
     /// Counts the vertex and plays roulette; where paths go on.
