@@ -16,6 +16,7 @@ pub const FILES: &[(&str, &str)] = &[
     ("pathtrace/drive/pixels.wgsl", include_str!("../../../shaders/pathtrace/drive/pixels.wgsl")),
     ("pathtrace/drive/rays.wgsl", include_str!("../../../shaders/pathtrace/drive/rays.wgsl")),
     ("pathtrace/exact.wgsl", include_str!("../../../shaders/pathtrace/exact.wgsl")),
+    ("pathtrace/integrator/normals.wgsl", include_str!("../../../shaders/pathtrace/integrator/normals.wgsl")),
     ("pathtrace/integrator/path.wgsl", include_str!("../../../shaders/pathtrace/integrator/path.wgsl")),
     ("pathtrace/integrator/whitted.wgsl", include_str!("../../../shaders/pathtrace/integrator/whitted.wgsl")),
     ("pathtrace/intersect/aggregate.wgsl", include_str!("../../../shaders/pathtrace/intersect/aggregate.wgsl")),

@@ -23,6 +23,7 @@ mod vectors;
 
 pub use drive::gpu;
 pub use integrator::Integrator;
+pub use integrator::normals::{NormalsSettings, Space};
 pub use integrator::settings::{
     Directions, Estimator, LightSampling, PathSettings, Roulette, SamplerKind, SettingsError,
 };

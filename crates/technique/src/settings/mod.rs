@@ -6,7 +6,7 @@ mod rows;
 pub use rows::{OF_PANES, OF_SCENES};
 
 use crate::{DeviceChoice, PaneSettings, SceneChanges, Technique, TechniqueName, roulette_name};
-use crate::{TreeSettings, TruthSettings, bounces_name};
+use crate::{NormalsPaneSettings, TreeSettings, TruthSettings, bounces_name};
 use image_file::Records;
 use pathtrace::{Integrator, Roulette};
 use scene::Scene;
@@ -248,6 +248,9 @@ impl From<Technique> for PaneSettings {
                 match traced.integrator {
                     Integrator::Path(path) => PaneSettings { truth: TruthSettings { path, spp }, ..pane },
                     Integrator::Whitted(tree) => PaneSettings { whitted: TreeSettings { tree, spp }, ..pane },
+                    Integrator::Normals(normals) => {
+                        PaneSettings { normals: NormalsPaneSettings { normals, spp }, ..pane }
+                    }
                 }
             }
         }

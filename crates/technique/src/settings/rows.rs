@@ -2,13 +2,14 @@
 
 use super::{Kind, Need, Setting, Value};
 use crate::{PaneSettings, SceneChanges, TechniqueName};
-use pathtrace::{Estimator, GlassShadows, Roulette, SamplerKind, WhittedSettings};
+use pathtrace::{Estimator, GlassShadows, Roulette, SamplerKind, Space, WhittedSettings};
 use raster::{Fake, FakeKnobs, Shading, ShadowFilter, Show};
 
 const RASTER: &[TechniqueName] = &[TechniqueName::Raster];
 const WHITTED: &[TechniqueName] = &[TechniqueName::Whitted];
 const PATH: &[TechniqueName] = &[TechniqueName::Path];
-const TRACED: &[TechniqueName] = &[TechniqueName::Whitted, TechniqueName::Path];
+const NORMALS: &[TechniqueName] = &[TechniqueName::Normals];
+const TRACED: &[TechniqueName] = &[TechniqueName::Whitted, TechniqueName::Path, TechniqueName::Normals];
 const LOCAL: &[TechniqueName] = &[TechniqueName::Raster, TechniqueName::Whitted];
 
 /// What each row begins from.
@@ -64,7 +65,7 @@ pub const OF_PANES: &[Setting<PaneSettings>] = &[
         help: "samples per pixel",
         always_recorded: true,
         get: |pane| pane.wished_spp().map(Value::Whole),
-        set: |pane, value| each(whole(value), [&mut pane.truth.spp, &mut pane.whitted.spp]),
+        set: |pane, value| each(whole(value), [&mut pane.truth.spp, &mut pane.whitted.spp, &mut pane.normals.spp]),
         ..PLAIN
     },
     Setting {
@@ -75,11 +76,14 @@ pub const OF_PANES: &[Setting<PaneSettings>] = &[
         help: "where random numbers come from",
         always_recorded: true,
         get: |pane| {
-            let kind = by_integrator(pane, pane.truth.path.sampler, pane.whitted.tree.sampler);
+            let of_all = [pane.truth.path.sampler, pane.whitted.tree.sampler, pane.normals.normals.sampler];
+            let kind = by_integrator(pane, of_all);
             Some(Value::Word(kind.name()))
         },
         set: |pane, value| {
-            each(named(value, SamplerKind::named), [&mut pane.truth.path.sampler, &mut pane.whitted.tree.sampler]);
+            let PaneSettings { truth, whitted, normals, .. } = pane;
+            let of_all = [&mut truth.path.sampler, &mut whitted.tree.sampler, &mut normals.normals.sampler];
+            each(named(value, SamplerKind::named), of_all);
         },
         ..PLAIN
     },
@@ -182,8 +186,25 @@ pub const OF_PANES: &[Setting<PaneSettings>] = &[
         default: Some(Value::Whole(1)),
         help: "selects one of 2^32 independent pictures",
         always_recorded: true,
-        get: |pane| Some(Value::Whole(by_integrator(pane, pane.truth.path.seed, pane.whitted.tree.seed))),
-        set: |pane, value| each(whole(value), [&mut pane.truth.path.seed, &mut pane.whitted.tree.seed]),
+        get: |pane| {
+            let of_all = [pane.truth.path.seed, pane.whitted.tree.seed, pane.normals.normals.seed];
+            Some(Value::Whole(by_integrator(pane, of_all)))
+        },
+        set: |pane, value| {
+            let PaneSettings { truth, whitted, normals, .. } = pane;
+            each(whole(value), [&mut truth.path.seed, &mut whitted.tree.seed, &mut normals.normals.seed]);
+        },
+        ..PLAIN
+    },
+    Setting {
+        name: "space",
+        of: NORMALS,
+        kind: Kind::Choice(&["world", "camera"]),
+        default: Some(Value::Word("world")),
+        help: "whose axes are red, green and blue",
+        always_recorded: true,
+        get: |pane| Some(Value::Word(pane.normals.normals.space.name())),
+        set: |pane, value| each(named(value, Space::named), [&mut pane.normals.normals.space]),
         ..PLAIN
     },
     Setting {
@@ -238,7 +259,7 @@ pub const OF_PANES: &[Setting<PaneSettings>] = &[
         get: |pane| {
             let ambient = match pane.technique {
                 TechniqueName::Raster => pane.fake.knobs.ambient,
-                TechniqueName::Whitted | TechniqueName::Path => pane.whitted.tree.ambient,
+                TechniqueName::Whitted | TechniqueName::Path | TechniqueName::Normals => pane.whitted.tree.ambient,
             };
             ambient.map(Value::Number)
         },
@@ -311,8 +332,12 @@ pub const OF_PANES: &[Setting<PaneSettings>] = &[
     },
 ];
 
-fn by_integrator<T>(pane: &PaneSettings, path: T, whitted: T) -> T {
-    if pane.technique == TechniqueName::Whitted { whitted } else { path }
+fn by_integrator<T>(pane: &PaneSettings, [path, whitted, normals]: [T; 3]) -> T {
+    match pane.technique {
+        TechniqueName::Whitted => whitted,
+        TechniqueName::Normals => normals,
+        TechniqueName::Raster | TechniqueName::Path => path,
+    }
 }
 
 fn number(value: Value) -> Option<f32> {
