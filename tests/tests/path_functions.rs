@@ -217,8 +217,9 @@ fn microfacets_agree() {
                 let (_, _, (wi, ..)) = sampled(item);
                 [wi.x, wi.y, wi.z, 0.0]
             });
-            assert!(off < 5e-6, "{has_index}: directions are off by {off}");
-            let weights = run("let w = sample.weight.colour * sample.weight.factor; return bits(w.x, w.y, w.z, 0.0);");
+            // twice a unit vector times a cosine, each rounded a few times on the way
+            assert!(off < 2e-5, "{has_index}: directions are off by {off}");
+            let weights = run("let w = sample.weight; return bits(w.x, w.y, w.z, 0.0);");
             let off = farthest(&weights, |item| {
                 let (_, _, (_, weight, _)) = sampled(item);
                 [weight.x, weight.y, weight.z, 0.0]

@@ -6,7 +6,10 @@ use gpu::Gpu;
 use pathtrace::gpu::GpuTracer;
 use pathtrace::intersect::Ray;
 use pathtrace::sampling::{self, rng};
-use pathtrace::{Estimator, GlassShadows, PathSettings, Roulette, SamplerKind, Stats, Tracer, WhittedSettings};
+use pathtrace::{
+    Estimator, GlassShadows, NormalsSettings, PathSettings, Roulette, SamplerKind, Space, Stats, Tracer,
+    WhittedSettings,
+};
 use scene::{Camera, Scene, Vec3, builtin};
 use std::path::Path;
 
@@ -206,6 +209,29 @@ center = [-0.4, 0.2, 1]
 radius = 0.2
 material = "glass"
 "#;
+
+/// In the middle of a sphere the normal points at the camera: along the camera's own z, whatever the world's axes. Both
+/// machines show the same everywhere.
+#[test]
+fn normals_are_colours_along_the_axes_of_world_or_camera() {
+    let gpu = Gpu::headless().unwrap();
+    let text = "[camera]\neye = [3, 0, 0]\ntarget = [0, 0, 0]\nfov_y = 45\n[material.grey]\ndiffuse = { albedo = [0.5, 0.5, 0.5] }\n\
+                [[sphere]]\ncenter = [0, 0, 0]\nradius = 1\nmaterial = 'grey'\n";
+    let scene = scene::parse(text, "ball", Path::new("ball.toml")).unwrap();
+    for (space, middle) in [(Space::World, Vec3::new(1.0, 0.5, 0.5)), (Space::Camera, Vec3::new(0.5, 0.5, 1.0))] {
+        let integrator = NormalsSettings { space, ..NormalsSettings::default() }.into();
+        let [mut on_gpu, mut on_cpu] = [(); 2].map(|()| Film::new(65, 65));
+        let mut tracer = GpuTracer::new(&gpu, &scene).unwrap();
+        let gpu_stats = tracer.render(&mut on_gpu, &scene.camera, &integrator, 4, &|| false).unwrap();
+        let cpu_stats = Tracer::new(&scene).render(&mut on_cpu, &scene.camera, &integrator, 4, &|| false);
+        let shown = on_cpu.radiances().nth(32 * 65 + 32).unwrap();
+        // a pixel is 1/30 of the radius wide
+        assert!((shown - middle).abs().max_element() < 0.02, "{space:?}: {shown}");
+        assert_eq!(on_cpu.radiances().next(), Some(Vec3::ZERO), "nothing is seen in the corner");
+        let pair = Pair { gpu: on_gpu, cpu: on_cpu, stats: [gpu_stats, cpu_stats] };
+        assert!(pair.apart(1e-4) == 0.0 && pair.rays() == 1.0, "{space:?}");
+    }
+}
 
 /// As [`every_setting_agrees_pixel_by_pixel`], where there is rough metal.
 #[test]

@@ -26,6 +26,7 @@ pub mod twins;
 mod vectors;
 
 pub use integrator::Integrator;
+pub use integrator::normals::{NormalsSettings, Space};
 pub use integrator::settings::{Directions, Estimator, LightSampling, PathSettings, Roulette, SettingsError};
 pub use integrator::whitted::{GlassShadows, WhittedSettings};
 pub use replicates::{FEWEST_REPLICATES, estimate_with_replicates};

@@ -7,7 +7,7 @@ use crate::bsdf::interaction::facing;
 use crate::bsdf::materials::Materials;
 use crate::intersect::aggregate::Aggregate;
 use crate::intersect::shape_list::Scratch;
-use crate::intersect::{Rays, SHADOW_END, SurfaceInteractions, SurfacePoints};
+use crate::intersect::{Intersections, Rays, SHADOW_END, SurfacePoints};
 use crate::light::{LightSamples, Lights, SunDisc};
 use crate::vectors::in_all_lanes;
 use scene::Vec3;
@@ -42,26 +42,26 @@ pub struct Outcomes<F: Float> {
 impl PreparedScene {
     /// What the `wanted` rays meet first.
     #[inline(always)]
-    pub fn closest<F: Float>(&self, rays: &Rays<F>, wanted: F::M, scratch: &mut Scratch<F>) -> SurfaceInteractions<F> {
+    pub fn closest<F: Float>(&self, rays: &Rays<F>, wanted: F::M, scratch: &mut Scratch<F>) -> Intersections<F> {
         let hits = self.aggregate.closest(rays, wanted, scratch);
-        self.aggregate.interactions(rays, &hits)
+        self.aggregate.intersections(rays, &hits)
     }
 
     /// Where what was met shines.
     #[inline(always)]
-    pub fn shines<F: Float>(&self, hit: &SurfaceInteractions<F>) -> F::M {
+    pub fn shines<F: Float>(&self, hit: &Intersections<F>) -> F::M {
         self.materials.kinds(hit.material).area_light()
     }
 
     /// What the surfaces that were met send out towards `wo`.
     #[inline(always)]
-    pub fn emitted<F: Float>(&self, hit: &SurfaceInteractions<F>, wo: Vector<F>) -> Vector<F> {
+    pub fn emitted<F: Float>(&self, hit: &Intersections<F>, wo: Vector<F>) -> Vector<F> {
         self.materials.emitted(hit.material, hit.point.normal.dot(wo))
     }
 
     /// The surfaces that were met, seen from `wo`.
     #[inline(always)]
-    pub fn interaction<F: Float>(&self, hit: &SurfaceInteractions<F>, wo: Vector<F>) -> Interactions<F> {
+    pub fn interaction<F: Float>(&self, hit: &Intersections<F>, wo: Vector<F>) -> Interactions<F> {
         let kinds = self.materials.kinds(hit.material);
         let colour = self.materials.colour(hit.material, kinds, hit.point.position);
         let normal = facing(hit.point.normal, wo);

@@ -15,6 +15,7 @@ pub const SOURCES: &[Source<'static>] = gpu::wgsl_sources![
     "pathtrace/drive/pixels.wgsl",
     "pathtrace/drive/rays.wgsl",
     "pathtrace/exact.wgsl",
+    "pathtrace/integrator/normals.wgsl",
     "pathtrace/integrator/path.wgsl",
     "pathtrace/integrator/whitted.wgsl",
     "pathtrace/intersect/aggregate.wgsl",

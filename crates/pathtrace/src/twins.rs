@@ -9,6 +9,7 @@ use crate::drive::gpu::shape_data::*;
 use crate::drive::gpu::{PipelineKey, SceneNeeds};
 use crate::integrator::Integrator;
 use crate::integrator::forks::MOST_FORKS;
+use crate::integrator::normals::NormalsSettings;
 use crate::integrator::path::{BY_BOTH, BY_CHANCE, BY_SAMPLING};
 use crate::integrator::path_state::{ALREADY_COUNTED, MET_BY_CHANCE};
 use crate::integrator::roulette::{ROULETTE_SLOPE, STEPS};
@@ -71,7 +72,8 @@ pub fn shared_constants() -> Vec<(&'static str, f64)> {
 
 /// Names of the overrides that pipelines are compiled with: what scenes ask for, and the settings of any integrator.
 pub fn override_names() -> Vec<&'static str> {
-    let integrators: [Integrator; 2] = [PathSettings::default().into(), WhittedSettings::default().into()];
+    let integrators: [Integrator; 3] =
+        [PathSettings::default().into(), WhittedSettings::default().into(), NormalsSettings::default().into()];
     let keys = integrators.map(|integrator| integrator.pipeline_key(false));
     // they share some
     let of_settings: BTreeSet<_> = keys.into_iter().flat_map(PipelineKey::constant_names).collect();

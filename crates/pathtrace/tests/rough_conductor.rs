@@ -101,7 +101,9 @@ fn directions_follow_their_density() {
         for item in 0..SAMPLES {
             let (wi, _, pdf) = lobe.sample(wo.as_vec3(), random(item));
             let told = f64::from(lobe.pdf(wo.as_vec3(), wi));
-            assert!((f64::from(pdf) / told - 1.0).abs() < 1e-5 + 1e-6 / alpha, "{name}: {pdf} {told}");
+            // what rounding turns the facet between both by, in widths of the distribution
+            let turned = 3e-6 / (alpha * wo.z);
+            assert!((f64::from(pdf) / told - 1.0).abs() < 1e-5 + turned, "{name}: {pdf} {told}");
             let [v, turn] = place(alpha, (wo + wi.as_dvec3()).normalize());
             let bin = |value: f64, bins: usize| ((value * bins as f64) as usize).min(bins - 1);
             counts[bin(v, ROWS) * COLUMNS + bin(turn, COLUMNS)] += 1.0;

@@ -32,7 +32,7 @@ pub use provenance::{Made, Provenance, made_from};
 pub use renderer::{Frame, Pacing, Rendered, Renderer, Watch};
 pub use shot::{SceneChanges, Shot};
 pub use threads::{Rank, Threads};
-pub use traced::{TracedSettings, TreeSettings, TruthSettings, bounces_name, roulette_name};
+pub use traced::{NormalsPaneSettings, TracedSettings, TreeSettings, TruthSettings, bounces_name, roulette_name};
 
 use pathtrace::Integrator;
 
@@ -45,11 +45,16 @@ pub enum TechniqueName {
     Whitted,
     /// The truth: path traced.
     Path,
+    /// The normals of what is seen.
+    Normals,
 }
 
 impl TechniqueName {
-    /// All, in the order of the lecture.
-    pub const ALL: [TechniqueName; 3] = [TechniqueName::Raster, TechniqueName::Whitted, TechniqueName::Path];
+    /// Those that show light, in the order of the lecture.
+    pub const OF_LIGHT: [TechniqueName; 3] = [TechniqueName::Raster, TechniqueName::Whitted, TechniqueName::Path];
+    /// All.
+    pub const ALL: [TechniqueName; 4] =
+        [TechniqueName::Raster, TechniqueName::Whitted, TechniqueName::Path, TechniqueName::Normals];
 
     /// The name on the command line.
     pub fn name(self) -> &'static str {
@@ -57,6 +62,7 @@ impl TechniqueName {
             TechniqueName::Raster => "raster",
             TechniqueName::Whitted => "whitted",
             TechniqueName::Path => "path",
+            TechniqueName::Normals => "normals",
         }
     }
 
@@ -71,6 +77,7 @@ impl TechniqueName {
             TechniqueName::Raster => "Fake",
             TechniqueName::Whitted => "Whitted",
             TechniqueName::Path => "Truth",
+            TechniqueName::Normals => "Normals",
         }
     }
 
@@ -78,7 +85,7 @@ impl TechniqueName {
     pub fn usual_device(self) -> Device {
         match self {
             TechniqueName::Raster => Device::Gpu,
-            TechniqueName::Whitted | TechniqueName::Path => Device::Cpu,
+            TechniqueName::Whitted | TechniqueName::Path | TechniqueName::Normals => Device::Cpu,
         }
     }
 }
@@ -99,6 +106,7 @@ impl Technique {
             Technique::Fake(_) => TechniqueName::Raster,
             Technique::Traced(TracedSettings { integrator: Integrator::Whitted(_), .. }) => TechniqueName::Whitted,
             Technique::Traced(TracedSettings { integrator: Integrator::Path(_), .. }) => TechniqueName::Path,
+            Technique::Traced(TracedSettings { integrator: Integrator::Normals(_), .. }) => TechniqueName::Normals,
         }
     }
 
@@ -110,11 +118,11 @@ impl Technique {
         }
     }
 
-    /// Whether it shows the scene, so that its error means something; a shadow map does not.
+    /// Whether it shows the scene's light, so that its error means something; a shadow map does not.
     pub fn shows_the_scene(&self) -> bool {
         match self {
             Technique::Fake(fake) => fake.shows_the_scene(),
-            Technique::Traced(_) => true,
+            Technique::Traced(traced) => !matches!(traced.integrator, Integrator::Normals(_)),
         }
     }
 }

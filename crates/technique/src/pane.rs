@@ -1,6 +1,9 @@
 //! What a pane of the viewer or one call of `visavis render` is set to.
 
-use crate::{DeviceChoice, FakeSettings, Technique, TechniqueName, TracedSettings, TreeSettings, TruthSettings};
+use crate::{
+    DeviceChoice, FakeSettings, NormalsPaneSettings, Technique, TechniqueName, TracedSettings, TreeSettings,
+    TruthSettings,
+};
 use pathtrace::Estimator;
 use scene::Scene;
 
@@ -19,6 +22,8 @@ pub struct PaneSettings {
     pub whitted: TreeSettings,
     /// The settings of the truth.
     pub truth: TruthSettings,
+    /// The settings of a picture of normals.
+    pub normals: NormalsPaneSettings,
 }
 
 impl PaneSettings {
@@ -31,6 +36,7 @@ impl PaneSettings {
             fake: FakeSettings::default(),
             whitted: TreeSettings::default(),
             truth: TruthSettings::default(),
+            normals: NormalsPaneSettings::default(),
         }
     }
 
@@ -40,6 +46,7 @@ impl PaneSettings {
             TechniqueName::Raster => Technique::Fake(self.fake),
             TechniqueName::Whitted => Technique::Traced(self.here(self.whitted.into())),
             TechniqueName::Path => Technique::Traced(self.here(self.truth.into())),
+            TechniqueName::Normals => Technique::Traced(self.here(self.normals.into())),
         }
     }
 

@@ -1,7 +1,7 @@
 //! The settings of what is traced by rays: the truth, and Whitted's step towards it.
 
 use crate::DeviceChoice;
-use pathtrace::{GlassShadows, Integrator, LightSampling, PathSettings, Roulette, WhittedSettings};
+use pathtrace::{GlassShadows, Integrator, LightSampling, NormalsSettings, PathSettings, Roulette, WhittedSettings};
 use scene::Scene;
 
 /// An integrator, where and how long it goes on.
@@ -35,6 +35,28 @@ pub struct TreeSettings {
     pub spp: u32,
 }
 
+/// The settings of a picture of normals.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct NormalsPaneSettings {
+    /// How they are shown.
+    pub normals: NormalsSettings,
+    /// Samples per pixel at which rendering stops.
+    pub spp: u32,
+}
+
+impl Default for NormalsPaneSettings {
+    /// Few samples: only edges need them.
+    fn default() -> Self {
+        NormalsPaneSettings { normals: NormalsSettings::default(), spp: 16 }
+    }
+}
+
+impl From<NormalsPaneSettings> for TracedSettings {
+    fn from(NormalsPaneSettings { normals, spp }: NormalsPaneSettings) -> Self {
+        TracedSettings { integrator: normals.into(), device: DeviceChoice::default(), adapter: 0, spp }
+    }
+}
+
 impl Default for TruthSettings {
     fn default() -> Self {
         TruthSettings { path: PathSettings::default(), spp: 256 }
@@ -66,6 +88,7 @@ impl TracedSettings {
         match self.integrator {
             Integrator::Path(path) => format!("truth (path, {})", path.estimator.name()),
             Integrator::Whitted(tree) => format!("Whitted (depth {})", tree.depth),
+            Integrator::Normals(normals) => format!("normals ({})", normals.space.name()),
         }
     }
 
@@ -92,7 +115,7 @@ impl TracedSettings {
             Integrator::Path(_) if specular && !scene.point_lights.is_empty() => {
                 Some("a point light casts no caustic: no path can find it behind glass or mirror")
             }
-            Integrator::Path(_) => None,
+            Integrator::Path(_) | Integrator::Normals(_) => None,
         }
     }
 }

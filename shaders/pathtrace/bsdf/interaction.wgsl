@@ -19,7 +19,7 @@ struct Interaction {
     material: u32,
 }
 
-// A colour times a number, kept apart so that products are rounded in one order whatever the lobe.
+// A BSDF's value: a colour times a number, kept apart so that products are rounded in one order whatever the lobe.
 struct ScaledColour {
     colour: vec3f,
     factor: f32,
@@ -30,7 +30,7 @@ struct BsdfSample {
     // unit direction in which the path goes on
     wi: vec3f,
     // BSDF times cosine over density
-    weight: ScaledColour,
+    weight: vec3f,
     // density per solid angle; DELTA_PDF where the lobe left no choice
     pdf: f32,
 }
@@ -39,7 +39,7 @@ struct BsdfSample {
 const DELTA_PDF: f32 = -1.0;
 
 fn delta_sample(at: Interaction, wi: vec3f) -> BsdfSample {
-    return BsdfSample(wi, ScaledColour(at.colour, 1.0), DELTA_PDF);
+    return BsdfSample(wi, at.colour, DELTA_PDF);
 }
 
 // Whether the surface scatters by Lambert's law.

@@ -5,7 +5,7 @@
 // Draws directions by the cosine, of which the weight is the albedo.
 fn sample_lambert(at: Interaction, u: vec2f) -> BsdfSample {
     let local = cosine_hemisphere(u);
-    return BsdfSample(to_world(local, at.normal), ScaledColour(at.colour, 1.0), local.z * FRAC_1_PI);
+    return BsdfSample(to_world(local, at.normal), at.colour, local.z * FRAC_1_PI);
 }
 
 // The same in all directions.

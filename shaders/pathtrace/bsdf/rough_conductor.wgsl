@@ -79,7 +79,7 @@ fn sample_microfacets(metal: RoughConductor, wo: vec3f, u: vec2f) -> BsdfSample 
     if wi.z > 0.0 {
         passes = wi.z * (wo.z + wo_slope) / (wi.z * wo_slope + wo.z * wi_slope);
     }
-    return BsdfSample(wi, ScaledColour(conductor_fresnel(metal, cosine), passes), pdf_of_facet(metal.alpha, wo, facet));
+    return BsdfSample(wi, conductor_fresnel(metal, cosine) * passes, pdf_of_facet(metal.alpha, wo, facet));
 }
 
 // F D G2 / (4 cos cos), in which the cosines cancel against those of G2.

@@ -182,9 +182,8 @@ fn scatter() -> bool {
         sample = sample_uniformly(u.xy);
     } else {
         sample = sample_bsdf(vertex, u.xyw);
+        path.throughput *= sample.weight;
     }
-    path.throughput *= sample.weight.colour;
-    path.throughput *= sample.weight.factor;
     if delta || LIGHT_SEARCH == BY_CHANCE {
         path.direction_pdf = MET_BY_CHANCE;
     } else if LIGHT_SEARCH == BY_SAMPLING {
@@ -197,13 +196,14 @@ fn scatter() -> bool {
     return goes_on(u.z);
 }
 
-// A direction of the tutorial's naive tracer, whatever the surface (Task 2 b).
+// A direction of the tutorial's naive tracer, whatever the surface (Task 2 b); its weight is in the throughput.
 fn sample_uniformly(u: vec2f) -> BsdfSample {
     let local = uniform_hemisphere(u);
     let wi = to_world(local, vertex.normal);
-    var weight = eval_bsdf(vertex, wi);
-    weight.factor = weight.factor * local.z / UNIFORM_HEMISPHERE_PDF;
-    return BsdfSample(wi, weight, UNIFORM_HEMISPHERE_PDF);
+    let bsdf = eval_bsdf(vertex, wi);
+    path.throughput *= bsdf.colour;
+    path.throughput *= bsdf.factor * local.z / UNIFORM_HEMISPHERE_PDF;
+    return BsdfSample(wi, bsdf.colour, UNIFORM_HEMISPHERE_PDF);
 }
 
 // Counts the vertex and plays roulette.

@@ -44,7 +44,7 @@ pub fn run(args: &mut RenderArgs) -> anyhow::Result<()> {
     let technique = args.pane.in_use();
     anyhow::ensure!(
         !args.errors || technique.shows_the_scene(),
-        "a map of the fake has no errors: --errors needs --show picture"
+        "a map has no errors: --errors needs a picture of the scene's light (--show picture, and not --technique normals)"
     );
     image_file::check_writable(&args.out)?;
     let Timed { rendered, seconds } = match technique {

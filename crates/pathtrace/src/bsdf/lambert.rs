@@ -9,8 +9,7 @@ use std::f32::consts::FRAC_1_PI;
 #[inline(always)]
 pub fn sample<F: Float>(at: &Interactions<F>, u: [F; 2]) -> BsdfSamples<F> {
     let local = cosine_hemisphere(u);
-    let weight = ScaledColours { colour: at.colour, factor: F::splat(1.0) };
-    BsdfSamples { wi: to_world(local, at.normal), weight, pdf: local.z * FRAC_1_PI }
+    BsdfSamples { wi: to_world(local, at.normal), weight: at.colour, pdf: local.z * FRAC_1_PI }
 }
 
 /// The same in all directions.

@@ -19,7 +19,7 @@ use materials::Materials;
 pub use rough_conductor::RoughConductor;
 use simd::{Float, Mask, Vector};
 
-/// A colour times a number, kept apart so that products are rounded in one order whatever the lobe.
+/// A BSDF's value: a colour times a number, kept apart so that products are rounded in one order whatever the lobe.
 #[derive(Debug, Clone, Copy)]
 pub struct ScaledColours<F> {
     /// The colour.
@@ -34,7 +34,7 @@ pub struct BsdfSamples<F> {
     /// Unit direction in which the path goes on.
     pub wi: Vector<F>,
     /// BSDF times cosine over density.
-    pub weight: ScaledColours<F>,
+    pub weight: Vector<F>,
     /// Density per solid angle; infinite where the lobe left no choice.
     pub pdf: F,
 }
@@ -154,8 +154,7 @@ impl<F: Float> BsdfSamples<F> {
     /// Of lobes that leave no choice, whose weight is the surface's colour.
     #[inline(always)]
     fn delta(at: &Interactions<F>) -> Self {
-        let weight = ScaledColours { colour: at.colour, factor: F::splat(1.0) };
-        BsdfSamples { wi: at.normal, weight, pdf: F::splat(f32::INFINITY) }
+        BsdfSamples { wi: at.normal, weight: at.colour, pdf: F::splat(f32::INFINITY) }
     }
 
     /// `mask ? yes : no`.
@@ -163,7 +162,7 @@ impl<F: Float> BsdfSamples<F> {
     pub fn select(mask: F::M, yes: Self, no: Self) -> Self {
         BsdfSamples {
             wi: Vector::select(mask, yes.wi, no.wi),
-            weight: ScaledColours::select(mask, yes.weight, no.weight),
+            weight: Vector::select(mask, yes.weight, no.weight),
             pdf: F::select(mask, yes.pdf, no.pdf),
         }
     }

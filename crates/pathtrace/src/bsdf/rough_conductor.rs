@@ -76,7 +76,7 @@ impl<F: Float> RoughConductors<F> {
         let (wo_slope, wi_slope) = (self.slope_length(wo), self.slope_length(wi));
         let passes = wi.z * (wo.z + wo_slope) / (wi.z * wo_slope + wo.z * wi_slope);
         let zero = F::splat(0.0);
-        let weight = ScaledColours { colour: self.fresnel(cosine), factor: F::select(wi.z.gt(zero), passes, zero) };
+        let weight = self.fresnel(cosine) * F::select(wi.z.gt(zero), passes, zero);
         BsdfSamples { wi, weight, pdf: self.pdf_of_facet(wo, facet) }
     }
 
@@ -198,8 +198,7 @@ impl RoughConductor {
     /// A direction, BSDF times cosine over density (0 if it lies below the surface), and the density per solid angle.
     pub fn sample(&self, wo: Vec3, u: [f32; 2]) -> (Vec3, Vec3, f32) {
         let sample = self.lane().sample(lane_vector(wo), u);
-        let weight = glam_vector(sample.weight.colour) * sample.weight.factor;
-        (glam_vector(sample.wi), weight, sample.pdf)
+        (glam_vector(sample.wi), glam_vector(sample.weight), sample.pdf)
     }
 
     /// The BSDF for light from `wi` above the surface.

@@ -1,9 +1,11 @@
-//! Light transport: [`path`], the tutorial's Monte Carlo path tracer, and [`whitted`], the step before it.
+//! Light transport: [`path`], the tutorial's Monte Carlo path tracer, and [`whitted`], the step before it; and
+//! [`normals`], which shows no light at all.
 //!
 //! A new integrator is a file here with its settings and lanes, its twin in `shaders/pathtrace/integrator/`, and a
 //! variant of [`Integrator`] with an arm in each of the matches below: all that the machines ask an integrator for.
 
 pub(crate) mod forks;
+pub mod normals;
 pub mod path;
 pub(crate) mod path_state;
 pub(crate) mod roulette;
@@ -15,6 +17,7 @@ use crate::drive::lanes::FilmJob;
 use crate::sampling::sampler::SamplerKind;
 use crate::stats::Stats;
 use film::Film;
+use normals::NormalsSettings;
 use scene::stand_ins::FakeNumbers;
 use settings::{PathSettings, SettingsError};
 use whitted::WhittedSettings;
@@ -26,6 +29,8 @@ pub enum Integrator {
     Path(PathSettings),
     /// In trees of mirrors and glass.
     Whitted(WhittedSettings),
+    /// To the first surface.
+    Normals(NormalsSettings),
 }
 
 impl Integrator {
@@ -34,6 +39,7 @@ impl Integrator {
         match self {
             Integrator::Path(_) => "path",
             Integrator::Whitted(_) => "whitted",
+            Integrator::Normals(_) => "normals",
         }
     }
 
@@ -42,6 +48,7 @@ impl Integrator {
         match self {
             Integrator::Path(settings) => settings.sampler,
             Integrator::Whitted(settings) => settings.sampler,
+            Integrator::Normals(settings) => settings.sampler,
         }
     }
 
@@ -50,6 +57,7 @@ impl Integrator {
         match self {
             Integrator::Path(settings) => settings.seed,
             Integrator::Whitted(settings) => settings.seed,
+            Integrator::Normals(settings) => settings.seed,
         }
     }
 
@@ -58,6 +66,7 @@ impl Integrator {
         match self {
             Integrator::Path(settings) => PathSettings { seed, ..settings }.into(),
             Integrator::Whitted(settings) => WhittedSettings { seed, ..settings }.into(),
+            Integrator::Normals(settings) => NormalsSettings { seed, ..settings }.into(),
         }
     }
 
@@ -68,7 +77,7 @@ impl Integrator {
     pub fn check(&self) -> Result<(), SettingsError> {
         match self {
             Integrator::Path(settings) => settings.check(),
-            Integrator::Whitted(_) => Ok(()),
+            Integrator::Whitted(_) | Integrator::Normals(_) => Ok(()),
         }
     }
 
@@ -77,6 +86,7 @@ impl Integrator {
         match self {
             Integrator::Path(settings) => job.fill(film, &path::Plan::new(settings)),
             Integrator::Whitted(settings) => job.fill(film, &whitted::Plan::new(settings, job.stand_ins)),
+            Integrator::Normals(settings) => job.fill(film, &normals::Plan::new(settings, &job.order.frame)),
         }
     }
 
@@ -85,6 +95,7 @@ impl Integrator {
         match self {
             Integrator::Path(settings) => settings.pipeline_key(everything),
             Integrator::Whitted(settings) => settings.pipeline_key(),
+            Integrator::Normals(settings) => settings.pipeline_key(),
         }
     }
 
@@ -94,6 +105,7 @@ impl Integrator {
         match self {
             Integrator::Path(settings) => settings.render_params(params),
             Integrator::Whitted(settings) => settings.render_params(params, stand_ins),
+            Integrator::Normals(_) => params,
         }
     }
 }
@@ -101,6 +113,12 @@ impl Integrator {
 impl From<PathSettings> for Integrator {
     fn from(settings: PathSettings) -> Self {
         Integrator::Path(settings)
+    }
+}
+
+impl From<NormalsSettings> for Integrator {
+    fn from(settings: NormalsSettings) -> Self {
+        Integrator::Normals(settings)
     }
 }
 

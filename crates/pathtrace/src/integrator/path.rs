@@ -11,7 +11,7 @@
 //!
 //! Twin: `shaders/pathtrace/integrator/path.wgsl`.
 
-use crate::bsdf::{BsdfSamples, Interactions};
+use crate::bsdf::{BsdfSamples, Interactions, ScaledColours};
 use crate::drive::gpu::film_data::RenderParams;
 use crate::drive::gpu::{PipelineKey, flag};
 use crate::drive::lanes::{LaneIntegrator, LanePlan};
@@ -20,7 +20,7 @@ use crate::integrator::path_state::{ALREADY_COUNTED, DiffuseVertices, MET_BY_CHA
 use crate::integrator::roulette::survivors;
 use crate::integrator::settings::{Directions, LightSampling, PathSettings, Roulette};
 use crate::intersect::shape_list::Scratch;
-use crate::intersect::{NO_LIGHT, Rays, SurfaceInteractions, SurfacePoints};
+use crate::intersect::{Intersections, NO_LIGHT, Rays, SurfacePoints};
 use crate::prepared::{Outcomes, PreparedScene};
 use crate::sampling::UNIFORM_HEMISPHERE_PDF;
 use crate::sampling::sampler::Sampler;
@@ -247,8 +247,11 @@ impl<'a, F: Float> PathLanes<'a, F> {
         let uniform = self.plan.directions == Directions::Uniform;
         // before the light, whose shadow rays the processor can begin while roots and quotients are on their way
         let mut sample = self.scene.materials.sample(if uniform { here & delta } else { here }, at, u);
+        let mut throughput = self.path.throughput * sample.weight;
         if uniform {
-            sample = BsdfSamples::select(delta, sample, self.sample_uniformly(at, [u[0], u[1]]));
+            let (drawn, weight) = self.sample_uniformly(at, [u[0], u[1]]);
+            throughput = Vector::select(delta, throughput, weight.times(self.path.throughput));
+            sample = BsdfSamples::select(delta, sample, drawn);
         }
         let choosing = here & !delta;
         if self.plan.light != LightSampling::BsdfOnly && !self.scene.lights.is_empty() && choosing.any() {
@@ -260,18 +263,17 @@ impl<'a, F: Float> PathLanes<'a, F> {
             LightSampling::Mis => sample.pdf,
         };
         let rays = Rays::new(at.point.leaving_towards(sample.wi), sample.wi);
-        let throughput = sample.weight.times(self.path.throughput);
         self.path = PathStates { rays, throughput, from: at.point.position, direction_pdf, ..self.path };
     }
 
-    /// Directions of the tutorial's naive tracer, whatever the surface (Task 2 b).
+    /// Directions of the tutorial's naive tracer, whatever the surface (Task 2 b), and their weights.
     #[inline(always)]
-    fn sample_uniformly(&self, at: &Interactions<F>, u: [F; 2]) -> BsdfSamples<F> {
+    fn sample_uniformly(&self, at: &Interactions<F>, u: [F; 2]) -> (BsdfSamples<F>, ScaledColours<F>) {
         let local = uniform_hemisphere(u);
         let wi = to_world(local, at.normal);
         let mut weight = self.scene.materials.eval(at, wi);
         weight.factor = local.z * (weight.factor / F::splat(UNIFORM_HEMISPHERE_PDF));
-        BsdfSamples { wi, weight, pdf: F::splat(UNIFORM_HEMISPHERE_PDF) }
+        (BsdfSamples { wi, weight: weight.colour, pdf: F::splat(UNIFORM_HEMISPHERE_PDF) }, weight)
     }
 
     /// Counts the vertex and plays roulette; where paths go on.
@@ -322,7 +324,7 @@ impl<'a, F: Float> PathLanes<'a, F> {
 
     /// Density with which light sampling at the paths' last vertices draws the directions to these hits.
     #[inline(always)]
-    fn light_pdf(&self, hit: &SurfaceInteractions<F>) -> F {
+    fn light_pdf(&self, hit: &Intersections<F>) -> F {
         let pdf = self.scene.lights.table().pdf(hit.light, self.path.from, hit.point.position);
         F::select(hit.light.eq(F::U::splat(NO_LIGHT)), F::splat(0.0), pdf)
     }

@@ -5,7 +5,7 @@ use super::bvh2::Bvh2;
 use super::bvh8::Bvh8;
 use super::bvh8_collapse::Shapes;
 use super::primitive::primitives;
-use super::{Hit, Ray, SurfaceInteraction};
+use super::{Hit, Intersection, Ray};
 use scene::Scene;
 use simd::{Lanes, RowLanes};
 
@@ -58,16 +58,16 @@ impl Accel {
     }
 
     /// What the ray has met that has this hit.
-    pub fn interaction(&self, ray: &Ray, hit: &Hit) -> SurfaceInteraction {
+    pub fn intersection(&self, ray: &Ray, hit: &Hit) -> Intersection {
         match &self.hierarchy {
-            Hierarchy::Two(bvh) => bvh.interaction(ray, hit),
-            Hierarchy::Eight(bvh) => bvh.interaction(ray, hit),
+            Hierarchy::Two(bvh) => bvh.intersection(ray, hit),
+            Hierarchy::Eight(bvh) => bvh.intersection(ray, hit),
         }
     }
 
-    /// What the ray meets first: [`Accel::closest`] and [`Accel::interaction`].
-    pub fn first_met(&self, ray: &Ray) -> Option<SurfaceInteraction> {
-        self.closest(ray).map(|hit| self.interaction(ray, &hit))
+    /// What the ray meets first: [`Accel::closest`] and [`Accel::intersection`].
+    pub fn first_met(&self, ray: &Ray) -> Option<Intersection> {
+        self.closest(ray).map(|hit| self.intersection(ray, &hit))
     }
 
     /// Whether anything lies on the ray before `ray.tmax`.

@@ -4,7 +4,7 @@
 //! Twin: `shaders/pathtrace/intersect/aggregate.wgsl`.
 
 use super::shape_list::{Scratch, ShapeList};
-use super::{Accel, Hit, Hits, NO_LIGHT, NO_PRIMITIVE, Rays, SurfaceInteractions, SurfacePoints};
+use super::{Accel, Hit, Hits, Intersections, NO_LIGHT, NO_PRIMITIVE, Rays, SurfacePoints};
 use crate::vectors::of_lanes;
 use scene::{Bsdf, Scene, Vec3};
 use simd::{Float, MOST_LANES, Mask, Word};
@@ -56,9 +56,9 @@ impl Aggregate {
 
     /// What the rays have met that have these hits.
     #[inline(always)]
-    pub fn interactions<F: Float>(&self, rays: &Rays<F>, hits: &Hits<F>) -> SurfaceInteractions<F> {
+    pub fn intersections<F: Float>(&self, rays: &Rays<F>, hits: &Hits<F>) -> Intersections<F> {
         match &self.shape_list {
-            Some(shape_list) => shape_list.interactions(rays, hits),
+            Some(shape_list) => shape_list.intersections(rays, hits),
             None => self.interactions_one_by_one(rays, hits),
         }
     }
@@ -88,7 +88,7 @@ impl Aggregate {
     }
 
     #[inline(always)]
-    fn interactions_one_by_one<F: Float>(&self, rays: &Rays<F>, hits: &Hits<F>) -> SurfaceInteractions<F> {
+    fn interactions_one_by_one<F: Float>(&self, rays: &Rays<F>, hits: &Hits<F>) -> Intersections<F> {
         let rays = rays.each();
         let (mut t, mut primitive) = ([0.0; MOST_LANES], [0; MOST_LANES]);
         let mut barycentrics = [[0.0; MOST_LANES]; 3];
@@ -102,11 +102,11 @@ impl Aggregate {
         for lane in lanes_of(hits.met()) {
             let barycentrics = barycentrics.map(|weights| weights[lane]);
             let hit = Hit { t: t[lane], primitive: primitive[lane], barycentrics };
-            let met = self.accel.interaction(&rays[lane], &hit);
+            let met = self.accel.intersection(&rays[lane], &hit);
             (position[lane], error[lane], normal[lane]) = (met.point.position, met.point.error, met.point.normal);
             (material[lane], light[lane]) = (met.material, met.light);
         }
-        SurfaceInteractions {
+        Intersections {
             met: hits.met(),
             point: SurfacePoints { position: of_lanes(&position), error: of_lanes(&error), normal: of_lanes(&normal) },
             material: F::U::load(&material),

@@ -5,7 +5,7 @@
 
 use super::primitive::{Primitive, Surface, padding, primitives};
 use super::triangle::ShearedRay;
-use super::{Hit, NO_PRIMITIVE, Ray, SurfaceInteraction};
+use super::{Hit, Intersection, NO_PRIMITIVE, Ray};
 use obvhs::BvhBuildParams;
 use obvhs::aabb::Aabb;
 use obvhs::bvh2::Bvh2 as Tree;
@@ -66,9 +66,9 @@ impl Bvh2 {
     }
 
     /// What the ray has met that has this hit.
-    pub(super) fn interaction(&self, ray: &Ray, hit: &Hit) -> SurfaceInteraction {
+    pub(super) fn intersection(&self, ray: &Ray, hit: &Hit) -> Intersection {
         let place = hit.primitive as usize;
-        self.primitives[place].interaction(ray, hit, &self.surfaces[place])
+        self.primitives[place].intersection(ray, hit, &self.surfaces[place])
     }
 
     pub(super) fn nearest(&self, ray: &Ray) -> Nearest {

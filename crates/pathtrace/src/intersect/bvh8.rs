@@ -10,7 +10,7 @@
 
 use super::bvh8_leaf::{Closest, Occluded};
 use super::primitive::{Primitive, Surface};
-use super::{Hit, Ray, SurfaceInteraction, SurfacePoints};
+use super::{Hit, Intersection, Ray, SurfacePoints};
 use crate::vectors::lane_vector;
 use obvhs::aabb::Aabb;
 use scene::Vec3;
@@ -264,15 +264,15 @@ impl Bvh8 {
     }
 
     /// What the ray has met that has this hit.
-    pub fn interaction(&self, ray: &Ray, hit: &Hit) -> SurfaceInteraction {
+    pub fn intersection(&self, ray: &Ray, hit: &Hit) -> Intersection {
         let (child, lane) = Child::of_primitive(hit.primitive);
         if child.is_curved() {
             let Curved { primitive, surface, .. } = &self.curved[child.index()];
-            return primitive.interaction(ray, hit, surface);
+            return primitive.intersection(ray, hit, surface);
         }
         let leaf = Leaf(&self.blocks.all()[child.index()]);
         let (corners, surface) = (leaf.corners(lane).map(lane_vector), leaf.surface(lane));
-        surface.interaction(SurfacePoints::on_triangle(corners, hit.barycentrics, lane_vector(surface.normal)))
+        surface.intersection(SurfacePoints::on_triangle(corners, hit.barycentrics, lane_vector(surface.normal)))
     }
 
     /// The nearest hit, as little of it as the walk carries; none has the id `u32::MAX`.

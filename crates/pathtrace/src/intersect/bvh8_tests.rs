@@ -166,7 +166,7 @@ fn agree_on(name: &str, model: &Model, rays: u32) {
             let mut same = hit(&eight, ray) == expected;
             if let (Some(a), Some(b)) = (two.closest(ray), eight.closest(ray)) {
                 same &= (a.t, a.barycentrics) == (b.t, b.barycentrics);
-                let (a, b) = (two.interaction(ray, &a), eight.interaction(ray, &b));
+                let (a, b) = (two.intersection(ray, &a), eight.intersection(ray, &b));
                 same &= a.point == b.point && (a.material, a.light) == (b.material, b.light);
                 same &= b.light == nearest.id && b.material == nearest.id % 3;
             }

@@ -20,7 +20,7 @@ pub struct Hit {
 
 /// What a ray has met.
 #[derive(Debug, Clone, Copy)]
-pub struct SurfaceInteraction {
+pub struct Intersection {
     /// Where, with the outward normal.
     pub point: SurfacePoint,
     /// Index into the scene's materials.
@@ -54,9 +54,9 @@ impl<F: Float> Hits<F> {
     }
 }
 
-/// A [`SurfaceInteraction`] in each lane.
+/// An [`Intersection`] in each lane.
 #[derive(Debug, Clone, Copy)]
-pub struct SurfaceInteractions<F: Float> {
+pub struct Intersections<F: Float> {
     /// Whether anything was met; what else is said holds only there.
     pub met: F::M,
     /// Where, with the outward normal.

@@ -2,7 +2,7 @@
 //!
 //! [`triangle`] is watertight, [`sphere`] holds far away and huge, [`disk`] is flat; [`accel`] puts them into a BVH
 //! whose boxes are padded against the rounding of its box test, [`shape_list`] tests all of a small scene against a ray
-//! in each lane, and [`aggregate`] chooses between these. All find a [`Hit`], and fetch a [`SurfaceInteraction`] for the
+//! in each lane, and [`aggregate`] chooses between these. All find a [`Hit`], and fetch a [`Intersection`] for the
 //! one that is left; its [`SurfacePoint`] says how far to step off the surface.
 //!
 //! Of lights nothing is known here but their numbers, which hits bring along.
@@ -27,7 +27,7 @@ mod surface_point;
 pub mod triangle;
 
 pub use accel::Accel;
-pub use hit::{Hit, Hits, NO_LIGHT, NO_PRIMITIVE, SurfaceInteraction, SurfaceInteractions};
+pub use hit::{Hit, Hits, Intersection, Intersections, NO_LIGHT, NO_PRIMITIVE};
 pub use ray::{Ray, Rays, SHADOW_END};
 pub use surface_point::{SurfacePoint, SurfacePoints};
 pub use triangle::triangle_normal;

@@ -3,7 +3,7 @@
 use super::disk::Disk;
 use super::sphere::{Sphere, SphereLanes};
 use super::triangle::{ShearedRay, Triangle, triangle_normal};
-use super::{Hit, NO_LIGHT, Ray, Rays, SurfaceInteraction, SurfacePoints, gamma};
+use super::{Hit, Intersection, NO_LIGHT, Ray, Rays, SurfacePoints, gamma};
 use crate::vectors::lane_vector;
 use rayon::prelude::*;
 use scene::{Geometry, Scene, Vec3};
@@ -22,15 +22,15 @@ pub(crate) struct Surface {
     /// Unit normal of a triangle; others have their own.
     pub normal: Vec3,
     pub material: u32,
-    /// See [`SurfaceInteraction::light`].
+    /// See [`Intersection::light`].
     pub light: u32,
 }
 
 impl Surface {
     /// What a ray has met that has hit this surface at a point of it.
     #[inline(always)]
-    pub(super) fn interaction(&self, point: SurfacePoints<f32>) -> SurfaceInteraction {
-        SurfaceInteraction { point: point.into(), material: self.material, light: self.light }
+    pub(super) fn intersection(&self, point: SurfacePoints<f32>) -> Intersection {
+        Intersection { point: point.into(), material: self.material, light: self.light }
     }
 }
 
@@ -48,7 +48,7 @@ impl Primitive {
     }
 
     /// What a ray has met that has hit this.
-    pub(super) fn interaction(&self, ray: &Ray, hit: &Hit, surface: &Surface) -> SurfaceInteraction {
+    pub(super) fn intersection(&self, ray: &Ray, hit: &Hit, surface: &Surface) -> Intersection {
         let normal = lane_vector(surface.normal);
         let point = match self {
             Primitive::Triangle(triangle) => {
@@ -63,7 +63,7 @@ impl Primitive {
                 SurfacePoints::on_disk(lane_vector(disk.center), origin + direction * hit.t, normal)
             }
         };
-        surface.interaction(point)
+        surface.intersection(point)
     }
 
     pub(super) fn bounds(&self) -> (Vec3, Vec3) {

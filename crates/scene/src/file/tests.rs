@@ -56,7 +56,7 @@ fn rough_metal_is_read_in_each_of_its_ways_and_no_other() {
     let expected = Conductor::named("gold").unwrap();
     assert_eq!(gold.bsdf, Bsdf::RoughConductor { conductor: expected, roughness: 0.01 });
     let faults = [
-        ("{ reflectance = [1, 1, 1], roughness = 0 }", "test.toml:8:56: 0 is not a number from 0.01 to 1"),
+        ("{ reflectance = [1, 1, 1], roughness = 0 }", "test.toml:8:58: 0 is not a number from 0.01 to 1"),
         ("{ metal = \"tin\", roughness = 1 }", "test.toml:8:29: no metal is called 'tin': known are gold, silver, "),
         ("{ eta = [1, 1, 1], roughness = 1 }", "expected one of reflectance, eta with k, or metal"),
         ("{ eta = [1, 1, 1], k = [1, 1, 1], metal = \"gold\", roughness = 1 }", "expected one of reflectance, eta "),

@@ -8,7 +8,7 @@ pub use control::{Control, Look};
 pub use rows::{OF_SCENES, all_of_panes};
 
 use crate::{DeviceChoice, PaneSettings, SceneChanges, Technique, TechniqueName, roulette_name};
-use crate::{TreeSettings, TruthSettings, bounces_name};
+use crate::{NormalsPaneSettings, TreeSettings, TruthSettings, bounces_name};
 use image_file::Records;
 use pathtrace::{Integrator, Roulette};
 use raster::Show;
@@ -276,6 +276,7 @@ impl PaneSettings {
             TechniqueName::Raster => self.fake = other.fake,
             TechniqueName::Whitted => self.whitted = other.whitted,
             TechniqueName::Path => self.truth = other.truth,
+            TechniqueName::Normals => self.normals = other.normals,
         }
     }
 }
@@ -292,6 +293,9 @@ impl From<Technique> for PaneSettings {
                 match traced.integrator {
                     Integrator::Path(path) => PaneSettings { truth: TruthSettings { path, spp }, ..pane },
                     Integrator::Whitted(tree) => PaneSettings { whitted: TreeSettings { tree, spp }, ..pane },
+                    Integrator::Normals(normals) => {
+                        PaneSettings { normals: NormalsPaneSettings { normals, spp }, ..pane }
+                    }
                 }
             }
         }

@@ -49,7 +49,7 @@ impl AsMut<Seen> for Reading {
     }
 }
 
-const TRACED: &[TechniqueName] = &[TechniqueName::Whitted, TechniqueName::Path];
+const TRACED: &[TechniqueName] = &[TechniqueName::Whitted, TechniqueName::Path, TechniqueName::Normals];
 
 /// Options of every technique, beside settings.
 pub fn options() -> Vec<CommandOption<Reading>> {
@@ -72,10 +72,10 @@ pub fn options() -> Vec<CommandOption<Reading>> {
         },
         CommandOption {
             names: &["--technique"],
-            value: "raster|whitted|path",
-            help: "the fake, Whitted's trees of rays or the truth (default path)",
+            value: "raster|whitted|path|normals",
+            help: "the fake, Whitted's trees of rays, the truth, or the normals of what is seen (default path)",
             read: |reading, parser| {
-                let expected = "raster, whitted or path";
+                let expected = "raster, whitted, path or normals";
                 reading.args.pane.technique = choice(parser, "--technique", TechniqueName::named, expected)?;
                 Ok(())
             },

@@ -84,12 +84,13 @@ fn techniques(cx: &mut UiContext, pane: PaneId, ui: &mut Ui) {
     // three words and the letter in one row, also where the panel is narrow
     ui.spacing_mut().item_spacing.x = 1.0;
     ui.spacing_mut().button_padding.x = 3.0;
-    for technique in TechniqueName::ALL {
+    for technique in TechniqueName::OF_LIGHT {
         let chosen = cx.model.session.panes[pane].technique == technique;
         let hover = match technique {
             TechniqueName::Raster => "Rasterised: shadow map, cube map, local shading",
             TechniqueName::Whitted => "Whitted: trees of rays at mirrors and glass, local light elsewhere",
             TechniqueName::Path => "Path traced: light itself, by Monte Carlo",
+            TechniqueName::Normals => "The normals of what is seen",
         };
         let button = ui.selectable_label(chosen, technique.title()).on_hover_text(hover);
         if cx.dump.note(&format!("{pane} {}", technique.name()), chosen, button).clicked() {

@@ -25,6 +25,7 @@ fn order(technique: TechniqueName) -> &'static [&'static str] {
             "segments",
         ],
         TechniqueName::Whitted => &["depth", "glass-shadows", "ambient", "spp", "shadow-rays", "sampler", "seed"],
+        TechniqueName::Normals => &["space", "spp", "sampler", "seed"],
         TechniqueName::Path => &["estimator", "spp", "bounces", "roulette", "branches", "sampler", "seed"],
     }
 }

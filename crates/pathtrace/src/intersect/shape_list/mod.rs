@@ -19,7 +19,7 @@ pub(crate) use pieces::{ListedForm, ListedPlane};
 
 use super::disk::Disk;
 use super::sphere::Sphere;
-use super::{Hits, NO_PRIMITIVE, Rays, SurfaceInteractions};
+use super::{Hits, Intersections, NO_PRIMITIVE, Rays};
 use simd::{Double, Float, Mask, Word};
 use surfaces::Surfaces;
 
@@ -143,8 +143,8 @@ impl ShapeList {
 
     /// What the rays have met that have these hits.
     #[inline(always)]
-    pub fn interactions<F: Float>(&self, rays: &Rays<F>, hits: &Hits<F>) -> SurfaceInteractions<F> {
-        self.surfaces.interactions(rays, hits)
+    pub fn intersections<F: Float>(&self, rays: &Rays<F>, hits: &Hits<F>) -> Intersections<F> {
+        self.surfaces.intersections(rays, hits)
     }
 
     /// Where `wanted` rays meet anything before `rays.tmax`; if `opaque`, glass does not count.

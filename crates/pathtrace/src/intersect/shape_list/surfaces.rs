@@ -3,7 +3,7 @@
 //! Twin: `shaders/pathtrace/intersect/shape_list.wgsl`.
 
 use crate::intersect::sphere::SphereLanes;
-use crate::intersect::{Hits, Rays, SurfaceInteractions, SurfacePoints};
+use crate::intersect::{Hits, Intersections, Rays, SurfacePoints};
 use crate::vectors::VectorColumn;
 use scene::Vec3;
 use scene::glam::DVec3;
@@ -15,7 +15,7 @@ pub struct Surface {
     pub form: Form,
     pub normal: Vec3,
     pub material: u32,
-    /// See [`SurfaceInteractions::light`].
+    /// See [`Intersections::light`].
     pub light: u32,
     /// Whether it is of glass.
     pub clear: bool,
@@ -120,7 +120,7 @@ impl Surfaces {
 
     /// What the rays have met that have these hits.
     #[inline(always)]
-    pub fn interactions<F: Float>(&self, rays: &Rays<F>, hits: &Hits<F>) -> SurfaceInteractions<F> {
+    pub fn intersections<F: Float>(&self, rays: &Rays<F>, hits: &Hits<F>) -> Intersections<F> {
         let &Hits { t, primitive: id, .. } = hits;
         let [has_flat, has_spheres, has_disks] = self.has;
         let (corner, normal) = (self.corner.look_up(id), self.normal.look_up(id));
@@ -140,7 +140,7 @@ impl Surfaces {
             let on_disk = SurfacePoints::on_disk(corner, near, normal);
             point = SurfacePoints::select(form.eq(F::U::splat(2)), on_disk, point);
         }
-        SurfaceInteractions {
+        Intersections {
             met: hits.met(),
             point,
             material: id.look_up_word(&self.material),

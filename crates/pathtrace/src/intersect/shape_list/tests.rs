@@ -1,6 +1,6 @@
 use super::{Scratch, ShapeList};
 use crate::intersect::aggregate::Aggregate;
-use crate::intersect::{Ray, SurfaceInteractions, SurfacePoint};
+use crate::intersect::{Intersections, Ray, SurfacePoint};
 use crate::light::Lights;
 use crate::sampling::sampler::Sampler;
 use crate::sampling::{cone, cosine_hemisphere, to_world};
@@ -26,10 +26,10 @@ impl Subject {
         (self.aggregate.shape_list().expect("few shapes"), &mut self.scratch)
     }
 
-    fn closest(&mut self, ray: &Ray) -> Option<SurfaceInteractions<f32>> {
+    fn closest(&mut self, ray: &Ray) -> Option<Intersections<f32>> {
         let (shape_list, scratch) = self.shape_list();
         let hit = shape_list.closest(&ray.lane(), scratch);
-        let met = shape_list.interactions(&ray.lane(), &hit);
+        let met = shape_list.intersections(&ray.lane(), &hit);
         met.met.then_some(met)
     }
 

@@ -91,7 +91,7 @@ pub const ROWS: &[Setting<PaneSettings>] = &[
         get: |pane| {
             let ambient = match pane.technique {
                 TechniqueName::Raster => pane.fake.knobs.ambient,
-                TechniqueName::Whitted | TechniqueName::Path => pane.whitted.tree.ambient,
+                TechniqueName::Whitted | TechniqueName::Path | TechniqueName::Normals => pane.whitted.tree.ambient,
             };
             ambient.map(Value::Number)
         },

@@ -9,7 +9,8 @@ use crate::{PaneSettings, SceneChanges, TechniqueName};
 const RASTER: &[TechniqueName] = &[TechniqueName::Raster];
 const WHITTED: &[TechniqueName] = &[TechniqueName::Whitted];
 const PATH: &[TechniqueName] = &[TechniqueName::Path];
-const TRACED: &[TechniqueName] = &[TechniqueName::Whitted, TechniqueName::Path];
+const NORMALS: &[TechniqueName] = &[TechniqueName::Normals];
+const TRACED: &[TechniqueName] = &[TechniqueName::Whitted, TechniqueName::Path, TechniqueName::Normals];
 const LOCAL: &[TechniqueName] = &[TechniqueName::Raster, TechniqueName::Whitted];
 
 /// What each row begins from.
@@ -88,8 +89,12 @@ pub fn all_of_panes() -> impl Iterator<Item = &'static Setting<PaneSettings>> {
     traced::ROWS.iter().chain(fake::ROWS)
 }
 
-fn by_integrator<T>(pane: &PaneSettings, path: T, whitted: T) -> T {
-    if pane.technique == TechniqueName::Whitted { whitted } else { path }
+fn by_integrator<T>(pane: &PaneSettings, [path, whitted, normals]: [T; 3]) -> T {
+    match pane.technique {
+        TechniqueName::Whitted => whitted,
+        TechniqueName::Normals => normals,
+        TechniqueName::Raster | TechniqueName::Path => path,
+    }
 }
 
 fn number(value: Value) -> Option<f32> {

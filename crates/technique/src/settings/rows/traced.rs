@@ -1,9 +1,9 @@
 //! The rows of what is traced.
 
-use super::{BLANK, PATH, PLAIN, TRACED, WHITTED, by_integrator, each, named, whole};
+use super::{BLANK, NORMALS, PATH, PLAIN, TRACED, WHITTED, by_integrator, each, named, whole};
 use crate::PaneSettings;
 use crate::settings::{Control, Kind, Look, Need, Setting, Value};
-use pathtrace::{Estimator, GlassShadows, Roulette, SamplerKind, WhittedSettings};
+use pathtrace::{Estimator, GlassShadows, Roulette, SamplerKind, Space, WhittedSettings};
 
 /// The settings of Whitted's method and of the truth.
 pub const ROWS: &[Setting<PaneSettings>] = &[
@@ -16,7 +16,7 @@ pub const ROWS: &[Setting<PaneSettings>] = &[
         help: "samples per pixel",
         always_recorded: true,
         get: |pane| pane.wished_spp().map(Value::Whole),
-        set: |pane, value| each(whole(value), [&mut pane.truth.spp, &mut pane.whitted.spp]),
+        set: |pane, value| each(whole(value), [&mut pane.truth.spp, &mut pane.whitted.spp, &mut pane.normals.spp]),
         control: Control { label: "Samples per pixel (spp)", look: Look::Doubling(0..=16), ..BLANK },
         ..PLAIN
     },
@@ -28,11 +28,13 @@ pub const ROWS: &[Setting<PaneSettings>] = &[
         help: "where random numbers come from",
         always_recorded: true,
         get: |pane| {
-            let kind = by_integrator(pane, pane.truth.path.sampler, pane.whitted.tree.sampler);
-            Some(Value::Word(kind.name()))
+            let of_all = [pane.truth.path.sampler, pane.whitted.tree.sampler, pane.normals.normals.sampler];
+            Some(Value::Word(by_integrator(pane, of_all).name()))
         },
         set: |pane, value| {
-            each(named(value, SamplerKind::named), [&mut pane.truth.path.sampler, &mut pane.whitted.tree.sampler]);
+            let PaneSettings { truth, whitted, normals, .. } = pane;
+            let of_all = [&mut truth.path.sampler, &mut whitted.tree.sampler, &mut normals.normals.sampler];
+            each(named(value, SamplerKind::named), of_all);
         },
         control: Control {
             label: "Random numbers",
@@ -174,13 +176,35 @@ pub const ROWS: &[Setting<PaneSettings>] = &[
         default: Some(Value::Whole(1)),
         help: "selects one of 2^32 independent pictures",
         always_recorded: true,
-        get: |pane| Some(Value::Whole(by_integrator(pane, pane.truth.path.seed, pane.whitted.tree.seed))),
-        set: |pane, value| each(whole(value), [&mut pane.truth.path.seed, &mut pane.whitted.tree.seed]),
+        get: |pane| {
+            let of_all = [pane.truth.path.seed, pane.whitted.tree.seed, pane.normals.normals.seed];
+            Some(Value::Whole(by_integrator(pane, of_all)))
+        },
+        set: |pane, value| {
+            let PaneSettings { truth, whitted, normals, .. } = pane;
+            each(whole(value), [&mut truth.path.seed, &mut whitted.tree.seed, &mut normals.normals.seed]);
+        },
         control: Control {
             label: "Seed",
             hover: "One of 2^32 independent pictures",
             look: Look::Typed,
             more: TRACED,
+            ..BLANK
+        },
+        ..PLAIN
+    },
+    Setting {
+        name: "space",
+        of: NORMALS,
+        kind: Kind::Choice(&["world", "camera"]),
+        default: Some(Value::Word("world")),
+        help: "whose axes are red, green and blue",
+        always_recorded: true,
+        get: |pane| Some(Value::Word(pane.normals.normals.space.name())),
+        set: |pane, value| each(named(value, Space::named), [&mut pane.normals.normals.space]),
+        control: Control {
+            label: "Axes",
+            look: Look::Words(&[("world", "The scene's own axes"), ("camera", "Right, up and towards the camera")]),
             ..BLANK
         },
         ..PLAIN
