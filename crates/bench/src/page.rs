@@ -2,7 +2,7 @@
 
 mod table;
 
-use crate::pictures::{Exhibit, data_uri};
+use crate::pictures::{PicturePair, data_uri};
 use crate::plots::{Plot, duration};
 use crate::summary::{PartSummary, bias_rule, slope_words};
 use compare::{Fit, escaped};
@@ -12,7 +12,7 @@ pub struct Page<'a> {
     /// All parts, each with its plots.
     pub parts: Vec<(&'a PartSummary, Vec<Plot>)>,
     /// The techniques' pictures, and of which part.
-    pub exhibits: Vec<(String, Vec<Exhibit>)>,
+    pub pairs: Vec<(String, Vec<PicturePair>)>,
     /// What is left out or went wrong, a sentence each.
     pub notes: &'a [String],
     /// How it was made: names and values.
@@ -39,9 +39,9 @@ impl Page<'_> {
         for (part, plots) in &self.parts {
             html += &section(part, plots);
         }
-        for (part, exhibits) in self.exhibits.iter().filter(|(_, exhibits)| !exhibits.is_empty()) {
+        for (part, pairs) in self.pairs.iter().filter(|(_, pairs)| !pairs.is_empty()) {
             html += &format!("<h2>{}: where the techniques are wrong</h2>\n", escaped(part));
-            exhibits.iter().for_each(|exhibit| html += &figure(exhibit));
+            pairs.iter().for_each(|pair| html += &figure(pair));
         }
         html += "<h2>How this page was made</h2>\n<table class=\"made\">\n";
         for (name, value) in &self.made {
@@ -110,20 +110,20 @@ fn section(summary: &PartSummary, plots: &[Plot]) -> String {
     )
 }
 
-fn figure(exhibit: &Exhibit) -> String {
-    let (width, height) = exhibit.size;
+fn figure(pair: &PicturePair) -> String {
+    let (width, height) = pair.size;
     let image = |png: &[u8], what: &str| {
         format!(
             "<div><img src=\"{}\" width=\"{width}\" height=\"{height}\" alt=\"{what}\"><p>{what}</p></div>\n",
             data_uri(png)
         )
     };
-    let mut html = format!("<h3>{}</h3>\n<div class=\"row\">\n", escaped(&exhibit.title));
-    html += &image(&exhibit.picture, "A, the technique");
-    html += &image(&exhibit.truth, "the reference");
-    html += &image(&exhibit.map, exhibit.label);
-    html += &format!("</div>\n<div class=\"bar\"><img src=\"{}\" alt=\"colours\">", data_uri(&exhibit.bar));
-    for tick in &exhibit.ticks {
+    let mut html = format!("<h3>{}</h3>\n<div class=\"row\">\n", escaped(&pair.title));
+    html += &image(&pair.picture, "A, the technique");
+    html += &image(&pair.truth, "the reference");
+    html += &image(&pair.map, pair.label);
+    html += &format!("</div>\n<div class=\"bar\"><img src=\"{}\" alt=\"colours\">", data_uri(&pair.bar));
+    for tick in &pair.ticks {
         let at = 100.0 * tick.position;
         html += &format!("<span style=\"left:{at:.1}%\">{}</span>", escaped(&tick.text));
     }

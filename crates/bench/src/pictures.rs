@@ -11,7 +11,7 @@ use raster::{Fake, Raster};
 use technique::{Accumulation, FakeSettings, Renderer, Technique, TreeSettings};
 
 /// One technique beside the truth.
-pub struct Exhibit {
+pub struct PicturePair {
     /// The technique, for people.
     pub title: String,
     /// Its picture, PNG.
@@ -41,14 +41,14 @@ pub fn of(
     renderer: &mut Renderer,
     raster: Option<&mut Raster>,
     truth: &Truth,
-) -> Result<Vec<Exhibit>, BenchError> {
-    let (mut exhibits, scene) = (Vec::new(), renderer.scene().clone());
+) -> Result<Vec<PicturePair>, BenchError> {
+    let (mut pairs, scene) = (Vec::new(), renderer.scene().clone());
     if let Some(raster) = raster {
         for fake in [Fake::AsTaught, Fake::Fair] {
             let settings = FakeSettings { fake, ..FakeSettings::default() };
             // a device that fails was told of where the fake was measured
             if let Ok(film) = raster.render(&scene, &scene.camera, &settings.sized(part.width, part.height)) {
-                exhibits.push(exhibit(title(&Technique::Fake(settings)), &film.image(), truth)?);
+                pairs.push(pair(title(&Technique::Fake(settings)), &film.image(), truth)?);
             }
         }
     }
@@ -56,17 +56,17 @@ pub fn of(
     let mut accumulation = Accumulation::blank(size).ok_or(BenchError::Memory(size.0, size.1))?;
     let TreeSettings { tree, spp } = TreeSettings::default();
     renderer.add(&mut accumulation, &scene.camera, &tree.into(), spp, &|| false)?;
-    exhibits.push(exhibit(format!("Whitted, {spp} samples per pixel"), &accumulation.film().image(), truth)?);
-    Ok(exhibits)
+    pairs.push(pair(format!("Whitted, {spp} samples per pixel"), &accumulation.film().image(), truth)?);
+    Ok(pairs)
 }
 
-fn exhibit(title: String, image: &Image, truth: &Truth) -> Result<Exhibit, BenchError> {
+fn pair(title: String, image: &Image, truth: &Truth) -> Result<PicturePair, BenchError> {
     let display = DisplayTransform::default();
     let (width, height) = image.size();
     let png = |rgba: &[u8], (width, height)| encode_rgba8(width, height, rgba, &Records::new());
     let values = ErrorMetric::Signed.of(image, &truth.reference.image, &display)?;
     let scale = ColourScale::fitted(ErrorMetric::Signed, &values);
-    Ok(Exhibit {
+    Ok(PicturePair {
         title,
         picture: png(&display.rgba8_of(image), (width, height))?,
         truth: png(&display.rgba8_of(&truth.reference.image), (width, height))?,

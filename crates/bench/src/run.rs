@@ -7,7 +7,7 @@ use crate::line::Line;
 use crate::measure::{self, Measurement};
 use crate::page::Page;
 use crate::peer::{self, PeerRow};
-use crate::pictures::{self, Exhibit};
+use crate::pictures::{self, PicturePair};
 use crate::plan::{self, Effort, Part, SEEDS};
 use crate::plots::{self, duration};
 use crate::references::{self, Truth};
@@ -110,11 +110,11 @@ pub fn run(options: &Options, progress: &mut dyn FnMut(&Progress)) -> Result<Out
         notes,
         progress,
     };
-    let mut exhibits = Vec::new();
+    let mut pairs = Vec::new();
     for (i, (part, lines)) in planned.iter().enumerate() {
         // the last part is the tutorial's own scene, or the only one that was asked for
         let shown = bench.part(part, lines, i + 1 == planned.len())?;
-        exhibits.push((part.title(), shown));
+        pairs.push((part.title(), shown));
     }
     let summaries: Vec<PartSummary> =
         planned.iter().filter_map(|(part, lines)| summary(&bench.journal, part, lines, &peers)).collect();
@@ -125,7 +125,7 @@ pub fn run(options: &Options, progress: &mut dyn FnMut(&Progress)) -> Result<Out
         write_whole(&folder.join(format!("{}.svg", plot.name)), plot.svg.as_bytes())?;
     }
     let made = provenance(options, &run.host, kept, bench.journal.measurements().len(), start);
-    write_whole(&page, Page { parts, exhibits, notes: &bench.notes, made }.html().as_bytes())?;
+    write_whole(&page, Page { parts, pairs, notes: &bench.notes, made }.html().as_bytes())?;
     let measurements = bench.journal.measurements().len();
     Ok(Outcome { page, notes: bench.notes, kept, measurements, table: text(&summaries) })
 }
@@ -155,7 +155,7 @@ fn forecast_of(part: &Part, line: &Line, spp: u32) -> f64 {
 
 impl Bench<'_> {
     /// Measures what is missing of a part, and makes its pictures if they are to be shown.
-    fn part(&mut self, part: &Part, lines: &[Line], show: bool) -> Result<Vec<Exhibit>, BenchError> {
+    fn part(&mut self, part: &Part, lines: &[Line], show: bool) -> Result<Vec<PicturePair>, BenchError> {
         let missing = forecast(&self.journal, part, lines) > 0.0;
         if !missing && !show {
             return Ok(Vec::new());

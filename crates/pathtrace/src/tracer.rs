@@ -1,7 +1,7 @@
 //! From rays to a film: progressive, parallel over chunks of pixels, cancelled at once.
 
 use crate::bsdf::materials::Materials;
-use crate::drive::lanes::{FilmJob, Order};
+use crate::drive::lanes::{FilmJob, FilmPass};
 use crate::integrator::Integrator;
 use crate::intersect::Accel;
 use crate::intersect::aggregate::Aggregate;
@@ -96,9 +96,9 @@ impl Tracer {
         samples: u32,
         stop: &(impl Fn() -> bool + Sync),
     ) -> Stats {
-        let order = Order::new(film, camera, samples, (integrator.sampler(), integrator.seed()));
+        let pass = FilmPass::new(film, camera, samples, (integrator.sampler(), integrator.seed()));
         let Tracer { scene, stand_ins, lanes } = self;
         // not generic: kernels are large, and compiled in this crate once
-        integrator.fill(film, &FilmJob { scene, stand_ins, lanes: *lanes, order, stop })
+        integrator.fill(film, &FilmJob { scene, stand_ins, lanes: *lanes, pass, stop })
     }
 }

@@ -9,7 +9,7 @@
 // whether diffuse vertices draw directions uniformly; by the cosine if not
 override UNIFORM_DIRECTIONS: bool = true;
 // how light is found: by chance, by sampling, or both, weighted
-override LIGHT_SEARCH: u32 = BY_BOTH;
+override LIGHT_SAMPLING: u32 = BY_BOTH;
 // whether a diffuse vertex may be left in more than one direction
 override BRANCHING: bool = true;
 
@@ -149,7 +149,7 @@ fn segment() -> u32 {
     vertex = interaction_of(hit, -path.ray.direction);
     if materials[hit.material].emitting_sides != 0u {
         var weight = 1.0;
-        if LIGHT_SEARCH != BY_CHANCE {
+        if LIGHT_SAMPLING != BY_CHANCE {
             weight = weight_of_hit(hit);
         }
         outcome.radiance += path.throughput * emitted(vertex) * weight;
@@ -173,7 +173,7 @@ fn segment() -> u32 {
 // Samples a light and draws the direction in which the path leaves its vertex; false where it ends.
 fn scatter() -> bool {
     let delta = is_delta(vertex);
-    if LIGHT_SEARCH != BY_CHANCE && header.lights > 0u && !delta {
+    if LIGHT_SAMPLING != BY_CHANCE && header.lights > 0u && !delta {
         sample_lights(unit4(sampler_, light_dimension()));
     }
     let u = unit4(sampler_, direction_dimension());
@@ -184,9 +184,9 @@ fn scatter() -> bool {
         sample = sample_bsdf(vertex, u.xyw);
         path.throughput *= sample.weight;
     }
-    if delta || LIGHT_SEARCH == BY_CHANCE {
+    if delta || LIGHT_SAMPLING == BY_CHANCE {
         path.direction_pdf = MET_BY_CHANCE;
-    } else if LIGHT_SEARCH == BY_SAMPLING {
+    } else if LIGHT_SAMPLING == BY_SAMPLING {
         path.direction_pdf = ALREADY_COUNTED;
     } else {
         path.direction_pdf = sample.pdf;
@@ -236,7 +236,7 @@ fn sample_lights(u: vec4f) {
         return;
     }
     var weight = 1.0;
-    if LIGHT_SEARCH == BY_BOTH {
+    if LIGHT_SAMPLING == BY_BOTH {
         var pdf = UNIFORM_HEMISPHERE_PDF;
         if !UNIFORM_DIRECTIONS {
             pdf = bsdf_pdf(vertex, sample.wi, cosine);
@@ -260,7 +260,7 @@ fn weight_of_meeting(light_pdf: f32) -> f32 {
 
 fn weight_of_hit(hit: Hit) -> f32 {
     var density = 0.0;
-    if LIGHT_SEARCH == BY_BOTH && path.direction_pdf > 0.0 && hit.light != NO_LIGHT {
+    if LIGHT_SAMPLING == BY_BOTH && path.direction_pdf > 0.0 && hit.light != NO_LIGHT {
         density = light_pdf(hit.light, path.from_, hit.point.position);
     }
     return weight_of_meeting(density);

@@ -53,7 +53,7 @@ pub struct FilmJob<'a> {
     /// What the processor works in.
     pub lanes: Lanes,
     /// Which samples of what.
-    pub order: Order,
+    pub pass: FilmPass,
     /// Asked before every segment.
     pub stop: &'a Stop<'a>,
 }
@@ -97,14 +97,14 @@ impl<P: LanePlan> Kernel for ChunkKernel<'_, P> {
     #[inline(always)]
     fn run<F: Float>(self) -> Tally {
         // a copy, which the compiler sees nobody else write to
-        let order = self.job.order;
-        fill::<F>(&order, self.chunk, self.plan.walk(self.job.scene), self.job.stop)
+        let pass = self.job.pass;
+        fill::<F>(&pass, self.chunk, self.plan.walk(self.job.scene), self.job.stop)
     }
 }
 
 /// Which samples a film shall have, of what.
 #[derive(Debug, Clone, Copy)]
-pub struct Order {
+pub struct FilmPass {
     /// What the camera sees.
     pub frame: PictureFrame,
     /// Width and height.
@@ -115,12 +115,12 @@ pub struct Order {
     pub sampler: (SamplerKind, u32),
 }
 
-impl Order {
-    /// An order for `samples` more than the film has anywhere.
+impl FilmPass {
+    /// A pass of `samples` more than the film has anywhere.
     pub fn new(film: &Film, camera: &Camera, samples: u32, sampler: (SamplerKind, u32)) -> Self {
         let size = [film.width(), film.height()];
         let until = film.samples_per_pixel().saturating_add(samples);
-        Order { frame: camera.frame(size[0] as f32 / size[1] as f32), size, until, sampler }
+        FilmPass { frame: camera.frame(size[0] as f32 / size[1] as f32), size, until, sampler }
     }
 }
 
@@ -137,15 +137,15 @@ pub type Tally = (Stats, u64);
 
 /// Fills a chunk of the film; `stop` leaves pixels with whole samples.
 #[inline(always)]
-fn fill<F: Float>(order: &Order, chunk: Chunk, mut integrator: impl LaneIntegrator<F>, stop: &Stop) -> Tally {
-    let mut driver = LaneDriver::<F>::new(order, chunk);
+fn fill<F: Float>(pass: &FilmPass, chunk: Chunk, mut integrator: impl LaneIntegrator<F>, stop: &Stop) -> Tally {
+    let mut driver = LaneDriver::<F>::new(pass, chunk);
     while driver.taken.any() && !stop() {
-        let sampler = driver.sampler(order);
-        integrator.begin(driver.fresh, &driver.camera_rays(order, &sampler));
+        let sampler = driver.sampler(pass);
+        integrator.begin(driver.fresh, &driver.camera_rays(pass, &sampler));
         let complete = integrator.segment(driver.taken, &sampler);
         driver.fresh = complete;
         if complete.any() {
-            driver.record(order, complete, integrator.outcomes());
+            driver.record(pass, complete, integrator.outcomes());
         }
     }
     driver.tally.0.rays += integrator.rays();
@@ -172,8 +172,8 @@ struct LaneDriver<'a, F: Float> {
 
 impl<'a, F: Float> LaneDriver<'a, F> {
     #[inline(always)]
-    fn new(order: &Order, chunk: Chunk<'a>) -> Self {
-        let width = order.size[0];
+    fn new(pass: &FilmPass, chunk: Chunk<'a>) -> Self {
+        let width = pass.size[0];
         let mut driver = LaneDriver {
             pixels: chunk.pixels,
             first: chunk.first,
@@ -186,7 +186,7 @@ impl<'a, F: Float> LaneDriver<'a, F> {
             fresh: F::M::splat(false),
             tally: Tally::default(),
         };
-        let assigned = (0..F::LANES).filter(|&lane| driver.assign(order, lane)).fold(0, |bits, lane| bits | 1 << lane);
+        let assigned = (0..F::LANES).filter(|&lane| driver.assign(pass, lane)).fold(0, |bits, lane| bits | 1 << lane);
         driver.taken = F::M::from_bits(assigned);
         driver.fresh = driver.taken;
         driver
@@ -194,13 +194,12 @@ impl<'a, F: Float> LaneDriver<'a, F> {
 
     /// Gives a lane the next pixel that wants samples; false if there is none.
     #[inline(always)]
-    fn assign(&mut self, order: &Order, lane: usize) -> bool {
+    fn assign(&mut self, pass: &FilmPass, lane: usize) -> bool {
         loop {
             let [place, column, row] = self.next;
             let Some(pixel) = self.pixels.get(place as usize) else { return false };
-            self.next =
-                if column + 1 == order.size[0] { [place + 1, 0, row + 1] } else { [place + 1, column + 1, row] };
-            if pixel.samples < order.until {
+            self.next = if column + 1 == pass.size[0] { [place + 1, 0, row + 1] } else { [place + 1, column + 1, row] };
+            if pixel.samples < pass.until {
                 (self.place[lane], self.sample[lane]) = (place, pixel.samples);
                 (self.column[lane], self.row[lane]) = (column as f32, row as f32);
                 return true;
@@ -209,20 +208,20 @@ impl<'a, F: Float> LaneDriver<'a, F> {
     }
 
     #[inline(always)]
-    fn sampler(&self, order: &Order) -> Sampler<F::U> {
-        let (kind, seed) = order.sampler;
+    fn sampler(&self, pass: &FilmPass) -> Sampler<F::U> {
+        let (kind, seed) = pass.sampler;
         let pixel = F::U::load(&self.place).wrapping_add(F::U::splat(self.first));
         Sampler { kind, pixel, sample: F::U::load(&self.sample), seed }
     }
 
     /// The rays through the lanes' pixels, each at its sample's place.
     #[inline(always)]
-    fn camera_rays(&self, order: &Order, sampler: &Sampler<F::U>) -> Rays<F> {
+    fn camera_rays(&self, pass: &FilmPass, sampler: &Sampler<F::U>) -> Rays<F> {
         let [jitter_x, jitter_y, _, _] = sampler.unit4(F::U::splat(0));
-        let (width, height) = (order.size[0] as f32, order.size[1] as f32);
+        let (width, height) = (pass.size[0] as f32, pass.size[1] as f32);
         let x = (F::load(&self.column) + jitter_x) / width * 2.0 - 1.0;
         let y = F::splat(1.0) - (F::load(&self.row) + jitter_y) / height * 2.0;
-        let frame = &order.frame;
+        let frame = &pass.frame;
         let (right, up) = (in_all_lanes::<F>(frame.right), in_all_lanes::<F>(frame.up));
         let through = in_all_lanes::<F>(frame.forward) + right * x + up * y;
         Rays::new(in_all_lanes(frame.eye), through.normalize())
@@ -230,7 +229,7 @@ impl<'a, F: Float> LaneDriver<'a, F> {
 
     /// Adds complete samples to their pixels, and moves lanes on.
     #[inline(always)]
-    fn record(&mut self, order: &Order, complete: F::M, outcomes: &Outcomes<F>) {
+    fn record(&mut self, pass: &FilmPass, complete: F::M, outcomes: &Outcomes<F>) {
         let radiance = each_lane(outcomes.radiance);
         let finite = outcomes.radiance.is_finite().bits();
         let (stats, nonfinite) = &mut self.tally;
@@ -242,7 +241,7 @@ impl<'a, F: Float> LaneDriver<'a, F> {
             let pixel = &mut self.pixels[self.place[lane] as usize];
             pixel.add(if finite >> lane & 1 != 0 { radiance[lane] } else { Vec3::ZERO });
             self.sample[lane] = pixel.samples;
-            if pixel.samples >= order.until && !self.assign(order, lane) {
+            if pixel.samples >= pass.until && !self.assign(pass, lane) {
                 left |= 1 << lane;
             }
         }

@@ -86,7 +86,7 @@ impl Integrator {
         match self {
             Integrator::Path(settings) => job.fill(film, &path::Plan::new(settings)),
             Integrator::Whitted(settings) => job.fill(film, &whitted::Plan::new(settings, job.stand_ins)),
-            Integrator::Normals(settings) => job.fill(film, &normals::Plan::new(settings, &job.order.frame)),
+            Integrator::Normals(settings) => job.fill(film, &normals::Plan::new(settings, &job.pass.frame)),
         }
     }
 

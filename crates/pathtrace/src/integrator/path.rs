@@ -81,14 +81,14 @@ pub(crate) const BY_BOTH: u32 = 2;
 
 impl PathSettings {
     pub(super) fn pipeline_key(&self, everything: bool) -> PipelineKey {
-        let light_search = match self.estimator.light {
+        let light_sampling = match self.estimator.light {
             LightSampling::BsdfOnly => BY_CHANCE,
             LightSampling::NextEvent => BY_SAMPLING,
             LightSampling::Mis => BY_BOTH,
         };
         let constants = [
             ("UNIFORM_DIRECTIONS", flag(self.estimator.directions == Directions::Uniform)),
-            ("LIGHT_SEARCH", f64::from(light_search)),
+            ("LIGHT_SAMPLING", f64::from(light_sampling)),
             ("BRANCHING", flag(self.branches > 1 || everything)),
         ];
         PipelineKey::new("pathtrace/integrator/path.wgsl", self.sampler, &constants)
