@@ -1,7 +1,7 @@
 //! Speed against error: what each technique costs, how far off it is, and how that changes with samples and seconds;
 //! numbers that hold, made by one command that anyone can repeat.
 //!
-//! A bench is a [`plan`]: parts (a scene under one sun), lines (a way to make a picture, see [`way`]) and a ladder of
+//! A bench is a [`plan`]: parts (a scene under one sun), lines (a way to make a picture, see [`mod@line`]) and a ladder of
 //! samples. Each part has a reference with an error of its own ([`references`]). Each [`measure::Measurement`] is five
 //! pictures of independent seeds; it goes to the [`journal`] when it is finished, so that a bench that was interrupted
 //! goes on where it was. [`summary`] makes medians, slopes, efficiencies and bias tests of them; tables, plots and one

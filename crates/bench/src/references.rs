@@ -40,7 +40,7 @@ pub struct Worth {
 
 /// A reference as films are measured by it.
 pub struct Truth {
-    /// It.
+    /// The reference with its standard errors.
     pub reference: Reference,
     /// As a film.
     pub film: Film,

@@ -54,7 +54,7 @@ pub struct Plan {
     pub cube_maps: Vec<usize>,
     /// Which views are the picture's.
     pub picture_views: Range<usize>,
-    /// Which fake.
+    /// Fair or as taught.
     pub fake: Fake,
     /// How shadow maps are looked up.
     pub filter: ShadowFilter,

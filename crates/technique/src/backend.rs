@@ -56,7 +56,7 @@ impl Backend {
         Ok(Backend::Gpu(Box::new(backend)))
     }
 
-    /// Which it is.
+    /// The device that it adds samples on.
     pub fn device(&self) -> Device {
         match self {
             Backend::Cpu(_) => Device::Cpu,

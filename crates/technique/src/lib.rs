@@ -100,7 +100,7 @@ pub enum Technique {
 }
 
 impl Technique {
-    /// Which it is.
+    /// Its name, without its settings.
     pub fn name(&self) -> TechniqueName {
         match self {
             Technique::Fake(_) => TechniqueName::Raster,

@@ -7,9 +7,9 @@ use scene::Scene;
 /// An integrator, where and how long it goes on.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TracedSettings {
-    /// How.
+    /// How light is followed, with its settings.
     pub integrator: Integrator,
-    /// Where.
+    /// The wish for a device; what traces in the end is in [`crate::Provenance`].
     pub device: DeviceChoice,
     /// By which of the adapters, where by one: the best is 0.
     pub adapter: u8,

@@ -1,7 +1,7 @@
 //! Rendering beside the UI. Each pane has a [`pane_workers`] with a thread for each technique it has used: [`fake`],
 //! and [`rays`] with its [`technique::ProgressiveRenderer`]. They turn jobs into [`Picture`]s. All who trace share one
 //! pool of threads, in turns. The [`post_process`] turns pictures into bytes for the screen and measures how far
-//! apart they are, from each other or from what the [`reference`] makes, and the [`error_map`] draws where; the
+//! apart they are, from each other or from what the [`mod@reference`] makes, and the [`error_map`] draws where; the
 //! [`export`] writes files and fills the clipboard. Every thread is a [`worker::Worker`], fed through a
 //! [`mailbox::Mailbox`] in which newer wishes replace older ones. The UI thread only posts and collects.
 
@@ -80,7 +80,7 @@ impl Order {
         order
     }
 
-    /// From where.
+    /// The camera that the shot is seen from.
     pub fn camera(&self) -> &Camera {
         &self.provenance.shot.camera
     }

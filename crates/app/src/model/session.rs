@@ -17,7 +17,7 @@ pub struct Session {
     pub display: DisplayTransform,
     /// How many pixels pictures have.
     pub resolution: Resolution,
-    /// Which is shown.
+    /// Which of the panes, or what is made of them, is shown.
     pub view: View,
     /// How the wipe's line stands.
     pub line: Line,

@@ -17,7 +17,7 @@ pub enum GpuTraceError {
     /// More than an index can say.
     #[error("the scene has too many {what} for a graphics device: render it on the CPU")]
     TooMany {
-        /// Of what.
+        /// What there is too much of: "triangles".
         what: &'static str,
     },
     /// A device without compute shaders, or with too few bindings.
