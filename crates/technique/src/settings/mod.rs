@@ -1,5 +1,5 @@
 //! The table of settings: a row says all that there is to say about one. Options, --help, records in pictures, --json,
-//! notes of what has no effect and the window's controls are read from it. A new setting is a row in [`rows`].
+//! notes of what has no effect and the window's controls are read from it. A new setting is a row in `rows`.
 
 mod control;
 mod rows;
