@@ -6,6 +6,7 @@ use reference::{Goal, Key, Maker, Reference, SAMPLES_PER_REPLICATE, STANDARD_ERR
 use scene::Scene;
 use std::path::Path;
 use std::sync::Arc;
+use std::sync::atomic::{AtomicU32, Ordering};
 use std::time::{Duration, SystemTime};
 use technique::{Renderer, Shot, Threads};
 use visavis_tests::TestFolder;
@@ -101,6 +102,18 @@ fn one_that_is_stopped_has_only_whole_pictures() {
     assert!(!maker.step(&|| true));
     assert_eq!(maker.reference(), before);
     assert!(!maker.is_done(&Goal { rel_mse: f64::INFINITY, seconds: 0.0 }), "one picture does not know its noise");
+}
+
+/// As when a pane was at work for a moment: what held the reference is gone by the time anyone asks again.
+#[test]
+fn a_hold_that_has_ended_already_does_not_pass_off_half_a_picture_as_a_whole_one() {
+    let scene = cornell();
+    let mut renderer = renderer(&scene);
+    let usual = made(&scene, 1, None);
+    let mut maker = Maker::new(&mut renderer, &shot(&scene, SIZE), None).unwrap();
+    let asked = AtomicU32::new(0);
+    while !maker.step(&|| asked.fetch_add(1, Ordering::Relaxed) == 300) {}
+    assert_eq!(maker.reference().image.radiances(), usual.image.radiances());
 }
 
 /// A picture that shared its random numbers with the reference would look better than it is.

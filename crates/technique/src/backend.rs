@@ -5,6 +5,7 @@ use gpu::{FaultInjection, Gpu};
 use pathtrace::gpu::{GpuTraceError, GpuTracer};
 use pathtrace::{Integrator, Tracer};
 use scene::{Camera, Scene};
+use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Seconds that a dispatch may take beside a window: a frame of it waits about that long for the same adapter, and so
 /// does a newer job. Where the processor plays the adapter a dispatch costs so much by itself that shorter ones would
@@ -110,10 +111,19 @@ impl Backend {
         match self {
             Backend::Cpu(tracer) => {
                 accumulation.begin_pass(format!("{} threads", rayon::current_num_threads()), until);
-                let stats = tracer.render(&mut accumulation.film, camera, integrator, samples, stop);
+                // what has said so once may not say so again: a hold that ended meanwhile
+                let stopped = AtomicBool::new(false);
+                let stop = || {
+                    stop() && {
+                        stopped.store(true, Ordering::Relaxed);
+                        true
+                    }
+                };
+                let stats = tracer.render(&mut accumulation.film, camera, integrator, samples, &stop);
                 accumulation.stats = accumulation.stats.plus(stats);
                 accumulation.is_read();
-                accumulation.spp = if stop() { accumulation.film.samples_per_pixel() } else { until };
+                let is_whole = !stopped.load(Ordering::Relaxed);
+                accumulation.spp = if is_whole { until } else { accumulation.film.samples_per_pixel() };
                 Ok(stats.samples)
             }
             Backend::Gpu(gpu_backend) => {

@@ -178,16 +178,20 @@ impl Renderer {
         stop: &(impl Fn() -> bool + Sync),
     ) -> Result<(), GpuTraceError> {
         let (threads, rank, backend) = (&*self.threads, self.rank, &mut self.backend);
-        let mut start = Instant::now();
-        let added = match backend.device() {
-            Device::Cpu => threads.turn(rank, || {
-                start = Instant::now();
-                let stop = || stop() || threads.are_wanted_by_more_than(rank);
-                backend.accumulate(accumulation, camera, integrator, samples, &stop)
-            }),
-            Device::Gpu => backend.accumulate(accumulation, camera, integrator, samples, stop),
+        let on_device = backend.device() == Device::Gpu;
+        let gives_up: &dyn Fn() -> bool = stop;
+        let stop = || stop() || (!on_device && threads.are_wanted_by_more_than(rank));
+        let mut timed = || {
+            let start = Instant::now();
+            let added = backend.accumulate(accumulation, camera, integrator, samples, &stop);
+            (added, start.elapsed())
         };
-        let spent = start.elapsed();
+        // what is no longer wanted while it waits for its turn has taken nothing
+        let (added, spent) = if on_device {
+            timed()
+        } else {
+            threads.turn_unless(gives_up, rank, timed).unwrap_or((Ok(0), Duration::ZERO))
+        };
         accumulation.spent += spent;
         match added {
             Ok(taken) if taken > TOO_FEW_TO_MEASURE => {

@@ -4,6 +4,7 @@
 use std::collections::BTreeSet;
 use std::sync::atomic::{AtomicU8, Ordering};
 use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
+use std::time::Duration;
 
 /// Whose turn is next: the highest that waits, and of those the first that came.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -17,6 +18,9 @@ pub enum Rank {
     /// A rough one before it, in a few milliseconds.
     RoughPicture = 4,
 }
+
+/// How often who waits asks whether that is still wanted.
+const ASKS_EVERY: Duration = Duration::from_millis(5);
 
 /// A pool of threads and whose turn it is.
 #[derive(Debug, Default)]
@@ -64,7 +68,22 @@ impl Threads {
 
     /// Waits for its turn and works on these threads.
     pub fn turn<R: Send>(&self, rank: Rank, work: impl FnOnce() -> R + Send) -> R {
-        let _turn = self.wait(rank);
+        let _turn = self.wait(rank, &|| false);
+        self.install(work)
+    }
+
+    /// The same, but `None` if `gives_up` says so before it is its turn.
+    pub fn turn_unless<R: Send>(
+        &self,
+        gives_up: &dyn Fn() -> bool,
+        rank: Rank,
+        work: impl FnOnce() -> R + Send,
+    ) -> Option<R> {
+        let _turn = self.wait(rank, gives_up)?;
+        Some(self.install(work))
+    }
+
+    fn install<R: Send>(&self, work: impl FnOnce() -> R + Send) -> R {
         match &self.pool {
             Some(pool) => pool.install(work),
             None => work(),
@@ -76,19 +95,26 @@ impl Threads {
         self.wanted.load(Ordering::Relaxed) > rank as u8
     }
 
-    fn wait(&self, rank: Rank) -> Turn<'_> {
+    fn wait(&self, rank: Rank, gives_up: &dyn Fn() -> bool) -> Option<Turn<'_>> {
         let mut turns = self.lock();
         turns.tickets += 1;
         let own = (rank, u64::MAX - turns.tickets);
         turns.waiting.insert(own);
         self.tell_who_waits(&turns);
-        while turns.taken || turns.waiting.last() != Some(&own) {
-            turns = self.passed_on.wait(turns).unwrap_or_else(PoisonError::into_inner);
+        let mut wanted = true;
+        while wanted && (turns.taken || turns.waiting.last() != Some(&own)) {
+            (turns, _) = self.passed_on.wait_timeout(turns, ASKS_EVERY).unwrap_or_else(PoisonError::into_inner);
+            wanted = !gives_up();
         }
         turns.waiting.remove(&own);
-        turns.taken = true;
+        turns.taken |= wanted;
         self.tell_who_waits(&turns);
-        Turn(self)
+        if wanted {
+            return Some(Turn(self));
+        }
+        // who is next now may have looked already
+        self.passed_on.notify_all();
+        None
     }
 
     fn tell_who_waits(&self, turns: &Turns) {
@@ -122,7 +148,7 @@ mod tests {
         let threads = Threads::beside_the_ui(|| ()).unwrap();
         let (order, served) = channel();
         std::thread::scope(|scope| {
-            let turn = threads.wait(Rank::Refinement);
+            let turn = threads.wait(Rank::Refinement, &|| false);
             let ranks = [Rank::Background, Rank::Refinement, Rank::FirstPicture, Rank::Refinement];
             for (i, rank) in ranks.into_iter().enumerate() {
                 let (threads, order) = (&threads, order.clone());
@@ -136,6 +162,19 @@ mod tests {
             drop(turn);
         });
         assert_eq!(served.try_iter().collect::<Vec<_>>(), [2, 1, 3, 0]);
+    }
+
+    /// Two that take turns with each other leave none to one of a lower rank, which must be able to go.
+    #[test]
+    fn who_waits_in_vain_can_give_up_and_nothing_is_left_of_it() {
+        let threads = Threads::beside_the_ui(|| ()).unwrap();
+        let turn = threads.wait(Rank::Refinement, &|| false);
+        let asked = AtomicU8::new(0);
+        let gives_up = || asked.fetch_add(1, Ordering::Relaxed) == 2;
+        assert_eq!(threads.turn_unless(&gives_up, Rank::RoughPicture, || 1), None);
+        assert!(threads.lock().waiting.is_empty() && !threads.are_wanted_by_more_than(Rank::Background));
+        drop(turn);
+        assert_eq!(threads.turn_unless(&|| true, Rank::Background, || 1), Some(1), "nothing to wait for");
     }
 
     #[test]

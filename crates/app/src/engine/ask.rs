@@ -74,7 +74,7 @@ impl Engine {
     pub fn start(window: &Gpu, adapters: &Adapters, open_store: OpenStore, wake: Wake) -> anyhow::Result<Self> {
         let error_map_worker = Arc::new(ErrorMapWorker::start(wake.clone()).context("no thread for maps")?);
         let post_process =
-            PostProcess::start(wake.clone(), error_map_worker.clone()).context("no thread for the post_process")?;
+            PostProcess::start(wake.clone(), error_map_worker.clone()).context("no thread for post-processing")?;
         let threads = Arc::new(Threads::beside_the_ui(step_back).context("no threads for tracing rays")?);
         Ok(Engine {
             gpu: window.clone(),
@@ -152,6 +152,8 @@ impl Engine {
         for (id, pane) in wanted.panes.iter() {
             if let Some(order) = self.asked.order(id, pane, wanted.restarts) {
                 jobs.insert(id, order.job);
+                // panes come first: the reference is told before it has to wait for them
+                self.reference_worker.iter().for_each(|reference_worker| reference_worker.hold(true));
                 self.workers(id).submit(pane.technique, order);
             }
         }
@@ -222,7 +224,7 @@ impl Engine {
         }
         let shot = shot.clone();
         if self.reference_worker.is_none() {
-            // without threads there is no reference; the next wish tries again
+            // without threads there is no reference; the next frame tries again
             self.reference_worker = ReferenceWorker::start(
                 self.threads.clone(),
                 self.post_process.clone(),
@@ -231,10 +233,10 @@ impl Engine {
             )
             .ok();
         }
-        self.asked.reference = wish;
-        self.reference_worker
-            .iter_mut()
-            .for_each(|worker| worker.submit(Wish { view, shot: shot.clone(), origin: origin.clone() }));
+        if let Some(worker) = &mut self.reference_worker {
+            worker.submit(Wish { view, shot, origin });
+            self.asked.reference = wish;
+        }
     }
 
     /// Reads a scene beside the UI.
@@ -321,6 +323,8 @@ fn is_older_than(update: &PaneUpdate, oldest_view: u64) -> bool {
 
 impl Drop for Engine {
     fn drop(&mut self) {
+        // who waits for a pane's threads to end, ends only after it
+        self.pane_workers.values_mut().for_each(PaneWorkers::rest);
         // what it has made is kept while the others end
         self.reference_worker = None;
         self.error_map_worker.close();
