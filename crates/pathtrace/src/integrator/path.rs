@@ -245,17 +245,16 @@ impl<'a, F: Float> PathLanes<'a, F> {
     fn scatter(&mut self, here: F::M, at: &Interactions<F>, sampler: &Sampler<F::U>, u: [F; 3]) {
         let delta = at.is_delta();
         let uniform = self.plan.directions == Directions::Uniform;
-        // before the light, whose shadow rays the processor can begin while roots and quotients are on their way
+        let choosing = here & !delta;
+        if self.plan.light != LightSampling::BsdfOnly && !self.scene.lights.is_empty() && choosing.any() {
+            self.sample_lights(choosing, at, sampler.unit4(self.path.light_dimension()));
+        }
         let mut sample = self.scene.materials.sample(if uniform { here & delta } else { here }, at, u);
         let mut throughput = self.path.throughput * sample.weight;
         if uniform {
             let (drawn, weight) = self.sample_uniformly(at, [u[0], u[1]]);
             throughput = Vector::select(delta, throughput, weight.times(self.path.throughput));
             sample = BsdfSamples::select(delta, sample, drawn);
-        }
-        let choosing = here & !delta;
-        if self.plan.light != LightSampling::BsdfOnly && !self.scene.lights.is_empty() && choosing.any() {
-            self.sample_lights(choosing, at, sampler.unit4(self.path.light_dimension()));
         }
         let direction_pdf = match self.plan.light {
             LightSampling::BsdfOnly => F::splat(MET_BY_CHANCE),
