@@ -111,6 +111,10 @@ pub fn load_layer(path: &Path, name: &str, size: (u32, u32)) -> Result<Option<La
 /// # Errors
 /// [`ImageFileError`]: one line that says why and names the path.
 pub fn load(path: &Path) -> Result<Image, ImageFileError> {
+    // a pipe or a device might never end
+    if std::fs::metadata(path).is_ok_and(|found| !found.is_file()) {
+        return Err(ImageFileError::read(path, "it is not a file"));
+    }
     match Kind::of(path) {
         Some(Kind::Png) => png::load(path),
         Some(Kind::Exr) => exr::load(path),

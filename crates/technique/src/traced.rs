@@ -1,7 +1,9 @@
 //! The settings of what is traced by rays: the truth, and Whitted's step towards it.
 
 use crate::DeviceChoice;
-use pathtrace::{GlassShadows, Integrator, LightSampling, NormalsSettings, PathSettings, Roulette, WhittedSettings};
+use pathtrace::{
+    Estimator, GlassShadows, Integrator, LightSampling, NormalsSettings, PathSettings, Roulette, WhittedSettings,
+};
 use scene::Scene;
 
 /// An integrator, where and how long it goes on.
@@ -114,6 +116,9 @@ impl TracedSettings {
             }
             Integrator::Path(_) if specular && !scene.point_lights.is_empty() => {
                 Some("a point light casts no caustic: no path can find it behind glass or mirror")
+            }
+            Integrator::Path(path) if scene.needs().rough_conductor && path.estimator != Estimator::MIS => {
+                Some("smooth rough metal is noise without mis: light in a narrow reflection is hardly ever found")
             }
             Integrator::Path(_) | Integrator::Normals(_) => None,
         }

@@ -60,7 +60,7 @@ fn rough_metal_is_read_in_each_of_its_ways_and_no_other() {
         ("{ metal = \"tin\", roughness = 1 }", "test.toml:8:29: no metal is called 'tin': known are gold, silver, "),
         ("{ eta = [1, 1, 1], roughness = 1 }", "expected one of reflectance, eta with k, or metal"),
         ("{ eta = [1, 1, 1], k = [1, 1, 1], metal = \"gold\", roughness = 1 }", "expected one of reflectance, eta "),
-        ("{ eta = [0, 1, 1], k = [1, 1, 1], roughness = 1 }", "0 is not a number above 0 and at most 100"),
+        ("{ eta = [0, 1, 1], k = [1, 1, 1], roughness = 1 }", "0 is not a number from 0.01 to 100"),
         ("{ reflectance = [1, 1, 1] }", "missing field `roughness`"),
     ];
     for (lobe, expected) in faults {
