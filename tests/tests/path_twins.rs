@@ -157,58 +157,7 @@ fn pictures_agree_pixel_by_pixel() {
 }
 
 /// What everything.toml lacks: rough metal, by each way to say what it reflects, beside glass, a mirror and tiles.
-const METALS: &str = r#"
-[camera]
-eye = [0, 1.2, 4]
-target = [0, 0.5, 0]
-fov_y = 45
-[sky]
-radiance = [0.2, 0.3, 0.4]
-[material.floor]
-diffuse = { albedo = { even = [0.8, 0.8, 0.7], odd = [0.2, 0.3, 0.2], origin = [0, 0, 0], cell = [0.5, 0, 0.5] } }
-[material.gold]
-rough_conductor = { metal = "gold", roughness = 0.3 }
-[material.satin]
-rough_conductor = { reflectance = [0.8, 0.9, 0.7], roughness = 0.9 }
-[material.polished]
-rough_conductor = { eta = [1.6, 0.9, 0.5], k = [9, 6, 5], roughness = 0.05 }
-[material.mirror]
-mirror = { reflectance = [0.9, 0.9, 0.9] }
-[material.glass]
-dielectric = { ior = 1.5 }
-[material.lamp]
-emissive = { radiance = [8, 7, 6] }
-[[rectangle]]
-corner = [-4, 0, -4]
-edge_u = [0, 0, 8]
-edge_v = [8, 0, 0]
-material = "floor"
-[[rectangle]]
-corner = [-1, 2.5, -1]
-edge_u = [2, 0, 0]
-edge_v = [0, 0, 2]
-material = "lamp"
-[[sphere]]
-center = [-1.1, 0.5, 0]
-radius = 0.5
-material = "gold"
-[[sphere]]
-center = [0, 0.5, -0.3]
-radius = 0.5
-material = "satin"
-[[sphere]]
-center = [1.1, 0.5, 0]
-radius = 0.5
-material = "polished"
-[[sphere]]
-center = [0.5, 0.2, 1]
-radius = 0.2
-material = "mirror"
-[[sphere]]
-center = [-0.4, 0.2, 1]
-radius = 0.2
-material = "glass"
-"#;
+const METALS: &str = include_str!("scenes/metals.toml");
 
 /// In the middle of a sphere the normal points at the camera: along the camera's own z, whatever the world's axes. Both
 /// machines show the same everywhere.
