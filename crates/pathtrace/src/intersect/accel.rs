@@ -1,5 +1,5 @@
-//! The acceleration structure over triangles, spheres and disks: two children a node ([`super::bvh2`]) where they are
-//! few, eight ([`super::bvh8`]) where they are many. Both give the same hits.
+//! The acceleration structure over triangles, spheres and disks: two children a node (`bvh2`) where they are
+//! few, eight (`bvh8`) where they are many. Both give the same hits.
 
 use super::bvh2::Bvh2;
 use super::bvh8::Bvh8;

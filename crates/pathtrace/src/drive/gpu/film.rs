@@ -12,7 +12,7 @@ use rayon::prelude::*;
 use std::sync::mpsc;
 use wgpu::BufferUsages;
 
-/// A film that a [`super::GpuTracer`] adds samples to.
+/// A film that a [`crate::gpu::GpuTracer`] adds samples to.
 #[derive(Debug)]
 pub struct GpuFilm {
     /// What was there before the device's sums.
