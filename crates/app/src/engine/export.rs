@@ -33,7 +33,7 @@ pub struct Export {
     pub to: Destination,
 }
 
-/// What became of the exports: a line each, good or bad update.
+/// What became of the exports: a line each, good or bad news.
 pub type Outcome = Result<String, String>;
 
 /// The worker; dropping it ends its thread once all exports are done.

@@ -1,4 +1,4 @@
-//! Rendering beside the UI. Each pane has a [`pane_workers`] with a thread for each technique it has used: [`fake`],
+//! Rendering beside the UI. Each pane has its [`pane_workers`], a thread for each technique it has used: [`fake`],
 //! and [`rays`] with its [`technique::ProgressiveRenderer`]. They turn jobs into [`Picture`]s. All who trace share one
 //! pool of threads, in turns. The [`post_process`] turns pictures into bytes for the screen and measures how far
 //! apart they are, from each other or from what the [`mod@reference`] makes, and the [`error_map`] draws where; the

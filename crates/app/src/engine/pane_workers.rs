@@ -23,7 +23,7 @@ pub struct PaneWorkers {
 }
 
 impl PaneWorkers {
-    /// A pane_workers without workers yet. `gpu` is the window's, `adapters` and `threads` can trace rays.
+    /// A pane without workers yet. `gpu` is the window's, `adapters` and `threads` can trace rays.
     pub fn new(
         pane: PaneId,
         gpu: Gpu,

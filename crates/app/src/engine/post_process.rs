@@ -74,7 +74,7 @@ struct Latest {
 
 impl PostProcess {
     /// Starts the thread, which calls `wake` whenever [`PostProcess::collect`] has something and hands what is to be
-    /// drawn to the error_map_worker.
+    /// drawn to the worker of error maps.
     ///
     /// # Errors
     /// If the system gives no thread.

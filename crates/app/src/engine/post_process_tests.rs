@@ -1,4 +1,4 @@
-//! What comes out of the post_process, and what does not.
+//! What comes out of the post-process, and what does not.
 
 use super::*;
 use film::{Image, Vec3};

@@ -158,7 +158,7 @@ impl References {
         keeper.keep(&reference).unwrap_or_else(|fault| fail(control, fault));
     }
 
-    /// Hands it to the post_process. One picture alone tells nothing of its own noise, and waits for the second.
+    /// Hands it on, to measure pictures by. One picture alone tells nothing of its own noise, and waits for the second.
     fn show(&self, wish: &Wish, reference: &Reference, done: bool, control: &ReferenceControl) {
         let enough = reference.replicates != 1;
         if enough {

@@ -34,11 +34,11 @@ pub trait LaneIntegrator<F: Float> {
 /// An integrator's settings, read once, from which each chunk of a film takes its lanes.
 pub trait LanePlan: Sync {
     /// The integrator's state in each lane.
-    type Walk<'a, F: Float>: LaneIntegrator<F>
+    type LaneState<'a, F: Float>: LaneIntegrator<F>
     where
         Self: 'a;
     /// Lanes that follow nothing yet.
-    fn walk<'a, F: Float>(&'a self, scene: &'a PreparedScene) -> Self::Walk<'a, F>;
+    fn lane_state<'a, F: Float>(&'a self, scene: &'a PreparedScene) -> Self::LaneState<'a, F>;
 }
 
 /// Says when to stop.
@@ -98,7 +98,7 @@ impl<P: LanePlan> Kernel for ChunkKernel<'_, P> {
     fn run<F: Float>(self) -> Tally {
         // a copy, which the compiler sees nobody else write to
         let pass = self.job.pass;
-        fill::<F>(&pass, self.chunk, self.plan.walk(self.job.scene), self.job.stop)
+        fill::<F>(&pass, self.chunk, self.plan.lane_state(self.job.scene), self.job.stop)
     }
 }
 

@@ -81,10 +81,10 @@ impl Plan {
 }
 
 impl LanePlan for Plan {
-    type Walk<'a, F: Float> = NormalLanes<'a, F>;
+    type LaneState<'a, F: Float> = NormalLanes<'a, F>;
 
     #[inline(always)]
-    fn walk<'a, F: Float>(&'a self, scene: &'a PreparedScene) -> NormalLanes<'a, F> {
+    fn lane_state<'a, F: Float>(&'a self, scene: &'a PreparedScene) -> NormalLanes<'a, F> {
         NormalLanes {
             scene,
             axes: self.0,

@@ -66,10 +66,10 @@ impl Plan {
 }
 
 impl LanePlan for Plan {
-    type Walk<'a, F: Float> = PathLanes<'a, F>;
+    type LaneState<'a, F: Float> = PathLanes<'a, F>;
 
     #[inline(always)]
-    fn walk<'a, F: Float>(&'a self, scene: &'a PreparedScene) -> PathLanes<'a, F> {
+    fn lane_state<'a, F: Float>(&'a self, scene: &'a PreparedScene) -> PathLanes<'a, F> {
         PathLanes::new(scene, self)
     }
 }

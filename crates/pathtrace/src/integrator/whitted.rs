@@ -125,10 +125,10 @@ impl Plan {
 }
 
 impl LanePlan for Plan {
-    type Walk<'a, F: Float> = WhittedLanes<'a, F>;
+    type LaneState<'a, F: Float> = WhittedLanes<'a, F>;
 
     #[inline(always)]
-    fn walk<'a, F: Float>(&'a self, scene: &'a PreparedScene) -> WhittedLanes<'a, F> {
+    fn lane_state<'a, F: Float>(&'a self, scene: &'a PreparedScene) -> WhittedLanes<'a, F> {
         WhittedLanes::new(scene, &self.settings, self.ambient)
     }
 }
