@@ -7,7 +7,7 @@
 pub struct Source<'a> {
     /// Path under `shaders/`, by which others import it.
     pub path: &'a str,
-    /// What it says.
+    /// The WGSL source itself.
     pub text: &'a str,
 }
 

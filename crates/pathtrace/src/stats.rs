@@ -13,7 +13,7 @@ pub struct Stats {
 }
 
 impl Stats {
-    /// Both together.
+    /// The sum of both counts, field by field.
     pub fn plus(self, other: Stats) -> Stats {
         Stats {
             samples: self.samples + other.samples,

@@ -52,7 +52,7 @@ pub enum TechniqueName {
 impl TechniqueName {
     /// Those that show light, in the order of the lecture.
     pub const OF_LIGHT: [TechniqueName; 3] = [TechniqueName::Raster, TechniqueName::Whitted, TechniqueName::Path];
-    /// All.
+    /// Every technique: those that show light, then the normals.
     pub const ALL: [TechniqueName; 4] =
         [TechniqueName::Raster, TechniqueName::Whitted, TechniqueName::Path, TechniqueName::Normals];
 

@@ -26,7 +26,7 @@ const TOO_FEW_TO_MEASURE: u64 = 1000;
 /// How long things may take from one look at a picture to the next.
 #[derive(Debug, Clone, Copy)]
 pub struct Pacing {
-    /// A pass.
+    /// The time that one pass should take.
     pub pass: Duration,
     /// A film is read from the device, and shown, after this.
     pub show: Duration,
@@ -73,7 +73,7 @@ pub trait Watch: Sync {
     /// How long the next pass may take, after so much time of tracing.
     fn pacing(&self, spent: Duration) -> Pacing;
 
-    /// What there is.
+    /// Shows the mean of the passes so far.
     fn show(&self, frame: Frame);
 
     /// A pass is done: every pixel has `spp` samples.

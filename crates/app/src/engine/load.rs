@@ -19,7 +19,7 @@ type Reader = Worker<Option<String>, Option<Result<Opened, String>>>;
 pub struct Opened {
     /// What was asked for: a built-in name or a file.
     pub source: String,
-    /// What it holds.
+    /// The scene that was read from it.
     pub scene: Scene,
 }
 

@@ -51,7 +51,7 @@ pub struct Picture {
 pub struct Job<S> {
     /// The settings of one technique.
     pub settings: S,
-    /// What for.
+    /// Which job and which view the picture belongs to.
     pub order: Order,
 }
 

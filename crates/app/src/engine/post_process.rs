@@ -26,7 +26,7 @@ pub struct DisplayFrame {
 /// What is new for one pane.
 #[derive(Debug, Clone)]
 pub enum PaneUpdate {
-    /// A picture.
+    /// The frame, ready to be shown in its pane.
     Picture(Box<DisplayFrame>),
     /// Why there is none: one line.
     Fault(String),

@@ -23,7 +23,7 @@ pub struct Wish {
     pub view: u64,
     /// What it shall show.
     pub shot: Shot,
-    /// Where from.
+    /// Whether it is made here or read from a file.
     pub origin: Origin,
 }
 

@@ -12,7 +12,7 @@ use std::thread::JoinHandle;
 pub trait Service {
     /// What is asked for; the default asks for nothing.
     type Job: Default + Send + 'static;
-    /// What is told.
+    /// What the thread reports back while it serves a job.
     type Update: Default + Send + 'static;
 
     /// Does one job, as far as `control` lets it.

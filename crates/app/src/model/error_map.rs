@@ -8,7 +8,7 @@ use compare::ErrorMetric;
 pub struct ErrorMapJob {
     /// The pictures; the first is judged by the second.
     pub pair: Pair,
-    /// What to map.
+    /// The metric that the map shows at each pixel.
     pub map: ErrorMetric,
     /// Where the scale ends; `None` to fit it.
     pub held: Option<f32>,

@@ -1,6 +1,6 @@
 //! How the window looks: dark for a desk, bright with large type for a projector.
 
-/// A look.
+/// The colours and type sizes of the window.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Theme {
     /// Light type on dark grey: the picture is the brightest thing.

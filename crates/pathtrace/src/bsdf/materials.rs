@@ -161,7 +161,7 @@ impl Materials {
         self.has
     }
 
-    /// What these are.
+    /// Which kind of material each lane holds.
     #[inline(always)]
     pub fn kinds<U: Word>(&self, material: U) -> Kinds<U> {
         Kinds(material.look_up_word(&self.kind))

@@ -15,7 +15,7 @@ pub struct Control {
     pub hover: &'static str,
     /// A technique that needs another explanation.
     pub hover_in: Option<(TechniqueName, &'static str)>,
-    /// What is moved.
+    /// The kind of control that sets the value.
     pub look: Look,
     /// Whether this word of a choice makes sense in this scene.
     pub offers: fn(&str, &Scene) -> bool,
@@ -25,7 +25,7 @@ pub struct Control {
     pub dump_name: Option<&'static str>,
 }
 
-/// What is moved.
+/// The kind of control that sets a value, with its range or words.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Look {
     /// A slider over real numbers; narrower than what the option accepts where more is of no use.

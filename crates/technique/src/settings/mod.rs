@@ -65,7 +65,7 @@ pub enum Kind {
 /// A value of a setting.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Value {
-    /// A number.
+    /// A real number.
     Number(f32),
     /// A whole number.
     Whole(u32),
