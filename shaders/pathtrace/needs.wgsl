@@ -8,6 +8,8 @@ override QUADRILATERALS: bool = true;
 override TRIANGLES: bool = true;
 override SPHERES: bool = true;
 override DISKS: bool = true;
+// whether any shapes coincide
+override COINCIDENT: bool = true;
 override CHECKERBOARD: bool = true;
 override MIRROR: bool = true;
 override ROUGH_CONDUCTOR: bool = true;

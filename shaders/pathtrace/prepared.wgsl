@@ -8,9 +8,9 @@
 fn in_shadow(at: SurfacePoint, sample: LightSample) -> bool {
     let start = leaving_towards(at, sample.wi);
     if sample.endless {
-        return occluded(Ray(start, sample.wi, FAR));
+        return occluded(Ray(start, sample.wi, FAR), sample.light);
     }
-    return occluded(Ray(start, sample.end - start, SHADOW_END));
+    return occluded(Ray(start, sample.end - start, SHADOW_END), sample.light);
 }
 
 // The surface that was met, seen from wo.
@@ -18,7 +18,9 @@ fn interaction_of(hit: Hit, wo: vec3f) -> Interaction {
     let lobe = materials[hit.material].lobe;
     var colour = materials[hit.material].colour.even;
     if CHECKERBOARD && (lobe & CHECKERED) != 0u {
-        colour = checkerboard(materials[hit.material].colour, hit.point.position);
+        // a surface in the side between two cells belongs to the upper one, wherever its points are rounded to
+        let upper = hit.point.position + hit.point.error * abs(hit.point.normal);
+        colour = checkerboard(materials[hit.material].colour, upper);
     }
     return Interaction(hit.point, facing(hit.point.normal, wo), wo, colour, lobe, hit.material);
 }

@@ -87,9 +87,12 @@ struct Surface {
     material: u32,
     // index into the lights, or NO_LIGHT
     light: u32,
+    // of what it coincides with, or NO_GROUP
+    group: u32,
 }
 
 const NO_LIGHT: u32 = 0xffffffffu;
+const NO_GROUP: u32 = 0xffffffffu;
 
 struct Material {
     // albedo or reflectance, 1 for glass
@@ -141,6 +144,8 @@ struct Light {
     probability: f32,
     // running sum of the probabilities
     cumulative: f32,
+    // of what its surface coincides with, or NO_GROUP
+    group: u32,
 }
 
 const LIGHT_RECTANGLE: u32 = 0u;

@@ -263,7 +263,8 @@ fn steps_off_a_surface_agree_bit_for_bit_but_for_one_rounding() {
         let scale = 10f32.powi(item as i32 % 9 - 4);
         let axis = [Vec3::X, Vec3::NEG_Y, Vec3::Z, direction(item, 5)][item as usize % 4];
         let position = direction(item, 6) * scale * if item.is_multiple_of(3) { 1.0 - axis.abs() } else { Vec3::ONE };
-        (SurfacePoint { position, error: position.abs() * share(item), normal: axis }, direction(item, 7))
+        let error = position.abs() * share(item);
+        (SurfacePoint { position, error, normal: axis, radius: 0.0 }, direction(item, 7))
     };
     for tracer in devices() {
         let given = input(|item| {
@@ -273,7 +274,7 @@ fn steps_off_a_surface_agree_bit_for_bit_but_for_one_rounding() {
             numbers(point.position, [x, y, z, facing, share(item)])
         });
         let body = "let p = vec(at);
-            let start = leaving_towards(SurfacePoint(p, abs(p) * f(at + 7u), vec(at + 3u)), vec(at + 3u) * f(at + 6u));
+            let start = leaving_towards(SurfacePoint(p, abs(p) * f(at + 7u), vec(at + 3u), 0.0), vec(at + 3u) * f(at + 6u));
             return bits(start.x, start.y, start.z, 0.0);";
         let on_gpu = run(&tracer, "pathtrace/intersect/surface_point.wgsl", body, &[], &given);
         let mut same = 0;

@@ -145,7 +145,7 @@ fn mirrors_of_the_path_tracer_have_the_layout_of_their_structs() {
         Shape,
         [a, normal_x, b, normal_y, c, normal_z, d, id, normal_low, flatness, plane_point]
     );
-    assert_same_layout!("pathtrace/scene.wgsl", Surface, [normal, material, light]);
+    assert_same_layout!("pathtrace/scene.wgsl", Surface, [normal, material, light, group]);
     assert_same_layout!("pathtrace/scene.wgsl", Checkerboard, [even, odd, origin, cells_per_unit]);
     assert_same_layout!(
         "pathtrace/scene.wgsl",
@@ -155,7 +155,7 @@ fn mirrors_of_the_path_tracer_have_the_layout_of_their_structs() {
     assert_same_layout!(
         "pathtrace/scene.wgsl",
         Light,
-        [position, outline, u, area, v, square, normal, two_sided, radiance, probability, cumulative]
+        [position, outline, u, area, v, square, normal, two_sided, radiance, probability, cumulative, group]
     );
     assert_same_layout!("pathtrace/drive/film.wgsl", PictureFrame, [eye, forward, right, up]);
     assert_same_layout!(
@@ -190,6 +190,6 @@ fn mirrors_of_the_path_tracer_have_the_layout_of_their_structs() {
     assert_same_layout!(
         "pathtrace/drive/rays.wgsl",
         RayAnswer,
-        [position, t, error, material, normal, occluded, refracted, reflectance]
+        [position, t, error, material, normal, occluded, refracted, reflectance, radius]
     );
 }

@@ -11,6 +11,7 @@ use crate::drive::gpu::shape_data::{FewShape, MOST_SHAPES, Shapes};
 use crate::drive::gpu::timing::{BUDGET_SECONDS, Pace, Stopwatch};
 use crate::drive::gpu::{GpuFilm, GpuTraceError, environment_data, scene_data};
 use crate::integrator::Integrator;
+use crate::intersect::contact::held_apart;
 use crate::light::Lights;
 use crate::stats::Stats;
 use bytemuck::Zeroable;
@@ -62,6 +63,7 @@ impl GpuTracer {
     }
 
     fn leaving_out(gpu: &Gpu, scene: &Scene, leaves: Leaves) -> Result<Self, GpuTraceError> {
+        let scene = &*held_apart(scene);
         let made = Made::of(scene, leaves)?;
         let pipelines = Pipelines::new(gpu, made.needs)?;
         Ok(GpuTracer {
@@ -82,6 +84,7 @@ impl GpuTracer {
     /// # Errors
     /// As [`GpuTracer::new`]; the scene before is then still there.
     pub fn set_scene(&mut self, scene: &Scene) -> Result<(), GpuTraceError> {
+        let scene = &*held_apart(scene);
         let made = Made::of(scene, self.leaves)?;
         if made.needs != self.pipelines.needs() {
             let pipelines = Pipelines::new(&self.gpu, made.needs)?;
@@ -245,7 +248,7 @@ impl Made {
             storage(gpu, "the shapes", &shapes.primitives)?,
             storage(gpu, "the surfaces", &shapes.surfaces)?,
             storage(gpu, "the materials", &scene_data::materials(scene))?,
-            storage(gpu, "the lights", &scene_data::lights(lights))?,
+            storage(gpu, "the lights", &scene_data::lights(lights, &shapes.groups))?,
             storage(gpu, "the Sobol points", &scene_data::sobol_bytes())?,
             gpu.buffer("the shapes", &few, BufferUsages::UNIFORM)?,
         ];

@@ -63,7 +63,7 @@ impl PreparedScene {
     #[inline(always)]
     pub fn interaction<F: Float>(&self, hit: &Intersections<F>, wo: Vector<F>) -> Interactions<F> {
         let kinds = self.materials.kinds(hit.material);
-        let colour = self.materials.colour(hit.material, kinds, hit.point.position);
+        let colour = self.materials.colour(hit.material, kinds, &hit.point);
         let normal = facing(hit.point.normal, wo);
         Interactions { point: hit.point, normal, wo, colour, kinds, material: hit.material }
     }
@@ -83,7 +83,7 @@ impl PreparedScene {
         let to = sample.point.leaving_towards(-sample.wi);
         let between = Rays { origin: from, direction: to - from, tmax: F::splat(SHADOW_END) };
         let rays = Rays::select(sample.endless, Rays::new(from, sample.wi), between);
-        self.aggregate.occluded(&rays, wanted, opaque, scratch)
+        self.aggregate.occluded(&rays, sample.light, wanted, opaque, scratch)
     }
 
     /// Radiance that rays find where they hit nothing: the sky of one colour, and `sun_weight` times the sun's disc unless it is a

@@ -5,6 +5,7 @@ use crate::drive::lanes::{FilmJob, FilmPass};
 use crate::integrator::Integrator;
 use crate::intersect::Accel;
 use crate::intersect::aggregate::Aggregate;
+use crate::intersect::contact::held_apart;
 use crate::light::{Lights, SunDisc};
 use crate::prepared::PreparedScene;
 use crate::stats::Stats;
@@ -23,6 +24,7 @@ pub struct Tracer {
 impl Tracer {
     /// Builds the acceleration structure and the list of lights.
     pub fn new(scene: &Scene) -> Self {
+        let scene = &*held_apart(scene);
         let lights = Lights::new(scene);
         Tracer {
             scene: PreparedScene {

@@ -12,9 +12,11 @@ use crate::integrator::forks::MOST_FORKS;
 use crate::integrator::normals::NormalsSettings;
 use crate::integrator::path::{BY_BOTH, BY_CHANCE, BY_SAMPLING};
 use crate::integrator::path_state::{ALREADY_COUNTED, MET_BY_CHANCE};
-use crate::integrator::roulette::{ROULETTE_SLOPE, STEPS};
+use crate::integrator::roulette::{ROULETTE_SLOPE, SPARED_VERTICES, STEPS};
 use crate::integrator::settings::PathSettings;
 use crate::integrator::whitted::{MOST_BRANCHES, MOST_LIGHTS, WhittedSettings};
+use crate::intersect::coincident::NO_GROUP;
+use crate::intersect::ray::BEHIND_THE_END;
 use crate::intersect::{NO_LIGHT, SHADOW_END};
 use crate::light::ball::ALL_DIRECTIONS;
 use crate::light::flat::SMALLEST_SOLID_ANGLE;
@@ -29,6 +31,7 @@ pub fn shared_constants() -> Vec<(&'static str, f64)> {
     gpu::named_values![
         ALL_DIRECTIONS,
         ALREADY_COUNTED,
+        BEHIND_THE_END,
         BY_BOTH,
         BY_CHANCE,
         BY_SAMPLING,
@@ -61,8 +64,10 @@ pub fn shared_constants() -> Vec<(&'static str, f64)> {
         MOST_SHAPES,
         MOST_WAITING,
         NO_LIGHT,
+        NO_GROUP,
         ROULETTE_SLOPE,
         SHADOW_END,
+        SPARED_VERTICES,
         SMALLEST_POSITIVE,
         SMALLEST_SOLID_ANGLE,
         STEPS,

@@ -2,6 +2,7 @@
 //!
 //! Twin: `shaders/pathtrace/camera.wgsl`.
 
+use crate::direction::unit;
 use glam::{Mat4, Vec2, Vec3, camera::rh};
 
 /// A pinhole camera in world space.
@@ -41,7 +42,7 @@ impl Camera {
 
     /// The frame of a picture of `aspect` = width / height.
     pub fn frame(&self, aspect: f32) -> PictureFrame {
-        let forward = (self.target - self.eye).normalize();
+        let forward = unit(self.target - self.eye).unwrap_or(Vec3::NEG_Z);
         let right = forward.cross(self.up).normalize();
         let up = right.cross(forward);
         let half_height = (self.fov_y.to_radians() * 0.5).tan();
@@ -50,7 +51,7 @@ impl Camera {
 
     /// The matrix that takes world space to clip space (depth 0 near, 1 far), as the raster needs it.
     pub fn clip_from_world(&self, aspect: f32) -> Mat4 {
-        let view_from_world = rh::view::look_at_mat4(self.eye, self.target, self.up);
+        let view_from_world = rh::view::look_to_mat4(self.eye, self.frame(1.0).forward, self.up);
         rh::proj::directx::perspective(self.fov_y.to_radians(), aspect, self.near, self.far) * view_from_world
     }
 
@@ -80,10 +81,11 @@ impl Camera {
     pub fn orbited(&self, yaw: f32, pitch: f32) -> Self {
         let arm = self.eye - self.target;
         let up = self.up.normalize();
-        let height = up.dot(arm.normalize()).clamp(-1.0, 1.0).asin();
+        let back = unit(arm).unwrap_or(Vec3::Z);
+        let height = up.dot(back).clamp(-1.0, 1.0).asin();
         let limit = 89f32.to_radians();
         let pitch = (height + pitch).clamp(-limit, limit) - height;
-        let side = arm.normalize().cross(up).normalize();
+        let side = back.cross(up).normalize();
         let turn = glam::Quat::from_axis_angle(up, yaw) * glam::Quat::from_axis_angle(side, pitch);
         Camera { eye: self.target + turn * arm, ..*self }
     }

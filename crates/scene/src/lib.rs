@@ -7,6 +7,7 @@ pub mod builtin;
 pub mod camera;
 pub mod canonical;
 pub mod conductor;
+pub mod direction;
 pub mod environment;
 pub mod file;
 pub mod light;

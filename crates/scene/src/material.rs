@@ -19,6 +19,13 @@ pub struct Material {
     pub fake: FakeMaterial,
 }
 
+impl Material {
+    /// Whether it sends out any light itself.
+    pub fn shines(&self) -> bool {
+        self.emission.is_some_and(|emission| emission.radiance.max_element() > 0.0)
+    }
+}
+
 /// How a surface scatters light.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Bsdf {

@@ -23,6 +23,8 @@ struct RayAnswer {
     refracted: vec3f,
     // what a dielectric surface reflects, 1 beyond the critical angle; 0 of others
     reflectance: f32,
+    // of a sphere; 0 if the surface is flat
+    radius: f32,
 }
 
 @group(1) @binding(0) var<storage, read> queries: array<RayQuery>;
@@ -45,6 +47,7 @@ fn trace(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups) grou
         answer.error = hit.point.error;
         answer.material = hit.material;
         answer.normal = hit.point.normal;
+        answer.radius = hit.point.radius;
         let met = interaction_of(hit, -ray.direction);
         if met.lobe == LOBE_DIELECTRIC {
             meet_dielectric(&answer, met);

@@ -55,6 +55,8 @@ var<private> fork_positions: array<vec3f, MOST_FORKS>;
 var<private> fork_errors: array<vec3f, MOST_FORKS>;
 // geometric ones; of the side that the path came from in the vertex itself
 var<private> fork_normals: array<vec3f, MOST_FORKS>;
+// of spheres
+var<private> fork_radii: array<f32, MOST_FORKS>;
 var<private> fork_sides: array<vec3f, MOST_FORKS>;
 var<private> fork_albedos: array<vec3f, MOST_FORKS>;
 var<private> fork_throughputs: array<vec3f, MOST_FORKS>;
@@ -92,7 +94,7 @@ fn at_fork() -> bool {
 // Goes back to the deepest vertex that waits.
 fn next_branch() {
     let top = waiting - 1u;
-    let point = SurfacePoint(fork_positions[top], fork_errors[top], fork_normals[top]);
+    let point = SurfacePoint(fork_positions[top], fork_errors[top], fork_normals[top], fork_radii[top]);
     vertex = Interaction(point, fork_sides[top], fork_sides[top], fork_albedos[top], LOBE_LAMBERT, 0u);
     let counts = fork_counts[top];
     path.throughput = fork_throughputs[top];
@@ -111,6 +113,7 @@ fn fork() {
     fork_positions[waiting] = vertex.point.position;
     fork_errors[waiting] = vertex.point.error;
     fork_normals[waiting] = vertex.point.normal;
+    fork_radii[waiting] = vertex.point.radius;
     fork_sides[waiting] = vertex.normal;
     fork_albedos[waiting] = vertex.colour;
     fork_throughputs[waiting] = path.throughput;
@@ -193,7 +196,7 @@ fn scatter() -> bool {
     }
     path.from_ = vertex.point.position;
     path.ray = Ray(leaving_towards(vertex.point, sample.wi), sample.wi, FAR);
-    return goes_on(u.z);
+    return goes_on(delta, u.z);
 }
 
 // A direction of the tutorial's naive tracer, whatever the surface (Task 2 b); its weight is in the throughput.
@@ -207,7 +210,8 @@ fn sample_uniformly(u: vec2f) -> BsdfSample {
 }
 
 // Counts the vertex and plays roulette.
-fn goes_on(u_roulette: f32) -> bool {
+fn goes_on(delta: bool, u_roulette: f32) -> bool {
+    let spared = delta && path.vertices < SPARED_VERTICES;
     path.vertices += 1u;
     let all_counted = path.direction_pdf == ALREADY_COUNTED && all(header.sky == vec3f(0.0));
     if path.vertices == params.limit && all_counted {
@@ -220,7 +224,7 @@ fn goes_on(u_roulette: f32) -> bool {
             shared_by *= f32(params.branches);
         }
     }
-    return survives(shared_by, u_roulette);
+    return survives(shared_by, spared, u_roulette);
 }
 
 // Takes the light of one sample of the lights, unless it is in shadow. Under MIS weighted against meeting the same light
@@ -278,10 +282,14 @@ const ROULETTE_SLOPE: f32 = 2.0;
 // that.
 const STEPS: f32 = 16777216.0;
 
-// Russian roulette; the survivor carries the light of those that did not. `branches` paths share what one would carry.
-fn survives(branches: f32, u: f32) -> bool {
+// Vertices of a path up to which throughput does not count at mirrors and glass.
+const SPARED_VERTICES: u32 = 64u;
+
+// Russian roulette; the survivor carries the light of those that did not. `branches` paths share what one would carry;
+// one that is `spared` does not end for its throughput.
+fn survives(branches: f32, spared: bool, u: f32) -> bool {
     var probability = params.probability;
-    if params.by_throughput == 1u {
+    if params.by_throughput == 1u && !spared {
         let largest = max(path.throughput.x, max(path.throughput.y, path.throughput.z));
         probability *= min(ROULETTE_SLOPE * branches * largest, 1.0);
     }

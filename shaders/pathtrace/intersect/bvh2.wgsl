@@ -16,10 +16,10 @@ const FIRST_MASK: u32 = 0x7ffffffu;
 // Nodes that wait. Not the traversal's own: it would be cleared each time.
 var<private> waiting_nodes: array<u32, MOST_WAITING>;
 
-fn traverse(ray: Ray, any_will_do: bool) -> Nearest {
+fn traverse(ray: Ray, query: Query) -> Nearest {
     let sheared = sheared_ray(ray.direction);
     let inverse = safe_inverse(ray.direction);
-    var nearest = Nearest(ray.tmax, NOTHING, NOTHING);
+    var nearest = Nearest(reach(query, ray.tmax), NOTHING, NOTHING);
     if header.primitives == 0u {
         return nearest;
     }
@@ -52,14 +52,18 @@ fn traverse(ray: Ray, any_will_do: bool) -> Nearest {
         for (var index = first; index < end; index++) {
             let primitive = primitives[index];
             let t = primitive_distance(primitive, ray, sheared);
-            if t > 0.0 && t <= nearest.t && !passes(index, any_will_do) {
+            if t > 0.0 && (t <= nearest.t || COINCIDENT) {
                 let id = primitive.tag & ((1u << KIND_SHIFT) - 1u);
-                if t < nearest.t || (id < nearest.id && !any_will_do) {
+                if query.shadow {
+                    if t < nearest.t && blocks(query, index, t) {
+                        return Nearest(t, index, id);
+                    }
+                } else if comes_first(t, id, index, nearest, nearest.index) {
                     nearest = Nearest(t, index, id);
                 }
             }
         }
-        if count == 0u || (any_will_do && nearest.index != NOTHING) {
+        if count == 0u {
             return nearest;
         }
         count -= 1u;

@@ -13,9 +13,11 @@ struct Ray {
 const FAR: f32 = 3.4028234e38;
 
 // A shadow ray ends at 1, which is rounded with its direction, distances to planes are good to 20 bits, and divisions
-// may be off by 2.5 ulp: the area light at its end must not shadow itself. Other than the twin's: the
-// processor divides exactly.
+// may be off by 2.5 ulp: what lies as near to the end is not known to lie before it.
 const SHADOW_END: f32 = 1.0 - 1e-6;
+
+// A distance along a shadow ray that is certainly behind its end.
+const BEHIND_THE_END: f32 = 2.0;
 
 // Higham's bound on the relative error of n roundings in a row, f32.
 fn gamma(n: f32) -> f32 {

@@ -7,14 +7,14 @@
 // crates/pathtrace/src/intersect/shape_list/mod.rs and surfaces.rs.
 
 // What a ray meets among the shapes of each kind up to these ends: the nearest, or whichever comes first.
-fn meet_all(ray: Ray, ends: vec4u, any_will_do: bool) -> Nearest {
+fn meet_all(ray: Ray, ends: vec4u, query: Query) -> Nearest {
     let sheared = sheared_ray(ray.direction);
     let starts = header.seen;
-    var nearest = Nearest(ray.tmax, NOTHING, NOTHING);
+    var nearest = Nearest(reach(query, ray.tmax), NOTHING, NOTHING);
     if QUADRILATERALS {
         for (var i = 0u; i < ends.x; i++) {
             let t = quadrilateral_distance(quadrilateral_at(i), plane_at(i), ray, sheared);
-            if consider(&nearest, t, i, any_will_do) {
+            if consider(&nearest, t, i, query) {
                 return nearest;
             }
         }
@@ -22,7 +22,7 @@ fn meet_all(ray: Ray, ends: vec4u, any_will_do: bool) -> Nearest {
     if TRIANGLES {
         for (var i = starts.x; i < ends.y; i++) {
             let t = triangle_distance(triangle_at(i), plane_at(i), ray, sheared);
-            if consider(&nearest, t, i, any_will_do) {
+            if consider(&nearest, t, i, query) {
                 return nearest;
             }
         }
@@ -30,7 +30,7 @@ fn meet_all(ray: Ray, ends: vec4u, any_will_do: bool) -> Nearest {
     if SPHERES {
         for (var i = starts.y; i < ends.z; i++) {
             let t = sphere_distance(shapes[i].a, shapes[i].normal_x, ray);
-            if consider(&nearest, t, i, any_will_do) {
+            if consider(&nearest, t, i, query) {
                 return nearest;
             }
         }
@@ -38,7 +38,7 @@ fn meet_all(ray: Ray, ends: vec4u, any_will_do: bool) -> Nearest {
     if DISKS {
         for (var i = starts.z; i < ends.w; i++) {
             let t = disk_distance(shapes[i].a, shapes[i].b, shapes[i].normal_x, ray);
-            if consider(&nearest, t, i, any_will_do) {
+            if consider(&nearest, t, i, query) {
                 return nearest;
             }
         }
@@ -46,18 +46,18 @@ fn meet_all(ray: Ray, ends: vec4u, any_will_do: bool) -> Nearest {
     return nearest;
 }
 
-// Takes a meeting if it is the nearest so far, or the first of several at one distance; whether there is no need to
-// look on.
-fn consider(nearest: ptr<function, Nearest>, t: f32, index: u32, any_will_do: bool) -> bool {
-    if !(t > 0.0 && t <= (*nearest).t) {
+// Takes a meeting if it comes first, or of a shadow ray if it blocks the light; whether there is no need to look on.
+fn consider(nearest: ptr<function, Nearest>, t: f32, index: u32, query: Query) -> bool {
+    let before = select(t <= (*nearest).t, t < (*nearest).t, query.shadow);
+    if !(t > 0.0 && (before || (COINCIDENT && !query.shadow))) {
         return false;
     }
     let id = shapes[index].id;
-    if passes(id, any_will_do) || (t == (*nearest).t && (id >= (*nearest).id || any_will_do)) {
-        return false;
+    let takes = select(comes_first(t, id, id, *nearest, (*nearest).id), blocks(query, id, t), query.shadow);
+    if takes {
+        *nearest = Nearest(t, index, id);
     }
-    *nearest = Nearest(t, index, id);
-    return any_will_do;
+    return takes && query.shadow;
 }
 
 fn quadrilateral_at(index: u32) -> Quadrilateral {

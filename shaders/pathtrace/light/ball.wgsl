@@ -49,5 +49,5 @@ fn ball_sample(area_light: Light, x: vec3f, u: vec2f) -> LightSample {
     let half_chord = sqrt(max(radius * radius - dot(off_axis, off_axis), 0.0));
     let met = wi * select(along + half_chord, along - half_chord, outside > 0.0) - to_center;
     let point = on_sphere(area_light.position, radius, met);
-    return LightSample(wi, pdf, area_light.radiance / pdf, false, leaving_towards(point, -wi));
+    return LightSample(wi, pdf, area_light.radiance / pdf, false, leaving_towards(point, -wi), 0u);
 }

@@ -95,7 +95,7 @@ fn environment_sample(u: vec2f) -> LightSample {
     let ring = sqrt(max((1.0 - depth) * (1.0 + depth), 0.0));
     let wi = vec3f(-(ring * phi.x), -depth, ring * phi.y);
     let pdf = environment_density(column, row);
-    return LightSample(wi, pdf, textureLoad(environment_texels, vec2u(column, row), 0).xyz / pdf, true, vec3f(0.0));
+    return LightSample(wi, pdf, textureLoad(environment_texels, vec2u(column, row), 0).xyz / pdf, true, vec3f(0.0), 0u);
 }
 
 // Radiance that a ray of this unit direction finds, and the density per solid angle with which sampling all lights

@@ -46,7 +46,7 @@ fn flat_sample(area_light: Light, x: vec3f, u: vec2f) -> LightSample {
     if inverse_pdf <= SMALLEST_POSITIVE {
         return no_light();
     }
-    return LightSample(wi, 1.0 / inverse_pdf, area_light.radiance * inverse_pdf, false, leaving_towards(point, -wi));
+    return LightSample(wi, 1.0 / inverse_pdf, area_light.radiance * inverse_pdf, false, leaving_towards(point, -wi), 0u);
 }
 
 // Density per solid angle of the direction from x to `met` on the area light; INFINITE_PDF for an edge that no sample

@@ -32,7 +32,12 @@ fn sample_light(x: vec3f, u_light: f32, u: vec2f) -> LightSample {
 
 // As sample_light, but of one light of the caller's choice, whose probability is not in the densities.
 fn sample_one(light: u32, x: vec3f, u: vec2f) -> LightSample {
-    let area_light = lights[light];
+    var sample = sample_of(lights[light], x, u);
+    sample.light = light;
+    return sample;
+}
+
+fn sample_of(area_light: Light, x: vec3f, u: vec2f) -> LightSample {
     if BALL_LIGHTS && area_light.outline == LIGHT_BALL {
         return ball_sample(area_light, x, u);
     }
@@ -71,5 +76,5 @@ fn point_sample(light: Light, x: vec3f) -> LightSample {
         return no_light();
     }
     let wi = to_light / sqrt(distance_squared);
-    return LightSample(wi, INFINITE_PDF, light.radiance / distance_squared, false, light.position);
+    return LightSample(wi, INFINITE_PDF, light.radiance / distance_squared, false, light.position, 0u);
 }

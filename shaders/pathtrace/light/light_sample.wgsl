@@ -12,11 +12,13 @@ struct LightSample {
     endless: bool,
     // where it ends, off the area light
     end: vec3f,
+    // which light, by its index; the light itself does not know
+    light: u32,
 }
 
 // Of a single direction. Here alone: lanes have infinity, which shaders may take away.
 const INFINITE_PDF: f32 = 1e30;
 
 fn no_light() -> LightSample {
-    return LightSample(vec3f(0.0), 0.0, vec3f(0.0), false, vec3f(0.0));
+    return LightSample(vec3f(0.0), 0.0, vec3f(0.0), false, vec3f(0.0), 0u);
 }

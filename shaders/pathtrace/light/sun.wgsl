@@ -6,11 +6,11 @@
 
 fn sun_sample(sun: Light, u: vec2f) -> LightSample {
     if sun.area == 0.0 {
-        return LightSample(sun.position, INFINITE_PDF, sun.radiance, true, vec3f(0.0));
+        return LightSample(sun.position, INFINITE_PDF, sun.radiance, true, vec3f(0.0), 0u);
     }
     let wi = to_world(cone(sun.area, u), sun.position);
     let pdf = cone_pdf(sun.area);
-    return LightSample(wi, pdf, sun.radiance / pdf, true, vec3f(0.0));
+    return LightSample(wi, pdf, sun.radiance / pdf, true, vec3f(0.0), 0u);
 }
 
 // Radiance that a ray finds where it hits nothing: the sky of one colour, and `sun_weight` times the sun's disc unless it is a delta

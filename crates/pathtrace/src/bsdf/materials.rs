@@ -4,6 +4,7 @@
 
 use super::Interactions;
 use super::rough_conductor::RoughConductors;
+use crate::intersect::SurfacePoints;
 use crate::vectors::VectorColumn;
 use scene::{Bsdf, Conductor, Material, Texture, Vec3};
 use simd::{Column, Float, Vector, Word, WordColumn};
@@ -167,14 +168,17 @@ impl Materials {
         Kinds(material.look_up_word(&self.kind))
     }
 
-    /// Albedo of diffuse ones at a point of world space, reflectance of mirrors, 1 for glass.
+    /// Albedo of diffuse ones at a point, reflectance of mirrors, 1 for glass. A surface that lies in the side between
+    /// two cells belongs to the upper one, wherever its points are rounded to: along its normal, what is not known to lie
+    /// below the side lies above.
     #[inline(always)]
-    pub fn colour<F: Float>(&self, material: F::U, kinds: Kinds<F::U>, at: Vector<F>) -> Vector<F> {
+    pub fn colour<F: Float>(&self, material: F::U, kinds: Kinds<F::U>, at: &SurfacePoints<F>) -> Vector<F> {
         let colour = self.colour.look_up(material);
         if !self.has.checkerboards {
             return colour;
         }
-        let index = (at - self.board_origin.look_up(material)) * self.cells_per_unit.look_up(material);
+        let from_origin = at.position + at.error * at.normal.abs() - self.board_origin.look_up(material);
+        let index = from_origin * self.cells_per_unit.look_up(material);
         let sum = index.x.floor() + index.y.floor() + index.z.floor();
         let odd = !(sum - (sum * 0.5).floor() * 2.0).lt(F::splat(0.5));
         Vector::select(odd & kinds.has(CHECKERED), self.odd.look_up(material), colour)

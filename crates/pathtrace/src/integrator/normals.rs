@@ -13,6 +13,7 @@ use crate::sampling::sampler::SamplerKind;
 use crate::vectors::in_all_lanes;
 use scene::Vec3;
 use scene::camera::PictureFrame;
+use scene::direction::unit;
 use simd::{Float, Mask, Vector};
 
 /// Whose axes a direction is told by.
@@ -75,7 +76,7 @@ impl Plan {
     pub fn new(settings: &NormalsSettings, frame: &PictureFrame) -> Self {
         Plan(match settings.space {
             Space::World => [Vec3::X, Vec3::Y, Vec3::Z],
-            Space::Camera => [frame.right.normalize(), frame.up.normalize(), -frame.forward],
+            Space::Camera => [unit(frame.right).unwrap_or(Vec3::X), unit(frame.up).unwrap_or(Vec3::Y), -frame.forward],
         })
     }
 }

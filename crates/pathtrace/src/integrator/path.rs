@@ -17,7 +17,7 @@ use crate::drive::gpu::{PipelineKey, flag};
 use crate::drive::lanes::{LaneIntegrator, LanePlan};
 use crate::integrator::forks::{Forks, MOST_FORKS, child};
 use crate::integrator::path_state::{ALREADY_COUNTED, DiffuseVertices, MET_BY_CHANCE, PathStates, balance};
-use crate::integrator::roulette::survivors;
+use crate::integrator::roulette::{SPARED_VERTICES, survivors};
 use crate::integrator::settings::{Directions, LightSampling, PathSettings, Roulette};
 use crate::intersect::shape_list::Scratch;
 use crate::intersect::{Intersections, NO_LIGHT, Rays, SurfacePoints};
@@ -170,7 +170,7 @@ impl<'a, F: Float> LaneIntegrator<F> for PathLanes<'a, F> {
         if scattering.any() {
             self.scatter(scattering, &vertex, sampler, [u[0], u[1], u[3]]);
         }
-        let alive = self.goes_on(scattering, u[2]);
+        let alive = self.goes_on(scattering, vertex.is_delta(), u[2]);
         let ended = taken & !alive;
         if self.plan.branching_vertices > 0 {
             self.resumed = self.forks.next(ended, self.plan.branches, &mut self.vertex, &mut self.path);
@@ -193,14 +193,13 @@ impl<'a, F: Float> PathLanes<'a, F> {
     /// No path yet.
     #[inline(always)]
     pub fn new(scene: &'a PreparedScene, plan: &'a Plan) -> Self {
-        let (zero, nowhere) = (Vector::zero(), Vector::zero());
-        let point = SurfacePoints { position: nowhere, error: zero, normal: zero };
+        let zero = Vector::zero();
         PathLanes {
             scene,
             plan,
-            path: PathStates::leaving_camera(&Rays::new(nowhere, Vector::splat([0.0, 0.0, 1.0]))),
+            path: PathStates::leaving_camera(&Rays::new(zero, Vector::splat([0.0, 0.0, 1.0]))),
             resumed: F::M::splat(false),
-            vertex: DiffuseVertices { point, normal: zero, albedo: zero },
+            vertex: DiffuseVertices { point: SurfacePoints::in_the_air(zero), normal: zero, albedo: zero },
             forks: Forks::default(),
             scratch: Scratch::new(scene.aggregate.shape_list()),
             outcome: Outcomes { radiance: zero, cut: F::M::splat(false) },
@@ -277,8 +276,9 @@ impl<'a, F: Float> PathLanes<'a, F> {
 
     /// Counts the vertex and plays roulette; where paths go on.
     #[inline(always)]
-    fn goes_on(&mut self, alive: F::M, u_roulette: F) -> F::M {
+    fn goes_on(&mut self, alive: F::M, delta: F::M, u_roulette: F) -> F::M {
         let path = &mut self.path;
+        let spared = delta & path.vertices.lt(F::U::splat(SPARED_VERTICES));
         path.vertices = path.vertices.wrapping_add(F::U::splat(1));
         let mut alive = alive;
         if self.scene.sky == Vec3::ZERO {
@@ -293,7 +293,7 @@ impl<'a, F: Float> PathLanes<'a, F> {
         if self.plan.branching_vertices > 0 {
             branches = path.forked.look_up(&self.plan.paths_after);
         }
-        let (survives, throughput) = survivors(path.throughput, branches, self.plan.roulette, u_roulette);
+        let (survives, throughput) = survivors(path.throughput, branches, spared, self.plan.roulette, u_roulette);
         path.throughput = throughput;
         alive & survives
     }

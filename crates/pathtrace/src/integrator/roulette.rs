@@ -14,10 +14,21 @@ pub(crate) const ROULETTE_SLOPE: f32 = 2.0;
 /// that.
 pub(crate) const STEPS: f32 = 16_777_216.0;
 
+/// Vertices of a path up to which throughput does not count at mirrors and glass. A lamp may be as bright as its
+/// reflection is dark, and there is one way on: ending it saves little and loses all that it finds. Between mirrors that
+/// face each other it has to count at last.
+pub(crate) const SPARED_VERTICES: u32 = 64;
+
 /// Russian roulette: where paths survive, and the throughput of survivors, who carry the light of those that did not.
-/// `branches` paths share what one would carry.
+/// `branches` paths share what one would carry; those that are `spared` do not end for their throughput.
 #[inline(always)]
-pub fn survivors<F: Float>(throughput: Vector<F>, branches: F, roulette: Roulette, u: F) -> (F::M, Vector<F>) {
+pub fn survivors<F: Float>(
+    throughput: Vector<F>,
+    branches: F,
+    spared: F::M,
+    roulette: Roulette,
+    u: F,
+) -> (F::M, Vector<F>) {
     // nothing is left to carry: the product has underflowed, or the surface was black
     let nothing = throughput.is_zero();
     if roulette == Roulette::OFF {
@@ -26,7 +37,8 @@ pub fn survivors<F: Float>(throughput: Vector<F>, branches: F, roulette: Roulett
     let one = F::splat(1.0);
     let mut probability = F::splat(roulette.probability.unwrap_or(1.0));
     if roulette.throughput {
-        probability = probability * (branches * ROULETTE_SLOPE * throughput.max_element()).min(one);
+        let by_throughput = (branches * ROULETTE_SLOPE * throughput.max_element()).min(one);
+        probability = probability * F::select(spared, one, by_throughput);
     }
     probability = (probability * STEPS).ceil() * (1.0 / STEPS);
     (u.lt(probability) & !nothing, throughput * (one / probability))

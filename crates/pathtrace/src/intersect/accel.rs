@@ -4,8 +4,9 @@
 use super::bvh2::Bvh2;
 use super::bvh8::Bvh8;
 use super::bvh8_collapse::Shapes;
+use super::coincident::Groups;
 use super::primitive::primitives;
-use super::{Hit, Intersection, Ray};
+use super::{Blocker, Hit, Intersection, Ray};
 use scene::Scene;
 use simd::{Lanes, RowLanes};
 
@@ -27,13 +28,13 @@ impl Accel {
     /// Builds the structure. Triangles without area, which no ray can meet, are left out. `light_of_shape` is
     /// [`crate::light::Lights::light_of_shape`] of the scene.
     pub fn new(scene: &Scene, light_of_shape: &[u32]) -> Self {
-        let (primitives, surfaces) = primitives(scene, light_of_shape);
+        let (primitives, surfaces, groups) = primitives(scene, light_of_shape);
         let count = primitives.len();
         let shapes = Shapes { primitives: &primitives, surfaces: &surfaces };
         let eight = if count < LARGE { None } else { Bvh8::new(shapes, RowLanes::nearest_to(Lanes::best())) };
         let hierarchy = match eight {
-            Some(bvh) => Hierarchy::Eight(bvh),
-            None => Hierarchy::Two(Bvh2::new(&primitives, &surfaces)),
+            Some(bvh) => Hierarchy::Eight(Bvh8 { groups, ..bvh }),
+            None => Hierarchy::Two(Bvh2 { groups, ..Bvh2::new(&primitives, &surfaces) }),
         };
         Accel { hierarchy, count }
     }
@@ -76,9 +77,17 @@ impl Accel {
         self.occluded_by(ray, |_| true)
     }
 
-    /// Whether anything of a material that `blocks` lies on the ray before `ray.tmax`.
+    /// Which of the shapes coincide, by their places in the scene's order.
+    pub fn groups(&self) -> &Groups {
+        match &self.hierarchy {
+            Hierarchy::Two(bvh) => &bvh.groups,
+            Hierarchy::Eight(bvh) => &bvh.groups,
+        }
+    }
+
+    /// Whether anything that `blocks` lies on the ray before `ray.tmax`.
     #[inline]
-    pub fn occluded_by(&self, ray: &Ray, blocks: impl Fn(u32) -> bool) -> bool {
+    pub fn occluded_by(&self, ray: &Ray, blocks: impl Fn(Blocker) -> bool) -> bool {
         match &self.hierarchy {
             Hierarchy::Two(bvh) => bvh.occluded_by(ray, blocks),
             Hierarchy::Eight(bvh) => bvh.occluded_by(ray, blocks),

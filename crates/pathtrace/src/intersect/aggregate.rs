@@ -3,8 +3,10 @@
 //!
 //! Twin: `shaders/pathtrace/intersect/aggregate.wgsl`.
 
+use super::coincident::NO_GROUP;
+use super::ray::BEHIND_THE_END;
 use super::shape_list::{Scratch, ShapeList};
-use super::{Accel, Hit, Hits, Intersections, NO_LIGHT, NO_PRIMITIVE, Rays, SurfacePoints};
+use super::{Accel, Hit, Hits, Intersections, NO_LIGHT, NO_PRIMITIVE, Ray, Rays, SurfacePoints};
 use crate::vectors::of_lanes;
 use scene::{Bsdf, Scene, Vec3};
 use simd::{Float, MOST_LANES, Mask, Word};
@@ -63,12 +65,21 @@ impl Aggregate {
         }
     }
 
-    /// Where anything lies on the `wanted` rays before `rays.tmax`; if `opaque`, glass does not count.
+    /// Where anything lies on the `wanted` shadow rays before `rays.tmax`; if `opaque`, glass does not count. A ray to a
+    /// point of an area light is not stopped by the light itself, nor by what coincides with it and comes later; what
+    /// comes earlier covers it.
     #[inline(always)]
-    pub fn occluded<F: Float>(&self, rays: &Rays<F>, wanted: F::M, opaque: bool, scratch: &mut Scratch<F>) -> F::M {
+    pub fn occluded<F: Float>(
+        &self,
+        rays: &Rays<F>,
+        to_light: F::U,
+        wanted: F::M,
+        opaque: bool,
+        scratch: &mut Scratch<F>,
+    ) -> F::M {
         match &self.shape_list {
-            Some(shape_list) => shape_list.occluded(rays, wanted, opaque, scratch),
-            None => self.occluded_one_by_one(rays, wanted, opaque),
+            Some(shape_list) => shape_list.occluded(rays, to_light, wanted, opaque, scratch),
+            None => self.occluded_one_by_one(rays, to_light, wanted, opaque),
         }
     }
 
@@ -98,28 +109,51 @@ impl Aggregate {
             from.store(to);
         }
         let [mut position, mut error, mut normal] = [[Vec3::ZERO; MOST_LANES]; 3];
+        let mut radius = [0.0; MOST_LANES];
         let (mut material, mut light) = ([0; MOST_LANES], [NO_LIGHT; MOST_LANES]);
         for lane in lanes_of(hits.met()) {
             let barycentrics = barycentrics.map(|weights| weights[lane]);
             let hit = Hit { t: t[lane], primitive: primitive[lane], barycentrics };
             let met = self.accel.intersection(&rays[lane], &hit);
             (position[lane], error[lane], normal[lane]) = (met.point.position, met.point.error, met.point.normal);
-            (material[lane], light[lane]) = (met.material, met.light);
+            (radius[lane], material[lane], light[lane]) = (met.point.radius, met.material, met.light);
         }
         Intersections {
             met: hits.met(),
-            point: SurfacePoints { position: of_lanes(&position), error: of_lanes(&error), normal: of_lanes(&normal) },
+            point: SurfacePoints {
+                position: of_lanes(&position),
+                error: of_lanes(&error),
+                normal: of_lanes(&normal),
+                radius: F::load(&radius),
+            },
             material: F::U::load(&material),
             light: F::U::load(&light),
         }
     }
 
     #[inline(always)]
-    fn occluded_one_by_one<F: Float>(&self, rays: &Rays<F>, wanted: F::M, opaque: bool) -> F::M {
+    fn occluded_one_by_one<F: Float>(&self, rays: &Rays<F>, to_light: F::U, wanted: F::M, opaque: bool) -> F::M {
         let rays = rays.each();
-        let stops = |material: u32| !(opaque && self.clear[material as usize]);
-        let occluded = lanes_of(wanted).filter(|&lane| self.accel.occluded_by(&rays[lane], stops));
+        let mut lights = [NO_LIGHT; MOST_LANES];
+        to_light.store(&mut lights);
+        let occluded = lanes_of(wanted).filter(|&lane| self.is_occluded(&rays[lane], lights[lane], opaque));
         F::M::from_bits(occluded.fold(0, |bits, lane| bits | 1 << lane))
+    }
+
+    fn is_occluded(&self, ray: &Ray, to_light: u32, opaque: bool) -> bool {
+        let groups = self.accel.groups();
+        let group = groups.of_light(to_light);
+        // what coincides with the light may be met just behind the end
+        let reach = if group == NO_GROUP { ray.tmax } else { BEHIND_THE_END };
+        self.accel.occluded_by(&Ray { tmax: reach, ..*ray }, |met| {
+            if (opaque && self.clear[met.material as usize]) || met.light == to_light {
+                return false;
+            }
+            if group != NO_GROUP && groups.of_surface(met.id) == group {
+                return met.light < to_light;
+            }
+            met.t < ray.tmax
+        })
     }
 }
 

@@ -3,9 +3,10 @@
 //!
 //! Twin: `shaders/pathtrace/intersect/bvh2.wgsl`.
 
+use super::coincident::Groups;
 use super::primitive::{Primitive, Surface, padding, primitives};
 use super::triangle::ShearedRay;
-use super::{Hit, Intersection, NO_PRIMITIVE, Ray};
+use super::{Blocker, Hit, Intersection, NO_PRIMITIVE, Ray};
 use obvhs::BvhBuildParams;
 use obvhs::aabb::Aabb;
 use obvhs::bvh2::Bvh2 as Tree;
@@ -22,6 +23,8 @@ pub(crate) struct Bvh2 {
     /// Each primitive's place in the scene's order, area lights first, which decides ties.
     pub(crate) ids: Vec<u32>,
     pub(crate) surfaces: Vec<Surface>,
+    /// Which of them coincide, by their places in the scene's order.
+    pub(crate) groups: Groups,
 }
 
 /// The nearest candidate so far, as little as can be carried through the traversal.
@@ -37,8 +40,8 @@ pub(super) struct Nearest {
 impl Bvh2 {
     /// Of a whole scene, however large.
     pub(crate) fn of(scene: &Scene, light_of_shape: &[u32]) -> Self {
-        let (primitives, surfaces) = primitives(scene, light_of_shape);
-        Bvh2::new(&primitives, &surfaces)
+        let (primitives, surfaces, groups) = primitives(scene, light_of_shape);
+        Bvh2 { groups, ..Bvh2::new(&primitives, &surfaces) }
     }
 
     /// Number of triangles, spheres and disks.
@@ -56,6 +59,7 @@ impl Bvh2 {
             primitives: order.iter().map(|&i| primitives[i as usize]).collect(),
             surfaces: order.iter().map(|&i| surfaces[i as usize]).collect(),
             ids: order,
+            groups: Groups::default(),
         }
     }
 
@@ -76,9 +80,10 @@ impl Bvh2 {
         let mut nearest = Nearest { t: ray.tmax, primitive: NO_PRIMITIVE, id: u32::MAX, barycentrics: [0.0; 3] };
         self.traverse(ray, |index, tmax| {
             // one step beyond, so that equal distances reach the comparison of ids
-            if let Some((t, barycentrics)) = self.primitives[index].intersect(ray, &sheared, tmax.next_up()) {
+            let reach = if self.groups.any() { f32::INFINITY } else { tmax.next_up() };
+            if let Some((t, barycentrics)) = self.primitives[index].intersect(ray, &sheared, reach) {
                 let id = self.ids[index];
-                if t < nearest.t || (t == nearest.t && id < nearest.id) {
+                if self.groups.comes_first((t, id), (nearest.t, nearest.id)) {
                     nearest = Nearest { t, primitive: index as u32, id, barycentrics };
                 }
             }
@@ -88,12 +93,14 @@ impl Bvh2 {
     }
 
     #[inline]
-    pub(super) fn occluded_by(&self, ray: &Ray, blocks: impl Fn(u32) -> bool) -> bool {
+    pub(super) fn occluded_by(&self, ray: &Ray, blocks: impl Fn(Blocker) -> bool) -> bool {
         let sheared = ShearedRay::new(ray);
         let mut occluded = false;
         self.traverse(ray, |index, tmax| {
-            occluded = self.primitives[index].intersect(ray, &sheared, tmax).is_some()
-                && blocks(self.surfaces[index].material);
+            occluded = self.primitives[index].intersect(ray, &sheared, tmax).is_some_and(|(t, _)| {
+                let Surface { material, light, .. } = self.surfaces[index];
+                blocks(Blocker { t, id: self.ids[index], material, light })
+            });
             if occluded { Visit::Stop } else { Visit::Before(tmax) }
         });
         occluded

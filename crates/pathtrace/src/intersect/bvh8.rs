@@ -9,8 +9,9 @@
 //! triangles.
 
 use super::bvh8_leaf::{Closest, Occluded};
+use super::coincident::Groups;
 use super::primitive::{Primitive, Surface};
-use super::{Hit, Intersection, Ray, SurfacePoints};
+use super::{Blocker, Hit, Intersection, Ray, SurfacePoints};
 use crate::vectors::lane_vector;
 use obvhs::aabb::Aabb;
 use scene::Vec3;
@@ -24,6 +25,8 @@ pub(super) struct Bvh8 {
     pub root: Child,
     pub blocks: Blocks,
     pub curved: Vec<Curved>,
+    /// Which shapes coincide, by their places in the scene's order.
+    pub groups: Groups,
     pub lanes: RowLanes,
 }
 
@@ -281,8 +284,8 @@ impl Bvh8 {
         self.lanes.run(Closest { bvh: self, ray })
     }
 
-    /// Whether anything of a material that `blocks` lies on the ray before `ray.tmax`.
-    pub fn occluded_by(&self, ray: &Ray, blocks: impl Fn(u32) -> bool) -> bool {
+    /// Whether anything that `blocks` lies on the ray before `ray.tmax`.
+    pub fn occluded_by(&self, ray: &Ray, blocks: impl Fn(Blocker) -> bool) -> bool {
         self.lanes.run(Occluded { bvh: self, ray, blocks })
     }
 }

@@ -9,6 +9,7 @@
 use super::bvh8::{Block, Blocks, Bvh8, Child, Node, copy_moved};
 use super::bvh8_collapse::{Forest, Link, Part, Place, Shapes, Tree};
 use super::bvh8_walk::DEEPEST;
+use super::coincident::Groups;
 use super::primitive::{Primitive, padding};
 use obvhs::Boundable;
 use obvhs::aabb::Aabb;
@@ -177,5 +178,5 @@ fn join(mut top: Vec<Block>, links: &[Link], parts: Vec<Part>, lanes: RowLanes) 
             copy_moved(to, from, blocks, curved);
         }
     });
-    Bvh8 { root, blocks, curved, lanes }
+    Bvh8 { root, blocks, curved, groups: Groups::default(), lanes }
 }

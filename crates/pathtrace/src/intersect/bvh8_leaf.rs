@@ -1,10 +1,12 @@
 //! A ray against the triangles of a leaf, all at once: the same sums and products as [`Triangle::intersect`], so that
 //! the same rays meet the same triangles at the same distances.
 
-use super::Ray;
 use super::bvh8::{Bvh8, Child, Curved, LEAF_WIDTH, Leaf, Nearest};
 use super::bvh8_walk::Visitor;
+use super::coincident::Groups;
+use super::primitive::Surface;
 use super::triangle::{ShearedRay, Triangle};
+use super::{Blocker, Ray};
 use simd::{Row, RowKernel, Rows};
 
 /// A [`ShearedRay`] in rows.
@@ -125,10 +127,12 @@ impl<F: Row<LEAF_WIDTH>> Visitor for ClosestVisitor<'_, F> {
     #[inline(always)]
     fn visit(&mut self, child: Child, tmax: f32) -> Option<f32> {
         let Closest { bvh, ray } = self.task;
+        // one step beyond, so that equal distances reach the comparison of ids
+        let reach = |t: f32| if bvh.groups.any() { f32::INFINITY } else { t.next_up() };
         if child.is_curved() {
             let round = &bvh.curved[child.index()];
-            if let Some(t) = round.distance(ray, tmax.next_up()) {
-                self.nearest.offer(Nearest { t, id: round.id, child, lane: 0, areas: [0.0; 3] });
+            if let Some(t) = round.distance(ray, reach(tmax)) {
+                self.nearest.offer(Nearest { t, id: round.id, child, lane: 0, areas: [0.0; 3] }, &bvh.groups);
             }
             return Some(self.nearest.t);
         }
@@ -137,10 +141,9 @@ impl<F: Row<LEAF_WIDTH>> Visitor for ClosestVisitor<'_, F> {
         while candidates.bits != 0 {
             let lane = take(&mut candidates.bits);
             let triangle = Triangle::sorted(leaf.corners(lane));
-            // one step beyond, so that equal distances reach the comparison of ids
-            if let Some(t) = triangle.distance(&self.sheared, element(candidates.z, lane), self.nearest.t.next_up()) {
+            if let Some(t) = triangle.distance(&self.sheared, element(candidates.z, lane), reach(self.nearest.t)) {
                 let areas = element(candidates.areas, lane);
-                self.nearest.offer(Nearest { t, id: leaf.id(lane), child, lane, areas });
+                self.nearest.offer(Nearest { t, id: leaf.id(lane), child, lane, areas }, &bvh.groups);
             }
         }
         Some(self.nearest.t)
@@ -148,16 +151,16 @@ impl<F: Row<LEAF_WIDTH>> Visitor for ClosestVisitor<'_, F> {
 }
 
 impl Nearest {
-    /// Takes a hit that is nearer, or as near and earlier in the scene's order.
+    /// Takes a hit that comes first.
     #[inline(always)]
-    fn offer(&mut self, other: Nearest) {
-        if other.t < self.t || (other.t == self.t && other.id < self.id) {
+    fn offer(&mut self, other: Nearest, groups: &Groups) {
+        if groups.comes_first((other.t, other.id), (self.t, self.id)) {
             *self = other;
         }
     }
 }
 
-/// Looks for any hit of a material that `blocks`.
+/// Looks for any hit that `blocks`.
 pub(super) struct Occluded<'a, B> {
     pub bvh: &'a Bvh8,
     pub ray: &'a Ray,
@@ -171,7 +174,7 @@ struct OccludedVisitor<'a, B, F> {
     occluded: bool,
 }
 
-impl<B: Fn(u32) -> bool> RowKernel for Occluded<'_, B> {
+impl<B: Fn(Blocker) -> bool> RowKernel for Occluded<'_, B> {
     type Output = bool;
     #[inline(always)]
     fn run<R: Rows>(self) -> bool {
@@ -184,13 +187,15 @@ impl<B: Fn(u32) -> bool> RowKernel for Occluded<'_, B> {
     }
 }
 
-impl<B: Fn(u32) -> bool, F: Row<LEAF_WIDTH>> Visitor for OccludedVisitor<'_, B, F> {
+impl<B: Fn(Blocker) -> bool, F: Row<LEAF_WIDTH>> Visitor for OccludedVisitor<'_, B, F> {
     #[inline(always)]
     fn visit(&mut self, child: Child, tmax: f32) -> Option<f32> {
         let Occluded { bvh, ray, ref blocks } = self.task;
         if child.is_curved() {
             let round = &bvh.curved[child.index()];
-            self.occluded = round.distance(ray, tmax).is_some() && blocks(round.surface.material);
+            let Surface { material, light, .. } = round.surface;
+            let met = round.distance(ray, tmax);
+            self.occluded = met.is_some_and(|t| blocks(Blocker { t, id: round.id, material, light }));
             return (!self.occluded).then_some(tmax);
         }
         let leaf = Leaf(&bvh.blocks.all()[child.index()]);
@@ -198,11 +203,12 @@ impl<B: Fn(u32) -> bool, F: Row<LEAF_WIDTH>> Visitor for OccludedVisitor<'_, B, 
         while candidates.bits != 0 {
             let lane = take(&mut candidates.bits);
             let triangle = Triangle::sorted(leaf.corners(lane));
-            if triangle.distance(&self.sheared, element(candidates.z, lane), tmax).is_some()
-                && blocks(leaf.surface(lane).material)
-            {
-                self.occluded = true;
-                return None;
+            if let Some(t) = triangle.distance(&self.sheared, element(candidates.z, lane), tmax) {
+                let Surface { material, light, .. } = leaf.surface(lane);
+                if blocks(Blocker { t, id: leaf.id(lane), material, light }) {
+                    self.occluded = true;
+                    return None;
+                }
             }
         }
         Some(tmax)

@@ -171,7 +171,7 @@ fn agree_on(name: &str, model: &Model, rays: u32) {
                 same &= b.light == nearest.id && b.material == nearest.id % 3;
             }
             same &= eight.occluded_by(ray, |_| true) == expected.is_some();
-            same &= eight.occluded_by(ray, |m| m == 1) == two.occluded_by(ray, |m| m == 1);
+            same &= eight.occluded_by(ray, |met| met.material == 1) == two.occluded_by(ray, |met| met.material == 1);
             if let Some((t, _)) = expected {
                 let until = |tmax| Ray { tmax, ..*ray };
                 let t = f32::from_bits(t);

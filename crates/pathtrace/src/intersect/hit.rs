@@ -29,6 +29,19 @@ pub struct Intersection {
     pub light: u32,
 }
 
+/// What a shadow ray has met on its way, of which it is asked whether it blocks the light.
+#[derive(Debug, Clone, Copy)]
+pub struct Blocker {
+    /// Distance in lengths of the ray's direction.
+    pub t: f32,
+    /// Place in the scene's order, area lights first.
+    pub id: u32,
+    /// Index into the scene's materials.
+    pub material: u32,
+    /// As [`Intersection::light`].
+    pub light: u32,
+}
+
 /// What stands for the light of a surface that is not one.
 pub const NO_LIGHT: u32 = u32::MAX;
 

@@ -17,17 +17,19 @@ mod bvh8_leaf;
 #[cfg(test)]
 mod bvh8_tests;
 mod bvh8_walk;
+pub mod coincident;
+pub(crate) mod contact;
 pub mod disk;
 mod hit;
 pub(crate) mod primitive;
-mod ray;
+pub(crate) mod ray;
 pub mod shape_list;
 pub mod sphere;
 mod surface_point;
 pub mod triangle;
 
 pub use accel::Accel;
-pub use hit::{Hit, Hits, Intersection, Intersections, NO_LIGHT, NO_PRIMITIVE};
+pub use hit::{Blocker, Hit, Hits, Intersection, Intersections, NO_LIGHT, NO_PRIMITIVE};
 pub use ray::{Ray, Rays, SHADOW_END};
 pub use surface_point::{SurfacePoint, SurfacePoints};
 pub use triangle::triangle_normal;

@@ -1,5 +1,6 @@
 //! What a ray can hit, made from a scene's shapes.
 
+use super::coincident::{Groups, MOST_TRIANGLES, Outline};
 use super::disk::Disk;
 use super::sphere::{Sphere, SphereLanes};
 use super::triangle::{ShearedRay, Triangle, triangle_normal};
@@ -66,6 +67,16 @@ impl Primitive {
         surface.intersection(point)
     }
 
+    fn outline(&self, id: u32, light: u32) -> Option<Outline> {
+        match self {
+            Primitive::Triangle(triangle) => Outline::flat(id, light, &triangle.corners),
+            Primitive::Sphere(sphere) => Some(Outline::sphere(id, light, *sphere)),
+            Primitive::Disk(Disk { center, normal, radius }) => {
+                Some(Outline::disk(id, light, *center, *normal, *radius))
+            }
+        }
+    }
+
     pub(super) fn bounds(&self) -> (Vec3, Vec3) {
         match self {
             Primitive::Triangle(Triangle { corners: [a, b, c], .. }) => (a.min(*b).min(*c), a.max(*b).max(*c)),
@@ -80,20 +91,24 @@ impl Primitive {
 /// The shapes' indices in the order that decides ties: area lights first, so that an area light in the plane of a wall
 /// wins against the wall.
 pub fn area_lights_first(scene: &Scene) -> impl Iterator<Item = usize> {
-    let is_area_light = |index: &usize| scene.material_of(&scene.shapes[*index]).emission.is_some();
+    let is_area_light = |index: &usize| scene.material_of(&scene.shapes[*index]).shines();
     let (area_lights, others): (Vec<_>, Vec<_>) = (0..scene.shapes.len()).partition(is_area_light);
     area_lights.into_iter().chain(others)
 }
 
-/// A scene's primitives in the order that decides ties, without triangles that have no area: no ray can meet them.
-pub(super) fn primitives(scene: &Scene, light_of_shape: &[u32]) -> (Vec<Primitive>, Vec<Surface>) {
+/// A scene's primitives in the order that decides ties, without triangles that have no area: no ray can meet them. And
+/// which of them coincide.
+pub(super) fn primitives(scene: &Scene, light_of_shape: &[u32]) -> (Vec<Primitive>, Vec<Surface>, Groups) {
     let (mut primitives, mut surfaces) = (Vec::new(), Vec::new());
+    let mut outlines = Vec::new();
     for index in area_lights_first(scene) {
         let shape = &scene.shapes[index];
         let material = shape.material as u32;
         let first_light = light_of_shape[index];
         let mut light = first_light;
-        let mut add = |primitive, normal, light| {
+        let few = !matches!(&shape.geometry, Geometry::Mesh(mesh) if mesh.triangles().len() > MOST_TRIANGLES);
+        let mut add = |primitive: Primitive, normal, light| {
+            outlines.extend(primitive.outline(primitives.len() as u32, light).filter(|_| few));
             primitives.push(primitive);
             surfaces.push(Surface { normal, material, light });
         };
@@ -115,7 +130,15 @@ pub(super) fn primitives(scene: &Scene, light_of_shape: &[u32]) -> (Vec<Primitiv
             }
         }
     }
-    (primitives, surfaces)
+    let groups = Groups::of(&outlines, surfaces.len(), lights_after(scene, surfaces.iter().map(|s| s.light)));
+    (primitives, surfaces, groups)
+}
+
+/// How many lights there can be in a scene whose surfaces shine as these.
+pub(super) fn lights_after(scene: &Scene, of_surfaces: impl Iterator<Item = u32>) -> usize {
+    let last = of_surfaces.filter(|light| *light != NO_LIGHT).max();
+    // the sun and the sky are one each
+    last.map_or(0, |last| last as usize + 1) + scene.point_lights.len() + 2
 }
 
 /// How much boxes are grown: 2^-20 of (largest coordinate + extent): the box test rounds, and treats directions below

@@ -2,7 +2,6 @@
 //!
 //! Twin: `shaders/pathtrace/intersect/ray.wgsl`.
 
-use super::gamma;
 use crate::vectors::each_lane;
 use scene::Vec3;
 use simd::{Float, MOST_LANES, Vector};
@@ -36,9 +35,13 @@ impl Ray {
     }
 }
 
-/// Where a shadow ray between two points ends, in lengths of its direction. Its end at 1 is rounded with the direction:
-/// what lies as near to it is not known to lie before it, and an area light there must not shadow itself.
-pub const SHADOW_END: f32 = 1.0 - gamma(8);
+/// Where a shadow ray between two points ends, in lengths of its direction. Its end at 1 is rounded with the direction,
+/// distances to planes are good to 20 bits on a graphics device, and its divisions may be off by 2.5 ulp: what lies as
+/// near to the end is not known to lie before it.
+pub const SHADOW_END: f32 = 1.0 - 1e-6;
+
+/// A distance along a shadow ray, in lengths of its direction, that is certainly behind its end.
+pub(crate) const BEHIND_THE_END: f32 = 2.0;
 
 /// Wide box tests choose near and far planes by the sign of the direction, where -0.0 is a trap.
 fn without_negative_zero(v: Vec3) -> Vec3 {

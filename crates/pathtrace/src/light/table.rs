@@ -72,9 +72,12 @@ pub struct LightSamples<F: Float> {
     pub point: SurfacePoints<F>,
     /// Where it does not end.
     pub endless: F::M,
+    /// Which light, by its index.
+    pub light: F::U,
 }
 
 impl<F: Float> LightSamples<F> {
+    /// Of two samples of one light.
     #[inline(always)]
     fn select(mask: F::M, yes: Self, no: Self) -> Self {
         LightSamples {
@@ -84,19 +87,21 @@ impl<F: Float> LightSamples<F> {
             pdf: F::select(mask, yes.pdf, no.pdf),
             point: SurfacePoints::select(mask, yes.point, no.point),
             endless: (mask & yes.endless) | (!mask & no.endless),
+            light: yes.light,
         }
     }
 
     #[inline(always)]
-    fn nowhere() -> Self {
+    fn nowhere(light: F::U) -> Self {
         let zero = Vector::zero();
         LightSamples {
             shines: F::M::splat(false),
             wi: zero,
             radiance_over_pdf: zero,
             pdf: F::splat(0.0),
-            point: SurfacePoints { position: zero, error: zero, normal: zero },
+            point: SurfacePoints::in_the_air(zero),
             endless: F::M::splat(false),
+            light,
         }
     }
 }
@@ -192,7 +197,7 @@ impl Table {
         let size = light.look_up(&self.size);
         let kind = light.look_up_word(&self.kind);
         let (never, infinite) = (F::M::splat(false), F::splat(f32::INFINITY));
-        let mut sample = LightSamples::nowhere();
+        let mut sample = LightSamples::nowhere(light);
         if self.has.flats {
             let of = self.flats(light, kind).sample(x, u);
             let flat = LightSamples {
@@ -202,6 +207,7 @@ impl Table {
                 pdf: F::splat(1.0) / of.inverse_pdf,
                 point: of.point,
                 endless: never,
+                light,
             };
             sample = LightSamples::select(is(kind, kind::FLAT), flat, sample);
         }
@@ -214,6 +220,7 @@ impl Table {
                 pdf: of.pdf,
                 point: of.point,
                 endless: never,
+                light,
             };
             sample = LightSamples::select(is(kind, kind::BALL), ball, sample);
         }
@@ -226,8 +233,9 @@ impl Table {
                 wi: to_light * (F::splat(1.0) / distance_squared.sqrt()),
                 radiance_over_pdf: radiance * (F::splat(1.0) / distance_squared),
                 pdf: infinite,
-                point: SurfacePoints { position, error: Vector::zero(), normal: Vector::zero() },
+                point: SurfacePoints::in_the_air(position),
                 endless: never,
+                light,
             };
             sample = LightSamples::select(is(kind, kind::POINT), point, sample);
         }
@@ -240,8 +248,9 @@ impl Table {
                 wi: Vector::select(delta, position, in_cone),
                 radiance_over_pdf: Vector::select(delta, radiance, radiance * (F::splat(1.0) / pdf)),
                 pdf: F::select(delta, infinite, pdf),
-                point: LightSamples::nowhere().point,
+                point: SurfacePoints::in_the_air(Vector::zero()),
                 endless: !never,
+                light,
             };
             sample = LightSamples::select(is(kind, kind::SUN), sun, sample);
         }
@@ -252,8 +261,9 @@ impl Table {
                 wi: of.wi,
                 radiance_over_pdf: of.radiance * (F::splat(1.0) / of.pdf),
                 pdf: of.pdf,
-                point: LightSamples::nowhere().point,
+                point: SurfacePoints::in_the_air(Vector::zero()),
                 endless: !never,
+                light,
             };
             sample = LightSamples::select(is(kind, kind::ENVIRONMENT), environment, sample);
         }

@@ -5,6 +5,7 @@ mod number;
 mod raw;
 mod sky;
 
+use crate::direction::unit;
 use crate::material::{Checkerboard, Emission};
 use crate::stand_ins::{FakeMaterial, FakeNumbers};
 use crate::{Bsdf, Camera, Conductor, Geometry, Material, PointLight, Scene, Shape, Sun, Texture, nesting, stand_ins};
@@ -126,7 +127,8 @@ fn build(raw: RawScene, name: &str, folder: &Path) -> Result<Scene, Fault> {
     }
     for r in raw.rectangle {
         let (at, edge_u, edge_v) = (r.edge_v.span(), Vec3::from(r.edge_u), Vec3::from(r.edge_v.into_inner()));
-        if !(edge_u.normalize_or_zero().cross(edge_v.normalize_or_zero()).length() > 1e-6) {
+        let [u, v] = [edge_u, edge_v].map(|edge| unit(edge).unwrap_or(Vec3::ZERO));
+        if !(u.cross(v).length() > 1e-6) {
             return fault(at, "edge_u and edge_v must span an area");
         }
         add(Geometry::Rectangle { corner: r.corner.into(), edge_u, edge_v }, r.material)?;
@@ -201,10 +203,9 @@ fn camera(raw: Spanned<raw::RawCamera>) -> Result<Camera, Fault> {
 }
 
 fn sun(raw: raw::RawSun) -> Result<Sun, Fault> {
-    let towards = Vec3::from(*raw.towards.get_ref()).normalize_or_zero();
-    if towards == Vec3::ZERO {
+    let Some(towards) = unit(Vec3::from(*raw.towards.get_ref())) else {
         return fault(raw.towards.span(), "the direction towards the sun must not be zero");
-    }
+    };
     let angular_radius = raw.angular_radius.get_ref().get();
     if angular_radius >= 90.0 {
         return fault(raw.angular_radius.span(), "expected degrees below 90");

@@ -99,13 +99,14 @@ impl SceneNeeds {
     }
 
     /// Values of the overrides in `shaders/pathtrace/needs.wgsl` that say which shapes there are.
-    pub fn shape_constants(&self) -> [(&'static str, f64); 5] {
+    pub fn shape_constants(&self) -> [(&'static str, f64); 6] {
         [
             ("FEW_SHAPES", flag(self.shapes.few)),
             ("QUADRILATERALS", self.flag(self.shapes.quadrilaterals)),
             ("TRIANGLES", self.flag(self.shapes.triangles)),
             ("SPHERES", self.flag(self.shapes.spheres)),
             ("DISKS", self.flag(self.shapes.disks)),
+            ("COINCIDENT", self.flag(self.shapes.coincident)),
         ]
     }
 

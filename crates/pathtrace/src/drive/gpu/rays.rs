@@ -45,13 +45,17 @@ pub struct RayAnswer {
     pub refracted: Vec3,
     /// Share of unpolarised light that a dielectric surface reflects, 1 beyond the critical angle; 0 of other surfaces.
     pub reflectance: f32,
+    /// Of a sphere that is met; 0 if the surface is flat.
+    pub radius: f32,
+    /// Padding.
+    pub unused: [u32; 3],
 }
 
 impl RayAnswer {
     /// Where the nearest surface is met, if any is.
     pub fn point(&self) -> Option<SurfacePoint> {
-        let Self { position, error, normal, .. } = *self;
-        (self.t > 0.0).then_some(SurfacePoint { position, error, normal })
+        let Self { position, error, normal, radius, .. } = *self;
+        (self.t > 0.0).then_some(SurfacePoint { position, error, normal, radius })
     }
 
     /// The ray that goes on behind a dielectric surface, if one is met and refracts it.

@@ -3,6 +3,7 @@
 
 use super::shape_data::Shapes;
 use crate::bsdf::materials::lobe_of;
+use crate::intersect::coincident::Groups;
 use crate::light::flat::Outline;
 use crate::light::{Environment, Light as HostLight, Lights, SunDisc};
 use crate::sampling::sobol::reversed_point;
@@ -129,8 +130,10 @@ pub struct Light {
     pub probability: f32,
     /// Running sum of the probabilities.
     pub cumulative: f32,
+    /// Of what its surface coincides with, or [`NO_GROUP`](crate::intersect::coincident::NO_GROUP).
+    pub group: u32,
     /// Padding.
-    pub unused: [u32; 3],
+    pub unused: [u32; 2],
 }
 
 /// The header of a scene.
@@ -196,11 +199,16 @@ fn material(from: &scene::Material) -> Material {
     to
 }
 
-/// What is sampled as a light.
-pub fn lights(lights: &Lights) -> Vec<Light> {
+/// What is sampled as a light, and which of its surfaces coincide.
+pub fn lights(lights: &Lights, groups: &Groups) -> Vec<Light> {
     let chances = lights.probabilities.iter().zip(&lights.cumulative);
-    let one = |(from, (&probability, &cumulative))| Light { probability, cumulative, ..light(from) };
-    lights.lights.iter().zip(chances).map(one).collect()
+    let one = |((from, (&probability, &cumulative)), index)| Light {
+        probability,
+        cumulative,
+        group: groups.of_light(index),
+        ..light(from)
+    };
+    lights.lights.iter().zip(chances).zip(0u32..).map(one).collect()
 }
 
 fn light(from: &HostLight) -> Light {

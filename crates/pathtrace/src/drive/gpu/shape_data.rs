@@ -3,6 +3,7 @@
 
 use super::GpuTraceError;
 use crate::intersect::bvh2::Bvh2;
+use crate::intersect::coincident::Groups;
 use crate::intersect::primitive::{self, Primitive};
 use crate::intersect::shape_list::{ListedForm, ListedPlane, ShapeList};
 use crate::intersect::triangle::{in_order, sorted};
@@ -56,8 +57,10 @@ pub struct Surface {
     pub material: u32,
     /// Index into the lights, or [`crate::intersect::NO_LIGHT`].
     pub light: u32,
+    /// Of what it coincides with, or [`NO_GROUP`](crate::intersect::coincident::NO_GROUP).
+    pub group: u32,
     /// Padding.
-    pub unused: [u32; 3],
+    pub unused: [u32; 2],
 }
 
 /// One of few shapes: `Shape` in the shader.
@@ -120,6 +123,8 @@ pub(crate) struct Shapes {
     pub nodes: Vec<Node>,
     pub primitives: Vec<ShapeData>,
     pub surfaces: Vec<Surface>,
+    /// Which of them coincide.
+    pub groups: Groups,
 }
 
 /// Which shapes there are, and how rays find them.
@@ -131,6 +136,8 @@ pub(crate) struct ShapeKinds {
     pub triangles: bool,
     pub spheres: bool,
     pub disks: bool,
+    /// Any that coincide.
+    pub coincident: bool,
 }
 
 impl Shapes {
@@ -152,8 +159,9 @@ impl Shapes {
     /// As [`Shapes::new`].
     pub fn in_a_tree(scene: &Scene, light_of_shape: &[u32]) -> Result<Self, GpuTraceError> {
         let tree = Bvh2::of(scene, light_of_shape);
-        let (nodes, primitives, surfaces) = (nodes(&tree)?, primitives(&tree), surfaces(&tree.surfaces));
-        Ok(Shapes { nodes, primitives, surfaces, ..Shapes::default() })
+        let surfaces = surfaces(tree.surfaces.iter().zip(tree.ids.iter().copied()), &tree.groups);
+        let (nodes, primitives, groups) = (nodes(&tree)?, primitives(&tree), tree.groups);
+        Ok(Shapes { nodes, primitives, surfaces, groups, ..Shapes::default() })
     }
 
     fn few(shape_list: &ShapeList) -> Self {
@@ -184,7 +192,9 @@ impl Shapes {
                 }
             }
         }
-        let mut shapes = Shapes { surfaces: surfaces(&shape_list.surfaces()), ..Shapes::default() };
+        let groups = shape_list.groups().clone();
+        let surfaces = surfaces(shape_list.surfaces().iter().zip(0..), &groups);
+        let mut shapes = Shapes { surfaces, groups, ..Shapes::default() };
         for kind in 0..4 {
             let [shading, others] = [2 * kind, 2 * kind + 1].map(|list| std::mem::take(&mut lists[list]));
             shapes.few.extend(shading);
@@ -205,6 +215,7 @@ impl Shapes {
             triangles: triangles > quadrilaterals || has(KIND_TRIANGLE),
             spheres: spheres > triangles || has(KIND_SPHERE),
             disks: disks > spheres || has(KIND_DISK),
+            coincident: self.groups.any(),
         }
     }
 }
@@ -297,8 +308,14 @@ fn two_floats(v: DVec3) -> (Vec3, Vec3) {
     (rounded, (v - rounded.as_dvec3()).as_vec3())
 }
 
-fn surfaces(all: &[primitive::Surface]) -> Vec<Surface> {
-    let one =
-        |s: &primitive::Surface| Surface { normal: s.normal, material: s.material, light: s.light, unused: [0; 3] };
-    all.iter().map(one).collect()
+/// Surfaces with their places in the scene's order.
+fn surfaces<'a>(all: impl Iterator<Item = (&'a primitive::Surface, u32)>, groups: &Groups) -> Vec<Surface> {
+    let one = |(s, id): (&primitive::Surface, u32)| Surface {
+        normal: s.normal,
+        material: s.material,
+        light: s.light,
+        group: groups.of_surface(id),
+        unused: [0; 2],
+    };
+    all.map(one).collect()
 }

@@ -17,9 +17,10 @@ mod surfaces;
 
 pub(crate) use pieces::{ListedForm, ListedPlane};
 
+use super::coincident::{Groups, NO_GROUP};
 use super::disk::Disk;
 use super::sphere::Sphere;
-use super::{Hits, Intersections, NO_PRIMITIVE, Rays};
+use super::{Hits, Intersections, NO_LIGHT, NO_PRIMITIVE, Rays};
 use simd::{Double, Float, Mask, Word};
 use surfaces::Surfaces;
 
@@ -30,6 +31,7 @@ pub struct ShapeList {
     /// What a shadow ray may meet: without planes that have all shapes on one side.
     shading: Shapes,
     surfaces: Surfaces,
+    groups: Groups,
 }
 
 /// A list of shapes. Their ids decide ties: the lower wins.
@@ -43,8 +45,21 @@ struct Shapes {
     edges: Vec<[u16; 2]>,
     normals: Vec<PlaneNormal>,
     facets: Vec<Facet>,
-    spheres: Vec<(u32, Sphere)>,
-    disks: Vec<(u32, Disk)>,
+    spheres: Vec<(Place, Sphere)>,
+    disks: Vec<(Place, Disk)>,
+}
+
+/// What a shape is to others.
+#[derive(Debug, Clone, Copy)]
+struct Place {
+    /// Decides ties: the lower wins.
+    id: u32,
+    /// Index into the list of lights, or [`NO_LIGHT`].
+    light: u32,
+    /// Of the shapes that it coincides with, or [`NO_GROUP`].
+    group: u32,
+    /// Whether it is of glass.
+    clear: bool,
 }
 
 /// The unit normal of a family of parallel planes.
@@ -58,7 +73,7 @@ enum PlaneNormal {
 /// A triangle or a parallelogram.
 #[derive(Debug, Clone, Copy)]
 struct Facet {
-    id: u32,
+    place: Place,
     /// Edges around it; a triangle's last one twice.
     edges: [u16; 4],
     /// The sign bit where it runs along an edge backwards.
@@ -68,8 +83,6 @@ struct Facet {
     normal: u16,
     /// `normal . p` of its points.
     offset: f64,
-    /// Whether it is of glass.
-    clear: bool,
 }
 
 /// What the rays of all lanes have in common with the shapes' parts. Kept from call to call.
@@ -128,15 +141,19 @@ impl ShapeList {
         let (mut t, mut id) = (rays.tmax, F::U::splat(NO_PRIMITIVE));
         for facet in &self.seen.facets {
             let (met, distance) = self.seen.meet(facet, rays, &frame, scratch);
-            let nearer = met & distance.lt(t);
+            // in the order of their ids: at one distance the first stays
+            let mut nearer = met & distance.lt(t);
+            if facet.place.group != NO_GROUP {
+                nearer = nearer & !self.is_together::<F>(id, &facet.place);
+            }
             t = F::select(nearer, distance, t);
-            id = F::U::select(nearer, F::U::splat(facet.id), id);
+            id = F::U::select(nearer, F::U::splat(facet.place.id), id);
         }
-        for (of, sphere) in &self.seen.spheres {
-            (t, id) = nearer(sphere.lanes().intersect(rays), *of, (t, id));
+        for (place, sphere) in &self.seen.spheres {
+            (t, id) = self.nearer(sphere.lanes().intersect(rays), place, (t, id));
         }
-        for (of, disk) in &self.seen.disks {
-            (t, id) = nearer(disk.intersect(rays), *of, (t, id));
+        for (place, disk) in &self.seen.disks {
+            (t, id) = self.nearer(disk.intersect(rays), place, (t, id));
         }
         Hits { t, primitive: id, barycentrics: [F::splat(0.0); 3] }
     }
@@ -147,37 +164,84 @@ impl ShapeList {
         self.surfaces.intersections(rays, hits)
     }
 
-    /// Where `wanted` rays meet anything before `rays.tmax`; if `opaque`, glass does not count.
+    /// Where `wanted` shadow rays meet anything before `rays.tmax`, see
+    /// [`Aggregate::occluded`](super::aggregate::Aggregate::occluded); if `opaque`, glass does not count.
     #[inline(always)]
-    pub fn occluded<F: Float>(&self, rays: &Rays<F>, wanted: F::M, opaque: bool, scratch: &mut Scratch<F>) -> F::M {
+    pub fn occluded<F: Float>(
+        &self,
+        rays: &Rays<F>,
+        to_light: F::U,
+        wanted: F::M,
+        opaque: bool,
+        scratch: &mut Scratch<F>,
+    ) -> F::M {
         let shapes = &self.shading;
         let frame = Frame::new(rays);
         shapes.prepare(rays, &frame, scratch);
+        let endless = Rays { tmax: F::splat(f32::INFINITY), ..*rays };
+        let shadow = Shadow { end: rays.tmax, light: to_light, group: self.groups.of_light(to_light) };
+        let stands = |place: &&Place| !(opaque && place.clear);
         let mut occluded = !wanted;
-        for facet in shapes.facets.iter().filter(|facet| !(opaque && facet.clear)) {
-            let (met, distance) = shapes.meet(facet, rays, &frame, scratch);
-            occluded = occluded | (met & distance.lt(rays.tmax));
+        for facet in shapes.facets.iter().filter(|facet| stands(&&facet.place)) {
+            let hit = shapes.meet(facet, rays, &frame, scratch);
+            occluded = occluded | shadow.is_cast_by(&facet.place, hit);
         }
-        for (of, sphere) in &shapes.spheres {
-            if !(opaque && self.surfaces.is_clear(*of)) {
-                occluded = occluded | sphere.lanes().intersect(rays).0;
-            }
+        for (place, sphere) in shapes.spheres.iter().filter(|(place, _)| stands(&place)) {
+            occluded = occluded | shadow.is_cast_by(place, sphere.lanes().intersect(&endless));
         }
-        for (of, disk) in &shapes.disks {
-            if !(opaque && self.surfaces.is_clear(*of)) {
-                occluded = occluded | disk.intersect(rays).0;
-            }
+        for (place, disk) in shapes.disks.iter().filter(|(place, _)| stands(&place)) {
+            occluded = occluded | shadow.is_cast_by(place, disk.intersect(&endless));
         }
         occluded & wanted
     }
+
+    /// What comes first: what was met, or the nearest so far.
+    #[inline(always)]
+    fn nearer<F: Float>(&self, (met, distance): (F::M, F), place: &Place, (t, best): (F, F::U)) -> (F, F::U) {
+        let id = F::U::splat(place.id);
+        let mut nearer = distance.lt(t) | (distance.eq(t) & id.lt(best));
+        if place.group != NO_GROUP {
+            let together = self.is_together::<F>(best, place);
+            nearer = (together & id.lt(best)) | (!together & nearer);
+        }
+        let nearer = met & nearer;
+        (F::select(nearer, distance, t), F::U::select(nearer, id, best))
+    }
+
+    /// Where the nearest so far is a shape that this one coincides with.
+    #[inline(always)]
+    fn is_together<F: Float>(&self, best: F::U, place: &Place) -> F::M {
+        let found = !best.eq(F::U::splat(NO_PRIMITIVE));
+        found & self.groups.of_surface(best).eq(F::U::splat(place.group))
+    }
 }
 
-/// The nearer of what was met and the nearest so far; at one distance the lower id.
-#[inline(always)]
-fn nearer<F: Float>((met, distance): (F::M, F), id: u32, (t, best): (F, F::U)) -> (F, F::U) {
-    let id = F::U::splat(id);
-    let nearer = met & (distance.lt(t) | (distance.eq(t) & id.lt(best)));
-    (F::select(nearer, distance, t), F::U::select(nearer, id, best))
+/// Where shadow rays go.
+struct Shadow<F: Float> {
+    /// Where they end.
+    end: F,
+    /// At which light.
+    light: F::U,
+    /// Of what coincides with it, or [`NO_GROUP`].
+    group: F::U,
+}
+
+impl<F: Float> Shadow<F> {
+    /// Where a shape that was met at these distances stands before the light: not the light itself, and of what
+    /// coincides with it what comes earlier.
+    #[inline(always)]
+    fn is_cast_by(&self, place: &Place, (met, distance): (F::M, F)) -> F::M {
+        let mut casts = met & distance.lt(self.end);
+        if place.light != NO_LIGHT {
+            casts = casts & !self.light.eq(F::U::splat(place.light));
+        }
+        if place.group != NO_GROUP {
+            let together = self.group.eq(F::U::splat(place.group));
+            let earlier = F::U::splat(place.light).lt(self.light);
+            casts = (together & met & earlier) | (!together & casts);
+        }
+        casts
+    }
 }
 
 /// The frame of a ray: the axis along which it goes farthest is kept, and the others sheared along it until the ray is

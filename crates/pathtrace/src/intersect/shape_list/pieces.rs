@@ -2,6 +2,7 @@
 
 use super::surfaces::Surface;
 use super::{Facet, PlaneNormal, ShapeList, Shapes};
+use crate::intersect::coincident::Groups;
 use crate::intersect::disk::Disk;
 use crate::intersect::primitive;
 use crate::intersect::sphere::Sphere;
@@ -52,21 +53,28 @@ impl ShapeList {
         self.surfaces.entries().iter().map(entry).collect()
     }
 
+    /// Which of the shapes coincide.
+    pub(crate) fn groups(&self) -> &Groups {
+        &self.groups
+    }
+
     /// All shapes, each kind in the order of its list.
     pub(crate) fn shapes(&self) -> impl Iterator<Item = ListedShape> {
         let shapes = &self.seen;
-        let flat = shapes.facets.iter().map(|facet| (facet.id, shapes.form(facet)));
-        let spheres =
-            shapes.spheres.iter().map(|&(id, Sphere { center, radius })| (id, ListedForm::Sphere { center, radius }));
-        let disks = shapes.disks.iter().map(|&(id, disk)| {
+        let flat = shapes.facets.iter().map(|facet| (facet.place.id, shapes.form(facet)));
+        let spheres = shapes
+            .spheres
+            .iter()
+            .map(|&(of, Sphere { center, radius })| (of.id, ListedForm::Sphere { center, radius }));
+        let disks = shapes.disks.iter().map(|&(of, disk)| {
             let Disk { center, normal, radius } = disk;
-            (id, ListedForm::Disk { center, normal, radius })
+            (of.id, ListedForm::Disk { center, normal, radius })
         });
         let shade = |id| {
             let Shapes { facets, spheres, disks, .. } = &self.shading;
-            facets.iter().any(|facet| facet.id == id)
-                || spheres.iter().any(|sphere| sphere.0 == id)
-                || disks.iter().any(|disk| disk.0 == id)
+            facets.iter().any(|facet| facet.place.id == id)
+                || spheres.iter().any(|sphere| sphere.0.id == id)
+                || disks.iter().any(|disk| disk.0.id == id)
         };
         flat.chain(spheres).chain(disks).map(move |(id, form)| ListedShape { id, shades: shade(id), form })
     }

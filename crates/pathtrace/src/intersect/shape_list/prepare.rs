@@ -1,9 +1,10 @@
 //! A scene's shapes, taken apart into what they share.
 
 use super::surfaces::{Form, Surface, Surfaces};
-use super::{Facet, PlaneNormal, ShapeList, Shapes};
+use super::{Facet, Place, PlaneNormal, ShapeList, Shapes};
+use crate::intersect::coincident::{FLAT, Groups, NO_GROUP, Outline};
 use crate::intersect::disk::Disk;
-use crate::intersect::primitive::area_lights_first;
+use crate::intersect::primitive::{area_lights_first, lights_after};
 use crate::intersect::sphere::Sphere;
 use crate::intersect::{NO_LIGHT, triangle_normal};
 use scene::glam::DVec3;
@@ -37,8 +38,15 @@ struct Part {
     clear: bool,
 }
 
-/// Rounding that a plane may be off by, in units of the largest coordinate: some of f32's.
-const FLAT: f64 = 4.0 / 16_777_216.0;
+impl Part {
+    fn outline(&self, id: u32) -> Option<Outline> {
+        match self.piece {
+            Piece::Flat { corners, half } => Outline::flat(id, self.light, &corners[..if half { 3 } else { 4 }]),
+            Piece::Sphere { center, radius } => Some(Outline::sphere(id, self.light, Sphere { center, radius })),
+            Piece::Disk { center, normal, radius } => Some(Outline::disk(id, self.light, center, normal, radius)),
+        }
+    }
+}
 
 impl ShapeList {
     /// Most shapes that are worth testing one by one. Measured on spheres of triangles in the Cornell box, the tree is
@@ -49,17 +57,22 @@ impl ShapeList {
     /// The scene's shapes, if they are few enough; `light_of_shape` is [`crate::light::Lights::light_of_shape`] of it.
     pub fn new(scene: &Scene, light_of_shape: &[u32]) -> Option<Self> {
         let parts = parts(scene, light_of_shape)?;
+        let outlines: Vec<Outline> = (0..).zip(&parts).filter_map(|(id, part)| part.outline(id)).collect();
+        let groups = Groups::of(&outlines, parts.len(), lights_after(scene, parts.iter().map(|part| part.light)));
+        let group = |id: u32| groups.of_surface(id);
         let mut seen = Shapes::default();
-        let surfaces: Vec<Surface> = (0..).zip(&parts).map(|(id, part)| seen.add(id, part)).collect();
+        let surfaces: Vec<Surface> = (0..).zip(&parts).map(|(id, part)| seen.add(id, part, group(id))).collect();
         let reach = Reach::new(scene, &parts);
         let mut shading = Shapes::default();
         for (id, part) in (0..).zip(&parts) {
-            let facet = seen.facets.iter().find(|facet| facet.id == id);
-            if !facet.is_some_and(|facet| reach.is_beside(facet, &seen)) {
-                shading.add(id, part);
+            let facet = seen.facets.iter().find(|facet| facet.place.id == id);
+            // what coincides with a light may stand before it however the scene lies
+            let never_shades = group(id) == NO_GROUP && facet.is_some_and(|facet| reach.is_beside(facet, &seen));
+            if !never_shades {
+                shading.add(id, part, group(id));
             }
         }
-        Some(ShapeList { seen, shading, surfaces: Surfaces::new(&surfaces) })
+        Some(ShapeList { seen, shading, surfaces: Surfaces::new(&surfaces), groups })
     }
 
     /// Number of shapes that a ray may meet, and that a shadow ray may.
@@ -128,42 +141,42 @@ fn flat_pieces(geometry: &Geometry, paired: bool) -> Vec<(Piece, Vec3, u32)> {
 
 impl Shapes {
     /// Adds a piece; what shading needs of it.
-    fn add(&mut self, id: u32, part: &Part) -> Surface {
+    fn add(&mut self, id: u32, part: &Part, group: u32) -> Surface {
         let Part { piece, normal, material, light, clear } = *part;
+        let place = Place { id, light, group, clear };
         let form = match piece {
             Piece::Flat { corners, half } => {
-                let flatness = self.add_facet(id, corners, half, clear);
+                let flatness = self.add_facet(place, corners, half);
                 let [a, b, c, d] = corners;
                 let last = if half { c } else { d };
                 Form::Flat { corner: a, edge_u: b - a, edge_v: last - a, half, flatness }
             }
             Piece::Sphere { center, radius } => {
-                self.spheres.push((id, Sphere { center, radius }));
+                self.spheres.push((place, Sphere { center, radius }));
                 Form::Sphere { center, radius }
             }
             Piece::Disk { center, normal, radius } => {
-                self.disks.push((id, Disk { center, normal, radius }));
+                self.disks.push((place, Disk { center, normal, radius }));
                 Form::Disk { center }
             }
         };
-        Surface { form, normal, material, light, clear }
+        Surface { form, normal, material, light }
     }
 
     /// Adds a facet; how far its points may lie from the plane that it is given.
-    fn add_facet(&mut self, id: u32, corners: [Vec3; 4], half: bool, clear: bool) -> f32 {
+    fn add_facet(&mut self, place: Place, corners: [Vec3; 4], half: bool) -> f32 {
         let (normal, offset, flatness) = self.plane(corners);
         let corners = corners.map(|corner| self.corner(corner));
         let [a, b, c, d] = corners;
         let around = if half { [[a, b], [b, c], [c, a], [c, a]] } else { [[a, b], [b, c], [c, d], [d, a]] };
         let sides = around.map(|[from, to]| self.edge(from, to));
         self.facets.push(Facet {
-            id,
+            place,
             edges: sides.map(|(edge, _)| edge),
             turned: sides.map(|(_, turned)| if turned { 0x8000_0000 } else { 0 }),
             corners,
             normal,
             offset,
-            clear,
         });
         flatness
     }

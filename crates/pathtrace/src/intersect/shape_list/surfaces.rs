@@ -17,8 +17,6 @@ pub struct Surface {
     pub material: u32,
     /// See [`Intersections::light`].
     pub light: u32,
-    /// Whether it is of glass.
-    pub clear: bool,
 }
 
 /// Where its points lie.
@@ -60,7 +58,6 @@ pub struct Surfaces {
     light: WordColumn,
     /// 0 flat, 1 sphere, 2 disk.
     form: WordColumn,
-    clear: Vec<bool>,
     has: [bool; 3],
     /// As they came.
     entries: Vec<Surface>,
@@ -102,7 +99,6 @@ impl Surfaces {
             material: words(&|surface| surface.material),
             light: words(&|surface| surface.light),
             form: words(&form),
-            clear: surfaces.iter().map(|surface| surface.clear).collect(),
             has: [0, 1, 2].map(|kind| surfaces.iter().any(|surface| form(surface) == kind)),
             entries: surfaces.to_vec(),
         }
@@ -113,11 +109,6 @@ impl Surfaces {
         &self.entries
     }
 
-    /// Whether the shape of this id is of glass.
-    pub fn is_clear(&self, id: u32) -> bool {
-        self.clear[id as usize]
-    }
-
     /// What the rays have met that have these hits.
     #[inline(always)]
     pub fn intersections<F: Float>(&self, rays: &Rays<F>, hits: &Hits<F>) -> Intersections<F> {
@@ -126,7 +117,7 @@ impl Surfaces {
         let (corner, normal) = (self.corner.look_up(id), self.normal.look_up(id));
         let near = rays.origin + rays.direction * t;
         let form = id.look_up_word(&self.form);
-        let mut point = SurfacePoints { position: corner, error: corner, normal };
+        let mut point = SurfacePoints { position: corner, error: corner, normal, radius: F::splat(0.0) };
         if has_flat {
             point = self.on_flat(id, near, corner, normal);
         }

@@ -1,6 +1,6 @@
 use super::{Scratch, ShapeList};
 use crate::intersect::aggregate::Aggregate;
-use crate::intersect::{Intersections, Ray, SurfacePoint};
+use crate::intersect::{Intersections, NO_LIGHT, Ray, SurfacePoint};
 use crate::light::Lights;
 use crate::sampling::sampler::Sampler;
 use crate::sampling::{cone, cosine_hemisphere, to_world};
@@ -35,7 +35,7 @@ impl Subject {
 
     fn occluded(&mut self, ray: &Ray) -> bool {
         let (shape_list, scratch) = self.shape_list();
-        shape_list.occluded(&ray.lane(), true, false, scratch)
+        shape_list.occluded(&ray.lane(), NO_LIGHT - 1, true, false, scratch)
     }
 }
 
@@ -190,7 +190,7 @@ fn list_and_tree_agree() {
                 differently_shadowed += u32::from(of_tree.is_some() != subject.occluded(&ray));
             }
             if let (Some(hit), Some(point)) = (&of_tree, last) {
-                let towards = hit.point.position - point.position;
+                let towards = (hit.point.position - point.position).normalize_or(Vec3::Y);
                 let shadow = Ray::between(point.leaving_towards(towards), hit.point.leaving_towards(-towards));
                 differently_shadowed +=
                     u32::from(subject.aggregate.accel().occluded(&shadow) != subject.occluded(&shadow));
