@@ -311,3 +311,60 @@ material = "soot"
         assert_mean(&render(&dark, 8, spp, &settings), 0.0005, 0.05, &format!("{branches} branches"));
     }
 }
+
+/// A mirror leaves a path no choice, and what it shows may be as bright as it is dark: no sample is given up there. Where
+/// mirrors face each other paths still end.
+#[test]
+fn roulette_spares_what_mirrors_show() {
+    let lamp = scene(
+        r#"
+[camera]
+eye = [0, 0.1, 3]
+target = [0, 0, 0]
+fov_y = 1
+[material.dark]
+mirror = { reflectance = [1e-6, 1e-6, 1e-6] }
+[material.lamp]
+emissive = { radiance = [1e6, 1e6, 1e6] }
+[[rectangle]]
+corner = [-1, -1, 0]
+edge_u = [2, 0, 0]
+edge_v = [0, 2, 0]
+material = "dark"
+[[rectangle]]
+corner = [-5, -5, 6]
+edge_u = [0, 10, 0]
+edge_v = [10, 0, 0]
+material = "lamp"
+"#,
+    );
+    for estimator in Estimator::ALL {
+        let film = render(&lamp, 8, 4, &with(estimator, None, Roulette::THROUGHPUT));
+        let off = film.pixels().iter().map(|pixel| (pixel.mean()[0] - 1.0).abs()).fold(0.0, f64::max);
+        assert!(off < 1e-6, "{}: {off}", estimator.name());
+    }
+    let hall = scene::builtin::named("hard/mirror-box").expect("built in");
+    let mut film = Film::new(8, 8);
+    let settings = with(Estimator::COSINE, None, Roulette::THROUGHPUT);
+    let stats = Tracer::new(&hall).render(&mut film, &hall.camera, &settings.into(), 16, &|| false);
+    assert!(stats.rays < 80 * stats.samples, "{stats:?}");
+}
+
+/// Directions and lines of sight are vectors of any length but 0, however small: down to where squares underflow.
+#[test]
+fn tiny_directions_are_directions() {
+    let render_with = |sun: &str, eye: &str, target: &str| {
+        let scene = scene(&format!(
+            "[camera]\neye = {eye}\ntarget = {target}\nfov_y = 40\n[sun]\ntowards = {sun}\nangular_radius = 1\n\
+             irradiance = [3, 3, 3]\n[material.grey]\ndiffuse = {{ albedo = [0.5, 0.5, 0.5] }}\n\
+             [[sphere]]\ncenter = [0, 0, -4]\nradius = 1\nmaterial = \"grey\"\n"
+        ));
+        render(&scene, 8, 4, &with(Estimator::LIGHT, Some(0), Roulette::OFF)).mean()
+    };
+    let plain = render_with("[0.5, 1, 0.25]", "[0, 0, 0]", "[0, 0, -1]");
+    assert!(plain[0] > 0.01);
+    for (sun, target) in [("[5e-23, 1e-22, 2.5e-23]", "[0, 0, -1e-23]"), ("[5e11, 1e12, 2.5e11]", "[0, 0, -1e-40]")] {
+        let tiny = render_with(sun, "[0, 0, 0]", target);
+        assert!(tiny.iter().zip(plain).all(|(a, b)| (a - b).abs() < 1e-6 * b), "{sun}: {tiny:?}, not {plain:?}");
+    }
+}

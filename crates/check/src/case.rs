@@ -2,7 +2,7 @@
 
 use crate::measure::{Effort, Trial};
 use crate::row::Row;
-use crate::{area_lights, dielectrics, energy, estimators, fake, leaks, offsets, robustness, samplers, sums};
+use crate::{area_lights, dielectrics, energy, estimators, fake, leaks, offsets, robustness, samplers, sums, surfaces};
 use std::sync::atomic::AtomicBool;
 
 /// A hard case.
@@ -52,6 +52,11 @@ cases! {
     22 samplers::samplers, "Samplers", "densities that are not those of the samples, random numbers of 1";
     23 sums::million_samples, "A million samples in one pixel", "sums that drift or freeze";
     24 fake::closed_forms, "Closed-form pixels of the fake", "wrong exponents, half vectors, ratios, encodings";
+    25 surfaces::far_lamp, "Small lamp far away", "lamps that shadow themselves, steps to the wrong side of a rim";
+    26 surfaces::lamps_in_one_place, "Lamps in one place", "light counted twice where lamps overlap or coincide";
+    27 surfaces::contact, "Glass ball on a mirror", "steps off a surface past the one that it touches";
+    28 surfaces::gallery, "Whispering gallery", "steps off a wall that turn rays inwards, reflection by reflection";
+    29 surfaces::board, "Pattern in a plane between its cells", "cells found from a point's rounding";
 }
 
 /// Runs `cases`, one after the other. `on_rows` gets each case with its rows as soon as it is done, and says whether to

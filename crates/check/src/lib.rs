@@ -24,6 +24,7 @@ mod robustness;
 mod row;
 mod samplers;
 mod sums;
+mod surfaces;
 mod warps;
 
 pub use case::{CASES, Case, run};

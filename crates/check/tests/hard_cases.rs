@@ -54,4 +54,9 @@ cases! {
     c22_samplers 22
     c23_million_samples 23
     c24_pixels_of_the_fake 24
+    c25_small_lamp_far_away 25
+    c26_lamps_in_one_place 26
+    c27_glass_ball_on_a_mirror 27
+    c28_whispering_gallery 28
+    c29_pattern_in_a_plane_between_its_cells 29
 }

@@ -45,4 +45,5 @@ cases! {
     glass_obeys_snell_and_fresnel [10, 11, 12, 13];
     no_ray_leaks_and_no_surface_shadows_itself [16, 17, 18];
     nothing_depends_on_size_and_place [19, 20, 21];
+    rounding_decides_nothing_where_surfaces_meet [25, 26, 27, 28, 29];
 }

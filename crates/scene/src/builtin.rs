@@ -9,11 +9,14 @@ const FILES: [(&str, &str); 2] = [
 ];
 
 /// Scenes with known answers, which hard cases are made of: `hard/NAME`.
-const HARD: [(&str, &str); 15] = [
+const HARD: [(&str, &str); 19] = [
+    ("hard/ball-on-mirror", include_str!("../../../assets/scenes/hard/ball-on-mirror.toml")),
     ("hard/camera-inside-glass", include_str!("../../../assets/scenes/hard/camera-inside-glass.toml")),
     ("hard/closed-box", include_str!("../../../assets/scenes/hard/closed-box.toml")),
+    ("hard/crossing-lamps", include_str!("../../../assets/scenes/hard/crossing-lamps.toml")),
     ("hard/disk-touching", include_str!("../../../assets/scenes/hard/disk-touching.toml")),
     ("hard/edge-on-light", include_str!("../../../assets/scenes/hard/edge-on-light.toml")),
+    ("hard/far-lamp", include_str!("../../../assets/scenes/hard/far-lamp.toml")),
     ("hard/glass-sphere-in-furnace", include_str!("../../../assets/scenes/hard/glass-sphere-in-furnace.toml")),
     ("hard/index-one", include_str!("../../../assets/scenes/hard/index-one.toml")),
     ("hard/light-tight-box", include_str!("../../../assets/scenes/hard/light-tight-box.toml")),
@@ -24,6 +27,7 @@ const HARD: [(&str, &str); 15] = [
     ("hard/rectangle-light", include_str!("../../../assets/scenes/hard/rectangle-light.toml")),
     ("hard/slab", include_str!("../../../assets/scenes/hard/slab.toml")),
     ("hard/sphere-light", include_str!("../../../assets/scenes/hard/sphere-light.toml")),
+    ("hard/whispering-gallery", include_str!("../../../assets/scenes/hard/whispering-gallery.toml")),
     ("hard/white-furnace", include_str!("../../../assets/scenes/hard/white-furnace.toml")),
 ];
 

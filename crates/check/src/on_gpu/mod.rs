@@ -11,6 +11,7 @@ mod estimators;
 mod glass;
 mod rays;
 mod robustness;
+mod surfaces;
 
 use crate::case::Case;
 use crate::measure::{Effort, Mean, Trial, farthest, subject};
@@ -84,6 +85,11 @@ fn of_number(case: u32) -> Option<fn(&mut Bench) -> Outcome> {
         20 => robustness::invariance,
         21 => robustness::degenerate,
         23 => energy::million_samples,
+        25 => surfaces::far_lamp,
+        26 => surfaces::lamps_in_one_place,
+        27 => surfaces::contact,
+        28 => surfaces::gallery,
+        29 => surfaces::board,
         _ => return None,
     })
 }
