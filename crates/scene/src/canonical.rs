@@ -1,5 +1,5 @@
 //! Bytes that say what the truth of a scene depends on, and nothing else: equal bytes, equal pictures. Hashed, they name
-//! what was made of the scene.
+//! what was made of the scene. What the fake depends on beside that has bytes of its own.
 //!
 //! Numbers are the bits of their f32, little-endian; lists say how long they are and choices which one they are, so that
 //! no two scenes run into the same bytes. Structures are taken apart without `..`: a new field does not compile before it
@@ -7,6 +7,7 @@
 
 use crate::light::{PointLight, Sun};
 use crate::material::{Checkerboard, Emission};
+use crate::stand_ins::{FakeMaterial, FakeNumbers};
 use crate::{Bsdf, Camera, Conductor, EnvironmentMap, Geometry, Material, Mesh, Scene, Shape, Texture};
 use glam::Vec3;
 
@@ -16,7 +17,8 @@ pub struct Canonical<'a>(pub &'a mut dyn FnMut(&[u8]));
 impl Canonical<'_> {
     /// All that light meets in a scene. Not its name, not its own camera, and not the fake's numbers.
     pub fn scene(&mut self, scene: &Scene) {
-        let Scene { name: _, camera: _, materials, shapes, sun, point_lights, sky, environment, fake: _ } = scene;
+        let Scene { name: _, camera: _, materials, shapes, sun, point_lights, sky, environment, fake: _, as_read: _ } =
+            scene;
         self.count(materials.len());
         materials.iter().for_each(|material| self.material(material));
         self.count(shapes.len());
@@ -26,6 +28,29 @@ impl Canonical<'_> {
         point_lights.iter().for_each(|light| self.point_light(light));
         self.vector(*sky);
         self.option(environment.as_deref(), Self::environment);
+    }
+
+    /// What stands in for physics: the fake's numbers, and the planes between which it draws.
+    pub fn fake(&mut self, scene: &Scene) {
+        let Scene {
+            name: _,
+            camera,
+            materials,
+            shapes: _,
+            sun: _,
+            point_lights: _,
+            sky: _,
+            environment: _,
+            fake,
+            as_read: _,
+        } = scene;
+        let Camera { eye: _, target: _, up: _, fov_y: _, near, far } = camera;
+        [near, far].into_iter().for_each(|plane| self.option(Some(plane), |this, distance| this.number(*distance)));
+        self.count(materials.len());
+        for Material { name: _, bsdf: _, emission: _, fake } in materials {
+            self.fake_material(fake);
+        }
+        self.fake_numbers(fake);
     }
 
     /// What a camera shows. Its near and far planes are the raster's.
@@ -48,7 +73,7 @@ impl Canonical<'_> {
         self.word(number.to_bits());
     }
 
-    fn vector(&mut self, v: Vec3) {
+    pub(crate) fn vector(&mut self, v: Vec3) {
         let mut bytes = [0; 12];
         for (bytes, number) in bytes.as_chunks_mut().0.iter_mut().zip(v.to_array()) {
             *bytes = number.to_le_bytes();
@@ -101,6 +126,21 @@ impl Canonical<'_> {
                 [eta, k].into_iter().for_each(|v| self.vector(*v));
             }
         }
+    }
+
+    fn fake_material(&mut self, fake: &FakeMaterial) {
+        let FakeMaterial { refraction_ratio, reflectivity, specular, shininess } = fake;
+        self.option(refraction_ratio.as_ref(), |this, ratio| this.number(*ratio));
+        [reflectivity, specular, shininess].into_iter().for_each(|number| self.number(*number));
+    }
+
+    fn fake_numbers(&mut self, fake: &FakeNumbers) {
+        let FakeNumbers { ambient, intensity, light_position, shadow_half_width, shadow_map, cube_map, segments } =
+            fake;
+        [ambient, intensity].into_iter().for_each(|number| self.number(*number));
+        self.option(light_position.as_ref(), |this, position| this.vector(*position));
+        self.option(shadow_half_width.as_ref(), |this, width| this.number(*width));
+        [shadow_map, cube_map, segments].into_iter().for_each(|count| self.word(*count));
     }
 
     fn texture(&mut self, texture: &Texture) {

@@ -10,6 +10,7 @@ pub mod conductor;
 pub mod direction;
 pub mod environment;
 pub mod file;
+mod hash;
 pub mod light;
 pub mod material;
 mod needs;
@@ -22,6 +23,7 @@ pub use conductor::Conductor;
 pub use environment::EnvironmentMap;
 pub use file::{SceneError, load, parse};
 pub use glam::{self, Vec3};
+pub use hash::SceneHash;
 pub use light::{PointLight, Sun};
 pub use material::{Bsdf, Material, Texture};
 pub use needs::Needs;
@@ -52,6 +54,8 @@ pub struct Scene {
     pub environment: Option<Arc<EnvironmentMap>>,
     /// Numbers that stand in for physics.
     pub fake: FakeNumbers,
+    /// Of what was read: what is changed afterwards does not change it.
+    pub as_read: SceneHash,
 }
 
 impl Scene {

@@ -34,13 +34,20 @@ fn bytes_of(scene: &Scene) -> Vec<u8> {
     bytes
 }
 
+fn fake_bytes_of(scene: &Scene) -> Vec<u8> {
+    let mut bytes = Vec::new();
+    Canonical(&mut |piece| bytes.extend_from_slice(piece)).fake(scene);
+    bytes
+}
+
 type Corners = Vec<Vec3>;
 type Triangles = Vec<[u32; 3]>;
 
-/// The numbers that light depends on, and those that it does not.
+/// The numbers that light depends on, those that the fake depends on beside them, and those of neither.
 #[derive(Default)]
 struct Numbers<'a> {
     physical: Vec<&'a mut f32>,
+    of_the_fake: Vec<&'a mut f32>,
     others: Vec<&'a mut f32>,
 }
 
@@ -48,7 +55,8 @@ impl<'a> Numbers<'a> {
     /// All of a scene but those of its meshes and of its sky's picture, which nothing can change.
     fn of(scene: &'a mut Scene) -> Self {
         let mut numbers = Numbers::default();
-        let Scene { name: _, camera, materials, shapes, sun, point_lights, sky, environment: _, fake } = scene;
+        let Scene { name: _, camera, materials, shapes, sun, point_lights, sky, environment: _, fake, as_read: _ } =
+            scene;
         numbers.add(sky.as_mut());
         if let Some(Sun { towards, angular_radius, irradiance }) = sun {
             numbers.add(towards.as_mut());
@@ -61,7 +69,8 @@ impl<'a> Numbers<'a> {
         }
         let Camera { eye, target, up, fov_y, near, far } = camera;
         numbers.others.extend([eye, target, up].into_iter().flat_map(|v| v.as_mut().iter_mut()));
-        numbers.others.extend([fov_y, near, far]);
+        numbers.others.push(fov_y);
+        numbers.of_the_fake.extend([near, far]);
         let FakeNumbers {
             ambient,
             intensity,
@@ -71,9 +80,9 @@ impl<'a> Numbers<'a> {
             cube_map: _,
             segments: _,
         } = fake;
-        numbers.others.extend([ambient, intensity]);
-        numbers.others.extend(light_position.iter_mut().flat_map(|v| v.as_mut().iter_mut()));
-        numbers.others.extend(shadow_half_width);
+        numbers.of_the_fake.extend([ambient, intensity]);
+        numbers.of_the_fake.extend(light_position.iter_mut().flat_map(|v| v.as_mut().iter_mut()));
+        numbers.of_the_fake.extend(shadow_half_width);
         materials.iter_mut().for_each(|material| numbers.add_material(material));
         Arc::get_mut(shapes).unwrap().iter_mut().for_each(|shape| numbers.add_geometry(&mut shape.geometry));
         numbers
@@ -104,8 +113,8 @@ impl<'a> Numbers<'a> {
             self.add(radiance.as_mut());
         }
         let FakeMaterial { refraction_ratio, reflectivity, specular, shininess } = fake;
-        self.others.extend([reflectivity, specular, shininess]);
-        self.others.extend(refraction_ratio);
+        self.of_the_fake.extend([reflectivity, specular, shininess]);
+        self.of_the_fake.extend(refraction_ratio);
     }
 
     fn add_geometry(&mut self, geometry: &'a mut Geometry) {
@@ -147,7 +156,8 @@ fn the_last_bit_of_every_physical_number_is_in_the_bytes() {
 fn neither_the_camera_nor_the_fake_nor_any_name_is_in_the_bytes() {
     let plain = bytes_of(&everything());
     let mut scene = everything();
-    for number in Numbers::of(&mut scene).others {
+    let Numbers { physical: _, of_the_fake, others } = Numbers::of(&mut scene);
+    for number in of_the_fake.into_iter().chain(others) {
         *number += 0.125;
     }
     let FakeNumbers { ambient: _, intensity: _, light_position, shadow_half_width, shadow_map, cube_map, segments } =
@@ -161,6 +171,47 @@ fn neither_the_camera_nor_the_fake_nor_any_name_is_in_the_bytes() {
     }
     assert_ne!(scene, everything());
     assert_eq!(bytes_of(&scene), plain);
+}
+
+/// Everything, and every number that the fake may have.
+fn everything_of_the_fake() -> Scene {
+    let mut scene = everything();
+    (scene.fake.light_position, scene.fake.shadow_half_width) = (Some(Vec3::ONE), Some(3.0));
+    scene.materials.iter_mut().for_each(|material| material.fake.refraction_ratio = Some(0.5));
+    scene
+}
+
+#[test]
+fn the_last_bit_of_every_number_of_the_fake_is_in_its_bytes_and_nothing_else() {
+    let plain = fake_bytes_of(&everything_of_the_fake());
+    let count = Numbers::of(&mut everything_of_the_fake()).of_the_fake.len();
+    assert_eq!(count, 2 + 2 + 3 + 1 + 7 * 4, "planes, lights, light position, shadow width, seven materials");
+    let mut seen = BTreeSet::from([plain.clone()]);
+    for number in 0..count {
+        let mut scene = everything_of_the_fake();
+        let changed = &mut Numbers::of(&mut scene).of_the_fake[number];
+        **changed = f32::from_bits(changed.to_bits() ^ 1);
+        assert!(seen.insert(fake_bytes_of(&scene)), "number {number} is not in the bytes");
+    }
+    let changes: [fn(&mut FakeNumbers); 5] = [
+        |fake| fake.shadow_map += 1,
+        |fake| fake.cube_map += 1,
+        |fake| fake.segments += 1,
+        |fake| fake.light_position = None,
+        |fake| fake.shadow_half_width = None,
+    ];
+    for change in changes {
+        let mut scene = everything_of_the_fake();
+        change(&mut scene.fake);
+        assert!(seen.insert(fake_bytes_of(&scene)));
+    }
+    let mut scene = everything_of_the_fake();
+    scene.materials[0].fake.refraction_ratio = None;
+    assert!(seen.insert(fake_bytes_of(&scene)));
+    let mut scene = everything_of_the_fake();
+    let Numbers { physical, of_the_fake: _, others } = Numbers::of(&mut scene);
+    physical.into_iter().chain(others).for_each(|number| *number += 0.125);
+    assert_eq!(fake_bytes_of(&scene), plain);
 }
 
 #[test]

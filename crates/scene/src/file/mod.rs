@@ -8,7 +8,9 @@ mod sky;
 use crate::direction::unit;
 use crate::material::{Checkerboard, Emission};
 use crate::stand_ins::{FakeMaterial, FakeNumbers};
-use crate::{Bsdf, Camera, Conductor, Geometry, Material, PointLight, Scene, Shape, Sun, Texture, nesting, stand_ins};
+use crate::{
+    Bsdf, Camera, Conductor, Geometry, Material, PointLight, Scene, SceneHash, Shape, Sun, Texture, nesting, stand_ins,
+};
 use glam::Vec3;
 use raw::{RawMaterial, RawScene, RawTexture};
 use std::ops::Range;
@@ -176,7 +178,7 @@ fn build(raw: RawScene, name: &str, folder: &Path) -> Result<Scene, Fault> {
         cube_map: raw.fake.cube_map.map_or(d.cube_map, |v| v.get()),
         segments: raw.fake.segments.map_or(d.segments, |v| v.get()),
     };
-    Ok(Scene {
+    let scene = Scene {
         name: name.to_owned(),
         camera,
         materials,
@@ -186,7 +188,9 @@ fn build(raw: RawScene, name: &str, folder: &Path) -> Result<Scene, Fault> {
         sky,
         environment,
         fake,
-    })
+        as_read: SceneHash::default(),
+    };
+    Ok(Scene { as_read: SceneHash::of(&scene), ..scene })
 }
 
 fn camera(raw: Spanned<raw::RawCamera>) -> Result<Camera, Fault> {
