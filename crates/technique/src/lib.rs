@@ -28,7 +28,7 @@ pub use device::{Adapter, Adapters, Device, DeviceChoice, INSTEAD};
 pub use fake::FakeSettings;
 pub use pane::PaneSettings;
 pub use progressive::{NoMemory, ProgressiveRenderer, Request};
-pub use provenance::{Made, Provenance, made_from};
+pub use provenance::{Made, Provenance, Recorded, made_from, scene_hash};
 pub use renderer::{Frame, Pacing, Rendered, Renderer, Watch};
 pub use shot::{SceneChanges, Shot};
 pub use threads::{Rank, Threads};
@@ -78,6 +78,14 @@ impl TechniqueName {
             TechniqueName::Whitted => "Whitted",
             TechniqueName::Path => "Truth",
             TechniqueName::Normals => "Normals",
+        }
+    }
+
+    /// Whether its pictures depend on numbers that stand in for physics.
+    pub fn reads_stand_ins(self) -> bool {
+        match self {
+            TechniqueName::Raster | TechniqueName::Whitted => true,
+            TechniqueName::Path | TechniqueName::Normals => false,
         }
     }
 

@@ -2,7 +2,9 @@
 
 use crate::command::{camera_options, size_option};
 use crate::{Device, Shot, Technique, TechniqueName};
+use anyhow::Context;
 use image_file::Records;
+use scene::SceneHash;
 
 /// All that a picture depends on.
 #[derive(Debug, Clone, PartialEq)]
@@ -28,26 +30,40 @@ pub struct Made<'a> {
     pub exposure: f32,
 }
 
-/// Version of the records; it grows when an older program would misread them.
-const RECORDS_VERSION: &str = "1";
+/// What a picture's records say of how it was made.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Recorded {
+    /// The scene as the user asked for it then.
+    pub scene: String,
+    /// The scene as it was read then; `None` of records from before it was kept.
+    pub scene_hash: Option<SceneHash>,
+    /// Options of `visavis render`.
+    pub options: Vec<String>,
+}
+
+/// Version of the records; it grows when an older program would misread them, or when a scene has another hash.
+/// 2: with the scene's hash.
+const RECORDS_VERSION: u32 = 2;
+
+/// Holds [`Scene::as_read`](scene::Scene::as_read).
+const SCENE_HASH: &str = "scene.hash";
 
 /// Records that say what a picture took, and are no options of `visavis render`.
-const NO_OPTIONS: [&str; 6] = ["records", "version", "scene", "adapter", "seconds", "command"];
+const NO_OPTIONS: [&str; 7] = ["records", "version", "scene", SCENE_HASH, "adapter", "seconds", "command"];
 
 /// Records that say how far a picture is from another begin with this.
 const MEASURED: &str = "error.";
 
-/// What makes a picture with these records again: the scene, and options of `visavis render`. `None` if they are not
-/// those of one pane's picture.
+/// What makes a picture with these records again. `None` if they are not those of one pane's picture.
 ///
 /// # Errors
-/// If the records are of a later version.
-pub fn made_from(records: &[(String, String)]) -> anyhow::Result<Option<(String, Vec<String>)>> {
+/// If the records are of a later version, or damaged.
+pub fn made_from(records: &[(String, String)]) -> anyhow::Result<Option<Recorded>> {
     let value = |name: &str| records.iter().find(|(known, _)| known == name).map(|(_, value)| value.as_str());
     let (Some(version), Some(scene)) = (value("records"), value("scene")) else { return Ok(None) };
     anyhow::ensure!(
-        version == RECORDS_VERSION,
-        "its records are of version {version}, and this program reads version {RECORDS_VERSION}: use a newer one"
+        version.parse().is_ok_and(|version: u32| (1..=RECORDS_VERSION).contains(&version)),
+        "its records are of version {version}, and this program reads versions 1 to {RECORDS_VERSION}: use a newer one"
     );
     // only rays traced on the graphics device ask for it: the fake has no other, and the processor is the usual one
     let asks_for_gpu = value("device") == Some("gpu") && value("technique") != Some(TechniqueName::Raster.name());
@@ -55,7 +71,16 @@ pub fn made_from(records: &[(String, String)]) -> anyhow::Result<Option<(String,
     let is_option = |name: &str| !says_nothing(name) && !name.starts_with(MEASURED);
     let options = records.iter().filter(|(name, _)| is_option(name));
     let words = options.map(|(name, value)| format!("--{name}={value}"));
-    Ok(Some((scene.to_owned(), words.collect())))
+    Ok(Some(Recorded { scene: scene.to_owned(), scene_hash: scene_hash(records)?, options: words.collect() }))
+}
+
+/// The scene that a picture or a reference shows, as it was read then; `None` if its records do not tell.
+///
+/// # Errors
+/// If they are damaged.
+pub fn scene_hash(records: &[(String, String)]) -> anyhow::Result<Option<SceneHash>> {
+    let Some((_, word)) = records.iter().find(|(name, _)| name == SCENE_HASH) else { return Ok(None) };
+    Ok(Some(word.parse().with_context(|| format!("its record {SCENE_HASH} is damaged: {word}"))?))
 }
 
 impl Provenance {
@@ -64,9 +89,10 @@ impl Provenance {
         let Made { spp, seconds, adapter, exposure } = made;
         let Shot { source, changes, scene: _, camera, size } = &self.shot;
         let mut records = vec![
-            ("records", RECORDS_VERSION.into()),
+            ("records", RECORDS_VERSION.to_string()),
             ("version", env!("CARGO_PKG_VERSION").into()),
             ("scene", source.clone()),
+            self.shot.hash_record(),
             ("technique", self.technique.name().name().into()),
             ("device", self.device.name().into()),
             ("adapter", adapter.into()),
@@ -84,10 +110,19 @@ impl Provenance {
 }
 
 impl Shot {
+    /// What tells a scene from another of its name.
+    pub fn hash_record(&self) -> (&'static str, String) {
+        (SCENE_HASH, self.scene.as_read.to_string())
+    }
+
     /// What the file of its reference keeps of it, with the command that makes that.
     pub fn reference_records(&self, estimator: &str) -> Records {
-        let mut records =
-            vec![("version", env!("CARGO_PKG_VERSION").into()), ("scene", self.source.clone()), size_option(self.size)];
+        let mut records = vec![
+            ("version", env!("CARGO_PKG_VERSION").into()),
+            ("scene", self.source.clone()),
+            self.hash_record(),
+            size_option(self.size),
+        ];
         records.extend(camera_options(&self.camera));
         records.push(("estimator", estimator.into()));
         records.extend(self.changes.options());

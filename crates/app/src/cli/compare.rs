@@ -29,7 +29,10 @@ pub fn run(args: &CompareArgs) -> anyhow::Result<()> {
         image_file::check_writable(out)?;
     }
     let r = match &args.reference {
-        Some(file) => Reference::load(file)?,
+        Some(file) => {
+            tell_of_two_scenes(&args.film, file);
+            Reference::load(file)?
+        }
         None => reference_of(&args.film, &a)?,
     };
     let clipped = |file: &Path| Kind::of(file) == Some(Kind::Png);
@@ -73,7 +76,19 @@ fn reference_of(file: &Path, picture: &Image) -> anyhow::Result<Reference> {
         made.seen.size.1,
         file.display()
     );
-    reference::obtain(&made.seen.of(&made.scene)?, None)
+    let shot = made.shot()?;
+    made.check_truth(&shot.scene)?;
+    reference::obtain(&shot, None)
+}
+
+/// Pictures of two scenes may well be compared, but then somebody meant it.
+fn tell_of_two_scenes(a: &Path, b: &Path) {
+    let of = |file| image_file::records(file).ok().and_then(|records| technique::scene_hash(&records).ok().flatten());
+    if let (Some(scene_of_a), Some(scene_of_b)) = (of(a), of(b))
+        && !scene_of_a.has_the_truth_of(&scene_of_b)
+    {
+        note!("note: these pictures are of two scenes, or of one that has changed: {}, {}", a.display(), b.display());
+    }
 }
 
 fn measure(pair: &Pair, reference: &Reference) -> anyhow::Result<Comparison> {

@@ -34,8 +34,9 @@ struct Timed {
 }
 
 pub fn run(args: &mut RenderArgs) -> anyhow::Result<()> {
+    let shot = args.shot()?;
     tell_what_has_no_effect(args, &builtin::named(&args.scene)?);
-    let shot = args.seen.of(&args.scene)?;
+    args.tell_of_another_scene(&shot.scene);
     let scene = shot.scene.clone();
     if !args.chose_estimator {
         args.pane.take_usual_estimator(&scene);

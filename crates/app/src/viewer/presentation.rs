@@ -146,6 +146,8 @@ impl Presentation {
             ("line", format!("{} at {}", session.line.name(), session.wipe)),
             ("exposure", exposure.to_string()),
         ];
+        // all panes show one scene
+        records.extend(self.pictures.iter().next().map(|(_, shown)| shown.order.provenance.shot.hash_record()));
         for (pane, picture) in self.pictures.iter() {
             let command = picture.order.provenance.command(picture.spp.unwrap_or(1), exposure, &file_of(pane));
             records.push((pane.name(), if picture.rough { format!("rough, in full: {command}") } else { command }));

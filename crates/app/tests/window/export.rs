@@ -59,8 +59,12 @@ fn the_picture_as_seen_goes_to_file_and_clipboard_with_its_records() {
     assert!(picture.pixels().zip(&on_screen).all(|(a, b)| a.0 == *b), "the file is not what the screen shows");
 
     let chunks = text_chunks(&file);
-    for (name, words) in [("visavis.view", "Side by side"), ("visavis.A", "raster"), ("visavis.B", "--estimator light")]
-    {
+    for (name, words) in [
+        ("visavis.view", "Side by side"),
+        ("visavis.A", "raster"),
+        ("visavis.B", "--estimator light"),
+        ("visavis.scene.hash", "-"),
+    ] {
         assert!(chunks.iter().any(|(n, text)| n == name && text.contains(words)), "{name} is not in {chunks:?}");
     }
 

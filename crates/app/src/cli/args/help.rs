@@ -137,7 +137,8 @@ fn commands() -> Vec<Block> {
         Block::new(
             "visavis compare A B",
             "how far picture A is from reference B (.exr or .png): RMSE, relMSE, MAE, bias, FLIP, HDR-FLIP; B's own noise \
-             where it is a reference of this program; without B against the reference of what A's records say that it shows",
+             where it is a reference of this program; without B against the reference of what A's records say that it shows, \
+             unless its scene has changed since",
             &compare::options(),
         ),
         Block::new(

@@ -4,6 +4,7 @@ use super::options::{CommandOption, Typed, read, set};
 use super::seen::Seen;
 use super::usage;
 use super::values::{DEVICES, choice, lanes, number, seconds};
+use crate::cli::original::Original;
 use crate::cli::{CliError, Command};
 use anyhow::Context;
 use image_file::{self, Kind};
@@ -11,13 +12,15 @@ use lexopt::ValueExt;
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 use technique::settings::{of_panes, of_scenes};
-use technique::{DeviceChoice, PaneSettings, Technique, TechniqueName, made_from};
+use technique::{DeviceChoice, PaneSettings, Recorded, Technique, TechniqueName, made_from};
 
 /// `visavis render SCENE -o OUT ...`; `None` leaves a value to the scene.
 #[derive(Debug, Clone, PartialEq)]
 #[expect(missing_docs, reason = "each field is the option of its name, described in --help")]
 pub struct RenderArgs {
     pub scene: String,
+    /// The picture that says so, if it is one.
+    pub original: Option<Original>,
     pub out: PathBuf,
     /// Technique and settings; their spp is not read here, but [`RenderArgs::spp`].
     pub pane: PaneSettings,
@@ -66,7 +69,8 @@ pub fn options() -> Vec<CommandOption<Reading>> {
         CommandOption {
             names: &["--from"],
             value: "FILE",
-            help: "make the picture in FILE (.png or .exr of this program) again; other options change it",
+            help: "make the picture in FILE (.png or .exr of this program) again, and say so if its scene has changed since; other \
+                   options change it",
             // the first was read before
             read: |_, _| usage("--from is given twice: a picture is made from one"),
         },
@@ -182,6 +186,7 @@ pub fn parse(mut parser: lexopt::Parser) -> Result<Command, CliError> {
     if let Command::Render(render) = &mut command {
         // what a picture says of itself was not asked for just now
         render.without_effect.retain(|option| !before.without_effect.contains(option));
+        render.original = before.original;
     }
     Ok(command)
 }
@@ -198,13 +203,14 @@ pub fn made_by(file: &Path) -> anyhow::Result<RenderArgs> {
 fn read_records(file: &Path) -> anyhow::Result<(RenderArgs, Vec<OsString>)> {
     let records = image_file::records(file)?;
     let made = made_from(&records).with_context(|| format!("cannot read how it was made: {}", file.display()))?;
-    let Some((scene, words)) = made else {
+    let Some(Recorded { scene, scene_hash, options }) = made else {
         anyhow::bail!("this picture does not say how it was made: {}", file.display());
     };
-    let words: Vec<OsString> = words.into_iter().map(OsString::from).collect();
+    let original = Some(Original { file: file.to_owned(), scene: scene_hash });
+    let words: Vec<OsString> = options.into_iter().map(OsString::from).collect();
     let alone = words.iter().cloned().chain(["-o".into(), "out.png".into()]).collect();
     match parse_words(alone, Some(scene)) {
-        Ok(Command::Render(render)) => Ok((*render, words)),
+        Ok(Command::Render(render)) => Ok((RenderArgs { original, ..*render }, words)),
         Ok(_) => anyhow::bail!("its records are no options of render: {}", file.display()),
         Err(fault) => anyhow::bail!("its records make no picture ({}): {}", fault.line(), file.display()),
     }
@@ -214,6 +220,7 @@ fn read_records(file: &Path) -> anyhow::Result<(RenderArgs, Vec<OsString>)> {
 fn parse_words(words: Vec<OsString>, scene: Option<String>) -> Result<Command, CliError> {
     let blank = RenderArgs {
         scene: String::new(),
+        original: None,
         out: PathBuf::new(),
         pane: PaneSettings::of(TechniqueName::Path),
         seen: Seen::default(),

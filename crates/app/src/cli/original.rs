@@ -1,0 +1,69 @@
+//! A picture whose records are read, to make it again or to judge it: whether its scene is still the one that it shows.
+
+use crate::cli::RenderArgs;
+use anyhow::ensure;
+use scene::{Scene, SceneError, SceneHash};
+use std::path::PathBuf;
+use technique::Shot;
+
+/// A picture that says how it was made.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Original {
+    /// The picture.
+    pub file: PathBuf,
+    /// Its scene as it was read then; `None` of a picture from before this was kept.
+    pub scene: Option<SceneHash>,
+}
+
+impl RenderArgs {
+    /// Opens the scene, changed and seen as the options say.
+    ///
+    /// # Errors
+    /// As [`Seen::of`](super::Seen::of).
+    pub fn shot(&self) -> anyhow::Result<Shot> {
+        self.seen.of(&self.scene).map_err(|fault| match (&self.original, fault.downcast_ref()) {
+            (Some(original), Some(SceneError::Read { .. } | SceneError::Unknown { .. })) => fault.context(format!(
+                "the scene of {} is not found; run this in the folder where it was made",
+                original.file.display()
+            )),
+            _ => fault,
+        })
+    }
+
+    /// Says so where the scene is no longer the one of the picture that is made again.
+    pub fn tell_of_another_scene(&self, now: &Scene) {
+        if let Some(Original { file, scene: Some(then) }) = &self.original
+            && self.differs(then, now)
+        {
+            note!(
+                "note: the scene has changed since {} was made; this is another picture: {}",
+                file.display(),
+                self.scene
+            );
+        }
+    }
+
+    /// Whether the reference of the scene is still the one of the picture. Numbers of the fake do not change it.
+    ///
+    /// # Errors
+    /// If it is not.
+    pub fn check_truth(&self, now: &Scene) -> anyhow::Result<()> {
+        let Some(Original { file, scene: Some(then) }) = &self.original else { return Ok(()) };
+        ensure!(
+            then.has_the_truth_of(&now.as_read),
+            "the scene has changed since {} was made, and has another reference; bring back the scene as it was, or name a \
+             picture to compare with: {}",
+            file.display(),
+            self.scene
+        );
+        if self.differs(then, now) {
+            note!("note: the fake's numbers have changed since {} was made: {}", file.display(), self.scene);
+        }
+        Ok(())
+    }
+
+    /// Whether what the picture depends on has changed.
+    fn differs(&self, then: &SceneHash, now: &Scene) -> bool {
+        !then.has_the_truth_of(&now.as_read) || (self.pane.technique.reads_stand_ins() && *then != now.as_read)
+    }
+}
