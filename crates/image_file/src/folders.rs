@@ -4,9 +4,9 @@ use crate::ImageFileError;
 use std::ffi::OsString;
 use std::path::PathBuf;
 
-/// The user's home folder, if there is one.
+/// The user's home folder, if there is one. A relative one would be another in every folder, and is none.
 pub fn home_folder() -> Option<PathBuf> {
-    std::env::home_dir().filter(|home| home.is_dir())
+    std::env::home_dir().filter(|home| home.is_absolute() && home.is_dir())
 }
 
 /// Where pictures go unless the user says otherwise: the pictures folder of the home folder if there is one, else the
