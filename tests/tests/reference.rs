@@ -195,6 +195,66 @@ fn a_damaged_file_is_no_reference() {
     assert_eq!(store.get(key), Some(sketched(16)));
 }
 
+/// Bits all over a file: those of the first and last bytes, and others by Knuth's MMIX generator.
+fn bits(length: usize) -> impl Iterator<Item = usize> {
+    let mut state = 1u64;
+    let random = move || {
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (state >> 33) as usize % (8 * length)
+    };
+    (0..64).chain(8 * length - 400..8 * length).chain(std::iter::repeat_with(random).take(400))
+}
+
+/// Of a file of the user's the last bytes say that it has a hash: where they do not, it is read like any other.
+#[test]
+fn any_bit_that_has_turned_is_noticed() {
+    let folder = TestFolder::new();
+    let store = Store::new(folder.path().to_owned(), Store::MOST_BYTES);
+    let key = keys(1)[0];
+    store.put(key, &sketched(16), Vec::new()).unwrap();
+    let file = folder.file(&format!("{key}.exr"));
+    let whole = std::fs::read(&file).unwrap();
+    let mark = whole.len() - 48..whole.len() - 32;
+    for bit in bits(whole.len()) {
+        let mut turned = whole.clone();
+        turned[bit / 8] ^= 1 << (bit % 8);
+        std::fs::write(&file, &turned).unwrap();
+        let fault = store.fetch(key).unwrap_err().to_string();
+        assert!(fault.contains("damaged") && fault.contains(&key.to_string()), "bit {bit}: {fault}");
+        match Reference::load(&file) {
+            Ok(read) => assert!(mark.contains(&(bit / 8)) && read == sketched(16), "bit {bit}"),
+            Err(fault) => assert!(fault.to_string().contains("damaged"), "bit {bit}: {fault}"),
+        }
+    }
+    assert_eq!(store.usage().unwrap().count, 1);
+    store.put(key, &sketched(8), Vec::new()).unwrap();
+    assert_eq!(store.get(key), Some(sketched(8)), "anything is finer than a damaged one");
+}
+
+#[test]
+fn a_coarser_reference_does_not_take_the_place_of_a_finer_one() {
+    let folder = TestFolder::new();
+    let store = Store::new(folder.path().to_owned(), Store::MOST_BYTES);
+    let [one, other] = keys(2)[..] else { panic!("two keys") };
+    [16, 32, 16].into_iter().for_each(|pictures| store.put(one, &sketched(pictures), Vec::new()).unwrap());
+    assert_eq!(store.get(one).unwrap().replicates, 32);
+    // at once, and while others look
+    for _ in 0..8 {
+        store.clear().unwrap();
+        std::thread::scope(|scope| {
+            for pictures in [20, 40, 10, 30] {
+                let store = store.clone();
+                scope.spawn(move || {
+                    store.put(other, &sketched(pictures), Vec::new()).unwrap();
+                    assert!(store.fetch(other).unwrap().unwrap().replicates >= pictures);
+                });
+            }
+        });
+        assert_eq!(store.get(other).unwrap().replicates, 40);
+    }
+    assert_eq!(folder.names(), [format!("{other}.exr")]);
+}
+
 fn used(file: &Path, seconds_ago: u64) {
     let time = SystemTime::now() - Duration::from_secs(seconds_ago);
     std::fs::File::options().append(true).open(file).unwrap().set_modified(time).unwrap();
@@ -225,10 +285,21 @@ fn clearing_leaves_what_is_not_the_stores() {
     let folder = TestFolder::new();
     let store = Store::new(folder.path().to_owned(), Store::MOST_BYTES);
     keys(3).into_iter().for_each(|key| store.put(key, &sketched(16), Vec::new()).unwrap());
-    let foreign = ["holiday.exr", "notes.txt", "0123456789abcdef0123456789abcdeg.exr"];
+    let foreign = [
+        "0123456789abcdef0123456789abcdef.exr",
+        "0123456789abcdef0123456789abcdeg.exr",
+        "holiday.exr",
+        "holiday.exr.12.partial",
+        "notes.txt",
+    ];
     foreign.iter().for_each(|name| std::fs::write(folder.file(name), "mine").unwrap());
+    // what programs that were killed have left, and what one that lives is writing
+    let left = [format!("{}.exr.12.partial", keys(1)[0]), ".visavis-0123456789abcdef.partial".into()];
+    left.iter().for_each(|name| std::fs::write(folder.file(name), "half").unwrap());
+    let living = std::fs::File::create(folder.file(".visavis-fedcba9876543210.partial")).unwrap();
+    living.lock().unwrap();
     assert_eq!(store.clear().unwrap().count, 3);
-    assert_eq!(folder.names(), ["0123456789abcdef0123456789abcdeg.exr", "holiday.exr", "notes.txt"]);
+    assert_eq!(folder.names(), [&[".visavis-fedcba9876543210.partial"], &foreign[..]].concat());
     assert_eq!(store.usage().unwrap().bytes, 0);
 }
 

@@ -91,7 +91,9 @@ pub fn make(
     let size = (part.width, part.height);
     let shot = Shot::of((**renderer.scene()).clone(), size);
     let key = Key::of(&shot);
-    let begun = store.and_then(|store| store.get(key));
+    let fetched = store.map_or(Ok(None), |store| store.fetch(key));
+    let mut fault = fetched.as_ref().err().map(ToString::to_string);
+    let begun = fetched.ok().flatten();
     let no_memory = || BenchError::Memory(size.0, size.1);
     let mut maker = Maker::new(renderer, &shot, begun.as_ref()).ok_or_else(no_memory)?;
     let before = maker.replicates();
@@ -99,9 +101,9 @@ pub fn make(
         maker.replicates() >= part.replicates()
             || (maker.replicates() >= FEWEST_REPLICATES && maker.seconds() >= part.reference_seconds)
     };
-    let mut fault = None;
     let mut keep = |reference: &Reference| {
-        if let Some(Err(e)) = store.map(|store| store.put(key, reference, vec![("scene", part.name.clone())])) {
+        let records = vec![("scene", part.name.clone()), shot.hash_record()];
+        if let Some(Err(e)) = store.map(|store| store.put(key, reference, records)) {
             fault = Some(e.to_string());
         }
     };

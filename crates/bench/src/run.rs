@@ -204,7 +204,7 @@ impl Bench<'_> {
             progress(&clock.progress(&what, (share - there) * forecast));
         };
         let (truth, fault) = references::make(part, renderer, Some(&self.store), &mut tell)?;
-        self.notes.extend(fault.map(|why| format!("The reference of {} is not kept: {why}.", part.name)));
+        self.notes.extend(fault.map(|why| format!("The reference of {}: {why}.", part.name)));
         self.clock.done((1.0 - there.unwrap_or(0.0)) * forecast);
         Ok(truth)
     }

@@ -7,7 +7,9 @@
 //! once, and can be made finer later.
 
 mod key;
+mod lock;
 mod maker;
+mod seal;
 mod store;
 
 pub use key::Key;
@@ -17,6 +19,7 @@ pub use store::{Store, StoreError, Usage};
 use compare::{CompareError, Errors};
 use film::{DisplayTransform, Film, Image, LayerValues, Pixel, Vec3};
 use image_file::{ImageFileError, Kind, Records};
+use seal::Seal;
 use std::path::Path;
 use technique::Shot;
 
@@ -41,12 +44,25 @@ pub fn records(shot: &Shot) -> Records {
     shot.reference_records(Maker::settings(0).estimator.name())
 }
 
+fn damaged(path: &Path) -> ImageFileError {
+    ImageFileError::Read { why: "it is damaged: it is not as it was written".into(), path: path.to_owned() }
+}
+
 impl Reference {
     /// Reads an .exr: one of this program with its standard error, or any picture without. A .png is read as well.
     ///
     /// # Errors
-    /// [`ImageFileError`]: one line that says why and names the path.
+    /// [`ImageFileError`]: one line that says why and names the path. One of this program that was changed since is
+    /// damaged.
     pub fn load(path: &Path) -> Result<Self, ImageFileError> {
+        match Seal::of(path) {
+            Ok(Seal::Broken) => Err(damaged(path)),
+            // what cannot be read is told below
+            _ => Reference::read(path),
+        }
+    }
+
+    fn read(path: &Path) -> Result<Self, ImageFileError> {
         let mut image = image_file::load(path)?;
         if Kind::of(path) == Some(Kind::Exr)
             && let Some(errors) = image_file::load_layer(path, STANDARD_ERROR, image.size())?
@@ -63,7 +79,7 @@ impl Reference {
         })
     }
 
-    /// The bytes of an EXR that [`Reference::load`] reads; `records` stand in its header too.
+    /// The bytes of an EXR that [`Reference::load`] reads, sealed; `records` stand in its header too.
     ///
     /// # Errors
     /// [`ImageFileError::Encode`].
@@ -74,7 +90,7 @@ impl Reference {
             ("seconds", self.seconds.to_string()),
             ("nonfinite", self.nonfinite.to_string()),
         ]);
-        image_file::encode(Kind::Exr, &self.image, &DisplayTransform::default(), &records)
+        image_file::encode(Kind::Exr, &self.image, &DisplayTransform::default(), &records).map(seal::sealed)
     }
 
     /// Standard error of each pixel's radiance, rows from the top; `None` of a picture that does not tell.

@@ -1,8 +1,12 @@
 //! References on disk: one file each in the user's cache folder, the ones not used for longest going when there are too
 //! many.
 
+use crate::lock::{LOCK_FILE, hold};
+use crate::seal::Seal;
 use crate::{Key, Reference};
 use image_file::{ImageFileError, Records};
+use std::fs::{DirEntry, File};
+use std::io::Read;
 use std::path::{Path, PathBuf};
 use std::time::SystemTime;
 
@@ -30,6 +34,9 @@ pub enum StoreError {
         /// The folder.
         folder: PathBuf,
     },
+    /// A reference is not what was written.
+    #[error("a reference that was kept is damaged and is made anew: {}", .0.display())]
+    Damaged(PathBuf),
     /// A reference cannot be written.
     #[error(transparent)]
     Picture(#[from] ImageFileError),
@@ -66,7 +73,8 @@ impl Store {
         let chosen = std::env::var_os("VISAVIS_CACHE").filter(|v| !v.is_empty()).map(PathBuf::from);
         let own = || image_file::cache_folder().map(|folder| folder.join("visavis").join("references"));
         let folder = chosen.or_else(own).ok_or(StoreError::NoFolder)?;
-        Ok(Store { folder, most_bytes })
+        // so that it is told as it is found
+        Ok(Store { folder: std::path::absolute(&folder).unwrap_or(folder), most_bytes })
     }
 
     /// A store in this folder, of at most so many bytes.
@@ -86,20 +94,52 @@ impl Store {
 
     /// The reference of this key, if it is there and whole.
     pub fn get(&self, key: Key) -> Option<Reference> {
-        let path = self.path(key);
-        let reference = Reference::load(&path).ok()?;
-        // that it was used decides how long it stays; a folder that is read-only keeps it anyway
-        let _ = std::fs::File::options().append(true).open(&path).and_then(|file| file.set_modified(SystemTime::now()));
-        Some(reference)
+        self.fetch(key).ok().flatten()
     }
 
-    /// Keeps a reference, in place of the one that is there; those used longest ago go where the limit asks for it.
+    /// The reference of this key, if it is there.
+    ///
+    /// # Errors
+    /// [`StoreError::Damaged`] if it is not whole.
+    pub fn fetch(&self, key: Key) -> Result<Option<Reference>, StoreError> {
+        let path = self.path(key);
+        // no other program puts another one in its place meanwhile
+        let _held = hold(&self.folder, false);
+        let kept = self.read(key)?;
+        if kept.is_some() {
+            // that it was used decides how long it stays; a folder that is read-only keeps it anyway
+            let _ = File::options().append(true).open(&path).and_then(|file| file.set_modified(SystemTime::now()));
+        }
+        Ok(kept)
+    }
+
+    fn read(&self, key: Key) -> Result<Option<Reference>, StoreError> {
+        let path = self.path(key);
+        let read = match Seal::of(&path) {
+            Err(_) => return Ok(None),
+            Ok(Seal::Whole) => Reference::read(&path).ok(),
+            Ok(Seal::Broken | Seal::Missing) => None,
+        };
+        read.map(Some).ok_or(StoreError::Damaged(path))
+    }
+
+    /// Keeps a reference, unless there is one already that is as fine; those used longest ago go where the limit asks
+    /// for it.
     ///
     /// # Errors
     /// [`StoreError::Folder`] or [`StoreError::Picture`], with what is there untouched.
     pub fn put(&self, key: Key, reference: &Reference, records: Records) -> Result<(), StoreError> {
         std::fs::create_dir_all(&self.folder).map_err(|why| self.fault(why))?;
-        image_file::write_whole(&self.path(key), &reference.encode(records)?)?;
+        let bytes = reference.encode(records)?;
+        let _held = hold(&self.folder, true);
+        // another program may have made a finer one since this one looked
+        if !self.read(key).is_ok_and(|kept| kept.is_some_and(|kept| kept.replicates >= reference.replicates)) {
+            image_file::write_whole(&self.path(key), &bytes)?;
+        }
+        self.make_room(key)
+    }
+
+    fn make_room(&self, key: Key) -> Result<(), StoreError> {
         let mut entries = self.entries()?;
         entries.sort_by_key(|entry| entry.used);
         let mut bytes: u64 = entries.iter().map(|entry| entry.bytes).sum();
@@ -107,7 +147,7 @@ impl Store {
             if bytes <= self.most_bytes {
                 break;
             }
-            self.remove(oldest)?;
+            self.remove(&oldest.path)?;
             bytes -= oldest.bytes;
         }
         Ok(())
@@ -122,21 +162,26 @@ impl Store {
         Ok(Usage { count: entries.len(), bytes: entries.iter().map(|entry| entry.bytes).sum() })
     }
 
-    /// Removes all references, and returns what there was.
+    /// Removes all references and what programs that were killed have left of others, and returns what references there
+    /// were.
     ///
     /// # Errors
     /// [`StoreError::Folder`] if one cannot be removed.
     pub fn clear(&self) -> Result<Usage, StoreError> {
+        let _held = hold(&self.folder, true);
         let usage = self.usage()?;
         for entry in self.entries()? {
-            self.remove(&entry)?;
+            self.remove(&entry.path)?;
+        }
+        for file in self.files()?.iter().filter(|file| is_left_over(file)) {
+            self.remove(&file.path())?;
         }
         Ok(usage)
     }
 
     /// That another program was faster is no fault.
-    fn remove(&self, entry: &Entry) -> Result<(), StoreError> {
-        match std::fs::remove_file(&entry.path) {
+    fn remove(&self, path: &Path) -> Result<(), StoreError> {
+        match std::fs::remove_file(path) {
             Err(why) if why.kind() != std::io::ErrorKind::NotFound => Err(self.fault(why)),
             _ => Ok(()),
         }
@@ -148,28 +193,54 @@ impl Store {
 
     /// References alone: whatever else lies in the folder is the user's.
     fn entries(&self) -> Result<Vec<Entry>, StoreError> {
-        let listing = match std::fs::read_dir(&self.folder) {
-            Err(e) if e.kind() == std::io::ErrorKind::NotFound => return Ok(Vec::new()),
-            listing => listing.map_err(|why| self.fault(why))?,
+        let of_file = |file: &DirEntry| {
+            let meta = file.metadata().ok().filter(|meta| meta.is_file() && is_reference(file))?;
+            let used = meta.modified().unwrap_or(SystemTime::UNIX_EPOCH);
+            Some(Entry { path: file.path(), bytes: meta.len(), used })
         };
-        let of_a_key = |name: &str| {
-            name.strip_suffix(".exr").is_some_and(|key| key.len() == 32 && u128::from_str_radix(key, 16).is_ok())
-        };
-        let mut entries = Vec::new();
-        for file in listing {
-            let file = file.map_err(|why| self.fault(why))?;
-            if file.file_name().to_str().is_some_and(of_a_key)
-                && let Ok(meta) = file.metadata()
-                && meta.is_file()
-            {
-                let used = meta.modified().unwrap_or(SystemTime::UNIX_EPOCH);
-                entries.push(Entry { path: file.path(), bytes: meta.len(), used });
-            }
+        Ok(self.files()?.iter().filter_map(of_file).collect())
+    }
+
+    /// All that lies in the folder; nothing if there is none.
+    fn files(&self) -> Result<Vec<DirEntry>, StoreError> {
+        match std::fs::read_dir(&self.folder).and_then(Iterator::collect) {
+            Err(e) if e.kind() == std::io::ErrorKind::NotFound => Ok(Vec::new()),
+            files => files.map_err(|why| self.fault(why)),
         }
-        Ok(entries)
     }
 
     fn fault(&self, why: std::io::Error) -> StoreError {
         StoreError::Folder { why, folder: self.folder.clone() }
     }
+}
+
+/// Whether a file is this program's by its name, and holds records of this program or nothing: others may have names of
+/// 32 digits as well.
+fn is_reference(file: &DirEntry) -> bool {
+    let name = file.file_name();
+    let is_named = name.to_str().and_then(|name| name.strip_suffix(".exr")).is_some_and(is_key);
+    is_named && head_of(&file.path()).is_ok_and(|head| head.is_empty() || head.windows(8).any(|w| w == b"visavis."))
+}
+
+fn is_key(word: &str) -> bool {
+    word.len() == 32 && word.bytes().all(|digit| matches!(digit, b'0'..=b'9' | b'a'..=b'f'))
+}
+
+/// Enough to hold records.
+fn head_of(path: &Path) -> std::io::Result<Vec<u8>> {
+    let mut head = Vec::new();
+    File::open(path)?.take(4096).read_to_end(&mut head)?;
+    Ok(head)
+}
+
+/// Whether a file was being written by a program that did not come to its end: those that are at it hold theirs.
+fn is_left_over(file: &DirEntry) -> bool {
+    let name = file.file_name();
+    let Some(name) = name.to_str() else { return false };
+    let is_partial = name.strip_suffix(".partial").is_some_and(|name| {
+        name.starts_with(".visavis-") || name.split_once(".exr.").is_some_and(|(key, _)| is_key(key))
+    });
+    let is_idle = || File::open(file.path()).is_ok_and(|opened| opened.try_lock().is_ok());
+    let is_file = file.file_type().is_ok_and(|kind| kind.is_file());
+    is_file && (name == LOCK_FILE || (is_partial && is_idle()))
 }

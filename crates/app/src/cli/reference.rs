@@ -62,7 +62,8 @@ fn course(reference: &Reference) -> String {
 pub fn obtain(shot: &Shot, goal: Option<Goal>) -> anyhow::Result<Reference> {
     let key = Key::of(shot);
     let store = Store::of_the_user().map_err(|fault| note!("note: {fault}")).ok();
-    let kept = store.as_ref().and_then(|store| store.get(key));
+    let fetched = store.as_ref().map_or(Ok(None), |store| store.fetch(key));
+    let kept = fetched.map_err(|fault| note!("note: {fault}")).ok().flatten();
     if let (Some(kept), None) = (&kept, goal) {
         return Ok(kept.clone());
     }

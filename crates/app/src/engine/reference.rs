@@ -117,7 +117,8 @@ impl References {
     fn make(&mut self, wish: &Wish, control: &ReferenceControl) {
         let key = Key::of(&wish.shot);
         let store = (self.open_store)().map_err(|fault| fail(control, fault.to_string())).ok();
-        let kept = store.as_ref().and_then(|store| store.get(key));
+        let fetched = store.as_ref().map_or(Ok(None), |store| store.fetch(key));
+        let kept = fetched.map_err(|fault| fail(control, fault.to_string())).ok().flatten();
         match &kept {
             Some(kept) => self.show(wish, kept, false, control),
             None => tell(control, wish, (0, None, 0.0), false),

@@ -156,6 +156,55 @@ fn a_store_that_refuses_is_told_and_does_no_harm() {
     assert_failed(&["reference"], &limit, 1, &["VISAVIS_CACHE_MIB much", "whole number"]);
 }
 
+/// As the XDG Base Directory Specification asks for; only the program's own variable is taken from the current folder.
+#[test]
+#[cfg(unix)]
+fn relative_folders_of_the_system_are_ignored() {
+    let workplace = Workplace::new();
+    let folder = |variables: &[(&str, &str)]| {
+        let mut program = program();
+        program.arg("reference").current_dir(workplace.0.path()).env_remove("VISAVIS_CACHE").env_remove("LOCALAPPDATA");
+        program.envs(variables.iter().copied()).output().expect("the program")
+    };
+    let home = workplace.0.path().canonicalize().expect("the folder");
+    let home = home.to_str().expect("a plain path");
+    let told = |variables: &[(&str, &str)]| {
+        let listing = String::from_utf8(folder(variables).stdout).expect("words");
+        listing.lines().next().and_then(|line| line.strip_prefix("folder  ")).expect("the folder").to_owned()
+    };
+    let in_home = told(&[("HOME", home), ("XDG_CACHE_HOME", "")]);
+    assert!(in_home.starts_with(&format!("{home}/")) && in_home.ends_with("/visavis/references"), "{in_home}");
+    for relative in ["cache", "./cache", "../cache"] {
+        assert_eq!(told(&[("HOME", home), ("XDG_CACHE_HOME", relative)]), in_home);
+    }
+    let nowhere = folder(&[("HOME", "."), ("XDG_CACHE_HOME", "cache")]);
+    assert_failed(&["reference"], &nowhere, 1, &["no home folder", "VISAVIS_CACHE"]);
+    assert_eq!(told(&[("VISAVIS_CACHE", "mine")]), format!("{home}/mine"));
+}
+
+#[test]
+fn a_damaged_reference_is_told_and_made_anew() {
+    let workplace = Workplace::new();
+    let reference = workplace.reference("cornell");
+    let store = workplace.0.file("store");
+    let kept = std::fs::read_dir(&store).expect("the store").next().expect("a reference").expect("a file").path();
+    for file in [&kept, Path::new(&reference)] {
+        let mut bytes = std::fs::read(file).expect("the file");
+        let middle = bytes.len() / 2;
+        bytes[middle] ^= 1;
+        std::fs::write(file, bytes).expect("the file");
+    }
+    let compared = ["compare", &reference, &reference];
+    assert_failed(&compared, &workplace.run(&compared), 1, &["reference.exr", "damaged"]);
+    let again = [&["reference", "cornell", "-o", &reference, "--noise", "1"], &SMALL[..]].concat();
+    let told = workplace.run(&again);
+    let said = String::from_utf8_lossy(&told.stderr);
+    assert!(told.status.success() && said.contains("note: a reference that was kept is damaged"), "{said}");
+    assert!(!String::from_utf8_lossy(&workplace.run(&again).stderr).contains("damaged"));
+    workplace.done(&compared);
+    assert!(workplace.done(&["reference"]).contains("count   1\n"));
+}
+
 /// A disk that is full, as a limit on the size of files: the same error of the same call.
 #[test]
 fn a_full_disk_is_one_line_and_no_half_a_file() {
