@@ -32,10 +32,12 @@ pub fn far_lamp(bench: &mut Bench) -> Outcome {
     let tracer = &mut bench.tracer(&places[0].scene)?;
     for place in &places {
         tracer.set_scene(&place.scene)?;
-        for estimator in SAMPLING {
-            bench.mean(&place.what, place.expected, (tracer, &place.camera), direct(estimator))?;
+        let integrators = SAMPLING.map(|estimator| Integrator::from(direct(estimator)));
+        for integrator in integrators.into_iter().chain([shadow_rays(2).into()]) {
+            let film = bench.film((tracer, &place.camera), integrator, FAR_PICTURE.0, FAR_PICTURE.1)?;
+            let measured = farthest(&film, place.expected);
+            bench.trial.equal(&subject(integrator), &place.what, place.expected, measured, 1e-5 * place.expected);
         }
-        bench.mean(&place.what, place.expected, (tracer, &place.camera), shadow_rays(2))?;
     }
     Ok(())
 }
