@@ -12,7 +12,8 @@ use crate::{
     Bsdf, Camera, Conductor, Geometry, Material, PointLight, Scene, SceneHash, Shape, Sun, Texture, nesting, stand_ins,
 };
 use glam::Vec3;
-use raw::{RawMaterial, RawScene, RawTexture};
+use number::Three;
+use raw::{CornerIndex, RawMaterial, RawScene, RawTexture, Table};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 use toml::Spanned;
@@ -124,10 +125,10 @@ fn build(raw: RawScene, name: &str, folder: &Path) -> Result<Scene, Fault> {
         places.push(wears.span());
         Ok(())
     };
-    for s in raw.sphere {
+    for Table(s) in raw.sphere {
         add(Geometry::Sphere { center: s.center.into(), radius: s.radius.get() }, s.material)?;
     }
-    for r in raw.rectangle {
+    for Table(r) in raw.rectangle {
         let (at, edge_u, edge_v) = (r.edge_v.span(), Vec3::from(r.edge_u), Vec3::from(r.edge_v.into_inner()));
         let [u, v] = [edge_u, edge_v].map(|edge| unit(edge).unwrap_or(Vec3::ZERO));
         if !(u.cross(v).length() > 1e-6) {
@@ -135,24 +136,28 @@ fn build(raw: RawScene, name: &str, folder: &Path) -> Result<Scene, Fault> {
         }
         add(Geometry::Rectangle { corner: r.corner.into(), edge_u, edge_v }, r.material)?;
     }
-    for d in raw.disk {
+    for Table(d) in raw.disk {
         let (at, normal) = (d.normal.span(), Vec3::from(d.normal.into_inner()));
         let Some(normal) = normal.as_dvec3().try_normalize().map(|n| n.as_vec3()) else {
             return fault(at, "the normal of a disk must not be zero");
         };
         add(Geometry::Disk { center: d.center.into(), normal, radius: d.radius.get() }, d.material)?;
     }
-    for b in raw.boxes {
-        let size = Vec3::from_array(b.size.map(|side| side.get()));
-        add(Geometry::Box { corner: b.corner.into(), size, turn_y: b.turn_y.get() }, b.material)?;
+    for Table(b) in raw.boxes {
+        add(Geometry::Box { corner: b.corner.into(), size: b.size.into(), turn_y: b.turn_y.get() }, b.material)?;
     }
-    for m in raw.mesh {
-        let corners = m.positions.len();
-        if let Some(&index) = m.triangles.get_ref().iter().flatten().find(|&&i| i as usize >= corners) {
-            return fault(m.triangles.span(), format!("corner {index} is named, but positions has {corners}"));
+    for Table(m) in raw.mesh {
+        let (corners, at) = (m.positions.len(), m.triangles.span());
+        let triangles = m.triangles.into_inner().into_iter().map(|Three(corners)| corners.map(CornerIndex::get));
+        let triangles: Vec<[u32; 3]> = triangles.collect();
+        if triangles.is_empty() {
+            return fault(at, "a mesh needs a triangle at least: expected lists of three corners");
+        }
+        if let Some(&index) = triangles.iter().flatten().find(|&&i| i as usize >= corners) {
+            return fault(at, format!("corner {index} is named, but positions has {corners}"));
         }
         let positions = m.positions.into_iter().map(Vec3::from).collect();
-        add(Geometry::mesh(positions, m.triangles.into_inner()), m.material)?;
+        add(Geometry::mesh(positions, triangles), m.material)?;
     }
     if let Some((first, second)) = nesting::overlap(&shapes, &materials) {
         let other = shapes[first].geometry.center();
@@ -164,19 +169,19 @@ fn build(raw: RawScene, name: &str, folder: &Path) -> Result<Scene, Fault> {
             ),
         );
     }
-    let sun = raw.sun.map(sun).transpose()?;
-    let (sky, environment) = sky::sky(raw.sky, folder)?;
+    let sun = raw.sun.map(|Table(raw)| sun(raw)).transpose()?;
+    let (sky, environment) = sky::sky(raw.sky.0, folder)?;
     let points = raw.point_light.into_iter();
-    let point_lights = points.map(|p| PointLight { position: p.position.into(), intensity: p.intensity.into() });
-    let d = FakeNumbers::default();
+    let point_lights = points.map(|Table(p)| PointLight { position: p.position.into(), intensity: p.intensity.into() });
+    let (d, raw_fake) = (FakeNumbers::default(), raw.fake.0);
     let fake = FakeNumbers {
-        ambient: raw.fake.ambient.map_or(d.ambient, |v| v.get()),
-        intensity: raw.fake.intensity.map_or(d.intensity, |v| v.get()),
-        light_position: raw.fake.light_position.map(Vec3::from),
-        shadow_half_width: raw.fake.shadow_half_width.map(|v| v.get()),
-        shadow_map: raw.fake.shadow_map.map_or(d.shadow_map, |v| v.get()),
-        cube_map: raw.fake.cube_map.map_or(d.cube_map, |v| v.get()),
-        segments: raw.fake.segments.map_or(d.segments, |v| v.get()),
+        ambient: raw_fake.ambient.map_or(d.ambient, |v| v.get()),
+        intensity: raw_fake.intensity.map_or(d.intensity, |v| v.get()),
+        light_position: raw_fake.light_position.map(Vec3::from),
+        shadow_half_width: raw_fake.shadow_half_width.map(|v| v.get()),
+        shadow_map: raw_fake.shadow_map.map_or(d.shadow_map, |v| v.get()),
+        cube_map: raw_fake.cube_map.map_or(d.cube_map, |v| v.get()),
+        segments: raw_fake.segments.map_or(d.segments, |v| v.get()),
     };
     let scene = Scene {
         name: name.to_owned(),
@@ -193,8 +198,8 @@ fn build(raw: RawScene, name: &str, folder: &Path) -> Result<Scene, Fault> {
     Ok(Scene { as_read: SceneHash::of(&scene), ..scene })
 }
 
-fn camera(raw: Spanned<raw::RawCamera>) -> Result<Camera, Fault> {
-    let (at, raw) = (raw.span(), raw.into_inner());
+fn camera(raw: Spanned<Table<raw::RawCamera>>) -> Result<Camera, Fault> {
+    let (at, Table(raw)) = (raw.span(), raw.into_inner());
     let camera = Camera {
         eye: raw.eye.into(),
         target: raw.target.into(),
@@ -217,19 +222,19 @@ fn sun(raw: raw::RawSun) -> Result<Sun, Fault> {
     Ok(Sun { towards, angular_radius, irradiance: raw.irradiance.into() })
 }
 
-fn material(name: String, raw: Spanned<RawMaterial>) -> Result<Material, Fault> {
-    let (at, raw) = (raw.span(), raw.into_inner());
+fn material(name: String, raw: Spanned<Table<RawMaterial>>) -> Result<Material, Fault> {
+    let (at, Table(raw)) = (raw.span(), raw.into_inner());
     let kinds = [raw.diffuse.is_some(), raw.mirror.is_some(), raw.rough_conductor.is_some(), raw.dielectric.is_some()];
     if kinds.iter().filter(|&&k| k).count() > 1 {
         return fault(at, format!("material '{name}' scatters in several ways: expected one of {LOBES}"));
     }
-    let bsdf = if let Some(diffuse) = raw.diffuse {
+    let bsdf = if let Some(Table(diffuse)) = raw.diffuse {
         Bsdf::Diffuse { albedo: texture(diffuse.albedo) }
-    } else if let Some(mirror) = raw.mirror {
+    } else if let Some(Table(mirror)) = raw.mirror {
         Bsdf::Mirror { reflectance: mirror.reflectance.into() }
-    } else if let Some(metal) = raw.rough_conductor {
+    } else if let Some(Table(metal)) = raw.rough_conductor {
         Bsdf::RoughConductor { roughness: metal.roughness.get(), conductor: conductor(metal, &name, at.clone())? }
-    } else if let Some(glass) = raw.dielectric {
+    } else if let Some(Table(glass)) = raw.dielectric {
         Bsdf::Dielectric { ior: glass.ior.get() }
     } else if raw.emissive.is_some() {
         Bsdf::Diffuse { albedo: Texture::Constant(Vec3::ZERO) }
@@ -239,13 +244,13 @@ fn material(name: String, raw: Spanned<RawMaterial>) -> Result<Material, Fault> 
     if raw.emissive.is_some() && matches!(bsdf, Bsdf::Dielectric { .. }) {
         return fault(at, format!("material '{name}': expected emissive alone, or with another lobe than dielectric"));
     }
-    let emission = raw.emissive.map(|e| Emission { radiance: e.radiance.into(), two_sided: e.two_sided });
-    let d = FakeMaterial::default();
+    let emission = raw.emissive.map(|Table(e)| Emission { radiance: e.radiance.into(), two_sided: e.two_sided });
+    let (d, raw_fake) = (FakeMaterial::default(), raw.fake.0);
     let fake = FakeMaterial {
-        refraction_ratio: raw.fake.refraction_ratio.map(|v| v.get()),
-        reflectivity: raw.fake.reflectivity.map_or(d.reflectivity, |v| v.get()),
-        specular: raw.fake.specular.map_or(d.specular, |v| v.get()),
-        shininess: raw.fake.shininess.map_or_else(|| stand_ins::usual_shininess(&bsdf), |v| v.get()),
+        refraction_ratio: raw_fake.refraction_ratio.map(|v| v.get()),
+        reflectivity: raw_fake.reflectivity.map_or(d.reflectivity, |v| v.get()),
+        specular: raw_fake.specular.map_or(d.specular, |v| v.get()),
+        shininess: raw_fake.shininess.map_or_else(|| stand_ins::usual_shininess(&bsdf), |v| v.get()),
     };
     Ok(Material { name, bsdf, emission, fake })
 }

@@ -1,9 +1,10 @@
-//! Numbers with a range. Each says in its error what it expected, and TOML adds where; so a NaN, an infinity or a
-//! number too large for f32 never gets past the file.
+//! Numbers with a range, and lists of three of them. Each says in its error what it expected, and TOML adds where; so a
+//! NaN, an infinity, a number too large for f32 or a list of another length never gets past the file.
 
 use glam::Vec3;
-use serde::de::{Deserialize, Deserializer, Error, Visitor};
+use serde::de::{Deserialize, Deserializer, Error, IgnoredAny, SeqAccess, Visitor};
 use std::fmt;
+use std::marker::PhantomData;
 
 /// A range of numbers, and its name in an error message.
 pub trait Range {
@@ -42,7 +43,7 @@ ranges! {
 
 /// A finite f32 in a [`Range`].
 #[derive(Debug, Clone, Copy)]
-pub struct Number<R>(f32, std::marker::PhantomData<R>);
+pub struct Number<R>(f32, PhantomData<R>);
 
 impl<R> Number<R> {
     pub fn get(self) -> f32 {
@@ -50,14 +51,47 @@ impl<R> Number<R> {
     }
 }
 
+/// A list of exactly three. An array of serde's own is filled from a longer list as well, whose rest is then lost.
+#[derive(Debug, Clone, Copy)]
+pub struct Three<T>(pub [T; 3]);
+
 /// Three numbers in a range: a point, a direction, a colour.
-#[derive(Debug, Clone, Copy, serde::Deserialize)]
-#[serde(transparent, bound = "R: Range")]
-pub struct Triple<R>([Number<R>; 3]);
+pub type Triple<R> = Three<Number<R>>;
 
 impl Default for Number<Any> {
     fn default() -> Self {
-        Number(0.0, std::marker::PhantomData)
+        Number(0.0, PhantomData)
+    }
+}
+
+impl<'de, T: Deserialize<'de>> Deserialize<'de> for Three<T> {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct List<T>(PhantomData<T>);
+        impl<'de, T: Deserialize<'de>> Visitor<'de> for List<T> {
+            type Value = Three<T>;
+
+            fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+                f.write_str("a list of three numbers")
+            }
+
+            fn visit_seq<A: SeqAccess<'de>>(self, mut list: A) -> Result<Three<T>, A::Error> {
+                let mut found = Vec::with_capacity(3);
+                while found.len() < 3
+                    && let Some(value) = list.next_element()?
+                {
+                    found.push(value);
+                }
+                let mut length = found.len();
+                while list.next_element::<IgnoredAny>()?.is_some() {
+                    length += 1;
+                }
+                match <[T; 3]>::try_from(found) {
+                    Ok(three) if length == 3 => Ok(Three(three)),
+                    _ => Err(A::Error::custom(format_args!("expected a list of three numbers, found one of {length}"))),
+                }
+            }
+        }
+        deserializer.deserialize_seq(List(PhantomData))
     }
 }
 
@@ -69,7 +103,7 @@ impl<R> From<Triple<R>> for Vec3 {
 
 impl<'de, R: Range> Deserialize<'de> for Number<R> {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        struct InRange<R>(std::marker::PhantomData<R>);
+        struct InRange<R>(PhantomData<R>);
         impl<R: Range> Visitor<'_> for InRange<R> {
             type Value = f32;
 
@@ -87,8 +121,8 @@ impl<'de, R: Range> Deserialize<'de> for Number<R> {
                 self.visit_f64(whole as f64)
             }
         }
-        let value = deserializer.deserialize_any(InRange::<R>(std::marker::PhantomData))?;
-        Ok(Number(value, std::marker::PhantomData))
+        let value = deserializer.deserialize_any(InRange::<R>(PhantomData))?;
+        Ok(Number(value, PhantomData))
     }
 }
 
@@ -104,9 +138,19 @@ impl<const LOW: u32, const HIGH: u32> Whole<LOW, HIGH> {
 
 impl<'de, const LOW: u32, const HIGH: u32> Deserialize<'de> for Whole<LOW, HIGH> {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        let value = i64::deserialize(deserializer)?;
-        let fits = u32::try_from(value).ok().filter(|v| (LOW..=HIGH).contains(v));
-        fits.map(Whole)
-            .ok_or_else(|| D::Error::custom(format_args!("{value} is not a whole number from {LOW} to {HIGH}")))
+        struct InRange<const LOW: u32, const HIGH: u32>;
+        impl<const LOW: u32, const HIGH: u32> Visitor<'_> for InRange<LOW, HIGH> {
+            type Value = u32;
+
+            fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+                write!(f, "a whole number from {LOW} to {HIGH}")
+            }
+
+            fn visit_i64<E: Error>(self, value: i64) -> Result<u32, E> {
+                let fits = u32::try_from(value).ok().filter(|v| (LOW..=HIGH).contains(v));
+                fits.ok_or_else(|| E::custom(format_args!("{value} is not a whole number from {LOW} to {HIGH}")))
+            }
+        }
+        deserializer.deserialize_any(InRange::<LOW, HIGH>).map(Whole)
     }
 }

@@ -1,33 +1,61 @@
 //! The scene file as it is written, value by value.
 
-use super::number::{AboveZero, Any, AtLeastZero, Extinction, Index, Number, Roughness, Triple, Whole, ZeroToOne};
+use super::number::{
+    AboveZero, Any, AtLeastZero, Extinction, Index, Number, Roughness, Three, Triple, Whole, ZeroToOne,
+};
 use serde::Deserialize;
+use serde::de::value::{MapAccessDeserializer, SeqAccessDeserializer};
+use serde::de::{Deserializer, MapAccess, SeqAccess, Visitor};
 use std::collections::BTreeMap;
+use std::fmt;
+use std::marker::PhantomData;
 use toml::Spanned;
+
+/// A table of names and values. A structure of serde's own is filled from a list as well, value by value.
+#[derive(Default)]
+pub struct Table<T>(pub T);
+
+impl<'de, T: Deserialize<'de>> Deserialize<'de> for Table<T> {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct Names<T>(PhantomData<T>);
+        impl<'de, T: Deserialize<'de>> Visitor<'de> for Names<T> {
+            type Value = T;
+
+            fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+                f.write_str("a table of names and values")
+            }
+
+            fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<T, A::Error> {
+                T::deserialize(MapAccessDeserializer::new(map))
+            }
+        }
+        deserializer.deserialize_map(Names(PhantomData)).map(Table)
+    }
+}
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct RawScene {
-    pub camera: Spanned<RawCamera>,
+    pub camera: Spanned<Table<RawCamera>>,
     #[serde(default)]
-    pub material: BTreeMap<String, Spanned<RawMaterial>>,
+    pub material: BTreeMap<String, Spanned<Table<RawMaterial>>>,
     #[serde(default)]
-    pub sphere: Vec<RawSphere>,
+    pub sphere: Vec<Table<RawSphere>>,
     #[serde(default)]
-    pub rectangle: Vec<RawRectangle>,
+    pub rectangle: Vec<Table<RawRectangle>>,
     #[serde(default)]
-    pub disk: Vec<RawDisk>,
+    pub disk: Vec<Table<RawDisk>>,
     #[serde(default, rename = "box")]
-    pub boxes: Vec<RawBox>,
+    pub boxes: Vec<Table<RawBox>>,
     #[serde(default)]
-    pub mesh: Vec<RawMesh>,
-    pub sun: Option<RawSun>,
+    pub mesh: Vec<Table<RawMesh>>,
+    pub sun: Option<Table<RawSun>>,
     #[serde(default)]
-    pub point_light: Vec<RawPointLight>,
+    pub point_light: Vec<Table<RawPointLight>>,
     #[serde(default)]
-    pub sky: RawSky,
+    pub sky: Table<RawSky>,
     #[serde(default)]
-    pub fake: RawFake,
+    pub fake: Table<RawFake>,
 }
 
 #[derive(Deserialize)]
@@ -44,13 +72,13 @@ pub struct RawCamera {
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct RawMaterial {
-    pub diffuse: Option<RawDiffuse>,
-    pub mirror: Option<RawMirror>,
-    pub rough_conductor: Option<RawRoughConductor>,
-    pub dielectric: Option<RawDielectric>,
-    pub emissive: Option<RawEmissive>,
+    pub diffuse: Option<Table<RawDiffuse>>,
+    pub mirror: Option<Table<RawMirror>>,
+    pub rough_conductor: Option<Table<RawRoughConductor>>,
+    pub dielectric: Option<Table<RawDielectric>>,
+    pub emissive: Option<Table<RawEmissive>>,
     #[serde(default)]
-    pub fake: RawFakeMaterial,
+    pub fake: Table<RawFakeMaterial>,
 }
 
 #[derive(Deserialize)]
@@ -75,22 +103,21 @@ pub struct RawCheckerboard {
 }
 
 impl<'de> Deserialize<'de> for RawTexture {
-    fn deserialize<D: serde::Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         struct Either;
-        impl<'de> serde::de::Visitor<'de> for Either {
+        impl<'de> Visitor<'de> for Either {
             type Value = RawTexture;
 
-            fn expecting(&self, f: &mut std::fmt::Formatter) -> std::fmt::Result {
+            fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
                 f.write_str("a colour [r, g, b] or a checkerboard { even, odd, origin, cell }")
             }
 
-            fn visit_seq<A: serde::de::SeqAccess<'de>>(self, seq: A) -> Result<RawTexture, A::Error> {
-                Deserialize::deserialize(serde::de::value::SeqAccessDeserializer::new(seq)).map(RawTexture::Constant)
+            fn visit_seq<A: SeqAccess<'de>>(self, seq: A) -> Result<RawTexture, A::Error> {
+                Deserialize::deserialize(SeqAccessDeserializer::new(seq)).map(RawTexture::Constant)
             }
 
-            fn visit_map<A: serde::de::MapAccess<'de>>(self, map: A) -> Result<RawTexture, A::Error> {
-                Deserialize::deserialize(serde::de::value::MapAccessDeserializer::new(map))
-                    .map(RawTexture::Checkerboard)
+            fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<RawTexture, A::Error> {
+                Deserialize::deserialize(MapAccessDeserializer::new(map)).map(RawTexture::Checkerboard)
             }
         }
         deserializer.deserialize_any(Either)
@@ -166,7 +193,7 @@ pub struct RawDisk {
 #[serde(deny_unknown_fields)]
 pub struct RawBox {
     pub corner: Triple<Any>,
-    pub size: [Number<AboveZero>; 3],
+    pub size: Triple<AboveZero>,
     #[serde(default = "unturned")]
     pub turn_y: Number<Any>,
     pub material: Spanned<String>,
@@ -176,11 +203,13 @@ fn unturned() -> Number<Any> {
     Number::default()
 }
 
+pub type CornerIndex = Whole<0, { u32::MAX }>;
+
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct RawMesh {
     pub positions: Vec<Triple<Any>>,
-    pub triangles: Spanned<Vec<[u32; 3]>>,
+    pub triangles: Spanned<Vec<Three<CornerIndex>>>,
     pub material: Spanned<String>,
 }
 

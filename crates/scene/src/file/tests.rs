@@ -185,3 +185,150 @@ fn skies_that_are_none_are_refused_in_one_line() {
     }
     std::fs::remove_dir_all(folder).unwrap();
 }
+
+/// A scene with every list that there is, each exactly as long as it must be.
+const LISTS: &str = r#"
+[camera]
+eye = [0, 0, 5]
+target = [0, 0, 0]
+up = [0, 1, 0]
+fov_y = 45
+
+[material.white]
+diffuse = { albedo = [0.5, 0.5, 0.5] }
+
+[material.board]
+diffuse = { albedo = { even = [1, 1, 1], odd = [0, 0, 0], origin = [0, 0, 0], cell = [1, 1, 1] } }
+
+[material.mirror]
+mirror = { reflectance = [1, 1, 1] }
+
+[material.metal]
+rough_conductor = { reflectance = [0.8, 0.8, 0.8], roughness = 0.5 }
+
+[material.copper]
+rough_conductor = { eta = [0.2, 0.9, 1], k = [4, 3, 2], roughness = 0.5 }
+
+[material.lamp]
+emissive = { radiance = [1, 1, 1] }
+
+[[sphere]]
+center = [0, 0, 0]
+radius = 1
+material = "white"
+
+[[rectangle]]
+corner = [0, 0, 0]
+edge_u = [1, 0, 0]
+edge_v = [0, 1, 0]
+material = "white"
+
+[[disk]]
+center = [0, 0, 0]
+normal = [0, 1, 0]
+radius = 1
+material = "white"
+
+[[box]]
+corner = [0, 0, 0]
+size = [1, 1, 1]
+material = "white"
+
+[[mesh]]
+positions = [[0, 0, 0], [1, 0, 0], [0, 1, 0]]
+triangles = [[0, 1, 2]]
+material = "white"
+
+[sun]
+towards = [0, 1, 0]
+angular_radius = 0
+irradiance = [1, 1, 1]
+
+[[point_light]]
+position = [0, 2, 0]
+intensity = [1, 1, 1]
+
+[sky]
+radiance = [1, 1, 1]
+
+[fake]
+light_position = [1, 1, 1]
+"#;
+
+/// Byte ranges of the lists of numbers in a text.
+fn lists_of_numbers(text: &str) -> Vec<Range<usize>> {
+    let closing = text.match_indices(']').map(|(end, _)| end);
+    let opened = closing.filter_map(|end| text[..end].rfind('[').map(|start| start..end + 1));
+    // what closes a list of lists finds the last of these, and a comma tells numbers from the name of a table
+    opened.filter(|list| text[list.clone()].contains(',') && text[list.clone()].matches(']').count() == 1).collect()
+}
+
+#[test]
+fn every_list_is_refused_where_it_stands_unless_it_has_three_numbers() {
+    assert!(parse(LISTS, "lists", Path::new("lists.toml")).is_ok());
+    let lists = lists_of_numbers(LISTS);
+    assert_eq!(lists.len(), 31);
+    for at in lists {
+        let numbers: Vec<&str> = LISTS[at.start + 1..at.end - 1].split(", ").collect();
+        let [a, b, c] = numbers[..] else { panic!("{numbers:?}") };
+        let (line, column) = line_and_column(LISTS, at.start);
+        let expected =
+            |length| format!("test.toml:{line}:{column}: expected a list of three numbers, found one of {length}");
+        for (list, length) in [
+            ("[]".into(), 0),
+            (format!("[{a}]"), 1),
+            (format!("[{a}, {b}]"), 2),
+            (format!("[{a}, {b}, {c}, {c}]"), 4),
+            (format!("[{a}, {b}, {c}, \"x\"]"), 4),
+            (format!("[{a}, {b}, {c}, [{c}], {{ w = 1 }}]"), 5),
+        ] {
+            let mut text = LISTS.to_owned();
+            text.replace_range(at.clone(), &list);
+            assert_eq!(fault_of(&text), expected(length), "{list}");
+        }
+        for list in [format!("[{a}, {b}, \"x\"]"), format!("[{a}, [{b}], {c}]"), format!("[[{a}, {b}, {c}]]"), a.into()]
+        {
+            let mut text = LISTS.to_owned();
+            text.replace_range(at.clone(), &list);
+            let said = fault_of(&text);
+            assert!(said.starts_with(&format!("test.toml:{line}:")) && said.contains("expected a"), "{list}: {said}");
+        }
+    }
+}
+
+#[test]
+fn a_list_does_not_pass_for_a_table() {
+    for (from, to) in [
+        ("diffuse = { albedo = [0.5, 0.5, 0.5] }", "diffuse = [[0.5, 0.5, 0.5]]"),
+        ("[camera]", "[[camera]]"),
+        ("[[sphere]]", "[[fake]]\n[[sphere]]"),
+        ("[[sphere]]", "[[material.white.fake]]\n[[sphere]]"),
+        ("[camera]", "disk = [[[0, 0, 0], [0, 1, 0], 1, \"white\"]]\n[camera]"),
+        ("[camera]", "sky = [[1, 1, 1]]\n[camera]"),
+        ("[camera]", "sun = [[0, 1, 0], 0, [1, 1, 1]]\n[camera]"),
+    ] {
+        let said = fault_of(&SMALL.replace(from, to));
+        assert!(said.contains("invalid type: sequence, expected a table of names and values"), "{to}: {said}");
+    }
+}
+
+#[test]
+fn a_mesh_without_triangles_is_refused() {
+    let mesh = "[[mesh]]\npositions = [[0, 0, 0]]\ntriangles = []\nmaterial = \"white\"\n";
+    let said = fault_of(&format!("{SMALL}{mesh}"));
+    assert!(said.starts_with("test.toml:16:13: a mesh needs a triangle at least"), "{said}");
+}
+
+#[test]
+fn whole_numbers_say_what_they_may_be() {
+    for (word, expected) in [
+        ("\"x\"", "invalid type: string \"x\", expected a whole number from 3 to 1024"),
+        ("4.5", "invalid type: floating point `4.5`, expected a whole number from 3 to 1024"),
+        ("[4]", "invalid type: sequence, expected a whole number from 3 to 1024"),
+        ("-4", "-4 is not a whole number from 3 to 1024"),
+        ("1025", "1025 is not a whole number from 3 to 1024"),
+    ] {
+        let said = fault_of(&format!("{SMALL}[fake]\nsegments = {word}\n"));
+        assert_eq!(said, format!("test.toml:15:12: {expected}"));
+    }
+}
