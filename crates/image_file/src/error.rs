@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 #[derive(Debug, Clone, thiserror::Error)]
 pub enum ImageFileError {
     /// It is damaged, missing, too large, or not what its name says.
-    #[error("cannot read the picture ({why}): {}", path.display())]
+    #[error("cannot read the picture ({why}): {}", shown(path))]
     Read {
         /// What stands in the way.
         why: String,
@@ -14,15 +14,23 @@ pub enum ImageFileError {
         path: PathBuf,
     },
     /// The disk is full, the folder is missing, it may not be written.
-    #[error("cannot write the file ({why}): {}", path.display())]
+    #[error("cannot write the file ({why}): {}", shown(path))]
     Write {
         /// What stands in the way.
         why: String,
         /// The file.
         path: PathBuf,
     },
+    /// It could not be written where it was asked for, and is somewhere else.
+    #[error("{fault}; it is kept as {}", shown(kept))]
+    Kept {
+        /// Why it is not where it was asked for.
+        fault: Box<ImageFileError>,
+        /// Where it is.
+        kept: PathBuf,
+    },
     /// The name tells no kind of picture.
-    #[error("cannot read the picture: its name must end in .png or .exr: {}", .0.display())]
+    #[error("cannot read the picture: its name must end in .png or .exr: {}", shown(.0))]
     Kind(PathBuf),
     /// The pixels make no file of this kind.
     #[error("cannot encode the picture as {0}: {1}")]
@@ -31,7 +39,7 @@ pub enum ImageFileError {
     #[error("there is no home folder and no current folder to save to: {0}")]
     NoFolder(String),
     /// Every numbered name is taken.
-    #[error("too many pictures of this name: {}", .0.display())]
+    #[error("too many pictures of this name: {}", shown(.0))]
     Names(PathBuf),
 }
 
@@ -47,4 +55,10 @@ impl ImageFileError {
 
 fn one_line(why: impl ToString) -> String {
     why.to_string().lines().collect::<Vec<_>>().join(", ")
+}
+
+/// A path in one line: a name may have any character but `/`.
+pub fn shown(path: &Path) -> String {
+    let escaped = |c: char| if c.is_control() { c.escape_default().to_string() } else { c.to_string() };
+    path.display().to_string().chars().map(escaped).collect()
 }

@@ -5,13 +5,15 @@ mod error;
 mod exr;
 mod folders;
 mod names;
+mod partial;
 mod png;
 mod whole;
 
-pub use error::ImageFileError;
+pub use error::{ImageFileError, shown};
 pub use folders::{cache_folder, default_folder, home_folder};
 pub use names::{free_name, typed_path};
-pub use whole::{check_writable, write_new, write_whole};
+pub use partial::remove_partial_files;
+pub use whole::{check_writable, write_new, write_or_keep, write_whole};
 
 use film::{DisplayTransform, Image, Layer, LayerValues, Vec3};
 use std::iter;

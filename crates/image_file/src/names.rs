@@ -1,6 +1,7 @@
 //! Names for pictures that nobody has named.
 
 use crate::{ImageFileError, home_folder};
+use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
 /// What a user has typed, as a path: blanks around it do not count, `~` is the home folder, and a name without a folder
@@ -19,9 +20,26 @@ pub fn typed_path(typed: &str, folder: &Path) -> PathBuf {
 /// # Errors
 /// If all of ten thousand do.
 pub fn free_name(path: &Path) -> Result<PathBuf, ImageFileError> {
-    let stem = path.file_stem().unwrap_or_default().to_string_lossy();
-    let extension = path.extension().unwrap_or_default().to_string_lossy();
-    let numbered = (2..10_000).map(|n| path.with_file_name(format!("{stem}-{n}.{extension}")));
+    let numbered = (2..10_000).map(|n| path.with_file_name(numbered(path, n)));
     let free = std::iter::once(path.to_owned()).chain(numbered).find(|path| path.symlink_metadata().is_err());
     free.ok_or_else(|| ImageFileError::Names(path.to_owned()))
+}
+
+/// Bytes that a name may have on the file systems of today.
+const LONGEST_NAME: usize = 255;
+
+/// `stem-2.png`; of a name that would become too long, as much as fits.
+fn numbered(path: &Path, number: u32) -> OsString {
+    let mut end = OsString::from(format!("-{number}"));
+    if let Some(extension) = path.extension() {
+        end.push(".");
+        end.push(extension);
+    }
+    let mut name = path.file_stem().unwrap_or_default().to_owned();
+    if name.len() + end.len() > LONGEST_NAME {
+        let stem = name.to_string_lossy();
+        name = stem[..stem.floor_char_boundary(LONGEST_NAME.saturating_sub(end.len()))].into();
+    }
+    name.push(end);
+    name
 }
