@@ -59,6 +59,9 @@ pub struct Outcome {
 
 /// Name of the page.
 const PAGE: &str = "bench.html";
+/// Names of the tables.
+const MEASUREMENTS: &str = "measurements.csv";
+const SUMMARY: &str = "summary.csv";
 /// Forecast of a fake's measurement, in seconds.
 const FAKE_SECONDS: f64 = 0.1;
 
@@ -83,7 +86,7 @@ pub fn run(options: &Options, progress: &mut dyn FnMut(&Progress)) -> Result<Out
         options.peers.iter().map(|path| peer::read(path)).collect::<Result<Vec<_>, _>>()?.concat();
     let folder = &options.folder;
     std::fs::create_dir_all(folder).map_err(|why| BenchError::Folder { why, folder: folder.clone() })?;
-    check_writable(&folder.join(PAGE))?;
+    [PAGE, MEASUREMENTS, SUMMARY].iter().try_for_each(|name| check_writable(&folder.join(name)))?;
     let mut notes = Vec::new();
     let (raster, gpu, adapter) = rasteriser();
     if raster.is_none() {
@@ -262,8 +265,8 @@ fn write_tables(
     summaries: &[PartSummary],
     measurements: &[Measurement],
 ) -> Result<(), BenchError> {
-    write_whole(&folder.join("measurements.csv"), tables::pictures(planned, measurements).as_bytes())?;
-    Ok(write_whole(&folder.join("summary.csv"), tables::summary(summaries).as_bytes())?)
+    write_whole(&folder.join(MEASUREMENTS), tables::pictures(planned, measurements).as_bytes())?;
+    Ok(write_whole(&folder.join(SUMMARY), tables::summary(summaries).as_bytes())?)
 }
 
 fn provenance(

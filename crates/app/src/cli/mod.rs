@@ -6,6 +6,7 @@ mod bench;
 mod check;
 mod compare;
 mod info;
+mod interrupt;
 mod original;
 mod reference;
 mod render;
@@ -42,6 +43,8 @@ pub enum CliError {
     Usage(String),
     /// The command failed: exit code 1.
     Failed(anyhow::Error),
+    /// The user ended the command before it was done, and what came of it is said: exit code 130.
+    Interrupted(Option<anyhow::Error>),
 }
 
 impl CliError {
@@ -50,14 +53,17 @@ impl CliError {
         match self {
             CliError::Usage(line) => one_line(&format!("{line} (visavis --help lists the options)")),
             CliError::Failed(error) => one_line(&format!("{error:#}")),
+            CliError::Interrupted(Some(error)) => one_line(&format!("interrupted: {error:#}")),
+            CliError::Interrupted(None) => "interrupted: what there was by then is kept".into(),
         }
     }
 
-    /// 1 or 2.
+    /// 1, 2 or 130.
     pub fn exit_code(&self) -> u8 {
         match self {
             CliError::Usage(_) => 2,
             CliError::Failed(_) => 1,
+            CliError::Interrupted(_) => interrupt::EXIT_CODE,
         }
     }
 }
@@ -72,19 +78,26 @@ impl Command {
     /// Does it.
     ///
     /// # Errors
-    /// [`CliError::Failed`] with one line for the user.
+    /// [`CliError::Failed`] or [`CliError::Interrupted`], with one line for the user.
     pub fn execute(self) -> Result<(), CliError> {
-        match self {
-            Command::View(args) => crate::window::open(&args)?,
-            Command::Render(mut args) => render::run(&mut args)?,
-            Command::Compare(args) => compare::run(&args)?,
-            Command::Bench(args) => bench::run(&args)?,
-            Command::Reference(args) => reference::run(&args)?,
-            Command::Check(args) => check::run(&args)?,
-            Command::Info => info::run()?,
-            Command::Print(text) => print(&text)?,
+        interrupt::listen();
+        match self.run() {
+            outcome if interrupt::is_asked() => Err(CliError::Interrupted(outcome.err())),
+            outcome => outcome.map_err(CliError::Failed),
         }
-        Ok(())
+    }
+
+    fn run(self) -> anyhow::Result<()> {
+        match self {
+            Command::View(args) => crate::window::open(&args),
+            Command::Render(mut args) => render::run(&mut args),
+            Command::Compare(args) => compare::run(&args),
+            Command::Bench(args) => bench::run(&args),
+            Command::Reference(args) => reference::run(&args),
+            Command::Check(args) => check::run(&args),
+            Command::Info => info::run(),
+            Command::Print(text) => print(&text),
+        }
     }
 }
 

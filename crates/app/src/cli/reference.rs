@@ -1,6 +1,6 @@
 //! `visavis reference`: references made, fetched and thrown away; and how other commands come by one.
 
-use super::ReferenceArgs;
+use super::{ReferenceArgs, interrupt};
 use crate::ruler::brief;
 use anyhow::Context;
 use pathtrace::FEWEST_REPLICATES;
@@ -33,15 +33,16 @@ pub fn run(args: &ReferenceArgs) -> anyhow::Result<()> {
         ReferenceArgs::Make { scene, out, seen, goal } => {
             let shot = seen.of(scene)?;
             image_file::check_writable(out)?;
+            let _heeded = interrupt::heed();
             let reference = obtain(&shot, Some(*goal))?;
-            image_file::write_whole(out, &reference.encode(::reference::records(&shot))?)?;
+            image_file::write_or_keep(out, &reference.encode(::reference::records(&shot))?)?;
             note!(
                 "reference of {} at {}x{}: {}: {}",
                 scene,
                 seen.size.0,
                 seen.size.1,
                 course(&reference),
-                out.display()
+                image_file::shown(out)
             );
             Ok(())
         }
@@ -57,8 +58,10 @@ fn course(reference: &Reference) -> String {
 /// The reference of what is seen. One from the store is taken as it is, unless there is a goal that it does not meet;
 /// what is made here is kept there. A store that cannot be used is told and does no harm.
 ///
+/// One that is interrupted is returned as it is, and kept if there is enough of it.
+///
 /// # Errors
-/// If there is no memory for it.
+/// If there is no memory for it, or if it was interrupted before it could tell its noise.
 pub fn obtain(shot: &Shot, goal: Option<Goal>) -> anyhow::Result<Reference> {
     let key = Key::of(shot);
     let store = Store::of_the_user().map_err(|fault| note!("note: {fault}")).ok();
@@ -77,7 +80,8 @@ pub fn obtain(shot: &Shot, goal: Option<Goal>) -> anyhow::Result<Reference> {
         }
     };
     let made = make(shot, &goal, kept.as_ref(), keep)?;
-    if kept.is_none_or(|kept| kept.replicates < made.replicates) {
+    anyhow::ensure!(made.replicates > 1, "there is no second picture yet by which a reference tells its noise");
+    if made.replicates >= FEWEST_REPLICATES && kept.is_none_or(|kept| kept.replicates < made.replicates) {
         keep(&made);
     }
     Ok(made)
@@ -91,9 +95,9 @@ fn make(shot: &Shot, goal: &Goal, begun: Option<&Reference>, keep: impl Fn(&Refe
     let mut maker = Maker::new(&mut renderer, shot, begun)
         .with_context(|| format!("not enough memory for {width}x{height} pixels; ask for a smaller --size"))?;
     let progress = Progress::of(maker.progress(goal));
+    let _heeded = interrupt::heed();
     let mut next_kept = (2 * FEWEST_REPLICATES).max(2 * maker.replicates());
-    while !maker.is_done(goal) {
-        maker.step(&|| false);
+    while !maker.is_done(goal) && maker.step(&interrupt::is_asked) {
         progress.show(&maker, goal);
         if maker.replicates() >= next_kept && !maker.is_done(goal) {
             next_kept *= 2;

@@ -1,6 +1,6 @@
 //! `visavis render`: a picture to a file, without a window.
 
-use super::{RenderArgs, reference};
+use super::{RenderArgs, interrupt, reference};
 use crate::ruler::{brief, error_records, noise_line};
 use anyhow::Context;
 use compare::Errors;
@@ -48,13 +48,16 @@ pub fn run(args: &mut RenderArgs) -> anyhow::Result<()> {
         "a map has no errors: --errors needs a picture of the scene's light (--show picture, and not --technique normals)"
     );
     image_file::check_writable(&args.out)?;
+    let _heeded = interrupt::heed();
     let Timed { rendered, seconds } = match technique {
         Technique::Fake(fake) => raster(args, &fake.applied_to(&scene), fake)?,
         Technique::Traced(traced) => trace(args, &shot, traced)?,
     };
     let image = rendered.film.image();
-    let errors = if args.errors { Some(measure(&shot, &image)?) } else { None };
-    save(args, shot, (&rendered, seconds), &image, errors.as_ref())?;
+    let measured = args.errors.then(|| measure(&shot, &image)).transpose();
+    save(args, shot, (&rendered, seconds), &image, measured.as_ref().ok().and_then(Option::as_ref))?;
+    let out = image_file::shown(&args.out);
+    let errors = measured.with_context(|| format!("the picture is saved without its errors: {out}"))?;
     if rendered.film.nonfinite > 0 {
         note!(
             "visavis: {} samples were not finite and are left out: please report this scene",
@@ -74,7 +77,7 @@ pub fn run(args: &mut RenderArgs) -> anyhow::Result<()> {
             args.seen.size.0,
             args.seen.size.1,
             seconds,
-            args.out.display()
+            out
         );
         if let Some(e) = errors {
             let noise = noise_line(&e).map_or_else(String::new, |line| format!(", noise {line}"));
@@ -104,7 +107,7 @@ fn save(
     records.extend(errors.into_iter().flat_map(|e| error_records(e, "reference".into())));
     let kind = Kind::of(&args.out).context("a picture's name must end in .png or .exr")?;
     let bytes = image_file::encode(kind, image, &DisplayTransform { exposure: args.exposure }, &records)?;
-    Ok(image_file::write_whole(&args.out, &bytes)?)
+    Ok(image_file::write_or_keep(&args.out, &bytes)?)
 }
 
 fn tell_what_has_no_effect(args: &RenderArgs, scene: &Scene) {
@@ -182,7 +185,8 @@ struct Terminal {
 impl Watch for Terminal {
     /// One sample of every pixel is made however late it is.
     fn ends_soon(&self, spp: u32) -> bool {
-        spp > 0 && self.limit.is_some_and(|limit| self.start.elapsed() >= limit)
+        let late = || self.limit.is_some_and(|limit| self.start.elapsed() >= limit);
+        spp > 0 && (interrupt::is_asked() || late())
     }
 
     /// Passes of a quarter of a second, or of what is left of the time.

@@ -77,7 +77,9 @@ impl Service for Exports {
     fn serve(&mut self, queue: Vec<Export>, control: &Control<Vec<Export>, Vec<Outcome>>) {
         for export in queue {
             let outcome = match &export.to {
-                Destination::File(path) => save(&export, path).map(|path| format!("Saved {}", path.display())),
+                Destination::File(path) => {
+                    save(&export, path).map(|path| format!("Saved {}", image_file::shown(&path)))
+                }
                 Destination::Clipboard => copy(&export, &mut self.clipboard).map(|()| "Copied the picture".into()),
             };
             control.tell(|list| list.push(outcome.map_err(|fault| format!("{fault:#}"))));

@@ -5,6 +5,7 @@
 mod bench;
 mod changed_scenes;
 mod device;
+mod files;
 mod films;
 mod pictures;
 mod references;
