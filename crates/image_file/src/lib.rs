@@ -7,13 +7,14 @@ mod folders;
 mod names;
 mod partial;
 mod png;
+mod primaries;
 mod whole;
 
 pub use error::{ImageFileError, shown};
 pub use folders::{cache_folder, default_folder, home_folder};
 pub use names::{free_name, typed_path};
 pub use partial::remove_partial_files;
-pub use whole::{check_writable, write_new, write_or_keep, write_whole};
+pub use whole::{check_writable, is_same_file, write_new, write_or_keep, write_whole};
 
 use film::{DisplayTransform, Image, Layer, LayerValues, Vec3};
 use std::iter;
@@ -108,20 +109,41 @@ pub fn load_layer(path: &Path, name: &str, size: (u32, u32)) -> Result<Option<La
     exr::layer(path, name, size)
 }
 
-/// Reads an .exr as it is, also what is not finite, or a .png with its sRGB encoding undone; without further layers.
+/// A picture that was read.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Loaded {
+    /// Linear radiance in the colours of Rec. 709; without further layers.
+    pub image: Image,
+    /// What of the file it does not show, or shows by a choice of this program: a line each, the path last.
+    pub notes: Vec<String>,
+}
+
+/// Reads a picture. An .exr is read as it is, also what is not finite; over its display window, black where it has no data;
+/// its R, G and B, those of the layer that is named as a renderer's picture or of the only one, else its luminance Y. A .png
+/// is read as its chunks say, else as sRGB, over black. Other primaries are converted.
 ///
 /// # Errors
 /// [`ImageFileError`]: one line that says why and names the path.
-pub fn load(path: &Path) -> Result<Image, ImageFileError> {
+pub fn read(path: &Path) -> Result<Loaded, ImageFileError> {
     // a pipe or a device might never end
     if std::fs::metadata(path).is_ok_and(|found| !found.is_file()) {
         return Err(ImageFileError::read(path, "it is not a file"));
     }
-    match Kind::of(path) {
+    let mut loaded = match Kind::of(path) {
         Some(Kind::Png) => png::load(path),
         Some(Kind::Exr) => exr::load(path),
         None => Err(ImageFileError::Kind(path.to_owned())),
-    }
+    }?;
+    loaded.notes.iter_mut().for_each(|note| *note += &format!(": {}", shown(path)));
+    Ok(loaded)
+}
+
+/// As [`read`], for whom what the picture does not show is nothing to tell of.
+///
+/// # Errors
+/// As [`read`].
+pub fn load(path: &Path) -> Result<Image, ImageFileError> {
+    read(path).map(|loaded| loaded.image)
 }
 
 /// What a picture of this program keeps about how it was made, names and values; empty for other pictures.

@@ -1,8 +1,13 @@
 //! PNG: sRGB bytes, and records in text chunks as `visavis.name`.
 
-use super::{ImageFileError, Records, check_pixels, image_of};
-use film::{Image, Vec3, colour};
-use std::path::Path;
+mod chunks;
+mod colours;
+mod read;
+
+pub use chunks::records;
+pub use read::load;
+
+use super::{ImageFileError, Records};
 
 /// Opaque RGBA bytes as a PNG without alpha.
 pub fn bytes(width: u32, height: u32, rgba: &[u8], records: &Records) -> Result<Vec<u8>, ImageFileError> {
@@ -24,32 +29,4 @@ fn encode(width: u32, height: u32, rgba: &[u8], records: &Records) -> Result<Vec
     writer.write_image_data(&rgb)?;
     writer.finish()?;
     Ok(bytes)
-}
-
-/// The records of a PNG of this program; none in another's.
-pub fn records(path: &Path) -> Result<Vec<(String, String)>, ImageFileError> {
-    let file = std::fs::File::open(path).map_err(|e| ImageFileError::read(path, e))?;
-    let reader =
-        png::Decoder::new(std::io::BufReader::new(file)).read_info().map_err(|e| ImageFileError::read(path, e))?;
-    // this program does not compress them, and what others compress may be of any size
-    let ours = |chunk: &png::text_metadata::ITXtChunk| {
-        if chunk.compressed {
-            return None;
-        }
-        Some((chunk.keyword.strip_prefix("visavis.")?.to_owned(), chunk.get_text().ok()?))
-    };
-    Ok(reader.info().utf8_text.iter().filter_map(ours).collect())
-}
-
-/// A PNG with its sRGB encoding undone.
-pub fn load(path: &Path) -> Result<Image, ImageFileError> {
-    let (width, height) = image::image_dimensions(path).map_err(|e| ImageFileError::read(path, e))?;
-    check_pixels(width as usize, height as usize, path)?;
-    let picture = image::ImageReader::open(path)
-        .map_err(image::ImageError::from)
-        .and_then(image::ImageReader::decode)
-        .map_err(|e| ImageFileError::read(path, e))?
-        .into_rgb32f();
-    let radiances = picture.pixels().map(|p| Vec3::from_array(p.0.map(colour::srgb_decode))).collect();
-    image_of(picture.dimensions(), radiances, path)
 }

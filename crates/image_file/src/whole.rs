@@ -77,6 +77,16 @@ fn move_to_new(partial: &Path, path: &Path) -> std::io::Result<()> {
     }
 }
 
+/// Whether two names stand for one file, which writing to either changes.
+pub fn is_same_file(a: &Path, b: &Path) -> bool {
+    #[cfg(unix)]
+    if let (Ok(a), Ok(b)) = (a.metadata(), b.metadata()) {
+        use std::os::unix::fs::MetadataExt;
+        return (a.dev(), a.ino()) == (b.dev(), b.ino());
+    }
+    matches!((a.canonicalize(), b.canonicalize()), (Ok(a), Ok(b)) if a == b)
+}
+
 /// The file that a name stands for: links are written through, not replaced.
 fn target_of(path: &Path) -> std::io::Result<PathBuf> {
     let mut target = path.to_owned();

@@ -18,7 +18,7 @@ pub use store::{Store, StoreError, Usage};
 
 use compare::{CompareError, Errors};
 use film::{DisplayTransform, Film, Image, LayerValues, Pixel, Vec3};
-use image_file::{ImageFileError, Kind, Records};
+use image_file::{ImageFileError, Kind, Loaded, Records};
 use seal::Seal;
 use std::path::Path;
 use technique::Shot;
@@ -55,6 +55,14 @@ impl Reference {
     /// [`ImageFileError`]: one line that says why and names the path. One of this program that was changed since is
     /// damaged.
     pub fn load(path: &Path) -> Result<Self, ImageFileError> {
+        Reference::load_with_notes(path).map(|(reference, _)| reference)
+    }
+
+    /// As [`Reference::load`], with what of the file the picture does not show, a line each.
+    ///
+    /// # Errors
+    /// As [`Reference::load`].
+    pub fn load_with_notes(path: &Path) -> Result<(Self, Vec<String>), ImageFileError> {
         match Seal::of(path) {
             Ok(Seal::Broken) => Err(damaged(path)),
             // what cannot be read is told below
@@ -62,8 +70,8 @@ impl Reference {
         }
     }
 
-    fn read(path: &Path) -> Result<Self, ImageFileError> {
-        let mut image = image_file::load(path)?;
+    fn read(path: &Path) -> Result<(Self, Vec<String>), ImageFileError> {
+        let Loaded { mut image, notes } = image_file::read(path)?;
         if Kind::of(path) == Some(Kind::Exr)
             && let Some(errors) = image_file::load_layer(path, STANDARD_ERROR, image.size())?
         {
@@ -71,12 +79,13 @@ impl Reference {
         }
         let records = image_file::records(path)?;
         let number = |name: &str| records.iter().find(|(known, _)| known == name).and_then(|(_, v)| v.parse().ok());
-        Ok(Reference {
+        let reference = Reference {
             image,
             replicates: number("replicates").unwrap_or(0.0) as u32,
             seconds: number("seconds").unwrap_or(0.0),
             nonfinite: number("nonfinite").unwrap_or(0.0) as u64,
-        })
+        };
+        Ok((reference, notes))
     }
 
     /// The bytes of an EXR that [`Reference::load`] reads, sealed; `records` stand in its header too.

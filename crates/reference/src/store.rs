@@ -117,7 +117,7 @@ impl Store {
         let path = self.path(key);
         let read = match Seal::of(&path) {
             Err(_) => return Ok(None),
-            Ok(Seal::Whole) => Reference::read(&path).ok(),
+            Ok(Seal::Whole) => Reference::read(&path).ok().map(|(reference, _)| reference),
             Ok(Seal::Broken | Seal::Missing) => None,
         };
         read.map(Some).ok_or(StoreError::Damaged(path))

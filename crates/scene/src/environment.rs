@@ -14,6 +14,7 @@ pub struct EnvironmentMap {
     scale: f32,
     rotation: f32,
     mean: Vec3,
+    notes: Vec<String>,
 }
 
 impl EnvironmentMap {
@@ -44,7 +45,17 @@ impl EnvironmentMap {
             return Err(format!("pixel ({x}, {y}) is {colour}: a sky's radiance lies between 0 and 1e12, scaled"));
         }
         let mean = mean_radiance(&image) * scale;
-        Ok(EnvironmentMap { image, scale, rotation, mean })
+        Ok(EnvironmentMap { image, scale, rotation, mean, notes: Vec::new() })
+    }
+
+    /// The same, with what of its file the picture does not show.
+    pub fn with_notes(self, notes: Vec<String>) -> Self {
+        EnvironmentMap { notes, ..self }
+    }
+
+    /// What of its file the picture does not show, a line each.
+    pub fn notes(&self) -> &[String] {
+        &self.notes
     }
 
     /// The picture as it was read.

@@ -9,7 +9,7 @@ use anyhow::ensure;
 use compare::flip::{PIXELS_PER_DEGREE, hdr_flip};
 use compare::{ErrorMetric, Errors, finite_mean};
 use film::{DisplayTransform, Image};
-use image_file::{Kind, Records};
+use image_file::{Kind, Loaded, Records};
 use serde_json::json;
 use std::path::Path;
 
@@ -23,7 +23,8 @@ struct Comparison {
 }
 
 pub fn run(args: &CompareArgs) -> anyhow::Result<()> {
-    let a = image_file::load(&args.film)?;
+    let Loaded { image: a, notes } = image_file::read(&args.film)?;
+    tell(&notes);
     if let Some(out) = &args.heatmap {
         refuse_to_overwrite(args, out)?;
         image_file::check_writable(out)?;
@@ -31,7 +32,9 @@ pub fn run(args: &CompareArgs) -> anyhow::Result<()> {
     let r = match &args.reference {
         Some(file) => {
             tell_of_two_scenes(&args.film, file);
-            Reference::load(file)?
+            let (reference, notes) = Reference::load_with_notes(file)?;
+            tell(&notes);
+            reference
         }
         None => reference_of(&args.film, &a)?,
     };
@@ -53,11 +56,19 @@ pub fn run(args: &CompareArgs) -> anyhow::Result<()> {
     super::print(&text)
 }
 
+/// What of the files is not compared.
+fn tell(notes: &[String]) {
+    notes.iter().for_each(|line| note!("note: {line}"));
+}
+
 /// A map must not take the place of what it is a map of.
 fn refuse_to_overwrite(args: &CompareArgs, out: &Path) -> anyhow::Result<()> {
-    let same = |file: &Path| matches!((file.canonicalize(), out.canonicalize()), (Ok(a), Ok(b)) if a == b);
-    let taken = std::iter::once(&args.film).chain(&args.reference).any(|file| same(file));
-    ensure!(!taken, "--heatmap would overwrite a picture that is compared; give another name: {}", out.display());
+    let taken = std::iter::once(&args.film).chain(&args.reference).any(|file| image_file::is_same_file(file, out));
+    ensure!(
+        !taken,
+        "--heatmap would overwrite a picture that is compared; give another name: {}",
+        image_file::shown(out)
+    );
     Ok(())
 }
 
@@ -105,7 +116,7 @@ fn measure(pair: &Pair, reference: &Reference) -> anyhow::Result<Comparison> {
 fn draw(args: &CompareArgs, pair: &Pair, out: &Path) -> anyhow::Result<HeatMap> {
     let map = HeatMap::of(pair, args.map, args.scale)?;
     let kind = Kind::of(out).unwrap_or(Kind::Png);
-    image_file::write_whole(out, &map.encode(kind, pair, Records::new())?)?;
+    image_file::write_or_keep(out, &map.encode(kind, pair, Records::new())?)?;
     Ok(map)
 }
 

@@ -99,7 +99,10 @@ impl Service for References {
         let Some(wish) = wish else { return };
         let Origin::File(file) = &wish.origin else { return self.make(&wish, control) };
         match load(file, wish.shot.size) {
-            Ok(reference) => self.show(&wish, &reference, true, control),
+            Ok((reference, notes)) => {
+                self.show(&wish, &reference, true, control);
+                notes.into_iter().for_each(|line| fail(control, line));
+            }
             Err(fault) => {
                 fail(control, fault);
                 self.make(&Wish { origin: Origin::Made, ..wish.clone() }, control);
@@ -180,12 +183,12 @@ fn fail(control: &ReferenceControl, fault: String) {
     control.tell(|update| update.faults.push(fault));
 }
 
-/// A reference from a file, of the size of the picture.
-fn load(file: &Path, (width, height): (u32, u32)) -> Result<Reference, String> {
-    let reference = Reference::load(file).map_err(|fault| fault.to_string())?;
+/// A reference from a file, of the size of the picture, and what of the file it does not show.
+fn load(file: &Path, (width, height): (u32, u32)) -> Result<(Reference, Vec<String>), String> {
+    let (reference, notes) = Reference::load_with_notes(file).map_err(|fault| fault.to_string())?;
     let (w, h) = reference.image.size();
     if (w, h) == (width, height) {
-        return Ok(reference);
+        return Ok((reference, notes));
     }
     Err(format!("the reference has {w}x{h} pixels, the picture {width}x{height}: {}", file.display()))
 }

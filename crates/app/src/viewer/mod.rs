@@ -62,7 +62,9 @@ impl Viewer {
         self.follow_the_reference();
         match self.engine.loaded() {
             Some(Ok(opened)) => {
-                self.model.say(Ok(format!("Opened {}", opened.scene.name)));
+                let notes = opened.scene.environment.iter().flat_map(|map| map.notes()).cloned();
+                let lines = std::iter::once(format!("Opened {}", opened.scene.name)).chain(notes);
+                self.model.say(Ok(lines.collect::<Vec<_>>().join("; ")));
                 self.model.open(opened.scene, opened.source);
                 self.presentation.clear();
             }

@@ -96,3 +96,32 @@ fn spp_of(file: &Path) -> u32 {
     let spp = records.iter().find(|(name, _)| name == "spp").expect("its samples");
     spp.1.parse().expect("a number")
 }
+
+#[test]
+fn pictures_of_other_programs_are_compared_with_a_word_about_what_is_not() {
+    let folder = TestFolder::new();
+    let file = |name: &str| folder.file(name).to_str().expect("a plain path").to_owned();
+    let (first, second) = (file("first.exr"), file("second.exr"));
+    for (path, corner) in [(&first, (0, 0)), (&second, (1, 1))] {
+        write_region(Path::new(path), corner);
+    }
+    let done = visavis(&["compare", &first, &second]);
+    let said = String::from_utf8_lossy(&done.stderr);
+    assert!(done.status.success(), "{said}");
+    for (name, place) in [("first.exr", "(0, 0)"), ("second.exr", "(1, 1)")] {
+        let note = said.lines().find(|line| line.ends_with(name)).unwrap_or_else(|| panic!("{said}"));
+        assert!(note.starts_with(&format!("note: its data window is 1x1 pixels at {place}")), "{note}");
+    }
+    // each is white where the other is black, in two of four pixels
+    assert!(String::from_utf8_lossy(&done.stdout).starts_with("RMSE      0.707107"));
+}
+
+/// One white pixel of a picture of two by two.
+fn write_region(path: &Path, corner: (i32, i32)) {
+    use exr::prelude::*;
+    let attributes = LayerAttributes { layer_position: corner.into(), ..LayerAttributes::default() };
+    let channels = SpecificChannels::rgb(|_| (1.0_f32, 1.0_f32, 1.0_f32));
+    let layer = Layer::new((1, 1), attributes, Encoding::FAST_LOSSLESS, channels);
+    let window = ImageAttributes::new(IntegerBounds::new((0, 0), (2, 2)));
+    Image::new(window, layer).write().to_file(path).expect("an EXR");
+}

@@ -125,6 +125,7 @@ mod on_unix {
         std::fs::hard_link(&path, &other).unwrap();
         check_and_write(&path, b"both").unwrap();
         assert_eq!((read(&other), other.metadata().unwrap().nlink()), (b"both".to_vec(), 2));
+        assert!(is_same_file(&path, &other) && !is_same_file(&path, &folder.file("none.png")));
     }
 
     #[test]

@@ -4,6 +4,7 @@ use super::raw::RawSky;
 use super::{Fault, fault};
 use crate::EnvironmentMap;
 use glam::Vec3;
+use image_file::Loaded;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -22,11 +23,12 @@ pub(super) fn sky(raw: RawSky, folder: &Path) -> Result<(Vec3, Option<Arc<Enviro
         return fault(at, "a sky has a radiance or an image, not both");
     }
     let path = folder.join(image.get_ref());
-    let map = image_file::load(&path).map_err(|why| why.to_string()).and_then(|image| {
+    let map = image_file::read(&path).map_err(|why| why.to_string()).and_then(|Loaded { image, notes }| {
         let number = |number: Option<f32>, usual| number.unwrap_or(usual);
         let scale = number(scale.map(|scale| scale.into_inner().get()), 1.0);
         let rotation = number(rotation.map(|rotation| rotation.into_inner().get()), 0.0);
-        EnvironmentMap::new(image, scale, rotation).map_err(|why| format!("{}: {why}", path.display()))
+        let map = EnvironmentMap::new(image, scale, rotation).map_err(|why| format!("{}: {why}", path.display()))?;
+        Ok(map.with_notes(notes))
     });
     match map {
         Ok(map) => Ok((map.mean(), Some(Arc::new(map)))),
