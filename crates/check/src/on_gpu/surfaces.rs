@@ -5,7 +5,7 @@ use crate::area_lights::{direct, shadow_rays};
 use crate::dielectrics::{to_depth, without_roulette};
 use crate::measure::{farthest, subject};
 use crate::surfaces::{
-    CONTACT_DEPTH, Place, SAMPLING, boards, coinciding_lamps, contacts, endless, far_lamps, galleries,
+    CONTACT_DEPTH, FAR_PICTURE, Place, SAMPLING, boards, coinciding_lamps, contacts, endless, far_lamps, galleries,
 };
 use pathtrace::gpu::GpuTracer;
 use pathtrace::{Estimator, Integrator};
