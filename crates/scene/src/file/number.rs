@@ -16,6 +16,8 @@ pub trait Range {
 
 /// Squares and volumes of larger numbers leave f32 behind.
 const LARGEST: f32 = 1e12;
+/// As do squares and volumes of smaller lengths, below the least number that is not 0.
+const SMALLEST: f32 = 1e-12;
 
 macro_rules! ranges {
     ($($name:ident, $expected:literal, $holds:expr;)*) => {$(
@@ -33,6 +35,7 @@ macro_rules! ranges {
 
 ranges! {
     Any, "a finite number within +-1e12", |v| v.abs() <= LARGEST;
+    Length, "a finite number from 1e-12 to 1e12", |v| (SMALLEST..=LARGEST).contains(&v);
     AboveZero, "a finite number above 0 and at most 1e12", |v| v > 0.0 && v <= LARGEST;
     AtLeastZero, "a finite number from 0 to 1e12", |v| (0.0..=LARGEST).contains(&v);
     ZeroToOne, "a number from 0 to 1", |v| (0.0..=1.0).contains(&v);

@@ -1,7 +1,7 @@
 //! The scene file as it is written, value by value.
 
 use super::number::{
-    AboveZero, Any, AtLeastZero, Extinction, Index, Number, Roughness, Three, Triple, Whole, ZeroToOne,
+    AboveZero, Any, AtLeastZero, Extinction, Index, Length, Number, Roughness, Three, Triple, Whole, ZeroToOne,
 };
 use serde::Deserialize;
 use serde::de::value::{MapAccessDeserializer, SeqAccessDeserializer};
@@ -167,7 +167,7 @@ pub struct RawFakeMaterial {
 #[serde(deny_unknown_fields)]
 pub struct RawSphere {
     pub center: Triple<Any>,
-    pub radius: Number<AboveZero>,
+    pub radius: Number<Length>,
     pub material: Spanned<String>,
 }
 
@@ -185,7 +185,7 @@ pub struct RawRectangle {
 pub struct RawDisk {
     pub center: Triple<Any>,
     pub normal: Spanned<Triple<Any>>,
-    pub radius: Number<AboveZero>,
+    pub radius: Number<Length>,
     pub material: Spanned<String>,
 }
 
@@ -193,7 +193,7 @@ pub struct RawDisk {
 #[serde(deny_unknown_fields)]
 pub struct RawBox {
     pub corner: Triple<Any>,
-    pub size: Triple<AboveZero>,
+    pub size: Triple<Length>,
     #[serde(default = "unturned")]
     pub turn_y: Number<Any>,
     pub material: Spanned<String>,

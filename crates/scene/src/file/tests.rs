@@ -80,11 +80,11 @@ fn numbers_that_are_not_finite_are_refused_where_they_stand() {
 #[test]
 fn ranges_types_and_names_are_checked_where_they_stand() {
     let cases = [
-        ("radius = 1", "radius = 0", "test.toml:12:10: 0 is not a finite number above 0 and at most 1e12"),
+        ("radius = 1", "radius = 0", "test.toml:12:10: 0 is not a finite number from 1e-12 to 1e12"),
         (
             "radius = 1",
             "radius = \"big\"",
-            "test.toml:12:10: invalid type: string \"big\", expected a finite number above 0 and at most 1e12",
+            "test.toml:12:10: invalid type: string \"big\", expected a finite number from 1e-12 to 1e12",
         ),
         ("radius = 1", "radios = 1", "test.toml:12:1: unknown field `radios`"),
         (
