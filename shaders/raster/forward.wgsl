@@ -97,6 +97,33 @@ fn fragment_bits(in: Varying, @builtin(front_facing) front: bool) -> @location(0
     return bitcast<vec4u>(vec4f(radiance(in, front), 1.0));
 }
 
+// The same for OpenGL, with their depths. There what a vertex says of depth is taken to -1..1 on its way, which rounds
+// away all that reversed depth is for.
+struct FragmentAndDepth {
+    @location(0) colour: vec4f,
+    @builtin(frag_depth) depth: f32,
+}
+
+struct BitsAndDepth {
+    @location(0) bits: vec4u,
+    @builtin(frag_depth) depth: f32,
+}
+
+@fragment
+fn fragment_and_depth(in: Varying, @builtin(front_facing) front: bool) -> FragmentAndDepth {
+    return FragmentAndDepth(vec4f(min(radiance(in, front), vec3f(LARGEST_HALF)), 1.0), reversed_depth(in));
+}
+
+@fragment
+fn fragment_bits_and_depth(in: Varying, @builtin(front_facing) front: bool) -> BitsAndDepth {
+    return BitsAndDepth(bitcast<vec4u>(vec4f(radiance(in, front), 1.0)), reversed_depth(in));
+}
+
+// In a fragment w is the reciprocal of the distance along the line of sight.
+fn reversed_depth(in: Varying) -> f32 {
+    return view.near * in.clip.w;
+}
+
 fn radiance(in: Varying, front: bool) -> vec3f {
     if GLASS {
         return glass(in);

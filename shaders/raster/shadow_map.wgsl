@@ -17,5 +17,20 @@ fn vertex(@location(0) position: vec3f) -> Varying {
 
 @fragment
 fn fragment(in: Varying) -> @location(0) vec4u {
-    return vec4u(bitcast<u32>(in.depth), 0u, 0u, 0u);
+    return texel(in.depth);
+}
+
+struct TexelAndDepth {
+    @location(0) texel: vec4u,
+    @builtin(frag_depth) depth: f32,
+}
+
+// For OpenGL, as in forward.wgsl.
+@fragment
+fn fragment_and_depth(in: Varying) -> TexelAndDepth {
+    return TexelAndDepth(texel(in.depth), 1.0 - in.depth);
+}
+
+fn texel(depth: f32) -> vec4u {
+    return vec4u(bitcast<u32>(depth), 0u, 0u, 0u);
 }

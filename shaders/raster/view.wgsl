@@ -10,4 +10,6 @@ struct View {
     sees_cube_maps: u32,
     // size of a shadow map's texel in units of depth: x + y * depth
     texel: vec2f,
+    // distance of the near plane, of a perspective view
+    near: f32,
 }

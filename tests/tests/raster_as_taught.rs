@@ -217,7 +217,7 @@ impl Twin {
     fn ray(&self, at: Vec2) -> Ray {
         let size = Vec2::new(SIZE.0 as f32, SIZE.1 as f32);
         let frame = self.camera.frame(size.x / size.y);
-        let range = (self.camera.near, self.camera.far);
+        let range = (self.camera.near.unwrap_or(0.0), self.camera.far.unwrap_or(f32::INFINITY));
         Ray { origin: frame.eye, d: frame.direction(at / size), forward: frame.forward, range }
     }
 
@@ -304,7 +304,6 @@ fn every_texel_of_coarse_maps_is_the_twins() {
 /// before and behind its far distance.
 fn at_the_limits() -> Scene {
     let mut scene = builtin::named("whitted").unwrap();
-    scene.camera.far = 20000.0;
     let matt = Material {
         name: "matt".into(),
         bsdf: Bsdf::Diffuse { albedo: Texture::Constant(Vec3::new(0.2, 0.7, 0.4)) },

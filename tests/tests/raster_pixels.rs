@@ -206,8 +206,14 @@ fn lit_from_the_side(segments: u32) -> Scene {
     scene.fake.light_position = None;
     scene.fake.shadow_half_width = None;
     scene.fake.segments = segments;
-    scene.camera =
-        Camera { eye: Vec3::new(0.0, 0.0, 100.0), target: Vec3::ZERO, up: Vec3::Y, fov_y: 1.5, near: 1.0, far: 200.0 };
+    scene.camera = Camera {
+        eye: Vec3::new(0.0, 0.0, 100.0),
+        target: Vec3::ZERO,
+        up: Vec3::Y,
+        fov_y: 1.5,
+        near: Some(1.0),
+        far: Some(200.0),
+    };
     scene
 }
 

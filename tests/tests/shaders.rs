@@ -77,7 +77,11 @@ macro_rules! assert_same_layout {
 
 #[test]
 fn mirrors_have_the_layout_of_their_structs() {
-    assert_same_layout!("raster/view.wgsl", View, [clip_from_world, depth_from_world, eye, sees_cube_maps, texel]);
+    assert_same_layout!(
+        "raster/view.wgsl",
+        View,
+        [clip_from_world, depth_from_world, eye, sees_cube_maps, texel, near]
+    );
     assert_same_layout!(
         "raster/forward.wgsl",
         Lights,

@@ -200,8 +200,8 @@ pub fn over_the_square() -> Camera {
         target: Vec3::new(0.5, 0.0, 0.0),
         up: Vec3::Y,
         fov_y: 2.0 * (0.5 / height).atan().to_degrees(),
-        near: 1e-3,
-        far: 1e3,
+        near: None,
+        far: None,
     }
 }
 

@@ -14,7 +14,7 @@ pub(crate) fn known(name: &str) -> Scene {
 pub(crate) fn spot(eye: Vec3, target: Vec3) -> Camera {
     let along = (target - eye).normalize_or_zero();
     let up = if along.y.abs() < 0.9 { Vec3::Y } else { Vec3::X };
-    Camera { eye, target, up, fov_y: 1e-7, near: 1e-3, far: 1e4 }
+    Camera { eye, target, up, fov_y: 1e-7, near: None, far: None }
 }
 
 /// The scene with another list of shapes.

@@ -4,6 +4,7 @@
 //! -t, -s), of +y in (s, 1, t), of +z in (s, -t, 1). Right-handed cameras can't draw that. They draw the world mirrored
 //! in x instead, by looking the other way along x, and the shader's lookup mirrors x too.
 
+use crate::planes::Planes;
 use scene::Vec3;
 use scene::glam::{Mat4, camera::rh};
 
@@ -24,9 +25,10 @@ pub fn forward(axis: usize) -> Vec3 {
 
 /// Clip space of the camera along `axis`, 0 to 5, at `eye`; `reach` is the tangent of half its field of view, 1 for an
 /// exact cube.
-pub fn clip_from_world(eye: Vec3, axis: usize, reach: f32, near: f32, far: f32) -> Mat4 {
+pub fn clip_from_world(eye: Vec3, axis: usize, reach: f32, planes: Planes) -> Mat4 {
     let (forward, up) = AXES[axis];
-    rh::proj::directx::perspective(2.0 * reach.atan(), 1.0, near, far) * rh::view::look_to_mat4(eye, forward, up)
+    let projection = rh::proj::directx::perspective_infinite_reverse(2.0 * reach.atan(), 1.0, 1.0);
+    planes.applied_to(projection * rh::view::look_to_mat4(eye, forward, up))
 }
 
 /// The axis whose camera draws a cube map's layer.
@@ -51,6 +53,8 @@ mod tests {
         }
     }
 
+    const PLANES: Planes = Planes { near: 0.1, far: 100.0 };
+
     #[test]
     fn a_lookup_finds_what_lies_in_its_direction() {
         let eye = Vec3::new(1.0, -2.0, 3.0);
@@ -58,7 +62,7 @@ mod tests {
             let x = i as f32;
             let d = Vec3::new((x * 1.7).sin(), (x * 2.3 + 1.0).sin(), (x * 0.9 + 2.0).cos());
             let (layer, [s, t]) = lookup(d);
-            let drawn = clip_from_world(eye, axis_of_layer(layer), 1.0, 0.1, 100.0).project_point3(eye + d * 5.0);
+            let drawn = clip_from_world(eye, axis_of_layer(layer), 1.0, PLANES).project_point3(eye + d * 5.0);
             assert!((drawn.x - s).abs() < 1e-4 && (drawn.y + t).abs() < 1e-4, "{d}: {drawn} is not {s}, {t}");
         }
     }

@@ -44,8 +44,10 @@ pub struct View {
     pub sees_cube_maps: u32,
     /// Size of a shadow map's texel in units of depth: `x + y * depth`.
     pub texel: Vec2,
+    /// Distance of the near plane, of a perspective view.
+    pub near: f32,
     /// Padding.
-    pub unused: Vec2,
+    pub unused: f32,
 }
 
 /// `Lights` in `shaders/raster/forward.wgsl`.

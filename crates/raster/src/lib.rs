@@ -13,11 +13,15 @@
 //! A picture may take its own numbers instead of the scene's ([`FakeKnobs`]), and the maps of passes 1 and 2 can be
 //! looked at in place of the picture ([`Show`]).
 //!
+//! Near and far planes ([`planes`]) are fitted so that they cut nothing, but for those that the camera states ([`cut()`]
+//! tells what they cut) and those of the cube map as taught, which go with the glass.
+//!
 //! What it can't do is said, not hidden: at most [`MOST_CUBE_MAPS`] pieces of glass have a cube map, others show the
 //! plain sky, as does glass seen in a cube map; of several area lights only the one of greatest power sheds light; as
 //! taught, a sun puts out all area lights.
 
 pub mod cube;
+mod cut;
 mod error;
 pub mod gpu_data;
 mod knobs;
@@ -26,12 +30,14 @@ pub mod maps;
 mod passes;
 mod pipelines;
 mod plan;
+pub mod planes;
 mod settings;
 pub mod shaders;
 pub mod shading;
 mod targets;
 mod tessellation;
 
+pub use cut::{Cut, cut};
 pub use error::RasterError;
 pub use knobs::{FakeKnobs, ShadowFilter};
 pub use plan::MOST_CUBE_MAPS;

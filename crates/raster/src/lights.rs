@@ -6,10 +6,12 @@
 
 use crate::cube;
 use crate::gpu_data::*;
+use crate::planes::Planes;
 use crate::settings::{Fake, RasterSettings, Shading};
+use crate::tessellation::{corners, unit_normal};
 use bytemuck::Zeroable;
 use film::colour;
-use scene::glam::{Mat4, Vec2, Vec4, camera::rh};
+use scene::glam::{DVec3, Vec2, camera::rh};
 use scene::{Geometry, Scene, Shape, Sun, Vec3};
 use std::f32::consts::{FRAC_1_PI, PI};
 
@@ -39,7 +41,7 @@ impl AreaLight {
         let emission = scene.material_of(shape).emission.filter(|e| e.radiance.max_element() > 0.0)?;
         let (normal, pattern) = match &shape.geometry {
             Geometry::Rectangle { edge_u, edge_v, .. } => (
-                edge_u.cross(*edge_v).normalize_or_zero(),
+                unit_normal(*edge_u, *edge_v),
                 if emission.two_sided { AREA_LIGHT_TWO_SIDED } else { AREA_LIGHT_ONE_SIDED },
             ),
             _ => (Vec3::ZERO, AREA_LIGHT_ALL_AROUND),
@@ -65,8 +67,9 @@ fn area(geometry: &Geometry) -> f32 {
         return 4.0 * PI * radius * radius;
     }
     let (positions, triangles) = geometry.flat_triangles();
-    let area = |[a, b, c]: [Vec3; 3]| 0.5 * (b - a).cross(c - a).length();
-    triangles.iter().map(|t| area(t.map(|i| positions[i as usize]))).sum()
+    // in f64, where squares of lengths of any scale still fit
+    let area = |[a, b, c]: [DVec3; 3]| 0.5 * (b - a).cross(c - a).length();
+    triangles.iter().map(|t| area(t.map(|i| positions[i as usize].as_dvec3()))).sum::<f64>() as f32
 }
 
 /// The sun of `scene`, the area light that is lit beside it, and the place that light comes from for deciding who casts
@@ -116,9 +119,12 @@ fn sun_towards(scene: &Scene, sun: &Sun, fake: Fake) -> Vec3 {
     position.try_normalize().unwrap_or(sun.towards)
 }
 
-/// The sun's view: three.js' DirectionalLight, near .5, far 500, from its position; without one, from twice the scene's
-/// radius. It covers what casts across and, fair, what there is
-/// along the light.
+/// What the planes of three.js' DirectionalLight, near .5 and far 500, are made for: the tutorial's place of the light.
+/// Lights at other distances from the origin have them in proportion.
+const TAUGHT_POSITION: Vec3 = Vec3::new(10.0, 13.0, -2.0);
+
+/// The sun's view: three.js' DirectionalLight from its position; without one, from twice the scene's radius. It covers
+/// what casts across and, fair, what there is along the light.
 fn sun_view(scene: &Scene, fake: Fake, towards: Vec3, casts: impl Fn(usize) -> bool) -> View {
     let numbers = &scene.fake;
     let (low, high) = scene.bounds();
@@ -131,17 +137,25 @@ fn sun_view(scene: &Scene, fake: Fake, towards: Vec3, casts: impl Fn(usize) -> b
     let casters = scene.shapes.iter().enumerate().filter(|(index, _)| casts(*index));
     let covering = casters.flat_map(|(_, s)| in_view(s.geometry.bounds())).map(across).fold(0.0, f32::max);
     let half_width = numbers.shadow_half_width.unwrap_or(covering).max(1e-6 * radius);
-    let farthest = in_view((low, high)).map(|p| -p.z).into_iter().fold(0.0, f32::max);
+    let along = in_view((low, high)).map(|p| -p.z);
     let (near, far) = match numbers.light_position {
-        Some(_) if fake == Fake::AsTaught => (0.5, 500.0),
-        Some(_) => (0.5, farthest.max(500.0)),
+        Some(position) => {
+            let distance = if position == Vec3::ZERO { radius } else { position.length() };
+            let unit = distance / TAUGHT_POSITION.length();
+            let (near, far) = (0.5 * unit, 500.0 * unit);
+            match fake {
+                Fake::AsTaught => (near, far),
+                Fake::Fair => (along.into_iter().fold(near, f32::min), along.into_iter().fold(far, f32::max)),
+            }
+        }
         None => (0.9 * radius, 3.1 * radius),
     };
-    let clip_from_view = rh::proj::directx::orthographic(-half_width, half_width, -half_width, half_width, near, far);
-    let clip_from_world = clip_from_view * view_from_world;
+    let ortho =
+        |near, far| rh::proj::directx::orthographic(-half_width, half_width, -half_width, half_width, near, far);
     View {
-        clip_from_world,
-        depth_from_world: clip_from_world.row(2),
+        // reversed, as all views are
+        clip_from_world: ortho(far, near) * view_from_world,
+        depth_from_world: (ortho(near, far) * view_from_world).row(2),
         eye: position,
         texel: Vec2::new(2.0 * half_width / (numbers.shadow_map as f32 * (far - near)), 0.0),
         ..View::zeroed()
@@ -163,24 +177,10 @@ fn area_light_view(scene: &Scene, position: Vec3, axis: usize) -> View {
     let far = (1.001 * distances.into_iter().fold(0.0, f32::max)).max(f32::MIN_POSITIVE);
     let plane = cube::forward(axis) / far;
     View {
-        clip_from_world: cube::clip_from_world(position, axis, reach, 1e-4 * far, far),
+        clip_from_world: cube::clip_from_world(position, axis, reach, Planes::fitted(scene, position)),
         depth_from_world: plane.extend(-plane.dot(position)),
         eye: position,
         texel: Vec2::new(0.0, 2.0 * reach / size),
         ..View::zeroed()
     }
-}
-
-/// The picture's view with its pixels moved by `shift` pixels to the right and down.
-pub fn picture_view(clip_from_world: Mat4, eye: Vec3, shift: Vec2, size: Vec2) -> View {
-    let by = shift * Vec2::new(2.0, -2.0) / size;
-    let clip_from_world = Mat4::from_translation(by.extend(0.0)) * clip_from_world;
-    View { clip_from_world, eye, depth_from_world: Vec4::ZERO, sees_cube_maps: 1, ..View::zeroed() }
-}
-
-fn corners((low, high): (Vec3, Vec3)) -> [Vec3; 8] {
-    std::array::from_fn(|i| {
-        let pick = |bit: usize, low: f32, high: f32| if i >> bit & 1 == 0 { low } else { high };
-        Vec3::new(pick(0, low.x, high.x), pick(1, low.y, high.y), pick(2, low.z, high.z))
-    })
 }

@@ -223,9 +223,15 @@ struct Build<'a> {
 }
 
 impl Build<'_> {
-    fn fragment(&self) -> &'static str {
-        let forward_into_bits = self.format == TextureFormat::Rgba32Uint && !self.full_screen;
-        if forward_into_bits { "fragment_bits" } else { "fragment" }
+    fn fragment(&self, gpu: &Gpu) -> &'static str {
+        let bits = self.format == TextureFormat::Rgba32Uint;
+        let with_depth = gpu.adapter.get_info().backend == wgpu::Backend::Gl;
+        match (self.full_screen, with_depth, bits) {
+            (true, ..) | (false, false, false) => "fragment",
+            (false, false, true) => "fragment_bits",
+            (false, true, false) => "fragment_and_depth",
+            (false, true, true) => "fragment_bits_and_depth",
+        }
     }
 
     fn pipeline(&self, gpu: &Gpu) -> RenderPipeline {
@@ -247,7 +253,7 @@ impl Build<'_> {
         let depth = wgpu::DepthStencilState {
             format: DEPTH,
             depth_write_enabled: Some(true),
-            depth_compare: Some(wgpu::CompareFunction::LessEqual),
+            depth_compare: Some(wgpu::CompareFunction::GreaterEqual),
             stencil: wgpu::StencilState::default(),
             bias: wgpu::DepthBiasState::default(),
         };
@@ -265,7 +271,7 @@ impl Build<'_> {
             multisample: wgpu::MultisampleState { count: self.samples, ..wgpu::MultisampleState::default() },
             fragment: Some(wgpu::FragmentState {
                 module: self.module,
-                entry_point: Some(self.fragment()),
+                entry_point: Some(self.fragment(gpu)),
                 compilation_options: options(),
                 targets: &[Some(self.format.into())],
             }),

@@ -5,10 +5,12 @@ use crate::gpu_data::{Lights, Object, View};
 use crate::knobs::ShadowFilter;
 use crate::lights;
 use crate::pipelines::Choice;
+use crate::planes::Planes;
 use crate::settings::{Fake, RasterSettings, Show};
 use crate::targets::{CubePlan, PicturePlan, ShadowPlan, TargetPlan};
+use crate::tessellation::unit_normal;
 use bytemuck::Zeroable;
-use scene::glam::Vec2;
+use scene::glam::{Mat4, Vec2};
 use scene::{Bsdf, Camera, Geometry, Scene, Texture, Vec3};
 use std::ops::Range;
 
@@ -80,7 +82,7 @@ impl Plan {
             views.extend(cube_map_views(scene, &scene.shapes[shape].geometry, fake));
         }
         let first = views.len();
-        views.extend(picture_views(camera, settings));
+        views.extend(picture_views(scene, camera, settings));
         let shadow_layers = shadow_layers(scene, fake);
         Plan {
             shadow_size: if shadow_layers.is_empty() { 1 } else { scene.fake.shadow_map },
@@ -126,31 +128,45 @@ fn shadow_layers(scene: &Scene, fake: Fake) -> Range<usize> {
     first..end
 }
 
-fn picture_views(camera: &Camera, settings: &RasterSettings) -> Vec<View> {
+fn picture_views(scene: &Scene, camera: &Camera, settings: &RasterSettings) -> Vec<View> {
     let size = Vec2::new(settings.width as f32, settings.height as f32);
-    let clip_from_world = camera.clip_from_world(size.x / size.y);
+    let planes = Planes::of(scene, camera);
+    let clip_from_world = planes.applied_to(camera.clip_from_world(size.x / size.y));
     let shifts: &[Vec2] = match settings.fake {
         Fake::AsTaught => &[Vec2::ZERO],
         Fake::Fair => &ROTATED_GRID,
     };
-    shifts.iter().map(|&shift| lights::picture_view(clip_from_world, camera.eye, shift, size)).collect()
+    let view = |&shift: &Vec2| View {
+        clip_from_world: shifted(clip_from_world, shift, size),
+        near: planes.near,
+        eye: camera.eye,
+        sees_cube_maps: 1,
+        ..View::zeroed()
+    };
+    shifts.iter().map(view).collect()
 }
 
-/// three.js' CubeCamera as taught: near .1, far 5000, made for a glass of radius 1. Fair scales it with the glass.
+/// The view with its pixels moved by `shift` pixels to the right and down.
+fn shifted(clip_from_world: Mat4, shift: Vec2, size: Vec2) -> Mat4 {
+    let by = shift * Vec2::new(2.0, -2.0) / size;
+    Mat4::from_translation(by.extend(0.0)) * clip_from_world
+}
+
+/// As taught three.js' CubeCamera, whose near .1 and far 5000 are made for a glass of radius 1: here they are shares of
+/// its radius. Fair it cuts nothing.
 fn cube_map_views(scene: &Scene, glass: &Geometry, fake: Fake) -> [View; 6] {
     let eye = glass.center();
-    let (low, high) = scene.bounds();
-    let (near, far) = match fake {
-        Fake::AsTaught => (0.1, 5000.0),
-        Fake::Fair => {
-            let (glass_low, glass_high) = glass.bounds();
-            let radius = 0.5 * (glass_high - glass_low).max_element();
-            (0.1 * radius, (5000.0 * radius).max(2.0 * (high - low).length()))
+    let planes = match fake {
+        Fake::AsTaught => {
+            let (low, high) = glass.bounds();
+            let radius = 0.5 * (high - low).max_element();
+            Planes { near: 0.1 * radius, far: 5000.0 * radius }
         }
+        Fake::Fair => Planes::fitted(scene, eye),
     };
     std::array::from_fn(|layer| {
-        let clip_from_world = cube::clip_from_world(eye, cube::axis_of_layer(layer), 1.0, near, far);
-        View { clip_from_world, eye, ..View::zeroed() }
+        let clip_from_world = cube::clip_from_world(eye, cube::axis_of_layer(layer), 1.0, planes);
+        View { clip_from_world, near: planes.near, eye, ..View::zeroed() }
     })
 }
 
@@ -167,7 +183,7 @@ fn casting(scene: &Scene, index: usize, fake: Fake) -> Casting {
     match (&shape.geometry, fake) {
         (Geometry::Rectangle { .. }, Fake::AsTaught) => Casting::Nothing,
         (Geometry::Rectangle { corner, edge_u, edge_v }, Fake::Fair) => {
-            let normal = edge_u.cross(*edge_v).normalize_or_zero();
+            let normal = unit_normal(*edge_u, *edge_v);
             if hides_something(scene, index, *corner, normal) { Casting::BothSides } else { Casting::Nothing }
         }
         _ if glass => Casting::FrontFaces,

@@ -116,12 +116,38 @@ fn add_flat(vertices: &mut Vec<Vertex>, indices: &mut Vec<u32>, geometry: &Geome
     let (positions, triangles) = geometry.flat_triangles();
     for triangle in triangles.iter() {
         let [a, b, c] = triangle.map(|corner| positions[corner as usize]);
-        let normal = (b - a).cross(c - a).normalize_or_zero();
+        let normal = unit_normal(b - a, c - a);
         for position in [a, b, c] {
             indices.push(vertices.len() as u32);
             vertices.push(Vertex { position, normal });
         }
     }
+}
+
+/// Unit normal of what two edges span; zero if that is nothing. In `f64`, where squares of lengths of any scale still
+/// fit.
+pub(crate) fn unit_normal(edge_u: Vec3, edge_v: Vec3) -> Vec3 {
+    edge_u.as_dvec3().cross(edge_v.as_dvec3()).normalize_or_zero().as_vec3()
+}
+
+/// The triangles that are drawn of a shape.
+pub(crate) fn triangles(geometry: &Geometry, segments: u32) -> Vec<[Vec3; 3]> {
+    if let Geometry::Sphere { center, radius } = geometry {
+        let (mut vertices, mut indices) = (Vec::new(), Vec::new());
+        add_sphere(&mut vertices, &mut indices, *center, *radius, segments.max(3));
+        let at = |index: u32| vertices[index as usize].position;
+        return indices.as_chunks().0.iter().map(|&[a, b, c]| [at(a), at(b), at(c)]).collect();
+    }
+    let (positions, triangles) = geometry.flat_triangles();
+    triangles.iter().map(|triangle| triangle.map(|corner| positions[corner as usize])).collect()
+}
+
+/// The corners of a box.
+pub(crate) fn corners((low, high): (Vec3, Vec3)) -> [Vec3; 8] {
+    std::array::from_fn(|i| {
+        let pick = |bit: usize, low: f32, high: f32| if i >> bit & 1 == 0 { low } else { high };
+        Vec3::new(pick(0, low.x, high.x), pick(1, low.y, high.y), pick(2, low.z, high.z))
+    })
 }
 
 #[cfg(test)]

@@ -71,7 +71,7 @@ mod tests {
     fn the_key_follows_the_truth_and_not_the_fake() {
         let scene = scene::builtin::named("whitted").unwrap();
         let plain = key(&scene, &scene.camera, (64, 36));
-        let camera = Camera { near: 0.5, far: 77.0, ..scene.camera };
+        let camera = Camera { near: Some(0.5), far: Some(77.0), ..scene.camera };
         let mut fake = Scene { name: "elsewhere".into(), camera, ..scene.clone() };
         fake.fake.ambient += 0.1;
         fake.fake.shadow_map *= 2;

@@ -16,10 +16,11 @@ pub struct Camera {
     pub up: Vec3,
     /// Vertical field of view in degrees, in (0, 180).
     pub fov_y: f32,
-    /// Nearest distance that the raster draws; rays ignore it.
-    pub near: f32,
-    /// Farthest distance that the raster draws; rays ignore it.
-    pub far: f32,
+    /// Nearest distance that the raster draws, along the line of sight; `None` lets it draw all that there is. Rays
+    /// ignore it.
+    pub near: Option<f32>,
+    /// Farthest distance that the raster draws, likewise.
+    pub far: Option<f32>,
 }
 
 /// A camera's orthonormal axes scaled so that `forward + x * right + y * up` passes through the point (x, y) of the
@@ -49,10 +50,11 @@ impl Camera {
         PictureFrame { eye: self.eye, forward, right: right * (half_height * aspect), up: up * half_height }
     }
 
-    /// The matrix that takes world space to clip space (depth 0 near, 1 far), as the raster needs it.
+    /// The matrix that takes world space to clip space. Depth is the reciprocal of the distance along the line of sight;
+    /// near and far planes are up to the raster.
     pub fn clip_from_world(&self, aspect: f32) -> Mat4 {
         let view_from_world = rh::view::look_to_mat4(self.eye, self.frame(1.0).forward, self.up);
-        rh::proj::directx::perspective(self.fov_y.to_radians(), aspect, self.near, self.far) * view_from_world
+        rh::proj::directx::perspective_infinite_reverse(self.fov_y.to_radians(), aspect, 1.0) * view_from_world
     }
 
     /// Why this camera sees nothing, if it does not: a line for the user.
@@ -70,7 +72,9 @@ impl Camera {
             Some("its up must not be parallel to the line from eye to target")
         } else if !(self.fov_y > 0.0 && self.fov_y < 180.0) {
             Some("its field of view must lie between 0 and 180 degrees")
-        } else if !(self.near > 0.0 && self.far > self.near) {
+        } else if !(self.near.is_none_or(|near| near > 0.0)
+            && self.far.is_none_or(|far| far > self.near.unwrap_or(0.0)))
+        {
             Some("its near must be positive and below its far")
         } else {
             None
@@ -128,8 +132,8 @@ mod tests {
         target: Vec3::new(0.0, 1.0, 0.0),
         up: Vec3::Y,
         fov_y: 50.0,
-        near: 0.1,
-        far: 100.0,
+        near: None,
+        far: None,
     };
 
     #[test]

@@ -45,7 +45,7 @@ impl Canonical<'_> {
             as_read: _,
         } = scene;
         let Camera { eye: _, target: _, up: _, fov_y: _, near, far } = camera;
-        [near, far].into_iter().for_each(|plane| self.option(Some(plane), |this, distance| this.number(*distance)));
+        [near, far].into_iter().for_each(|plane| self.option(plane.as_ref(), |this, distance| this.number(*distance)));
         self.count(materials.len());
         for Material { name: _, bsdf: _, emission: _, fake } in materials {
             self.fake_material(fake);

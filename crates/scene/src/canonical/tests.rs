@@ -1,12 +1,13 @@
 use super::*;
 use crate::stand_ins::{FakeMaterial, FakeNumbers};
 use std::collections::BTreeSet;
+use std::iter;
 use std::path::Path;
 use std::sync::Arc;
 
 /// Every kind of shape, material and light.
 const EVERYTHING: &str = r#"
-camera = { eye = [1, 2, 3], target = [0, 0, 0], fov_y = 40 }
+camera = { eye = [1, 2, 3], target = [0, 0, 0], fov_y = 40, near = 0.1, far = 100 }
 sun = { towards = [1, 2, 3], angular_radius = 2, irradiance = [3, 2, 1] }
 sky = { radiance = [0.1, 0.2, 0.3] }
 point_light = [{ position = [1, 2, 3], intensity = [4, 5, 6] }]
@@ -70,7 +71,7 @@ impl<'a> Numbers<'a> {
         let Camera { eye, target, up, fov_y, near, far } = camera;
         numbers.others.extend([eye, target, up].into_iter().flat_map(|v| v.as_mut().iter_mut()));
         numbers.others.push(fov_y);
-        numbers.of_the_fake.extend([near, far]);
+        numbers.of_the_fake.extend(near.iter_mut().chain(far));
         let FakeNumbers {
             ambient,
             intensity,

@@ -205,8 +205,8 @@ fn camera(raw: Spanned<Table<raw::RawCamera>>) -> Result<Camera, Fault> {
         target: raw.target.into(),
         up: raw.up.map_or(Vec3::Y, Vec3::from).as_dvec3().normalize_or_zero().as_vec3(),
         fov_y: raw.fov_y.get(),
-        near: raw.near.map_or(0.1, |v| v.get()),
-        far: raw.far.map_or(3000.0, |v| v.get()),
+        near: raw.near.map(|v| v.get()),
+        far: raw.far.map(|v| v.get()),
     };
     camera.fault().map_or(Ok(camera), |why| fault(at, format!("the camera sees nothing: {why}")))
 }
