@@ -57,6 +57,7 @@ cases! {
     27 surfaces::contact, "Glass ball on a mirror", "steps off a surface past the one that it touches";
     28 surfaces::gallery, "Whispering gallery", "steps off a wall that turn rays inwards, reflection by reflection";
     29 surfaces::board, "Pattern in a plane between its cells", "cells found from a point's rounding";
+    30 fake::planes_at_any_scale, "The fake at any scale", "constant near and far planes, shadow biases and cube cameras";
 }
 
 /// Runs `cases`, one after the other. `on_rows` gets each case with its rows as soon as it is done, and says whether to

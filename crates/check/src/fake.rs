@@ -1,9 +1,13 @@
-//! Pixels of the rasterised fake that are known in closed form, by the CPU twins of its shaders.
+//! Pixels of the rasterised fake that are known in closed form, by the CPU twins of its shaders, and the planes between
+//! which it is drawn.
 
+use crate::hard::known;
 use crate::measure::Trial;
+use crate::robustness::placed;
 use film::colour;
+use raster::planes::Planes;
 use raster::shading::{blinn_phong, phong, refract};
-use scene::Vec3;
+use scene::{Bsdf, Camera, Scene, Texture, Vec3};
 use std::f64::consts::PI;
 
 pub fn closed_forms(trial: &mut Trial) {
@@ -48,4 +52,45 @@ fn lobe_integral(p: f32) -> f64 {
         lobe * theta.cos() * theta.sin()
     };
     2.0 * PI * step * (0..n).map(at).sum::<f64>()
+}
+
+/// Scales at which the fake of a scene must be the one at scale 1.
+pub const SCALES: [f32; 6] = [1e-6, 1e-3, 0.02, 1e3, 1e4, 1e6];
+
+/// A scene at another scale: every length of it, those that only the fake reads too.
+pub fn scaled(scene: &Scene, scale: f32) -> Scene {
+    let (mut scene, camera) = placed(scene.clone(), scene.camera, scale, 0.0);
+    scene.camera = Camera { near: camera.near.map(|d| d * scale), far: camera.far.map(|d| d * scale), ..camera };
+    for material in &mut scene.materials {
+        if let Bsdf::Diffuse { albedo: Texture::Checkerboard(board) } = &mut material.bsdf {
+            (board.origin, board.cell) = (board.origin * scale, board.cell * scale);
+        }
+    }
+    let fake = &mut scene.fake;
+    fake.light_position = fake.light_position.map(|position| position * scale);
+    fake.shadow_half_width = fake.shadow_half_width.map(|width| width * scale);
+    scene
+}
+
+/// The planes that the fake is drawn between, without a device: what it sees at any scale has one depth.
+pub fn planes_at_any_scale(trial: &mut Trial) {
+    let depths = |scene: &Scene| {
+        let planes = Planes::of(scene, &scene.camera);
+        let clip = planes.applied_to(scene.camera.clip_from_world(1.0));
+        let front = scene.shapes[0].geometry.center() + Vec3::Z * scene.camera.eye.z * 0.2;
+        (f64::from(clip.project_point3(front).z), f64::from(planes.near / (scene.camera.eye - front).length()))
+    };
+    let scene = known("ball-on-floor");
+    let (still, _) = depths(&scene);
+    for scale in SCALES {
+        let (depth, nearness) = depths(&scaled(&scene, scale));
+        trial.equal(
+            "raster",
+            &format!("depth of the ball's front over that at scale 1, scale {scale}"),
+            1.0,
+            depth / still,
+            1e-5,
+        );
+        trial.at_most("raster", &format!("near plane over the ball's distance, scale {scale}"), 1.0, nearness);
+    }
 }

@@ -29,5 +29,5 @@ mod warps;
 
 pub use case::{CASES, Case, run};
 pub use measure::{Effort, Trial};
-pub use on_gpu::run_on_gpu;
+pub use on_gpu::{DeviceFault, run_on_gpu};
 pub use row::{Relation, Row, Verdict};

@@ -59,4 +59,5 @@ cases! {
     c27_glass_ball_on_a_mirror 27
     c28_whispering_gallery 28
     c29_pattern_in_a_plane_between_its_cells 29
+    c30_planes_of_the_fake 30
 }

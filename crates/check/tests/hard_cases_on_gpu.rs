@@ -27,7 +27,7 @@ macro_rules! cases {
             passes(&$numbers);
         })*
 
-        /// The fake and the samplers have no part in a device's pictures.
+        /// The fake's formulas and the samplers have no part in a device's pictures.
         #[test]
         fn every_case_of_a_device_has_a_test() {
             let mut tested = [$(&$numbers[..]),*].concat();
@@ -46,4 +46,5 @@ cases! {
     no_ray_leaks_and_no_surface_shadows_itself [16, 17, 18];
     nothing_depends_on_size_and_place [19, 20, 21];
     rounding_decides_nothing_where_surfaces_meet [25, 26, 27, 28, 29];
+    the_fake_does_not_depend_on_size [30];
 }

@@ -9,7 +9,8 @@ const FILES: [(&str, &str); 2] = [
 ];
 
 /// Scenes with known answers, which hard cases are made of: `hard/NAME`.
-const HARD: [(&str, &str); 19] = [
+const HARD: [(&str, &str); 20] = [
+    ("hard/ball-on-floor", include_str!("../../../assets/scenes/hard/ball-on-floor.toml")),
     ("hard/ball-on-mirror", include_str!("../../../assets/scenes/hard/ball-on-mirror.toml")),
     ("hard/camera-inside-glass", include_str!("../../../assets/scenes/hard/camera-inside-glass.toml")),
     ("hard/closed-box", include_str!("../../../assets/scenes/hard/closed-box.toml")),

@@ -1,6 +1,6 @@
 //! The hard cases on a graphics device: the same scenes and closed forms as on the processor, as far as a device
 //! renders them. Case 22 is left out: random numbers are compared with the processor's bit for bit, and what is made of
-//! them number for number, by the twins' tests. So is case 24: the fake has tests of its own.
+//! them number for number, by the twins' tests. So is case 24: the fake's formulas are the processor's.
 //!
 //! A software device takes a second to compile for a scene's needs and settings, longer than for most pictures: where
 //! scenes differ in numbers alone, one tracer takes one after the other.
@@ -8,6 +8,7 @@
 mod area_lights;
 mod energy;
 mod estimators;
+mod fake;
 mod glass;
 mod rays;
 mod robustness;
@@ -20,11 +21,23 @@ use film::Film;
 use gpu::Gpu;
 use pathtrace::gpu::{GpuTraceError, GpuTracer};
 use pathtrace::{Integrator, LightSampling};
+use raster::RasterError;
 use scene::{Camera, Scene};
 use std::sync::atomic::{AtomicBool, Ordering};
 use technique::Device;
 
-type Outcome = Result<(), GpuTraceError>;
+/// Why a device has not gone through with a case.
+#[derive(Debug, thiserror::Error)]
+pub enum DeviceFault {
+    /// Tracing rays.
+    #[error(transparent)]
+    Trace(#[from] GpuTraceError),
+    /// Rasterising the fake.
+    #[error(transparent)]
+    Raster(#[from] RasterError),
+}
+
+type Outcome = Result<(), DeviceFault>;
 
 /// What runs a case on a device.
 struct Bench<'a, 'b> {
@@ -35,14 +48,14 @@ struct Bench<'a, 'b> {
 /// Runs those of `cases` that a device renders, as [`crate::run`] does on the processor.
 ///
 /// # Errors
-/// [`GpuTraceError`] if the device fails.
+/// [`DeviceFault`] if the device fails.
 pub fn run_on_gpu(
     gpu: &Gpu,
     cases: &[Case],
     effort: Effort,
     stop: &AtomicBool,
     mut on_rows: impl FnMut(&Case, &[Row]) -> bool,
-) -> Result<Vec<Row>, GpuTraceError> {
+) -> Result<Vec<Row>, DeviceFault> {
     let mut all = Vec::new();
     for case in cases {
         let Some(run) = of_number(case.number) else { continue };
@@ -90,6 +103,7 @@ fn of_number(case: u32) -> Option<fn(&mut Bench) -> Outcome> {
         27 => surfaces::contact,
         28 => surfaces::gallery,
         29 => surfaces::board,
+        30 => fake::at_any_scale,
         _ => return None,
     })
 }
