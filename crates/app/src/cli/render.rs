@@ -132,9 +132,14 @@ fn raster(args: &RenderArgs, scene: &Scene, fake: FakeSettings) -> anyhow::Resul
     let gpu = Gpu::headless().context("the raster technique needs a GPU")?;
     let mut raster = Raster::new(&gpu)?;
     let start = Instant::now();
-    let film = raster.render(scene, &scene.camera, &fake.sized(args.seen.size.0, args.seen.size.1))?;
+    let settings = fake.sized(args.seen.size.0, args.seen.size.1);
+    let film = raster.render(scene, &scene.camera, &settings)?;
+    let seconds = start.elapsed().as_secs_f64();
+    if let Some(cut) = raster::cut(scene, &scene.camera, &settings) {
+        note!("note: {cut}: a scene file that states neither cuts nothing");
+    }
     let rendered = Rendered { film, stats: Stats::default(), device: Device::Gpu, made_by: gpu.describe() };
-    Ok(Timed { rendered, seconds: start.elapsed().as_secs_f64() })
+    Ok(Timed { rendered, seconds })
 }
 
 fn trace(args: &RenderArgs, shot: &Shot, traced: TracedSettings) -> anyhow::Result<Timed> {

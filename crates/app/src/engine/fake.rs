@@ -147,6 +147,7 @@ fn render_job(
                 nonfinite: film.nonfinite,
                 adapter: adapter.clone(),
                 refused: None,
+                cut: cut(job),
                 rough: shrink > 1,
                 unfinished: shrink > 1,
                 order: job.order.clone(),
@@ -154,6 +155,12 @@ fn render_job(
         ),
         Err(fault) => post_process.report(pane, job.order.clone(), fault.to_string()),
     }
+}
+
+fn cut(job: &FakeJob) -> Option<Arc<str>> {
+    let (width, height) = job.order.size();
+    let cut = raster::cut(job.order.scene(), job.order.camera(), &job.settings.sized(width, height))?;
+    Some(cut.to_string().into())
 }
 
 fn render(raster: &mut Raster, job: &FakeJob, shrink: u32) -> Result<Film, RasterError> {

@@ -38,6 +38,8 @@ pub struct Picture {
     pub adapter: Arc<str>,
     /// Why it was not made where it should be: one line.
     pub refused: Option<Arc<str>>,
+    /// What the camera's planes cut of the fake: one line.
+    pub cut: Option<Arc<str>>,
     /// Whether this is a rough picture at a lower resolution.
     pub rough: bool,
     /// Whether more of this job will come.

@@ -24,6 +24,7 @@ fn picture(view: u64) -> Picture {
         nonfinite: 0,
         adapter: "none".into(),
         refused: None,
+        cut: None,
         rough: false,
         unfinished: false,
         order,

@@ -142,6 +142,7 @@ impl Watch for PaneWatch<'_> {
             nonfinite: film.nonfinite,
             adapter: frame.made_by.into(),
             refused: frame.refused,
+            cut: None,
             rough: frame.rough,
             unfinished: frame.unfinished,
             order: self.order.made_on(frame.device),

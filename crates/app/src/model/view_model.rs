@@ -43,6 +43,8 @@ pub struct PaneView {
     pub fault: Option<String>,
     /// Why it was not made where it should be.
     pub refused: Option<Arc<str>>,
+    /// What the camera's planes cut of the fake: one line.
+    pub cut: Option<Arc<str>>,
     /// What the history is of.
     course: Option<Course>,
 }

@@ -78,7 +78,7 @@ impl Presentation {
         }
         shown.provenance = Some(picture.order.provenance.clone());
         (shown.spp, shown.seconds, shown.nonfinite) = (picture.spp, picture.seconds, picture.nonfinite);
-        shown.refused = picture.refused.clone();
+        (shown.refused, shown.cut) = (picture.refused.clone(), picture.cut.clone());
         shown.adapter = Some(picture.adapter.clone());
         (shown.rough, shown.unfinished) = (picture.rough, picture.unfinished);
         shown.shrink = picture.order.size().0.div_ceil(picture.image.width().max(1)) * picture.order.shrink;

@@ -197,3 +197,23 @@ fn crc32(bytes: &[u8]) -> u32 {
         (0..8).fold(crc ^ u32::from(byte), |c, _| if c & 1 == 1 { (c >> 1) ^ 0xedb8_8320 } else { c >> 1 })
     })
 }
+
+#[test]
+fn planes_that_a_scene_states_are_told_where_they_cut_the_fake() {
+    let folder = TestFolder::new();
+    let file = |name: &str| folder.file(name).to_str().expect("a plain path").to_owned();
+    let text = scene::builtin::text("hard/ball-on-floor").expect("an embedded scene");
+    let said = |planes: &str, technique: &str| {
+        std::fs::write(folder.file("scene.toml"), text.replace("fov_y = 40", planes)).expect("the scene");
+        let scene = file("scene.toml");
+        let size = ["--size", "32x32", "--technique", technique];
+        let made = visavis(&[&["render", &scene, "-o", &file("out.png")], &size[..]].concat());
+        assert!(made.status.success());
+        String::from_utf8_lossy(&made.stderr).into_owned()
+    };
+    assert!(!said("fov_y = 40", "raster").contains("note:"));
+    assert!(!said("fov_y = 40\nnear = 0.1\nfar = 3000", "raster").contains("note:"));
+    let cut = said("fov_y = 40\nnear = 4.5\nfar = 8", "raster");
+    assert!(cut.contains("note: the camera's near (4.5) and far (8) cut parts of the scene"), "{cut}");
+    assert!(!said("fov_y = 40\nnear = 4.5", "whitted").contains("cut"), "rays know no planes");
+}

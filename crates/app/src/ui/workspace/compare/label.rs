@@ -38,6 +38,9 @@ fn text(cx: &UiContext, pane: PaneId, shown: &PaneView) -> String {
     if let Some(why) = &shown.refused {
         text += &format!("\non the CPU: the GPU failed: {why}");
     }
+    if let Some(cut) = &shown.cut {
+        text += &format!("\n{cut}");
+    }
     if shown.nonfinite > 0 {
         text += &format!("\n{} samples were not finite and are left out", shown.nonfinite);
     }
