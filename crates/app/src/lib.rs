@@ -9,6 +9,7 @@ mod console;
 
 pub mod cli;
 pub mod engine;
+pub mod environment;
 pub mod model;
 pub mod ruler;
 pub mod ui;

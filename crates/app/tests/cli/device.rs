@@ -78,3 +78,25 @@ fn a_moment_is_enough_for_one_sample_on_either_machine() {
         assert_eq!((&report["device"], report["spp"].as_u64() >= Some(1)), (&device.into(), true), "{report}");
     }
 }
+
+/// Mesa's layer for Vulkan looks for a Wayland display, and libwayland says "error" where it cannot.
+#[test]
+fn a_missing_runtime_folder_is_no_error_of_any_command() {
+    let folder = TestFolder::new();
+    let out = folder.file("out.exr").to_str().expect("a plain path").to_owned();
+    let render = ["render", "cornell", "--size", "32x32", "--spp", "1", "-o", &out];
+    let raster = [&render[..], &["--technique", "raster"]].concat();
+    let on_the_device = [&render[..], &["--device", "gpu"]].concat();
+    // enough to do for a graphics device to be looked for
+    let auto = ["render", "cornell", "--size", "64x64", "--spp", "4096", "--time", "0.01", "-o", &out];
+    for arguments in [&["info"][..], &render, &auto, &raster, &on_the_device, &["check", "--case", "24"]] {
+        for runtime_folder in [None, Some(""), Some("relative")] {
+            let mut command = program();
+            command.env_remove("XDG_RUNTIME_DIR").envs(runtime_folder.map(|path| ("XDG_RUNTIME_DIR", path)));
+            let output = command.args(arguments).output().expect("the program");
+            let said = String::from_utf8_lossy(&output.stderr);
+            assert!(output.status.success(), "{arguments:?}: {said}");
+            assert!(!said.lines().any(|line| line.starts_with("error")), "{arguments:?}: {said}");
+        }
+    }
+}
