@@ -45,6 +45,17 @@ impl Screen {
         Screen { server, display, connection, root }
     }
 
+    /// Sets the server's resources, as `xrdb` does.
+    ///
+    /// # Panics
+    /// If the server does not answer.
+    pub fn set_resources(&self, resources: &str) {
+        let (name, kind) = (xproto::AtomEnum::RESOURCE_MANAGER, xproto::AtomEnum::STRING);
+        let mode = xproto::PropMode::REPLACE;
+        self.connection.change_property8(mode, self.root, name, kind, resources.as_bytes()).expect("the property");
+        self.connection.sync().expect("the server");
+    }
+
     /// Moves the mouse.
     pub fn move_to(&self, x: f32, y: f32) {
         self.fake(xproto::MOTION_NOTIFY_EVENT, 0, x, y);

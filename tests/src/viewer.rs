@@ -3,7 +3,7 @@
 use crate::{Screen, TestFolder};
 use serde_json::Value;
 use std::path::Path;
-use std::process::{Child, Command, ExitStatus, Stdio};
+use std::process::{Child, Command, ExitStatus};
 use std::time::{Duration, Instant};
 
 /// A running viewer, ended when dropped.
@@ -41,6 +41,7 @@ impl ViewerUnderTest {
         let folder = TestFolder::new();
         let home = folder.file("home");
         std::fs::create_dir(&home).expect("a home folder");
+        let stderr = std::fs::File::create(folder.file("stderr.txt")).expect("a file");
         let process = Command::new(binary)
             .args(arguments)
             .arg("--ui-dump")
@@ -52,7 +53,7 @@ impl ViewerUnderTest {
             .env("HOME", &home)
             .env("VISAVIS_CACHE", folder.file("cache"))
             .envs(variables.iter().copied())
-            .stderr(Stdio::inherit())
+            .stderr(stderr)
             .spawn()
             .expect("the viewer");
         ViewerUnderTest { process, folder }
@@ -61,6 +62,11 @@ impl ViewerUnderTest {
     /// The home folder that it sees.
     pub fn home(&self) -> std::path::PathBuf {
         self.folder.file("home")
+    }
+
+    /// What it has said on stderr.
+    pub fn said(&self) -> String {
+        std::fs::read_to_string(self.folder.file("stderr.txt")).unwrap_or_default()
     }
 
     /// Waits for a frame of which `holds` is true.
@@ -72,7 +78,7 @@ impl ViewerUnderTest {
         let mut last = None;
         while start.elapsed() < Duration::from_secs(60) {
             if let Some(status) = self.process.try_wait().expect("the process") {
-                panic!("the viewer ended with {status} while waiting for: {what}");
+                panic!("the viewer ended with {status} while waiting for: {what}; it said: {}", self.said());
             }
             let text = std::fs::read_to_string(self.folder.file("dump.json")).unwrap_or_default();
             if let Ok(value) = serde_json::from_str(&text) {

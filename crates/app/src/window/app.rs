@@ -1,7 +1,7 @@
 //! The application as winit sees it: events in, frames out.
 
-use super::UserEvent;
 use super::window_state::WindowState;
+use super::{UserEvent, scale_factor};
 use crate::model::ViewArgs;
 use scene::Scene;
 use std::sync::Arc;
@@ -76,6 +76,11 @@ impl ApplicationHandler<UserEvent> for App {
 
     fn window_event(&mut self, events: &ActiveEventLoop, _: WindowId, event: WindowEvent) {
         let Some(window) = &mut self.window else { return };
+        if let WindowEvent::ScaleFactorChanged { scale_factor, .. } = event
+            && let Err(unusable) = scale_factor::check(scale_factor)
+        {
+            return self.finish(events, Err(unusable));
+        }
         window.hear(&event);
         match event {
             WindowEvent::CloseRequested => self.finish(events, Ok(())),

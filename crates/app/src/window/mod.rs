@@ -3,6 +3,7 @@
 mod app;
 mod frame_stats;
 mod recovery;
+mod scale_factor;
 mod surface;
 mod textures;
 mod window_state;
@@ -35,6 +36,7 @@ impl From<accesskit_winit::Event> for UserEvent {
 pub fn open(args: &ViewArgs) -> anyhow::Result<()> {
     let started = std::time::Instant::now();
     let scene = builtin::named(&args.scene)?;
+    scale_factor::check_variable()?;
     let events = EventLoop::<UserEvent>::with_user_event().build().map_err(|e| {
         anyhow::anyhow!(
             "no window can be opened here ({e}); without a display, use: visavis render {} -o out.png",

@@ -1,10 +1,10 @@
 //! The viewer's window: one frame after the other from what egui, the viewer and the workers have.
 
-use super::UserEvent;
 use super::frame_stats::{Clock, FrameStats};
 use super::recovery::DeviceRecovery;
 use super::surface::{Painting, Presented, WindowSurface};
 use super::textures::{Uploads, WindowTextures};
+use super::{UserEvent, scale_factor};
 use crate::engine::Wake;
 use crate::engine::ask::Engine;
 use crate::engine::capture::Capture;
@@ -69,6 +69,7 @@ impl WindowState {
         started: Instant,
         wake: Wake,
     ) -> anyhow::Result<Self> {
+        scale_factor::check_screens(events)?;
         let attributes = Window::default_attributes()
             .with_title("Visavis")
             .with_inner_size(first_size(events))
