@@ -1,7 +1,6 @@
 use super::*;
 use crate::stand_ins::{FakeMaterial, FakeNumbers};
 use std::collections::BTreeSet;
-use std::iter;
 use std::path::Path;
 use std::sync::Arc;
 
