@@ -8,6 +8,7 @@
 //! Twin: `shaders/pathtrace/intersect/nearest.wgsl`, which is given the groups.
 
 use super::NO_LIGHT;
+use super::pairs::{Bounds, for_each_pair};
 use super::sphere::Sphere;
 use scene::Vec3;
 use scene::glam::{DVec2, DVec3};
@@ -111,11 +112,10 @@ impl Outline {
         }
     }
 
-    /// Whether the boxes around both have a point in common, but for rounding.
-    fn is_near(&self, other: &Outline) -> bool {
-        let rounding = Vec3::splat(self.rounding().max(other.rounding()) as f32);
-        let (low, high) = (self.low - rounding, self.high + rounding);
-        low.cmple(other.high).all() && other.low.cmple(high).all()
+    /// Bounds with room for what rounding leaves out.
+    fn grown(&self) -> Bounds {
+        let room = Vec3::splat(self.rounding() as f32);
+        (self.low - room, self.high + room)
     }
 
     /// Whether both cover some area together; of what lies in one plane.
@@ -153,6 +153,7 @@ fn separated(a: &[DVec2], b: &[DVec2], slack: f64) -> bool {
 pub struct Groups {
     of_surface: WordColumn,
     of_light: WordColumn,
+    lights: u32,
     any: bool,
 }
 
@@ -173,7 +174,8 @@ impl Groups {
         if !any {
             return Groups::default();
         }
-        Groups { of_surface: WordColumn::new(of_surface), of_light: WordColumn::new(of_light), any }
+        let [of_surface, of_light] = [of_surface, of_light].map(WordColumn::new);
+        Groups { of_surface, of_light, lights: lights as u32, any }
     }
 
     /// Whether a hit at a distance on the surface of an id comes before another: it is nearer, or as near and earlier in
@@ -201,10 +203,13 @@ impl Groups {
         if self.any { id.look_up_word(&self.of_surface) } else { U::splat(NO_GROUP) }
     }
 
-    /// The groups of what shines as these lights, or [`NO_GROUP`].
+    /// The groups of what shines as these lights, or [`NO_GROUP`]; of numbers that are no light's too.
     #[inline(always)]
     pub fn of_light<U: Word>(&self, light: U) -> U {
-        if self.any { light.look_up_word(&self.of_light) } else { U::splat(NO_GROUP) }
+        if !self.any {
+            return U::splat(NO_GROUP);
+        }
+        U::select(light.lt(U::splat(self.lights)), light.look_up_word(&self.of_light), U::splat(NO_GROUP))
     }
 }
 
@@ -218,23 +223,13 @@ struct Sets {
 impl Sets {
     fn of(outlines: &[Outline]) -> Self {
         let mut sets = Sets { next: (0..outlines.len()).collect(), sizes: vec![1; outlines.len()] };
-        // swept along the axis along which they lie farthest apart
-        let none = (Vec3::INFINITY, Vec3::NEG_INFINITY);
-        let middles = outlines.iter().map(|outline| 0.5 * (outline.low + outline.high));
-        let (low, high) = middles.fold(none, |(low, high), p| (low.min(p), high.max(p)));
-        let axis = (high - low).max_position();
-        let mut order: Vec<usize> = (0..outlines.len()).collect();
-        order.sort_by(|a, b| outlines[*a].low[axis].total_cmp(&outlines[*b].low[axis]));
-        for (place, &a) in order.iter().enumerate() {
-            let one = &outlines[a];
-            let reach = one.high[axis] + one.rounding() as f32;
-            for &b in order[place + 1..].iter().take_while(|&&b| outlines[b].low[axis] <= reach) {
-                let other = &outlines[b];
-                if one.is_near(other) && one.lies_with(other) && one.overlaps(other) {
-                    sets.join(a, b);
-                }
+        let bounds: Vec<Bounds> = outlines.iter().map(Outline::grown).collect();
+        for_each_pair(&bounds, |a, b| {
+            let (one, other) = (&outlines[a], &outlines[b]);
+            if one.lies_with(other) && one.overlaps(other) {
+                sets.join(a, b);
             }
-        }
+        });
         // the halves of a rectangle that shines are one light
         for (index, [one, other]) in outlines.array_windows().enumerate() {
             let one_light = one.light == other.light && one.light != NO_LIGHT;

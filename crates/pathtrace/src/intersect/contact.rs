@@ -8,6 +8,7 @@
 
 use super::coincident::{MOST_TRIANGLES, overlap};
 use super::gamma;
+use super::pairs::{Bounds, for_each_pair};
 use rayon::prelude::*;
 use scene::glam::DVec3;
 use scene::{Bsdf, Geometry, Mesh, Scene, Shape, Vec3};
@@ -15,21 +16,27 @@ use std::borrow::Cow;
 
 /// The scene with those shapes held apart that touch.
 pub(crate) fn held_apart(scene: &Scene) -> Cow<'_, Scene> {
-    let bounds: Vec<(Vec3, Vec3)> = scene.shapes.iter().map(|shape| grown(shape.geometry.bounds())).collect();
-    let apart = |index: usize| {
-        let neighbours = || near(&bounds, index).map(|other| &scene.shapes[other].geometry);
-        let Shape { geometry, .. } = &scene.shapes[index];
-        match *geometry {
-            Geometry::Sphere { center, radius } => {
-                let smaller = neighbours().map(|other| shrunk(center, radius, other)).fold(radius, f32::min);
-                (smaller < radius).then_some(Geometry::Sphere { center, radius: smaller })
-            }
-            _ if is_glass(scene, index) => moved_inwards(geometry, neighbours()),
+    let gives_way = |shape: &Shape| matches!(shape.geometry, Geometry::Sphere { .. }) || is_glass(scene, shape);
+    if !scene.shapes.iter().any(gives_way) {
+        return Cow::Borrowed(scene);
+    }
+    let bounds: Vec<Bounds> = scene.shapes.iter().map(|shape| grown(shape.geometry.bounds())).collect();
+    let mut neighbours = vec![Vec::new(); scene.shapes.len()];
+    for_each_pair(&bounds, |a, b| {
+        neighbours[a].push(b);
+        neighbours[b].push(a);
+    });
+    let apart = |(index, neighbours): (usize, Vec<usize>)| {
+        let shape = &scene.shapes[index];
+        let others = neighbours.iter().map(|other| &scene.shapes[*other].geometry);
+        let moved = match shape.geometry {
+            Geometry::Sphere { center, radius } => smaller_sphere(center, radius, others),
+            _ if is_glass(scene, shape) => moved_inwards(&shape.geometry, others),
             _ => None,
-        }
+        };
+        Some((index, moved?))
     };
-    let moved: Vec<(usize, Geometry)> =
-        (0..scene.shapes.len()).into_par_iter().filter_map(|index| Some((index, apart(index)?))).collect();
+    let moved: Vec<(usize, Geometry)> = neighbours.into_par_iter().enumerate().filter_map(apart).collect();
     if moved.is_empty() {
         return Cow::Borrowed(scene);
     }
@@ -38,22 +45,14 @@ pub(crate) fn held_apart(scene: &Scene) -> Cow<'_, Scene> {
     Cow::Owned(Scene { shapes: shapes.into(), ..scene.clone() })
 }
 
-fn is_glass(scene: &Scene, index: usize) -> bool {
-    matches!(scene.material_of(&scene.shapes[index]).bsdf, Bsdf::Dielectric { .. })
+fn is_glass(scene: &Scene, shape: &Shape) -> bool {
+    matches!(scene.material_of(shape).bsdf, Bsdf::Dielectric { .. })
 }
 
 /// Bounds with room for all that counts as a touch.
-fn grown((low, high): (Vec3, Vec3)) -> (Vec3, Vec3) {
+fn grown((low, high): Bounds) -> Bounds {
     let room = Vec3::splat(1e-5 * low.abs().max(high.abs()).max_element());
     (low - room, high + room)
-}
-
-fn near(bounds: &[(Vec3, Vec3)], index: usize) -> impl Iterator<Item = usize> {
-    let (low, high) = bounds[index];
-    let meets = move |(other, of): (usize, &(Vec3, Vec3))| {
-        (other != index && of.0.cmple(high).all() && low.cmple(of.1).all()).then_some(other)
-    };
-    bounds.iter().enumerate().filter_map(meets)
 }
 
 /// The largest step off a surface that is at a right angle to `normal`, and whose points are sums of such coordinates.
@@ -61,13 +60,19 @@ fn step(normal: DVec3, coordinates: DVec3) -> f64 {
     f64::from(gamma(12)) * normal.abs().dot(coordinates)
 }
 
-/// How far apart two surfaces have to be for the steps off both, each with as much error again.
+/// How far apart two surfaces have to be, so that a step off either stays before the other: the point that it starts from
+/// is off by as much again.
 fn gap(steps: [f64; 2]) -> f64 {
-    2.0 * (steps[0] + steps[1])
+    2.0 * steps[0].max(steps[1])
 }
 
-/// The radius of a sphere that another shape leaves it.
-fn shrunk(center: Vec3, radius: f32, other: &Geometry) -> f32 {
+/// A sphere with the radius that other shapes leave it; `None` if they leave it as it is.
+fn smaller_sphere<'a>(center: Vec3, radius: f32, others: impl Iterator<Item = &'a Geometry>) -> Option<Geometry> {
+    let smaller = others.map(|other| radius_beside(other, center, radius)).fold(radius, f32::min);
+    (smaller < radius).then_some(Geometry::Sphere { center, radius: smaller })
+}
+
+fn radius_beside(other: &Geometry, center: Vec3, radius: f32) -> f32 {
     let (c, r) = (center.as_dvec3(), f64::from(radius));
     let apart = |touch: Touch| {
         let own = step(touch.normal, c.abs() + touch.normal.abs() * r);
@@ -150,7 +155,7 @@ impl Face {
 
     /// What its points are sums of: of a rectangle a corner and the edges.
     fn coordinates(&self) -> DVec3 {
-        self.low.abs().max(self.high.abs()) + 2.0 * (self.high - self.low)
+        self.low.abs().max(self.high.abs()) + (self.high - self.low)
     }
 
     fn normal(&self) -> DVec3 {
