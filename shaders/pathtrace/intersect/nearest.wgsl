@@ -1,8 +1,9 @@
 //#import pathtrace/needs.wgsl
 //#import pathtrace/scene.wgsl
 //#import pathtrace/intersect/surface_point.wgsl
-// What rays find, whatever the structure that they are traced through. Twin:
-// crates/pathtrace/src/intersect/hit.rs, which has what is found and not the comparison.
+// What rays find, whatever the structure that they are traced through. Twins:
+// crates/pathtrace/src/intersect/hit.rs, which has what is found and not the comparison, and
+// crates/pathtrace/src/intersect/coincident.rs, which finds the groups that are given here.
 
 // The nearest meeting so far.
 struct Nearest {
