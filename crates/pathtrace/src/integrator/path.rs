@@ -170,7 +170,9 @@ impl<'a, F: Float> LaneIntegrator<F> for PathLanes<'a, F> {
         if scattering.any() {
             self.scatter(scattering, &vertex, sampler, [u[0], u[1], u[3]]);
         }
-        let alive = self.goes_on(scattering, vertex.is_delta(), u[2]);
+        let has = self.scene.materials.has();
+        let delta = if has.mirrors | has.glass { vertex.is_delta() } else { F::M::splat(false) };
+        let alive = self.goes_on(scattering, delta, u[2]);
         let ended = taken & !alive;
         if self.plan.branching_vertices > 0 {
             self.resumed = self.forks.next(ended, self.plan.branches, &mut self.vertex, &mut self.path);

@@ -108,7 +108,9 @@ pub(super) fn primitives(scene: &Scene, light_of_shape: &[u32]) -> (Vec<Primitiv
         let mut light = first_light;
         let few = !matches!(&shape.geometry, Geometry::Mesh(mesh) if mesh.triangles().len() > MOST_TRIANGLES);
         let mut add = |primitive: Primitive, normal, light| {
-            outlines.extend(primitive.outline(primitives.len() as u32, light).filter(|_| few));
+            if few {
+                outlines.extend(primitive.outline(primitives.len() as u32, light));
+            }
             primitives.push(primitive);
             surfaces.push(Surface { normal, material, light });
         };

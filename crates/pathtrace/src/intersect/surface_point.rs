@@ -83,12 +83,14 @@ impl<F: Float> SurfacePoints<F> {
         let error = self.error + self.position.abs() * F::splat(gamma(2));
         let along = self.normal.abs().dot(error);
         let cosine = direction.dot(self.normal);
-        let inwards = cosine.lt(F::splat(0.0)) & (self.radius * cosine * cosine).ge(along + along);
-        let step = self.normal * along.copysign(cosine);
+        let stepped = self.position + self.normal * along.copysign(cosine);
+        let inwards = (self.radius * cosine).lt(F::splat(0.0));
         if !inwards.any() {
-            return self.position + step;
+            return stepped;
         }
-        self.position + Vector::select(inwards, direction * (along / cosine.abs()), step)
+        let within_chord = (self.radius * cosine * cosine).ge(along + along);
+        let on_its_line = self.position + direction * (along / cosine.abs());
+        Vector::select(inwards & within_chord, on_its_line, stepped)
     }
 }
 

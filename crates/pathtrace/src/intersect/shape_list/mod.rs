@@ -136,6 +136,12 @@ impl ShapeList {
     /// The nearest hits before `rays.tmax`; of several at one distance the one of lowest id.
     #[inline(always)]
     pub fn closest<F: Float>(&self, rays: &Rays<F>, scratch: &mut Scratch<F>) -> Hits<F> {
+        // most scenes have nothing that coincides
+        if self.groups.any() { self.nearest::<F, true>(rays, scratch) } else { self.nearest::<F, false>(rays, scratch) }
+    }
+
+    #[inline(always)]
+    fn nearest<F: Float, const GROUPED: bool>(&self, rays: &Rays<F>, scratch: &mut Scratch<F>) -> Hits<F> {
         let frame = Frame::new(rays);
         self.seen.prepare(rays, &frame, scratch);
         let (mut t, mut id) = (rays.tmax, F::U::splat(NO_PRIMITIVE));
@@ -143,7 +149,7 @@ impl ShapeList {
             let (met, distance) = self.seen.meet(facet, rays, &frame, scratch);
             // in the order of their ids: at one distance the first stays
             let mut nearer = met & distance.lt(t);
-            if facet.place.group != NO_GROUP {
+            if GROUPED && facet.place.group != NO_GROUP {
                 nearer = nearer & !self.is_together::<F>(id, &facet.place);
             }
             t = F::select(nearer, distance, t);
