@@ -12,9 +12,9 @@ struct Ray {
 // Farther than anything. Here alone: lanes have infinity, which shaders may take away.
 const FAR: f32 = 3.4028234e38;
 
-// A shadow ray ends at 1, which is rounded with its direction, distances to planes are good to 20 bits, and divisions
-// may be off by 2.5 ulp: what lies as near to the end is not known to lie before it.
-const SHADOW_END: f32 = 1.0 - 1e-6;
+// A shadow ray ends at 1, which is rounded with its direction: what lies as near to the end, 8 roundings, is not known to
+// lie before it.
+const SHADOW_END: f32 = 1.0 - 4.7683716e-7;
 
 // A distance along a shadow ray that is certainly behind its end.
 const BEHIND_THE_END: f32 = 2.0;

@@ -69,8 +69,8 @@ pub fn contact(bench: &mut Bench) -> Outcome {
         list.set_scene(&place.scene)?;
         tree.set_scene(&place.scene)?;
         bench.mean(&place.what, place.expected, (list, &place.camera), without_roulette())?;
-        bench.place(place, list, to_depth(CONTACT_DEPTH), 1e-5)?;
-        bench.place(place, tree, to_depth(CONTACT_DEPTH), 1e-5)?;
+        bench.place(place, list, to_depth(CONTACT_DEPTH), 2e-5)?;
+        bench.place(place, tree, to_depth(CONTACT_DEPTH), 2e-5)?;
     }
     Ok(())
 }

@@ -17,7 +17,7 @@ use simd::{Word, WordColumn};
 /// What stands for the group of a surface that coincides with no other.
 pub const NO_GROUP: u32 = u32::MAX;
 
-/// Meshes of more triangles are left to the distances that rays find: too many to hold each against all others.
+/// Of meshes of more triangles only those are held against others that another shape comes near.
 pub(super) const MOST_TRIANGLES: usize = 1024;
 
 /// Rounding by which a plane may be off, in units of the largest coordinate: some of f32's.
@@ -89,9 +89,11 @@ impl Outline {
         (0..3).find(|&axis| self.low[axis] == self.high[axis]).map(|axis| (axis, self.low[axis]))
     }
 
-    /// Whether both lie in one plane, or are one sphere.
+    /// Whether both lie in one plane, or are one sphere, as far as rounding lets them.
     fn lies_with(&self, other: &Outline) -> bool {
-        let rounding = self.rounding().max(other.rounding());
+        // the plane of a large one is known better than its corners
+        let (one, two) = (self.rounding(), other.rounding());
+        let rounding = 0.25 * one.max(two) + 0.75 * one.min(two);
         match (&self.form, &other.form) {
             (Form::Flat(corners, normal), Form::Flat(others, other_normal)) => {
                 if let (Some(level), Some(other)) = (self.level(), other.level()) {
@@ -104,10 +106,7 @@ impl Outline {
                 // the plane of the larger one is known better
                 in_plane(others, corners[0], normal) || in_plane(corners, others[0], other_normal)
             }
-            (Form::Sphere(a), Form::Sphere(b)) => {
-                let apart = (a.center.as_dvec3() - b.center.as_dvec3()).length();
-                apart <= rounding && f64::from((a.radius - b.radius).abs()) <= rounding
-            }
+            (Form::Sphere(a), Form::Sphere(b)) => a == b,
             _ => false,
         }
     }
@@ -232,6 +231,7 @@ impl Sets {
         });
         // the halves of a rectangle that shines are one light
         for (index, [one, other]) in outlines.array_windows().enumerate() {
+            // of a mesh each triangle is a light of its own
             let one_light = one.light == other.light && one.light != NO_LIGHT;
             if one_light && (sets.is_shared(index) || sets.is_shared(index + 1)) {
                 sets.join(index, index + 1);
@@ -247,16 +247,57 @@ impl Sets {
         index
     }
 
+    /// The smaller set becomes part of the larger, so that no chain is long.
     fn join(&mut self, a: usize, b: usize) {
         let (a, b) = (self.first(a), self.first(b));
         if a != b {
-            self.next[a.max(b)] = a.min(b);
-            self.sizes[a.min(b)] += self.sizes[a.max(b)];
+            let (large, small) = if self.sizes[a] < self.sizes[b] { (b, a) } else { (a, b) };
+            self.next[small] = large;
+            self.sizes[large] += self.sizes[small];
         }
     }
 
     /// Whether an outline's set has others in it.
     fn is_shared(&self, index: usize) -> bool {
         self.sizes[self.first(index)] > 1
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use scene::glam::{EulerRot, Quat};
+
+    /// A square of this half side about a point, tilted.
+    fn square(id: u32, half: f32, center: Vec3) -> Outline {
+        let turn = Quat::from_euler(EulerRot::XYZ, 0.3, 0.5, 0.8);
+        let corners = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
+        let corners = corners.map(|[x, y]: [f32; 2]| center + turn * Vec3::new(x * half, y * half, 0.0));
+        Outline::flat(id, NO_LIGHT, &corners).expect("an area")
+    }
+
+    fn coincide(a: Outline, b: Outline) -> bool {
+        Groups::of(&[a, b], 2, 0).any()
+    }
+
+    #[test]
+    fn tilted_surfaces_coincide_in_one_plane_and_not_above_it() {
+        let up = Quat::from_euler(EulerRot::XYZ, 0.3, 0.5, 0.8) * Vec3::Z;
+        for (half, apart) in [(1.0, 1e-6), (100.0, 1e-5), (1e3, 1e-4), (1e4, 1e-3)] {
+            assert!(coincide(square(0, half, Vec3::ZERO), square(1, 0.3, Vec3::ZERO)), "{half}");
+            assert!(!coincide(square(0, half, Vec3::ZERO), square(1, 0.3, up * apart)), "{half}");
+        }
+        let far = Vec3::new(1000.0, -300.0, 700.0);
+        assert!(coincide(square(0, 2.0, far), square(1, 0.5, far)));
+    }
+
+    #[test]
+    fn neighbours_and_spheres_of_other_sizes_do_not_coincide() {
+        let side = Quat::from_euler(EulerRot::XYZ, 0.3, 0.5, 0.8) * Vec3::X;
+        assert!(!coincide(square(0, 1.0, Vec3::ZERO), square(1, 1.0, side * 2.0)));
+        assert!(coincide(square(0, 1.0, Vec3::ZERO), square(1, 1.0, side * 1.9)));
+        let ball = |id: u32, radius: f32| Outline::sphere(id, NO_LIGHT, Sphere { center: Vec3::splat(100.0), radius });
+        assert!(coincide(ball(0, 0.3), ball(1, 0.3)));
+        assert!(!coincide(ball(0, 0.3), ball(1, 0.3 - 1e-5)));
     }
 }

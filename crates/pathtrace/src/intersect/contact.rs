@@ -3,35 +3,44 @@
 //! Around a point of contact two surfaces are nearer than the step that a ray takes off one of them: it would start
 //! behind the other, and light would leak. That region is not small: a sphere on a plane is within `d` of it in a circle
 //! of radius `sqrt(2 r d)`. So where surfaces touch, or miss each other by less than those steps, a sphere's radius
-//! shrinks, and a flat face of glass moves inwards, by about 1e-6 of the coordinates there: less than they are known to.
-//! What cuts deeper into each other stays as it is. Opaque flat faces are left to [`super::coincident`].
+//! shrinks, of two spheres that of the larger, and a flat face of glass moves inwards, by about 1e-6 of the coordinates
+//! there. Never by more than a small share of the shape, see [`most_of_sphere`] and [`MOST_OF_GLASS`]: what is smaller
+//! than that where it is stays as it is, and so does what cuts deeper into each other, and what shines. Opaque flat faces
+//! are left to [`super::coincident`].
 
-use super::coincident::{MOST_TRIANGLES, overlap};
+use super::coincident::overlap;
 use super::gamma;
-use super::pairs::{Bounds, for_each_pair};
+use super::pairs::{Bounds, SortedBoxes, for_each_pair};
 use rayon::prelude::*;
 use scene::glam::DVec3;
 use scene::{Bsdf, Geometry, Mesh, Scene, Shape, Vec3};
 use std::borrow::Cow;
+use std::sync::OnceLock;
 
 /// The scene with those shapes held apart that touch.
 pub(crate) fn held_apart(scene: &Scene) -> Cow<'_, Scene> {
-    let gives_way = |shape: &Shape| matches!(shape.geometry, Geometry::Sphere { .. }) || is_glass(scene, shape);
+    let is_sphere = |shape: &Shape| matches!(shape.geometry, Geometry::Sphere { .. });
+    let gives_way = |shape: &Shape| is_glass(scene, shape) || (is_sphere(shape) && !scene.material_of(shape).shines());
     if !scene.shapes.iter().any(gives_way) {
         return Cow::Borrowed(scene);
     }
     let bounds: Vec<Bounds> = scene.shapes.iter().map(|shape| grown(shape.geometry.bounds())).collect();
     let mut neighbours = vec![Vec::new(); scene.shapes.len()];
     for_each_pair(&bounds, |a, b| {
-        neighbours[a].push(b);
-        neighbours[b].push(a);
+        for (one, other) in [(a, b), (b, a)] {
+            if gives_way(&scene.shapes[one]) {
+                neighbours[one].push(other);
+            }
+        }
     });
+    // of flat shapes that spheres ask about
+    let faces: Vec<OnceLock<SortedFaces>> = scene.shapes.iter().map(|_| OnceLock::new()).collect();
     let apart = |(index, neighbours): (usize, Vec<usize>)| {
         let shape = &scene.shapes[index];
-        let others = neighbours.iter().map(|other| &scene.shapes[*other].geometry);
+        let others = neighbours.iter().map(|other| (&scene.shapes[*other].geometry, &faces[*other]));
         let moved = match shape.geometry {
             Geometry::Sphere { center, radius } => smaller_sphere(center, radius, others),
-            _ if is_glass(scene, shape) => moved_inwards(&shape.geometry, others),
+            _ if is_glass(scene, shape) => moved_inwards(&shape.geometry, others.map(|(geometry, _)| geometry)),
             _ => None,
         };
         Some((index, moved?))
@@ -67,19 +76,43 @@ fn gap(steps: [f64; 2]) -> f64 {
 }
 
 /// A sphere with the radius that other shapes leave it; `None` if they leave it as it is.
-fn smaller_sphere<'a>(center: Vec3, radius: f32, others: impl Iterator<Item = &'a Geometry>) -> Option<Geometry> {
+fn smaller_sphere<'a>(center: Vec3, radius: f32, others: impl Iterator<Item = Other<'a>>) -> Option<Geometry> {
     let smaller = others.map(|other| radius_beside(other, center, radius)).fold(radius, f32::min);
     (smaller < radius).then_some(Geometry::Sphere { center, radius: smaller })
 }
 
-fn radius_beside(other: &Geometry, center: Vec3, radius: f32) -> f32 {
+/// The most that the radius of a sphere may shrink by: what its place is known to, and at least a share that nobody sees.
+fn most_of_sphere(center: DVec3, radius: f64) -> f64 {
+    (4e-6 * center.abs().max_element()).clamp(2e-4 * radius, 2e-3 * radius)
+}
+
+fn radius_beside(other: Other, center: Vec3, radius: f32) -> f32 {
     let (c, r) = (center.as_dvec3(), f64::from(radius));
     let apart = |touch: Touch| {
         let own = step(touch.normal, c.abs() + touch.normal.abs() * r);
         let wanted = gap([own, touch.step]);
-        if (touch.distance - r).abs() < wanted { (touch.distance - wanted).max(0.5 * r) as f32 } else { radius }
+        let smaller = touch.distance - wanted;
+        let touches = (touch.distance - r).abs() < wanted && r - smaller <= most_of_sphere(c, r);
+        if touches { smaller as f32 } else { radius }
     };
     touches(c, r, other).into_iter().map(apart).fold(radius, f32::min)
+}
+
+/// Another shape, and room for what its faces are sorted into once.
+type Other<'a> = (&'a Geometry, &'a OnceLock<SortedFaces>);
+
+/// The triangles of a flat shape, found by where they lie.
+struct SortedFaces {
+    faces: Vec<Face>,
+    boxes: SortedBoxes,
+}
+
+impl SortedFaces {
+    fn of(geometry: &Geometry) -> Self {
+        let faces = Face::all_of(geometry);
+        let boxes = SortedBoxes::new(faces.iter().map(Face::bounds).collect());
+        SortedFaces { faces, boxes }
+    }
 }
 
 /// Where another surface comes near to a sphere.
@@ -93,7 +126,7 @@ struct Touch {
 }
 
 /// The points of a shape that are nearest to a sphere's centre.
-fn touches(c: DVec3, r: f64, other: &Geometry) -> Vec<Touch> {
+fn touches(c: DVec3, r: f64, (other, faces): Other) -> Vec<Touch> {
     match *other {
         Geometry::Sphere { center, radius } => {
             let (middle, radius) = (center.as_dvec3(), f64::from(radius));
@@ -102,7 +135,9 @@ fn touches(c: DVec3, r: f64, other: &Geometry) -> Vec<Touch> {
             let beside = Touch { distance: between - radius, normal: towards, step: step(towards) };
             let around = Touch { distance: radius - between, normal: -towards, step: step(towards) };
             // spheres about one centre touch nowhere
-            if between < 1e-5 * radius { Vec::new() } else { vec![beside, around] }
+            let is_apart = between > 1e-5 * radius;
+            let beside = (is_apart && r >= radius).then_some(beside);
+            beside.into_iter().chain(is_apart.then_some(around)).collect()
         }
         Geometry::Disk { center, normal, radius } => {
             let (middle, n) = (center.as_dvec3(), normal.as_dvec3());
@@ -111,15 +146,10 @@ fn touches(c: DVec3, r: f64, other: &Geometry) -> Vec<Touch> {
             vec![Touch::at(near, c, middle.abs() + DVec3::splat(f64::from(radius)))]
         }
         Geometry::Rectangle { .. } | Geometry::Box { .. } | Geometry::Mesh(_) => {
-            let (positions, triangles) = other.flat_triangles();
-            let reach = r * (1.0 + 1e-5) + 1e-5 * c.abs().max_element();
-            let near = |triangle: &[u32; 3]| {
-                let corners = triangle.map(|i| positions[i as usize].as_dvec3());
-                let face = Face::of(corners);
-                let beyond = (face.low - c).max(c - face.high).max_element() > reach;
-                (!beyond).then(|| Touch::at(nearest_on(corners, c), c, face.coordinates()))
-            };
-            triangles.par_iter().with_min_len(4096).filter_map(near).collect()
+            let SortedFaces { faces, boxes } = faces.get_or_init(|| SortedFaces::of(other));
+            let around = grown(((c - r).as_vec3(), (c + r).as_vec3()));
+            let near = boxes.meeting(around).map(|index| &faces[index]);
+            near.map(|face| Touch::at(nearest_on(face.corners, c), c, face.coordinates())).collect()
         }
     }
 }
@@ -144,13 +174,14 @@ impl Face {
         Face { corners: [a, b, c], low: a.min(b).min(c), high: a.max(b).max(c) }
     }
 
-    /// All of a shape that has not too many.
     fn all_of(geometry: &Geometry) -> Vec<Self> {
-        if matches!(geometry, Geometry::Mesh(mesh) if mesh.triangles().len() > MOST_TRIANGLES) {
-            return Vec::new();
-        }
         let (positions, triangles) = geometry.flat_triangles();
         triangles.iter().map(|t| Face::of(t.map(|i| positions[i as usize].as_dvec3()))).collect()
+    }
+
+    /// With room for all that counts as a touch.
+    fn bounds(&self) -> Bounds {
+        grown((self.low.as_vec3(), self.high.as_vec3()))
     }
 
     /// What its points are sums of: of a rectangle a corner and the edges.
@@ -166,7 +197,9 @@ impl Face {
     /// How far this face has to move inwards, against its normal, to be clear of another that it lies on.
     fn way_from(&self, other: &Face) -> Option<f64> {
         let normal = self.normal();
-        let wanted = gap([step(normal, self.coordinates()), step(normal, other.coordinates())]);
+        // what lies in a plane of coordinates 0 is known exactly, but rays that start there do not meet it
+        let least = (self.high - self.low).max_element() * (1.0 / 1_048_576.0);
+        let wanted = gap([step(normal, self.coordinates()), step(normal, other.coordinates())]).max(least);
         let heights = other.corners.map(|p| normal.dot(p - self.corners[0]));
         let lies_on = heights.iter().all(|height| height.abs() < wanted);
         let parallel = normal.cross(other.normal()).length() < 1e-4;
@@ -176,19 +209,35 @@ impl Face {
     }
 }
 
-/// A flat shape of glass with the faces moved inwards that lie on others; `None` if none does.
+/// The most that a face of glass may move, as a share of the shape's depth behind it.
+const MOST_OF_GLASS: f64 = 2e-3;
+
+/// A flat shape of glass with the faces moved inwards that lie on others; `None` if none does, or one has too far to go.
 fn moved_inwards<'a>(geometry: &Geometry, neighbours: impl Iterator<Item = &'a Geometry>) -> Option<Geometry> {
     let faces = Face::all_of(geometry);
-    let mut ways = vec![0.0; faces.len()];
-    for other in neighbours.flat_map(Face::all_of) {
-        for (way, face) in ways.iter_mut().zip(&faces) {
-            *way = face.way_from(&other).map_or(*way, |found| found.max(*way));
-        }
+    let mut ways = vec![0.0f64; faces.len()];
+    for other in neighbours {
+        let others = Face::all_of(other);
+        let bounds: Vec<Bounds> = faces.iter().chain(&others).map(Face::bounds).collect();
+        for_each_pair(&bounds, |a, b| {
+            if a < faces.len() && b >= faces.len() {
+                let way = faces[a].way_from(&others[b - faces.len()]).unwrap_or(0.0);
+                ways[a] = ways[a].max(way);
+            }
+        });
     }
-    let farthest = ways.iter().copied().fold(0.0, f64::max);
-    if farthest == 0.0 {
+    let moving = || faces.iter().zip(&ways).filter(|(_, way)| **way > 0.0);
+    let (positions, _) = geometry.flat_triangles();
+    let depth = |face: &Face| {
+        let normal = face.normal();
+        positions.iter().map(|p| normal.dot(face.corners[0] - p.as_dvec3())).fold(0.0, f64::max)
+    };
+    let is_sheet = matches!(geometry, Geometry::Rectangle { .. } | Geometry::Disk { .. });
+    let too_far = |(face, way): (&Face, &f64)| !is_sheet && *way > MOST_OF_GLASS * depth(face);
+    if moving().next().is_none() || moving().any(too_far) {
         return None;
     }
+    let farthest = ways.iter().copied().fold(0.0, f64::max);
     let back = |normal: Vec3| (normal.as_dvec3() * -farthest).as_vec3();
     Some(match geometry {
         Geometry::Rectangle { corner, edge_u, edge_v } => {
@@ -214,20 +263,32 @@ fn smaller_box(corner: Vec3, size: Vec3, turn_y: f32, ways: &[f64]) -> Geometry 
     Geometry::Box { corner: corner + moved, size: size - low - high, turn_y }
 }
 
-/// A mesh whose triangles have gone these ways inwards: each corner once for each plane.
+/// A mesh whose triangles have gone these ways inwards, corners between several planes with all of them.
 fn pushed_in(mesh: &Mesh, faces: &[Face], ways: &[f64]) -> Mesh {
-    let mut positions: Vec<DVec3> = mesh.positions().iter().map(|p| p.as_dvec3()).collect();
-    let mut gone: Vec<Vec<DVec3>> = vec![Vec::new(); positions.len()];
+    let mut planes: Vec<Vec<(DVec3, f64)>> = vec![Vec::new(); mesh.positions().len()];
     for ((triangle, face), way) in mesh.triangles().iter().zip(faces).zip(ways).filter(|(_, way)| **way > 0.0) {
-        let normal = face.normal();
-        for corner in triangle.map(|i| i as usize) {
-            if gone[corner].iter().all(|other| other.dot(normal) < 0.999) {
-                positions[corner] -= normal * *way;
-                gone[corner].push(normal);
-            }
+        triangle.iter().for_each(|corner| planes[*corner as usize].push((face.normal(), *way)));
+    }
+    let moved = |(position, planes): (&Vec3, &Vec<(DVec3, f64)>)| (position.as_dvec3() + behind(planes)).as_vec3();
+    Mesh::new(mesh.positions().iter().zip(&planes).map(moved).collect(), mesh.triangles().to_vec())
+}
+
+/// A way that leads so far behind each of these planes: from one to the next, until all are passed (Kaczmarz). Between
+/// two that are a few degrees apart it is a long one.
+fn behind(planes: &[(DVec3, f64)]) -> DVec3 {
+    let mut way = DVec3::ZERO;
+    for _ in 0..1000 {
+        let mut left = 0.0f64;
+        for (normal, wanted) in planes {
+            let short = (normal.dot(way) + wanted).max(0.0);
+            way -= normal * short;
+            left = left.max(short / wanted);
+        }
+        if left < 1e-3 {
+            break;
         }
     }
-    Mesh::new(positions.into_iter().map(|p| p.as_vec3()).collect(), mesh.triangles().to_vec())
+    way
 }
 
 /// The point of a triangle that is nearest to `p`.
@@ -244,3 +305,6 @@ fn nearest_on([a, b, c]: [DVec3; 3], p: DVec3) -> DVec3 {
     let points = [on_edge(a, b), on_edge(b, c), on_edge(c, a)];
     points.into_iter().min_by(|q, s| q.distance_squared(p).total_cmp(&s.distance_squared(p))).unwrap_or(a)
 }
+
+#[cfg(test)]
+mod tests;

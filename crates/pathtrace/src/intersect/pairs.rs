@@ -6,12 +6,9 @@ use scene::Vec3;
 pub(super) type Bounds = (Vec3, Vec3);
 
 /// Calls `found` with the places of any two boxes that have a point in common, each pair once: swept along the axis along
-/// which their middles lie farthest apart.
+/// which they overlap least.
 pub(super) fn for_each_pair(bounds: &[Bounds], mut found: impl FnMut(usize, usize)) {
-    let none = (Vec3::INFINITY, Vec3::NEG_INFINITY);
-    let middles = bounds.iter().map(|(low, high)| 0.5 * (low + high));
-    let (low, high) = middles.fold(none, |(low, high), p| (low.min(p), high.max(p)));
-    let axis = (high - low).max_position();
+    let axis = sparsest_axis(bounds);
     let mut order: Vec<usize> = (0..bounds.len()).collect();
     order.sort_by(|a, b| bounds[*a].0[axis].total_cmp(&bounds[*b].0[axis]));
     for (place, &a) in order.iter().enumerate() {
@@ -22,6 +19,45 @@ pub(super) fn for_each_pair(bounds: &[Bounds], mut found: impl FnMut(usize, usiz
             }
         }
     }
+}
+
+/// Boxes in which those near another are found quickly.
+pub(super) struct SortedBoxes {
+    axis: usize,
+    /// Where they begin along the axis, and their places, in that order.
+    starts: Vec<(f32, u32)>,
+    longest: f32,
+    bounds: Vec<Bounds>,
+}
+
+impl SortedBoxes {
+    pub fn new(bounds: Vec<Bounds>) -> Self {
+        let axis = sparsest_axis(&bounds);
+        let mut starts: Vec<(f32, u32)> = bounds.iter().map(|(low, _)| low[axis]).zip(0..).collect();
+        starts.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let longest = bounds.iter().map(|(low, high)| high[axis] - low[axis]).fold(0.0, f32::max);
+        SortedBoxes { axis, starts, longest, bounds }
+    }
+
+    /// The places of those that have a point in common with this one.
+    pub fn meeting(&self, (low, high): Bounds) -> impl Iterator<Item = usize> {
+        // the difference is rounded
+        let earliest = (low[self.axis] - self.longest).next_down();
+        let first = self.starts.partition_point(|(start, _)| *start < earliest);
+        let near = self.starts[first..].iter().take_while(move |(start, _)| *start <= high[self.axis]);
+        let meets = move |of: &Bounds| of.0.cmple(high).all() && low.cmple(of.1).all();
+        near.map(|(_, place)| *place as usize).filter(move |place| meets(&self.bounds[*place]))
+    }
+}
+
+/// The axis along which boxes are shortest for how far apart they lie.
+fn sparsest_axis(bounds: &[Bounds]) -> usize {
+    let none = (Vec3::INFINITY, Vec3::NEG_INFINITY);
+    let middles = bounds.iter().map(|(low, high)| 0.5 * (low + high));
+    let (low, high) = middles.fold(none, |(low, high), p| (low.min(p), high.max(p)));
+    let lengths: Vec3 = bounds.iter().map(|(low, high)| high - low).sum();
+    let share = lengths / (high - low).max(Vec3::splat(f32::MIN_POSITIVE));
+    (0..3).min_by(|a, b| share[*a].total_cmp(&share[*b])).unwrap_or(0)
 }
 
 #[cfg(test)]
@@ -42,6 +78,11 @@ mod tests {
         let meet = |a: &Bounds, b: &Bounds| (0..3).all(|axis| a.0[axis] <= b.1[axis] && b.0[axis] <= a.1[axis]);
         let all = (0..300).flat_map(|a| (a + 1..300).map(move |b| (a, b)));
         let expected: Vec<_> = all.filter(|&(a, b)| meet(&boxes[a], &boxes[b])).collect();
+        let sorted = SortedBoxes::new(boxes.clone());
+        let found = (0..300).flat_map(|a| sorted.meeting(boxes[a]).map(move |b| (a, b)));
+        let mut found: Vec<_> = found.filter(|(a, b)| a < b).collect();
+        found.sort_unstable();
+        assert_eq!(found, expected);
         swept.sort_unstable();
         assert!(expected.len() > 100);
         assert_eq!(swept, expected);

@@ -1,7 +1,8 @@
 //! What a ray can hit, made from a scene's shapes.
 
-use super::coincident::{Groups, MOST_TRIANGLES, Outline};
+use super::coincident::{FLAT, Groups, MOST_TRIANGLES, Outline};
 use super::disk::Disk;
+use super::pairs::SortedBoxes;
 use super::sphere::{Sphere, SphereLanes};
 use super::triangle::{ShearedRay, Triangle, triangle_normal};
 use super::{Hit, Intersection, NO_LIGHT, Ray, Rays, SurfacePoints, gamma};
@@ -106,9 +107,11 @@ pub(super) fn primitives(scene: &Scene, light_of_shape: &[u32]) -> (Vec<Primitiv
         let material = shape.material as u32;
         let first_light = light_of_shape[index];
         let mut light = first_light;
-        let few = !matches!(&shape.geometry, Geometry::Mesh(mesh) if mesh.triangles().len() > MOST_TRIANGLES);
+        let is_large = matches!(&shape.geometry, Geometry::Mesh(mesh) if mesh.triangles().len() > MOST_TRIANGLES);
+        let others = is_large.then(|| others_than(index, scene));
         let mut add = |primitive: Primitive, normal, light| {
-            if few {
+            let is_near = |others: &SortedBoxes| others.meeting(primitive.bounds()).next().is_some();
+            if others.as_ref().is_none_or(is_near) {
                 outlines.extend(primitive.outline(primitives.len() as u32, light));
             }
             primitives.push(primitive);
@@ -134,6 +137,16 @@ pub(super) fn primitives(scene: &Scene, light_of_shape: &[u32]) -> (Vec<Primitiv
     }
     let groups = Groups::of(&outlines, surfaces.len(), lights_after(scene, surfaces.iter().map(|s| s.light)));
     (primitives, surfaces, groups)
+}
+
+/// Boxes around all shapes but one, with room for rounding.
+fn others_than(index: usize, scene: &Scene) -> SortedBoxes {
+    let grown = |(low, high): (Vec3, Vec3)| {
+        let room = Vec3::splat(FLAT as f32 * low.abs().max(high.abs()).max_element());
+        (low - room, high + room)
+    };
+    let others = scene.shapes.iter().enumerate().filter(|(other, _)| *other != index);
+    SortedBoxes::new(others.map(|(_, shape)| grown(shape.geometry.bounds())).collect())
 }
 
 /// How many lights there can be in a scene whose surfaces shine as these.

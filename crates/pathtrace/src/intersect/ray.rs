@@ -35,10 +35,9 @@ impl Ray {
     }
 }
 
-/// Where a shadow ray between two points ends, in lengths of its direction. Its end at 1 is rounded with the direction,
-/// distances to planes are good to 20 bits on a graphics device, and its divisions may be off by 2.5 ulp: what lies as
-/// near to the end is not known to lie before it.
-pub const SHADOW_END: f32 = 1.0 - 1e-6;
+/// Where a shadow ray between two points ends, in lengths of its direction: 8 roundings before 1. Its end at 1 is rounded
+/// with the direction, and what lies as near to it is not known to lie before it.
+pub const SHADOW_END: f32 = 1.0 - 4.768_371_6e-7;
 
 /// A distance along a shadow ray, in lengths of its direction, that is certainly behind its end.
 pub(crate) const BEHIND_THE_END: f32 = 2.0;
