@@ -83,14 +83,15 @@ impl<F: Float> SurfacePoints<F> {
         let error = self.error + self.position.abs() * F::splat(gamma(2));
         let along = self.normal.abs().dot(error);
         let cosine = direction.dot(self.normal);
-        let stepped = self.position + self.normal * along.copysign(cosine);
-        let inwards = (self.radius * cosine).lt(F::splat(0.0));
+        let step = along.copysign(cosine);
+        let towards_center = self.radius * cosine;
+        let inwards = towards_center.lt(F::splat(0.0));
         if !inwards.any() {
-            return stepped;
+            return self.position + self.normal * step;
         }
-        let within_chord = (self.radius * cosine * cosine).ge(along + along);
-        let on_its_line = self.position + direction * (along / cosine.abs());
-        Vector::select(inwards & within_chord, on_its_line, stepped)
+        let on_its_line = inwards & (towards_center * cosine).ge(along + along);
+        let way = Vector::select(on_its_line, direction, self.normal);
+        self.position + way * F::select(on_its_line, along / cosine.abs(), step)
     }
 }
 
