@@ -1,30 +1,48 @@
 //! Files that are whole or not there: written beside the target, then moved. Where moving would change more than the
 //! content (a second name, an owner, an access list), or the folder forbids it, the file that is there is written in place.
 
-use crate::partial::Partial;
+use crate::partial::{Partial, in_the_making};
 use crate::{ImageFileError, free_name, home_folder};
 use std::fs::{File, Metadata};
-use std::io::{Error, ErrorKind, Write};
+use std::io::{Error, ErrorKind, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
 /// Fails at once if `path` cannot be written, before anyone waits for a picture: a file that is there is opened for
-/// writing, one that is not is made and removed.
+/// writing; for one that is not another is made in its folder and removed.
 ///
 /// # Errors
 /// [`ImageFileError::Write`], one line that says why and names the path.
 pub fn check_writable(path: &Path) -> Result<(), ImageFileError> {
     let checked = target_of(path).and_then(|target| match open_existing(&target)? {
         Some(_) => Ok(()),
-        None => Partial::create_new(target, false).map(drop),
+        None => check_new(&target),
     });
     checked.map_err(|e| ImageFileError::write(path, e))
+}
+
+fn check_new(target: &Path) -> std::io::Result<()> {
+    let folder = folder_of(target);
+    match target.file_name() {
+        Some(name) if !ends_in_a_separator(target) => {
+            if keeps_all_names(folder) {
+                may_add_to(folder)
+            } else {
+                Partial::probe(folder, name)
+            }
+        }
+        _ => Err(Error::new(ErrorKind::IsADirectory, "this is the name of a folder")),
+    }
+}
+
+fn ends_in_a_separator(path: &Path) -> bool {
+    path.as_os_str().as_encoded_bytes().last().is_some_and(|byte| std::path::is_separator(char::from(*byte)))
 }
 
 /// Makes `bytes` the content of `path`. A file that is there keeps its mode, its owner and its other names.
 ///
 /// # Errors
-/// [`ImageFileError::Write`], one line that says why and names the path; what was there stays, unless the disk failed while
-/// it was written in place.
+/// [`ImageFileError::Write`], one line that says why and names the path; what was there stays, unless it was written in
+/// place and the disk failed where it had room before.
 pub fn write_whole(path: &Path, bytes: &[u8]) -> Result<(), ImageFileError> {
     let written = target_of(path).and_then(|target| match open_existing(&target)? {
         Some(existing) => overwrite(&target, existing, bytes),
@@ -55,14 +73,20 @@ pub fn write_or_keep(path: &Path, bytes: &[u8]) -> Result<(), ImageFileError> {
 /// As [`write_whole`].
 pub fn write_new(path: &Path, bytes: &[u8]) -> Result<PathBuf, ImageFileError> {
     let fault = |e| ImageFileError::write(path, e);
-    let mut partial = Partial::create(folder_of(path), false).map_err(fault)?;
-    partial.fill(bytes).map_err(fault)?;
+    let mut partial = beside(path, false).map_err(fault)?;
+    if let Some(partial) = &mut partial {
+        partial.fill(bytes).map_err(fault)?;
+    }
     loop {
         let free = free_name(path)?;
-        match move_to_new(partial.path(), &free) {
+        let written = match &partial {
+            Some(partial) => move_to_new(partial.path(), &free),
+            None => File::create_new(&free).and_then(|file| write_in_place(file, bytes)),
+        };
+        match written {
             // someone else was faster
-            Err(e) if e.kind() == ErrorKind::AlreadyExists => {}
-            moved => return moved.map_err(|e| ImageFileError::write(&free, e)).map(|()| free),
+            Err(ref e) if e.kind() == ErrorKind::AlreadyExists => {}
+            _ => return written.map_err(|e| ImageFileError::write(&free, e)).map(|()| free),
         }
     }
 }
@@ -110,34 +134,96 @@ fn open_existing(target: &Path) -> std::io::Result<Option<File>> {
         Ok(found) if found.is_dir() => Err(Error::new(ErrorKind::IsADirectory, "this is a folder")),
         // a pipe or a device takes what it gets as it likes
         Ok(found) if !found.is_file() => Err(Error::other("this is not a file")),
-        Ok(_) => File::options().write(true).open(target).map(Some),
+        Ok(_) => match File::options().write(true).open(target) {
+            // somebody has just removed it
+            Err(e) if e.kind() == ErrorKind::NotFound => Ok(None),
+            opened => opened.map(Some),
+        },
     }
 }
 
 /// Moving is for whatever the folder takes; what cannot be moved is written where it belongs.
 fn create(target: &Path, bytes: &[u8]) -> std::io::Result<()> {
-    let mut partial = Partial::create(folder_of(target), false)?;
-    partial.fill(bytes)?;
-    std::fs::rename(partial.path(), target)
-        .or_else(|_| File::create(target).and_then(|file| write_in_place(file, bytes)))
+    if let Some(mut partial) = beside(target, false)? {
+        partial.fill(bytes)?;
+        if std::fs::rename(partial.path(), target).is_ok() {
+            return Ok(());
+        }
+    }
+    let new = File::options().write(true).create(true).truncate(false).open(target)?;
+    let was_empty = new.metadata()?.len() == 0;
+    let written = write_in_place(new, bytes);
+    if written.is_err() && was_empty {
+        let _ = std::fs::remove_file(target);
+    }
+    written
 }
 
 fn overwrite(target: &Path, existing: File, bytes: &[u8]) -> std::io::Result<()> {
     let found = existing.metadata()?;
-    if has_more_than_a_mode(&existing, &found) {
-        return write_in_place(existing, bytes);
+    if let Ok(Some(mut partial)) = beside(target, true) {
+        // a full disk must not cost what is there as well, also where it is written in place
+        partial.fill(bytes)?;
+        if !has_more_than_a_mode(&existing, &found)
+            && take_owner_and_mode(partial.file(), &found).is_ok()
+            && std::fs::rename(partial.path(), target).is_ok()
+        {
+            return Ok(());
+        }
     }
-    let Ok(mut partial) = Partial::create(folder_of(target), true) else { return write_in_place(existing, bytes) };
-    // a full disk must not cost what is there as well
-    partial.fill(bytes)?;
-    let replaced = take_owner_and_mode(partial.file(), &found).and_then(|()| std::fs::rename(partial.path(), target));
-    replaced.or_else(|_| write_in_place(existing, bytes))
+    write_in_place(existing, bytes)
 }
 
+/// `None` where it could be neither moved nor removed.
+fn beside(target: &Path, private: bool) -> std::io::Result<Option<Partial>> {
+    let folder = folder_of(target);
+    if keeps_all_names(folder) { Ok(None) } else { Partial::create(folder, private).map(Some) }
+}
+
+/// What is longer than before is written first: if the disk has no room for it, what was there is still whole.
 fn write_in_place(mut file: File, bytes: &[u8]) -> std::io::Result<()> {
-    file.write_all(bytes)?;
+    let _held = in_the_making();
+    let found = file.metadata()?;
+    let (head, tail) = bytes.split_at(bytes.len().min(found.len() as usize));
+    let grown = file.seek(SeekFrom::End(0)).and_then(|_| file.write_all(tail)).and_then(|()| file.sync_all());
+    if let Err(fault) = grown {
+        file.set_len(found.len())?;
+        return Err(fault);
+    }
+    file.rewind()?;
+    file.write_all(head)?;
     file.set_len(bytes.len() as u64)?;
+    // writing may take bits of the mode, which whoever is not the owner cannot give back
+    let _ = file.set_permissions(found.permissions());
     file.sync_all()
+}
+
+/// Whether files can be added to a folder, but neither moved nor removed there.
+#[cfg(any(target_os = "linux", target_os = "android"))]
+fn keeps_all_names(folder: &Path) -> bool {
+    use rustix::fs::{AtFlags, CWD, StatxAttributes, StatxFlags, statx};
+    statx(CWD, folder, AtFlags::empty(), StatxFlags::empty())
+        .is_ok_and(|found| found.stx_attributes.contains(StatxAttributes::APPEND))
+}
+
+/// By `UF_APPEND` and `SF_APPEND` of sys/stat.h.
+#[cfg(target_os = "macos")]
+fn keeps_all_names(folder: &Path) -> bool {
+    use std::os::macos::fs::MetadataExt;
+    folder.metadata().is_ok_and(|found| found.st_flags() & 0x0004_0004 != 0)
+}
+
+#[cfg(not(any(target_os = "linux", target_os = "android", target_os = "macos")))]
+fn keeps_all_names(_: &Path) -> bool {
+    false
+}
+
+fn may_add_to(folder: &Path) -> std::io::Result<()> {
+    #[cfg(unix)]
+    rustix::fs::access(folder, rustix::fs::Access::WRITE_OK | rustix::fs::Access::EXEC_OK)?;
+    #[cfg(not(unix))]
+    let _ = folder;
+    Ok(())
 }
 
 /// Whether a new file in its place would not be the same one to everybody.
@@ -151,11 +237,15 @@ fn has_more_than_a_mode(_: &File, _: &Metadata) -> bool {
     false
 }
 
-/// Access lists and what users keep with a file. A security label is the folder's to give.
+/// A security label is the folder's to give; macOS notes at nearly every file where it came from and when it was used.
+#[cfg(any(target_os = "linux", target_os = "android", target_os = "macos"))]
+const SYSTEM_ATTRIBUTES: [&[u8]; 2] = [b"security.", b"com.apple."];
+
+/// Access lists and what users keep with a file.
 #[cfg(any(target_os = "linux", target_os = "android", target_os = "macos"))]
 fn has_attributes(file: &File) -> bool {
     let mut names = [0; 4096];
-    let own = |name: &[u8]| !name.is_empty() && !name.starts_with(b"security.");
+    let own = |name: &[u8]| !name.is_empty() && !SYSTEM_ATTRIBUTES.iter().any(|begin| name.starts_with(begin));
     match rustix::fs::flistxattr(file, &mut names) {
         Ok(length) => names.get(..length).is_some_and(|names| names.split(|byte| *byte == 0).any(own)),
         // more than fit; a file system without attributes has none

@@ -46,7 +46,7 @@ fn take(signal: i32) {
         let new_line = if std::io::stderr().is_terminal() { "\n" } else { "" };
         note!("{new_line}note: ends soon and saves what there is; once more ends at once");
     } else {
-        image_file::remove_partial_files();
+        let _no_more_files = image_file::remove_partial_files();
         signal_hook::low_level::exit(128 + signal);
     }
 }

@@ -1,4 +1,5 @@
 use super::*;
+use crate::partial::remove_unless_held;
 use visavis_tests::TestFolder;
 
 fn read(path: &Path) -> Vec<u8> {
@@ -102,6 +103,50 @@ fn two_writers_in_one_folder_do_not_disturb_each_other() {
     assert_eq!(read(&folder.file("3.png")), b"3 49");
 }
 
+#[test]
+fn two_writers_of_one_new_name_do_not_disturb_each_other() {
+    let folder = TestFolder::new();
+    let path = folder.file("a.png");
+    for _ in 0..50 {
+        std::thread::scope(|threads| {
+            for _ in 0..4 {
+                threads.spawn(|| check_and_write(&path, b"picture").unwrap());
+            }
+        });
+        assert_eq!((read(&path), folder.names()), (b"picture".to_vec(), vec!["a.png".to_owned()]));
+        std::fs::remove_file(&path).unwrap();
+    }
+}
+
+/// Writers that begin look for leftovers at the same time.
+#[test]
+fn no_living_writer_loses_its_file_to_another() {
+    let folder = TestFolder::new();
+    std::thread::scope(|threads| {
+        for _ in 0..4 {
+            threads.spawn(|| {
+                for _ in 0..1000 {
+                    assert!(Partial::create(folder.path(), false).unwrap().path().exists());
+                }
+            });
+        }
+    });
+    assert!(folder.names().is_empty());
+}
+
+#[test]
+fn a_file_that_is_held_is_no_leftover() {
+    let folder = TestFolder::new();
+    let path = folder.file("held");
+    let held = File::create(&path).unwrap();
+    held.lock().unwrap();
+    remove_unless_held(&path).unwrap();
+    assert!(path.exists());
+    drop(held);
+    remove_unless_held(&path).unwrap();
+    assert!(!path.exists());
+}
+
 #[cfg(unix)]
 mod on_unix {
     use super::*;
@@ -116,15 +161,18 @@ mod on_unix {
     fn a_file_keeps_its_mode_and_its_other_names() {
         let folder = TestFolder::new();
         let (path, other) = (folder.file("a.png"), folder.file("b.png"));
-        for wanted in [0o600, 0o640, 0o666, 0o755] {
+        for wanted in [0o600, 0o640, 0o666, 0o755, 0o2755, 0o4711] {
             std::fs::write(&path, "before, and longer").unwrap();
             std::fs::set_permissions(&path, Permissions::from_mode(wanted)).unwrap();
             check_and_write(&path, b"after").unwrap();
             assert_eq!((mode(&path), read(&path)), (wanted, b"after".to_vec()));
         }
         std::fs::hard_link(&path, &other).unwrap();
-        check_and_write(&path, b"both").unwrap();
-        assert_eq!((read(&other), other.metadata().unwrap().nlink()), (b"both".to_vec(), 2));
+        for content in [&b"both"[..], b"both, and longer", b"and shorter"] {
+            check_and_write(&path, content).unwrap();
+            assert_eq!((read(&other), other.metadata().unwrap().nlink()), (content.to_vec(), 2));
+            assert_eq!(mode(&path), 0o4711);
+        }
         assert!(is_same_file(&path, &other) && !is_same_file(&path, &folder.file("none.png")));
     }
 
@@ -159,6 +207,46 @@ mod on_unix {
             assert_eq!(rustix::fs::getxattr(&path, "user.note", &mut value), Ok(4));
         }
         assert!(!has_attributes(&File::create(folder.file("plain.png")).unwrap()));
+    }
+
+    /// A file in memory that may not grow stands for the full disk.
+    #[test]
+    #[cfg(target_os = "linux")]
+    fn a_disk_without_room_for_more_keeps_what_is_written_in_place() {
+        use rustix::fs::{MemfdFlags, SealFlags, fcntl_add_seals, memfd_create};
+        let mut file = File::from(memfd_create("full", MemfdFlags::ALLOW_SEALING).unwrap());
+        file.write_all(b"precious").unwrap();
+        fcntl_add_seals(&file, SealFlags::GROW).unwrap();
+        let content = |mut file: &File| {
+            let mut bytes = Vec::new();
+            file.rewind().unwrap();
+            std::io::Read::read_to_end(&mut file, &mut bytes).unwrap();
+            bytes
+        };
+        assert!(write_in_place(file.try_clone().unwrap(), b"longer than before").is_err());
+        assert_eq!(content(&file), b"precious");
+        write_in_place(file.try_clone().unwrap(), b"shorter").unwrap();
+        assert_eq!(content(&file), b"shorter");
+    }
+
+    /// Only root can make such a folder, and not on every file system.
+    #[test]
+    #[cfg(target_os = "linux")]
+    fn nothing_is_left_in_a_folder_from_which_nothing_can_be_removed() {
+        use rustix::fs::{IFlags, ioctl_getflags, ioctl_setflags};
+        let folder = TestFolder::new();
+        let opened = File::open(folder.path()).unwrap();
+        let Ok(flags) = ioctl_getflags(&opened) else { return };
+        if ioctl_setflags(&opened, flags | IFlags::APPEND).is_err() {
+            return;
+        }
+        let path = folder.file("a.png");
+        let written = [&b"one"[..], b"another"].map(|content| check_and_write(&path, content));
+        let numbered = write_new(&path, b"numbered");
+        ioctl_setflags(&opened, flags).unwrap();
+        assert!(written.iter().all(Result::is_ok), "{written:?}");
+        assert_eq!((read(&path), read(&numbered.unwrap())), (b"another".to_vec(), b"numbered".to_vec()));
+        assert_eq!(folder.names(), ["a-2.png", "a.png"]);
     }
 
     /// Root may write what nobody else may: these are what a user meets.
