@@ -1,9 +1,10 @@
 //! What the program says on stderr, from the command line and from the window.
 
-/// A line on stderr, in the manner of `eprintln!` but without its panic where stderr is full or closed.
+/// A line on stderr, in the manner of `eprintln!` but without its panic where stderr is full or closed, and one line
+/// whatever the names in it.
 macro_rules! note {
     ($($text:tt)*) => {
-        $crate::console::to_stderr(format_args!("{}\n", format_args!($($text)*)))
+        $crate::console::to_stderr(format_args!("{}\n", image_file::escaped(&format!($($text)*))))
     };
 }
 

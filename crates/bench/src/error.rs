@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 #[derive(Debug, thiserror::Error)]
 pub enum BenchError {
     /// The folder for the results cannot be made.
-    #[error("cannot make the folder for the results ({why}): {}", folder.display())]
+    #[error("cannot make the folder for the results ({why}): {}", image_file::shown(folder))]
     Folder {
         /// What stands in the way.
         why: std::io::Error,
@@ -21,7 +21,7 @@ pub enum BenchError {
     #[error(transparent)]
     File(#[from] ImageFileError),
     /// The journal cannot be read or written.
-    #[error("cannot {what} the journal ({why}); what was measured before stays in it: {}", path.display())]
+    #[error("cannot {what} the journal ({why}); what was measured before stays in it: {}", image_file::shown(path))]
     Journal {
         /// "read" or "write".
         what: &'static str,
@@ -31,7 +31,10 @@ pub enum BenchError {
         path: PathBuf,
     },
     /// A line of the journal is no measurement.
-    #[error("line {line} of the journal is damaged ({why}); remove the file to measure again: {}", path.display())]
+    #[error(
+        "line {line} of the journal is damaged ({why}); remove the file to measure again: {}",
+        image_file::shown(path)
+    )]
     Damaged {
         /// From 1.
         line: usize,
@@ -41,7 +44,10 @@ pub enum BenchError {
         path: PathBuf,
     },
     /// The folder holds another run's results.
-    #[error("the folder holds a bench of {differs}; give another folder with -o, or remove the file to begin again: {}", path.display())]
+    #[error(
+        "the folder holds a bench of {differs}; give another folder with -o, or remove the file to begin again: {}",
+        image_file::shown(path)
+    )]
     OtherRun {
         /// What differs, theirs and ours.
         differs: String,
@@ -49,10 +55,10 @@ pub enum BenchError {
         path: PathBuf,
     },
     /// Another program writes to the same folder.
-    #[error("another bench is running in this folder; wait for it, or give another folder with -o: {}", .0.display())]
+    #[error("another bench is running in this folder; wait for it, or give another folder with -o: {}", image_file::shown(.0))]
     Busy(PathBuf),
     /// A peer's table is not as it must be.
-    #[error("line {line} of a peer's table: {found}, expected {expected}: {}", path.display())]
+    #[error("line {line} of a peer's table: {found}, expected {expected}: {}", image_file::shown(path))]
     Peer {
         /// From 1; 0 if the file cannot be read at all.
         line: usize,

@@ -59,6 +59,10 @@ fn one_line(why: impl ToString) -> String {
 
 /// A path in one line: a name may have any character but `/`.
 pub fn shown(path: &Path) -> String {
-    let escaped = |c: char| if c.is_control() { c.escape_default().to_string() } else { c.to_string() };
-    path.display().to_string().chars().map(escaped).collect()
+    escaped(&path.display().to_string())
+}
+
+/// Text in one line, which moves no cursor: control characters as they are written in a string of Rust.
+pub fn escaped(text: &str) -> String {
+    text.chars().map(|c| if c.is_control() { c.escape_default().to_string() } else { c.to_string() }).collect()
 }

@@ -10,7 +10,7 @@ mod png;
 mod primaries;
 mod whole;
 
-pub use error::{ImageFileError, shown};
+pub use error::{ImageFileError, escaped, shown};
 pub use folders::{cache_folder, default_folder, home_folder};
 pub use names::{free_name, typed_path};
 pub use partial::{NoMoreFiles, is_partial, remove_partial_files, remove_unless_held};

@@ -27,7 +27,7 @@ pub enum StoreError {
     #[error("VISAVIS_CACHE_MIB {0}: expected a whole number of MiB")]
     Limit(String),
     /// The folder cannot be made or read.
-    #[error("cannot keep references ({why}): {}", folder.display())]
+    #[error("cannot keep references ({why}): {}", image_file::shown(folder))]
     Folder {
         /// What stands in the way.
         why: std::io::Error,
@@ -35,7 +35,7 @@ pub enum StoreError {
         folder: PathBuf,
     },
     /// A reference is not what was written.
-    #[error("a reference that was kept is damaged and is made anew: {}", .0.display())]
+    #[error("a reference that was kept is damaged and is made anew: {}", image_file::shown(.0))]
     Damaged(PathBuf),
     /// A reference cannot be written.
     #[error(transparent)]

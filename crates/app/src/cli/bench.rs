@@ -33,7 +33,7 @@ pub fn run(args: &BenchArgs) -> anyhow::Result<()> {
     } else {
         String::new()
     };
-    note!("wrote the page, its plots and tables{kept}: {}", outcome.page.display());
+    note!("wrote the page, its plots and tables{kept}: {}", image_file::shown(&outcome.page));
     super::print(&outcome.table)
 }
 

@@ -78,14 +78,14 @@ fn reference_of(file: &Path, picture: &Image) -> anyhow::Result<Reference> {
     ensure!(
         made.pane.in_use().shows_the_scene(),
         "this is a map of the fake, not a picture of the scene: {}",
-        file.display()
+        image_file::shown(file)
     );
     ensure!(
         made.seen.size == picture.size(),
         "its records are of another size, {}x{}: {}",
         made.seen.size.0,
         made.seen.size.1,
-        file.display()
+        image_file::shown(file)
     );
     let shot = made.shot()?;
     made.check_truth(&shot.scene)?;
@@ -98,7 +98,11 @@ fn tell_of_two_scenes(a: &Path, b: &Path) {
     if let (Some(scene_of_a), Some(scene_of_b)) = (of(a), of(b))
         && !scene_of_a.has_the_truth_of(&scene_of_b)
     {
-        note!("note: these pictures are of two scenes, or of one that has changed: {}, {}", a.display(), b.display());
+        note!(
+            "note: these pictures are of two scenes, or of one that has changed: {}, {}",
+            image_file::shown(a),
+            image_file::shown(b)
+        );
     }
 }
 

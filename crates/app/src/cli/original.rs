@@ -24,7 +24,7 @@ impl RenderArgs {
         self.seen.of(&self.scene).map_err(|fault| match (&self.original, fault.downcast_ref()) {
             (Some(original), Some(SceneError::Read { .. } | SceneError::Unknown { .. })) => fault.context(format!(
                 "the scene of {} is not found; run this in the folder where it was made",
-                original.file.display()
+                image_file::shown(&original.file)
             )),
             _ => fault,
         })
@@ -37,8 +37,8 @@ impl RenderArgs {
         {
             note!(
                 "note: the scene has changed since {} was made; this is another picture: {}",
-                file.display(),
-                self.scene
+                image_file::shown(file),
+                image_file::escaped(&self.scene)
             );
         }
     }
@@ -53,11 +53,15 @@ impl RenderArgs {
             then.has_the_truth_of(&now.as_read),
             "the scene has changed since {} was made, and has another reference; bring back the scene as it was, or name a \
              picture to compare with: {}",
-            file.display(),
-            self.scene
+            image_file::shown(file),
+            image_file::escaped(&self.scene)
         );
         if self.differs(then, now) {
-            note!("note: the fake's numbers have changed since {} was made: {}", file.display(), self.scene);
+            note!(
+                "note: the fake's numbers have changed since {} was made: {}",
+                image_file::shown(file),
+                image_file::escaped(&self.scene)
+            );
         }
         Ok(())
     }

@@ -93,12 +93,13 @@ impl Service for Exports {
 }
 
 fn save(export: &Export, path: &Path) -> anyhow::Result<PathBuf> {
-    let kind = Kind::of(path).with_context(|| format!("the name must end in .png or .exr: {}", path.display()))?;
+    let kind =
+        Kind::of(path).with_context(|| format!("the name must end in .png or .exr: {}", image_file::shown(path)))?;
     let bytes = match (&export.content, kind) {
         (Content::Seen(_), Kind::Exr) => {
             anyhow::bail!(
                 "EXR keeps the radiance of one pane: save A, B or the error map, or end the name in .png: {}",
-                path.display()
+                image_file::shown(path)
             )
         }
         (Content::Seen(capture), Kind::Png) => {

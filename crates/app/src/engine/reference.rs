@@ -190,7 +190,7 @@ fn load(file: &Path, (width, height): (u32, u32)) -> Result<(Reference, Vec<Stri
     if (w, h) == (width, height) {
         return Ok((reference, notes));
     }
-    Err(format!("the reference has {w}x{h} pixels, the picture {width}x{height}: {}", file.display()))
+    Err(format!("the reference has {w}x{h} pixels, the picture {width}x{height}: {}", image_file::shown(file)))
 }
 
 /// Puts one reference into the store, now and then.

@@ -22,7 +22,10 @@ use toml::Spanned;
 #[derive(Debug, thiserror::Error)]
 pub enum SceneError {
     /// Neither a built-in name nor a file.
-    #[error("unknown scene '{name}': the built-in scenes are {known}; a file's name ends in .toml")]
+    #[error(
+        "unknown scene '{}': the built-in scenes are {known}; a file's name ends in .toml",
+        image_file::escaped(name)
+    )]
     Unknown {
         /// What was asked for.
         name: String,
@@ -30,7 +33,7 @@ pub enum SceneError {
         known: String,
     },
     /// The file could not be read.
-    #[error("cannot read the scene file ({why}): {}", path.display())]
+    #[error("cannot read the scene file ({why}): {}", image_file::shown(path))]
     Read {
         /// The file.
         path: PathBuf,
@@ -38,7 +41,7 @@ pub enum SceneError {
         why: std::io::Error,
     },
     /// The file does not hold a scene.
-    #[error("{}:{line}:{column}: {message}", path.display())]
+    #[error("{}:{line}:{column}: {message}", image_file::shown(path))]
     Wrong {
         /// The file.
         path: PathBuf,

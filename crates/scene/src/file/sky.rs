@@ -27,7 +27,8 @@ pub(super) fn sky(raw: RawSky, folder: &Path) -> Result<(Vec3, Option<Arc<Enviro
         let number = |number: Option<f32>, usual| number.unwrap_or(usual);
         let scale = number(scale.map(|scale| scale.into_inner().get()), 1.0);
         let rotation = number(rotation.map(|rotation| rotation.into_inner().get()), 0.0);
-        let map = EnvironmentMap::new(image, scale, rotation).map_err(|why| format!("{}: {why}", path.display()))?;
+        let map = EnvironmentMap::new(image, scale, rotation)
+            .map_err(|why| format!("{}: {why}", image_file::shown(&path)))?;
         Ok(map.with_notes(notes))
     });
     match map {

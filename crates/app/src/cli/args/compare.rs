@@ -100,7 +100,7 @@ pub fn parse(parser: lexopt::Parser) -> Result<Command, CliError> {
         return usage("compare takes two pictures, visavis compare A B, or one to compare with its reference");
     };
     if let Some(out) = args.heatmap.as_ref().filter(|out| Kind::of(out).is_none()) {
-        return usage(format!("--heatmap must end in .png or .exr: {}", out.display()));
+        return usage(format!("--heatmap must end in .png or .exr: {}", image_file::shown(out)));
     }
     Ok(Command::Compare(CompareArgs { film, reference, ..args }))
 }

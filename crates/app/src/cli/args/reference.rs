@@ -107,7 +107,7 @@ pub fn parse(parser: lexopt::Parser) -> Result<Command, CliError> {
         (Some(scene), Some(out), false) if Kind::of(&out) == Some(Kind::Exr) => {
             ReferenceArgs::Make { scene, out, seen, goal: goal(noise, limit) }
         }
-        (Some(_), Some(out), false) => return usage(format!("-o must end in .exr: {}", out.display())),
+        (Some(_), Some(out), false) => return usage(format!("-o must end in .exr: {}", image_file::shown(&out))),
         (None, _, false) => return usage("reference needs a scene: visavis reference SCENE -o OUT.exr"),
         (Some(_), None, false) => return usage("reference needs a file to write: -o OUT.exr"),
     }))

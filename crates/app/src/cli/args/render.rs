@@ -202,17 +202,18 @@ pub fn made_by(file: &Path) -> anyhow::Result<RenderArgs> {
 /// What a picture was made by, read and as words.
 fn read_records(file: &Path) -> anyhow::Result<(RenderArgs, Vec<OsString>)> {
     let records = image_file::records(file)?;
-    let made = made_from(&records).with_context(|| format!("cannot read how it was made: {}", file.display()))?;
+    let made =
+        made_from(&records).with_context(|| format!("cannot read how it was made: {}", image_file::shown(file)))?;
     let Some(Recorded { scene, scene_hash, options }) = made else {
-        anyhow::bail!("this picture does not say how it was made: {}", file.display());
+        anyhow::bail!("this picture does not say how it was made: {}", image_file::shown(file));
     };
     let original = Some(Original { file: file.to_owned(), scene: scene_hash });
     let words: Vec<OsString> = options.into_iter().map(OsString::from).collect();
     let alone = words.iter().cloned().chain(["-o".into(), "out.png".into()]).collect();
     match parse_words(alone, Some(scene)) {
         Ok(Command::Render(render)) => Ok((RenderArgs { original, ..*render }, words)),
-        Ok(_) => anyhow::bail!("its records are no options of render: {}", file.display()),
-        Err(fault) => anyhow::bail!("its records make no picture ({}): {}", fault.line(), file.display()),
+        Ok(_) => anyhow::bail!("its records are no options of render: {}", image_file::shown(file)),
+        Err(fault) => anyhow::bail!("its records make no picture ({}): {}", fault.line(), image_file::shown(file)),
     }
 }
 
@@ -248,7 +249,7 @@ fn parse_words(words: Vec<OsString>, scene: Option<String>) -> Result<Command, C
     };
     let Some(out) = out else { return usage("render needs a file to write: -o OUT.png or -o OUT.exr") };
     if Kind::of(&out).is_none() {
-        return usage(format!("-o must end in .png or .exr: {}", out.display()));
+        return usage(format!("-o must end in .png or .exr: {}", image_file::shown(&out)));
     }
     let is_given = |option: &str| given.iter().any(|(given, _)| given == option);
     let technique = args.pane.technique;
