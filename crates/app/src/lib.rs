@@ -20,13 +20,13 @@ use std::ffi::OsString;
 use std::process::ExitCode;
 
 /// Runs the program on its arguments (without its own name). Exit code 0 is done, 1 failed, 2 wrong usage; a failure
-/// prints one line on stderr.
+/// prints one line on stderr. What a signal has interrupted does not return: the process ends by that signal.
 pub fn run(args: impl IntoIterator<Item = OsString>) -> ExitCode {
     match cli::Command::parse(args).and_then(cli::Command::execute) {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
             console::to_stderr(format_args!("visavis: {}\n", error.line()));
-            ExitCode::from(error.exit_code())
+            error.end()
         }
     }
 }

@@ -1,18 +1,17 @@
-//! Ctrl-C, and what asks a program to end: the first one asks a command that can to end soon with what it has made so far,
+//! Ctrl-C, and what else asks a program to end (SIGTERM, and SIGHUP of a terminal that is closed): the first one asks a command that can to end soon with what it has made so far,
 //! the next one ends the program at once, as the first one does where nothing would be lost.
 
-use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::process::ExitCode;
+use std::sync::atomic::{AtomicI32, AtomicUsize, Ordering};
 
-/// What a shell calls a program that Ctrl-C has ended.
-pub const EXIT_CODE: u8 = 130;
-
-static ASKED: AtomicBool = AtomicBool::new(false);
+/// The signal that asked; 0 if none did.
+static ASKED: AtomicI32 = AtomicI32::new(0);
 /// Pieces of work in hand that end soon when they are asked to.
 static HEEDING: AtomicUsize = AtomicUsize::new(0);
 
 /// Whether to end soon.
 pub fn is_asked() -> bool {
-    ASKED.load(Ordering::Relaxed)
+    ASKED.load(Ordering::Relaxed) != 0
 }
 
 /// As long as this lives, a first Ctrl-C does not end the program: whoever holds it looks at [`is_asked`].
@@ -29,26 +28,66 @@ impl Drop for Heeded {
     }
 }
 
-/// Takes signals from now on; where the system does not let it, they end the program as they always did.
+/// Takes signals from now on, those excepted that whoever began this program lets it ignore, as nohup and a shell's `&` do;
+/// where the system does not let it, they end the program as they always did.
 #[cfg(unix)]
 pub fn listen() {
-    use signal_hook::consts::{SIGINT, SIGTERM};
-    let Ok(mut signals) = signal_hook::iterator::Signals::new([SIGINT, SIGTERM]) else { return };
+    use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
+    let ignored = ignored_signals();
+    let taken = [SIGHUP, SIGINT, SIGTERM].into_iter().filter(|signal| ignored >> (signal - 1) & 1 == 0);
+    let Ok(mut signals) = signal_hook::iterator::Signals::new(taken) else { return };
     // a system without threads renders nothing either
     let _ = std::thread::Builder::new().name("signals".into()).spawn(move || signals.forever().for_each(take));
 }
 
+/// Signal `n` is bit `n - 1`: proc(5). Elsewhere than on Linux none is known.
+#[cfg(unix)]
+fn ignored_signals() -> u64 {
+    let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let mask = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));
+    mask.and_then(|mask| u64::from_str_radix(mask.trim(), 16).ok()).unwrap_or(0)
+}
+
 #[cfg(unix)]
 fn take(signal: i32) {
+    use signal_hook::consts::SIGHUP;
     use std::io::IsTerminal;
-    if HEEDING.load(Ordering::Relaxed) > 0 && !ASKED.swap(true, Ordering::Relaxed) {
+    if HEEDING.load(Ordering::Relaxed) == 0 {
+        end_at_once(signal);
+    }
+    let is_first = ASKED.compare_exchange(0, signal, Ordering::Relaxed, Ordering::Relaxed).is_ok();
+    if is_first {
         // the terminal has just shown ^C
         let new_line = if std::io::stderr().is_terminal() { "\n" } else { "" };
-        note!("{new_line}note: ends soon and saves what there is; once more ends at once");
-    } else {
-        let _no_more_files = image_file::remove_partial_files();
-        signal_hook::low_level::exit(128 + signal);
+        crate::console::to_stderr(format_args!(
+            "{new_line}note: ends soon and saves what there is; once more ends at once\n"
+        ));
+    } else if signal != SIGHUP {
+        // of a terminal that is closed both the shell and the system tell
+        end_at_once(signal);
     }
+}
+
+#[cfg(unix)]
+fn end_at_once(signal: i32) {
+    let _no_more_files = image_file::remove_partial_files();
+    end_by(signal);
+}
+
+/// As the signal ends a program that does not take it: whoever waits for it, a shell with a loop say, sees why it ended.
+#[cfg(unix)]
+fn end_by(signal: i32) {
+    // it ends the process whatever happens
+    let _ = signal_hook::low_level::emulate_default_handler(signal);
+}
+
+/// Ends the process that was asked to end, once it has saved and said what there is.
+pub fn end() -> ExitCode {
+    #[cfg(unix)]
+    if is_asked() {
+        end_by(ASKED.load(Ordering::Relaxed));
+    }
+    ExitCode::FAILURE
 }
 
 /// Elsewhere Ctrl-C ends the program at once.

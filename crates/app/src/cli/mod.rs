@@ -14,6 +14,7 @@ mod render;
 pub use args::{BenchArgs, CheckArgs, CompareArgs, ReferenceArgs, RenderArgs, Seen};
 
 use crate::model::ViewArgs;
+use std::process::ExitCode;
 
 /// What the user asked for.
 #[derive(Debug)]
@@ -43,7 +44,8 @@ pub enum CliError {
     Usage(String),
     /// The command failed: exit code 1.
     Failed(anyhow::Error),
-    /// The user ended the command before it was done, and what came of it is said: exit code 130.
+    /// The user ended the command before it was done, and what came of it is said: it ends by the signal that asked for it, which shells
+    /// report as 128 and its number.
     Interrupted(Option<anyhow::Error>),
 }
 
@@ -58,12 +60,12 @@ impl CliError {
         }
     }
 
-    /// 1, 2 or 130.
-    pub fn exit_code(&self) -> u8 {
+    /// How the process ends: with 1, with 2, or at once by the signal that has interrupted it.
+    pub fn end(&self) -> ExitCode {
         match self {
-            CliError::Usage(_) => 2,
-            CliError::Failed(_) => 1,
-            CliError::Interrupted(_) => interrupt::EXIT_CODE,
+            CliError::Usage(_) => ExitCode::from(2),
+            CliError::Failed(_) => ExitCode::from(1),
+            CliError::Interrupted(_) => interrupt::end(),
         }
     }
 }
@@ -102,7 +104,7 @@ impl Command {
 }
 
 fn one_line(text: &str) -> String {
-    text.lines().collect::<Vec<_>>().join(", ")
+    image_file::escaped(&text.lines().collect::<Vec<_>>().join(", "))
 }
 
 /// Prints to stdout; that a pipe was closed early is not a failure.

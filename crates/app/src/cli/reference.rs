@@ -19,7 +19,7 @@ pub fn run(args: &ReferenceArgs) -> anyhow::Result<()> {
             let mib = |bytes: u64| bytes as f64 / f64::from(1 << 20);
             super::print(&format!(
                 "folder  {}\ncount   {}\nsize    {:.1} MiB\nlimit   {:.0} MiB (VISAVIS_CACHE_MIB)\n",
-                store.folder().display(),
+                image_file::shown(store.folder()),
                 usage.count,
                 mib(usage.bytes),
                 mib(store.most_bytes())
@@ -28,7 +28,7 @@ pub fn run(args: &ReferenceArgs) -> anyhow::Result<()> {
         ReferenceArgs::Clear => {
             let store = Store::of_the_user()?;
             let gone = store.clear()?;
-            super::print(&format!("removed {} references from {}\n", gone.count, store.folder().display()))
+            super::print(&format!("removed {} references from {}\n", gone.count, image_file::shown(store.folder())))
         }
         ReferenceArgs::Make { scene, out, seen, goal } => {
             let shot = seen.of(scene)?;
@@ -44,6 +44,8 @@ pub fn run(args: &ReferenceArgs) -> anyhow::Result<()> {
                 course(&reference),
                 image_file::shown(out)
             );
+            let made = reference.replicates;
+            anyhow::ensure!(!interrupt::is_asked(), "{made} pictures are saved: {}", image_file::shown(out));
             Ok(())
         }
     }

@@ -57,7 +57,8 @@ pub fn run(args: &mut RenderArgs) -> anyhow::Result<()> {
     let measured = args.errors.then(|| measure(&shot, &image)).transpose();
     save(args, shot, (&rendered, seconds), &image, measured.as_ref().ok().and_then(Option::as_ref))?;
     let out = image_file::shown(&args.out);
-    let errors = measured.with_context(|| format!("the picture is saved without its errors: {out}"))?;
+    let made = spp_made(args, rendered.film.samples_per_pixel());
+    let errors = measured.with_context(|| format!("{made} are saved, without their errors: {out}"))?;
     if rendered.film.nonfinite > 0 {
         note!(
             "visavis: {} samples were not finite and are left out: please report this scene",
@@ -85,7 +86,21 @@ pub fn run(args: &mut RenderArgs) -> anyhow::Result<()> {
             note!("A - reference: relMSE {rel_mse}, RMSE {rmse}, bias {:+.2} %{noise}", 100.0 * e.relative_bias);
         }
     }
+    anyhow::ensure!(!interrupt::is_asked(), "{made} are saved: {out}");
     Ok(())
+}
+
+/// `u32::MAX` where the time alone decides.
+fn spp_wanted(args: &RenderArgs) -> u32 {
+    args.spp.unwrap_or(if args.seconds.is_some() { u32::MAX } else { DEFAULT_SPP })
+}
+
+/// `12 of 64 spp`.
+fn spp_made(args: &RenderArgs, made: u32) -> String {
+    match (args.pane.in_use(), spp_wanted(args)) {
+        (Technique::Traced(_), u32::MAX) | (Technique::Fake(_), _) => format!("{made} spp"),
+        (Technique::Traced(_), wanted) => format!("{made} of {wanted} spp"),
+    }
 }
 
 /// How far a finished picture is from the reference of what it shows.
@@ -146,7 +161,7 @@ fn trace(args: &RenderArgs, shot: &Shot, traced: TracedSettings) -> anyhow::Resu
     if let Some(blind) = traced.blind_spot(&shot.scene) {
         note!("note: {blind}");
     }
-    let spp = args.spp.unwrap_or(if args.seconds.is_some() { u32::MAX } else { DEFAULT_SPP });
+    let spp = spp_wanted(args);
     let (width, height) = shot.size;
     let blank = Accumulation::blank(shot.size)
         .with_context(|| format!("not enough memory for {width}x{height} pixels; ask for a smaller --size"))?;

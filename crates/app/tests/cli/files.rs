@@ -49,52 +49,59 @@ fn a_file_keeps_its_mode_and_its_names_and_is_read_only_for_who_may_not_write_it
     assert!(image_file::load(&other).is_ok(), "it is the same file by its other name");
 }
 
-/// A point light, which the naive estimator cannot find: the program says so when it begins to trace.
+/// A disk that is full, as a limit on the size of files.
+#[test]
 #[cfg(unix)]
-const UNSEEN_LIGHT: &str = r#"
-camera = { eye = [0, 1, 5], target = [0, 1, 0], fov_y = 30 }
-point_light = [{ position = [0, 5, 5], intensity = [9, 9, 9] }]
-material.grey.diffuse.albedo = [0.5, 0.5, 0.5]
-sphere = [{ center = [0, 1, 0], radius = 1, material = "grey" }]
-"#;
+fn a_full_disk_does_not_cost_a_file_with_two_names() {
+    let folder = TestFolder::new();
+    let (out, other) = (folder.file("a.exr"), folder.file("b.exr"));
+    assert!(
+        visavis(&["render", "cornell", "--size", "4x4", "--spp", "1", "-o", out.to_str().unwrap()]).status.success()
+    );
+    std::fs::hard_link(&out, &other).expect("a second name");
+    let before = std::fs::read(&out).expect("the picture");
+    let limited = "trap '' XFSZ; ulimit -f 4; exec \"$0\" \"$@\"";
+    let mut shell = std::process::Command::new("/bin/sh");
+    shell.args(["-c", limited, env!("CARGO_BIN_EXE_visavis"), "render", "cornell", "--size", "200x200", "--spp", "1"]);
+    let output = shell.arg("-o").arg(&out).output().expect("a shell");
+    assert_failed(&["render"], &output, 1, &["cannot write the file", "a.exr"]);
+    assert!([&out, &other].into_iter().all(|name| std::fs::read(name).expect("the picture") == before));
+    assert_eq!(folder.names(), ["a.exr", "b.exr"]);
+}
 
 #[test]
 #[cfg(unix)]
-fn ctrl_c_saves_the_samples_that_there_are() {
-    use rustix::process::{Pid, Signal, kill_process};
-    use std::io::{BufRead, BufReader, Read};
+fn names_with_ends_of_lines_are_told_in_one_line() {
     let folder = TestFolder::new();
-    let (scene, out) = (folder.file("a.toml"), folder.file("a.exr"));
-    std::fs::write(&scene, UNSEEN_LIGHT).expect("the scene");
-    let arguments = ["--size", "8x8", "--spp", "2000000", "--estimator", "uniform", "--device", "cpu", "-o"];
-    let measured = ["--errors"];
-    for (signal, more, end) in [
-        (Signal::INT, &[][..], "visavis: interrupted: what there was by then is kept"),
-        (Signal::TERM, &measured, "visavis: interrupted: the picture is saved without its errors: "),
-    ] {
-        let mut command = program();
-        command.arg("render").arg(&scene).args(arguments).arg(&out).args(more).stderr(std::process::Stdio::piped());
-        let mut render = command.spawn().expect("the program");
-        let mut stderr = BufReader::new(render.stderr.take().expect("its notes"));
-        let mut begun = String::new();
-        stderr.read_line(&mut begun).expect("a line");
-        assert!(begun.starts_with("note: "), "{begun}");
-        kill_process(Pid::from_child(&render), signal).expect("a signal");
-        let mut said = String::new();
-        stderr.read_to_string(&mut said).expect("its notes");
-        assert_eq!(render.wait().expect("an end").code(), Some(130), "{said}");
-        assert!(said.contains("note: ends soon and saves what there is") && said.contains(end), "{said}");
-        assert_eq!(folder.names(), ["a.exr", "a.toml"]);
-        assert!((1..2_000_000).contains(&spp_of(&out)));
-        std::fs::remove_file(&out).expect("the picture");
-    }
-}
-
-#[cfg(unix)]
-fn spp_of(file: &Path) -> u32 {
-    let records = image_file::records(file).expect("records");
-    let spp = records.iter().find(|(name, _)| name == "spp").expect("its samples");
-    spp.1.parse().expect("a number")
+    let (scene, out) = (folder.file("q\nq.toml"), folder.file("o\no.exr"));
+    std::fs::write(&scene, "[camera\n").expect("a scene");
+    let [scene_name, out_name] = [&scene, &out].map(|path| path.to_str().expect("a plain path"));
+    let render = ["render", scene_name, "-o", out_name, "--size", "4x4", "--spp", "1"];
+    assert_refused(&render, 1, &["q\\nq.toml:1:8"]);
+    assert_refused(&["render", "z\nz.toml", "-o", out_name], 1, &["z\\nz.toml"]);
+    assert_refused(&["render", "z\nz", "-o", out_name], 1, &["unknown scene 'z\\nz'"]);
+    std::fs::write(&scene, super::interrupts::UNSEEN_LIGHT).expect("a scene");
+    let said = |arguments: &[&str]| String::from_utf8_lossy(&visavis(arguments).stderr).into_owned();
+    let made = said(&render);
+    assert!(made.lines().count() == 1 && made.contains("path of q\\nq") && made.contains("o\\no.exr"), "{made}");
+    // two scenes
+    let other = folder.file("p\np.exr");
+    let other = other.to_str().expect("a plain path");
+    said(&["render", "cornell", "-o", other, "--size", "4x4", "--spp", "1"]);
+    let compared = said(&["compare", out_name, other]);
+    assert!(compared.lines().count() == 1 && compared.contains("o\\no.exr, "), "{compared}");
+    let mut reference = program();
+    reference.args(["reference", "cornell", "-o", other, "--size", "8x8", "--noise", "1"]);
+    let made = reference.env("VISAVIS_CACHE", "/dev/null/c\nc").output().expect("the program");
+    let made = String::from_utf8_lossy(&made.stderr);
+    assert!(made.lines().count() == 2 && made.contains("c\\nc\n"), "{made}");
+    // the scene has changed
+    std::fs::write(&scene, super::interrupts::UNSEEN_LIGHT.replace("radius = 1", "radius = 2")).expect("a scene");
+    assert_refused(&["compare", out_name], 1, &["o\\no.exr", "q\\nq.toml"]);
+    let again = folder.file("again.exr");
+    let again = said(&["render", "--from", out_name, "-o", again.to_str().expect("a plain path")]);
+    let note = again.lines().next().unwrap_or_default();
+    assert!(again.lines().count() == 2 && note.contains("o\\no.exr") && note.contains("q\\nq.toml"), "{again}");
 }
 
 #[test]

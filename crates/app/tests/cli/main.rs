@@ -7,6 +7,8 @@ mod changed_scenes;
 mod device;
 mod files;
 mod films;
+#[cfg(unix)]
+mod interrupts;
 mod pictures;
 mod references;
 
