@@ -56,6 +56,17 @@ fn check_pixels(width: usize, height: usize, path: &Path) -> Result<(), ImageFil
     Ok(())
 }
 
+/// What is to be said of pixels that are so many times as wide as high.
+fn oblong(ratio: f64) -> Option<String> {
+    match ratio {
+        1.0 => None,
+        _ if ratio > 0.0 && ratio.is_finite() => {
+            Some(format!("its pixels are {ratio:.3} times as wide as high, and taken as squares"))
+        }
+        _ => Some("what it says of its pixels' width and height makes no sense: they are taken as squares".into()),
+    }
+}
+
 /// What a file says, if it is a picture.
 fn image_of((width, height): (u32, u32), radiances: Vec<Vec3>, path: &Path) -> Result<Image, ImageFileError> {
     if radiances.is_empty() {

@@ -124,12 +124,38 @@ fn luminance_is_grey_and_chroma_its_colour() {
 }
 
 #[test]
-fn of_several_parts_the_first_is_read_and_the_others_told_of() {
+fn of_several_parts_the_one_that_is_named_as_the_picture_is_read_or_else_the_first_and_told_of() {
+    let colour = |name, value: &[f32; 1]| part(name, (1, 1), &[("R", value), ("G", value), ("B", value)]);
+    let layer = |name, value: &[f32; 1]| part(name, (1, 1), &[("L.R", value), ("L.G", value), ("L.B", value)]);
+    let only = |name, channel, value: &[f32; 1]| part(name, (1, 1), &[(channel, value)]);
+    let motion = || part("motion", (1, 1), &[("X", &[8.0]), ("Y", &[9.0])]);
+    let (one, two) = (&[1.0], &[2.0]);
+    for (parts, expected, told) in [
+        (
+            vec![only("depth", "depth.Y", &[9.0]), colour("one", one), colour("two", two)],
+            1.0,
+            "depth, one, two this is one",
+        ),
+        (vec![colour("albedo", one), colour("beauty", two)], 2.0, "albedo, beauty this is beauty"),
+        (vec![colour("V.AO", one), colour("V.Combined", two)], 2.0, "V.AO, V.Combined this is V.Combined"),
+        (vec![layer("left", one), colour("right", two)], 2.0, "left: L, right this is right"),
+        (vec![only("a", "Y", one), only("b", "Y", two)], 1.0, "a, b this is a"),
+        (vec![only("a", "Y", one), only("rgb", "Y", two)], 2.0, "a, rgb this is rgb"),
+    ] {
+        let loaded = written(window((0, 0), (1, 1)), parts).unwrap();
+        assert_eq!(reds(&loaded), [expected], "{told}");
+        assert!(note(&loaded).starts_with(&format!("of its layers {told}")), "{:?}", loaded.notes);
+    }
+    // a place or a direction is no luminance, and no picture either
+    let lone = written(window((0, 0), (1, 1)), [motion(), only("lum", "Y", two)]).unwrap();
+    assert_eq!((reds(&lone), lone.notes.len()), (vec![2.0], 0));
+    let same = written(window((0, 0), (1, 1)), [layer("left", one), layer("right", two)]).unwrap_err();
+    assert!(same.contains("several pictures") && same.contains("left: L, right: L"), "{same}");
+}
+
+#[test]
+fn a_layer_is_read_by_the_name_of_its_part() {
     let value = |name, value: &[f32; 1]| part(name, (1, 1), &[("R", value), ("G", value), ("B", value)]);
-    let deeper = part("depth", (1, 1), &[("depth.Y", &[9.0])]);
-    let loaded = written(window((0, 0), (1, 1)), [deeper, value("one", &[1.0]), value("two", &[2.0])]).unwrap();
-    assert_eq!(reds(&loaded), [1.0]);
-    assert!(note(&loaded).contains("depth, R, G, B this is R, G, B"), "{:?}", loaded.notes);
     let folder = TestFolder::new();
     let path = write(&folder, window((0, 0), (1, 1)), [value("one", &[1.0]), value("two", &[2.0])]);
     assert_eq!(load_layer(&path, "two", (1, 1)).unwrap(), Some(film::LayerValues::Rgb([Vec3::splat(2.0)].into())));
@@ -193,9 +219,17 @@ fn alpha_and_oblong_pixels_are_told_of() {
     let opaque = [("R", &[0.5][..]), ("G", &[0.5]), ("B", &[0.5]), ("A", &[1.0])];
     let loaded = written(window((0, 0), (1, 1)), [part("part", (1, 1), &opaque)]).unwrap();
     assert!(loaded.notes.is_empty());
-    let mut oblong = window((0, 0), (1, 1));
-    oblong.pixel_aspect = 2.0;
-    assert!(note(&written(oblong, [grey((1, 1), &[1.0])]).unwrap()).contains("2 times as wide"));
+    let folder = TestFolder::new();
+    let path = write(&folder, window((0, 0), (1, 1)), [grey((1, 1), &[1.0])]);
+    let bytes = std::fs::read(&path).unwrap();
+    let name = b"pixelAspectRatio\0float\0\x04\0\0\0";
+    let place = bytes.windows(name.len()).position(|bytes| bytes == name).unwrap() + name.len();
+    for (aspect, words) in [(2.0, "2.000 times as wide"), (f32::NAN, "makes no sense"), (0.0, "makes no sense")] {
+        let mut oblong = bytes.clone();
+        oblong[place..place + 4].copy_from_slice(&f32::to_le_bytes(aspect));
+        std::fs::write(&path, oblong).unwrap();
+        assert!(note(&read(&path).unwrap()).contains(words), "{aspect}");
+    }
 }
 
 #[test]

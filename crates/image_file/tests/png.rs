@@ -126,6 +126,8 @@ fn what_is_not_applied_is_told_of() {
         (&[(b"iCCP", &profile[..])], "its colour profile (iCCP) is not applied"),
         (&[(b"cICP", &[9, 16, 0, 1])], "its code points (cICP) are not those of sRGB"),
         (&[(b"pHYs", &[0, 0, 0, 1, 0, 0, 0, 2, 0])], "2.000 times as wide as high"),
+        (&[(b"pHYs", &[0, 0, 0, 0, 0, 0, 0, 2, 0])], "makes no sense"),
+        (&[(b"pHYs", &[0, 0, 0, 1, 0, 0, 0, 0, 0])], "makes no sense"),
     ] {
         let loaded = grey_188(chunks);
         assert!(note(&loaded).contains(words), "{:?}", loaded.notes);

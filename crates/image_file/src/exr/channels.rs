@@ -1,5 +1,5 @@
 //! Which channels of an EXR are its picture. Their names are `layer.channel`, of layers within layers; what is outside of
-//! any layer comes first.
+//! any layer comes first. Of several parts each has a name, which tells of its channels what a layer's does.
 
 use super::exr;
 use ::exr::meta::header::Header;
@@ -20,6 +20,10 @@ pub enum Colours {
 /// A picture in a file: channels of one layer, in one part.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Choice {
+    /// The part's place in the file.
+    pub part: usize,
+    /// Its name, if it is one of several.
+    part_name: Option<String>,
     /// The layer's name with a dot behind it; empty outside of layers.
     prefix: String,
     pub colours: Colours,
@@ -31,35 +35,45 @@ impl Choice {
         super::text(&format!("{}{name}", self.prefix))
     }
 
+    fn layer(&self) -> &str {
+        self.prefix.trim_end_matches('.')
+    }
+
+    /// By its layer, else by its part.
     fn is_named_as_a_picture(&self) -> bool {
-        let last = self.prefix.trim_end_matches('.').rsplit('.').next().unwrap_or_default();
+        let part = self.part_name.as_deref().unwrap_or_default();
+        let name = if self.prefix.is_empty() { part } else { self.layer() };
+        let last = name.rsplit('.').next().unwrap_or_default();
         PICTURES.contains(&last.to_ascii_lowercase().as_str())
     }
 }
 
 impl fmt::Display for Choice {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        f.write_str(match self.colours {
+        let layer = match self.colours {
             Colours::Rgb if self.prefix.is_empty() => "R, G, B",
             Colours::Luminance if self.prefix.is_empty() => "Y",
-            _ => self.prefix.trim_end_matches('.'),
-        })
+            _ => self.layer(),
+        };
+        match self.part_name.as_deref() {
+            Some(part) if self.prefix.is_empty() || part == layer => f.write_str(part),
+            Some(part) => write!(f, "{part}: {layer}"),
+            None => f.write_str(layer),
+        }
     }
 }
 
 /// The picture among all of a file's channels, and all that it might have been; or why none is.
 ///
 /// Colours outside of layers come first, then those of a layer that is named as a renderer's picture, then those of the only
-/// layer that has colours, then luminance.
+/// layer that has colours, then luminance. Of several parts with colours outside of layers the one that is named as a
+/// picture, else the first.
 pub fn choose(headers: &[Header]) -> Result<(Choice, Vec<Choice>), String> {
     let found = pictures(headers);
-    let colours: Vec<&Choice> = found.iter().filter(|choice| choice.colours == Colours::Rgb).collect();
-    let outside = |choices: &[&Choice]| choices.iter().find(|choice| choice.prefix.is_empty()).copied().cloned();
-    let named = || colours.iter().find(|choice| choice.is_named_as_a_picture()).copied().cloned();
-    let only = |choices: &[&Choice]| if let [one] = choices { Some((*one).clone()) } else { None };
-    let luminance: Vec<&Choice> = found.iter().filter(|choice| choice.colours == Colours::Luminance).collect();
+    let of = |colours| found.iter().filter(|choice| choice.colours == colours).collect::<Vec<_>>();
+    let (colours, luminance) = (of(Colours::Rgb), of(Colours::Luminance));
     let grey = || if colours.is_empty() { outside(&luminance).or_else(|| only(&luminance)) } else { None };
-    let chosen = outside(&colours).or_else(named).or_else(|| only(&colours)).or_else(grey);
+    let chosen = outside(&colours).or_else(|| named(&colours)).or_else(|| only(&colours)).or_else(grey).cloned();
     match chosen {
         Some(chosen) => Ok((chosen, found)),
         None if found.is_empty() => Err(format!(
@@ -68,6 +82,19 @@ pub fn choose(headers: &[Header]) -> Result<(Choice, Vec<Choice>), String> {
         )),
         None => Err(format!("it has several pictures and no R, G, B outside of them; keep one of {}", listed(&found))),
     }
+}
+
+fn outside<'a>(choices: &[&'a Choice]) -> Option<&'a Choice> {
+    let outside: Vec<&Choice> = choices.iter().filter(|choice| choice.prefix.is_empty()).copied().collect();
+    named(&outside).or(outside.first().copied())
+}
+
+fn named<'a>(choices: &[&'a Choice]) -> Option<&'a Choice> {
+    choices.iter().find(|choice| choice.is_named_as_a_picture()).copied()
+}
+
+fn only<'a>(choices: &[&'a Choice]) -> Option<&'a Choice> {
+    if let [one] = choices { Some(one) } else { None }
 }
 
 /// Names in a row, not too many.
@@ -79,27 +106,33 @@ pub fn listed(names: &[impl fmt::Display]) -> String {
     words.join(", ")
 }
 
-/// All pictures of flat parts, in the order of the file; of parts with the same names the first.
+/// All pictures of flat parts, in the order of the file.
 fn pictures(headers: &[Header]) -> Vec<Choice> {
-    let mut found = Vec::new();
-    for header in headers.iter().filter(|header| !header.deep) {
-        let names: Vec<String> = header.channels.list.iter().map(|channel| channel.name.to_string()).collect();
-        for name in &names {
-            let (prefix, channel) = name.rfind('.').map_or(("", name.as_str()), |dot| name.split_at(dot + 1));
-            let has = |other: &str| names.iter().any(|name| *name == format!("{prefix}{other}"));
-            let colours = match channel {
-                "R" if has("G") && has("B") => Colours::Rgb,
-                // beside an X it is a place or a direction
-                "Y" if !has("X") => Colours::Luminance,
-                _ => continue,
-            };
-            let choice = Choice { prefix: prefix.to_owned(), colours };
-            if !found.contains(&choice) {
-                found.push(choice);
-            }
-        }
-    }
-    found
+    let flat = headers.iter().enumerate().filter(|(_, header)| !header.deep);
+    flat.flat_map(|(part, header)| {
+        let name = header.own_attributes.layer_name.as_ref().map(ToString::to_string);
+        let part_name = name.filter(|name| headers.len() > 1 && !name.is_empty());
+        let of = move |(prefix, colours)| Choice { part, part_name: part_name.clone(), prefix, colours };
+        pictures_of_part(header).into_iter().map(of)
+    })
+    .collect()
+}
+
+/// The layers of a part that have colours or luminance.
+fn pictures_of_part(header: &Header) -> Vec<(String, Colours)> {
+    let names: Vec<String> = header.channels.list.iter().map(|channel| channel.name.to_string()).collect();
+    let picture = |name: &String| {
+        let (prefix, channel) = name.rfind('.').map_or(("", name.as_str()), |dot| name.split_at(dot + 1));
+        let has = |other: &str| names.iter().any(|name| *name == format!("{prefix}{other}"));
+        let colours = match channel {
+            "R" if has("G") && has("B") => Colours::Rgb,
+            // beside an X it is a place or a direction
+            "Y" if !has("X") => Colours::Luminance,
+            _ => return None,
+        };
+        Some((prefix.to_owned(), colours))
+    };
+    names.iter().filter_map(picture).collect()
 }
 
 fn names(headers: &[Header]) -> String {

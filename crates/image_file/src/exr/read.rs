@@ -4,8 +4,10 @@ use super::channels::{self, Choice, Colours, listed};
 use super::{exr, text};
 use crate::primaries::{Primaries, REC_709, converted};
 use crate::{ImageFileError, Loaded, check_pixels, image_of};
+use ::exr::image::read::layers::ReadChannels;
 use ::exr::meta::Headers;
 use ::exr::meta::attribute::Chromaticities;
+use ::exr::meta::header::Header;
 use film::glam::DVec3;
 use film::{LayerValues, Vec3};
 use std::path::Path;
@@ -77,19 +79,16 @@ pub fn load(path: &Path) -> Result<Loaded, ImageFileError> {
     if found.len() > 1 && !is_ours() {
         notes.push(format!("of its layers {} this is {choice}", listed(&found)));
     }
-    let Some(shared) = headers.first().map(|header| &header.shared_attributes) else {
-        return Err(ImageFileError::read(path, "it is empty"));
-    };
-    let mut stored = stored(path, &choice, shared.chromaticities.and_then(|c| primaries(&c).luminance()))?;
+    let part = headers.get(choice.part).ok_or_else(|| ImageFileError::read(path, "it is empty"))?;
+    let shared = &part.shared_attributes;
+    let mut stored = stored(path, part, &choice, shared.chromaticities.and_then(|c| primaries(&c).luminance()))?;
     if stored.translucent {
         notes.push("its alpha is left out: what it lets through is black".into());
     }
     if let Some(chromaticities) = &shared.chromaticities {
         notes.extend(to_rec_709(&mut stored.colours, primaries(chromaticities)));
     }
-    if shared.pixel_aspect != 1.0 {
-        notes.push(format!("its pixels are {} times as wide as high, and taken as squares", shared.pixel_aspect));
-    }
+    notes.extend(crate::oblong(shared.pixel_aspect.into()));
     let display = Window::new(shared.display_window.position, shared.display_window.size);
     notes.extend(difference(&stored.window, &display));
     let colours = if stored.window == display { stored.colours } else { placed(&stored, &display) };
@@ -100,39 +99,52 @@ pub fn load(path: &Path) -> Result<Loaded, ImageFileError> {
 /// Colours as they are filled in: the width, the pixels, and whether any of them lets something through.
 type Pixels = (usize, Vec<Vec3>, bool);
 
-/// The first part that has the channels of this choice. What reads three channels that must be there is of another type than
+/// Reads channels of one part alone: others may have channels of the same names.
+struct OfPart<'a, C> {
+    part: &'a Header,
+    channels: C,
+}
+
+impl<'s, C: ReadChannels<'s>> ReadChannels<'s> for OfPart<'_, C> {
+    type Reader = C::Reader;
+
+    fn create_channels_reader(&'s self, header: &Header) -> exr::Result<C::Reader> {
+        let identity = |header: &Header| (header.own_attributes.layer_name.clone(), header.channels.clone());
+        if identity(header) != identity(self.part) {
+            return Err(exr::Error::Invalid("another part".into()));
+        }
+        self.channels.create_channels_reader(header)
+    }
+}
+
+/// The channels of this choice, which is of this part. What reads three channels that must be there is of another type than
 /// what reads one and two that may be.
-fn stored(path: &Path, choice: &Choice, luminance: Option<DVec3>) -> Result<Stored, ImageFileError> {
-    use exr::{ReadChannels as _, ReadLayers as _, ReadSpecificChannel as _};
-    macro_rules! first_part_with {
-        ($channels:expr, $colour:expr) => {
-            $channels
-                .optional(choice.channel("A"), 1.0_f32)
-                .collect_pixels(
-                    |size, _| (size.width(), vec![Vec3::ZERO; size.area()], false),
-                    move |(width, colours, translucent): &mut Pixels, at, (a, b, c, alpha): (f32, f32, f32, f32)| {
-                        colours[at.y() * *width + at.x()] = $colour([a, b, c]);
-                        *translucent |= alpha < 1.0;
-                    },
-                )
-                .first_valid_layer()
-                .all_attributes()
-                .from_file(path)
-                .map(|image| {
-                    let layer = image.layer_data;
-                    (Window::new(layer.attributes.layer_position, layer.size), layer.channel_data.pixels)
-                })
-        };
+fn stored(path: &Path, part: &Header, choice: &Choice, luminance: Option<DVec3>) -> Result<Stored, ImageFileError> {
+    use exr::{ReadLayers as _, ReadSpecificChannel as _};
+    macro_rules! part_with {
+        ($channels:expr, $colour:expr) => {{
+            let channels = $channels.optional(choice.channel("A"), 1.0_f32).collect_pixels(
+                |size, _| (size.width(), vec![Vec3::ZERO; size.area()], false),
+                move |(width, colours, translucent): &mut Pixels, at, (a, b, c, alpha): (f32, f32, f32, f32)| {
+                    colours[at.y() * *width + at.x()] = $colour([a, b, c]);
+                    *translucent |= alpha < 1.0;
+                },
+            );
+            OfPart { part, channels }.first_valid_layer().all_attributes().from_file(path).map(|image| {
+                let layer = image.layer_data;
+                (Window::new(layer.attributes.layer_position, layer.size), layer.channel_data.pixels)
+            })
+        }};
     }
     let shares = luminance.or(REC_709.luminance()).unwrap_or(DVec3::ONE);
     let channels = exr::read().no_deep_data().largest_resolution_level().specific_channels();
     let [r, g, b] = ["R", "G", "B"].map(|name| choice.channel(name));
     let [y, ry, by] = ["Y", "RY", "BY"].map(|name| choice.channel(name));
     let read = match choice.colours {
-        Colours::Rgb => first_part_with!(channels.required(r).required(g).required(b), Vec3::from_array),
+        Colours::Rgb => part_with!(channels.required(r).required(g).required(b), Vec3::from_array),
         Colours::Luminance => {
             let with_chroma = channels.required(y).optional(ry, 0.0_f32).optional(by, 0.0_f32);
-            first_part_with!(with_chroma, |channels| of_chroma(channels, shares))
+            part_with!(with_chroma, |channels| of_chroma(channels, shares))
         }
     };
     let (window, (_, colours, translucent)) = read.map_err(|e| ImageFileError::read(path, e))?;

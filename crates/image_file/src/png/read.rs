@@ -80,10 +80,7 @@ fn in_light(decoded: &Decoded, colours: &Colours) -> (Vec<Vec3>, bool) {
 fn what_is_left_out(info: &png::Info) -> impl Iterator<Item = String> {
     let frames = info.animation_control.map(|animation| animation.num_frames).filter(|frames| *frames > 1);
     let frames = frames.map(|frames| format!("this is the first of its {frames} frames"));
-    let oblong = info.pixel_dims.filter(|per_unit| per_unit.xppu != per_unit.yppu);
-    let oblong = oblong.map(|per_unit| {
-        let ratio = f64::from(per_unit.yppu) / f64::from(per_unit.xppu);
-        format!("its pixels are {ratio:.3} times as wide as high, and taken as squares")
-    });
+    let ratio = info.pixel_dims.map(|per_unit| f64::from(per_unit.yppu) / f64::from(per_unit.xppu));
+    let oblong = ratio.and_then(crate::oblong);
     frames.into_iter().chain(oblong)
 }
