@@ -10,8 +10,10 @@ const PATIENCE: Duration = Duration::from_secs(5);
 /// How often it is looked whether they are done.
 const PAUSE: Duration = Duration::from_millis(5);
 
-/// The file that stands for the folder where a folder cannot be locked.
-pub const LOCK_FILE: &str = "references.lock";
+/// The file that stands for the folder where a folder cannot be locked. It stays: whoever removed it would let others hold
+/// two of them.
+#[cfg(not(unix))]
+const LOCK_FILE: &str = "references.lock";
 
 /// Holds a folder, alone or together with others who look, until the file is dropped. `None` where that cannot be had:
 /// file systems without locks are used without.

@@ -1,7 +1,7 @@
 //! References on disk: one file each in the user's cache folder, the ones not used for longest going when there are too
 //! many.
 
-use crate::lock::{LOCK_FILE, hold};
+use crate::lock::hold;
 use crate::seal::Seal;
 use crate::{Key, Reference};
 use image_file::{ImageFileError, Records};
@@ -92,11 +92,6 @@ impl Store {
         self.most_bytes
     }
 
-    /// The reference of this key, if it is there and whole.
-    pub fn get(&self, key: Key) -> Option<Reference> {
-        self.fetch(key).ok().flatten()
-    }
-
     /// The reference of this key, if it is there.
     ///
     /// # Errors
@@ -173,15 +168,19 @@ impl Store {
         for entry in self.entries()? {
             self.remove(&entry.path)?;
         }
-        for file in self.files()?.iter().filter(|file| is_left_over(file)) {
-            self.remove(&file.path())?;
+        for file in self.files()?.iter().filter(|file| is_in_the_making(file)) {
+            self.pardon(image_file::remove_unless_held(&file.path()))?;
         }
         Ok(usage)
     }
 
-    /// That another program was faster is no fault.
     fn remove(&self, path: &Path) -> Result<(), StoreError> {
-        match std::fs::remove_file(path) {
+        self.pardon(std::fs::remove_file(path))
+    }
+
+    /// That another program was faster to remove a file is no fault.
+    fn pardon(&self, removed: std::io::Result<()>) -> Result<(), StoreError> {
+        match removed {
             Err(why) if why.kind() != std::io::ErrorKind::NotFound => Err(self.fault(why)),
             _ => Ok(()),
         }
@@ -233,14 +232,12 @@ fn head_of(path: &Path) -> std::io::Result<Vec<u8>> {
     Ok(head)
 }
 
-/// Whether a file was being written by a program that did not come to its end: those that are at it hold theirs.
-fn is_left_over(file: &DirEntry) -> bool {
+/// Whether a file is one that is being written, or was by a program that did not come to its end.
+fn is_in_the_making(file: &DirEntry) -> bool {
     let name = file.file_name();
-    let Some(name) = name.to_str() else { return false };
-    let is_partial = name.strip_suffix(".partial").is_some_and(|name| {
-        name.starts_with(".visavis-") || name.split_once(".exr.").is_some_and(|(key, _)| is_key(key))
-    });
-    let is_idle = || File::open(file.path()).is_ok_and(|opened| opened.try_lock().is_ok());
-    let is_file = file.file_type().is_ok_and(|kind| kind.is_file());
-    is_file && (name == LOCK_FILE || (is_partial && is_idle()))
+    // as programs of before named them
+    let is_old = |name: &str| name.split_once(".exr.").is_some_and(|(key, _)| is_key(key));
+    let is_named = image_file::is_partial(&name)
+        || name.to_str().and_then(|name| name.strip_suffix(".partial")).is_some_and(is_old);
+    is_named && file.file_type().is_ok_and(|kind| kind.is_file())
 }

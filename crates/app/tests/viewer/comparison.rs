@@ -62,7 +62,7 @@ fn a_reference_is_made_while_the_panes_rest_kept_and_there_at_once_the_second_ti
     // it is shown before it is on the disk
     let kept = (0..200).any(|_| {
         std::thread::sleep(Duration::from_millis(50));
-        store.get(key).is_some_and(|kept| kept.replicates == 16)
+        store.fetch(key).is_ok_and(|kept| kept.is_some_and(|kept| kept.replicates == 16))
     });
     assert!(kept, "the reference is not kept");
 
