@@ -147,6 +147,28 @@ fn a_file_that_is_held_is_no_leftover() {
     assert!(!path.exists());
 }
 
+/// A signal may come while a file is written: nothing is begun then that the end would break off.
+#[test]
+fn a_process_that_is_being_ended_writes_nothing_in_place() {
+    let folder = TestFolder::new();
+    let path = folder.file("a.png");
+    std::fs::write(&path, "before").unwrap();
+    let ending = in_the_making();
+    let (done, is_done) = std::sync::mpsc::channel();
+    let file = File::options().write(true).open(&path).unwrap();
+    let writer = std::thread::spawn(move || {
+        let written = write_in_place(file, b"after");
+        done.send(()).unwrap();
+        written
+    });
+    // a writer that did not wait would be done long before
+    assert!(is_done.recv_timeout(std::time::Duration::from_millis(100)).is_err());
+    assert_eq!(read(&path), b"before");
+    drop(ending);
+    writer.join().unwrap().unwrap();
+    assert_eq!(read(&path), b"after");
+}
+
 #[cfg(unix)]
 mod on_unix {
     use super::*;
