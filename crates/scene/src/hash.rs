@@ -1,7 +1,7 @@
 //! What a picture keeps of its scene, to know it again: a file may change, and another folder may have one of its name.
 
 use crate::Scene;
-use crate::canonical::Canonical;
+use crate::canonical::hash;
 use std::fmt;
 use std::str::FromStr;
 
@@ -32,14 +32,6 @@ impl SceneHash {
     pub fn has_the_truth_of(&self, other: &SceneHash) -> bool {
         self.truth == other.truth
     }
-}
-
-fn hash(write: impl FnOnce(&mut Canonical)) -> u128 {
-    let mut hasher = blake3::Hasher::new();
-    write(&mut Canonical(&mut |bytes| _ = hasher.update(bytes)));
-    let mut half = [0; 16];
-    hasher.finalize_xof().fill(&mut half);
-    u128::from_be_bytes(half)
 }
 
 impl fmt::Display for SceneHash {
@@ -75,6 +67,9 @@ near = 0.5
 far = 100
 [sky]
 radiance = [1, 1, 1]
+[material.alpha]
+mirror = { reflectance = [0.7, 0.7, 0.7] }
+fake = { specular = 0.3 }
 [material.chalk]
 diffuse = { albedo = [0.5, 0.5, 0.5] }
 fake = { specular = 0.1 }
@@ -82,6 +77,11 @@ fake = { specular = 0.1 }
 center = [0, 1, 0]
 radius = 1
 material = "chalk"
+[[disk]]
+center = [0, 0, 0]
+normal = [0, 1, 0]
+radius = 3
+material = "alpha"
 "#;
 
     fn read(text: &str, name: &str) -> SceneHash {
@@ -100,6 +100,14 @@ material = "chalk"
     fn what_no_picture_depends_on_changes_nothing() {
         assert_eq!(changed("radius = 1", "radius = 1.0 # a remark"), (false, false));
         assert_eq!(changed("chalk", "plaster"), (false, false));
+        // materials are sorted by their names
+        assert_eq!(changed("chalk", "aaa"), (false, false));
+        let unused = "[material.aaa]\ndielectric = { ior = 1.5 }\nfake = { refraction_ratio = 0.6 }\n[sky]";
+        assert_eq!(changed("[sky]", unused), (false, false));
+        assert_eq!(
+            changed("center = [0, 0, 0]\nnormal = [0, 1, 0]", "center = [-0.0, -0, 0]\nnormal = [-0.0, 1, -0.0]"),
+            { (false, false) }
+        );
         // pictures keep their camera apart
         assert_eq!(changed("eye = [0, 1, 5]", "eye = [0, 1, 6]"), (false, false));
         assert_eq!(changed("target = [0, 1, 0]\nfov_y = 30", "target = [0, 2, 0]\nfov_y = 31"), (false, false));
@@ -109,6 +117,7 @@ material = "chalk"
     fn truth_and_fake_are_told_apart() {
         assert_eq!(changed("[0.5, 0.5, 0.5]", "[0.5, 0.5, 0.50000006]"), (true, false));
         assert_eq!(changed("fov_y = 30", "fov_y = 30\nup = [1, 2, 0]"), (true, false));
+        assert_eq!(changed("radius = 3\nmaterial = \"alpha\"", "radius = 3\nmaterial = \"chalk\""), (true, true));
         assert_eq!(changed("near = 0.5", "near = 0.25"), (false, true));
         assert_eq!(changed("specular = 0.1", "specular = 0.2"), (false, true));
         assert_eq!(changed("[sky]", "[fake]\nsegments = 99\n[sky]"), (false, true));
@@ -138,7 +147,7 @@ material = "chalk"
     fn the_hash_is_what_it_was() {
         assert_eq!(
             read(SCENE, "scene").to_string(),
-            "01d14453d00beccfa06a2c9a36aa2cca-f0699f6fb74eea11b07b7b92e7c06aec"
+            "4e8cce869dac0ef8ff8b0c1b5c6c14e4-00e5b4679bfa653726f50a468141da04"
         );
     }
 }

@@ -12,8 +12,8 @@ sky = { radiance = [0.1, 0.2, 0.3] }
 point_light = [{ position = [1, 2, 3], intensity = [4, 5, 6] }]
 sphere = [{ center = [9, 1, 2], radius = 0.5, material = "glass" }, { center = [1, 2, 3], radius = 0.25, material = "mirror" }]
 rectangle = [{ corner = [1, 2, 3], edge_u = [1, 0.1, 0.2], edge_v = [0.3, 1, 0.4], material = "board" }]
-disk = [{ center = [1, 2, 3], normal = [1, 2, 2], radius = 2, material = "lamp" }]
-box = [{ corner = [1, 2, 3], size = [3, 2, 1], turn_y = 30, material = "grey" }]
+disk = [{ center = [1, 2, 3], normal = [1, 2, 2], radius = 2, material = "lamp" }, { center = [2, 3, 4], normal = [2, 1, 2], radius = 3, material = "satin" }]
+box = [{ corner = [1, 2, 3], size = [3, 2, 1], turn_y = 30, material = "metal" }]
 mesh = [{ positions = [[1, 2, 3], [2, 3, 5], [3, 5, 7], [4, 4, 4]], triangles = [[0, 1, 2]], material = "grey" }]
 material.grey.diffuse.albedo = [0.5, 0.4, 0.3]
 material.board.diffuse.albedo = { even = [0.1, 0.2, 0.3], odd = [0.4, 0.5, 0.6], origin = [1, 2, 3], cell = [3, 2, 1] }
@@ -142,7 +142,7 @@ impl<'a> Numbers<'a> {
 #[test]
 fn the_last_bit_of_every_physical_number_is_in_the_bytes() {
     let (plain, count) = (bytes_of(&everything()), Numbers::of(&mut everything()).physical.len());
-    assert_eq!(count, 83, "numbers of the scene above");
+    assert_eq!(count, 90, "numbers of the scene above");
     let mut seen = BTreeSet::from([plain]);
     for number in 0..count {
         let mut scene = everything();
@@ -215,6 +215,35 @@ fn the_last_bit_of_every_number_of_the_fake_is_in_its_bytes_and_nothing_else() {
 }
 
 #[test]
+fn how_materials_are_kept_is_in_no_bytes() {
+    let mut scene = everything();
+    let last = scene.materials.len();
+    scene.materials.push(Material { name: "unused".into(), ..scene.materials[0].clone() });
+    scene.materials.reverse();
+    Arc::get_mut(&mut scene.shapes).unwrap().iter_mut().for_each(|shape| shape.material = last - shape.material);
+    assert_eq!((bytes_of(&scene), fake_bytes_of(&scene)), (bytes_of(&everything()), fake_bytes_of(&everything())));
+}
+
+#[test]
+fn zero_has_no_sign() {
+    let with = |zero: f32| {
+        let mut scene = everything();
+        (scene.sky.y, scene.sun.as_mut().unwrap().angular_radius, scene.fake.ambient) = (zero, zero, zero);
+        (bytes_of(&scene), fake_bytes_of(&scene))
+    };
+    assert_eq!(with(-0.0), with(0.0));
+    assert_ne!(with(f32::from_bits(1)), with(0.0));
+}
+
+#[test]
+fn what_is_hashed_in_chunks_is_hashed_whole() {
+    let words = 2 * CHUNK as u32 / 4 + 1;
+    let bytes: Vec<u8> = (0..words).flat_map(u32::to_le_bytes).collect();
+    let half: [u8; 16] = blake3::hash(&bytes).as_bytes()[..16].try_into().unwrap();
+    assert_eq!(hash(|canonical| (0..words).for_each(|word| canonical.word(word))), u128::from_be_bytes(half));
+}
+
+#[test]
 fn what_is_no_number_is_in_the_bytes_too() {
     let shapes = |change: &dyn Fn(&mut Vec<Shape>)| {
         let mut scene = everything();
@@ -260,7 +289,7 @@ fn what_is_no_number_is_in_the_bytes_too() {
         sky(1.0, 1.0, 0.0, (1, 2)),
         other(&|scene| scene.sun = None),
         other(&|scene| scene.point_lights.clear()),
-        other(&|scene| scene.materials.truncate(1)),
+        other(&|scene| scene.materials.reverse()),
         other(&|scene| {
             let lamp = emission(scene);
             scene.materials[lamp].emission.as_mut().unwrap().two_sided = true;
