@@ -134,8 +134,9 @@ fn build(raw: RawScene, name: &str, folder: &Path) -> Result<Scene, Fault> {
     for Table(r) in raw.rectangle {
         let (at, edge_u, edge_v) = (r.edge_v.span(), Vec3::from(r.edge_u), Vec3::from(r.edge_v.into_inner()));
         let [u, v] = [edge_u, edge_v].map(|edge| unit(edge).unwrap_or(Vec3::ZERO));
-        if !(u.cross(v).length() > 1e-6) {
-            return fault(at, "edge_u and edge_v must span an area");
+        let shortest = edge_u.as_dvec3().length().min(edge_v.as_dvec3().length());
+        if !(u.cross(v).length() > 1e-6 && shortest >= number::SMALLEST.into()) {
+            return fault(at, "edge_u and edge_v must span an area, and be 1e-12 long at least");
         }
         add(Geometry::Rectangle { corner: r.corner.into(), edge_u, edge_v }, r.material)?;
     }

@@ -17,7 +17,7 @@ pub trait Range {
 /// Squares and volumes of larger numbers leave f32 behind.
 const LARGEST: f32 = 1e12;
 /// As do squares and volumes of smaller lengths, below the least number that is not 0.
-const SMALLEST: f32 = 1e-12;
+pub const SMALLEST: f32 = 1e-12;
 
 macro_rules! ranges {
     ($($name:ident, $expected:literal, $holds:expr;)*) => {$(
@@ -115,7 +115,8 @@ impl<'de, R: Range> Deserialize<'de> for Number<R> {
             }
 
             fn visit_f64<E: Error>(self, wide: f64) -> Result<f32, E> {
-                let value = wide as f32;
+                // -0 is 0: the sign would turn the axes about a normal, and so what is drawn at random there
+                let value = wide as f32 + 0.0;
                 let fits = value.is_finite() && R::holds(value);
                 if fits { Ok(value) } else { Err(E::custom(format_args!("{wide} is not {}", R::EXPECTED))) }
             }

@@ -34,6 +34,15 @@ fn a_small_scene_has_what_it_says() {
     assert_eq!((scene.sun, scene.sky), (None, Vec3::ZERO));
 }
 
+/// What is made at random about a normal depends on the sign of its third component.
+#[test]
+fn zero_is_read_without_a_sign() {
+    let text = SMALL.replace("center = [0, 0, 0]", "center = [-0.0, -0, -1e-60]");
+    let scene = parse(&text, "small", Path::new("small.toml")).unwrap();
+    let Geometry::Sphere { center, .. } = scene.shapes[0].geometry else { panic!("a sphere") };
+    assert_eq!(center.to_array().map(f32::to_bits), [0; 3]);
+}
+
 #[test]
 fn syntax_errors_name_line_and_column() {
     let said = fault_of("[camera\neye = 1");
@@ -107,6 +116,19 @@ fn ranges_types_and_names_are_checked_where_they_stand() {
         assert!(said.contains(expected), "'{to}' said: {said}");
         assert_eq!(said.lines().count(), 1);
     }
+}
+
+#[test]
+fn edges_whose_squares_f32_does_not_hold_are_refused() {
+    let with = |u: &str, v: &str| {
+        let edges = format!("corner = [0, 0, 0]\nedge_u = [{u}, 0, 0]\nedge_v = [0, {v}, 0]\n");
+        parse(&format!("{SMALL}[[rectangle]]\n{edges}material = \"white\"\n"), "edges", Path::new("edges.toml"))
+    };
+    for (u, v) in [("1e-20", "1"), ("1", "9e-13"), ("1e-20", "1e-20"), ("0", "1")] {
+        let said = with(u, v).expect_err("a fault").to_string();
+        assert!(said.starts_with("edges.toml:17:10: ") && said.contains("1e-12 long at least"), "{said}");
+    }
+    assert!(with("1e-12", "1e12").is_ok());
 }
 
 #[test]

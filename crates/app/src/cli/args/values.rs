@@ -39,8 +39,9 @@ pub fn seconds(parser: &mut lexopt::Parser) -> Result<f64, CliError> {
     number(parser, "--time", "seconds above 0 and at most 1e9", |v| v > 0.0 && v <= 1e9).map(f64::from)
 }
 
+/// As a scene file has it, -0 is 0.
 pub fn parse_finite(word: &str) -> Option<f32> {
-    f32::from_str(word.trim()).ok().filter(|v| v.is_finite())
+    f32::from_str(word.trim()).ok().filter(|v| v.is_finite()).map(|v| v + 0.0)
 }
 
 pub fn size(word: &str) -> Result<(u32, u32), CliError> {
