@@ -3,7 +3,7 @@
 
 use super::args::made_by;
 use super::{CompareArgs, reference};
-use crate::ruler::{HeatMap, Pair, noise_line};
+use crate::ruler::{HeatMap, Pair, kept_scene, noise_line};
 use ::reference::Reference;
 use anyhow::ensure;
 use compare::flip::{PIXELS_PER_DEGREE, hdr_flip};
@@ -94,8 +94,13 @@ fn reference_of(file: &Path, picture: &Image) -> anyhow::Result<Reference> {
 
 /// Pictures of two scenes may well be compared, but then somebody meant it.
 fn tell_of_two_scenes(a: &Path, b: &Path) {
-    let of = |file| image_file::records(file).ok().and_then(|records| technique::scene_hash(&records).ok().flatten());
-    if let (Some(scene_of_a), Some(scene_of_b)) = (of(a), of(b))
+    let told = |file| {
+        kept_scene(file).unwrap_or_else(|line| {
+            note!("note: {line}");
+            None
+        })
+    };
+    if let (Some(scene_of_a), Some(scene_of_b)) = (told(a), told(b))
         && !scene_of_a.has_the_truth_of(&scene_of_b)
     {
         note!(

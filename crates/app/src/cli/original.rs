@@ -1,9 +1,10 @@
 //! A picture whose records are read, to make it again or to judge it: whether its scene is still the one that it shows.
 
 use crate::cli::RenderArgs;
+use crate::ruler::made_before;
 use anyhow::ensure;
 use scene::{Scene, SceneError, SceneHash};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use technique::Shot;
 
 /// A picture that says how it was made.
@@ -30,9 +31,9 @@ impl RenderArgs {
         })
     }
 
-    /// Says so where the scene is no longer the one of the picture that is made again.
+    /// Says so where the scene is no longer the one of the picture that is made again, or where that cannot be told.
     pub fn tell_of_another_scene(&self, now: &Scene) {
-        if let Some(Original { file, scene: Some(then) }) = &self.original
+        if let Some((file, then)) = self.kept_scene()
             && self.differs(then, now)
         {
             note!(
@@ -48,7 +49,7 @@ impl RenderArgs {
     /// # Errors
     /// If it is not.
     pub fn check_truth(&self, now: &Scene) -> anyhow::Result<()> {
-        let Some(Original { file, scene: Some(then) }) = &self.original else { return Ok(()) };
+        let Some((file, then)) = self.kept_scene() else { return Ok(()) };
         ensure!(
             then.has_the_truth_of(&now.as_read),
             "the scene has changed since {} was made, and has another reference; bring back the scene as it was, or name a \
@@ -64,6 +65,15 @@ impl RenderArgs {
             );
         }
         Ok(())
+    }
+
+    /// The picture and its scene; says so where it has none.
+    fn kept_scene(&self) -> Option<(&Path, &SceneHash)> {
+        let Original { file, scene } = self.original.as_ref()?;
+        if scene.is_none() {
+            note!("note: {}", made_before(file));
+        }
+        scene.as_ref().map(|then| (file.as_path(), then))
     }
 
     /// Whether what the picture depends on has changed.

@@ -6,7 +6,7 @@ use super::post_process::PostProcess;
 use super::worker::{Control, Service, Worker};
 use super::{Wake, step_back};
 use crate::model::{Origin, Progress};
-use crate::ruler::ReferenceImage;
+use crate::ruler::{ReferenceImage, kept_scene};
 use pathtrace::FEWEST_REPLICATES;
 use reference::{Goal, Key, Maker, Reference, Store, StoreError};
 use std::path::Path;
@@ -98,10 +98,13 @@ impl Service for References {
     fn serve(&mut self, wish: Option<Wish>, control: &ReferenceControl) {
         let Some(wish) = wish else { return };
         let Origin::File(file) = &wish.origin else { return self.make(&wish, control) };
-        match load(file, wish.shot.size) {
+        match load(file, &wish.shot) {
             Ok((reference, notes)) => {
                 self.show(&wish, &reference, true, control);
-                notes.into_iter().for_each(|line| fail(control, line));
+                // one line: a later one would take the place of those before
+                if !notes.is_empty() {
+                    fail(control, notes.join("; "));
+                }
             }
             Err(fault) => {
                 fail(control, fault);
@@ -183,14 +186,26 @@ fn fail(control: &ReferenceControl, fault: String) {
     control.tell(|update| update.faults.push(fault));
 }
 
-/// A reference from a file, of the size of the picture, and what of the file it does not show.
-fn load(file: &Path, (width, height): (u32, u32)) -> Result<(Reference, Vec<String>), String> {
+/// A reference from a file, of the size of the picture, and what there is to say of it: what of the file it does not show,
+/// and whether it is of the same scene.
+fn load(file: &Path, shot: &Shot) -> Result<(Reference, Vec<String>), String> {
     let (reference, notes) = Reference::load_with_notes(file).map_err(|fault| fault.to_string())?;
-    let (w, h) = reference.image.size();
+    let ((w, h), (width, height)) = (reference.image.size(), shot.size);
     if (w, h) == (width, height) {
-        return Ok((reference, notes));
+        return Ok((reference, notes.into_iter().chain(of_another_scene(file, shot)).collect()));
     }
     Err(format!("the reference has {w}x{h} pixels, the picture {width}x{height}: {}", image_file::shown(file)))
+}
+
+/// A line where the file is of another scene than what is seen, or does not tell.
+fn of_another_scene(file: &Path, shot: &Shot) -> Option<String> {
+    match kept_scene(file) {
+        Ok(Some(then)) if !then.has_the_truth_of(&shot.scene.as_read) => {
+            Some(format!("this reference is of another scene, or of one that has changed: {}", file.display()))
+        }
+        Ok(_) => None,
+        Err(line) => Some(line),
+    }
 }
 
 /// Puts one reference into the store, now and then.

@@ -16,10 +16,18 @@ image = "sky.png"
 ambient = 0.25
 [material.grey]
 diffuse = { albedo = [0.5, 0.5, 0.5] }
+[material.shiny]
+mirror = { reflectance = [0.8, 0.8, 0.8] }
+fake = { reflectivity = 0.5 }
 [[sphere]]
 center = [0, 1, 0]
 radius = 1
 material = "grey"
+[[rectangle]]
+corner = [-2, 0, -2]
+edge_u = [0, 0, 4]
+edge_v = [4, 0, 0]
+material = "shiny"
 "#;
 
 /// A folder with the scene above, its sky and a picture of it by Whitted's method, which reads the fake's ambient light.
@@ -87,7 +95,10 @@ fn assert_told(workplace: &Workplace, what: &str) {
 #[test]
 fn what_no_picture_depends_on_may_change_without_a_word() {
     let workplace = Workplace::new();
-    workplace.write("scene.toml", &format!("# a remark\n{}", SCENE.replace("grey", "chalk")));
+    // sorted by its name the first material becomes the second, and one that nothing wears the first
+    let unused = "[material.aaa]\nmirror = { reflectance = [1, 1, 1] }\n";
+    let renamed = SCENE.replace("grey", "white").replace("center = [0, 1, 0]", "center = [-0.0, 1, -0.0]");
+    workplace.write("scene.toml", &format!("# a remark\n{renamed}{unused}"));
     for picture in ["whitted.png", "path.exr"] {
         // the options of the command are no changes of the scene
         let other = workplace.done(&["render", "--from", picture, "-o", "other.png", "--fov", "50", "--size", "4x4"]);
@@ -160,7 +171,13 @@ fn references_keep_the_scene_and_older_pictures_are_read_without() {
         std::fs::write(workplace.0.file(name), bytes).expect("a file");
     };
     write("old.png", &[]);
-    assert!(!workplace.again("old.png").contains("changed"));
+    let before = "note: old.png was made before scenes were kept with pictures: whether its scene has changed since";
+    assert!(workplace.again("old.png").contains(before));
+    let with_its_own_size = ["compare", "old.png", "old.png"];
+    for compared in [&["compare", "old.png"][..], &with_its_own_size] {
+        let told = workplace.done(compared);
+        assert!(told.contains(before), "{told}");
+    }
     write("odd.png", &[("scene.hash", "12-34")]);
     workplace.refused_in("", &["compare", "odd.png"], &["odd.png", "scene.hash", "12-34", "damaged"]);
     assert!(Path::new(&workplace.0.file("again.exr")).is_file());

@@ -5,6 +5,7 @@ use egui::{Key, vec2};
 use film::{Image, LayerValues};
 use reference::{Key as ReferenceKey, Reference, STANDARD_ERROR, Store};
 use scene::Vec3;
+use std::path::Path;
 use std::time::Duration;
 use visavis_tests::{Frame, TestFolder};
 
@@ -90,11 +91,14 @@ fn a_reference_from_a_file_is_taken_if_it_fits() {
     user.click("Compare with");
     let open = user.click("the reference");
     let fitting = Reference { replicates: 64, ..almost_done(size(&open)) };
-    let write = |name: &str, reference: &Reference| {
-        std::fs::write(user.file(name), reference.encode(Vec::new()).expect("an EXR")).expect("a file");
-        user.file(name).display().to_string()
+    let folder = TestFolder::new();
+    let write = |name: &str, reference: &Reference, records| {
+        std::fs::write(folder.file(name), reference.encode(records).expect("an EXR")).expect("a file");
+        folder.file(name).display().to_string()
     };
-    let (good, small) = (write("good.exr", &fitting), write("small.exr", &almost_done((8, 8))));
+    let scene = scene::builtin::named(SCENE).expect("a scene");
+    let of_the_scene = reference::records(&technique::Shot::of(scene, size(&open)));
+    let (good, small) = (write("good.exr", &fitting, of_the_scene), write("small.exr", &almost_done((8, 8)), vec![]));
     let none = user.file("none.exr").display().to_string();
     load(&mut user, &none);
     user.wait_for("the refusal", |f| says(f, "cannot read the picture") && says(f, "none.exr"));
@@ -105,6 +109,21 @@ fn a_reference_from_a_file_is_taken_if_it_fits() {
     user.wait_for("both judged by it", |f| {
         f.value("label A").contains("A - reference") && f.value("label B").contains("B - reference")
     });
+    let message = user.frame().state("message").clone();
+    assert!(message.is_null() || !message.to_string().contains("scene"), "{message}");
+    // it knows its size, but is of something else
+    let hash = ("scene.hash", format!("{:032x}-{:032x}", 1, 2));
+    let other = write("other.exr", &fitting, vec![("scene", "other.toml".into()), hash]);
+    let before = write("before.exr", &fitting, vec![("scene", SCENE.into())]);
+    for (file, words) in [(&other, "is of another scene"), (&before, "was made before scenes were kept")] {
+        load(&mut user, file);
+        let name = Path::new(file).file_name().expect("a name").display();
+        user.wait_for(words, |f| {
+            says(f, words) && f.value("text reference").starts_with(&format!("reference: {name}"))
+        });
+    }
+    load(&mut user, &good);
+    user.wait_for("the one before", |f| f.value("text reference").starts_with("reference: good.exr"));
     // T goes from A's errors to B's
     user.key(Key::Num5);
     user.wait_for("the map of A", |f| f.state("map") == "|A - reference|");
