@@ -30,29 +30,35 @@ impl ViewerUnderTest {
     /// # Panics
     /// If it does not start.
     pub fn start_scaled(binary: &Path, screen: &Screen, scale: f32, arguments: &[&str]) -> Self {
-        Self::start_in(binary, screen, &[("WINIT_X11_SCALE_FACTOR", &scale.to_string())], arguments)
+        Self::start_in(binary, screen, &[("WINIT_X11_SCALE_FACTOR", Some(&scale.to_string()))], arguments)
     }
 
-    /// The same with these variables in its environment.
+    /// The same with these variables in its environment, or without them.
     ///
     /// # Panics
     /// If it does not start.
-    pub fn start_in(binary: &Path, screen: &Screen, variables: &[(&str, &str)], arguments: &[&str]) -> Self {
+    pub fn start_in(binary: &Path, screen: &Screen, variables: &[(&str, Option<&str>)], arguments: &[&str]) -> Self {
         let folder = TestFolder::new();
         let home = folder.file("home");
         std::fs::create_dir(&home).expect("a home folder");
         let stderr = std::fs::File::create(folder.file("stderr.txt")).expect("a file");
-        let process = Command::new(binary)
+        let mut command = Command::new(binary);
+        command.env("WINIT_X11_SCALE_FACTOR", "1");
+        for (name, value) in variables {
+            match value {
+                Some(value) => command.env(name, value),
+                None => command.env_remove(name),
+            };
+        }
+        let process = command
             .args(arguments)
             .arg("--ui-dump")
             .arg(folder.file("dump.json"))
             .env("DISPLAY", &screen.display)
             .env_remove("WAYLAND_DISPLAY")
             .env_remove("WAYLAND_SOCKET")
-            .env("WINIT_X11_SCALE_FACTOR", "1")
             .env("HOME", &home)
             .env("VISAVIS_CACHE", folder.file("cache"))
-            .envs(variables.iter().copied())
             .stderr(stderr)
             .spawn()
             .expect("the viewer");

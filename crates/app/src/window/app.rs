@@ -74,12 +74,15 @@ impl ApplicationHandler<UserEvent> for App {
         events.set_control_flow(next.map_or(ControlFlow::Wait, ControlFlow::WaitUntil));
     }
 
-    fn window_event(&mut self, events: &ActiveEventLoop, _: WindowId, event: WindowEvent) {
+    fn window_event(&mut self, events: &ActiveEventLoop, _: WindowId, mut event: WindowEvent) {
         let Some(window) = &mut self.window else { return };
-        if let WindowEvent::ScaleFactorChanged { scale_factor, .. } = event
-            && let Err(unusable) = scale_factor::check(scale_factor)
+        if let WindowEvent::ScaleFactorChanged { scale_factor, inner_size_writer } = &mut event
+            && !scale_factor::is_usable(*scale_factor)
         {
-            return self.finish(events, Err(unusable));
+            return match window.keep_scale(*scale_factor, inner_size_writer) {
+                Ok(()) => {}
+                Err(unusable) => self.finish(events, Err(unusable)),
+            };
         }
         window.hear(&event);
         match event {

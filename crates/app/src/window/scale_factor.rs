@@ -17,10 +17,10 @@ const USABLE: RangeInclusive<f64> = 0.25..=8.0;
 /// # Errors
 /// If there is one, and the program cannot begin again without.
 pub fn check_variable() -> anyhow::Result<()> {
-    let Some(value) = std::env::var_os(VARIABLE).filter(|_| cfg!(unix) && is_x11()) else { return Ok(()) };
-    let value = value.to_string_lossy();
-    // what winit takes for something else, or does not see
-    let known = value.is_empty() || value.eq_ignore_ascii_case("randr") || value.contains(char::REPLACEMENT_CHARACTER);
+    // winit does not see what is not UTF-8
+    let Ok(value) = std::env::var(VARIABLE) else { return Ok(()) };
+    // what winit takes for something else
+    let known = !is_x11() || value.is_empty() || value.eq_ignore_ascii_case("randr");
     if known || value.parse().is_ok_and(is_usable) { Ok(()) } else { fall_back(&format!("{VARIABLE}={value}")) }
 }
 
@@ -33,33 +33,43 @@ pub fn check_screens(events: &ActiveEventLoop) -> anyhow::Result<()> {
     scales.filter(|scale| !is_usable(*scale)).try_for_each(check)
 }
 
-/// The same of a scale that has changed.
+/// The same of the scale that a window has.
 ///
 /// # Errors
 /// As [`check_variable`].
 pub fn check(scale: f64) -> anyhow::Result<()> {
-    if is_usable(scale) {
-        Ok(())
-    } else {
-        fall_back(&format!("the screen's scale {scale:?} (of Xft.dpi, 96 is scale 1)"))
-    }
+    // nowhere else does the variable help
+    if is_usable(scale) || !is_x11() { Ok(()) } else { fall_back(&of_the_screen(scale)) }
+}
+
+/// A line on a scale that is not used while the program runs.
+pub fn is_ignored(scale: f64) -> String {
+    format!("{} is ignored, the window keeps its own: a scale lies {}", of_the_screen(scale), range())
+}
+
+fn of_the_screen(scale: f64) -> String {
+    format!("the screen's scale {scale:?} (of Xft.dpi, 96 is scale 1)")
+}
+
+fn range() -> String {
+    format!("from {} to {}", USABLE.start(), USABLE.end())
 }
 
 /// NaN lies in no range.
-fn is_usable(scale: f64) -> bool {
+pub fn is_usable(scale: f64) -> bool {
     USABLE.contains(&scale)
 }
 
-/// As winit decides it.
+/// As winit decides it; on a Mac there may be an X server, but it is not asked.
 fn is_x11() -> bool {
     let is_set = |name| std::env::var(name).is_ok_and(|value| !value.is_empty());
-    is_set("DISPLAY") && !is_set("WAYLAND_DISPLAY") && !is_set("WAYLAND_SOCKET")
+    let may_be = cfg!(all(unix, not(target_vendor = "apple")));
+    may_be && is_set("DISPLAY") && !is_set("WAYLAND_DISPLAY") && !is_set("WAYLAND_SOCKET")
 }
 
 /// Begins again at scale 1.
 fn fall_back(what: &str) -> anyhow::Result<()> {
-    let range = format!("from {} to {}", USABLE.start(), USABLE.end());
-    note!("note: {what} is ignored, scale 1 is used: a scale lies {range}");
+    note!("note: {what} is ignored, scale 1 is used: a scale lies {}", range());
     #[cfg(unix)]
     let why = crate::environment::begin_again_with(VARIABLE, "1");
     #[cfg(not(unix))]

@@ -21,7 +21,7 @@ use std::path::Path;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 use winit::dpi::LogicalSize;
-use winit::event::WindowEvent;
+use winit::event::{InnerSizeWriter, WindowEvent};
 use winit::event_loop::{ActiveEventLoop, EventLoopProxy, OwnedDisplayHandle};
 use winit::window::Window;
 
@@ -148,6 +148,20 @@ impl WindowState {
     pub fn resize(&mut self, width: u32, height: u32) {
         self.surface.resize(&self.gpu, width, height);
         self.request_frame();
+    }
+
+    /// Says that a scale is no use and goes on with the one before. On X11 the window has that until a window manager moves
+    /// it, and then begins again.
+    ///
+    /// # Errors
+    /// As [`scale_factor::check`].
+    pub fn keep_scale(&mut self, unusable: f64, size: &mut InnerSizeWriter) -> anyhow::Result<()> {
+        scale_factor::check(self.window.scale_factor())?;
+        // the window is there, and takes its size if it can
+        let _ = size.request_inner_size(self.window.inner_size());
+        self.viewer.model.say(Err(scale_factor::is_ignored(unusable)));
+        self.request_frame();
+        Ok(())
     }
 
     /// One frame: collect, draw, ask for what has changed, present. Returns whether the user wants to quit.

@@ -14,7 +14,7 @@ fn the_processor_takes_over_from_a_device_that_fails() {
     // after the first dispatch, and in the middle of a picture that is on the screen already
     for dispatches in ["1", "60"] {
         let binary = Path::new(env!("CARGO_BIN_EXE_visavis"));
-        let fails = [("VISAVIS_GPU_FAILS_AFTER", dispatches)];
+        let fails = [("VISAVIS_GPU_FAILS_AFTER", Some(dispatches))];
         let mut viewer = ViewerUnderTest::start_in(binary, &screen, &fails, &["cornell", "--device", "gpu"]);
         screen_has_the_window(&mut viewer);
         screen.focus("Visavis");
@@ -51,7 +51,7 @@ fn the_window_comes_back_from_the_loss_of_its_device() {
     let _alone = alone();
     let screen = Screen::start(800, 600);
     let binary = Path::new(env!("CARGO_BIN_EXE_visavis"));
-    let fails = [("VISAVIS_WINDOW_FAILS_AFTER", "40")];
+    let fails = [("VISAVIS_WINDOW_FAILS_AFTER", Some("40"))];
     let mut viewer = ViewerUnderTest::start_in(binary, &screen, &fails, &["cornell"]);
     screen_has_the_window(&mut viewer);
     screen.focus("Visavis");
@@ -91,7 +91,7 @@ fn the_fake_goes_on_after_the_loss_of_its_device() {
     let _alone = alone();
     let screen = Screen::start(1280, 720);
     let binary = Path::new(env!("CARGO_BIN_EXE_visavis"));
-    let mut viewer = ViewerUnderTest::start_in(binary, &screen, &[("VISAVIS_FAKE_FAILS_AFTER", "2")], &[]);
+    let mut viewer = ViewerUnderTest::start_in(binary, &screen, &[("VISAVIS_FAKE_FAILS_AFTER", Some("2"))], &[]);
     let first = viewer.wait_for("both pictures", both_whole);
     screen.focus("Visavis");
     let [left, top, right, bottom] = first.rect("refraction ratio");
