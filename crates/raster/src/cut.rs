@@ -3,7 +3,7 @@
 use crate::settings::{RasterSettings, Show};
 use crate::tessellation;
 use scene::glam::Mat4;
-use scene::{Bsdf, Camera, Geometry, Scene, Shape, Vec3};
+use scene::{Bsdf, Camera, Scene, Shape, Vec3};
 use std::fmt;
 
 /// What lies on a plane up to rounding is not cut by it.
@@ -107,15 +107,19 @@ impl Frustum {
         // of glass only back faces are drawn
         let glass = matches!(scene.material_of(shape).bsdf, Bsdf::Dielectric { .. });
         let drawn = |[a, b, c]: &[Vec3; 3]| !glass || (b - a).cross(c - a).dot(a - self.eye) > 0.0;
-        self.triangles(&shape.geometry).iter().filter(|triangle| drawn(triangle)).any(|triangle| {
-            let mut polygon = triangle.map(|corner| self.in_clip(corner)).to_vec();
-            [plane].iter().chain(&SIDES).for_each(|plane| polygon = plane.clipped(&polygon));
-            !polygon.is_empty()
-        })
+        let sees = |triangle: [Vec3; 3]| drawn(&triangle) && self.sees(triangle, plane);
+        tessellation::triangles_of(&shape.geometry, self.segments, |triangles| triangles.map(sees).any(|seen| seen))
     }
 
-    fn triangles(&self, geometry: &Geometry) -> Vec<[Vec3; 3]> {
-        tessellation::triangles(geometry, self.segments)
+    /// Whether something of a triangle lies in the picture, and on the inner side of `plane`.
+    fn sees(&self, triangle: [Vec3; 3], plane: Plane) -> bool {
+        let corners = triangle.map(|corner| self.in_clip(corner));
+        let planes = || [plane].into_iter().chain(SIDES);
+        // most are cut by none or lie outside of one
+        if planes().any(|plane| corners.iter().all(|corner| plane.height(*corner) <= 0.0)) {
+            return false;
+        }
+        !planes().fold(corners.to_vec(), |polygon, plane| plane.clipped(&polygon)).is_empty()
     }
 }
 

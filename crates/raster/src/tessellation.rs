@@ -130,16 +130,20 @@ pub(crate) fn unit_normal(edge_u: Vec3, edge_v: Vec3) -> Vec3 {
     edge_u.as_dvec3().cross(edge_v.as_dvec3()).normalize_or_zero().as_vec3()
 }
 
-/// The triangles that are drawn of a shape.
-pub(crate) fn triangles(geometry: &Geometry, segments: u32) -> Vec<[Vec3; 3]> {
+/// What `of` finds in the triangles that are drawn of a shape. Those of a mesh are looked at where they are.
+pub(crate) fn triangles_of<T>(
+    geometry: &Geometry,
+    segments: u32,
+    of: impl FnOnce(&mut dyn Iterator<Item = [Vec3; 3]>) -> T,
+) -> T {
     if let Geometry::Sphere { center, radius } = geometry {
         let (mut vertices, mut indices) = (Vec::new(), Vec::new());
         add_sphere(&mut vertices, &mut indices, *center, *radius, segments.max(3));
         let at = |index: u32| vertices[index as usize].position;
-        return indices.as_chunks().0.iter().map(|&[a, b, c]| [at(a), at(b), at(c)]).collect();
+        return of(&mut indices.as_chunks().0.iter().map(|&[a, b, c]| [at(a), at(b), at(c)]));
     }
     let (positions, triangles) = geometry.flat_triangles();
-    triangles.iter().map(|triangle| triangle.map(|corner| positions[corner as usize])).collect()
+    of(&mut triangles.iter().map(|triangle| triangle.map(|corner| positions[corner as usize])))
 }
 
 /// The corners of a box.

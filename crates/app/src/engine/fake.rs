@@ -108,13 +108,14 @@ impl Service for Fakes {
         let expected = self.seconds_per_pixel * f64::from(width) * f64::from(height);
         let shrink = if expected > 4.0 * PATIENCE.as_secs_f64() { 4 } else { 2 };
         let rough = expected > PATIENCE.as_secs_f64();
+        let cut = cut(&job);
         if rough {
-            render_job(self.pane, raster, &self.post_process, &job, shrink, adapter);
+            render_job(self.pane, raster, &self.post_process, &job, shrink, (adapter, &cut));
         }
         // a newer job makes the fine picture of this one superfluous
         if !rough || !control.ends_soon() {
             let start = Instant::now();
-            render_job(self.pane, raster, &self.post_process, &job, 1, adapter);
+            render_job(self.pane, raster, &self.post_process, &job, 1, (adapter, &cut));
             self.seconds_per_pixel = start.elapsed().as_secs_f64() / (f64::from(width) * f64::from(height));
         }
     }
@@ -134,7 +135,7 @@ fn render_job(
     post_process: &PostProcess,
     job: &FakeJob,
     shrink: u32,
-    adapter: &Arc<str>,
+    (adapter, cut): (&Arc<str>, &Option<Arc<str>>),
 ) {
     let start = Instant::now();
     match render(raster, job, shrink) {
@@ -147,7 +148,7 @@ fn render_job(
                 nonfinite: film.nonfinite,
                 adapter: adapter.clone(),
                 refused: None,
-                cut: cut(job),
+                cut: cut.clone(),
                 rough: shrink > 1,
                 unfinished: shrink > 1,
                 order: job.order.clone(),
