@@ -93,6 +93,64 @@ fn a_dolly_towards_a_surface_never_cuts_it() {
     }
 }
 
+/// A red floor in the plane y = 0 and a green ball of radius 1 at (0, 3, 0).
+fn ball_above_floor(half_width: f32) -> Scene {
+    let (corner, edge) = (-half_width, 2.0 * half_width);
+    let text = format!(
+        r#"
+        camera = {{ eye = [0, 0, 8], target = [0, 1, 0], fov_y = 40 }}
+        sky = {{ radiance = [1, 1, 1] }}
+        material.floor = {{ diffuse.albedo = [0.5, 0, 0], fake.specular = 0 }}
+        material.ball = {{ diffuse.albedo = [0, 0.5, 0], fake.specular = 0 }}
+        sphere = [{{ center = [0, 3, 0], radius = 1, material = "ball" }}]
+        rectangle = [
+            {{ corner = [{corner}, 0, {corner}], edge_u = [0, 0, {edge}], edge_v = [{edge}, 0, 0], material = "floor" }},
+        ]
+        "#
+    );
+    scene::parse(&text, "ball above floor", Path::new("floor.toml")).unwrap()
+}
+
+/// From the very plane of the floor and from so near that f32 does not know the side, with a ball in view and with nothing
+/// else: what is drawn is what is drawn without the floor, but for a pixel at its edge.
+#[test]
+fn a_plane_through_the_eye_hides_nothing() {
+    let with_ball = ball_above_floor(40.0);
+    let alone = Scene { shapes: with_ball.shapes[1..].into(), ..with_ball.clone() };
+    for gpu in Gpu::each().unwrap() {
+        let mut raster = Raster::new(&gpu).unwrap();
+        for (scene, height, fake) in [(&with_ball, 0.0), (&with_ball, 1e-6), (&alone, 0.0), (&alone, -1e-6)]
+            .into_iter()
+            .flat_map(|(scene, height)| Fake::ALL.map(|fake| (scene, height, fake)))
+        {
+            let camera = Camera { eye: Vec3::new(0.0, height, 8.0), ..scene.camera };
+            let without = Scene { shapes: scene.shapes[..scene.shapes.len() - 1].into(), ..scene.clone() };
+            let mut draw = |scene| raster.render(scene, &camera, &settings(fake)).unwrap();
+            let (seen, expected) = (draw(scene), draw(&without));
+            let differs = |&(x, y): &(u32, u32)| (seen.at(x, y) - expected.at(x, y)).abs().max_element() > 1e-3;
+            let count = (0..SIZE * SIZE).map(|i| (i % SIZE, i / SIZE)).filter(differs).count();
+            assert!(count <= SIZE as usize, "{count} pixels from {height}, {}, {}", fake.name(), gpu.describe());
+        }
+    }
+}
+
+#[test]
+fn a_floor_however_wide_takes_nothing_from_before_the_eye() {
+    for gpu in Gpu::each().unwrap() {
+        let mut raster = Raster::new(&gpu).unwrap();
+        for half_width in [1e2, 1e6, 1e9, 1e11] {
+            let scene = ball_above_floor(half_width);
+            let camera = Camera { eye: Vec3::new(0.0, 2.0, 5.0), target: Vec3::new(0.0, 3.0, 0.0), ..scene.camera };
+            for fake in Fake::ALL {
+                let film = raster.render(&scene, &camera, &settings(fake)).unwrap();
+                let (seen, ball) = (film.at(SIZE / 2, SIZE / 2), Vec3::new(0.0, 0.5, 0.0));
+                let expected = if fake == Fake::Fair { ball } else { as_taught(ball * scene.fake.ambient) };
+                assert!((seen - expected).abs().max_element() < 1e-3, "{seen}, {half_width}, {}", fake.name());
+            }
+        }
+    }
+}
+
 /// The light of the byte that is drawn.
 fn as_taught(colour: Vec3) -> Vec3 {
     colour.map(|channel| film::colour::srgb_decode((255.0 * channel).round() / 255.0))

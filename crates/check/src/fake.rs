@@ -75,7 +75,7 @@ pub fn scaled(scene: &Scene, scale: f32) -> Scene {
 /// The planes that the fake is drawn between, without a device: what it sees at any scale has one depth.
 pub fn planes_at_any_scale(trial: &mut Trial) {
     let depths = |scene: &Scene| {
-        let planes = Planes::of(scene, &scene.camera);
+        let planes = Planes::of(scene, &scene.camera, 1.0);
         let clip = planes.applied_to(scene.camera.clip_from_world(1.0));
         let front = scene.shapes[0].geometry.center() + Vec3::Z * scene.camera.eye.z * 0.2;
         (f64::from(clip.project_point3(front).z), f64::from(planes.near / (scene.camera.eye - front).length()))

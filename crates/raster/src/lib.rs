@@ -20,7 +20,8 @@
 //! plain sky, as does glass seen in a cube map; of several area lights only the one of greatest power sheds light; as
 //! taught, a sun puts out all area lights.
 
-pub mod cube;
+mod clearance;
+mod cube;
 mod cut;
 mod error;
 pub mod gpu_data;

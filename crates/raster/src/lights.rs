@@ -13,7 +13,7 @@ use bytemuck::Zeroable;
 use film::colour;
 use scene::glam::{DVec3, Vec2, camera::rh};
 use scene::{Geometry, Scene, Shape, Sun, Vec3};
-use std::f32::consts::{FRAC_1_PI, PI};
+use std::f32::consts::{FRAC_1_PI, PI, SQRT_2};
 
 /// Texels that the shadow kernel reaches from its middle, along an axis.
 const KERNEL_REACH: f32 = 2.0;
@@ -177,7 +177,7 @@ fn area_light_view(scene: &Scene, position: Vec3, axis: usize) -> View {
     let far = (1.001 * distances.into_iter().fold(0.0, f32::max)).max(f32::MIN_POSITIVE);
     let plane = cube::forward(axis) / far;
     View {
-        clip_from_world: cube::clip_from_world(position, axis, reach, Planes::fitted(scene, position)),
+        clip_from_world: cube::clip_from_world(position, axis, reach, Planes::fitted(scene, position, SQRT_2 * reach)),
         depth_from_world: plane.extend(-plane.dot(position)),
         eye: position,
         texel: Vec2::new(0.0, 2.0 * reach / size),

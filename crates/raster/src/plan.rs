@@ -12,6 +12,7 @@ use crate::tessellation::unit_normal;
 use bytemuck::Zeroable;
 use scene::glam::{Mat4, Vec2};
 use scene::{Bsdf, Camera, Geometry, Scene, Texture, Vec3};
+use std::f32::consts::SQRT_2;
 use std::ops::Range;
 
 /// How many pieces of glass get a cube map; each costs six more views of the scene.
@@ -130,7 +131,7 @@ fn shadow_layers(scene: &Scene, fake: Fake) -> Range<usize> {
 
 fn picture_views(scene: &Scene, camera: &Camera, settings: &RasterSettings) -> Vec<View> {
     let size = Vec2::new(settings.width as f32, settings.height as f32);
-    let planes = Planes::of(scene, camera);
+    let planes = Planes::of(scene, camera, size.x / size.y);
     let clip_from_world = planes.applied_to(camera.clip_from_world(size.x / size.y));
     let shifts: &[Vec2] = match settings.fake {
         Fake::AsTaught => &[Vec2::ZERO],
@@ -162,7 +163,7 @@ fn cube_map_views(scene: &Scene, glass: &Geometry, fake: Fake) -> [View; 6] {
             let radius = 0.5 * (high - low).max_element();
             Planes { near: 0.1 * radius, far: 5000.0 * radius }
         }
-        Fake::Fair => Planes::fitted(scene, eye),
+        Fake::Fair => Planes::fitted(scene, eye, SQRT_2),
     };
     std::array::from_fn(|layer| {
         let clip_from_world = cube::clip_from_world(eye, cube::axis_of_layer(layer), 1.0, planes);
