@@ -56,6 +56,17 @@ impl Screen {
         self.connection.sync().expect("the server");
     }
 
+    /// Lets a window see that there are other resources, as one does after a change of screens: winit looks for that at its
+    /// own window too.
+    ///
+    /// # Panics
+    /// If the server does not answer.
+    pub fn tell_of_resources(&self, window: xproto::Window) {
+        let (name, kind) = (xproto::AtomEnum::RESOURCE_MANAGER, xproto::AtomEnum::STRING);
+        self.connection.change_property8(xproto::PropMode::REPLACE, window, name, kind, b"").expect("the property");
+        self.connection.sync().expect("the server");
+    }
+
     /// Moves the mouse.
     pub fn move_to(&self, x: f32, y: f32) {
         self.fake(xproto::MOTION_NOTIFY_EVENT, 0, x, y);

@@ -46,8 +46,10 @@ fn a_scale_that_becomes_none_is_told_in_the_window() {
     let mut viewer =
         ViewerUnderTest::start_in(Path::new(env!("CARGO_BIN_EXE_visavis")), &screen, &variables, &["cornell"]);
     let width = viewer.wait_for("both pictures", both_ready).rect("picture")[2];
+    let window = screen.focus("Visavis");
     for (dpi, scale) in [("9600", "100.0"), ("0", "0.0"), ("nan", "NaN")] {
         screen.set_resources(&format!("Xft.dpi:\t{dpi}\n"));
+        screen.tell_of_resources(window);
         let words = format!("the screen's scale {scale} (of Xft.dpi, 96 is scale 1) is ignored");
         let frame = viewer.wait_for(&words, |frame| says(frame, &words));
         assert_eq!(frame.rect("picture")[2], width);
