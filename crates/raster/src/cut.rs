@@ -108,7 +108,7 @@ impl Frustum {
         let glass = matches!(scene.material_of(shape).bsdf, Bsdf::Dielectric { .. });
         let drawn = |[a, b, c]: &[Vec3; 3]| !glass || (b - a).cross(c - a).dot(a - self.eye) > 0.0;
         let sees = |triangle: [Vec3; 3]| drawn(&triangle) && self.sees(triangle, plane);
-        tessellation::triangles_of(&shape.geometry, self.segments, |triangles| triangles.map(sees).any(|seen| seen))
+        tessellation::triangles_of(&shape.geometry, self.segments, |mut triangles| Iterator::any(&mut triangles, sees))
     }
 
     /// Whether something of a triangle lies in the picture, and on the inner side of `plane`.
