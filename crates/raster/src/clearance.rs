@@ -58,13 +58,16 @@ fn from_sphere(center: Vec3, radius: f32, eye: DVec3, segments: u32) -> Option<f
 
 /// The least of `nearest` and the distances to a shape's triangles that can be seen.
 fn nearest_triangle(geometry: &Geometry, eye: DVec3, segments: u32, nearest: f64) -> f64 {
+    let eye_of_f32 = eye.as_vec3();
     let within = |nearest: f64, triangle: [Vec3; 3]| {
-        let triangle = triangle.map(|corner| corner.as_dvec3());
-        let bounds = Bounds::of(triangle);
+        let [a, b, c] = triangle;
+        let gap = (a.min(b).min(c) - eye_of_f32).max(eye_of_f32 - a.max(b).max(c)).max(Vec3::ZERO);
         // most lie farther away than this, and need no more than that
-        if bounds.distance(eye) >= nearest {
+        if f64::from(gap.length_squared()) >= nearest * nearest {
             return nearest;
         }
+        let triangle = triangle.map(|corner| corner.as_dvec3());
+        let bounds = Bounds::of(triangle);
         let normal = normal(triangle);
         let seen = (eye - triangle[0]).dot(normal).abs() > bounds.rounding(eye);
         if seen { nearest.min(distance(eye, triangle, normal)) } else { nearest }

@@ -106,8 +106,10 @@ pub fn lights(scene: &Scene, settings: &RasterSettings, casts: impl Fn(usize) ->
         lights.area_light_normal = area_light.normal;
         lights.area_light_pattern = if as_taught { AREA_LIGHT_WITHOUT_DECAY } else { area_light.pattern };
         lights.area_light_incident = if as_taught { intensity } else { area_light.incident() };
+        let reach = area_light_reach(scene.fake.shadow_map);
+        let planes = Planes::fitted(scene, area_light.position, SQRT_2 * reach);
         for axis in 0..6 {
-            lights.shadow_views[1 + axis] = area_light_view(scene, area_light.position, axis);
+            lights.shadow_views[1 + axis] = area_light_view(scene, area_light.position, axis, planes);
         }
     }
     lights
@@ -170,14 +172,14 @@ pub fn area_light_reach(size: u32) -> f32 {
 
 /// An area light's view along an axis: wider than a cube's face by the kernel's reach, so that no lookup leaves its
 /// face. The depth that it keeps is linear, because the kernel compares depths of neighbouring texels.
-fn area_light_view(scene: &Scene, position: Vec3, axis: usize) -> View {
+fn area_light_view(scene: &Scene, position: Vec3, axis: usize, planes: Planes) -> View {
     let size = scene.fake.shadow_map as f32;
     let reach = area_light_reach(scene.fake.shadow_map);
     let distances = corners(scene.bounds()).map(|corner| (corner - position).length());
     let far = (1.001 * distances.into_iter().fold(0.0, f32::max)).max(f32::MIN_POSITIVE);
     let plane = cube::forward(axis) / far;
     View {
-        clip_from_world: cube::clip_from_world(position, axis, reach, Planes::fitted(scene, position, SQRT_2 * reach)),
+        clip_from_world: cube::clip_from_world(position, axis, reach, planes),
         depth_from_world: plane.extend(-plane.dot(position)),
         eye: position,
         texel: Vec2::new(0.0, 2.0 * reach / size),
