@@ -16,7 +16,8 @@ const TITLE: &str = "Visavis: the rasterised fake of a scene face to face with i
 
 const MORE: &str = "\
 References lie in the system's folder for caches, or in VISAVIS_CACHE; VISAVIS_CACHE_MIB limits their size (default 1024).
-Exit code: 0 done, 1 failed (one line on stderr), 2 wrong usage; what a signal has ended ends by it: 130 by Ctrl-C, 143 by SIGTERM.
+Exit code: 0 done, 1 failed (one line on stderr), 2 wrong usage. What a signal has ended ends by it: shells say 130
+after Ctrl-C, 143 after SIGTERM.
 Ctrl-C ends render and reference soon and saves what there is by then; a second one ends them at once.
 In the window: drag the line to wipe, drag the picture to orbit (Shift: pan, wheel: dolly, Ctrl+wheel: zoom), T swaps A
 and B, 1 2 3 4 5 show A, B, wipe, side by side, error map, P pauses, R restarts, C resets the camera, H hides the panel,
