@@ -1,7 +1,7 @@
 //! The fake: what a rasteriser shows of a scene. Three passes per frame:
 //!
 //! 1. **shadow map** ([`lights`]): depths nearest to the sun, and to the brightest area light on the six faces of a cube;
-//! 2. **cube maps** ([`cube`]): what surrounds each piece of glass, seen from its middle, without it and its shadow;
+//! 2. **cube maps** (`cube`): what surrounds each piece of glass, seen from its middle, without it and its shadow;
 //! 3. **forward**: every shape, shaded with its lights' shadows; glass looks up its cube map along a direction that is
 //!    refracted once.
 //!

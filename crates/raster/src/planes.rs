@@ -24,7 +24,7 @@ pub struct Planes {
 }
 
 impl Planes {
-    /// Planes that cut nothing of `scene`, seen from `eye` in any direction, but what [`clearance()`] leaves out; `corner`
+    /// Planes that cut nothing of `scene`, seen from `eye` in any direction, but what `clearance` leaves out; `corner`
     /// is the tangent of the angle from the line of sight to the picture's corners.
     pub fn fitted(scene: &Scene, eye: Vec3, corner: f32) -> Planes {
         let clearance = clearance(scene, eye);
