@@ -10,7 +10,7 @@
 
 use super::coincident::overlap;
 use super::gamma;
-use super::pairs::{Bounds, SortedBoxes, for_each_pair};
+use super::pairs::{Bounds, SortedBoxes, for_each_pair, meet};
 use rayon::prelude::*;
 use scene::glam::DVec3;
 use scene::{Bsdf, Geometry, Mesh, Scene, Shape, Vec3};
@@ -90,7 +90,9 @@ fn radius_beside(other: Other, center: Vec3, radius: f32) -> f32 {
     let (c, r) = (center.as_dvec3(), f64::from(radius));
     let apart = |touch: Touch| {
         let own = step(touch.normal, c.abs() + touch.normal.abs() * r);
-        let wanted = gap([own, touch.step]);
+        // beside the point of contact the gap grows with the square of the way there, and the step with the way
+        let beside = f64::from(gamma(12)) * c.length();
+        let wanted = gap([own, touch.step]) + 2.0 * beside * beside / r;
         let smaller = touch.distance - wanted;
         let touches = (touch.distance - r).abs() < wanted && r - smaller <= most_of_sphere(c, r);
         if touches { smaller as f32 } else { radius }
@@ -109,7 +111,16 @@ struct SortedFaces {
 
 impl SortedFaces {
     fn of(geometry: &Geometry) -> Self {
-        let faces = Face::all_of(geometry);
+        Self::sorted(Face::all_of(geometry))
+    }
+
+    /// Those that come near a box.
+    fn near(geometry: &Geometry, around: Bounds) -> Self {
+        let near = |face: &Face| meet(face.bounds(), around);
+        Self::sorted(Face::all_of(geometry).into_iter().filter(near).collect())
+    }
+
+    fn sorted(faces: Vec<Face>) -> Self {
         let boxes = SortedBoxes::new(faces.iter().map(Face::bounds).collect());
         SortedFaces { faces, boxes }
     }
@@ -194,11 +205,9 @@ impl Face {
         (b - a).cross(c - a).normalize_or_zero()
     }
 
-    /// How far this face has to move inwards, against its normal, to be clear of another that it lies on.
-    fn way_from(&self, other: &Face) -> Option<f64> {
+    /// How far this face has to move inwards, against its normal, to be clear of another that it lies on: at least so far.
+    fn way_from(&self, other: &Face, least: f64) -> Option<f64> {
         let normal = self.normal();
-        // what lies in a plane of coordinates 0 is known exactly, but rays that start there do not meet it
-        let least = (self.high - self.low).max_element() * (1.0 / 1_048_576.0);
         let wanted = gap([step(normal, self.coordinates()), step(normal, other.coordinates())]).max(least);
         let heights = other.corners.map(|p| normal.dot(p - self.corners[0]));
         let lies_on = heights.iter().all(|height| height.abs() < wanted);
@@ -215,26 +224,23 @@ const MOST_OF_GLASS: f64 = 2e-3;
 /// A flat shape of glass with the faces moved inwards that lie on others; `None` if none does, or one has too far to go.
 fn moved_inwards<'a>(geometry: &Geometry, neighbours: impl Iterator<Item = &'a Geometry>) -> Option<Geometry> {
     let faces = Face::all_of(geometry);
+    let (low, high) = geometry.bounds();
+    // what lies in a plane of coordinates 0 is known exactly, but rays that start there do not meet it
+    let least = f64::from((high - low).max_element()) / 1_048_576.0;
     let mut ways = vec![0.0f64; faces.len()];
     for other in neighbours {
-        let others = Face::all_of(other);
-        let bounds: Vec<Bounds> = faces.iter().chain(&others).map(Face::bounds).collect();
-        for_each_pair(&bounds, |a, b| {
-            if a < faces.len() && b >= faces.len() {
-                let way = faces[a].way_from(&others[b - faces.len()]).unwrap_or(0.0);
-                ways[a] = ways[a].max(way);
-            }
-        });
+        let others = SortedFaces::near(other, grown((low, high)));
+        let around = grown(other.bounds());
+        for (face, way) in faces.iter().zip(&mut ways).filter(|(face, _)| meet(face.bounds(), around)) {
+            let found = others.boxes.meeting(face.bounds()).filter_map(|b| face.way_from(&others.faces[b], least));
+            *way = found.fold(*way, f64::max);
+        }
     }
-    let moving = || faces.iter().zip(&ways).filter(|(_, way)| **way > 0.0);
-    let (positions, _) = geometry.flat_triangles();
-    let depth = |face: &Face| {
-        let normal = face.normal();
-        positions.iter().map(|p| normal.dot(face.corners[0] - p.as_dvec3())).fold(0.0, f64::max)
-    };
+    let sides = Side::all_of(&faces, &ways);
     let is_sheet = matches!(geometry, Geometry::Rectangle { .. } | Geometry::Disk { .. });
-    let too_far = |(face, way): (&Face, &f64)| !is_sheet && *way > MOST_OF_GLASS * depth(face);
-    if moving().next().is_none() || moving().any(too_far) {
+    let too_far = |side: &Side| !is_sheet && side.way > MOST_OF_GLASS * side.depth_of(geometry);
+    // what touches with so many sides is round
+    if sides.is_empty() || sides.len() > MOST_SIDES || sides.iter().any(too_far) {
         return None;
     }
     let farthest = ways.iter().copied().fold(0.0, f64::max);
@@ -251,6 +257,40 @@ fn moved_inwards<'a>(geometry: &Geometry, neighbours: impl Iterator<Item = &'a G
         Geometry::Mesh(mesh) => Geometry::Mesh(pushed_in(mesh, &faces, &ways).into()),
         Geometry::Sphere { .. } => return None,
     })
+}
+
+/// Directions in which a shape may touch others.
+const MOST_SIDES: usize = 16;
+
+/// Faces of a shape that look in one direction, and how far the farthest of them has to go.
+struct Side {
+    normal: DVec3,
+    corner: DVec3,
+    way: f64,
+}
+
+impl Side {
+    /// Those that have to move, one more than [`MOST_SIDES`] at most.
+    fn all_of(faces: &[Face], ways: &[f64]) -> Vec<Self> {
+        let mut sides: Vec<Self> = Vec::new();
+        for (face, &way) in faces.iter().zip(ways).filter(|(_, way)| **way > 0.0) {
+            let (normal, corner) = (face.normal(), face.corners[0]);
+            let known = sides.iter().position(|side| side.normal.dot(normal) > 0.999_999);
+            match known {
+                Some(side) if sides[side].way < way => sides[side] = Side { normal, corner, way },
+                Some(_) => {}
+                None if sides.len() > MOST_SIDES => break,
+                None => sides.push(Side { normal, corner, way }),
+            }
+        }
+        sides
+    }
+
+    /// How deep the shape is behind it.
+    fn depth_of(&self, geometry: &Geometry) -> f64 {
+        let (positions, _) = geometry.flat_triangles();
+        positions.iter().map(|p| self.normal.dot(self.corner - p.as_dvec3())).fold(0.0, f64::max)
+    }
 }
 
 /// A box whose faces, two triangles each, have gone these ways inwards: across x, y and z, the lower one first.

@@ -5,6 +5,11 @@ use scene::Vec3;
 /// Lower and upper corner of a box.
 pub(super) type Bounds = (Vec3, Vec3);
 
+/// Whether two boxes have a point in common.
+pub(super) fn meet(a: Bounds, b: Bounds) -> bool {
+    b.0.cmple(a.1).all() && a.0.cmple(b.1).all()
+}
+
 /// Calls `found` with the places of any two boxes that have a point in common, each pair once: swept along the axis along
 /// which they overlap least.
 pub(super) fn for_each_pair(bounds: &[Bounds], mut found: impl FnMut(usize, usize)) {
@@ -12,9 +17,9 @@ pub(super) fn for_each_pair(bounds: &[Bounds], mut found: impl FnMut(usize, usiz
     let mut order: Vec<usize> = (0..bounds.len()).collect();
     order.sort_by(|a, b| bounds[*a].0[axis].total_cmp(&bounds[*b].0[axis]));
     for (place, &a) in order.iter().enumerate() {
-        let (low, high) = bounds[a];
-        for &b in order[place + 1..].iter().take_while(|&&b| bounds[b].0[axis] <= high[axis]) {
-            if bounds[b].0.cmple(high).all() && low.cmple(bounds[b].1).all() {
+        let end = bounds[a].1[axis];
+        for &b in order[place + 1..].iter().take_while(|&&b| bounds[b].0[axis] <= end) {
+            if meet(bounds[a], bounds[b]) {
                 found(a.min(b), a.max(b));
             }
         }
@@ -45,8 +50,7 @@ impl SortedBoxes {
         let earliest = (low[self.axis] - self.longest).next_down();
         let first = self.starts.partition_point(|(start, _)| *start < earliest);
         let near = self.starts[first..].iter().take_while(move |(start, _)| *start <= high[self.axis]);
-        let meets = move |of: &Bounds| of.0.cmple(high).all() && low.cmple(of.1).all();
-        near.map(|(_, place)| *place as usize).filter(move |place| meets(&self.bounds[*place]))
+        near.map(|(_, place)| *place as usize).filter(move |place| meet(self.bounds[*place], (low, high)))
     }
 }
 

@@ -1,4 +1,6 @@
 use super::*;
+use crate::intersect::{SurfacePoint, SurfacePoints};
+use crate::vectors::lane_vector;
 use scene::builtin;
 
 /// Shapes, all of one material.
@@ -69,6 +71,24 @@ fn nothing_shrinks_visibly_far_from_the_origin() {
     assert_eq!(shining, 1.0);
 }
 
+/// Beside the point of contact a step off the ball has a part along the floor's coordinates as well, however large.
+#[test]
+fn no_step_off_a_ball_crosses_the_floor_that_it_touches() {
+    for x in [0.0, 100.0, 1000.0, 10_000.0] {
+        let center = Vec3::new(x, 1.0, -x);
+        let corner = Vec3::new(x - 5.0, 0.0, -x - 5.0);
+        let under = Geometry::Rectangle { corner, edge_u: Vec3::Z * 10.0, edge_v: Vec3::X * 10.0 };
+        let scene = scene_of(vec![ball(center, 1.0), under], MIRROR);
+        let radius = radius_of(&held_apart(&scene), 0);
+        for i in 0..1000 {
+            let down = Vec3::new((i as f32 * 2e-5).sin(), -(i as f32 * 2e-5).cos(), 0.0);
+            let point = SurfacePoint::from(SurfacePoints::on_sphere(lane_vector(center), radius, lane_vector(down)));
+            let start = point.leaving_towards(point.normal);
+            assert!(start.y > 0.0, "at {x}, {i}: {start}");
+        }
+    }
+}
+
 /// The lowest point of the first shape over the height that it stands on.
 fn clearance(glass: Geometry, under: Geometry, y: f32) -> f32 {
     let scene = scene_of(vec![glass, under], GLASS);
@@ -85,7 +105,18 @@ fn flat_glass_is_lifted_off_what_it_lies_on() {
         let cells = (0..2500).map(|i| i / 50 * 51 + i % 50).flat_map(cell);
         Geometry::mesh((0..51 * 51).map(corner).collect(), cells.collect())
     };
+    // glass of many small triangles needs as much
+    let grid = |y: f32| {
+        let Geometry::Mesh(flat) = many(y) else { panic!("a mesh") };
+        let above = flat.positions().iter().map(|p| *p + Vec3::Y);
+        let first = flat.positions().len() as u32;
+        let lower = flat.triangles().iter().map(|[a, b, c]| [*a, *c, *b]);
+        let upper = flat.triangles().iter().map(|t| t.map(|i| i + first));
+        Geometry::mesh(flat.positions().iter().copied().chain(above).collect(), lower.chain(upper).collect())
+    };
     for y in [0.0, 0.5, -3.0, 100.0] {
+        let lifted = clearance(grid(y), floor(y), y);
+        assert!(lifted > 5e-6 && lifted < 1e-3, "many small triangles at {y}: {lifted}");
         let cube = |size: Vec3| Geometry::Box { corner: Vec3::new(-0.4, y, -0.3), size, turn_y: 20.0 };
         let mesh = |geometry: &Geometry| {
             let (positions, triangles) = geometry.flat_triangles();
