@@ -9,7 +9,7 @@ use technique::{Device, DeviceChoice, FakeSettings, Technique, TracedSettings, T
 /// What is traced by default.
 pub const USUAL: Technique = path(Estimator::LIGHT, SamplerKind::Sobol);
 
-/// Unbiased path tracing.
+/// Path tracing without a limit of bounces.
 pub const fn path(estimator: Estimator, sampler: SamplerKind) -> Technique {
     paths(PathSettings { estimator, sampler, bounces: None, roulette: Roulette::THROUGHPUT, branches: 1, seed: 1 })
 }
@@ -62,7 +62,7 @@ impl Line {
         }
     }
 
-    /// Where it runs.
+    /// The device that it is measured on.
     pub fn device(&self) -> Device {
         match (self.technique, self.variant.tracer) {
             (Technique::Traced(_), MakeTracer::Cpu(_)) => Device::Cpu,

@@ -12,7 +12,7 @@ use scene::Scene;
 pub struct Variant {
     /// In names, after the technique; empty for the usual one.
     pub name: &'static str,
-    /// Makes the tracer.
+    /// Makes a scene ready in the way that is measured.
     pub tracer: MakeTracer,
     /// Lanes that it needs of the machine.
     pub needs: Option<Lanes>,
@@ -21,7 +21,7 @@ pub struct Variant {
 /// What traces, and where.
 #[derive(Debug, Clone, Copy)]
 pub enum MakeTracer {
-    /// On the processor.
+    /// Makes what traces on the processor.
     Cpu(fn(&Scene) -> Tracer),
     /// On the graphics device, if there is one.
     Gpu(fn(&Gpu, &Scene) -> Result<GpuTracer, GpuTraceError>),

@@ -253,7 +253,7 @@ fn board_of(what: &str, height: f32, geometry: Geometry) -> Place {
 /// Estimators that find lamps however small.
 pub const SAMPLING: [Estimator; 2] = [Estimator::LIGHT, Estimator::MIS];
 
-/// Those, and chance.
+/// Those that find lamps of some size.
 pub const FINDING: [Estimator; 3] = [Estimator::COSINE, Estimator::LIGHT, Estimator::MIS];
 
 /// A path that goes on until it finds light, or is cut.

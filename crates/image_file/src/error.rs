@@ -26,7 +26,7 @@ pub enum ImageFileError {
     Kept {
         /// Why it is not where it was asked for.
         fault: Box<ImageFileError>,
-        /// Where it is.
+        /// The file that holds it instead.
         kept: PathBuf,
     },
     /// The name tells no kind of picture.

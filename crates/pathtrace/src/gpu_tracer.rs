@@ -98,7 +98,7 @@ impl GpuTracer {
         Ok(())
     }
 
-    /// The device.
+    /// The device that the scene is on.
     pub fn gpu(&self) -> &Gpu {
         &self.gpu
     }

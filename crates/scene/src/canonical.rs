@@ -81,7 +81,7 @@ impl Canonical<'_> {
         self.number(*fov_y);
     }
 
-    /// A whole number.
+    /// Four bytes of a whole number, the lowest first.
     pub fn word(&mut self, word: u32) {
         (self.0)(&word.to_le_bytes());
     }

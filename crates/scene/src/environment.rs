@@ -7,7 +7,7 @@ use film::Image;
 use glam::{DVec3, Vec3};
 use std::f64::consts::PI;
 
-/// Radiance by direction.
+/// A picture wrapped around the scene: radiance that arrives from each direction.
 #[derive(Debug)]
 pub struct EnvironmentMap {
     image: Image,
@@ -68,7 +68,7 @@ impl EnvironmentMap {
         self.scale
     }
 
-    /// Degrees about y.
+    /// Degrees by which it is turned about y.
     pub fn rotation(&self) -> f32 {
         self.rotation
     }

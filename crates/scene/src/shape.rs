@@ -71,7 +71,7 @@ impl Mesh {
         Mesh { positions, triangles, bounds }
     }
 
-    /// The corners.
+    /// Corners in world space, in the order in which triangles name them.
     pub fn positions(&self) -> &[Vec3] {
         &self.positions
     }

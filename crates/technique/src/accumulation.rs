@@ -10,7 +10,6 @@ use std::time::Duration;
 pub struct Accumulation {
     /// The film as last read.
     pub(crate) film: Film,
-    /// What it took.
     pub(crate) stats: Stats,
     /// Samples that every pixel has, on the device too.
     pub(crate) spp: u32,
@@ -84,7 +83,7 @@ impl Accumulation {
         self.most
     }
 
-    /// Time of tracing.
+    /// Time that tracing has taken, without building the scene.
     pub fn spent(&self) -> Duration {
         self.spent
     }

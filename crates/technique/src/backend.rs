@@ -15,7 +15,7 @@ const BUDGET_OF_SOFTWARE: f64 = 0.04;
 
 /// A scene made ready for rays.
 pub enum Backend {
-    /// On the processor.
+    /// The scene made ready on the processor.
     Cpu(Box<Tracer>),
     /// On a graphics device.
     Gpu(Box<GpuBackend>),

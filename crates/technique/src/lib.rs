@@ -101,7 +101,7 @@ impl TechniqueName {
 /// A technique with its settings: all that a picture depends on beside what is seen.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Technique {
-    /// Rasterised.
+    /// The rasterised fake.
     Fake(FakeSettings),
     /// Traced by an integrator.
     Traced(TracedSettings),

@@ -26,7 +26,7 @@ const MOST_KEPT: usize = 2;
 /// A picture to make.
 #[derive(Debug, Clone)]
 pub struct Request {
-    /// What is seen.
+    /// Scene, camera and size to render.
     pub shot: Shot,
     /// How, where, and how far.
     pub settings: TracedSettings,

@@ -9,7 +9,7 @@ use scene::SceneHash;
 /// All that a picture depends on.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Provenance {
-    /// What is seen.
+    /// Scene, camera and size of the picture.
     pub shot: Shot,
     /// How it is made.
     pub technique: Technique,
@@ -22,11 +22,11 @@ pub struct Provenance {
 pub struct Made<'a> {
     /// Samples per pixel; 1 for a technique that does not sample.
     pub spp: u32,
-    /// Seconds of rendering.
+    /// Seconds that rendering took.
     pub seconds: f64,
     /// What made it: a GPU's name, or a number of threads.
     pub adapter: &'a str,
-    /// In stops.
+    /// Exposure of the display transform, in stops.
     pub exposure: f32,
 }
 

@@ -36,13 +36,13 @@ pub struct Pacing {
 
 /// A picture as far as it is made.
 pub struct Frame<'a> {
-    /// The film.
+    /// Samples summed so far, pixel by pixel.
     pub film: &'a Film,
-    /// Seconds of tracing.
+    /// Seconds that tracing has taken so far.
     pub seconds: f64,
     /// Names of what has made it.
     pub made_by: String,
-    /// What traces now.
+    /// The device that traces now: after a loss the processor.
     pub device: Device,
     /// Why the graphics device does not, where it should: one line.
     pub refused: Option<Arc<str>>,
@@ -108,12 +108,12 @@ impl Renderer {
         Renderer::new(scene, backend, threads)
     }
 
-    /// The scene.
+    /// The scene that is rendered, with its changes.
     pub fn scene(&self) -> &Arc<Scene> {
         &self.scene
     }
 
-    /// What traces now.
+    /// The device that traces now: after a loss the processor.
     pub fn device(&self) -> Device {
         self.backend.device()
     }
@@ -294,9 +294,9 @@ impl Renderer {
 
 /// A film that is done.
 pub struct Rendered {
-    /// The film.
+    /// Samples summed so far, pixel by pixel.
     pub film: Film,
-    /// What it took.
+    /// Rays and samples that it took.
     pub stats: Stats,
     /// What it was made by in the end.
     pub device: Device,

@@ -4,7 +4,7 @@
 use scene::{Camera, Scene};
 use std::sync::Arc;
 
-/// What is seen.
+/// A scene from one camera at one size: all that the truth of a picture depends on.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Shot {
     /// The scene as the user asked for it: a built-in name or a file.

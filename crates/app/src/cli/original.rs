@@ -10,7 +10,7 @@ use technique::Shot;
 /// A picture that says how it was made.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Original {
-    /// The picture.
+    /// The picture whose records these are.
     pub file: PathBuf,
     /// Its scene as it was read then; `None` of a picture from before this was kept.
     pub scene: Option<SceneHash>,

@@ -31,14 +31,14 @@ impl CompareWith {
 /// What judges a picture.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Against {
-    /// Another pane's.
+    /// The picture of another pane.
     Pane(PaneId),
     /// The reference of what it shows.
     Reference,
 }
 
 impl Against {
-    /// "B", "reference".
+    /// As labels and errors call it: "B", "reference".
     pub fn name(self) -> &'static str {
         match self {
             Against::Pane(pane) => pane.name(),

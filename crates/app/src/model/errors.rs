@@ -7,7 +7,7 @@ use compare::Errors;
 pub struct ErrorPoint {
     /// Samples per pixel; `None` for a technique that does not sample.
     pub spp: Option<u32>,
-    /// Seconds of rendering.
+    /// Seconds that rendering had taken when they were measured.
     pub seconds: f64,
     /// How far it was from what judges it.
     pub errors: Errors,

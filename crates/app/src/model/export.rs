@@ -3,7 +3,7 @@
 use super::PaneId;
 use std::path::PathBuf;
 
-/// What is exported.
+/// Which of the pictures on screen is exported.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum ExportSubject {
     /// The picture area as it is on the screen: both panes, line and labels.
@@ -20,14 +20,14 @@ pub enum ExportSubject {
 pub enum Destination {
     /// A file; if there is one already, another name beside it.
     File(PathBuf),
-    /// The clipboard.
+    /// The clipboard, as a picture of 8 bits.
     Clipboard,
 }
 
 /// A picture to write to a file or the clipboard.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct ExportRequest {
-    /// The picture.
+    /// Which of the pictures on screen.
     pub subject: ExportSubject,
     /// The file or the clipboard.
     pub to: Destination,

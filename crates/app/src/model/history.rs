@@ -24,7 +24,7 @@ impl Settings {
         Settings { changes: document.changes, panes: panes.clone(), display: *display, resolution: *resolution }
     }
 
-    /// Puts them back.
+    /// Makes document and session what they were.
     pub fn restore(self, document: &mut Document, session: &mut Session) {
         document.changes = self.changes;
         (session.panes, session.display, session.resolution) = (self.panes, self.display, self.resolution);

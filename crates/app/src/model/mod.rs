@@ -49,7 +49,7 @@ pub struct Model {
     pub document: Document,
     /// How it is looked at.
     pub session: Session,
-    /// What controls remember.
+    /// What controls remember from frame to frame; in no file.
     pub state: UiState,
     /// The graphics devices that can trace rays.
     pub adapters: Adapters,

@@ -52,7 +52,7 @@ impl Resolution {
         }
     }
 
-    /// "full", "1/2", "1/4".
+    /// As the control shows it: "full", "1/2", "1/4".
     pub fn name(self) -> &'static str {
         match self {
             Resolution::Full => "full",

@@ -33,7 +33,7 @@ pub struct UiState {
     pub scene_file: String,
     /// A reference to load, as typed.
     pub reference_file: String,
-    /// The export menu.
+    /// What the export menu shows while it is open.
     pub export: ExportMenu,
     /// What switched-off settings come back to.
     pub switched_off: Panes<SwitchedOff>,

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 /// Which picture is shown.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum View {
-    /// One pane alone.
+    /// This pane alone, in all of the middle.
     Pane(PaneId),
     /// Both, under a line that the mouse drags.
     Wipe,

@@ -4,7 +4,7 @@ use super::Theme;
 use std::path::PathBuf;
 use technique::DeviceChoice;
 
-/// `visavis [SCENE]`.
+/// What `visavis [SCENE]` was asked for.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ViewArgs {
     /// A built-in name or a file.

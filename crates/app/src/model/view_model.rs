@@ -23,7 +23,7 @@ pub struct PaneView {
     pub provenance: Option<Arc<Provenance>>,
     /// Samples per pixel, where the technique samples.
     pub spp: Option<u32>,
-    /// Seconds of rendering.
+    /// Seconds that rendering has taken so far.
     pub seconds: f64,
     /// Samples that were not finite and are left out.
     pub nonfinite: u64,

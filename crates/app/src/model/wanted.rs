@@ -10,7 +10,7 @@ use technique::Technique;
 pub struct Wanted {
     /// Counts the scenes opened: what was made of an older one is no longer shown.
     pub opened: u64,
-    /// The pictures.
+    /// For each pane the picture that is to be made.
     pub panes: Panes<WantedPane>,
     /// Whose errors are measured, and by what.
     pub comparisons: Vec<Comparison>,

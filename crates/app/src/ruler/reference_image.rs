@@ -7,7 +7,7 @@ use reference::Reference;
 /// A reference as it is held against one picture after the other.
 #[derive(Debug, Clone)]
 pub struct ReferenceImage {
-    /// Its radiance.
+    /// Radiance of the reference, with the layer of its standard errors.
     pub image: Image,
     /// Its own mean squared error, in radiance squared; `None` of a picture from elsewhere that does not tell.
     pub noise: Option<f64>,

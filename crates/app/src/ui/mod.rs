@@ -32,7 +32,7 @@ pub enum UiCommand {
     Open(String),
     /// Read a reference from a file.
     LoadReference(PathBuf),
-    /// Close the window.
+    /// Ends the program after this frame.
     Quit,
 }
 
@@ -51,7 +51,7 @@ pub struct UiContext<'a> {
     pub model: &'a mut Model,
     /// What there is to show.
     pub shown: &'a ViewModel,
-    /// Its pixels.
+    /// Textures of the pictures in it, by pane.
     pub textures: &'a Textures,
     /// The widgets drawn so far, for tests.
     pub dump: &'a mut Dump,
@@ -59,7 +59,7 @@ pub struct UiContext<'a> {
     pub commands: &'a mut Vec<UiCommand>,
 }
 
-/// Draws one frame.
+/// Draws the bar, the panel and the workspace for one frame.
 pub fn show(workspaces: &mut Workspaces, cx: &mut UiContext, ui: &mut Ui) {
     if cx.model.state.dressed != Some(cx.model.state.theme) {
         theme::apply(cx.model.state.theme, ui.ctx());

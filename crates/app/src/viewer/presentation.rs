@@ -39,7 +39,7 @@ pub enum Place {
 }
 
 impl Presentation {
-    /// Takes everything down.
+    /// Forgets all pictures and the textures that show them.
     pub fn clear(&mut self) {
         (self.shown, self.textures) = Default::default();
         self.pictures = Panes::default();
@@ -156,7 +156,6 @@ impl Presentation {
     }
 }
 
-/// "a.png".
 fn file_of(pane: PaneId) -> String {
     format!("{}.png", pane.name().to_lowercase())
 }

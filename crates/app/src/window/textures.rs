@@ -10,9 +10,7 @@ pub struct WindowTextures(HashMap<Place, (wgpu::Texture, egui::TextureId)>);
 
 /// The textures beside what fills them.
 pub struct Uploads<'a> {
-    /// The window's device.
     pub gpu: &'a Gpu,
-    /// What draws them.
     pub renderer: &'a mut egui_wgpu::Renderer,
     /// All that there are.
     pub textures: &'a mut WindowTextures,

@@ -29,10 +29,10 @@ use technique::Device;
 /// Why a device has not gone through with a case.
 #[derive(Debug, thiserror::Error)]
 pub enum DeviceFault {
-    /// Tracing rays.
+    /// The device failed while it traced rays.
     #[error(transparent)]
     Trace(#[from] GpuTraceError),
-    /// Rasterising the fake.
+    /// The device failed while it drew the fake.
     #[error(transparent)]
     Raster(#[from] RasterError),
 }

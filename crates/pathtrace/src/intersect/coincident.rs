@@ -73,7 +73,6 @@ impl Outline {
         Self::polygon(id, light, (0..DISK_CORNERS).map(corner).collect(), normal)
     }
 
-    /// A sphere.
     pub fn sphere(id: u32, light: u32, sphere: Sphere) -> Self {
         let Sphere { center, radius } = sphere;
         Outline { id, light, form: Form::Sphere(sphere), low: center - radius, high: center + radius }
@@ -147,7 +146,7 @@ fn separated(a: &[DVec2], b: &[DVec2], slack: f64) -> bool {
     })
 }
 
-/// Which surfaces coincide.
+/// Surfaces that coincide, each with the number of those that it lies with.
 #[derive(Debug, Clone, Default)]
 pub struct Groups {
     of_surface: WordColumn,

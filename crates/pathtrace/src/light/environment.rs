@@ -33,9 +33,9 @@ pub struct Environment {
 /// A sample of the map in each lane.
 #[derive(Debug, Clone, Copy)]
 pub struct EnvironmentSamples<F> {
-    /// Unit direction.
+    /// Unit direction towards the sky.
     pub wi: Vector<F>,
-    /// Radiance from there.
+    /// Radiance that arrives from that direction.
     pub radiance: Vector<F>,
     /// Density per solid angle.
     pub pdf: F,

@@ -65,9 +65,9 @@ pub enum Kind {
 /// A value of a setting.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Value {
-    /// A real number.
+    /// In the unit that the setting states.
     Number(f32),
-    /// A whole number.
+    /// Of what is counted: bounces, rays, texels.
     Whole(u32),
     /// One of the choices.
     Word(&'static str),
@@ -80,15 +80,15 @@ pub enum Value {
 /// What a scene must have.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Need {
-    /// Nothing.
+    /// Nothing: it has an effect in any scene.
     Nothing,
-    /// A dielectric.
+    /// A material that is a dielectric.
     Glass,
     /// A mirror, which rough metal is one of for Whitted's trees, or a dielectric.
     Specular,
-    /// A sphere.
+    /// A shape that is a sphere.
     Spheres,
-    /// A sun.
+    /// A sun, however small its disc.
     Sun,
     /// A light that the fake draws a shadow map of.
     ShadowMap,

@@ -7,7 +7,7 @@ use crate::cli::{CliError, Command};
 use lexopt::ValueExt;
 use technique::DeviceChoice;
 
-/// `visavis check`.
+/// What `visavis check` was asked for.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct CheckArgs {
     /// Whether to look coarsely.

@@ -18,7 +18,7 @@ pub struct CommandOption<A> {
     pub value: &'static str,
     /// What it does; empty for one that --help does not list.
     pub help: &'static str,
-    /// Reads its value.
+    /// Takes its value, if it has one, from the words that follow it.
     pub read: fn(&mut A, &mut lexopt::Parser) -> Result<(), CliError>,
 }
 

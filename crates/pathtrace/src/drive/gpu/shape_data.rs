@@ -136,7 +136,7 @@ pub(crate) struct ShapeKinds {
     pub triangles: bool,
     pub spheres: bool,
     pub disks: bool,
-    /// Any that coincide.
+    /// Whether any of them coincide.
     pub coincident: bool,
 }
 

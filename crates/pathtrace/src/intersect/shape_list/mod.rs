@@ -224,9 +224,9 @@ impl ShapeList {
 
 /// Where shadow rays go.
 struct Shadow<F: Float> {
-    /// Where they end.
+    /// Distance of their ends, in lengths of their directions.
     end: F,
-    /// At which light.
+    /// Indices of the lights that they go to.
     light: F::U,
     /// Of what coincides with it, or [`NO_GROUP`].
     group: F::U,

@@ -12,7 +12,7 @@ use crate::ui::pressed::{HelpLine, Keys};
 use crate::ui::{UiContext, controls};
 use egui::{Key, Ui};
 
-/// Two pictures, compared.
+/// The workspace of pictures A and B with what lies between them: wipe, side by side, error map.
 pub struct Compare;
 
 /// The keys of the views, in the order of [`View::ALL`].
