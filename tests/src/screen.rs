@@ -128,6 +128,8 @@ impl Screen {
     pub const ESCAPE: u32 = 0xff1b;
     /// The keysym of the right arrow key.
     pub const RIGHT: u32 = 0xff53;
+    /// Keysym of the arrow to the left.
+    pub const LEFT: u32 = 0xff51;
     /// The keysym of the left Control key.
     pub const CONTROL: u32 = 0xffe3;
     /// The keysym of the left Shift key.

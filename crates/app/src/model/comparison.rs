@@ -23,7 +23,7 @@ impl CompareWith {
     pub fn name(self) -> &'static str {
         match self {
             CompareWith::EachOther => "each other",
-            CompareWith::Reference => "the reference",
+            CompareWith::Reference => "reference",
         }
     }
 }

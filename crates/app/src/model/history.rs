@@ -1,12 +1,15 @@
-//! What undo gives back: the settings of all panes, the scene's sliders and the display.
+//! What undo gives back: the camera, the settings of all panes, the scene's sliders and the display.
 
 use super::{Document, Panes, Resolution, Session};
 use film::DisplayTransform;
+use scene::Camera;
 use technique::{PaneSettings, SceneChanges};
 
-/// Everything that a slider or a choice changes. Camera, view and line are not part of it: moving them loses nothing.
+/// Everything that a slider, a choice or the mouse on the picture changes. View and line are not part of it: moving them loses nothing.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Settings {
+    /// Where all panes look from.
+    pub camera: Camera,
     /// What is changed in the scene, for all panes.
     pub changes: SceneChanges,
     /// How each is made.
@@ -21,12 +24,18 @@ impl Settings {
     /// The settings as they stand now.
     pub fn of(document: &Document, session: &Session) -> Self {
         let Session { panes, display, resolution, .. } = session;
-        Settings { changes: document.changes, panes: panes.clone(), display: *display, resolution: *resolution }
+        Settings {
+            camera: document.camera,
+            changes: document.changes,
+            panes: panes.clone(),
+            display: *display,
+            resolution: *resolution,
+        }
     }
 
     /// Makes document and session what they were.
     pub fn restore(self, document: &mut Document, session: &mut Session) {
-        document.changes = self.changes;
+        (document.camera, document.changes) = (self.camera, self.changes);
         (session.panes, session.display, session.resolution) = (self.panes, self.display, self.resolution);
     }
 }

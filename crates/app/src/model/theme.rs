@@ -1,4 +1,4 @@
-//! How the window looks: dark for a desk, bright with large type for a projector.
+//! How the window looks: dark or light for a desk, bright with large type for a projector.
 
 /// The colours and type sizes of the window.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -6,18 +6,21 @@ pub enum Theme {
     /// Light type on dark grey: the picture is the brightest thing.
     #[default]
     Dark,
-    /// Black type of 18 points on white.
+    /// The same in dark on light, for a bright room.
+    Light,
+    /// Black on white, all type heavy and as large as the window is high: the last row of seats reads it.
     Projector,
 }
 
 impl Theme {
     /// All, the default first.
-    pub const ALL: [Theme; 2] = [Theme::Dark, Theme::Projector];
+    pub const ALL: [Theme; 3] = [Theme::Dark, Theme::Light, Theme::Projector];
 
     /// The name in the menu and on the command line.
     pub fn name(self) -> &'static str {
         match self {
             Theme::Dark => "dark",
+            Theme::Light => "light",
             Theme::Projector => "projector",
         }
     }

@@ -7,8 +7,6 @@ use super::{ExportMenu, Message, Panes, Theme};
 pub struct UiState {
     /// How it all looks.
     pub theme: Theme,
-    /// The theme that the windows wear.
-    pub dressed: Option<Theme>,
     /// Whether the controls are open.
     pub panel: bool,
     /// Whether the help is open.
@@ -68,7 +66,6 @@ impl UiState {
     pub fn new(theme: Theme) -> Self {
         UiState {
             theme,
-            dressed: None,
             panel: true,
             help: false,
             help_was_open: false,

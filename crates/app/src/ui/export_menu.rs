@@ -1,6 +1,6 @@
 //! The export menu: the picture as seen or one pane, to a file or the clipboard, or as a command to type.
 
-use super::widgets::{framed, menu};
+use super::widgets::{Explained, framed, menu};
 use super::{UiCommand, UiContext};
 use crate::model::{Destination, ExportRequest, ExportSubject, Model, PaneId, PaneView};
 use egui::Ui;
@@ -54,7 +54,7 @@ pub fn show(cx: &mut UiContext, ui: &mut Ui) {
         for (pane, shown) in cx.shown.panes.iter() {
             let Some(command) = command(cx.model, pane, shown) else { continue };
             let text = format!("Copy {pane} as command");
-            let button = ui.add(framed(&text, ui)).on_hover_text(&command);
+            let button = ui.add(framed(&text, ui)).explained(&command);
             if cx.dump.note(&format!("command {pane}"), &command, button).clicked() {
                 ui.ctx().copy_text(command);
                 cx.model.say(Ok(format!("Copied the command that makes {pane}")));
@@ -100,19 +100,18 @@ fn file(cx: &mut UiContext, ui: &mut Ui) {
     let hint = proposal.display().to_string();
     let edit =
         egui::TextEdit::singleline(&mut cx.model.state.export.file).hint_text(&hint).desired_width(f32::INFINITY);
-    let line =
-        ui.add(edit).labelled_by(label.id).on_hover_text("A file that exists is kept: the new one gets a number");
+    let line = ui.add(edit).labelled_by(label.id).explained("A file that exists is kept: the new one gets a number");
     let entered = line.lost_focus() && ui.input(|i| i.key_pressed(egui::Key::Enter));
     cx.dump.note("export file", &cx.model.state.export.file, line);
     ui.horizontal(|ui| {
-        let save = cx.dump.note("save", "", ui.add(framed("Save", ui)).on_hover_text("Ctrl+S saves as seen"));
+        let save = cx.dump.note("save", "", ui.add(framed("Save", ui)).explained("Ctrl+S saves as seen"));
         if save.clicked() || entered {
             let to = Destination::File(typed_file(&cx.model.state.export.file, proposal));
             cx.commands.push(UiCommand::Export(ExportRequest { subject, to }));
             ui.close();
         }
         let copy =
-            cx.dump.note("copy picture", "", ui.add(framed("Copy picture", ui)).on_hover_text("Ctrl+C copies as seen"));
+            cx.dump.note("copy picture", "", ui.add(framed("Copy picture", ui)).explained("Ctrl+C copies as seen"));
         if copy.clicked() {
             cx.commands.push(UiCommand::Export(ExportRequest { subject, to: Destination::Clipboard }));
             ui.close();

@@ -16,7 +16,7 @@ mod workspace;
 mod workspaces;
 
 pub use dump::{Dump, Widget};
-pub use workspace::Workspace;
+pub use workspace::{Icon, Workspace};
 pub use workspaces::Workspaces;
 
 use crate::model::{ExportRequest, Model, Panes, ViewModel};
@@ -59,17 +59,23 @@ pub struct UiContext<'a> {
     pub commands: &'a mut Vec<UiCommand>,
 }
 
+/// Notches of the wheel that come as soon as this after each other, in seconds, are one step of undo.
+const ONE_SCROLL: f32 = 0.5;
+
 /// Draws the bar, the panel and the workspace for one frame.
 pub fn show(workspaces: &mut Workspaces, cx: &mut UiContext, ui: &mut Ui) {
-    if cx.model.state.dressed != Some(cx.model.state.theme) {
-        theme::apply(cx.model.state.theme, ui.ctx());
-        cx.model.state.dressed = Some(cx.model.state.theme);
+    if theme::apply(cx.model.state.theme, ui.ctx()) {
+        // fonts and style are there from the next pass on, which is of the same frame
+        ui.ctx().request_discard("another theme");
         ui.ctx().request_repaint();
+        return;
     }
     keys::listen(workspaces, cx, ui.ctx());
-    egui::Panel::top("top bar").show(ui, |ui| top_bar::show(workspaces, cx, ui));
+    top_bar::show(workspaces, cx, ui);
+    workspaces.rail(cx, ui);
     workspaces.open_mut().ui(cx, ui);
     help::show(workspaces.open(), cx, ui);
-    let busy = ui.input(|i| i.pointer.any_down()) || ui.ctx().text_edit_focused();
+    let scrolling = ui.input(|i| i.time_since_last_scroll()) < ONE_SCROLL;
+    let busy = scrolling || ui.input(|i| i.pointer.any_down()) || ui.ctx().text_edit_focused();
     cx.model.settle(busy);
 }

@@ -3,7 +3,7 @@
 use super::{UiContext, theme};
 use crate::model::Message;
 use egui::accesskit;
-use egui::{Align2, Color32, FontId, Pos2, Rect, Sense, Ui, vec2};
+use egui::{Align2, Color32, Pos2, Rect, Sense, Ui, vec2};
 
 /// At the foot of `rect`: the last thing worth saying, or else a hint for a newcomer.
 pub fn say(cx: &mut UiContext, ui: &Ui, rect: Rect, hint: &str) {
@@ -22,7 +22,7 @@ pub fn say(cx: &mut UiContext, ui: &Ui, rect: Rect, hint: &str) {
         None => return,
     };
     let at = rect.center_bottom() - vec2(0.0, 12.0);
-    let place = text_box(cx, ui, rect, at, Align2::CENTER_BOTTOM, &text, colour);
+    let place = text_box(ui, rect, at, Align2::CENTER_BOTTOM, &text, colour);
     cx.dump.note_text(name, &text, place, rect);
     spoken(ui, name, &text, place, true);
 }
@@ -39,14 +39,16 @@ pub fn spoken(ui: &Ui, name: &str, text: &str, place: Rect, aloud: bool) {
     });
 }
 
+/// Between a text and the edge of its ground, in points.
+const AROUND: egui::Vec2 = vec2(10.0, 6.0);
+
 /// Text on a dark ground that keeps it readable over any picture; returns where it is.
-pub fn text_box(cx: &UiContext, ui: &Ui, clip: Rect, at: Pos2, align: Align2, text: &str, colour: Color32) -> Rect {
+pub fn text_box(ui: &Ui, clip: Rect, at: Pos2, align: Align2, text: &str, colour: Color32) -> Rect {
     let painter = ui.painter().with_clip_rect(clip);
     let width = (clip.width() - 32.0).max(40.0);
-    let galley =
-        painter.layout(text.to_owned(), FontId::proportional(theme::label_size(cx.model.state.theme)), colour, width);
-    let place = align.anchor_size(at, galley.size());
-    painter.rect_filled(place.expand2(vec2(6.0, 3.0)), 4.0, Color32::from_black_alpha(215));
+    let galley = painter.layout(text.to_owned(), theme::label_font(ui), colour, width);
+    let place = align.anchor_size(at, galley.size() + 2.0 * AROUND).shrink2(AROUND);
+    painter.rect_filled(place.expand2(AROUND), 7.0, Color32::from_black_alpha(217));
     painter.galley(place.min, galley, colour);
     place
 }

@@ -1,12 +1,14 @@
 //! The workspaces that there are, and the one that is open. A new one is a row of [`registry`].
 
 use super::UiContext;
+use super::theme::palette;
+use super::widgets::icon_and_word;
 use super::workspace::Workspace;
 use super::workspace::compare::Compare;
 use super::workspace::empty::Empty;
-use egui::Ui;
+use egui::{Frame, Margin, Ui};
 
-/// All that there are, in the order of their tabs; the first one is the usual one.
+/// All that there are, in the order of the rail; the first one is the usual one.
 fn registry() -> Vec<Box<dyn Workspace>> {
     vec![Box::new(Compare), Box::new(Empty)]
 }
@@ -51,18 +53,20 @@ impl Workspaces {
         &mut *self.offered[self.open]
     }
 
-    /// A tab for each, where there is more than one to choose from.
-    pub fn tabs(&mut self, cx: &mut UiContext, ui: &mut Ui) {
+    /// Icon and word of each at the left, where there is more than one to choose from.
+    pub fn rail(&mut self, cx: &mut UiContext, ui: &mut Ui) {
         if self.offered.len() == 1 {
             return;
         }
-        for (index, workspace) in self.offered.iter().enumerate() {
-            let (id, open) = (workspace.id(), self.open == index);
-            let tab = ui.selectable_label(open, workspace.name());
-            if cx.dump.note(&format!("workspace {id}"), open, tab).clicked() {
-                self.open = index;
+        let frame = Frame::new().fill(palette(ui).panel).inner_margin(Margin::same(4));
+        egui::Panel::left("rail").resizable(false).frame(frame).show(ui, |ui| {
+            for (index, workspace) in self.offered.iter().enumerate() {
+                let (id, open) = (workspace.id(), self.open == index);
+                let tab = icon_and_word(workspace.icon(), workspace.name(), open, ui);
+                if cx.dump.note(&format!("workspace {id}"), open, tab).clicked() {
+                    self.open = index;
+                }
             }
-        }
-        ui.separator();
+        });
     }
 }

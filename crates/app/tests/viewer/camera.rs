@@ -14,7 +14,7 @@ fn the_camera_dollies_zooms_is_typed_kept_and_reset() {
     let zoomed = user.wheel(middle, Modifiers::COMMAND);
     assert!(zoomed.state("fov").as_f64() < first.state("fov").as_f64(), "with Ctrl it zooms");
 
-    user.click("Camera (both)");
+    assert!(zoomed.shows("field of view") && !first.shows("field of view"), "its card unfolds once it is used");
     let marked = user.click("Bookmark");
     let place = marked.state("eye").clone();
     let reset = user.key(Key::C);

@@ -14,7 +14,7 @@ fn the_gpu_traces_b_says_so_and_is_recorded() {
     let mut user = User::of("cornell");
     let first = user.wait_for("both pictures", both_whole);
     assert_eq!(first.state("b")["device"], "cpu", "auto, where the processor plays the adapter");
-    user.click_in("B", "More");
+    user.unfold_more("B");
     let chosen = user.click_in("B", "the GPU");
     assert_eq!(chosen.value("B device the GPU"), "true");
     let traced = user.wait_for("a picture by the GPU", |f| made_by(f, "gpu"));
@@ -37,7 +37,7 @@ fn the_gpu_traces_b_says_so_and_is_recorded() {
 #[test]
 fn an_adapter_is_chosen_by_its_name() {
     let mut user = User::beside("cornell", egui::vec2(1280.0, 720.0), 1.0, DeviceChoice::Gpu);
-    let more = user.click_in("B", "More");
+    let more = user.unfold_more("B");
     assert!(more.value("text B adapter").ends_with("Vulkan"), "{}", more.value("text B adapter"));
     let open = user.click_in("B", "Adapter");
     let entry = open.names().into_iter().find(|name| name.starts_with("B adapter") && name.ends_with("OpenGL"));

@@ -49,7 +49,7 @@ fn a_pane_its_film_and_its_command_are_one_picture() {
     let mut user = User::of("whitted");
     user.wait_for("both pictures", both_whole);
     // what is changed in the scene is in film and command
-    user.set_slider("Refraction ratio (n = 1.43)", 0.6);
+    user.set_slider("Refraction ratio", 0.6);
     user.wait_for("both pictures of the changed scene", both_whole);
     hold(&mut user);
     for (pane, choice) in [("A", "A alone"), ("B", "B alone")] {

@@ -126,6 +126,7 @@ impl User {
 
     /// Clicks the widget that screen readers call so.
     pub fn click(&mut self, name: &str) -> Frame {
+        self.scroll_to(name);
         self.harness.get_by_label(name).click();
         self.harness.run_steps(3);
         self.frame()
@@ -149,7 +150,22 @@ impl User {
         // the button that folds them has the same name
         let title = format!("Settings of {pane}");
         let group = self.harness.get_by_role_and_label(Role::Group, &title);
+        group.get_by_label(name).scroll_to_me();
+        self.harness.run_steps(3);
+        let group = self.harness.get_by_role_and_label(Role::Group, &title);
         group.get_by_label(name).click();
+        self.harness.run_steps(3);
+        self.frame()
+    }
+
+    /// Unfolds the rare settings of a pane.
+    pub fn unfold_more(&mut self, pane: &str) -> Frame {
+        let title = format!("Settings of {pane}");
+        let group = self.harness.get_by_role_and_label(Role::Group, &title);
+        group.get_by_label_contains("more settings").scroll_to_me();
+        self.harness.run_steps(3);
+        let group = self.harness.get_by_role_and_label(Role::Group, &title);
+        group.get_by_label_contains("more settings").click();
         self.harness.run_steps(3);
         self.frame()
     }

@@ -9,7 +9,7 @@ fn scenes_change_and_controls_that_do_not_apply_go() {
     let mut user = User::of("cornell");
     let first = user.wait_for("both pictures", both_whole);
     assert!(!first.shows("refraction ratio") && !first.shows("sun radius"));
-    let limited = user.click_in("B", "Limit bounces");
+    let limited = user.set_slider("Bounces", 2.0);
     assert!(limited.shows("B bounces"));
     user.click("Scene: cornell");
     user.click("whitted");

@@ -22,16 +22,16 @@ fn a_lecturer_toggles_slides_wipes_orbits_saves_and_closes() {
     viewer.wait_for("the wipe again", |f| f.state("view") == "Wipe");
 
     assert_eq!(first.value("refraction ratio"), "0.7");
-    // the slider's rail starts at the widget's left edge and is 130 points long
-    let [left, top, _, bottom] = first.rect("refraction ratio");
+    let [left, top, right, bottom] = first.rect("refraction ratio");
     let y = 0.5 * (top + bottom);
-    screen.drag([left + 65.0, y], [left + 20.0, y]);
+    let at = |share: f32| left + share * (right - left);
+    screen.drag([at(0.5), y], [at(0.15), y]);
     let slid = |f: &Frame| f.value("refraction ratio").parse::<f32>().is_ok_and(|r| r < 0.55);
     viewer.wait_for("the slider to stand at its new place", slid);
 
     let settled = |f: &Frame| f.state("b")["rough"] == false && f.state("b")["spp"].as_u64() >= Some(4);
-    let mut from = left + 20.0;
-    for to in [left + 47.0, left + 83.0, left + 111.0] {
+    let mut from = at(0.15);
+    for to in [0.36, 0.64, 0.85].map(at) {
         screen.drag([from, y], [to, y]);
         viewer.wait_for("the truth to refine, the slider at rest", settled);
         from = to;

@@ -37,6 +37,8 @@ pub enum Look {
     },
     /// A slider over whole numbers.
     Whole(RangeInclusive<u32>),
+    /// The same, and behind the last number no limit.
+    WholeOrNone(RangeInclusive<u32>),
     /// A slider over powers of two with these exponents, and the number beside it to be typed.
     Doubling(RangeInclusive<u32>),
     /// A number to be dragged or typed.
@@ -94,7 +96,7 @@ mod tests {
             (Kind::Whole(accepted), Look::Doubling(exponents)) => {
                 [exponents.start(), exponents.end()].iter().all(|exponent| accepted.contains(&(1 << **exponent)))
             }
-            (Kind::Whole(_), Look::Typed) | (Kind::Bounces, Look::Whole(_)) => true,
+            (Kind::Whole(_), Look::Typed) | (Kind::Bounces, Look::WholeOrNone(_)) => true,
             (Kind::Choice(accepted), Look::Words(words)) => {
                 words.iter().all(|(word, _)| accepted.contains(&word.replace(' ', "-").as_str()))
             }

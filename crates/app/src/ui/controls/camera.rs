@@ -1,7 +1,7 @@
 //! The camera in numbers, how many pixels its picture has, and places to come back to.
 
 use crate::model::Resolution;
-use crate::ui::widgets::number;
+use crate::ui::widgets::{Explained, number};
 use crate::ui::{Dump, UiContext};
 use egui::{DragValue, Ui};
 use scene::{Camera, Vec3};
@@ -30,7 +30,7 @@ fn resolutions(cx: &mut UiContext, ui: &mut Ui) {
         ui.label("Resolution");
         for resolution in Resolution::ALL {
             let chosen = cx.model.session.resolution == resolution;
-            let button = ui.selectable_label(chosen, resolution.name()).on_hover_text(match resolution {
+            let button = ui.selectable_label(chosen, resolution.name()).explained(match resolution {
                 Resolution::Full => "Every pixel; while something changes pictures begin coarser where they must",
                 Resolution::Half => "A pixel for two by two: done in a quarter of the time, exported as small",
                 Resolution::Quarter => "A pixel for four by four: done in a sixteenth of the time, exported as small",
@@ -55,11 +55,11 @@ fn point(name: &str, point: &mut Vec3, speed: f64, ui: &mut Ui, dump: &mut Dump)
 
 fn bookmarks(cx: &mut UiContext, ui: &mut Ui) {
     ui.horizontal_wrapped(|ui| {
-        let reset = ui.button("Reset").on_hover_text("Back to the scene's own camera (C)");
+        let reset = ui.button("Reset").explained("Back to the scene's own camera (C)");
         if cx.dump.note("reset camera", "", reset).clicked() {
             cx.model.document.camera = cx.model.document.scene.camera;
         }
-        let add = ui.button("Bookmark").on_hover_text("Keep this place to come back to");
+        let add = ui.button("Bookmark").explained("Keep this place to come back to");
         if cx.dump.note("add bookmark", cx.model.document.bookmarks.len(), add).clicked() {
             cx.model.document.bookmarks.push(cx.model.document.camera);
         }
@@ -70,7 +70,7 @@ fn bookmarks(cx: &mut UiContext, ui: &mut Ui) {
             let here = cx.model.document.camera == *place;
             let name = format!("Place {}", index + 1);
             let button =
-                ui.selectable_label(here, &name).on_hover_text("Click: go there. Right click or Delete: forget it");
+                ui.selectable_label(here, &name).explained("Click: go there. Right click or Delete: forget it");
             let button = cx.dump.note(&format!("bookmark {}", index + 1), here, button);
             if button.clicked() {
                 cx.model.document.camera = *place;

@@ -2,7 +2,7 @@
 
 use crate::model::PaneId;
 use crate::ui::UiContext;
-use crate::ui::widgets::choice;
+use crate::ui::widgets::{Explained, choice};
 use egui::{ComboBox, Ui};
 use technique::{Device, DeviceChoice};
 
@@ -34,7 +34,7 @@ pub fn show(cx: &mut UiContext, pane: PaneId, ui: &mut Ui) {
             }
         }
     });
-    let response = shown.response.on_hover_text("Which graphics device traces the rays").accessible_name("Adapter");
+    let response = shown.response.explained("Which graphics device traces the rays").accessible_name("Adapter");
     cx.dump.note(&name, &chosen.name, response);
 }
 

@@ -1,4 +1,4 @@
-//! Controls for every workspace, grouped by what they change. What the scene or the technique cannot use is absent.
+//! Controls for every workspace, each group on a card. What the scene or the technique cannot use is absent.
 
 mod camera;
 mod device;
@@ -8,14 +8,16 @@ mod scene;
 mod setting;
 
 use super::UiContext;
+use super::theme::{bold, palette};
+use super::widgets::{Explained, card, fold, segmented};
 use crate::model::PaneId;
-use egui::collapsing_header::CollapsingState;
-use egui::{CollapsingHeader, RichText, Ui};
+use egui::{Align, Button, Frame, Id, Layout, Margin, Response, RichText, TextStyle, Ui, vec2};
 use technique::TechniqueName;
 
-/// Width of the panel in points: never more than 30 % of the window.
-fn width(window: f32) -> f32 {
-    (0.285 * window).clamp(150.0, 300.0)
+/// Width of the panel in points: as the type asks for, but never more than 28 % of the window.
+fn width(ui: &Ui) -> f32 {
+    let type_size = TextStyle::Body.resolve(ui.style()).size;
+    (22.8 * type_size).min(0.28 * ui.available_width()).max(150.0)
 }
 
 /// Windows lower than this, in points, open with fewer groups unfolded.
@@ -26,14 +28,21 @@ pub fn is_low(ui: &Ui) -> bool {
     ui.ctx().content_rect().height() < LOW
 }
 
-/// Shows a workspace's controls at the right, unless they are hidden.
-pub fn panel(cx: &mut UiContext, ui: &mut Ui, contents: fn(&mut UiContext, &mut Ui)) {
-    if cx.model.state.panel {
-        let width = width(ui.available_width());
-        egui::Panel::right("controls").resizable(false).exact_size(width).show(ui, |ui| {
-            egui::ScrollArea::vertical().auto_shrink(false).show(ui, |ui| contents(cx, ui));
-        });
+/// Draws a part of a panel.
+type Part = fn(&mut UiContext, &mut Ui);
+
+/// Shows a workspace's controls at the right, unless they are hidden: `heads` are always in sight, `cards` are scrolled.
+pub fn panel(cx: &mut UiContext, ui: &mut Ui, heads: Part, cards: Part) {
+    if !cx.model.state.panel {
+        return;
     }
+    let frame = Frame::new().fill(palette(ui).panel).inner_margin(Margin { left: 8, right: 8, top: 8, bottom: 0 });
+    let panel = egui::Panel::right("controls").resizable(false).exact_size(width(ui)).frame(frame);
+    panel.show(ui, |ui| {
+        heads(cx, ui);
+        ui.add_space(4.0);
+        egui::ScrollArea::vertical().auto_shrink(false).show(ui, |ui| cards(cx, ui));
+    });
 }
 
 /// What is changed in the scene; absent where nothing can be.
@@ -48,53 +57,88 @@ pub fn display(cx: &mut UiContext, ui: &mut Ui) {
     group(cx, ui, "Display (both)", true, display::show);
 }
 
-/// The camera in numbers.
+/// The camera in numbers: unfolded once it was moved in this scene.
 pub fn camera(cx: &mut UiContext, ui: &mut Ui) {
-    group(cx, ui, "Camera (both)", false, camera::show);
+    let document = &cx.model.document;
+    let known = Id::unique(("camera was moved", document.opened));
+    let moved = document.camera != document.scene.camera || ui.ctx().data(|data| data.get_temp(known)).unwrap_or(false);
+    ui.ctx().data_mut(|data| data.insert_temp(known, moved));
+    // one card for a camera that was never moved and another for one that was: each folds by itself
+    let id = ui.make_persistent_id(("camera", document.opened, moved));
+    card(None, ui, |ui| {
+        let (title, open) = fold("Camera (both)", None, (id, moved), ui, |ui| camera::show(cx, ui));
+        cx.dump.note("group Camera (both)", open, title);
+    });
 }
 
 /// Controls under a title that folds them.
-pub fn group(cx: &mut UiContext, ui: &mut Ui, title: &str, open: bool, contents: fn(&mut UiContext, &mut Ui)) {
-    let header = CollapsingHeader::new(RichText::new(title).strong()).id_salt(title).default_open(open);
-    let shown = header.show_unindented(ui, |ui| contents(cx, ui));
-    cx.dump.note(&format!("group {title}"), shown.fully_open(), shown.header_response);
+pub fn group(cx: &mut UiContext, ui: &mut Ui, title: &str, open: bool, contents: Part) {
+    let id = ui.make_persistent_id(title);
+    card(None, ui, |ui| {
+        let (header, open) = fold(title, None, (id, open), ui, |ui| contents(cx, ui));
+        cx.dump.note(&format!("group {title}"), open, header);
+    });
 }
 
-/// The technique of one pane in the header, and its settings below.
-pub fn pane(cx: &mut UiContext, pane: PaneId, open: bool, ui: &mut Ui) {
-    let id = ui.make_persistent_id(("pane", pane));
-    let state = CollapsingState::load_with_default_open(ui.ctx(), id, open);
-    let (toggle, _, _) = state
-        .show_header(ui, |ui| {
-            ui.strong(format!("{pane}:"));
-            techniques(cx, pane, ui);
-        })
-        .body_unindented(|ui| {
-            // both panes have controls of one name
-            ui.ctx().accesskit_node_builder(ui.unique_id(), |node| {
-                node.set_role(egui::accesskit::Role::Group);
-                node.set_label(format!("Settings of {pane}"));
-            });
-            pane::show(cx, pane, ui);
+/// The pane's letter and its technique, to be chosen.
+pub fn head(cx: &mut UiContext, pane: PaneId, ui: &mut Ui) {
+    let letter = bold(pane.name()).size(TextStyle::Heading.resolve(ui.style()).size).color(palette(ui).pane(pane));
+    named(letter, ui, |ui| techniques(cx, pane, ui));
+}
+
+/// A row of the heads: a name in a column of its own, and what is chosen under it.
+pub fn named(name: RichText, ui: &mut Ui, contents: impl FnOnce(&mut Ui)) -> Response {
+    let type_size = TextStyle::Body.resolve(ui.style()).size;
+    let width = if ui.available_width() > 20.0 * type_size { 4.2 * type_size } else { type_size };
+    let row = ui.horizontal(|ui| {
+        // as high as the words beside it
+        let size = vec2(width, ui.spacing().interact_size.y + 4.0);
+        let cell = ui.allocate_ui_with_layout(size, Layout::left_to_right(Align::Center), |ui| {
+            ui.set_min_size(size);
+            ui.label(name)
         });
-    cx.dump.note(&format!("group {pane}"), "", toggle.accessible_name(format!("Settings of {pane}")));
+        contents(ui);
+        cell.inner
+    });
+    row.inner
+}
+
+/// The settings of a pane's technique, on a card in its colour.
+pub fn pane(cx: &mut UiContext, pane: PaneId, open: bool, ui: &mut Ui) {
+    let (id, colour) = (ui.make_persistent_id(("pane", pane)), palette(ui).pane(pane));
+    card(Some(colour), ui, |ui| {
+        let title = format!("Settings of {pane}");
+        let (header, open) = fold(&title, Some(colour), (id, open), ui, |ui| {
+            ui.scope(|ui| {
+                // both panes have controls of one name
+                ui.ctx().accesskit_node_builder(ui.unique_id(), |node| {
+                    node.set_role(egui::accesskit::Role::Group);
+                    node.set_label(format!("Settings of {pane}"));
+                });
+                pane::show(cx, pane, ui);
+            });
+        });
+        cx.dump.note(&format!("group {pane}"), open, header);
+    });
 }
 
 fn techniques(cx: &mut UiContext, pane: PaneId, ui: &mut Ui) {
-    // three words and the letter in one row, also where the panel is narrow
-    ui.spacing_mut().item_spacing.x = 1.0;
-    ui.spacing_mut().button_padding.x = 3.0;
-    for technique in TechniqueName::OF_LIGHT {
-        let chosen = cx.model.session.panes[pane].technique == technique;
-        let hover = match technique {
-            TechniqueName::Raster => "Rasterised: shadow map, cube map, local shading",
-            TechniqueName::Whitted => "Whitted: trees of rays at mirrors and glass, local light elsewhere",
-            TechniqueName::Path => "Path traced: light itself, by Monte Carlo",
-            TechniqueName::Normals => "The normals of what is seen",
-        };
-        let button = ui.selectable_label(chosen, technique.title()).on_hover_text(hover);
-        if cx.dump.note(&format!("{pane} {}", technique.name()), chosen, button).clicked() {
-            cx.model.session.panes[pane].technique = technique;
+    segmented(ui, |ui| {
+        for technique in TechniqueName::OF_LIGHT {
+            let chosen = cx.model.session.panes[pane].technique == technique;
+            let button = ui.add(Button::selectable(chosen, technique.title())).explained(describe(technique));
+            if cx.dump.note(&format!("{pane} {}", technique.name()), chosen, button).clicked() {
+                cx.model.session.panes[pane].technique = technique;
+            }
         }
+    });
+}
+
+fn describe(technique: TechniqueName) -> &'static str {
+    match technique {
+        TechniqueName::Raster => "Rasterised: shadow map, cube map, local shading",
+        TechniqueName::Whitted => "Whitted: trees of rays at mirrors and glass, local light elsewhere",
+        TechniqueName::Path => "Path traced: light itself, by Monte Carlo",
+        TechniqueName::Normals => "The normals of what is seen",
     }
 }

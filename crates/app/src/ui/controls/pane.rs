@@ -4,7 +4,9 @@ use super::device;
 use super::setting::Place;
 use crate::model::PaneId;
 use crate::ui::UiContext;
-use egui::{CollapsingHeader, Ui};
+use crate::ui::theme::palette;
+use crate::ui::widgets::fold;
+use egui::Ui;
 use technique::settings::{Setting, all_of_panes};
 use technique::{PaneSettings, Technique, TechniqueName};
 
@@ -26,7 +28,7 @@ fn order(technique: TechniqueName) -> &'static [&'static str] {
         ],
         TechniqueName::Whitted => &["depth", "glass-shadows", "ambient", "spp", "shadow-rays", "sampler", "seed"],
         TechniqueName::Normals => &["space", "spp", "sampler", "seed"],
-        TechniqueName::Path => &["estimator", "spp", "bounces", "roulette", "branches", "sampler", "seed"],
+        TechniqueName::Path => &["estimator", "spp", "bounces", "branches", "roulette", "sampler", "seed"],
     }
 }
 
@@ -39,13 +41,17 @@ pub fn show(cx: &mut UiContext, pane: PaneId, ui: &mut Ui) {
     usable.sort_by_key(|row| order.iter().position(|name| *name == row.name).unwrap_or(order.len()));
     let (more, first): (Vec<_>, Vec<_>) = usable.into_iter().partition(|row| row.control.more.contains(&technique));
     rows(cx, pane, &first, ui);
-    let more = CollapsingHeader::new("More").id_salt(("more", pane)).show_unindented(ui, |ui| {
-        if matches!(cx.model.session.panes[pane].in_use(), Technique::Traced(_)) {
+    let id = ui.make_persistent_id(("more", pane));
+    let traced = matches!(cx.model.session.panes[pane].in_use(), Technique::Traced(_));
+    let count = more.len() + usize::from(traced && !cx.model.adapters.0.is_empty());
+    let title = format!("{count} more settings");
+    let (header, open) = fold(&title, Some(palette(ui).dim), (id, false), ui, |ui| {
+        if traced {
             device::show(cx, pane, ui);
         }
         rows(cx, pane, &more, ui);
     });
-    cx.dump.note(&format!("{pane} more"), more.fully_open(), more.header_response);
+    cx.dump.note(&format!("{pane} more"), open, header);
     faults(cx, pane, ui);
 }
 
@@ -56,11 +62,15 @@ fn rows(cx: &mut UiContext, pane: PaneId, rows: &[&Setting<PaneSettings>], ui: &
         scene: &cx.model.document.scene,
         kept: cx.model.state.switched_off.entry(pane),
         dump: cx.dump,
+        fault: None,
     };
     for setting in rows {
         if let Some(value) = place.show(setting, settings, ui) {
             settings.set(setting, value);
         }
+    }
+    if let Some(fault) = place.fault {
+        cx.model.say(Err(fault));
     }
 }
 

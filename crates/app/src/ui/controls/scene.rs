@@ -16,9 +16,12 @@ pub fn show(cx: &mut UiContext, ui: &mut Ui) {
     for setting in usable(cx.model).collect::<Vec<_>>() {
         let document = &mut cx.model.document;
         let kept = &mut SwitchedOff::default();
-        let mut place = Place { pane: None, scene: &document.scene, kept, dump: cx.dump };
+        let mut place = Place { pane: None, scene: &document.scene, kept, dump: cx.dump, fault: None };
         if let Some(value) = place.show(setting, &document.changes, ui) {
             (setting.set)(&mut document.changes, value);
+        }
+        if let Some(fault) = place.fault {
+            cx.model.say(Err(fault));
         }
     }
 }

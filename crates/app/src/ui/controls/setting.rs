@@ -2,8 +2,9 @@
 
 use crate::model::{PaneId, SwitchedOff};
 use crate::ui::Dump;
-use crate::ui::widgets::{Stepped, choice, doubling, fit, whole};
-use egui::{DragValue, Slider, SliderClamping, Ui};
+use crate::ui::theme::palette;
+use crate::ui::widgets::{Explained, NumberRow, Scale, choice};
+use egui::{Checkbox, RichText, Ui};
 use pathtrace::Roulette;
 use scene::Scene;
 use std::ops::RangeInclusive;
@@ -20,6 +21,18 @@ pub struct Place<'a> {
     pub kept: &'a mut SwitchedOff,
     /// Where the widgets are noted.
     pub dump: &'a mut Dump,
+    /// Why what was typed does not count: a line for the user.
+    pub fault: Option<String>,
+}
+
+/// A number of a setting, as its row shows it.
+struct Shown<'a> {
+    name: &'a str,
+    told: Value,
+    value: f64,
+    usual: Option<f64>,
+    scale: Scale,
+    bounds: RangeInclusive<f64>,
 }
 
 impl Place<'_> {
@@ -29,34 +42,24 @@ impl Place<'_> {
         let control = &setting.control;
         let short = control.dump_name.map_or_else(|| setting.name.replace('-', " "), str::to_owned);
         let name = self.dump_name(&short);
-        let label = control.label_of(value);
-        let hover = control.hover_among(self.pane.map(|(_, technique)| technique));
+        let usual = setting.default.or_else(|| (setting.own)(self.scene));
         match (value, &control.look) {
-            (Value::Number(number), Look::Steps { range, step }) => {
-                let suffix = if matches!(setting.kind, Kind::DegreesBelow(_)) { "°" } else { "" };
-                let (range, step) = (range.clone(), *step);
-                let slider = Stepped { name: &name, label: &label, hover, range, step, suffix };
-                let mut number = number;
-                slider.show(&mut number, ui, self.dump).then_some(Value::Number(number))
-            }
-            (Value::Whole(number), look) => self.whole([&name, &label, hover], number, look, ui),
-            (Value::Word(_), Look::Words(_)) => {
-                if !label.is_empty() {
-                    ui.label(label);
-                }
-                let words = setting.words(self.scene);
-                let shown = words.iter().map(|(word, of_word, hover)| (word.to_string(), *hover, *of_word == value));
-                choice(&name, shown, ui, self.dump).map(|index| words[index].1)
-            }
-            (Value::Bounces(bounces), Look::Whole(range)) => {
-                self.bounces([&short, &label, hover], bounces, range.clone(), ui)
-            }
+            (Value::Word(_), Look::Words(_)) => self.words(setting, (&name, value), ui),
             (Value::Roulette(roulette), Look::Steps { range, step }) => {
-                ui.label(label);
-                self.roulette(&name, roulette, (range.clone(), *step), ui)
+                self.roulette(&name, (roulette, usual), (range.clone(), *step), ui)
             }
-            // the table's tests allow no other pair
-            _ => None,
+            (value, look) => {
+                let usual = usual.and_then(number_of);
+                let shown = Shown {
+                    name: &name,
+                    told: value,
+                    value: number_of(value)?,
+                    usual,
+                    scale: scale_of(look)?,
+                    bounds: bounds_of(&setting.kind),
+                };
+                self.number(setting, shown, ui).and_then(|number| value_like(value, number))
+            }
         }
     }
 
@@ -65,83 +68,141 @@ impl Place<'_> {
         self.pane.map_or_else(|| name.to_owned(), |(pane, _)| format!("{pane} {name}"))
     }
 
-    fn whole(&mut self, [name, label, hover]: [&str; 3], before: u32, look: &Look, ui: &mut Ui) -> Option<Value> {
-        let mut number = before;
-        match look {
-            Look::Doubling(exponents) => {
-                doubling([name, label], &mut number, exponents.clone(), ui, self.dump);
-            }
-            Look::Whole(range) => {
-                whole([name, label], &mut number, range.clone(), ui, self.dump);
-            }
-            Look::Typed | Look::Steps { .. } | Look::Words(_) => {
-                ui.horizontal(|ui| {
-                    let label = ui.label(label);
-                    let typed = ui.add(DragValue::new(&mut number)).labelled_by(label.id);
-                    self.dump.note(name, number, typed.on_hover_text(hover));
-                });
-            }
-        }
-        (number != before).then_some(Value::Whole(number))
+    fn hover<T>(&self, setting: &Setting<T>) -> &'static str {
+        setting.control.hover_among(self.pane.map(|(_, technique)| technique))
     }
 
-    /// A limit to be switched on, and the slider of it.
-    fn bounces(
-        &mut self,
-        [name, label, hover]: [&str; 3],
-        before: Option<u32>,
-        range: RangeInclusive<u32>,
-        ui: &mut Ui,
-    ) -> Option<Value> {
-        let mut limited = before.is_some();
-        let check = ui.checkbox(&mut limited, label).on_hover_text(hover);
-        let mut bounces = before;
-        if self.dump.note(&self.dump_name(&format!("limit {name}")), limited, check).changed() {
-            bounces = limited.then_some(self.kept.bounces);
+    fn label(&mut self, text: &str, hover: &str, ui: &mut Ui) {
+        if !text.is_empty() {
+            let dim = palette(ui).dim;
+            ui.label(RichText::new(text).color(dim)).explained(hover);
         }
-        if let Some(bounces) = &mut bounces {
-            fit(ui);
-            let slider = Slider::new(bounces, range).clamping(SliderClamping::Edits);
-            let slider = ui.add(slider).accessible_name("Bounces").on_hover_text("0 is direct light only");
-            self.kept.bounces = *bounces;
-            self.dump.note(&self.dump_name(name), *bounces, slider);
-        }
-        (bounces != before).then_some(Value::Bounces(bounces))
+    }
+
+    fn number<T>(&mut self, setting: &Setting<T>, shown: Shown, ui: &mut Ui) -> Option<f64> {
+        let Shown { name, told, value, usual, scale, bounds } = shown;
+        let row = NumberRow {
+            name,
+            label: setting.control.label,
+            hover: self.hover(setting),
+            scale,
+            bounds,
+            unit: if matches!(setting.kind, Kind::DegreesBelow(_)) { "°" } else { "" },
+            aside: (setting.control.aside)(told),
+            usual,
+            tint: palette(ui).slider(self.pane.map(|(pane, _)| pane)),
+        };
+        let mut number = value;
+        let told = row.show(&mut number, ui, self.dump);
+        self.fault = told.fault.or(self.fault.take());
+        told.changed.then_some(number)
+    }
+
+    fn words<T>(&mut self, setting: &Setting<T>, (name, value): (&str, Value), ui: &mut Ui) -> Option<Value> {
+        self.label(setting.control.label, self.hover(setting), ui);
+        let words = setting.words(self.scene);
+        let shown = words.iter().map(|(word, of_word, hover)| (word.to_string(), *hover, *of_word == value));
+        choice(name, shown, ui, self.dump).map(|index| words[index].1)
     }
 
     /// Its two rules to be switched on, each or both, and the slider of the probability.
     fn roulette(
         &mut self,
         name: &str,
-        before: Roulette,
+        (before, usual): (Roulette, Option<Value>),
         (range, step): (RangeInclusive<f32>, f64),
         ui: &mut Ui,
     ) -> Option<Value> {
-        let words = [
-            ("off".to_owned(), "Paths end by the number of bounces alone", before == Roulette::OFF),
-            ("P".to_owned(), "Each vertex is survived with probability P", before.probability.is_some()),
-            ("throughput".to_owned(), "Dark paths end sooner than bright ones", before.throughput),
-        ];
         let mut roulette = before;
-        match choice(name, words, ui, self.dump) {
-            Some(0) => roulette = Roulette::OFF,
-            Some(1) if roulette.probability.is_some() => roulette.probability = None,
-            Some(1) => roulette.probability = Some(self.kept.probability),
-            Some(_) => roulette.throughput = !roulette.throughput,
-            None => {}
+        let mut by_p = before.probability.is_some();
+        if self.check(&format!("{name} P"), "Roulette: survive with P", SURVIVE, &mut by_p, ui) {
+            roulette.probability = by_p.then_some(self.kept.probability);
         }
         if let Some(p) = &mut roulette.probability {
-            let slider = Stepped {
-                name: &format!("{name} probability"),
-                label: "Probability P to survive a vertex",
-                hover: "What survives is divided by P, so that the mean stays",
-                range,
-                step,
-                suffix: "",
-            };
-            slider.show(p, ui, self.dump);
+            self.probability(name, (p, usual), (range, step), ui);
             self.kept.probability = *p;
         }
+        self.check(&format!("{name} throughput"), "Roulette by throughput", DARK, &mut roulette.throughput, ui);
         (roulette != before).then_some(Value::Roulette(roulette))
+    }
+
+    fn probability(
+        &mut self,
+        name: &str,
+        (p, usual): (&mut f32, Option<Value>),
+        (range, step): (RangeInclusive<f32>, f64),
+        ui: &mut Ui,
+    ) {
+        let mut number = f64::from(*p);
+        let usual = if let Some(Value::Roulette(usual)) = usual { usual.probability } else { None };
+        let row = NumberRow {
+            name: &format!("{name} probability"),
+            label: "Probability P to survive a vertex",
+            hover: "What survives is divided by P, so that the mean stays",
+            scale: Scale::Steps { range: f64::from(*range.start())..=f64::from(*range.end()), step },
+            bounds: 1e-6..=1.0,
+            unit: "",
+            aside: String::new(),
+            usual: Some(f64::from(usual.unwrap_or(SwitchedOff::default().probability))),
+            tint: palette(ui).slider(self.pane.map(|(pane, _)| pane)),
+        };
+        let told = row.show(&mut number, ui, self.dump);
+        self.fault = told.fault.or(self.fault.take());
+        *p = number as f32;
+    }
+
+    fn check(&mut self, name: &str, text: &str, hover: &str, on: &mut bool, ui: &mut Ui) -> bool {
+        let check = ui.add(Checkbox::new(on, text)).explained(hover);
+        self.dump.note(name, *on, check).changed()
+    }
+}
+
+const SURVIVE: &str = "Each vertex is survived with probability P and what survives is divided by P: unbiased, and noisier the smaller P. \
+    With neither rule paths end by the number of bounces alone";
+const DARK: &str = "Paths that carry little light end sooner than bright ones: unbiased, and less noise for the time";
+
+/// A setting's number, with no limit as infinity.
+fn number_of(value: Value) -> Option<f64> {
+    match value {
+        Value::Number(number) => Some(f64::from(number)),
+        Value::Whole(number) => Some(f64::from(number)),
+        Value::Bounces(bounces) => Some(bounces.map_or(f64::INFINITY, f64::from)),
+        Value::Word(_) | Value::Roulette(_) => None,
+    }
+}
+
+/// The same way back, to a value of the kind of another.
+fn value_like(value: Value, number: f64) -> Option<Value> {
+    match value {
+        Value::Number(_) => Some(Value::Number(number as f32)),
+        Value::Whole(_) => Some(Value::Whole(number as u32)),
+        Value::Bounces(_) => Some(Value::Bounces(number.is_finite().then_some(number as u32))),
+        Value::Word(_) | Value::Roulette(_) => None,
+    }
+}
+
+fn scale_of(look: &Look) -> Option<Scale> {
+    match look {
+        Look::Steps { range, step } => {
+            Some(Scale::Steps { range: f64::from(*range.start())..=f64::from(*range.end()), step: *step })
+        }
+        Look::Whole(range) => {
+            Some(Scale::Steps { range: f64::from(*range.start())..=f64::from(*range.end()), step: 1.0 })
+        }
+        Look::WholeOrNone(range) => Some(Scale::WholeOrNone(range.clone())),
+        Look::Doubling(exponents) => Some(Scale::Doubling(exponents.clone())),
+        Look::Typed => Some(Scale::Typed),
+        Look::Words(_) => None,
+    }
+}
+
+/// What may be typed: what the option takes.
+fn bounds_of(kind: &Kind) -> RangeInclusive<f64> {
+    match kind {
+        Kind::Number(range) => f64::from(*range.start())..=f64::from(*range.end()),
+        Kind::DegreesBelow(most) => 0.0..=f64::from(most.next_down()),
+        Kind::Whole(range) => f64::from(*range.start())..=f64::from(*range.end()),
+        Kind::Bounces => 0.0..=f64::INFINITY,
+        Kind::Choice(_) | Kind::Roulette => 0.0..=1.0,
     }
 }

@@ -3,6 +3,7 @@
 use super::Workspace;
 use crate::model::{Model, Wanted};
 use crate::ui::overlay::say;
+use crate::ui::widgets::Icon;
 use crate::ui::{UiContext, controls};
 use egui::Ui;
 
@@ -18,8 +19,12 @@ impl Workspace for Empty {
         "Empty"
     }
 
+    fn icon(&self) -> Icon {
+        Icon::Empty
+    }
+
     fn ui(&mut self, cx: &mut UiContext, ui: &mut Ui) {
-        controls::panel(cx, ui, controls::scene);
+        controls::panel(cx, ui, |_, _| (), controls::scene);
         egui::CentralPanel::default().show(ui, |ui| say(cx, ui, ui.max_rect(), "Nothing is shown here."));
     }
 

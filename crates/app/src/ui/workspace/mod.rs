@@ -6,6 +6,7 @@ pub(super) mod empty;
 
 use super::UiContext;
 use super::pressed::{HelpLine, Keys};
+pub use super::widgets::Icon;
 use crate::model::{Model, Wanted};
 use egui::Ui;
 
@@ -17,7 +18,10 @@ pub trait Workspace {
     /// What it is called on its tab.
     fn name(&self) -> &'static str;
 
-    /// Draws its own buttons into the bar.
+    /// What stands above its name on the rail.
+    fn icon(&self) -> Icon;
+
+    /// Draws its own buttons into the middle of the bar.
     fn bar(&mut self, _cx: &mut UiContext, _ui: &mut Ui) {}
 
     /// Hears the keys that nobody types with.

@@ -62,10 +62,11 @@ pub const ROWS: &[Setting<PaneSettings>] = &[
             }
         },
         control: Control {
-            label: "Limit bounces",
-            aside: |value| if value == Value::Bounces(None) { String::new() } else { " (biased)".into() },
-            hover: "Longer paths are lost: the picture gets too dark",
-            look: Look::Whole(0..=20),
+            label: "Bounces",
+            aside: |value| if value == Value::Bounces(None) { " (unbiased)" } else { " (biased)" }.into(),
+            hover: "Scattering vertices after the first: 0 is direct light only. With a limit longer paths are lost and the \
+                    picture gets too dark: it is biased",
+            look: Look::WholeOrNone(0..=20),
             ..BLANK
         },
         ..PLAIN
@@ -118,7 +119,7 @@ pub const ROWS: &[Setting<PaneSettings>] = &[
         always_recorded: true,
         get: |pane| Some(Value::Whole(pane.truth.path.branches)),
         set: |pane, value| each(whole(value), [&mut pane.truth.path.branches]),
-        control: Control { label: "Directions N at each vertex", look: Look::Doubling(0..=4), more: PATH, ..BLANK },
+        control: Control { label: "Directions N at each vertex", look: Look::Doubling(0..=4), ..BLANK },
         ..PLAIN
     },
     Setting {

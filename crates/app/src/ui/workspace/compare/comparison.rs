@@ -2,23 +2,29 @@
 
 use crate::model::{CompareWith, Origin, PaneId, Progress};
 use crate::ruler::brief;
-use crate::ui::widgets::{choice, framed};
-use crate::ui::{Dump, UiCommand, UiContext};
+use crate::ui::theme::palette;
+use crate::ui::widgets::{Explained, choice, framed, parse_number};
+use crate::ui::{Dump, UiCommand, UiContext, controls};
 use compare::ErrorMetric;
-use egui::{DragValue, Ui};
+use egui::{DragValue, RichText, Ui};
 use pathtrace::FEWEST_REPLICATES;
 use std::path::Path;
 
 pub fn against(cx: &mut UiContext, ui: &mut Ui) {
     let words = CompareWith::ALL.map(|a| (a.name().to_owned(), explain(a), cx.model.session.comparison.with == a));
-    if let Some(index) = choice("compare with", words, ui, cx.dump) {
-        cx.model.session.comparison.with = CompareWith::ALL[index];
-    }
-    if cx.model.session.comparison.with == CompareWith::Reference {
-        let state = reference_state(cx);
-        cx.dump.note("text reference", &state, ui.label(&state));
-        load(cx, ui);
-    }
+    let title = controls::named(RichText::new("Against").color(palette(ui).dim), ui, |ui| {
+        if let Some(index) = choice("compare with", words, ui, cx.dump) {
+            cx.model.session.comparison.with = CompareWith::ALL[index];
+        }
+    });
+    title.explained("What A and B are held against: errors are of something against something");
+}
+
+/// How far the reference has come, and another one from a file.
+pub fn reference(cx: &mut UiContext, ui: &mut Ui) {
+    let state = reference_state(cx);
+    cx.dump.note("text reference", &state, ui.label(&state));
+    load(cx, ui);
 }
 
 /// How far the reference has come.
@@ -50,7 +56,7 @@ fn load(cx: &mut UiContext, ui: &mut Ui) {
     let typed = &mut cx.model.state.reference_file;
     let edit = egui::TextEdit::singleline(typed).hint_text("folder/reference.exr").desired_width(f32::INFINITY);
     let (width, height) = cx.model.state.picture.size;
-    let line = ui.add(edit).labelled_by(label.id).on_hover_text(format!("A picture of {width}x{height} pixels"));
+    let line = ui.add(edit).labelled_by(label.id).explained(&format!("A picture of {width}x{height} pixels"));
     let entered = line.lost_focus() && ui.input(|i| i.key_pressed(egui::Key::Enter));
     cx.dump.note("reference file", &*typed, line);
     let button = cx.dump.note("load reference", "", ui.add(framed("Load", ui)).accessible_name("Load the reference"));
@@ -82,15 +88,18 @@ pub fn map(cx: &mut UiContext, ui: &mut Ui) {
 fn scale(held: &mut Option<f32>, ui: &mut Ui, fitted: Option<f32>, dump: &mut Dump) {
     ui.horizontal_wrapped(|ui| {
         let mut holds = held.is_some();
-        let check = ui.checkbox(&mut holds, "Hold the scale").on_hover_text("Else it is fitted to every new picture");
+        let check = ui.checkbox(&mut holds, "Hold the scale").explained("Else it is fitted to every new picture");
         if dump.note("hold scale", holds, check).changed() {
             *held = holds.then(|| fitted.unwrap_or(1.0));
         }
         let mut high = held.or(fitted).unwrap_or(1.0);
         let speed = 0.01 * f64::from(high);
         let value = DragValue::new(&mut high).range(1e-9..=1e9).speed(speed).max_decimals(9).prefix("up to ");
-        let value = value.custom_formatter(|value, _| brief(value)).custom_parser(|text| text.trim().parse().ok());
-        let typed = ui.add(value.clamp_existing_to_range(false)).on_hover_text("The value at the end of the scale");
+        let value = value
+            .custom_formatter(|value, _| brief(value))
+            .custom_parser(|text| parse_number(text).ok())
+            .update_while_editing(false);
+        let typed = ui.add(value.clamp_existing_to_range(false)).explained("The value at the end of the scale");
         if dump.note("scale end", high, typed.accessible_name("End of the scale")).changed() {
             *held = Some(high);
         }

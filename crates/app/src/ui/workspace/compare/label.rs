@@ -18,7 +18,7 @@ pub fn show(cx: &mut UiContext, ui: &Ui, clip: Rect, pane: PaneId) {
         }
         _ => (clip.left_top() + inset, Align2::LEFT_TOP),
     };
-    let place = text_box(cx, ui, clip, corner, align, &text, colour(pane));
+    let place = text_box(ui, clip, corner, align, &text, colour(pane));
     cx.dump.note_text(&format!("label {pane}"), &text, place, clip);
     spoken(ui, &format!("label {pane}"), &text, place, false);
 }

@@ -8,7 +8,7 @@ use crate::ruler::{HeatMap, Pair, brief};
 use crate::ui::overlay::{spoken, text_box};
 use crate::ui::{UiContext, theme};
 use compare::ColourScale;
-use egui::{Align2, Color32, FontId, Galley, Mesh, Pos2, Rect, Stroke, Ui, pos2, vec2};
+use egui::{Align2, Color32, Galley, Mesh, Pos2, Rect, Stroke, Ui, pos2, vec2};
 use scene::Vec3;
 use std::sync::Arc;
 
@@ -23,7 +23,7 @@ pub fn show(cx: &mut UiContext, ui: &Ui, rect: Rect, hover: Option<Pos2>) {
             painter.image(*texture, rect, WHOLE, Color32::WHITE);
         }
         let text = why_not(cx);
-        let place = text_box(cx, ui, rect, rect.center(), Align2::CENTER_CENTER, &text, Color32::WHITE);
+        let place = text_box(ui, rect, rect.center(), Align2::CENTER_CENTER, &text, Color32::WHITE);
         cx.dump.note_text("label no map", &text, place, rect);
         spoken(ui, "label no map", &text, place, false);
         return;
@@ -72,9 +72,10 @@ fn numbers_at(map: &ErrorMap, rect: Rect, at: Pos2) -> Option<String> {
 /// The box in the corner, from top to bottom: name, bar, ticks, and the rest in words.
 fn legend(cx: &mut UiContext, ui: &Ui, rect: Rect, map: &HeatMap, pixel: Option<String>) {
     let painter = ui.painter().with_clip_rect(rect);
-    let size = theme::label_size(cx.model.state.theme);
+    let font = theme::label_font(ui);
+    let size = font.size;
     let width = (15.0 * size).min(rect.width() - 36.0).max(40.0);
-    let lay = |text: String| painter.layout(text, FontId::proportional(size), Color32::WHITE, width);
+    let lay = |text: String| painter.layout(text, font.clone(), Color32::WHITE, width);
     let (name, words) = (lay(map.label.clone()), lay(in_words(map, pixel)));
     let (bar_height, gap) = (0.9 * size, 0.3 * size);
     let line = name.rows.first().map_or(size, |row| row.height());

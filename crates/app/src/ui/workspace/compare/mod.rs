@@ -7,8 +7,9 @@ mod mouse;
 mod picture;
 
 use super::Workspace;
-use crate::model::{Model, PaneId, View, Wanted};
+use crate::model::{CompareWith, Model, PaneId, View, Wanted};
 use crate::ui::pressed::{HelpLine, Keys};
+use crate::ui::widgets::{Icon, choice};
 use crate::ui::{UiContext, controls};
 use egui::{Key, Ui};
 
@@ -27,13 +28,14 @@ impl Workspace for Compare {
         "Compare"
     }
 
+    fn icon(&self) -> Icon {
+        Icon::Compare
+    }
+
     fn bar(&mut self, cx: &mut UiContext, ui: &mut Ui) {
-        for view in View::ALL {
-            let chosen = cx.model.session.view == view;
-            let button = ui.selectable_label(chosen, view.name()).on_hover_text(explain(view));
-            if cx.dump.note(&format!("view {}", view.name()), chosen, button).clicked() {
-                cx.model.session.choose(view);
-            }
+        let words = View::ALL.map(|view| (view.name().to_owned(), explain(view), cx.model.session.view == view));
+        if let Some(index) = choice("view", words, ui, cx.dump) {
+            cx.model.session.choose(View::ALL[index]);
         }
     }
 
@@ -50,7 +52,7 @@ impl Workspace for Compare {
     }
 
     fn ui(&mut self, cx: &mut UiContext, ui: &mut Ui) {
-        controls::panel(cx, ui, panel);
+        controls::panel(cx, ui, heads, cards);
         // no ground under the pictures, which cover it: where the processor draws, every layer is paid for
         let bare = egui::CentralPanel::default().frame(egui::Frame::NONE);
         bare.show(ui, |ui| picture::show(cx, ui));
@@ -82,9 +84,19 @@ impl Workspace for Compare {
     }
 }
 
+/// What A and B are, and what they are held against: always in sight.
+fn heads(cx: &mut UiContext, ui: &mut Ui) {
+    let panes: Vec<PaneId> = cx.model.session.panes.ids().collect();
+    panes.into_iter().for_each(|pane| controls::head(cx, pane, ui));
+    comparison::against(cx, ui);
+}
+
 /// The controls beside the pictures.
-fn panel(cx: &mut UiContext, ui: &mut Ui) {
+fn cards(cx: &mut UiContext, ui: &mut Ui) {
     let low = controls::is_low(ui);
+    if cx.model.session.comparison.with == CompareWith::Reference {
+        controls::group(cx, ui, "Reference", true, comparison::reference);
+    }
     if cx.model.session.view == View::ErrorMap {
         controls::group(cx, ui, "Error map", true, comparison::map);
     }
@@ -94,7 +106,6 @@ fn panel(cx: &mut UiContext, ui: &mut Ui) {
         controls::pane(cx, pane, !low || pane != PaneId::A, ui);
     }
     controls::display(cx, ui);
-    controls::group(cx, ui, "Compare with", false, comparison::against);
     controls::camera(cx, ui);
 }
 

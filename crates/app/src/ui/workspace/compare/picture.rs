@@ -91,7 +91,7 @@ fn left_half(rect: Rect, pixels_per_point: f32) -> Rect {
 
 fn picture(cx: &UiContext, ui: &Ui, rect: Rect, clip: Rect, pane: PaneId) {
     let in_the_middle = |text: &str, colour| {
-        text_box(cx, ui, clip, clip.center(), Align2::CENTER_CENTER, text, colour);
+        text_box(ui, clip, clip.center(), Align2::CENTER_CENTER, text, colour);
     };
     let fault = cx.shown.panes.get(pane).and_then(|shown| shown.fault.as_ref());
     match (fault, cx.textures.panes.get(pane)) {
