@@ -93,6 +93,8 @@ impl Panels {
                 let value = (setting.get)(&of(&self.model.borrow())).or_else(|| (setting.own)(&scene));
                 let value = value.expect("a value of its own or the scene's");
                 let node = self.widgets(pane, name).remove(0);
+                let explained = node.accesskit_node().description().is_some_and(|text| !text.is_empty());
+                assert!(explained, "nothing explains {} by {name:?}", setting.name);
                 let expected = move_control(&node, (&setting.control.look, &setting.kind), name.1, value);
                 self.harness.run_steps(3);
                 let set = (setting.get)(&of(&self.model.borrow()));

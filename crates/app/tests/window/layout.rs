@@ -4,8 +4,12 @@ use super::{alone, both_whole, scaled_viewer_on};
 use visavis_tests::{Frame, Screen};
 
 /// The screens that a lecture meets: width, height, scale, theme, the least contrast of text (WCAG AA and AAA).
-const SCREENS: [(u32, u32, f32, &str, f64); 3] =
-    [(1280, 720, 1.0, "dark", 4.5), (1280, 720, 1.0, "projector", 7.0), (1024, 768, 1.5, "dark", 4.5)];
+const SCREENS: [(u32, u32, f32, &str, f64); 4] = [
+    (1280, 720, 1.0, "dark", 4.5),
+    (1280, 720, 1.0, "light", 4.5),
+    (1280, 720, 1.0, "projector", 7.0),
+    (1024, 768, 1.5, "dark", 4.5),
+];
 
 #[test]
 fn everything_fits_and_can_be_read_on_a_laptop_and_on_a_projector() {
@@ -43,6 +47,41 @@ fn everything_fits_and_can_be_read_on_a_laptop_and_on_a_projector() {
             }
         }
     }
+}
+
+/// From the last row of seats a projected picture is as small as half of it on the lecturer's own screen.
+#[test]
+fn on_a_projector_labels_take_four_hundredths_of_the_height_and_half_the_size_can_still_be_read() {
+    let _alone = alone();
+    let screen = Screen::start(1920, 1080);
+    let mut viewer = scaled_viewer_on(&screen, 1.0, &["cornell", "--theme", "projector"]);
+    viewer.wait_for("both pictures", both_whole);
+    screen.resize(screen.focus("Visavis"), 1920, 1080);
+    let large = |f: &Frame| both_whole(f) && f.rect("picture")[3] > 1000.0 && f.shows("label B");
+    let frame = viewer.wait_for("both pictures in the whole window", large);
+    for label in ["label A", "label B"] {
+        let [_, top, _, bottom] = frame.rect(label);
+        let row = (bottom - top) / frame.value(label).lines().count() as f32;
+        assert!(row >= 0.04 * 1080.0 - 1.0, "a row of {label} is {row} high");
+    }
+    for name in ["label A", "label B", "A raster", "B path", "group B", "text B spp", "view Wipe"] {
+        let [left, top, right, bottom] = frame.rect(name).map(|v| v.round() as u32);
+        let (width, height) = ((right - left) & !1, (bottom - top) & !1);
+        let ratio = contrast(&halved(&screen.pixels(left, top, width, height), width as usize));
+        assert!(ratio >= 4.5, "at half the size the contrast of '{name}' is {ratio:.2}");
+    }
+}
+
+/// The mean of each two by two pixels, as bytes.
+fn halved(pixels: &[[u8; 3]], width: usize) -> Vec<[u8; 3]> {
+    let rows: Vec<_> = pixels.chunks_exact(width).collect();
+    let mean = |pair: &[&[[u8; 3]]], x: usize| {
+        [0, 1, 2].map(|channel| {
+            let sum: u32 = pair.iter().flat_map(|row| &row[x..x + 2]).map(|pixel| u32::from(pixel[channel])).sum();
+            (sum / 4) as u8
+        })
+    };
+    rows.chunks_exact(2).flat_map(|pair| (0..width / 2).map(move |x| mean(pair, 2 * x))).collect()
 }
 
 /// Where the part of the panel ends that is never scrolled, in pixels.

@@ -61,6 +61,14 @@ impl Control {
 }
 
 impl<T> Setting<T> {
+    /// What the mouse is told of it, among the controls of a technique or among those of the scene: its explanation, or else what --help says.
+    pub fn explanation(&self, technique: Option<TechniqueName>) -> String {
+        match self.control.hover_among(technique) {
+            "" => capitalised(&self.description()),
+            hover => hover.to_owned(),
+        }
+    }
+
     /// The words that a scene offers in the window, each with its value and what it means.
     pub fn words(&self, scene: &Scene) -> Vec<(&'static str, Value, &'static str)> {
         let Look::Words(words) = self.control.look else { return Vec::new() };
@@ -70,6 +78,11 @@ impl<T> Setting<T> {
         });
         valued.collect()
     }
+}
+
+fn capitalised(text: &str) -> String {
+    let mut letters = text.chars();
+    letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
 }
 
 #[cfg(test)]

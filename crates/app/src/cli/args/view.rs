@@ -22,10 +22,10 @@ pub fn options() -> Vec<CommandOption<Reading>> {
     vec![
         CommandOption {
             names: &["--theme"],
-            value: "dark|projector",
-            help: "projector: black on white, large type (default dark)",
+            value: "dark|light|projector",
+            help: "light, or projector: black on white with large type (default dark)",
             read: |reading, parser| {
-                reading.args.theme = choice(parser, "--theme", Theme::named, "dark or projector")?;
+                reading.args.theme = choice(parser, "--theme", Theme::named, "dark, light or projector")?;
                 Ok(())
             },
         },

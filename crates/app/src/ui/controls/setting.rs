@@ -68,8 +68,8 @@ impl Place<'_> {
         self.pane.map_or_else(|| name.to_owned(), |(pane, _)| format!("{pane} {name}"))
     }
 
-    fn hover<T>(&self, setting: &Setting<T>) -> &'static str {
-        setting.control.hover_among(self.pane.map(|(_, technique)| technique))
+    fn explanation<T>(&self, setting: &Setting<T>) -> String {
+        setting.explanation(self.pane.map(|(_, technique)| technique))
     }
 
     fn label(&mut self, text: &str, hover: &str, ui: &mut Ui) {
@@ -84,7 +84,7 @@ impl Place<'_> {
         let row = NumberRow {
             name,
             label: setting.control.label,
-            hover: self.hover(setting),
+            hover: &self.explanation(setting),
             scale,
             bounds,
             unit: if matches!(setting.kind, Kind::DegreesBelow(_)) { "°" } else { "" },
@@ -99,7 +99,7 @@ impl Place<'_> {
     }
 
     fn words<T>(&mut self, setting: &Setting<T>, (name, value): (&str, Value), ui: &mut Ui) -> Option<Value> {
-        self.label(setting.control.label, self.hover(setting), ui);
+        self.label(setting.control.label, &self.explanation(setting), ui);
         let words = setting.words(self.scene);
         let shown = words.iter().map(|(word, of_word, hover)| (word.to_string(), *hover, *of_word == value));
         choice(name, shown, ui, self.dump).map(|index| words[index].1)
