@@ -1,5 +1,6 @@
 //! The help: mouse and keys on one card.
 
+use super::theme::bold;
 use super::workspace::Workspace;
 use super::{UiContext, keys};
 use egui::Ui;
@@ -21,7 +22,7 @@ pub fn show(workspace: &dyn Workspace, cx: &mut UiContext, ui: &mut Ui) {
         .show(ui.ctx(), |ui| {
             egui::Grid::new("keys").num_columns(2).spacing([16.0, 4.0]).show(ui, |ui| {
                 for (what, does) in workspace.help().iter().chain(&keys::KEYS) {
-                    ui.strong(*what);
+                    ui.label(bold(*what));
                     ui.label(*does);
                     ui.end_row();
                 }

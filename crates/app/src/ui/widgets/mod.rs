@@ -15,7 +15,7 @@ pub use tooltip::Explained;
 
 use super::Dump;
 use egui::containers::menu::{MenuButton, MenuConfig};
-use egui::{Button, DragValue, PopupCloseBehavior, Response, Ui};
+use egui::{Button, DragValue, PopupCloseBehavior, Response, Style, Ui, vec2};
 
 /// A number to drag or type, alone.
 pub fn number(name: &str, label: &str, value: DragValue, text: String, ui: &mut Ui, dump: &mut Dump) -> Response {
@@ -25,8 +25,14 @@ pub fn number(name: &str, label: &str, value: DragValue, text: String, ui: &mut 
 
 /// A menu that stays open while one uses what is in it.
 pub fn menu(title: impl Into<String>) -> MenuButton<'static> {
-    let stay = MenuConfig::new().close_behavior(PopupCloseBehavior::CloseOnClickOutside);
+    let stay = MenuConfig::new().close_behavior(PopupCloseBehavior::CloseOnClickOutside).style(menu_style as fn(&mut Style));
     MenuButton::new(title.into()).config(stay)
+}
+
+/// egui's for menus, but with room around the words.
+fn menu_style(style: &mut Style) {
+    egui::containers::menu::menu_style(style);
+    style.spacing.button_padding = vec2(8.0, 4.0);
 }
 
 /// A button with a ground, which menus leave out: it does something, and what has none is a choice.

@@ -165,8 +165,8 @@ impl NumberRow<'_> {
         // quiet until the mouse is there
         let quiet = &mut ui.visuals_mut().widgets.inactive;
         (quiet.weak_bg_fill, quiet.bg_stroke.color) = (Color32::TRANSPARENT, Color32::TRANSPARENT);
-        ui.spacing_mut().button_padding.x = 2.0;
-        ui.spacing_mut().interact_size.x = 0.0;
+        ui.spacing_mut().button_padding = vec2(2.0, 0.0);
+        ui.spacing_mut().interact_size = vec2(0.0, ui.available_height());
         let parse = |text: &str| match self.read(text) {
             Ok(value) => Some(value),
             Err(why) => {
