@@ -1,6 +1,6 @@
 //! The scenes that are part of the program: the same files as under `assets/scenes`, embedded.
 
-use crate::{Scene, SceneError, file};
+use crate::{Scene, SceneError, file, nearest};
 use std::path::Path;
 
 const FILES: [(&str, &str); 2] = [
@@ -47,7 +47,7 @@ pub fn text(name: &str) -> Option<&'static str> {
     FILES.iter().chain(&HARD).find(|(known, _)| *known == name).map(|(_, text)| *text)
 }
 
-/// A scene by built-in name, or from a file if `name` ends in `.toml` or has a folder in it.
+/// A scene by built-in name, or from a file if `name` has a suffix or a folder in it.
 ///
 /// # Errors
 /// [`SceneError::Unknown`] lists the known names; the others say which file, line and column is wrong.
@@ -57,14 +57,15 @@ pub fn named(name: &str) -> Result<Scene, SceneError> {
     }
     let path = Path::new(name);
     if name.starts_with("hard/") && !path.is_file() {
-        let known = hard_names().collect::<Vec<_>>().join(", ");
-        return Err(SceneError::Unknown { name: name.to_owned(), known });
+        return Err(unknown(name, hard_names().collect()));
     }
-    let like_a_file = path.extension().is_some_and(|e| e.eq_ignore_ascii_case("toml")) || path.components().count() > 1;
-    if like_a_file || path.is_file() {
-        return file::load(path);
-    }
-    Err(SceneError::Unknown { name: name.to_owned(), known: names().collect::<Vec<_>>().join(", ") })
+    let like_a_file = path.extension().is_some() || path.components().count() > 1 || path.exists();
+    if like_a_file { file::load(path) } else { Err(unknown(name, names().collect())) }
+}
+
+fn unknown(name: &str, known: Vec<&str>) -> SceneError {
+    let meant = nearest(name, names().chain(hard_names())).map(str::to_owned);
+    SceneError::Unknown { name: name.to_owned(), known: known.join(", "), meant }
 }
 
 #[cfg(test)]
@@ -77,6 +78,9 @@ mod tests {
             assert!(!named(name).unwrap().shapes.is_empty(), "{name}");
         }
         assert!(named("hard/?").unwrap_err().to_string().contains("hard/slab"));
+        assert!(named("cornel").unwrap_err().to_string().ends_with("; did you mean cornell?"));
+        assert!(named("hard/slap").unwrap_err().to_string().ends_with("; did you mean hard/slab?"));
+        assert!(!named("nothing").unwrap_err().to_string().contains("mean"));
         let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../assets/scenes/hard");
         assert_eq!(std::fs::read_dir(folder).unwrap().count(), HARD.len());
     }

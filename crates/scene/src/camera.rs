@@ -69,7 +69,10 @@ impl Camera {
         } else if sight.length() <= 1e-6 * size {
             Some("its eye and target must differ")
         } else if sight.normalize_or_zero().cross(up.normalize_or_zero()).length() < 1e-4 {
-            Some("its up must not be parallel to the line from eye to target")
+            Some(
+                "its up must not be parallel to the line from eye to target: to look straight down or up, \
+                 up = [0, 0, -1] will do",
+            )
         } else if !(self.fov_y > 0.0 && self.fov_y < 180.0) {
             Some("its field of view must lie between 0 and 180 degrees")
         } else if !(self.near.is_none_or(|near| near > 0.0)

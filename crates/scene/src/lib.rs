@@ -13,8 +13,10 @@ pub mod file;
 mod hash;
 pub mod light;
 pub mod material;
+mod nearest;
 mod needs;
 pub mod nesting;
+mod notes;
 pub mod shape;
 pub mod stand_ins;
 
@@ -26,6 +28,7 @@ pub use glam::{self, Vec3};
 pub use hash::SceneHash;
 pub use light::{PointLight, Sun};
 pub use material::{Bsdf, Material, Texture};
+pub use nearest::nearest;
 pub use needs::Needs;
 pub use shape::{Geometry, Mesh, Shape};
 

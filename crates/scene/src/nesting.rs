@@ -8,7 +8,7 @@
 //! another.
 
 use crate::{Bsdf, Geometry, Material, Shape};
-use glam::{DVec2, DVec3};
+use glam::{DVec2, DVec3, Vec3};
 
 /// Gap, relative to the size of the shapes, that keeps flat faces apart.
 const SMALLEST_GAP: f64 = 1e-6;
@@ -52,6 +52,12 @@ pub fn overlap(shapes: &[Shape], materials: &[Material]) -> Option<(usize, usize
     found
 }
 
+/// Whether a point lies inside a ball or a box; other shapes hold none.
+pub(crate) fn holds(geometry: &Geometry, point: Vec3) -> bool {
+    let solid = Solid::new(0, geometry);
+    solid.is_some_and(|solid| solid.holds(point.as_dvec3(), 0.0))
+}
+
 impl Solid {
     fn new(index: usize, geometry: &Geometry) -> Option<Self> {
         let form = match geometry {
@@ -69,6 +75,15 @@ impl Solid {
         };
         let (lo, hi) = geometry.bounds();
         Some(Solid { index, lo: lo.as_dvec3(), hi: hi.as_dvec3(), form })
+    }
+
+    /// Whether a ball of radius `margin` about a point lies inside; meshes hold none.
+    fn holds(&self, point: DVec3, margin: f64) -> bool {
+        match &self.form {
+            Form::Ball { center, radius } => point.distance(*center) + margin <= *radius,
+            Form::Block(block) => (block.local(point).abs() + margin).cmple(block.half).all(),
+            Form::Mesh { .. } => false,
+        }
     }
 
     fn gap(&self) -> f64 {
@@ -132,11 +147,7 @@ fn blocks_apart(a: &Block, b: &Block, gap: f64) -> bool {
 
 /// Whether `a` lies wholly inside `b`.
 fn inside(a: &Solid, b: &Solid) -> bool {
-    let holds = |point: DVec3, margin: f64| match &b.form {
-        Form::Ball { center, radius } => point.distance(*center) + margin <= *radius,
-        Form::Block(block) => (block.local(point).abs() + margin).cmple(block.half).all(),
-        Form::Mesh { .. } => false,
-    };
+    let holds = |point, margin| b.holds(point, margin);
     match &a.form {
         Form::Ball { center, radius } => holds(*center, radius + a.gap()),
         Form::Block(block) => block.corners().all(|corner| holds(corner, a.gap())),
@@ -148,7 +159,6 @@ fn inside(a: &Solid, b: &Solid) -> bool {
 mod tests {
     use super::*;
     use crate::stand_ins::FakeMaterial;
-    use glam::Vec3;
 
     fn overlap_of(geometry: [Geometry; 2]) -> bool {
         let glass = Material {

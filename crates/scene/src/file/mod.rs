@@ -1,6 +1,7 @@
 //! The scene file: TOML, described in `assets/README.md`. Text becomes a `RawScene` (shape and ranges of every
 //! value), which becomes a [`Scene`] (what refers to what). Every fault is one line: `file:line:column: what`.
 
+mod advice;
 mod number;
 mod raw;
 mod sky;
@@ -9,7 +10,8 @@ use crate::direction::unit;
 use crate::material::{Checkerboard, Emission};
 use crate::stand_ins::{FakeMaterial, FakeNumbers};
 use crate::{
-    Bsdf, Camera, Conductor, Geometry, Material, PointLight, Scene, SceneHash, Shape, Sun, Texture, nesting, stand_ins,
+    Bsdf, Camera, Conductor, Geometry, Material, PointLight, Scene, SceneHash, Shape, Sun, Texture, nearest, nesting,
+    stand_ins,
 };
 use glam::Vec3;
 use number::Three;
@@ -23,22 +25,37 @@ use toml::Spanned;
 pub enum SceneError {
     /// Neither a built-in name nor a file.
     #[error(
-        "unknown scene '{}': the built-in scenes are {known}; a file's name ends in .toml",
-        image_file::escaped(name)
+        "unknown scene '{}': the built-in scenes are {known}; a file's name ends in .toml{}",
+        image_file::escaped(name),
+        did_you_mean(meant)
     )]
     Unknown {
         /// What was asked for.
         name: String,
         /// The built-in names.
         known: String,
+        /// That of them which was probably meant.
+        meant: Option<String>,
+    },
+    /// A file of another kind.
+    #[error(
+        "{} is not a scene: a scene is a text in TOML with camera, materials and lights, into which triangles are \
+         written as [[mesh]]; `visavis cornell` is one, its file's format is described in assets/README.md",
+        image_file::shown(path)
+    )]
+    OtherFormat {
+        /// The file.
+        path: PathBuf,
     },
     /// The file could not be read.
-    #[error("cannot read the scene file ({why}): {}", image_file::shown(path))]
+    #[error("cannot read the scene file ({why}): {}{}", image_file::shown(path), did_you_mean(meant))]
     Read {
         /// The file.
         path: PathBuf,
         /// What the system said.
         why: std::io::Error,
+        /// The scene file beside it that was probably meant.
+        meant: Option<String>,
     },
     /// The file does not hold a scene.
     #[error("{}:{line}:{column}: {message}", image_file::shown(path))]
@@ -54,31 +71,64 @@ pub enum SceneError {
     },
 }
 
+fn did_you_mean(meant: &Option<String>) -> String {
+    meant.as_ref().map_or(String::new(), |name| format!("; did you mean {}?", image_file::escaped(name)))
+}
+
+/// Suffixes of models and scenes that other programs write, and people try first.
+const OTHER_FORMATS: [&str; 17] = [
+    "obj", "mtl", "gltf", "glb", "ply", "stl", "off", "3ds", "dae", "fbx", "abc", "usd", "usda", "usdc", "usdz",
+    "blend", "pbrt",
+];
+
 /// Largest scene file that is read, in bytes; beyond it lies no scene that TOML is the right home for.
 const LARGEST_FILE: u64 = 256 << 20;
 
 /// Reads a scene file.
 ///
 /// # Errors
-/// [`SceneError::Read`] if the file cannot be read, [`SceneError::Wrong`] if it does not hold a scene.
+/// [`SceneError::OtherFormat`] if its name says so, [`SceneError::Read`] if it cannot be read, [`SceneError::Wrong`] if
+/// it does not hold a scene.
 pub fn load(path: &Path) -> Result<Scene, SceneError> {
-    let text = read(path).map_err(|why| SceneError::Read { path: path.to_owned(), why })?;
+    let suffix = path.extension().unwrap_or_default().to_ascii_lowercase();
+    if OTHER_FORMATS.iter().any(|other| suffix == *other) {
+        return Err(SceneError::OtherFormat { path: path.to_owned() });
+    }
+    let text = read(path).map_err(|why| {
+        let missing = why.kind() == std::io::ErrorKind::NotFound;
+        let meant = missing.then(|| scene_beside(path)).flatten();
+        SceneError::Read { path: path.to_owned(), why, meant }
+    })?;
     let name = path.file_stem().map(|s| s.to_string_lossy().into_owned()).unwrap_or_default();
     parse(&text, &name, path)
+}
+
+/// The scene file in a missing one's folder whose name is nearest to its.
+fn scene_beside(path: &Path) -> Option<String> {
+    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let files = std::fs::read_dir(folder).ok()?.flatten().map(|entry| entry.file_name().to_string_lossy().into_owned());
+    let scenes: Vec<String> = files.filter(|name| name.ends_with(".toml")).collect();
+    let near = nearest(&path.file_name()?.to_string_lossy(), scenes.iter().map(String::as_str))?;
+    Some(path.with_file_name(near).to_string_lossy().into_owned())
 }
 
 /// The text of a regular file. Anything else, such as a pipe or a device, might never end.
 fn read(path: &Path) -> std::io::Result<String> {
     use std::io::{Error, ErrorKind, Read};
-    if !std::fs::metadata(path)?.is_file() {
+    let found = std::fs::metadata(path)?;
+    if found.is_dir() {
+        return Err(Error::new(ErrorKind::IsADirectory, "this is a folder: name a .toml file in it"));
+    }
+    if !found.is_file() {
         return Err(Error::new(ErrorKind::InvalidInput, "this is not a file"));
     }
-    let mut text = String::new();
-    std::fs::File::open(path)?.take(LARGEST_FILE + 1).read_to_string(&mut text)?;
-    if text.len() as u64 > LARGEST_FILE {
+    let mut bytes = Vec::new();
+    std::fs::File::open(path)?.take(LARGEST_FILE + 1).read_to_end(&mut bytes)?;
+    if bytes.len() as u64 > LARGEST_FILE {
         return Err(Error::new(ErrorKind::FileTooLarge, format!("it has more than {LARGEST_FILE} bytes")));
     }
-    Ok(text)
+    let no_text = || Error::new(ErrorKind::InvalidData, "this is not a text in UTF-8: a scene is saved as one");
+    String::from_utf8(bytes).map_err(|_| no_text())
 }
 
 /// Parses the text of a scene file. `path` is named in errors, and pictures that the scene names lie beside it.
@@ -91,8 +141,8 @@ pub fn parse(text: &str, name: &str, path: &Path) -> Result<Scene, SceneError> {
         SceneError::Wrong { path: path.to_owned(), line, column, message: fault.message }
     };
     let raw: RawScene = toml::from_str(text).map_err(|e| {
-        let message = e.message().lines().collect::<Vec<_>>().join(", ");
-        wrong(Fault { at: e.span().unwrap_or(0..0), message })
+        let (at, message) = (e.span().unwrap_or(0..0), e.message().lines().collect::<Vec<_>>().join(", "));
+        wrong(Fault { message: advice::advised(text, at.clone(), message), at })
     })?;
     build(raw, name, path.parent().unwrap_or(Path::new(""))).map_err(wrong)
 }
@@ -120,9 +170,8 @@ fn build(raw: RawScene, name: &str, folder: &Path) -> Result<Scene, Fault> {
     let mut add = |geometry, wears: Spanned<String>| {
         let found = materials.iter().position(|m| m.name == *wears.get_ref());
         let Some(material) = found else {
-            let known = materials.iter().map(|m| m.name.as_str()).collect::<Vec<_>>().join(", ");
-            let message = format!("no material is called '{}': the file has {known}", wears.get_ref());
-            return fault(wears.span(), message);
+            let names = materials.iter().map(|m| m.name.as_str()).collect::<Vec<_>>();
+            return fault(wears.span(), advice::unknown_material(wears.get_ref(), &names));
         };
         shapes.push(Shape { geometry, material });
         places.push(wears.span());

@@ -1,6 +1,6 @@
 use super::*;
 
-const SMALL: &str = r#"
+pub(super) const SMALL: &str = r#"
 [camera]
 eye = [0, 0, 5]
 target = [0, 0, 0]
@@ -15,7 +15,7 @@ radius = 1
 material = "white"
 "#;
 
-fn fault_of(text: &str) -> String {
+pub(super) fn fault_of(text: &str) -> String {
     parse(text, "test", Path::new("test.toml")).expect_err("a fault").to_string()
 }
 
@@ -170,6 +170,28 @@ fn folder_with_sky(name: &str, texels: [Vec3; 2]) -> PathBuf {
     let bytes = image_file::encode(image_file::Kind::Exr, &picture, &display, &Vec::new()).unwrap();
     std::fs::write(folder.join("sky.exr"), bytes).unwrap();
     folder
+}
+
+#[test]
+fn files_that_are_no_scenes_are_refused_with_what_to_do() {
+    let folder = folder_with_sky("others", [Vec3::ONE; 2]);
+    std::fs::write(folder.join("lecture.toml"), SMALL).unwrap();
+    std::fs::write(
+        folder.join("wide.toml"),
+        "\u{feff}[camera]".encode_utf16().flat_map(u16::to_le_bytes).collect::<Vec<_>>(),
+    )
+    .unwrap();
+    for (name, expected) in [
+        ("ball.obj", "ball.obj is not a scene: a scene is a text in TOML with camera, materials and lights"),
+        ("ball.BLEND", "ball.BLEND is not a scene: "),
+        ("wide.toml", "this is not a text in UTF-8"),
+        ("", "this is a folder: name a .toml file in it"),
+        ("lectrue.toml", "lecture.toml?"),
+    ] {
+        let said = load(&folder.join(name)).expect_err("a fault").to_string();
+        assert!(said.contains(expected) && said.lines().count() == 1, "{name}: {said}");
+    }
+    std::fs::remove_dir_all(folder).unwrap();
 }
 
 #[test]
