@@ -21,6 +21,8 @@ pub struct Opened {
     pub source: String,
     /// The scene that was read from it.
     pub scene: Scene,
+    /// What of it is probably not meant, see [`Scene::notes`].
+    pub notes: Vec<String>,
 }
 
 impl Loader {
@@ -73,7 +75,7 @@ impl Service for Scenes {
     fn serve(&mut self, name: Option<String>, control: &Control<Self::Job, Self::Update>) {
         let Some(name) = name else { return };
         let read = builtin::named(&name).map_err(|e| e.to_string());
-        control.tell(|loaded| *loaded = Some(read.map(|scene| Opened { source: name, scene })));
+        control.tell(|loaded| *loaded = Some(read.map(|scene| Opened { source: name, notes: scene.notes(), scene })));
     }
 
     fn recover(&mut self, control: &Control<Self::Job, Self::Update>) {

@@ -1,4 +1,4 @@
-//! The last thing worth saying: good news goes away by itself, bad news at the next key or click.
+//! The last thing worth saying: good news goes away by itself, bad news and notes at the next key or click.
 
 use std::time::{Duration, Instant};
 
@@ -9,6 +9,8 @@ pub struct Message {
     pub text: String,
     /// Whether something failed.
     pub failed: bool,
+    /// Whether it waits for a key or a click.
+    stays: bool,
     since: Instant,
 }
 
@@ -22,7 +24,12 @@ impl Message {
     /// A line that is said from now on.
     pub fn new(outcome: Result<String, String>) -> Self {
         let failed = outcome.is_err();
-        Message { text: outcome.unwrap_or_else(|fault| fault), failed, since: Instant::now() }
+        Message { text: outcome.unwrap_or_else(|fault| fault), failed, stays: failed, since: Instant::now() }
+    }
+
+    /// What should be known though nothing failed.
+    pub fn note(text: String) -> Self {
+        Message { text, failed: false, stays: true, since: Instant::now() }
     }
 
     /// Whether it has been there long enough to have been read.
@@ -30,8 +37,8 @@ impl Message {
         self.since.elapsed() > LEAST
     }
 
-    /// How long it still stays; `None` for a failure, which stays.
+    /// How long it still stays; `None` for what stays.
     pub fn remaining(&self) -> Option<Duration> {
-        (!self.failed).then(|| STAY.saturating_sub(self.since.elapsed()))
+        (!self.stays).then(|| STAY.saturating_sub(self.since.elapsed()))
     }
 }

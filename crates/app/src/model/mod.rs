@@ -86,6 +86,13 @@ impl Model {
         self.state.message = Some(Message::new(outcome));
     }
 
+    /// Says what of the scene is probably not meant, if there is anything: it stays until it was seen.
+    pub fn say_notes(&mut self, notes: &[String]) {
+        if !notes.is_empty() {
+            self.state.message = Some(Message::note(notes.join("; ")));
+        }
+    }
+
     /// What undo gives back, as it stands.
     pub fn settings(&self) -> Settings {
         Settings::of(&self.document, &self.session)

@@ -62,9 +62,8 @@ impl Viewer {
         self.follow_the_reference();
         match self.engine.loaded() {
             Some(Ok(opened)) => {
-                let notes = opened.scene.environment.iter().flat_map(|map| map.notes()).cloned();
-                let lines = std::iter::once(format!("Opened {}", opened.scene.name)).chain(notes);
-                self.model.say(Ok(lines.collect::<Vec<_>>().join("; ")));
+                self.model.say(Ok(format!("Opened {}", opened.scene.name)));
+                self.model.say_notes(&opened.notes);
                 self.model.open(opened.scene, opened.source);
                 self.presentation.clear();
             }

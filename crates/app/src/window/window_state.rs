@@ -90,7 +90,10 @@ impl WindowState {
         window.set_visible(true);
         window.request_redraw();
         let engine = Engine::start(&gpu, &adapters, Arc::new(Store::of_the_user), wake)?;
-        let model = Model::new(scene, args.scene.clone(), args.theme).beside(adapters, args.device);
+        let notes = scene.notes();
+        notes.iter().for_each(|line| note!("note: {line}"));
+        let mut model = Model::new(scene, args.scene.clone(), args.theme).beside(adapters, args.device);
+        model.say_notes(&notes);
         let workspaces = Workspaces::beginning_with(args.workspace.as_deref());
         Ok(WindowState {
             viewer: Viewer::new(model, workspaces, engine, started),

@@ -71,6 +71,20 @@ material = "bubble"
     assert_eq!(frame.value("A reflectivity"), "1");
 }
 
+/// A picture that is black for a reason says the reason, until a key or a click has seen it.
+#[test]
+fn opening_a_scene_says_what_is_probably_not_meant() {
+    let folder = visavis_tests::TestFolder::new();
+    let file = folder.file("dark.toml");
+    let lit = scene::builtin::text("cornell").expect("a built-in scene");
+    std::fs::write(&file, lit.replace("radiance = [30, 30, 30]", "radiance = [0, 0, 0]")).expect("the scene file");
+    let mut user = User::of("whitted");
+    user.wait_for("both pictures", both_whole);
+    user.open(file.to_str().expect("a plain path"));
+    let opened = user.wait_for("the note", |f| says(f, "the scene has no light, so that all is black"));
+    assert_eq!(opened.state("scene"), "dark");
+}
+
 #[test]
 fn a_presenters_remote_does_nothing_by_itself() {
     let mut user = User::of("cornell");

@@ -25,15 +25,15 @@ impl Default for Seen {
 }
 
 impl Seen {
-    /// Opens the scene of this name or file, changed and seen as the options say, and tells what of its pictures is not
-    /// shown.
+    /// Opens the scene of this name or file, changed and seen as the options say, and tells what of it is probably not
+    /// meant.
     ///
     /// # Errors
     /// If it cannot be read, or if the camera sees nothing.
     pub fn of(&self, source: &str) -> anyhow::Result<Shot> {
         let mut scene = self.changes.applied_to(&builtin::named(source)?);
         scene.camera = self.camera(&scene)?;
-        scene.environment.iter().flat_map(|map| map.notes()).for_each(|line| note!("note: {line}"));
+        scene.notes().iter().for_each(|line| note!("note: {line}"));
         let camera = scene.camera;
         Ok(Shot { source: source.to_owned(), changes: self.changes, scene: Arc::new(scene), camera, size: self.size })
     }
