@@ -99,6 +99,11 @@ fn bad_values_are_wrong_usage_and_write_nothing() {
     assert_refused(&["render", "cornell", "-o", out, "--segments", "2"], 2, &["from 3 to 512"]);
     assert_refused(&["render", "hard/none", "-o", out], 1, &["hard/slab"]);
     assert_refused(&["whitted", "--device", "tpu"], 2, &["--device tpu", "auto, cpu or gpu"]);
+    assert_refused(&["render", "whitted", "-o", out, "--refraction-ratio", "0,6"], 2, &["a decimal point: write 0.6"]);
+    assert_refused(&["render", "whitted", "-o", out, "--fov", "22,5"], 2, &["a decimal point: write 22.5"]);
+    assert_refused(&["render", "whitted", "-o", out, "--eye", "1,5,2,3"], 2, &["decimal points, the commas between"]);
+    assert_refused(&["render", "whitted", "-o", out, "--bouncs", "2"], 2, &["'--bouncs': did you mean --bounces?"]);
+    assert_refused(&["compare", out, out, "--bouncs", "2"], 2, &["invalid option '--bouncs' (visavis --help"]);
     assert_refused(&["bench", "--quick"], 2, &["-o DIR"]);
     assert_refused(&["bench", "-o", out, "--time", "0"], 2, &["seconds from 1"]);
     assert_refused(&["bench", "-o", out, "--scene", "teapot"], 2, &["teapot", "cornell or whitted"]);
@@ -126,6 +131,21 @@ fn bad_scenes_fail_with_the_place_and_write_nothing() {
         refused(broken.to_str().unwrap(), words);
     }
     assert_eq!(folder.names(), ["broken.toml"]);
+}
+
+/// What is allowed but seldom meant is told beside the picture, which is made.
+#[test]
+fn a_scene_without_light_is_rendered_with_a_note() {
+    let folder = TestFolder::new();
+    let (scene, out) = (folder.file("dark.toml"), folder.file("out.png"));
+    let lit = scene::builtin::text("cornell").unwrap();
+    std::fs::write(&scene, lit.replace("radiance = [30, 30, 30]", "radiance = [0, 0, 0]")).unwrap();
+    let [scene, out] = [&scene, &out].map(|path| path.to_str().unwrap());
+    let made = visavis(&["render", scene, "-o", out, "--size", "4x4", "--spp", "1", "--device", "cpu"]);
+    let said = String::from_utf8_lossy(&made.stderr);
+    let notes: Vec<&str> = said.lines().filter(|line| line.starts_with("note: ")).collect();
+    assert!(notes.len() == 1 && notes[0].contains("no light, so that all is black: add [sky]"), "{said}");
+    assert!(made.status.success() && folder.names().contains(&"out.png".to_owned()));
 }
 
 #[test]

@@ -4,11 +4,11 @@
 use super::help;
 use super::seen::Seen;
 use super::usage;
-use super::values::text;
+use super::values::{decimal_comma, text};
 use crate::cli::CliError;
 use lexopt::prelude::*;
 use std::ffi::OsString;
-use technique::settings::{Setting, of_scenes};
+use technique::settings::{OF_SCENES, Setting, all_of_panes, of_scenes};
 
 /// An option of a command whose words are read into an `A`.
 pub struct CommandOption<A> {
@@ -53,10 +53,29 @@ pub fn read<A>(
         match options.iter().find(|option| option.names.contains(&name.as_str())) {
             Some(option) => (option.read)(&mut args, &mut parser)?,
             None if name.strip_prefix("--").map_or(Ok(false), |name| more(&mut args, name, &mut parser))? => {}
-            None => return Err(lexopt::Error::UnexpectedOption(name).into()),
+            None => return Err(unknown(&name, &mut args, options, more)),
         }
     }
     Ok(Typed::Words(args, words))
+}
+
+/// An option that is none, and the one that was probably meant.
+fn unknown<A>(
+    name: &str,
+    args: &mut A,
+    options: &[CommandOption<A>],
+    more: fn(&mut A, &str, &mut lexopt::Parser) -> Result<bool, CliError>,
+) -> CliError {
+    let settings = all_of_panes().map(|row| row.name).chain(OF_SCENES.iter().map(|row| row.name));
+    // without a word to read, a command that knows the name misses its value
+    let mut takes = |name: &&str| more(args, name, &mut lexopt::Parser::from_args::<[OsString; 0]>([])).is_err();
+    let settings: Vec<String> = settings.filter(&mut takes).map(|name| format!("--{name}")).collect();
+    let listed = options.iter().filter(|option| !option.help.is_empty()).flat_map(|option| option.names);
+    let known = listed.copied().chain(["--help"]).chain(settings.iter().map(String::as_str));
+    match scene::nearest(name, known) {
+        Some(near) => CliError::Usage(format!("invalid option '{name}': did you mean {near}?")),
+        None => lexopt::Error::UnexpectedOption(name.to_owned()).into(),
+    }
 }
 
 /// Where there are no more options than those of the table.
@@ -69,7 +88,9 @@ pub fn set<T>(setting: &Setting<T>, of: &mut T, parser: &mut lexopt::Parser) -> 
     let word = text(parser)?;
     match setting.kind.parse(&word) {
         Ok(value) => (setting.set)(of, value),
-        Err(expected) => return usage(format!("--{} {word}: expected {expected}", setting.name)),
+        Err(expected) => {
+            return usage(format!("--{} {word}: expected {expected}{}", setting.name, decimal_comma(&word)));
+        }
     }
     Ok(())
 }

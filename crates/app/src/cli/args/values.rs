@@ -31,7 +31,15 @@ pub fn number(
     holds: impl Fn(f32) -> bool,
 ) -> Result<f32, CliError> {
     let word = text(parser)?;
-    parse_finite(&word).filter(|v| holds(*v)).map_or_else(|| usage(format!("{option} {word}: expected {expected}")), Ok)
+    let number = parse_finite(&word).filter(|v| holds(*v));
+    number.map_or_else(|| usage(format!("{option} {word}: expected {expected}{}", decimal_comma(&word))), Ok)
+}
+
+/// What to write instead of a number with a comma: "0,6" is 0.6.
+pub fn decimal_comma(word: &str) -> String {
+    let point = word.trim().replacen(',', ".", 1);
+    let is_meant = word.contains(',') && parse_finite(&point).is_some();
+    if is_meant { format!("; numbers have a decimal point: write {point}") } else { String::new() }
 }
 
 /// What `--time` may be.
@@ -63,6 +71,9 @@ pub fn point(parser: &mut lexopt::Parser, option: &str) -> Result<Vec3, CliError
     let numbers: Option<Vec<f32>> = word.split(',').map(parse_finite).collect();
     match numbers.as_deref() {
         Some(&[x, y, z]) => Ok(Vec3::new(x, y, z)),
+        Some([_, _, _, _, ..]) => usage(format!(
+            "{option} {word}: expected three finite numbers with decimal points, the commas between them, like 7.5,2.3,-4.2"
+        )),
         _ => usage(format!("{option} {word}: expected three finite numbers, like 7.5,2.3,-4.2")),
     }
 }
