@@ -20,6 +20,8 @@ const BLUE: [u8; 3] = [0x00, 0x72, 0xb2];
 const ORANGE: [u8; 3] = [0xd5, 0x5e, 0x00];
 /// The two colours of the hatching, in none of the maps.
 pub const HATCH: [[u8; 3]; 2] = [[255, 0, 255], [0, 0, 0]];
+/// The colour of what may be noise, in none of the maps.
+pub const WITHIN_NOISE: [u8; 3] = [0xa0; 3];
 /// Pixels of one stripe of the hatching.
 const STRIPE: u32 = 2;
 
@@ -146,12 +148,15 @@ mod tests {
     }
 
     #[test]
-    fn what_is_out_of_range_is_clamped_and_no_map_holds_the_hatching() {
+    fn what_is_out_of_range_is_clamped_and_no_map_holds_the_hatching_or_the_grey() {
         for map in ColourMap::ALL {
             assert_eq!(map.srgb(-f32::INFINITY), map.srgb(0.0));
             assert_eq!(map.srgb(7.0), map.srgb(1.0));
             assert_eq!(map.srgb(f32::NAN), HATCH[0]);
-            assert!((0..=255u8).all(|i| !HATCH.contains(&map.srgb(f32::from(i) / 255.0))));
+            let colours = || (0..=255u8).map(|i| map.srgb(f32::from(i) / 255.0));
+            assert!(colours().all(|colour| !HATCH.contains(&colour)));
+            let apart = |colour: [u8; 3]| colour.iter().zip(WITHIN_NOISE).map(|(a, b)| a.abs_diff(b)).max();
+            assert!(colours().all(|colour| apart(colour) >= Some(40)), "{map:?} is too near to the grey");
         }
         let row: Vec<_> = (0..8).map(|x| hatched(x, 0)).collect();
         assert_eq!(row.iter().filter(|c| **c == HATCH[0]).count(), 4);

@@ -3,7 +3,7 @@
 
 use super::args::made_by;
 use super::{CompareArgs, reference};
-use crate::ruler::{HeatMap, Pair, kept_scene, noise_line};
+use crate::ruler::{HeatMap, Noise, Pair, kept_scene, noise_line};
 use ::reference::Reference;
 use anyhow::ensure;
 use compare::flip::{PIXELS_PER_DEGREE, hdr_flip};
@@ -43,7 +43,8 @@ pub fn run(args: &CompareArgs) -> anyhow::Result<()> {
         note!("note: what is brighter than white is clipped in a .png, and its exposure counts; an .exr has neither");
     }
     let display = DisplayTransform { exposure: args.exposure };
-    let pair = Pair { names: ["A", "reference"], images: [a, r.image.clone()], display };
+    let pair =
+        Pair { names: ["A", "reference"], images: [a, r.image.clone()], noise: [Noise::Unknown, Noise::None], display };
     let found = measure(&pair, &r)?;
     if found.errors.nonfinite > 0 {
         note!("note: {} pixels are not finite and are left out of every mean", found.errors.nonfinite);

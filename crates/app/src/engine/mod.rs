@@ -7,6 +7,7 @@
 
 pub mod ask;
 pub mod capture;
+mod earlier;
 pub mod error_map;
 pub mod export;
 pub mod fake;

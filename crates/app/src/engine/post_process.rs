@@ -3,11 +3,12 @@
 //! errors is made of goes on to the [`ErrorMapWorker`], which has a thread of its own: FLIP takes longer than a picture
 //! may wait.
 
+use super::earlier::Earlier;
 use super::error_map::ErrorMapWorker;
 use super::worker::{Control, Service, Worker};
 use super::{Order, Picture, Wake};
 use crate::model::{Against, Comparison, ErrorMapJob, MapWish, PaneId, Panes};
-use crate::ruler::{Pair, ReferenceImage};
+use crate::ruler::{Noise, Pair, ReferenceImage};
 use compare::{Errors, errors};
 use film::DisplayTransform;
 use std::sync::Arc;
@@ -63,6 +64,8 @@ struct Latest {
     /// Draws maps of them.
     error_map_worker: Option<Arc<ErrorMapWorker>>,
     latest: Panes<Picture>,
+    /// What tells how noisy they are.
+    earlier: Panes<Earlier>,
     /// The newest job that each pane has delivered.
     newest: Panes<u64>,
     oldest_view: u64,
@@ -180,6 +183,9 @@ impl Latest {
             match arrival {
                 Arrival::Picture(picture) if still_wanted(&picture.order, oldest_view, *newest) => {
                     *newest = picture.order.job;
+                    if let Some(earlier) = Earlier::follow(self.earlier.remove(pane), &picture) {
+                        self.earlier.insert(pane, earlier);
+                    }
                     self.latest.insert(pane, picture);
                     fresh.insert(pane, ());
                 }
@@ -188,7 +194,7 @@ impl Latest {
                     self.latest.remove(pane);
                     faults.insert(pane, fault);
                 }
-                Arrival::Gone => drop(self.latest.remove(pane)),
+                Arrival::Gone => drop((self.latest.remove(pane), self.earlier.remove(pane))),
                 Arrival::Picture(_) | Arrival::Fault(..) => {}
             }
         }
@@ -218,6 +224,12 @@ impl Latest {
         (fits && picture.order.provenance.technique.shows_the_scene()).then_some(reference_image)
     }
 
+    /// What is known of the noise of a pane's picture.
+    fn noise_of(&self, pane: PaneId, picture: &Picture) -> Noise {
+        let unknown = if picture.spp.is_some() { Noise::Unknown } else { Noise::None };
+        self.earlier.get(pane).map_or(unknown, |earlier| earlier.noise_of(picture))
+    }
+
     /// What to draw; `None` to leave the map as it is, where it only has to wait for a picture on its way.
     fn map_job(&self) -> Option<Option<ErrorMapJob>> {
         let MapWish { comparison: Comparison { of, against }, metric, held } = self.map?;
@@ -227,20 +239,23 @@ impl Latest {
             Against::Reference => None,
         };
         let judged_by = match against {
-            Against::Pane(_) => {
-                judge.filter(|judge| film.is_some_and(|film| comparable(film, judge))).map(|judge| &judge.image)
-            }
-            Against::Reference => film.and_then(|film| self.reference_of(film)).map(|reference| &reference.image),
+            Against::Pane(id) => judge
+                .filter(|judge| film.is_some_and(|film| comparable(film, judge)))
+                .map(|judge| (&judge.image, self.noise_of(id, judge))),
+            Against::Reference => film
+                .and_then(|film| self.reference_of(film))
+                .map(|reference| (&reference.image, reference.noise_of_pixels())),
         };
         let on_its_way = match (film, judge) {
             (Some(film), Some(judge)) => film.rough || judge.rough || film.order.view != judge.order.view,
             _ => film.is_some_and(|film| film.rough),
         };
         match (film, judged_by) {
-            (Some(film), Some(judged_by)) => Some(Some(ErrorMapJob {
+            (Some(film), Some((judged_by, its_noise))) => Some(Some(ErrorMapJob {
                 pair: Pair {
                     names: [of.name(), against.name()],
                     images: [film.image.clone(), judged_by.clone()],
+                    noise: [self.noise_of(of, film), its_noise],
                     display: self.display,
                 },
                 map: metric,

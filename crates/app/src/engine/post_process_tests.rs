@@ -72,7 +72,7 @@ fn only_pictures_of_one_view_are_compared() {
 /// The reference belongs to one view as the pictures do, and tells its noise.
 #[test]
 fn a_reference_judges_both_sides_of_its_own_view_alone() {
-    let reference_image = ReferenceImage { image: pixel(0.5), noise: Some(1.0) };
+    let reference_image = ReferenceImage { image: pixel(0.5), standard_errors: None, noise: Some(1.0) };
     for (view, judged) in [(1, true), (2, false)] {
         let updates = frame(|post_process| {
             post_process.set_comparisons(both(|_| Against::Reference), None);

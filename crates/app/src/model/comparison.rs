@@ -86,7 +86,7 @@ impl Default for ComparisonSettings {
         ComparisonSettings {
             with: CompareWith::EachOther,
             of: PaneId::A,
-            metric: ErrorMetric::default(),
+            metric: ErrorMetric::Signed,
             held: [None; ErrorMetric::ALL.len()],
         }
     }

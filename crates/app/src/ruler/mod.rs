@@ -4,9 +4,11 @@
 mod figures;
 mod heat_map;
 mod kept_scene;
+mod noise;
 mod reference_image;
 
 pub use figures::{brief, error_records, noise_line};
-pub use heat_map::{HeatMap, Pair};
+pub use heat_map::{GREY, HeatMap, Pair};
 pub use kept_scene::{kept_scene, made_before};
+pub use noise::Noise;
 pub use reference_image::ReferenceImage;

@@ -14,7 +14,7 @@ fn the_error_map_has_a_scale_that_can_be_held_and_is_exported_with_it() {
     let screen = Screen::start(1280, 720);
     let (mut viewer, _) = ready(&screen, &["cornell"]);
     screen.key('5', false);
-    let shown = viewer.wait_for("the map", |f| f.state("map") == "|A - B|" && f.shows("bar map"));
+    let shown = viewer.wait_for("the map", |f| f.state("map") == "A - B" && f.shows("bar map"));
     screen.click(shown.point("map signed", 0.5, 0.5));
     let signed =
         viewer.wait_for("the signed map", |f| f.state("map") == "A - B" && f.value("bar map") == "blue-white-orange");

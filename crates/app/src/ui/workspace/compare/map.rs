@@ -4,7 +4,7 @@
 use super::comparison::reference_state;
 use super::picture::WHOLE;
 use crate::model::{Against, Comparison, ErrorMap};
-use crate::ruler::{HeatMap, Pair, brief};
+use crate::ruler::{GREY, HeatMap, Pair, brief};
 use crate::ui::overlay::{spoken, text_box};
 use crate::ui::{UiContext, theme};
 use compare::ColourScale;
@@ -105,6 +105,9 @@ fn legend(cx: &mut UiContext, ui: &Ui, rect: Rect, map: &HeatMap, pixel: Option<
 /// Mean, what is not finite, the numbers under the mouse.
 fn in_words(map: &HeatMap, pixel: Option<String>) -> String {
     let mut text = format!("mean {}", brief(map.mean));
+    if map.within_noise.is_some() {
+        text += &format!("\ngrey: {GREY}");
+    }
     if map.nonfinite > 0 {
         text += &format!("\n{} pixels are not finite: hatched", map.nonfinite);
     }
