@@ -47,14 +47,15 @@ impl Threads {
         Threads::default()
     }
 
-    /// All cores but one, which is the user interface's. `start` is run by each thread first.
+    /// Every core where `start`, which each thread runs first, lets the user interface go before them
+    /// (`they_step_back`); else all but one, which is the user interface's.
     ///
     /// # Errors
     /// If the system gives no threads.
-    pub fn beside_the_ui(start: fn()) -> Result<Self, rayon::ThreadPoolBuildError> {
+    pub fn beside_the_ui(start: fn(), they_step_back: bool) -> Result<Self, rayon::ThreadPoolBuildError> {
         let cores = std::thread::available_parallelism().map_or(1, usize::from);
         let pool = rayon::ThreadPoolBuilder::new()
-            .num_threads(cores.saturating_sub(1).max(1))
+            .num_threads(if they_step_back { cores } else { cores.saturating_sub(1).max(1) })
             .thread_name(|i| format!("rays {i}"))
             .start_handler(move |_| start())
             .build()?;
@@ -145,7 +146,7 @@ mod tests {
     /// While a turn lasts others come; then the highest goes first, and of equals the one that came first.
     #[test]
     fn the_highest_goes_first_and_equals_in_the_order_in_which_they_came() {
-        let threads = Threads::beside_the_ui(|| ()).unwrap();
+        let threads = Threads::beside_the_ui(|| (), true).unwrap();
         let (order, served) = channel();
         std::thread::scope(|scope| {
             let turn = threads.wait(Rank::Refinement, &|| false);
@@ -167,7 +168,7 @@ mod tests {
     /// Two that take turns with each other leave none to one of a lower rank, which must be able to go.
     #[test]
     fn who_waits_in_vain_can_give_up_and_nothing_is_left_of_it() {
-        let threads = Threads::beside_the_ui(|| ()).unwrap();
+        let threads = Threads::beside_the_ui(|| (), true).unwrap();
         let turn = threads.wait(Rank::Refinement, &|| false);
         let asked = AtomicU8::new(0);
         let gives_up = || asked.fetch_add(1, Ordering::Relaxed) == 2;
@@ -178,8 +179,15 @@ mod tests {
     }
 
     #[test]
+    fn no_core_is_idle_where_threads_step_back_and_one_is_the_windows_where_they_do_not() {
+        let cores = std::thread::available_parallelism().map_or(1, usize::from);
+        let count = |they_step_back| Threads::beside_the_ui(|| (), they_step_back).unwrap().count();
+        assert_eq!([count(true), count(false)], [cores, (cores - 1).max(1)]);
+    }
+
+    #[test]
     fn a_panic_passes_the_turn_on() {
-        let threads = Threads::beside_the_ui(|| ()).unwrap();
+        let threads = Threads::beside_the_ui(|| (), true).unwrap();
         let fails = || threads.turn(Rank::Background, || panic!("on purpose"));
         assert!(std::panic::catch_unwind(std::panic::AssertUnwindSafe(fails)).is_err());
         assert_eq!(threads.turn(Rank::Background, || 1), 1);

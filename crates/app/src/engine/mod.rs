@@ -107,6 +107,9 @@ pub fn step_back() {
     let _ = rustix::process::nice(10);
 }
 
+/// Whether [`step_back`] does so here. Then no core need be left to the user interface.
+pub const STEPS_BACK: bool = cfg!(target_os = "linux");
+
 /// What a pane says where its picture was ended by a panic.
 const FAULT: &str = "the renderer stopped at a fault of its own";
 

@@ -50,7 +50,7 @@ fn explain(device: DeviceChoice, software: bool) -> &'static str {
     match device {
         DeviceChoice::Auto if software => "The CPU, which is faster here: it only plays the GPU",
         DeviceChoice::Auto => "The GPU, and the CPU where that fails",
-        DeviceChoice::Cpu => "The processor's cores but one",
+        DeviceChoice::Cpu => "All cores of the processor; the window goes first",
         DeviceChoice::Gpu => "The graphics device; the CPU takes over if it fails",
     }
 }
