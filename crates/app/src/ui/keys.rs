@@ -1,13 +1,13 @@
 //! The keys of the whole window. Letters are ignored while typing; Tab, arrows, space and enter belong to the widgets;
-//! PageUp, PageDown, '.', F5 and Esc stay free for a presenter's remote.
+//! PageUp, PageDown, '.' and F5 stay free for a presenter's remote, and so does Esc where nothing is open that it closes.
 
 use super::pressed::{HelpLine, Keys};
 use super::{UiCommand, UiContext, Workspaces, export_menu};
 use crate::model::{Destination, ExportRequest, ExportSubject};
-use egui::{Context, Event, Key, Modifiers};
+use egui::{Context, Event, Key, Modifiers, Popup};
 
 /// What the keys do that every workspace has, for the help.
-pub const KEYS: [HelpLine; 10] = [
+pub const KEYS: [HelpLine; 12] = [
     ("P", "pause, go on"),
     ("R", "restart"),
     ("C", "camera of the scene"),
@@ -15,6 +15,8 @@ pub const KEYS: [HelpLine; 10] = [
     ("Ctrl+Z  Ctrl+Shift+Z", "undo, redo a setting"),
     ("Ctrl+S  Ctrl+C", "save, copy the picture as seen"),
     ("Ctrl + - 0", "larger, smaller, usual size of all text"),
+    ("F11", "full screen, and back"),
+    ("Esc", "close the menu or the help that is open"),
     ("Ctrl+Q", "quit"),
     ("Tab, arrows, space, enter", "reach and use every control"),
     ("?", "this help"),
@@ -27,6 +29,13 @@ pub fn listen(workspaces: &mut Workspaces, cx: &mut UiContext, context: &Context
     }
     if keys.command(Key::Q) > 0 {
         cx.commands.push(UiCommand::Quit);
+    }
+    if keys.presses(Key::F11) % 2 == 1 {
+        cx.commands.push(UiCommand::FullScreen);
+    }
+    // egui closes the menu that is open, and the help below waits for the next press
+    if keys.presses(Key::Escape) > 0 && !Popup::is_any_open(context) {
+        cx.model.state.help = false;
     }
     if context.text_edit_focused() {
         return;

@@ -32,6 +32,8 @@ pub enum UiCommand {
     Open(String),
     /// Read a reference from a file.
     LoadReference(PathBuf),
+    /// Fill the screen with the window, or give it back its frame.
+    FullScreen,
     /// Ends the program after this frame.
     Quit,
 }

@@ -118,7 +118,7 @@ impl Viewer {
             },
             UiCommand::Open(name) => self.engine.load(name),
             UiCommand::LoadReference(file) => self.engine.load_reference(file),
-            UiCommand::Quit => return Some(command),
+            UiCommand::FullScreen | UiCommand::Quit => return Some(command),
         }
         None
     }

@@ -23,7 +23,7 @@ use std::time::{Duration, Instant};
 use winit::dpi::LogicalSize;
 use winit::event::{InnerSizeWriter, WindowEvent};
 use winit::event_loop::{ActiveEventLoop, EventLoopProxy, OwnedDisplayHandle};
-use winit::window::Window;
+use winit::window::{Fullscreen, Window};
 
 /// Everything that lives as long as the window.
 pub struct WindowState {
@@ -233,10 +233,17 @@ impl WindowState {
     fn handle(&mut self, command: UiCommand) {
         match self.viewer.handle(command) {
             Some(UiCommand::Export(ExportRequest { to, .. })) => self.poses.push(to),
+            Some(UiCommand::FullScreen) => self.toggle_full_screen(),
             Some(UiCommand::Quit) => self.quitting = true,
             _ => {}
         }
         self.request_frame();
+    }
+
+    /// On the screen that the window is on.
+    fn toggle_full_screen(&self) {
+        let is_full = self.window.fullscreen().is_some();
+        self.window.set_fullscreen((!is_full).then_some(Fullscreen::Borderless(None)));
     }
 
     /// Exports the picture area of a frame as it is on the screen, line and labels included.

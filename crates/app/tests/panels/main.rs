@@ -228,6 +228,28 @@ fn keys_and_menus_ask_the_shell() {
 }
 
 #[test]
+fn f11_asks_for_the_full_screen_and_esc_closes_one_thing_after_the_other() {
+    let mut panels = Panels::of("whitted");
+    let press = |panels: &mut Panels, key| {
+        panels.harness.key_press(key);
+        panels.harness.run_steps(3);
+    };
+    press(&mut panels, egui::Key::F11);
+    assert_eq!(panels.requests.borrow_mut().drain(..).collect::<Vec<_>>(), [UiCommand::FullScreen]);
+    let help = "full screen, and back";
+    press(&mut panels, egui::Key::Questionmark);
+    panels.click("Look", 0);
+    assert!(panels.shows(help) && panels.shows("Theme"));
+    press(&mut panels, egui::Key::Escape);
+    assert!(panels.shows(help) && !panels.shows("Theme"), "the menu lies above the help");
+    press(&mut panels, egui::Key::Escape);
+    assert!(!panels.shows(help));
+    let before = panels.model.borrow().session.clone();
+    press(&mut panels, egui::Key::Escape);
+    assert!(panels.requests.borrow().is_empty() && panels.model.borrow().session == before, "a presenter's remote");
+}
+
+#[test]
 fn a_second_workspace_has_a_tab_where_it_is_asked_for_and_wants_pictures_of_its_own() {
     let usual = Panels::of("whitted");
     assert!(usual.harness.query_by_label("Compare").is_none(), "there is nothing to choose from");
