@@ -7,11 +7,11 @@ use crate::engine::post_process::{DisplayFrame, PaneUpdate, PaneUpdates};
 use crate::model::{Against, ErrorMap, Model, PaneId, PaneView, Panes, ViewModel, Wanted};
 use crate::ruler::error_records;
 use crate::ui::Textures;
-use egui::TextureId;
+use egui::{TextureFilter, TextureId};
 use film::DisplayTransform;
 use image_file::Records;
 use std::sync::Arc;
-use technique::Made;
+use technique::{Made, Technique};
 
 /// All panes and the map.
 #[derive(Default)]
@@ -25,8 +25,8 @@ pub struct Presentation {
 
 /// Where pixels are kept to be drawn: one texture for each place.
 pub trait TextureStore {
-    /// Replaces what a place shows by `size` pixels of RGBA, rows from the top.
-    fn upload(&mut self, place: Place, size: (u32, u32), rgba: &[u8]) -> TextureId;
+    /// Replaces what a place shows by `size` pixels of RGBA, rows from the top; between them `filter` reads.
+    fn upload(&mut self, place: Place, size: (u32, u32), rgba: &[u8], filter: TextureFilter) -> TextureId;
 }
 
 /// Something that shows pixels.
@@ -72,7 +72,7 @@ impl Presentation {
         let DisplayFrame { picture, rgba, errors } = frame;
         let shown = self.shown.panes.entry(pane);
         if let Some(rgba) = &rgba {
-            let texture = textures.upload(Place::Pane(pane), picture.image.size(), rgba);
+            let texture = textures.upload(Place::Pane(pane), picture.image.size(), rgba, filter_of(&picture));
             self.textures.panes.insert(pane, texture);
             shown.fault = None;
         }
@@ -99,9 +99,9 @@ impl Presentation {
 
     /// Puts up a map of errors, or takes it down.
     pub fn update_map(&mut self, drawn: Option<ErrorMap>, textures: &mut impl TextureStore) {
-        self.textures.map = drawn
-            .as_ref()
-            .map(|drawn| textures.upload(Place::ErrorMap, (drawn.map.width, drawn.map.height()), &drawn.rgba));
+        self.textures.map = drawn.as_ref().map(|drawn| {
+            textures.upload(Place::ErrorMap, (drawn.map.width, drawn.map.height()), &drawn.rgba, TextureFilter::Nearest)
+        });
         self.shown.map = drawn.map(Arc::new);
     }
 
@@ -154,6 +154,13 @@ impl Presentation {
         }
         records
     }
+}
+
+/// A picture that stands for a finer one until that has come is smooth, as that will be; and so is a map, which is seen
+/// at any size. All others are shown as they are, pixel by pixel.
+fn filter_of(picture: &Picture) -> TextureFilter {
+    let is_map = matches!(picture.order.provenance.technique, Technique::Fake(fake) if !fake.shows_the_scene());
+    if picture.rough || is_map { TextureFilter::Linear } else { TextureFilter::Nearest }
 }
 
 fn file_of(pane: PaneId) -> String {

@@ -1,12 +1,20 @@
-//! Textures on the window's device: sRGB-encoded bytes, shown one texel a pixel.
+//! Textures on the window's device: sRGB-encoded bytes.
 
 use crate::viewer::{Place, TextureStore};
+use egui::TextureFilter;
 use gpu::Gpu;
 use std::collections::HashMap;
 
 /// One texture a place, as large as its last picture.
 #[derive(Default)]
-pub struct WindowTextures(HashMap<Place, (wgpu::Texture, egui::TextureId)>);
+pub struct WindowTextures(HashMap<Place, Kept>);
+
+/// A texture, and as what egui knows it.
+struct Kept {
+    texture: wgpu::Texture,
+    id: egui::TextureId,
+    filter: TextureFilter,
+}
 
 /// The textures beside what fills them.
 pub struct Uploads<'a> {
@@ -17,34 +25,50 @@ pub struct Uploads<'a> {
 }
 
 impl TextureStore for Uploads<'_> {
-    fn upload(&mut self, place: Place, (width, height): (u32, u32), rgba: &[u8]) -> egui::TextureId {
+    fn upload(
+        &mut self,
+        place: Place,
+        (width, height): (u32, u32),
+        rgba: &[u8],
+        filter: TextureFilter,
+    ) -> egui::TextureId {
         let size = wgpu::Extent3d { width, height, depth_or_array_layers: 1 };
-        let (texture, id) = match self.textures.0.remove(&place) {
-            Some((texture, id)) if texture.size() == size => (texture, id),
+        let kept = match self.textures.0.remove(&place) {
+            Some(kept) if kept.texture.size() == size && kept.filter == filter => kept,
             old => {
                 let texture = texture_of(self.gpu, size);
-                let id = self.show(&texture, old.map(|(_, id)| id));
-                (texture, id)
+                let id = self.show(&texture, filter, old.map(|old| old.id));
+                Kept { texture, id, filter }
             }
         };
         let layout = wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(4 * width), rows_per_image: None };
-        self.gpu.queue.write_texture(texture.as_image_copy(), rgba, layout, size);
-        self.textures.0.insert(place, (texture, id));
+        self.gpu.queue.write_texture(kept.texture.as_image_copy(), rgba, layout, size);
+        let id = kept.id;
+        self.textures.0.insert(place, kept);
         id
     }
 }
 
 impl Uploads<'_> {
     /// Lets egui know a texture, in the place of an old one if there is one.
-    fn show(&mut self, texture: &wgpu::Texture, old: Option<egui::TextureId>) -> egui::TextureId {
-        let (device, nearest) = (&self.gpu.device, wgpu::FilterMode::Nearest);
+    fn show(
+        &mut self,
+        texture: &wgpu::Texture,
+        filter: TextureFilter,
+        old: Option<egui::TextureId>,
+    ) -> egui::TextureId {
+        let device = &self.gpu.device;
+        let filter = match filter {
+            TextureFilter::Nearest => wgpu::FilterMode::Nearest,
+            TextureFilter::Linear => wgpu::FilterMode::Linear,
+        };
         let view = texture.create_view(&wgpu::TextureViewDescriptor::default());
         match old {
             Some(id) => {
-                self.renderer.update_egui_texture_from_wgpu_texture(device, &view, nearest, id);
+                self.renderer.update_egui_texture_from_wgpu_texture(device, &view, filter, id);
                 id
             }
-            None => self.renderer.register_native_texture(device, &view, nearest),
+            None => self.renderer.register_native_texture(device, &view, filter),
         }
     }
 }

@@ -1,8 +1,10 @@
 //! Nothing overlaps, and pictures have the pixels that were asked for.
 
 use super::{User, both_whole};
-use egui::{Key, Modifiers};
+use egui::{Key, Modifiers, TextureFilter};
 use technique::DeviceChoice;
+use visavis::model::PaneId;
+use visavis::viewer::Place;
 use visavis_tests::Frame;
 
 /// The most controls that can be there at once, on the smallest screen: what does not fit is reached by scrolling, and
@@ -37,6 +39,22 @@ fn all_controls_at_once_still_do_not_overlap() {
         let (whole, seen) = (f.rect("field of view"), f.visible("field of view"));
         whole == seen
     });
+}
+
+/// Squares that stand for many pixels would look like a defect of the technique.
+#[test]
+fn a_picture_is_smooth_while_it_is_rough_and_then_shown_pixel_by_pixel() {
+    let mut user = User::of("cornell");
+    let frame = user.wait_for("both pictures", both_whole);
+    let size = [0, 1].map(|i| frame.state("picture_size")[i].as_u64().expect("a size") as u32);
+    let uploads = user.uploads.borrow();
+    let of_b: Vec<_> = uploads.iter().filter(|(place, ..)| *place == Place::Pane(PaneId::B)).collect();
+    assert!(of_b.len() > 1, "a rough one first");
+    for (_, (width, height), filter) in of_b {
+        let rough = [*width, *height] != size;
+        let expected = if rough { TextureFilter::Linear } else { TextureFilter::Nearest };
+        assert_eq!(*filter, expected, "{width} x {height} of {size:?}");
+    }
 }
 
 /// Widgets that are not the picture and not on it.

@@ -11,7 +11,7 @@ mod scenes;
 mod settings;
 
 use egui::accesskit::Role;
-use egui::{ColorImage, Key, Modifiers, Pos2, TextureHandle, TextureOptions, Vec2};
+use egui::{ColorImage, Key, Modifiers, Pos2, TextureFilter, TextureHandle, TextureOptions, Vec2};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 use gpu::Gpu;
@@ -34,6 +34,7 @@ pub struct User {
     harness: Harness<'static>,
     viewer: Rc<RefCell<Viewer>>,
     folder: TestFolder,
+    uploads: Rc<RefCell<Vec<Upload>>>,
     /// One at a time: each has the machine to itself, as a user has.
     _alone: MutexGuard<'static, ()>,
 }
@@ -42,13 +43,25 @@ pub struct User {
 struct EguiTextures<'a> {
     context: egui::Context,
     kept: &'a mut HashMap<Place, TextureHandle>,
+    uploads: &'a RefCell<Vec<Upload>>,
 }
 
+/// A picture that was put up: its place, its size, and what is between its pixels.
+type Upload = (Place, (u32, u32), TextureFilter);
+
 impl TextureStore for EguiTextures<'_> {
-    fn upload(&mut self, place: Place, (width, height): (u32, u32), rgba: &[u8]) -> egui::TextureId {
+    fn upload(
+        &mut self,
+        place: Place,
+        (width, height): (u32, u32),
+        rgba: &[u8],
+        filter: TextureFilter,
+    ) -> egui::TextureId {
+        let options = TextureOptions { magnification: filter, minification: filter, ..TextureOptions::NEAREST };
         let image = ColorImage::from_rgba_unmultiplied([width as usize, height as usize], rgba);
-        let handle = self.context.load_texture(format!("{place:?}"), image, TextureOptions::NEAREST);
+        let handle = self.context.load_texture(format!("{place:?}"), image, options);
         let id = handle.id();
+        self.uploads.borrow_mut().push((place, (width, height), filter));
         self.kept.insert(place, handle);
         id
     }
@@ -83,10 +96,11 @@ impl User {
         let engine = Engine::start(&gpu, &adapters, open_store, Arc::new(|| {})).expect("threads");
         let viewer = Viewer::new(model, Workspaces::default(), engine, Instant::now());
         let viewer = Rc::new(RefCell::new(viewer));
-        let (shared, mut kept) = (viewer.clone(), HashMap::new());
+        let uploads = Rc::new(RefCell::new(Vec::new()));
+        let (shared, mut kept, put_up) = (viewer.clone(), HashMap::new(), uploads.clone());
         let app = move |ui: &mut egui::Ui| {
             let mut viewer = shared.borrow_mut();
-            viewer.collect(&mut EguiTextures { context: ui.ctx().clone(), kept: &mut kept });
+            viewer.collect(&mut EguiTextures { context: ui.ctx().clone(), kept: &mut kept, uploads: &put_up });
             viewer.draw(ui);
             for command in viewer.take_commands() {
                 let for_a_window = viewer.handle(command);
@@ -96,7 +110,7 @@ impl User {
             viewer.shown();
         };
         let harness = Harness::builder().with_size(size).with_pixels_per_point(scale).build_ui(app);
-        User { harness, viewer, folder, _alone: alone }
+        User { harness, viewer, folder, uploads, _alone: alone }
     }
 
     /// A file that no test has but this one.
