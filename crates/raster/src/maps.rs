@@ -34,6 +34,26 @@ const CROSS: [[Option<usize>; 4]; 3] =
 /// Columns and rows of a cross.
 const CROSS_SHAPE: (f32, f32) = (4.0, 3.0);
 
+/// The names of a cube map's faces, by axis as [`CROSS`] counts them.
+const FACES: [&str; 6] = ["+x", "-x", "+y", "-y", "+z", "-z"];
+
+/// Where the faces of an unfolded cube map lie in a picture of this width and height: name, and left, top and side.
+pub fn faces_of_cross([width, height]: [f32; 2]) -> impl Iterator<Item = (&'static str, [f32; 3])> {
+    let (columns, rows) = CROSS_SHAPE;
+    let side = side_of_a_face([width, height], CROSS_SHAPE);
+    let corner = move |extent: f32, count: f32, at: usize| 0.5 * extent + side * (at as f32 - 0.5 * count);
+    let cells = CROSS.iter().enumerate().flat_map(|(y, row)| row.iter().enumerate().map(move |(x, axis)| (x, y, axis)));
+    cells.filter_map(move |(x, y, axis)| {
+        let name = FACES[(*axis)?];
+        Some((name, [corner(width, columns, x), corner(height, rows, y), side]))
+    })
+}
+
+/// The largest face of which so many columns and rows fit into a picture.
+fn side_of_a_face([width, height]: [f32; 2], (columns, rows): (f32, f32)) -> f32 {
+    (width / columns).min(height / rows)
+}
+
 /// Refuses to show what this frame does not have.
 pub(crate) fn check(show: Show, plan: &Plan) -> Result<(), RasterError> {
     match show {
@@ -147,7 +167,7 @@ fn unfolded(
     at: impl Fn(f32, f32) -> Option<Vec3>,
 ) -> Result<Film, RasterError> {
     let (width, height) = (settings.width, settings.height);
-    let side = (width as f32 / columns).min(height as f32 / rows);
+    let side = side_of_a_face([width as f32, height as f32], (columns, rows));
     let in_faces =
         |pixel: u32, pixels: u32, count: f32| (pixel as f32 + 0.5 - 0.5 * pixels as f32) / side + 0.5 * count;
     let mut film = Film::try_new(width, height).ok_or(RasterError::Memory { width, height })?;
@@ -220,6 +240,22 @@ mod tests {
         {
             assert_eq!(half(bits), value);
         }
+    }
+
+    /// Of a picture wider than the cross, whose faces are a third of its height.
+    #[test]
+    fn faces_lie_as_the_cross_is_drawn() {
+        let faces: Vec<_> = faces_of_cross([500.0, 300.0]).collect();
+        let at = |x: f32, y: f32| [50.0 + 100.0 * x, 100.0 * y, 100.0];
+        let names = [
+            ("+y", 1.0, 0.0),
+            ("-x", 0.0, 1.0),
+            ("-z", 1.0, 1.0),
+            ("+x", 2.0, 1.0),
+            ("+z", 3.0, 1.0),
+            ("-y", 1.0, 2.0),
+        ];
+        assert_eq!(faces, names.map(|(name, x, y)| (name, at(x, y))));
     }
 
     #[test]

@@ -38,9 +38,14 @@ impl PaneWorkers {
         (self.gpu, self.fake) = (gpu, None);
     }
 
-    /// Asks for a picture; whatever this pane was making stops.
+    /// Asks for a picture; whatever this pane was making stops. Settings that cannot be rendered are told in the picture's
+    /// place.
     pub fn submit(&mut self, technique: Technique, order: Order) {
         let begun = match technique {
+            Technique::Traced(settings) if settings.integrator.check().is_err() => {
+                self.rest();
+                settings.integrator.check().map_err(anyhow::Error::from)
+            }
             Technique::Fake(settings) => {
                 self.rays.iter_mut().for_each(RayWorker::cancel);
                 self.fake().map(|worker| worker.submit(Job { settings, order: order.clone() }))

@@ -1,5 +1,6 @@
 //! What is looked at: a scene, what is changed in it, and from where.
 
+use super::PictureArea;
 use scene::{Camera, Scene};
 use std::sync::Arc;
 use technique::SceneChanges;
@@ -52,9 +53,9 @@ impl Document {
         }
     }
 
-    /// What a picture of `size` pixels shows, after [`Document::apply_changes`].
-    pub fn shot(&self, size: (u32, u32)) -> Shot {
+    /// What a picture in this area shows, after [`Document::apply_changes`].
+    pub fn shot(&self, area: &PictureArea) -> Shot {
         let (changes, scene) = self.changed.clone();
-        Shot { source: self.source.clone(), changes, scene, camera: self.camera, size }
+        Shot { source: self.source.clone(), changes, scene, camera: area.camera(&self.camera), size: area.size }
     }
 }

@@ -9,9 +9,11 @@ mod document;
 mod error_map;
 mod errors;
 mod export;
+mod first_line;
 mod history;
 mod message;
 mod pane;
+mod picture_area;
 mod reference;
 mod saved;
 mod session;
@@ -30,10 +32,11 @@ pub use export::{Destination, ExportMenu, ExportRequest, ExportSubject};
 pub use history::{History, Settings};
 pub use message::Message;
 pub use pane::{PaneId, Panes};
+pub use picture_area::PictureArea;
 pub use reference::{Origin, Progress};
 pub use session::{Resolution, Session};
 pub use theme::Theme;
-pub use ui_state::{PictureArea, SwitchedOff, UiState};
+pub use ui_state::{SwitchedOff, UiState};
 pub use view::{Line, View};
 pub use view_args::ViewArgs;
 pub use view_model::{PaneView, ViewModel};
@@ -79,6 +82,32 @@ impl Model {
         self.document.open(scene, source);
         self.session.forget_the_scene(&self.document.scene);
         self.history = History::new(self.settings());
+    }
+
+    /// Puts the wipe's line where it stands at first, for each scene once.
+    pub fn place_line(&mut self) {
+        let Document { scene, camera, opened, .. } = &self.document;
+        if self.state.line_placed != Some(*opened) {
+            let aspect = self.state.picture.aspect();
+            (self.session.line, self.session.wipe) = first_line::first_line(scene, camera, aspect);
+            self.state.line_placed = Some(*opened);
+        }
+    }
+
+    /// Puts the wipe's line, as it is turned, where it cuts most evenly what is specular.
+    pub fn place_line_again(&mut self) {
+        let Document { scene, camera, .. } = &self.document;
+        let aspect = self.state.picture.aspect();
+        self.session.wipe = first_line::first_place(scene, camera, aspect, self.session.line);
+    }
+
+    /// Shows a view, as [`Session::choose`]; a line that turns takes its place.
+    pub fn choose(&mut self, view: View) {
+        let line = self.session.line;
+        self.session.choose(view);
+        if self.session.line != line {
+            self.place_line_again();
+        }
     }
 
     /// Says a line to the user.
@@ -128,7 +157,7 @@ impl Model {
     /// with.
     pub fn wanted(&self, panes: impl IntoIterator<Item = PaneId>) -> Wanted {
         let Model { document, session, state, .. } = self;
-        let shot = document.shot(state.picture.size);
+        let shot = document.shot(&state.picture);
         let pane = |id| {
             let (technique, shrink) = (session.panes.get(id)?.in_use(), session.resolution.shrink());
             Some((id, WantedPane { shot: shot.clone(), technique, shrink }))

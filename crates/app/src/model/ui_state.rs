@@ -1,6 +1,6 @@
 //! What controls come back to, and what is in hand: nothing that anyone would miss the next day.
 
-use super::{ExportMenu, Message, Panes, Theme};
+use super::{ExportMenu, Message, Panes, PictureArea, Theme};
 
 /// The state of the controls.
 #[derive(Debug, Clone)]
@@ -25,6 +25,8 @@ pub struct UiState {
     pub posing: bool,
     /// Where pictures are shown, as last drawn.
     pub picture: PictureArea,
+    /// The scene, by [`Document::opened`](super::Document::opened), for which the wipe's line was put in its place.
+    pub line_placed: Option<u64>,
     /// Whether the drag in hand moves the wipe's line.
     pub dragging_line: bool,
     /// A scene to open, as typed.
@@ -35,15 +37,6 @@ pub struct UiState {
     pub export: ExportMenu,
     /// What switched-off settings come back to.
     pub switched_off: Panes<SwitchedOff>,
-}
-
-/// Where pictures are shown.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct PictureArea {
-    /// Width and height of one picture in physical pixels.
-    pub size: (u32, u32),
-    /// Left, top, right and bottom of the whole area in points.
-    pub corners: [f32; 4],
 }
 
 /// What a pane's settings come back to when they are switched on again.
@@ -75,6 +68,7 @@ impl UiState {
             restarts: 0,
             posing: false,
             picture: PictureArea::default(),
+            line_placed: None,
             dragging_line: false,
             scene_file: String::new(),
             reference_file: String::new(),

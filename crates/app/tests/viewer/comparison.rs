@@ -47,8 +47,9 @@ fn a_reference_is_made_while_the_panes_rest_kept_and_there_at_once_the_second_ti
     let store = Store::new(folder.file("store"), Store::MOST_BYTES);
     let mut user = User::who_keeps(SCENE, store.folder());
     let small = choose_the_reference(&mut user);
-    let scene = scene::builtin::named(SCENE).expect("a scene");
-    let key = ReferenceKey::of(&technique::Shot::of(scene, size(&small)));
+    let shot = user.viewer.borrow().model.document.shot(&user.viewer.borrow().model.state.picture);
+    assert_eq!(shot.size, size(&small));
+    let key = ReferenceKey::of(&shot);
     store.put(key, &almost_done(size(&small)), Vec::new()).expect("a store");
 
     // another view and back: what is looked up now is there, and is gone on with once the panes are done

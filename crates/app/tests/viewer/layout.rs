@@ -57,6 +57,26 @@ fn a_picture_is_smooth_while_it_is_rough_and_then_shown_pixel_by_pixel() {
     }
 }
 
+/// Nothing of a map lies where it does in the other pane: the wipe does not cut it.
+#[test]
+fn a_cube_map_is_whole_on_its_side_of_the_wipe_and_its_faces_are_named() {
+    let mut user = User::of("whitted");
+    user.wait_for("both pictures", both_whole);
+    user.viewer.borrow_mut().model.session.panes[PaneId::A].fake.show = raster::Show::CubeFaces;
+    let named = |f: &Frame| f.shows("label A face +x");
+    let frame = user.wait_for("the names", |f| named(f) && both_whole(f));
+    let [_, top, _, bottom] = frame.rect("picture");
+    let line = top + frame.state("wipe").as_f64().expect("a number") as f32 * (bottom - top);
+    assert_eq!(frame.state("line"), "horizontal");
+    let faces = ["+x", "-x", "+y", "-y", "+z", "-z"].map(|face| frame.rect(&format!("label A face {face}")));
+    assert!(faces.iter().all(|face| face[1] >= top && face[3] <= line), "{faces:?}");
+    let [_, _, above, below, ..] = faces;
+    // a face is a third of the part above the line
+    assert!((below[1] - above[1] - 2.0 / 3.0 * (line - top)).abs() < 2.0, "{above:?} {below:?}");
+    user.viewer.borrow_mut().model.session.panes[PaneId::A].fake.show = raster::Show::ShadowMap;
+    user.wait_for("the sun's shadow map, which has no faces", |f| !f.shows("label A face +x"));
+}
+
 /// Widgets that are not the picture and not on it.
 fn controls(frame: &Frame) -> Vec<&str> {
     let on_the_picture = ["picture", "label ", "bar map", "hint", "message"];

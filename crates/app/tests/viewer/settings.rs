@@ -2,6 +2,7 @@
 
 use super::{User, both_whole};
 use egui::{Key, Modifiers};
+use visavis::model::PaneId;
 use visavis_tests::Frame;
 
 fn spp(frame: &Frame) -> Option<u64> {
@@ -39,6 +40,25 @@ fn a_change_of_a_setting_can_be_taken_back_and_done_again() {
     assert_eq!([undone.value("refraction ratio"), undone.value("undo")], ["0.7", "false"], "the ratio of before");
     let again = user.key_with(Key::Z, Modifiers::COMMAND | Modifiers::SHIFT);
     assert_eq!(again.value("refraction ratio"), moved);
+}
+
+/// Nothing of the picture before is left, whose label would tell of other settings.
+#[test]
+fn settings_that_cannot_be_rendered_are_told_on_the_picture_until_they_can() {
+    let mut user = User::of("cornell");
+    user.wait_for("both pictures", both_whole);
+    let set = |user: &User, branches, bounces| {
+        let path = &mut user.viewer.borrow_mut().model.session.panes[PaneId::B].truth.path;
+        (path.branches, path.bounces) = (branches, bounces);
+    };
+    set(&user, 2, None);
+    let told = user.wait_for("the refusal", |f| f.shows("label fault B"));
+    let said = told.value("label fault B").to_owned();
+    assert!(said.contains("bounces"), "{said}");
+    assert!(told.state("b")["ready"] == false && !told.shows("label B"), "{:?}", told.state("b"));
+    assert!(both_whole(&told) || told.state("a")["ready"] == true, "A stays");
+    set(&user, 2, Some(2));
+    user.wait_for("the picture", |f| both_whole(f) && !f.shows("label fault B"));
 }
 
 #[test]

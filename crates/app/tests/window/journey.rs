@@ -37,8 +37,9 @@ fn a_lecturer_toggles_slides_wipes_orbits_saves_and_closes() {
         from = to;
     }
 
-    let middle = first.point("picture", 0.5, 0.5);
-    screen.drag(middle, first.point("picture", 0.25, 0.6));
+    assert_eq!(first.state("line"), "horizontal", "through both balls");
+    let line = first.state("wipe").as_f64().expect("a number") as f32;
+    screen.drag(first.point("picture", 0.5, line), first.point("picture", 0.6, 0.25));
     let wiped = viewer.wait_for("the line to move", |f| f.state("wipe").as_f64().is_some_and(|w| w < 0.4));
     assert_eq!(wiped.state("eye"), first.state("eye"), "dragging the line must not move the camera");
 
@@ -56,9 +57,9 @@ fn a_lecturer_toggles_slides_wipes_orbits_saves_and_closes() {
     let picture = image::open(&path).expect("a PNG").to_rgb8();
     let [left, top, right, bottom] = saved.rect("picture").map(|v| v as u32);
     assert_eq!(picture.dimensions(), (right - left, bottom - top));
-    let line_at = left + (saved.state("wipe").as_f64().unwrap() * f64::from(right - left)) as u32;
-    let white = (top..bottom).filter(|y| picture.get_pixel(line_at - left, y - top).0 == [255; 3]).count();
-    assert!(white as u32 > (bottom - top) / 2, "the line is part of the saved picture");
+    let line_at = (saved.state("wipe").as_f64().unwrap() * f64::from(bottom - top)) as u32;
+    let white = (left..right).filter(|x| picture.get_pixel(x - left, line_at).0 == [255; 3]).count();
+    assert!(white as u32 > (right - left) / 2, "the line is part of the saved picture");
 
     screen.close(window);
     assert!(viewer.wait_for_end().success());

@@ -25,7 +25,8 @@ pub fn number(name: &str, label: &str, value: DragValue, text: String, ui: &mut 
 
 /// A menu that stays open while one uses what is in it.
 pub fn menu(title: impl Into<String>) -> MenuButton<'static> {
-    let stay = MenuConfig::new().close_behavior(PopupCloseBehavior::CloseOnClickOutside).style(menu_style as fn(&mut Style));
+    let stay =
+        MenuConfig::new().close_behavior(PopupCloseBehavior::CloseOnClickOutside).style(menu_style as fn(&mut Style));
     MenuButton::new(title.into()).config(stay)
 }
 

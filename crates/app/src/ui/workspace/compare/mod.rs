@@ -3,6 +3,7 @@
 mod comparison;
 mod label;
 mod map;
+mod map_faces;
 mod mouse;
 mod picture;
 
@@ -35,7 +36,7 @@ impl Workspace for Compare {
     fn bar(&mut self, cx: &mut UiContext, ui: &mut Ui) {
         let words = View::ALL.map(|view| (view.name().to_owned(), explain(view), cx.model.session.view == view));
         if let Some(index) = choice("view", words, ui, cx.dump) {
-            cx.model.session.choose(View::ALL[index]);
+            cx.model.choose(View::ALL[index]);
         }
     }
 
@@ -46,7 +47,7 @@ impl Workspace for Compare {
         }
         for (key, view) in VIEW_KEYS.into_iter().zip(View::ALL) {
             for _ in 0..keys.presses(key) {
-                cx.model.session.choose(view);
+                cx.model.choose(view);
             }
         }
     }
@@ -70,7 +71,7 @@ impl Workspace for Compare {
 
     fn help(&self) -> Vec<HelpLine> {
         vec![
-            ("drag the line", "wipe; double click: back to the middle"),
+            ("drag the line", "wipe; double click: back to its first place"),
             ("drag the picture", "orbit about the target"),
             ("Shift or right drag", "pan"),
             ("wheel", "dolly: move nearer or farther"),

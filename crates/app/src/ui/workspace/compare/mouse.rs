@@ -53,7 +53,7 @@ fn move_line(cx: &mut UiContext, ui: &Ui, response: &egui::Response, rect: Rect)
         ui.ctx().set_cursor_icon(if vertical { CursorIcon::ResizeHorizontal } else { CursorIcon::ResizeVertical });
     }
     if response.double_clicked() && response.interact_pointer_pos().is_some_and(near) {
-        cx.model.session.wipe = 0.5;
+        cx.model.place_line_again();
     }
     if response.dragged()
         && cx.model.state.dragging_line
@@ -87,7 +87,9 @@ fn turn_camera(cx: &mut UiContext, ui: &Ui, response: &egui::Response, rect: Rec
     let other_button = response.dragged_by(PointerButton::Secondary) || response.dragged_by(PointerButton::Middle);
     let pan = other_button || ui.input(|i| i.modifiers.shift);
     let moved = if pan {
-        cx.model.document.camera.panned(glam::Vec2::new(drag.x, drag.y))
+        // by the field of view that is seen
+        let seen = cx.model.state.picture.camera(&cx.model.document.camera);
+        Camera { fov_y: cx.model.document.camera.fov_y, ..seen.panned(glam::Vec2::new(drag.x, drag.y)) }
     } else {
         cx.model.document.camera.orbited(-drag.x * PI, drag.y * PI)
     };

@@ -1,11 +1,15 @@
 //! The picture area: one pane, both under the wipe or both side by side, or the map of their errors, and what is known
 //! about each on top.
 
-use super::{label, map, mouse};
+use super::{label, map, map_faces, mouse};
 use crate::model::{Line, PaneId, PictureArea, View};
 use crate::ui::UiContext;
+use crate::ui::overlay::spoken;
 use crate::ui::overlay::{say, text_box};
 use egui::{Align2, Color32, Rect, Sense, Stroke, Ui, pos2, vec2};
+
+/// Between two pictures side by side, in points.
+const GAP: f32 = 8.0;
 
 /// All of a texture.
 pub const WHOLE: Rect = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
@@ -23,19 +27,17 @@ pub fn show(cx: &mut UiContext, ui: &mut Ui) {
     let scale = ui.ctx().pixels_per_point();
     let rect = whole_pixels(ui.max_rect(), scale);
     let frame = if cx.model.session.view == View::SideBySide { left_half(rect, scale) } else { rect };
-    let pixels = frame.size() * scale;
-    let shrink = cx.model.session.resolution.shrink();
-    let side = |pixels: f32| (pixels.round().max(1.0) as u32).div_ceil(shrink);
-    cx.model.state.picture = PictureArea {
-        size: (side(pixels.x), side(pixels.y)),
-        corners: [rect.left(), rect.top(), rect.right(), rect.bottom()],
-    };
+    let [whole, part] = [rect, frame].map(|rect| (rect.size() * scale).round().into());
+    let corners = [rect.left(), rect.top(), rect.right(), rect.bottom()];
+    cx.model.state.picture = PictureArea::new(whole, part, cx.model.session.resolution.shrink(), corners);
+    cx.model.place_line();
 
     let response = ui.allocate_rect(rect, Sense::click_and_drag());
     mouse::listen(cx, ui, &response, rect);
     let shown = arranged(cx, rect, frame);
     for Shown { pane, place, clip } in &shown {
         picture(cx, ui, *place, *clip, *pane);
+        map_faces::show(cx, ui, *place, *clip, *pane);
     }
     if cx.model.session.view == View::Wipe {
         line(ui, rect, cx.model.session.line, cx.model.session.wipe);
@@ -59,7 +61,7 @@ pub fn show(cx: &mut UiContext, ui: &mut Ui) {
 }
 
 fn arranged(cx: &UiContext, rect: Rect, frame: Rect) -> Vec<Shown> {
-    let shown = |pane, place, clip| Shown { pane, place, clip };
+    let shown = |pane, place, clip| Shown { pane, place: seen_whole(cx, pane, place, clip), clip };
     match cx.model.session.view {
         View::Pane(pane) => vec![shown(pane, rect, rect)],
         View::Wipe => {
@@ -77,29 +79,41 @@ fn arranged(cx: &UiContext, rect: Rect, frame: Rect) -> Vec<Shown> {
     }
 }
 
+/// Where a pane's picture lies. A map of the fake's is no picture of the scene, and nothing of it lies where it does in
+/// the other pane: it is shown whole in what is seen of its pane, rather than cut by the wipe.
+fn seen_whole(cx: &UiContext, pane: PaneId, place: Rect, clip: Rect) -> Rect {
+    if map_faces::map_of(cx, pane).is_none() || place == clip {
+        return place;
+    }
+    let shrink = (clip.width() / place.width()).min(clip.height() / place.height());
+    Rect::from_center_size(clip.center(), place.size() * shrink)
+}
+
 /// The largest rectangle on whole physical pixels inside: a pane is shown 1:1.
 fn whole_pixels(rect: Rect, pixels_per_point: f32) -> Rect {
     let (min, max) = (rect.min.to_vec2() * pixels_per_point, rect.max.to_vec2() * pixels_per_point);
     Rect::from_min_max((min.ceil() / pixels_per_point).to_pos2(), (max.floor() / pixels_per_point).to_pos2())
 }
 
-/// The left half, of whole physical pixels and one short of the middle, so that a line stays between the halves.
+/// The left half, of whole physical pixels and without the gap between the halves.
 fn left_half(rect: Rect, pixels_per_point: f32) -> Rect {
-    let half = ((rect.width() * pixels_per_point - 1.0) / 2.0).floor().max(1.0) / pixels_per_point;
+    let half = ((rect.width() - GAP) * pixels_per_point / 2.0).floor().max(1.0) / pixels_per_point;
     Rect::from_min_size(rect.min, vec2(half, rect.height()))
 }
 
-fn picture(cx: &UiContext, ui: &Ui, rect: Rect, clip: Rect, pane: PaneId) {
-    let in_the_middle = |text: &str, colour| {
-        text_box(ui, clip, clip.center(), Align2::CENTER_CENTER, text, colour);
-    };
+fn picture(cx: &mut UiContext, ui: &Ui, rect: Rect, clip: Rect, pane: PaneId) {
+    let in_the_middle = |text: &str, colour| text_box(ui, clip, clip.center(), Align2::CENTER_CENTER, text, colour);
     let fault = cx.shown.panes.get(pane).and_then(|shown| shown.fault.as_ref());
     match (fault, cx.textures.panes.get(pane)) {
-        (Some(fault), _) => in_the_middle(fault, Color32::from_rgb(255, 150, 150)),
+        (Some(fault), _) => {
+            let place = in_the_middle(fault, Color32::from_rgb(255, 150, 150));
+            cx.dump.note_text(&format!("label fault {pane}"), fault, place, clip);
+            spoken(ui, &format!("label fault {pane}"), fault, place, true);
+        }
         (None, Some(texture)) => {
             ui.painter().with_clip_rect(clip).image(*texture, rect, WHOLE, Color32::WHITE);
         }
-        (None, None) => in_the_middle("rendering ...", Color32::WHITE),
+        (None, None) => drop(in_the_middle("rendering ...", Color32::WHITE)),
     }
 }
 
