@@ -1,6 +1,6 @@
 //! Error metrics between two pictures.
 
-use film::{Film, Image};
+use film::{Film, Image, Pixel};
 
 /// Why pictures cannot be compared.
 #[derive(Debug, thiserror::Error, PartialEq, Eq)]
@@ -25,7 +25,10 @@ pub struct Errors {
     pub rel_mse: f64,
     /// Mean absolute difference, in radiance.
     pub mae: f64,
-    /// Mean of `a - r`, in radiance: positive where the film is too bright. Noise averages out of it.
+    /// [`Errors::mae`] as a share of the reference's mean, what a picture is off on average; 0 if that is black.
+    pub relative_mae: f64,
+    /// Mean of `a - r`, in radiance: positive where the film is too bright. Noise averages out of it. Of one noisy
+    /// picture it is a mean difference; a bias only in the mean of many.
     pub bias: f64,
     /// [`Errors::bias`] as a share of the reference's mean; 0 if that is black.
     pub relative_bias: f64,
@@ -58,6 +61,7 @@ impl Errors {
             rmse: mean(|e| e.rmse * e.rmse).sqrt(),
             rel_mse: mean(|e| e.rel_mse),
             mae: mean(|e| e.mae),
+            relative_mae: mean(|e| e.relative_mae),
             bias: mean(|e| e.bias),
             relative_bias: mean(|e| e.relative_bias),
             nonfinite: all.iter().map(|e| e.nonfinite).sum(),
@@ -90,13 +94,15 @@ pub fn errors(image: &Image, reference: &Image) -> Result<Errors, CompareError> 
             values += 1;
         }
     }
+    let share_of_the_reference = |sum: f64| if reference_sum > 0.0 { sum / reference_sum } else { 0.0 };
     let values = values.max(1) as f64;
     Ok(Errors {
         rmse: (sum.rmse / values).sqrt(),
         rel_mse: sum.rel_mse / values,
         mae: sum.mae / values,
+        relative_mae: share_of_the_reference(sum.mae),
         bias: sum.bias / values,
-        relative_bias: if reference_sum > 0.0 { sum.bias / reference_sum } else { 0.0 },
+        relative_bias: share_of_the_reference(sum.bias),
         nonfinite: sum.nonfinite,
         reference_noise: None,
     })
@@ -107,6 +113,26 @@ pub fn errors(image: &Image, reference: &Image) -> Result<Errors, CompareError> 
 pub fn mean_squared_standard_error(film: &Film) -> f64 {
     let sum: f64 = film.pixels().iter().flat_map(|pixel| pixel.variance_of_mean()).sum();
     sum / (3 * film.pixels().len()).max(1) as f64
+}
+
+/// Pixels between two that [`is_visibly_noisy`] looks at: a prime, so that they lie in no column.
+const NOISE_STRIDE: usize = 7;
+/// A standard error that is seen as grain: this share of what the pixel shows, which is never darker than this radiance
+/// to an eye beside bright ones.
+const VISIBLE_NOISE: (f64, f64) = (0.1, 0.1);
+/// Pixels with such grain, as a share of all, from which on it is worth a word.
+const NOISY_PIXELS: f64 = 0.004;
+
+/// Whether a film looks noisy somewhere: in more than 4 of 1000 pixels one channel's standard error, from the samples'
+/// spread, is more than a tenth of its value. An upper bound where samples are not independent of each other.
+pub fn is_visibly_noisy(film: &Film) -> bool {
+    let (share, least) = VISIBLE_NOISE;
+    let is_noisy = |pixel: &&Pixel| {
+        let errors = pixel.variance_of_mean().map(f64::sqrt);
+        errors.into_iter().zip(pixel.mean()).any(|(error, mean)| error > share * mean.max(least))
+    };
+    let noisy = film.pixels().iter().step_by(NOISE_STRIDE).filter(is_noisy).count();
+    (noisy * NOISE_STRIDE) as f64 > NOISY_PIXELS * film.pixels().len() as f64
 }
 
 pub(crate) fn same_size(picture: (u32, u32), reference: (u32, u32)) -> Result<(), CompareError> {
@@ -141,6 +167,8 @@ mod tests {
         assert!((e.rmse - (1.25f64 / 2.0).sqrt()).abs() < 1e-12);
         assert!((e.rel_mse - 1.25 / 2.0 / 1.01).abs() < 1e-12);
         assert!((e.mae - 0.75).abs() < 1e-12);
+        let dim = errors(&greys([0.75, 0.0]), &greys([0.5, 0.5])).unwrap();
+        assert!((dim.mae - 0.375).abs() < 1e-12 && (dim.relative_mae - 0.75).abs() < 1e-12, "a share has no unit");
         assert!((e.bias + 0.25).abs() < 1e-12 && (e.relative_bias + 0.25).abs() < 1e-12);
     }
 
@@ -174,6 +202,22 @@ mod tests {
             (0..100).for_each(|i| pixel.add(Vec3::splat((i % 2) as f32)));
         }
         assert!((mean_squared_standard_error(&film) - 0.25 / 99.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn noise_is_seen_where_enough_pixels_have_more_than_a_tenth_of_their_value() {
+        // a share of pixels are coins of 0 or 1, whose standard error after n samples is .5 / sqrt(n - 1); the rest is .5
+        let noisy = |samples: u32, coins: usize| {
+            let mut film = Film::new(1000, 7);
+            for (at, pixel) in film.pixels_mut().iter_mut().enumerate() {
+                let coin = at < 7 * coins;
+                (0..samples).for_each(|i| pixel.add(Vec3::splat(if coin { (i % 2) as f32 } else { 0.5 })));
+            }
+            is_visibly_noisy(&film)
+        };
+        assert!(noisy(64, 5) && !noisy(64, 3), "5 and 3 of 1000");
+        assert!(!noisy(128, 1000), "a standard error of .044");
+        assert!(!noisy(1, 1000), "nothing is known of one sample");
     }
 
     #[test]
