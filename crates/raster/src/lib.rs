@@ -64,6 +64,16 @@ pub struct Raster {
     targets: Kept,
     /// The maps that are drawn.
     maps: Option<Maps>,
+    work: Work,
+}
+
+/// What a frame took beside drawing its picture.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Work {
+    /// Pipelines were compiled: how long the frame took says little about the next one.
+    pub compiled: bool,
+    /// Shadow map and cube maps were there from the frame before.
+    pub kept_maps: bool,
 }
 
 impl Raster {
@@ -74,7 +84,8 @@ impl Raster {
     pub fn new(gpu: &Gpu) -> Result<Raster, RasterError> {
         let pipelines = Pipelines::new(gpu)?;
         let uniforms = Uniforms::new(gpu)?;
-        Ok(Raster { gpu: gpu.clone(), pipelines, uniforms, world: None, targets: Kept::default(), maps: None })
+        let (targets, work) = (Kept::default(), Work::default());
+        Ok(Raster { gpu: gpu.clone(), pipelines, uniforms, world: None, targets, maps: None, work })
     }
 
     /// One frame of `scene` from `camera`: linear radiance, one sample a pixel. Waits until it is there.
@@ -97,11 +108,12 @@ impl Raster {
         maps::check(settings.show, &plan)?;
         let world = World::current(&mut self.world, &self.gpu, scene)?;
         let targets = self.targets.current(&self.gpu, &plan.target_plan(scene, settings))?;
-        self.pipelines.prepare(&self.gpu, plan.choice())?;
+        let compiled = self.pipelines.prepare(&self.gpu, plan.choice())?;
         self.uniforms.write(&self.gpu, &plan)?;
         // kept from frame to frame while only the camera moves; a frame that fails has drawn nothing for certain
         let maps = Maps::of(&plan, world, targets);
         let maps_stay = maps.is_some() && self.maps.take() == maps;
+        self.work = Work { compiled, kept_maps: maps_stay };
         self.gpu.checked("the picture", || {
             passes::draw(&self.gpu, &self.pipelines, &self.uniforms, world, targets, &plan, maps_stay)
         })?;
@@ -111,6 +123,16 @@ impl Raster {
         }
         let bytes = self.gpu.read_texture("the picture", targets.picture.resolved.texture())?;
         resolve(&bytes, settings)
+    }
+
+    /// What the last frame took beside drawing its picture.
+    pub fn work(&self) -> Work {
+        self.work
+    }
+
+    /// Draws shadow map and cube maps anew with the next frame, whatever stays.
+    pub fn forget_maps(&mut self) {
+        self.maps = None;
     }
 
     /// Refuses a picture that could be drawn but not read back, before its memory is taken.

@@ -98,16 +98,17 @@ impl Pipelines {
         Ok(gpu.checked("the fake's pipelines", || compile(gpu, &shadow, forward, &resolve))?)
     }
 
-    /// Sees to it that the forward passes of a choice are compiled.
+    /// Sees to it that the forward passes of a choice are compiled; returns whether they were not.
     ///
     /// # Errors
     /// [`GpuError::Refused`] if the device can't take them.
-    pub fn prepare(&mut self, gpu: &Gpu, choice: Choice) -> Result<(), GpuError> {
-        if self.of(choice).is_none() {
-            let compiled = gpu.checked("the fake's pipelines", || self.compile_forward(gpu, choice))?;
-            self.forward.push((choice, compiled));
+    pub fn prepare(&mut self, gpu: &Gpu, choice: Choice) -> Result<bool, GpuError> {
+        if self.of(choice).is_some() {
+            return Ok(false);
         }
-        Ok(())
+        let compiled = gpu.checked("the fake's pipelines", || self.compile_forward(gpu, choice))?;
+        self.forward.push((choice, compiled));
+        Ok(true)
     }
 
     /// The forward passes of a choice, once [`Pipelines::prepare`] has compiled them.
