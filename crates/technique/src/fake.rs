@@ -42,14 +42,6 @@ impl FakeSettings {
         RasterSettings { width, height, fake: self.fake, shading: self.shading, knobs: self.knobs, show: self.show }
     }
 
-    /// For a pane's label: "fake (raster, fair)".
-    pub fn label(&self) -> String {
-        match self.show {
-            Show::Picture => format!("fake (raster, {})", self.fake.name()),
-            map => format!("{} of the fake ({})", map.name().replace('-', " "), self.fake.name()),
-        }
-    }
-
     /// Whether it shows the scene rather than one of its maps.
     pub fn shows_the_scene(&self) -> bool {
         self.show == Show::Picture

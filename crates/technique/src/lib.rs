@@ -10,9 +10,11 @@
 
 mod accumulation;
 mod backend;
+mod blind_spot;
 mod command;
 mod device;
 mod fake;
+mod label;
 mod pane;
 mod progressive;
 mod provenance;
@@ -24,6 +26,7 @@ mod traced;
 
 pub use accumulation::Accumulation;
 pub use backend::{Backend, GpuBackend};
+pub use blind_spot::{BlindSpot, NoiseSource, Specular};
 pub use device::{Adapter, Adapters, Device, DeviceChoice, INSTEAD};
 pub use fake::FakeSettings;
 pub use pane::PaneSettings;
@@ -43,7 +46,7 @@ pub enum TechniqueName {
     Raster,
     /// Whitted's trees of rays.
     Whitted,
-    /// The truth: path traced.
+    /// Path tracing, which without limits tends to the truth.
     Path,
     /// The normals of what is seen.
     Normals,
@@ -71,13 +74,21 @@ impl TechniqueName {
         Self::ALL.into_iter().find(|t| t.name() == name)
     }
 
-    /// What a lecture calls it.
+    /// What a lecture calls it, in one word.
     pub fn title(self) -> &'static str {
         match self {
             TechniqueName::Raster => "Fake",
             TechniqueName::Whitted => "Whitted",
-            TechniqueName::Path => "Truth",
+            TechniqueName::Path => "Path",
             TechniqueName::Normals => "Normals",
+        }
+    }
+
+    /// What a label calls it. None of them is the truth: that is what the reference stands for.
+    pub fn in_full(self) -> &'static str {
+        match self {
+            TechniqueName::Path => "Path tracing",
+            other => other.title(),
         }
     }
 
@@ -115,14 +126,6 @@ impl Technique {
             Technique::Traced(TracedSettings { integrator: Integrator::Whitted(_), .. }) => TechniqueName::Whitted,
             Technique::Traced(TracedSettings { integrator: Integrator::Path(_), .. }) => TechniqueName::Path,
             Technique::Traced(TracedSettings { integrator: Integrator::Normals(_), .. }) => TechniqueName::Normals,
-        }
-    }
-
-    /// For a pane's label: "fake (raster, fair)".
-    pub fn label(&self) -> String {
-        match self {
-            Technique::Fake(fake) => fake.label(),
-            Technique::Traced(traced) => traced.label(),
         }
     }
 

@@ -20,7 +20,7 @@ pub struct PaneSettings {
     pub fake: FakeSettings,
     /// The settings of Whitted's method.
     pub whitted: TreeSettings,
-    /// The settings of the truth.
+    /// The settings of path tracing.
     pub truth: TruthSettings,
     /// The settings of a picture of normals.
     pub normals: NormalsPaneSettings,

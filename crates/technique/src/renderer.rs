@@ -38,6 +38,8 @@ pub struct Pacing {
 pub struct Frame<'a> {
     /// Samples summed so far, pixel by pixel.
     pub film: &'a Film,
+    /// Samples and rays that it took so far.
+    pub stats: Stats,
     /// Seconds that tracing has taken so far.
     pub seconds: f64,
     /// Names of what has made it.
@@ -282,6 +284,7 @@ impl Renderer {
     pub(crate) fn frame<'a>(&self, accumulation: &'a Accumulation, [rough, unfinished]: [bool; 2]) -> Frame<'a> {
         Frame {
             film: accumulation.film(),
+            stats: accumulation.stats(),
             seconds: accumulation.spent.as_secs_f64(),
             made_by: accumulation.made_by(),
             device: self.device(),

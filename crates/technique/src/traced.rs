@@ -1,10 +1,7 @@
-//! The settings of what is traced by rays: the truth, and Whitted's step towards it.
+//! The settings of what is traced by rays: path tracing, and Whitted's step towards it.
 
 use crate::DeviceChoice;
-use pathtrace::{
-    Estimator, GlassShadows, Integrator, LightSampling, NormalsSettings, PathSettings, Roulette, WhittedSettings,
-};
-use scene::Scene;
+use pathtrace::{Integrator, NormalsSettings, PathSettings, Roulette, WhittedSettings};
 
 /// An integrator, where and how long it goes on.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -19,7 +16,7 @@ pub struct TracedSettings {
     pub spp: u32,
 }
 
-/// The settings of the truth.
+/// The settings of path tracing, which without limits tends to the truth.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TruthSettings {
     /// How paths walk.
@@ -81,47 +78,6 @@ impl From<TruthSettings> for TracedSettings {
 impl From<TreeSettings> for TracedSettings {
     fn from(TreeSettings { tree, spp }: TreeSettings) -> Self {
         TracedSettings { integrator: tree.into(), device: DeviceChoice::default(), adapter: 0, spp }
-    }
-}
-
-impl TracedSettings {
-    /// For a pane's label: "truth (path, light)", "Whitted (depth 8)".
-    pub fn label(&self) -> String {
-        match self.integrator {
-            Integrator::Path(path) => format!("truth (path, {})", path.estimator.name()),
-            Integrator::Whitted(tree) => format!("Whitted (depth {})", tree.depth),
-            Integrator::Normals(normals) => format!("normals ({})", normals.space.name()),
-        }
-    }
-
-    /// What these settings cannot see in this scene, to be said rather than hidden.
-    pub fn blind_spot(&self, scene: &Scene) -> Option<&'static str> {
-        let delta_sun = scene.sun.is_some_and(|sun| sun.angular_radius == 0.0);
-        let specular = scene.needs().dielectric || scene.needs().mirror;
-        match self.integrator {
-            Integrator::Whitted(tree) if specular && tree.glass_shadows == GlassShadows::Clear => {
-                Some("light passes glass straight on: no caustic; mirrors send none on")
-            }
-            Integrator::Whitted(_) => Some("light from one surface on another is missing: ambient light stands for it"),
-            Integrator::Path(path) if path.estimator.light == LightSampling::BsdfOnly => {
-                let points = !scene.point_lights.is_empty();
-                match (delta_sun, points) {
-                    (true, _) => Some("a sun of radius 0 cannot be hit by chance: its light is missing"),
-                    (false, true) => Some("a point light cannot be hit by chance: its light is missing"),
-                    (false, false) => None,
-                }
-            }
-            Integrator::Path(_) if specular && delta_sun => {
-                Some("a sun of radius 0 casts no caustic: no path can find it behind glass or mirror")
-            }
-            Integrator::Path(_) if specular && !scene.point_lights.is_empty() => {
-                Some("a point light casts no caustic: no path can find it behind glass or mirror")
-            }
-            Integrator::Path(path) if scene.needs().rough_conductor && path.estimator != Estimator::MIS => {
-                Some("smooth rough metal is noise without mis: light in a narrow reflection is hardly ever found")
-            }
-            Integrator::Path(_) | Integrator::Normals(_) => None,
-        }
     }
 }
 

@@ -3,7 +3,7 @@
 
 use super::args::made_by;
 use super::{CompareArgs, reference};
-use crate::ruler::{HeatMap, Noise, Pair, kept_scene, noise_line};
+use crate::ruler::{HeatMap, Noise, Pair, error_words, kept_scene, noise_line};
 use ::reference::Reference;
 use anyhow::ensure;
 use compare::flip::{PIXELS_PER_DEGREE, hdr_flip};
@@ -132,15 +132,10 @@ fn draw(args: &CompareArgs, pair: &Pair, out: &Path) -> anyhow::Result<HeatMap> 
 
 fn table(found: &Comparison, map: Option<&HeatMap>) -> String {
     let e = &found.errors;
+    let [off, brightness] = error_words(e, None);
     let mut text = format!(
-        "RMSE      {:.6}\nrelMSE    {:.6}\nMAE       {:.6}\nbias      {:+.6} (A - B, {:+.3} %)\nFLIP      {:.6}\nHDR-FLIP  {:.6}\n",
-        e.rmse,
-        e.rel_mse,
-        e.mae,
-        e.bias,
-        100.0 * e.relative_bias,
-        found.flip,
-        found.hdr_flip
+        "RMSE      {:.6}\nrelMSE    {:.6}\nMAE       {:.6} ({off})\nmean A-B  {:+.6} ({brightness})\nFLIP      {:.6}\nHDR-FLIP  {:.6}\n",
+        e.rmse, e.rel_mse, e.mae, e.bias, found.flip, found.hdr_flip
     );
     if let Some(noise) = noise_line(e) {
         text += &format!("noise     {noise}\n");
@@ -158,7 +153,8 @@ fn report(args: &CompareArgs, pair: &Pair, found: &Comparison, map: Option<&Heat
         "a": args.film.to_string_lossy(),
         "reference": args.reference.as_ref().map(|file| file.to_string_lossy()),
         "width": width, "height": height,
-        "rmse": e.rmse, "relmse": e.rel_mse, "mae": e.mae, "bias": e.bias, "relative_bias": e.relative_bias,
+        "rmse": e.rmse, "relmse": e.rel_mse, "mae": e.mae, "relative_mae": e.relative_mae,
+        "bias": e.bias, "relative_bias": e.relative_bias,
         "reference_noise": e.reference_noise, "below_reference_noise": e.below_reference_noise(),
         "flip": found.flip, "hdr_flip": found.hdr_flip,
         "nonfinite": e.nonfinite,

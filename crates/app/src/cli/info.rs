@@ -7,7 +7,7 @@ pub fn run() -> anyhow::Result<()> {
     let hardware = adapters.iter().any(|adapter| adapter.chosen && !adapter.software);
     let rays = if hardware { "the gpu below, and the cpu where there is little to do" } else { "the cpu" };
     let threads = rayon::current_num_threads();
-    let mut text = format!("truth (path) and whitted, --device auto: {rays}; cpu: {threads} threads\n");
+    let mut text = format!("path tracing and whitted, --device auto: {rays}; cpu: {threads} threads\n");
     if adapters.is_empty() {
         text += "fake (raster) and window: no adapter found; install a GPU driver, or Mesa's software one \
                  (Debian, Ubuntu: apt install mesa-vulkan-drivers)\n";

@@ -1,7 +1,7 @@
 //! `visavis render`: a picture to a file, without a window.
 
 use super::{RenderArgs, interrupt, reference};
-use crate::ruler::{brief, error_records, noise_line};
+use crate::ruler::{brief, error_records, error_words, noise_line};
 use anyhow::Context;
 use compare::Errors;
 use film::{DisplayTransform, Image};
@@ -82,8 +82,8 @@ pub fn run(args: &mut RenderArgs) -> anyhow::Result<()> {
         );
         if let Some(e) = errors {
             let noise = noise_line(&e).map_or_else(String::new, |line| format!(", noise {line}"));
-            let (rel_mse, rmse) = (brief(e.rel_mse), brief(e.rmse));
-            note!("A - reference: relMSE {rel_mse}, RMSE {rmse}, bias {:+.2} %{noise}", 100.0 * e.relative_bias);
+            let (words, rel_mse, rmse) = (error_words(&e, None).join(", "), brief(e.rel_mse), brief(e.rmse));
+            note!("against the reference: {words}; relMSE {rel_mse}, RMSE {rmse}{noise}");
         }
     }
     anyhow::ensure!(!interrupt::is_asked(), "{made} are saved: {out}");
@@ -158,8 +158,8 @@ fn raster(args: &RenderArgs, scene: &Scene, fake: FakeSettings) -> anyhow::Resul
 }
 
 fn trace(args: &RenderArgs, shot: &Shot, traced: TracedSettings) -> anyhow::Result<Timed> {
-    if let Some(blind) = traced.blind_spot(&shot.scene) {
-        note!("note: {blind}");
+    for blind_spot in traced.blind_spots(&shot.scene) {
+        note!("note: {}", blind_spot.explanation());
     }
     let spp = spp_wanted(args);
     let (width, height) = shot.size;

@@ -19,6 +19,7 @@ pub mod rays;
 pub mod reference;
 pub mod worker;
 
+use crate::model::Effort;
 use film::Image;
 use scene::{Camera, Scene};
 use std::sync::Arc;
@@ -33,6 +34,10 @@ pub struct Picture {
     pub spp: Option<u32>,
     /// Seconds of rendering.
     pub seconds: f64,
+    /// How they were spent.
+    pub effort: Effort,
+    /// Whether it is still noisy where its settings leave light to chance.
+    pub noisy: bool,
     /// Samples that were not finite and are left out.
     pub nonfinite: u64,
     /// What made it: a GPU's name, or a number of threads.
@@ -67,7 +72,7 @@ pub struct Order {
     pub view: u64,
     /// Pixels of the picture area along a side of one of the picture.
     pub shrink: u32,
-    /// How often the user began the truth anew.
+    /// How often the user began what is traced anew.
     pub restarts: u64,
     /// All that the picture depends on.
     pub provenance: Arc<Provenance>,

@@ -1,6 +1,7 @@
 //! What comes out of the post-process, and what does not.
 
 use super::*;
+use crate::model::Effort;
 use film::{Image, Vec3};
 use technique::{Device, PaneSettings, Provenance, Shot, TechniqueName};
 
@@ -21,6 +22,8 @@ fn picture(view: u64) -> Picture {
         image: pixel(view as f32),
         spp: None,
         seconds: 0.0,
+        effort: Effort::Traced(pathtrace::Stats::default()),
+        noisy: false,
         nonfinite: 0,
         adapter: "none".into(),
         refused: None,

@@ -3,7 +3,7 @@
 use super::post_process::PostProcess;
 use super::worker::{Control, Service, Worker};
 use super::{FAULT, Job, Order, Picture, step_back};
-use crate::model::PaneId;
+use crate::model::{Effort, PaneId};
 use std::sync::Arc;
 use std::time::Duration;
 use technique::{Adapters, Frame, NoMemory, Pacing, ProgressiveRenderer, Request, Threads, TracedSettings, Watch};
@@ -82,7 +82,13 @@ impl Service for Rays {
     fn serve(&mut self, job: Option<RayJob>, control: &Control<Option<RayJob>, ()>) {
         let Some(job) = job else { return };
         self.order = Some(job.order.clone());
-        let watch = PaneWatch { pane: self.pane, order: &job.order, control, post_process: &self.post_process };
+        let watch = PaneWatch {
+            pane: self.pane,
+            order: &job.order,
+            has_noise_source: job.settings.noise_source(job.order.scene()).is_some(),
+            control,
+            post_process: &self.post_process,
+        };
         if let Err(NoMemory) = self.renderer.render(&request_of(&job), &watch) {
             let (width, height) = job.order.size();
             let fault = format!("not enough memory for {width} x {height} pixels; make the window smaller");
@@ -107,6 +113,8 @@ fn request_of(job: &RayJob) -> Request {
 struct PaneWatch<'a> {
     pane: PaneId,
     order: &'a Order,
+    /// Whether its settings leave light of its scene to chance.
+    has_noise_source: bool,
     control: &'a Control<Option<RayJob>, ()>,
     post_process: &'a PostProcess,
 }
@@ -139,6 +147,8 @@ impl Watch for PaneWatch<'_> {
             image: film.image(),
             spp: Some(film.samples_per_pixel()),
             seconds: frame.seconds,
+            effort: Effort::Traced(frame.stats),
+            noisy: self.has_noise_source && !frame.rough && compare::is_visibly_noisy(film),
             nonfinite: film.nonfinite,
             adapter: frame.made_by.into(),
             refused: frame.refused,

@@ -6,6 +6,7 @@
 
 mod comparison;
 mod document;
+mod effort;
 mod error_map;
 mod errors;
 mod export;
@@ -26,6 +27,7 @@ mod wanted;
 
 pub use comparison::{Against, CompareWith, Comparison, ComparisonSettings, MapWish};
 pub use document::Document;
+pub use effort::{Compiling, Drawing, Effort};
 pub use error_map::{ErrorMap, ErrorMapJob};
 pub use errors::{ErrorHistory, ErrorPoint};
 pub use export::{Destination, ExportMenu, ExportRequest, ExportSubject};

@@ -13,6 +13,8 @@ pub struct UiState {
     pub help: bool,
     /// Whether the help was there in the last frame.
     pub help_was_open: bool,
+    /// Whether pictures have their labels.
+    pub labels: bool,
     /// Whether to tell a newcomer about line and key.
     pub hint: bool,
     /// The last thing worth saying.
@@ -62,6 +64,7 @@ impl UiState {
             panel: true,
             help: false,
             help_was_open: false,
+            labels: true,
             hint: true,
             message: None,
             paused: false,

@@ -1,6 +1,6 @@
 //! What there is to show: results, as those who draw them take them.
 
-use super::{Against, ErrorHistory, ErrorMap, ErrorPoint, PaneId, Panes, Progress};
+use super::{Against, Effort, ErrorHistory, ErrorMap, ErrorPoint, PaneId, Panes, Progress};
 use compare::Errors;
 use std::sync::Arc;
 use technique::{Provenance, Technique};
@@ -25,6 +25,10 @@ pub struct PaneView {
     pub spp: Option<u32>,
     /// Seconds that rendering has taken so far.
     pub seconds: f64,
+    /// How they were spent.
+    pub effort: Option<Effort>,
+    /// Whether it is still noisy where its settings leave light to chance.
+    pub noisy: bool,
     /// Samples that were not finite and are left out.
     pub nonfinite: u64,
     /// Whether the picture is a rough first one.
@@ -46,13 +50,13 @@ pub struct PaneView {
     /// What the camera's planes cut of the fake: one line.
     pub cut: Option<Arc<str>>,
     /// What the history is of.
-    course: Option<Course>,
+    pub(crate) course: Option<Course>,
 }
 
 /// What errors must have in common to be points of one curve: the picture, but for its number of samples, and what
 /// judges it.
 #[derive(Debug, Clone, PartialEq)]
-struct Course {
+pub(crate) struct Course {
     against: Against,
     judged: Provenance,
     /// The picture that judges; `None` for the reference.

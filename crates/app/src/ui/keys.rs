@@ -7,11 +7,12 @@ use crate::model::{Destination, ExportRequest, ExportSubject};
 use egui::{Context, Event, Key, Modifiers, Popup};
 
 /// What the keys do that every workspace has, for the help.
-pub const KEYS: [HelpLine; 12] = [
+pub const KEYS: [HelpLine; 13] = [
     ("P", "pause, go on"),
     ("R", "restart"),
     ("C", "camera of the scene"),
     ("H", "hide or show the controls"),
+    ("L", "hide or show the labels"),
     ("Ctrl+Z  Ctrl+Shift+Z", "undo, redo a setting"),
     ("Ctrl+S  Ctrl+C", "save, copy the picture as seen"),
     ("Ctrl + - 0", "larger, smaller, usual size of all text"),
@@ -62,6 +63,7 @@ fn letters(cx: &mut UiContext, keys: &Keys) {
     let state = &mut cx.model.state;
     state.paused ^= turned_over(Key::P);
     state.panel ^= turned_over(Key::H);
+    state.labels ^= turned_over(Key::L);
     state.restarts += keys.presses(Key::R) as u64;
     if keys.presses(Key::C) > 0 {
         cx.model.document.camera = cx.model.document.scene.camera;

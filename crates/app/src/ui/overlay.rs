@@ -3,7 +3,7 @@
 use super::{UiContext, theme};
 use crate::model::Message;
 use egui::accesskit;
-use egui::{Align2, Color32, Pos2, Rect, Sense, Ui, vec2};
+use egui::{Align2, Color32, Pos2, Rect, Response, Sense, Ui, vec2};
 
 /// At the foot of `rect`: the last thing worth saying, or else a hint for a newcomer.
 pub fn say(cx: &mut UiContext, ui: &Ui, rect: Rect, hint: &str) {
@@ -27,8 +27,9 @@ pub fn say(cx: &mut UiContext, ui: &Ui, rect: Rect, hint: &str) {
     spoken(ui, name, &text, place, true);
 }
 
-/// Gives painted text to screen readers; `aloud` is read out as soon as it changes.
-pub fn spoken(ui: &Ui, name: &str, text: &str, place: Rect, aloud: bool) {
+/// Gives painted text to screen readers and returns what is known of the mouse over it; `aloud` is read out as soon as it
+/// changes.
+pub fn spoken(ui: &Ui, name: &str, text: &str, place: Rect, aloud: bool) -> Response {
     let response = ui.interact(place, ui.scope_id().with(name), Sense::hover());
     ui.ctx().accesskit_node_builder(response.id, |node| {
         node.set_role(accesskit::Role::Status);
@@ -37,6 +38,12 @@ pub fn spoken(ui: &Ui, name: &str, text: &str, place: Rect, aloud: bool) {
             node.set_live(accesskit::Live::Polite);
         }
     });
+    response
+}
+
+/// Gives screen readers what a tooltip says.
+pub fn describe(ui: &Ui, response: &Response, text: &str) {
+    ui.ctx().accesskit_node_builder(response.id, |node| node.set_description(text.to_owned()));
 }
 
 /// Between a text and the edge of its ground, in points.

@@ -157,6 +157,9 @@ fn look_menu(cx: &mut UiContext, ui: &mut Ui) {
             cx.dump.note(&format!("theme {}", theme.name()), cx.model.state.theme == theme, item);
         }
         ui.separator();
+        let labels = ui.checkbox(&mut cx.model.state.labels, "Labels on the pictures");
+        cx.dump.note("labels", cx.model.state.labels, labels.on_hover_text("Hide or show them (L)"));
+        ui.separator();
         let zoom = ui.ctx().zoom_factor();
         ui.label(format!("Text at {:.0} %", 100.0 * zoom));
         ui.horizontal(|ui| {

@@ -78,6 +78,7 @@ impl Presentation {
         }
         shown.provenance = Some(picture.order.provenance.clone());
         (shown.spp, shown.seconds, shown.nonfinite) = (picture.spp, picture.seconds, picture.nonfinite);
+        (shown.effort, shown.noisy) = (Some(picture.effort), picture.noisy);
         (shown.refused, shown.cut) = (picture.refused.clone(), picture.cut.clone());
         shown.adapter = Some(picture.adapter.clone());
         (shown.rough, shown.unfinished) = (picture.rough, picture.unfinished);

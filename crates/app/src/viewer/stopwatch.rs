@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 pub struct Stopwatch {
     started: Instant,
     first_pictures: Option<Duration>,
-    /// The newest job of the truth and when it was asked for, until its first picture is shown.
+    /// The newest job of what is traced and when it was asked for, until its first picture is shown.
     waiting: Option<(u64, Instant)>,
     latency: Option<Duration>,
     /// The newest job of which a picture has come.

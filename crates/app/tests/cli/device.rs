@@ -65,7 +65,7 @@ fn auto_is_the_processor_where_there_is_little_to_do_and_where_lanes_are_asked_f
 fn info_says_what_traces_rays() {
     let output = visavis(&["info"]);
     let text = String::from_utf8_lossy(&output.stdout).into_owned();
-    assert!(text.starts_with("truth (path) and whitted, --device auto: the cpu; cpu: "), "{text}");
+    assert!(text.starts_with("path tracing and whitted, --device auto: the cpu; cpu: "), "{text}");
     assert!(text.contains("used for the fake, the first in order"), "{text}");
 }
 

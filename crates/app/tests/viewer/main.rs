@@ -6,6 +6,7 @@ mod camera;
 mod comparison;
 mod device;
 mod export;
+mod labels;
 mod layout;
 mod scenes;
 mod settings;

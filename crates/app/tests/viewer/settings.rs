@@ -13,14 +13,14 @@ fn spp(frame: &Frame) -> Option<u64> {
 fn either_pane_holds_any_technique() {
     let mut user = User::of("cornell");
     user.wait_for("both pictures", both_whole);
-    user.click_nth("Truth", 0);
+    user.click_nth("Path", 0);
     user.click_in("A", "cosine");
-    let both = user.wait_for("two truths, compared", |f| {
-        f.state("a")["label"] == "truth (path, cosine)" && f.state("a")["rel_mse"].is_number() && both_whole(f)
+    let both = user.wait_for("two path-traced pictures, compared", |f| {
+        f.state("a")["label"] == "Path tracing, cosine" && f.state("a")["rel_mse"].is_number() && both_whole(f)
     });
-    assert_eq!(both.state("b")["label"], "truth (path, light)");
+    assert_eq!(both.state("b")["label"], "Path tracing, light");
     user.click_nth("Fake", 1);
-    let swapped = user.wait_for("the fake in B", |f| f.state("b")["label"] == "fake (raster, fair)" && both_whole(f));
+    let swapped = user.wait_for("the fake in B", |f| f.state("b")["label"] == "Fake, fair" && both_whole(f));
     assert!(swapped.shows("B fake as-taught") && !swapped.shows("B spp"));
 }
 
@@ -31,10 +31,10 @@ fn a_change_of_a_setting_can_be_taken_back_and_done_again() {
     let slid = user.set_slider("Refraction ratio", 0.55);
     let moved = slid.value("refraction ratio").to_owned();
     assert_eq!(moved, "0.55");
-    user.click_nth("Truth", 0);
-    user.wait_for("two truths", |f| f.state("a")["label"] == "truth (path, light)" && both_whole(f));
+    user.click_nth("Path", 0);
+    user.wait_for("two path-traced pictures", |f| f.state("a")["label"] == "Path tracing, light" && both_whole(f));
     user.key_with(Key::Z, Modifiers::COMMAND);
-    let back = user.wait_for("the fake again", |f| f.state("a")["label"] == "fake (raster, fair)");
+    let back = user.wait_for("the fake again", |f| f.state("a")["label"] == "Fake, fair");
     assert_eq!(back.value("undo"), "true");
     let undone = user.key_with(Key::Z, Modifiers::COMMAND);
     assert_eq!([undone.value("refraction ratio"), undone.value("undo")], ["0.7", "false"], "the ratio of before");
@@ -88,7 +88,7 @@ fn a_change_drops_the_picture_in_hand_and_brings_a_rough_one_first() {
     let mut user = User::of("cornell");
     let before = user.wait_for("a full picture", |f| both_whole(f) && spp(f) >= Some(2));
     user.click_in("B", "cosine");
-    let of_the_old = |f: &Frame| f.state("b")["label"] == "truth (path, light)";
+    let of_the_old = |f: &Frame| f.state("b")["label"] == "Path tracing, light";
     let mut old_pictures = vec![spp(&before)];
     let first = loop {
         let frame = user.frame();
@@ -100,6 +100,6 @@ fn a_change_drops_the_picture_in_hand_and_brings_a_rough_one_first() {
         }
     };
     assert!(old_pictures.len() <= 2, "the old picture went on: {old_pictures:?} spp");
-    assert_eq!(first.state("b")["label"], "truth (path, cosine)");
+    assert_eq!(first.state("b")["label"], "Path tracing, cosine");
     assert!(first.state("b")["rough"] == true || spp(&first) == Some(1), "{:?}", first.state("b"));
 }

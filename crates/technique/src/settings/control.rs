@@ -11,6 +11,8 @@ pub struct Control {
     pub label: &'static str,
     /// What its value means, after the label.
     pub aside: fn(Value) -> String,
+    /// What a picture's label calls its value; `None` for its name and the value.
+    pub brief: Option<fn(Value) -> String>,
     /// An explanation under the mouse; empty for none.
     pub hover: &'static str,
     /// A technique that needs another explanation.

@@ -204,6 +204,12 @@ impl<T> Setting<T> {
         self.of.contains(&technique)
     }
 
+    /// What a picture's label calls a value of it: "16 spp", "seed 2".
+    pub fn brief(&self, value: Value) -> String {
+        let name_and_value = || format!("{} {value}", self.name.replace('-', " "));
+        self.control.brief.map_or_else(name_and_value, |brief| brief(value))
+    }
+
     /// What a file keeps of it.
     fn record(&self, of: &T) -> Option<(&'static str, Value)> {
         let value = (self.get)(of)?;

@@ -139,7 +139,7 @@ fn commands() -> Vec<Block> {
         .with_settings(),
         Block::new(
             "visavis compare A B",
-            "how far picture A is from reference B (.exr or .png): RMSE, relMSE, MAE, bias, FLIP, HDR-FLIP; B's own noise \
+            "how far picture A is from reference B (.exr or .png): RMSE, relMSE, MAE, mean difference, FLIP, HDR-FLIP; B's own noise \
              where it is a reference of this program; without B against the reference of what A's records say that it shows, \
              unless its scene has changed since",
             &compare::options(),

@@ -1,4 +1,4 @@
-//! The options of `visavis render`: those of every technique, of the truth and of the fake.
+//! The options of `visavis render`: those of every technique, of what is traced and of the fake.
 
 use super::options::{CommandOption, Typed, read, set};
 use super::seen::Seen;
@@ -77,7 +77,7 @@ pub fn options() -> Vec<CommandOption<Reading>> {
         CommandOption {
             names: &["--technique"],
             value: "raster|whitted|path|normals",
-            help: "the fake, Whitted's trees of rays, the truth, or the normals of what is seen (default path)",
+            help: "the fake, Whitted's trees of rays, path tracing, or the normals of what is seen (default path)",
             read: |reading, parser| {
                 let expected = "raster, whitted, path or normals";
                 reading.args.pane.technique = choice(parser, "--technique", TechniqueName::named, expected)?;

@@ -81,7 +81,7 @@ fn faults(cx: &UiContext, pane: PaneId, ui: &mut Ui) {
         ui.label(fault.to_string());
     }
     let scene = cx.model.document.changes.applied_to(&cx.model.document.scene);
-    if let Some(blind) = traced.blind_spot(&scene) {
-        ui.label(blind);
+    for blind_spot in traced.blind_spots(&scene) {
+        ui.label(blind_spot.explanation());
     }
 }

@@ -12,13 +12,14 @@ pub const ROWS: &[Setting<PaneSettings>] = &[
         of: RASTER,
         kind: Kind::Choice(&["fair", "as-taught"]),
         default: Some(Value::Word("fair")),
-        help: "on the truth's data, linear; or as the tutorial's viewer drew it",
+        help: "on the scene's own light, linear; or as the tutorial's viewer drew it",
         always_recorded: true,
         get: |pane| Some(Value::Word(pane.fake.fake.name())),
         set: |pane, value| each(named(value, Fake::named), [&mut pane.fake.fake]),
         control: Control {
+            brief: Some(|value| value.to_string()),
             look: Look::Words(&[
-                ("fair", "The same fake on the truth's light, linear"),
+                ("fair", "The fake on the light that is traced, linear"),
                 ("as-taught", "As the tutorial's viewer drew it: its bytes are the light"),
             ]),
             ..BLANK
@@ -36,6 +37,7 @@ pub const ROWS: &[Setting<PaneSettings>] = &[
         set: |pane, value| each(named(value, Shading::named), [&mut pane.fake.shading]),
         control: Control {
             label: "Highlight",
+            brief: Some(|value| format!("{value} highlight")),
             look: Look::Words(&[
                 ("three", "three.js' MeshPhong: a normalised Blinn-Phong with Fresnel"),
                 ("phong", "The slides' Phong: cosine between mirrored light and viewer"),
@@ -150,6 +152,7 @@ pub const ROWS: &[Setting<PaneSettings>] = &[
         set: |pane, value| each(named(value, ShadowFilter::named), [&mut pane.fake.knobs.filter]),
         control: Control {
             label: "Shadow filter",
+            brief: Some(|value| format!("{value} shadows")),
             look: Look::Words(&[
                 ("hard", "The nearest texel alone"),
                 ("pcf", "The mean of 17 comparisons"),
@@ -204,6 +207,7 @@ pub const ROWS: &[Setting<PaneSettings>] = &[
         set: |pane, value| each(named(value, Show::named), [&mut pane.fake.show]),
         control: Control {
             label: "Show",
+            brief: Some(|value| value.to_string().replace('-', " ")),
             look: Look::Words(&[
                 ("picture", "The scene"),
                 ("cube faces", "What surrounds the first glass, unfolded: where refracted rays are looked up"),

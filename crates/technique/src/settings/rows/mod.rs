@@ -33,6 +33,7 @@ const PLAIN: Setting<PaneSettings> = Setting {
 const BLANK: Control = Control {
     label: "",
     aside: |_| String::new(),
+    brief: None,
     hover: "",
     hover_in: None,
     look: Look::Typed,

@@ -5,7 +5,7 @@ use crate::PaneSettings;
 use crate::settings::{Control, Kind, Look, Need, Setting, Value};
 use pathtrace::{Estimator, GlassShadows, Roulette, SamplerKind, Space, WhittedSettings};
 
-/// The settings of Whitted's method and of the truth.
+/// The settings of Whitted's method and of path tracing.
 pub const ROWS: &[Setting<PaneSettings>] = &[
     Setting {
         name: "spp",
@@ -17,7 +17,12 @@ pub const ROWS: &[Setting<PaneSettings>] = &[
         always_recorded: true,
         get: |pane| pane.wished_spp().map(Value::Whole),
         set: |pane, value| each(whole(value), [&mut pane.truth.spp, &mut pane.whitted.spp, &mut pane.normals.spp]),
-        control: Control { label: "Samples per pixel (spp)", look: Look::Doubling(0..=16), ..BLANK },
+        control: Control {
+            label: "Samples per pixel (spp)",
+            brief: Some(|value| format!("{value} spp")),
+            look: Look::Doubling(0..=16),
+            ..BLANK
+        },
         ..PLAIN
     },
     Setting {
@@ -38,6 +43,7 @@ pub const ROWS: &[Setting<PaneSettings>] = &[
         },
         control: Control {
             label: "Random numbers",
+            brief: Some(|value| format!("{value} random numbers")),
             look: Look::Words(&[
                 ("independent", "Each number independent of all others"),
                 ("sobol", "Samples of a pixel keep apart from each other: errors fall faster"),
@@ -64,6 +70,11 @@ pub const ROWS: &[Setting<PaneSettings>] = &[
         control: Control {
             label: "Bounces",
             aside: |value| if value == Value::Bounces(None) { " (unbiased)" } else { " (biased)" }.into(),
+            brief: Some(|value| match value {
+                Value::Bounces(None) => "no limit of bounces".into(),
+                Value::Bounces(Some(1)) => "1 bounce".into(),
+                bounces => format!("{bounces} bounces"),
+            }),
             hover: "Scattering vertices after the first: 0 is direct light only. With a limit longer paths are lost and the \
                     picture gets too dark: it is biased",
             look: Look::WholeOrNone(0..=20),
@@ -85,7 +96,13 @@ pub const ROWS: &[Setting<PaneSettings>] = &[
                 pane.truth.path.roulette = roulette;
             }
         },
-        control: Control { label: "Roulette", look: Look::Steps { range: 0.05..=1.0, step: 0.01 }, ..BLANK },
+        control: Control {
+            label: "Roulette",
+            aside: |value| if value == Value::Roulette(Roulette::OFF) { String::new() } else { " (unbiased)".into() },
+            brief: Some(brief_roulette),
+            look: Look::Steps { range: 0.05..=1.0, step: 0.01 },
+            ..BLANK
+        },
         ..PLAIN
     },
     Setting {
@@ -99,6 +116,7 @@ pub const ROWS: &[Setting<PaneSettings>] = &[
         get: |pane| Some(Value::Word(pane.truth.path.estimator.name())),
         set: |pane, value| each(named(value, Estimator::named), [&mut pane.truth.path.estimator]),
         control: Control {
+            brief: Some(|value| value.to_string()),
             look: Look::Words(&[
                 ("uniform", "Directions uniform on the hemisphere, light found by chance"),
                 ("cosine", "Directions cosine-weighted, light found by chance"),
@@ -119,7 +137,12 @@ pub const ROWS: &[Setting<PaneSettings>] = &[
         always_recorded: true,
         get: |pane| Some(Value::Whole(pane.truth.path.branches)),
         set: |pane, value| each(whole(value), [&mut pane.truth.path.branches]),
-        control: Control { label: "Directions N at each vertex", look: Look::Doubling(0..=4), ..BLANK },
+        control: Control {
+            label: "Directions N at each vertex",
+            brief: Some(|value| format!("N = {value}")),
+            look: Look::Doubling(0..=4),
+            ..BLANK
+        },
         ..PLAIN
     },
     Setting {
@@ -148,6 +171,7 @@ pub const ROWS: &[Setting<PaneSettings>] = &[
         set: |pane, value| each(named(value, GlassShadows::named), [&mut pane.whitted.tree.glass_shadows]),
         control: Control {
             label: "Shadows of glass",
+            brief: Some(|value| format!("{value} glass")),
             look: Look::Words(&[
                 ("opaque", "Glass throws a black shadow"),
                 ("clear", "Light passes glass straight on"),
@@ -166,7 +190,13 @@ pub const ROWS: &[Setting<PaneSettings>] = &[
         always_recorded: true,
         get: |pane| Some(Value::Whole(pane.whitted.tree.shadow_rays)),
         set: |pane, value| each(whole(value), [&mut pane.whitted.tree.shadow_rays]),
-        control: Control { label: "Shadow rays to each lamp", look: Look::Doubling(0..=6), more: WHITTED, ..BLANK },
+        control: Control {
+            label: "Shadow rays to each lamp",
+            brief: Some(|value| format!("{value} shadow rays to each lamp")),
+            look: Look::Doubling(0..=6),
+            more: WHITTED,
+            ..BLANK
+        },
         ..PLAIN
     },
     Setting {
@@ -205,9 +235,22 @@ pub const ROWS: &[Setting<PaneSettings>] = &[
         set: |pane, value| each(named(value, Space::named), [&mut pane.normals.normals.space]),
         control: Control {
             label: "Axes",
+            brief: Some(|value| format!("{value} axes")),
             look: Look::Words(&[("world", "The scene's own axes"), ("camera", "Right, up and towards the camera")]),
             ..BLANK
         },
         ..PLAIN
     },
 ];
+
+/// "roulette P 0.8 and throughput".
+fn brief_roulette(value: Value) -> String {
+    match value {
+        Value::Roulette(Roulette { probability: Some(p), throughput: false }) => format!("roulette P {p}"),
+        Value::Roulette(Roulette { probability: Some(p), throughput: true }) => {
+            format!("roulette P {p} and throughput")
+        }
+        Value::Roulette(Roulette { probability: None, throughput: true }) => "roulette by throughput".into(),
+        _ => "no roulette".into(),
+    }
+}

@@ -108,10 +108,8 @@ fn scale(held: &mut Option<f32>, ui: &mut Ui, fitted: Option<f32>, dump: &mut Du
 
 fn explain(with: CompareWith) -> &'static str {
     match with {
-        CompareWith::EachOther => "The errors of A against B, and of B against A",
-        CompareWith::Reference => {
-            "The errors of both against the truth as well as it can be known, with its own noise told"
-        }
+        CompareWith::EachOther => "How far A is from B: neither of them need be right",
+        CompareWith::Reference => "How far both are from the truth, as well as it can be known: its own noise is told",
     }
 }
 

@@ -1,0 +1,131 @@
+//! The label of a pane, on the picture: in a corner of what is seen of it, away from the wipe's line.
+
+mod text;
+
+use crate::model::{Against, Line, PaneId, PaneView, Session, View};
+use crate::ui::overlay::{describe, spoken};
+use crate::ui::{UiContext, theme};
+use egui::text::LayoutJob;
+use egui::{Align2, Color32, FontId, Galley, Rect, Stroke, TextFormat, Ui, Vec2, vec2};
+use std::sync::Arc;
+use text::{LabelText, Told};
+
+/// Between a label's text and the edge of what is seen of its picture, in points. Half of the line's handle is 7 wide.
+const INSET: Vec2 = vec2(22.0, 18.0);
+/// The ground around the text.
+const PADDING: Vec2 = vec2(10.0, 7.0);
+/// The widest text and the narrowest, and the narrowest with figures, in sizes of its type.
+const WIDTHS: [f32; 3] = [32.0, 5.0, 12.0];
+/// How much of the height of what is seen of a picture its label may cover.
+const MOST_HEIGHT: f32 = 0.6;
+
+pub fn show(cx: &mut UiContext, ui: &Ui, clip: Rect, pane: PaneId) {
+    let Some(shown) = cx.shown.panes.get(pane).filter(|_| cx.textures.panes.get(pane).is_some()) else { return };
+    if !cx.model.state.labels {
+        return;
+    }
+    let text = LabelText::of(pane, shown, beside(cx, pane), told(cx, pane, shown), cx.model.state.paused);
+    let room = room(cx, ui, clip, pane);
+    let Some(galley) = fitting(ui, &text, pane, room.size()) else { return };
+    let place = align(&cx.model.session, pane).align_size_within_rect(galley.size(), room);
+    paint(ui, clip, place, galley, colour(pane));
+    let (name, whole) = (format!("label {pane}"), text.whole(pane));
+    cx.dump.note_text(&name, &whole, place, clip);
+    let response = spoken(ui, &name, &whole, place, false);
+    let explanation = text.explanations.join("\n");
+    if !cx.model.state.posing && !explanation.is_empty() {
+        describe(ui, &response, &explanation);
+        response.on_hover_text(explanation);
+    }
+}
+
+/// How the other picture is made.
+fn beside<'a>(cx: &UiContext<'a>, pane: PaneId) -> Option<&'a technique::Technique> {
+    let (_, other) = cx.shown.panes.iter().find(|(id, _)| *id != pane)?;
+    other.provenance.as_deref().map(|made| &made.technique)
+}
+
+/// The errors that are told on a pane's label. Those of two pictures against each other are told once: of A against B,
+/// on B's label only where that is alone.
+fn told(cx: &UiContext, pane: PaneId, shown: &PaneView) -> Option<Told> {
+    let (against, errors) = shown.errors?;
+    let told = |of, (against, errors)| Told { of, against, errors };
+    match against {
+        Against::Reference => Some(told(pane, (against, errors))),
+        Against::Pane(_) if pane == PaneId::A => Some(told(pane, (against, errors))),
+        Against::Pane(judge) if cx.model.session.view == View::Pane(pane) => {
+            Some(told(judge, cx.shown.panes.get(judge)?.errors?))
+        }
+        Against::Pane(_) => None,
+    }
+}
+
+/// Where its text may be: not at the edges, and not where a message stands at the foot of the window.
+fn room(cx: &UiContext, ui: &Ui, clip: Rect, pane: PaneId) -> Rect {
+    let mut room = clip.shrink2(INSET);
+    let state = &cx.model.state;
+    if align(&cx.model.session, pane) == Align2::LEFT_BOTTOM && (state.hint || state.message.is_some()) {
+        room.max.y -= 2.0 * theme::label_font(ui).size;
+    }
+    room
+}
+
+/// Its corner of the part of the picture that is seen: away from the line, and at the foot where the line is above.
+fn align(session: &Session, pane: PaneId) -> Align2 {
+    match (session.view, session.line) {
+        (View::Wipe, Line::Vertical) if pane != PaneId::A => Align2::RIGHT_TOP,
+        (View::Wipe, Line::Horizontal) if pane != PaneId::A => Align2::LEFT_BOTTOM,
+        _ => Align2::LEFT_TOP,
+    }
+}
+
+/// As much of a text as there is room for: all of it, or its name and figures, or its name alone, or nothing.
+fn fitting(ui: &Ui, text: &LabelText, pane: PaneId, room: Vec2) -> Option<Arc<Galley>> {
+    let size = theme::label_font(ui).size;
+    let [widest, narrowest, with_figures] = WIDTHS.map(|width| width * size);
+    let width = room.x.min(widest);
+    let candidates = [(with_figures, [true, true]), (with_figures, [true, false]), (narrowest, [false, false])];
+    candidates.into_iter().filter(|(least, _)| width >= *least).find_map(|(_, parts)| {
+        let mut job = job(text, pane, size, parts);
+        job.wrap.max_width = width;
+        let galley = ui.painter().layout_job(job);
+        (galley.size().y <= MOST_HEIGHT * room.y && galley.size().x <= width).then_some(galley)
+    })
+}
+
+fn job(text: &LabelText, pane: PaneId, size: f32, [details, notes]: [bool; 2]) -> LayoutJob {
+    let format = |size, colour| TextFormat::simple(FontId::proportional(size), colour);
+    let mut job = LayoutJob::default();
+    let bold = |colour| TextFormat::simple(FontId::new(size, theme::semi_bold()), colour);
+    job.append(pane.name(), 0.0, bold(colour(pane)));
+    job.append(&text.name, 0.5 * size, bold(Color32::WHITE));
+    let mut line = |text: &str, colour| job.append(&format!("\n{text}"), 0.0, format(0.86 * size, colour));
+    if details {
+        for figures in text.details() {
+            // where it has to be broken it is between two figures
+            let whole: Vec<String> = figures.iter().map(|figure| figure.replace(' ', "\u{a0}")).collect();
+            line(&whole.join("\u{a0}· "), Color32::from_gray(225));
+        }
+    }
+    if notes {
+        text.notes.iter().for_each(|note| line(note, Color32::from_rgb(255, 225, 150)));
+    }
+    job
+}
+
+fn paint(ui: &Ui, clip: Rect, place: Rect, galley: Arc<Galley>, colour: Color32) {
+    let painter = ui.painter().with_clip_rect(clip);
+    let ground = place.expand2(PADDING);
+    painter.rect_filled(ground, 7.0, Color32::from_black_alpha(217));
+    painter.vline(ground.left(), ground.y_range(), Stroke::new(3.0, colour));
+    painter.galley(place.min, galley, Color32::WHITE);
+}
+
+/// Blue and orange, which nobody takes for each other.
+fn colour(pane: PaneId) -> Color32 {
+    match pane {
+        PaneId::A => Color32::from_rgb(140, 200, 255),
+        PaneId::B => Color32::from_rgb(255, 185, 100),
+        _ => Color32::WHITE,
+    }
+}

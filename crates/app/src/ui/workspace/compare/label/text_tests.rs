@@ -1,0 +1,101 @@
+//! The words of labels.
+
+use super::*;
+use std::sync::Arc;
+use technique::settings::of_panes;
+use technique::{PaneSettings, Provenance, Shot, TechniqueName};
+
+fn made(scene: &str, technique: TechniqueName, changes: &[(&str, &str)]) -> Provenance {
+    let mut pane = PaneSettings::of(technique);
+    for (name, word) in changes {
+        let row = of_panes(name).unwrap();
+        (row.set)(&mut pane, row.kind.parse(word).unwrap());
+    }
+    let shot = Shot::of(scene::builtin::named(scene).unwrap(), (1, 1));
+    Provenance { shot, technique: pane.in_use(), device: Device::Cpu }
+}
+
+fn path(changes: &[(&str, &str)], spp: u32) -> PaneView {
+    let stats = Stats { samples: 1000, rays: 13_500, cut_paths: 0 };
+    PaneView {
+        provenance: Some(Arc::new(made("whitted", TechniqueName::Path, changes))),
+        spp: Some(spp),
+        seconds: 0.5,
+        effort: Some(Effort::Traced(stats)),
+        adapter: Some("2 threads".into()),
+        ..PaneView::default()
+    }
+}
+
+fn fake(seconds: f64, compiling: Compiling) -> PaneView {
+    PaneView {
+        provenance: Some(Arc::new(made("whitted", TechniqueName::Raster, &[]))),
+        seconds,
+        effort: Some(Effort::Drawn(Drawing { compiling, kept_maps: false })),
+        ..PaneView::default()
+    }
+}
+
+fn label(shown: &PaneView, told: Option<Told>) -> LabelText {
+    LabelText::of(PaneId::B, shown, None, told, false)
+}
+
+#[test]
+fn the_cost_is_that_of_the_picture_that_is_shown() {
+    assert_eq!(label(&path(&[("spp", "256")], 64), None).figures, ["64 of 256 spp, 500 ms"]);
+    assert_eq!(label(&path(&[("spp", "64")], 64), None).figures, ["64 spp, 500 ms"], "it has all that it shall have");
+    assert_eq!(label(&path(&[("spp", "16")], 64), None).figures, ["64 spp, 500 ms"], "fewer are wished by now");
+    assert_eq!(label(&fake(0.0041, Compiling::Apart(0.45)), None).figures, ["4.1 ms"]);
+    assert_eq!(label(&fake(0.557, Compiling::Included), None).figures, ["557 ms with compiling"]);
+    let rough = PaneView { rough: true, shrink: 4, ..path(&[], 2) };
+    assert_eq!(label(&rough, None).figures, ["2 spp, at 1/4 of the resolution"]);
+    let held = PaneView { unfinished: true, ..path(&[("spp", "256")], 64) };
+    let held = LabelText::of(PaneId::B, &held, None, None, true);
+    assert_eq!(held.figures, ["64 of 256 spp, 500 ms, paused"]);
+}
+
+#[test]
+fn compiling_is_told_apart_from_drawing() {
+    let warm = label(&fake(0.0041, Compiling::Apart(0.45)), None);
+    assert_eq!(warm.explanations, ["Compiling took 450 ms once, apart from this"]);
+}
+
+#[test]
+fn errors_stand_with_words_first_and_say_what_they_are_against() {
+    let errors = Errors { relative_mae: 0.31, relative_bias: 0.003, rel_mse: 1.338, ..Errors::default() };
+    let judged = label(&path(&[], 256), Some(Told { of: PaneId::B, against: Against::Reference, errors }));
+    assert_eq!(judged.errors, ["31 % off on average", "0.3 % too bright overall"]);
+    assert_eq!(judged.figures[0], "relMSE 1.338 against the reference");
+    assert!(judged.explanations.iter().any(|line| line.contains("mean of |B - reference|")));
+    let beside = label(&path(&[], 256), Some(Told { of: PaneId::A, against: Against::Pane(PaneId::B), errors }));
+    let lines = [
+        "B: Path tracing, light",
+        "A differs from B by 31 % on average · 0.3 % brighter overall",
+        "relMSE 1.338 · 256 spp, 500 ms",
+    ];
+    assert_eq!(beside.whole(PaneId::B), lines.join("\n"));
+}
+
+#[test]
+fn a_picture_says_what_it_lacks_and_where_it_is_noisy() {
+    assert_eq!(label(&path(&[("bounces", "0")], 256), None).notes, ["missing: indirect light (biased)"]);
+    let noisy = PaneView { noisy: true, ..path(&[], 256) };
+    assert_eq!(label(&noisy, None).notes, ["still noisy under the glass: light reaches it only by chance"]);
+    assert!(label(&path(&[], 256), None).notes.is_empty());
+}
+
+#[test]
+fn rays_are_counted_on_the_label_where_paths_branch_and_else_where_asked() {
+    let branching = label(&path(&[("branches", "4"), ("bounces", "1")], 256), None);
+    let counted = "13.5 rays a sample, 27 thousand rays a second";
+    assert_eq!(branching.notes[1], format!("N = 4, at most 4^2 = 16 paths a sample: {counted}"));
+    let plain = label(&path(&[], 256), None);
+    assert!(plain.notes.is_empty());
+    assert_eq!(plain.explanations, [format!("{counted}, by 2 threads")]);
+}
+
+#[test]
+fn large_numbers_have_words() {
+    let words = [12.0, 999.6, 27_000.0, 4_512_000.0, 999_960_000.0].map(large);
+    assert_eq!(words, ["12", "1 thousand", "27 thousand", "4.5 million", "1.0 thousand million"]);
+}

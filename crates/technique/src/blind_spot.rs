@@ -1,0 +1,217 @@
+//! What settings cannot see in a scene, and where their noise stays longest: to be said rather than hidden.
+
+use crate::TracedSettings;
+use pathtrace::{Estimator, GlassShadows, Integrator, LightSampling, PathSettings};
+use scene::{Needs, Scene};
+
+/// Light of a scene that a picture lacks, or hardly ever finds.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum BlindSpot {
+    /// A sun without a disc, where light is met by chance.
+    Sun,
+    /// Point lights, where light is met by chance.
+    PointLights,
+    /// What a sun without a disc sends through glass, or by mirrors alone.
+    CausticOfSun(Specular),
+    /// The same of point lights.
+    CausticOfPointLights(Specular),
+    /// What paths of more bounces than these bring.
+    LongPaths(u32),
+    /// Whitted's method: what one surface sends to another.
+    BetweenSurfaces,
+    /// Whitted's method where light passes glass straight on.
+    Caustics,
+    /// Lights in smooth rough metal, where light sampling alone has to hit the reflection.
+    NarrowReflections,
+}
+
+/// What leaves a path no choice of its direction.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Specular {
+    /// Glass, with mirrors or without.
+    Glass,
+    /// Mirrors alone.
+    Mirror,
+}
+
+/// Where a picture is still noisy when the rest of it is not.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum NoiseSource {
+    /// Wherever there is light: no estimator aims at it.
+    ByChance,
+    /// Where light is sent through glass, or by mirrors alone: light sampling cannot aim through them.
+    Caustic(Specular),
+    /// In smooth rough metal.
+    NarrowReflections,
+}
+
+impl Specular {
+    fn of(needs: &Needs) -> Option<Self> {
+        match (needs.dielectric, needs.mirror) {
+            (true, _) => Some(Specular::Glass),
+            (false, true) => Some(Specular::Mirror),
+            (false, false) => None,
+        }
+    }
+}
+
+impl BlindSpot {
+    /// What is missing, in the words of a label.
+    pub fn missing(self) -> String {
+        match self {
+            BlindSpot::Sun => "the sun's light".into(),
+            BlindSpot::PointLights => "the point lights'".into(),
+            BlindSpot::CausticOfSun(Specular::Glass) | BlindSpot::CausticOfPointLights(Specular::Glass) => {
+                "light behind glass".into()
+            }
+            BlindSpot::CausticOfSun(Specular::Mirror) | BlindSpot::CausticOfPointLights(Specular::Mirror) => {
+                "light from mirrors".into()
+            }
+            BlindSpot::LongPaths(0) => "indirect light (biased)".into(),
+            BlindSpot::LongPaths(1) => "light after more than 1 bounce (biased)".into(),
+            BlindSpot::LongPaths(bounces) => format!("light after more than {bounces} bounces (biased)"),
+            BlindSpot::BetweenSurfaces => "light between surfaces".into(),
+            BlindSpot::Caustics => "caustics".into(),
+            BlindSpot::NarrowReflections => "most light in narrow reflections".into(),
+        }
+    }
+
+    /// What is missing and why, in a line.
+    pub fn explanation(self) -> &'static str {
+        match self {
+            BlindSpot::Sun => "a sun of radius 0 cannot be hit by chance: its light is missing",
+            BlindSpot::PointLights => "a point light cannot be hit by chance: its light is missing",
+            BlindSpot::CausticOfSun(_) => {
+                "a sun of radius 0 casts no caustic: no path can find it behind glass or mirror"
+            }
+            BlindSpot::CausticOfPointLights(_) => {
+                "a point light casts no caustic: no path can find it behind glass or mirror"
+            }
+            BlindSpot::LongPaths(_) => "longer paths are lost: the picture is biased, too dark",
+            BlindSpot::BetweenSurfaces => "light from one surface on another is missing: ambient light stands for it",
+            BlindSpot::Caustics => "light passes glass straight on: no caustic; mirrors send none on",
+            BlindSpot::NarrowReflections => {
+                "smooth rough metal is noise without mis: light in a narrow reflection is hardly ever found"
+            }
+        }
+    }
+}
+
+impl NoiseSource {
+    /// Where and why, in the words of a label.
+    pub fn words(self) -> &'static str {
+        match self {
+            NoiseSource::ByChance => "still noisy: light is met only by chance",
+            NoiseSource::Caustic(Specular::Glass) => "still noisy under the glass: light reaches it only by chance",
+            NoiseSource::Caustic(Specular::Mirror) => {
+                "still noisy where mirrors send light: it gets there only by chance"
+            }
+            NoiseSource::NarrowReflections => "still noisy in the metal: its reflections hardly ever meet a light",
+        }
+    }
+}
+
+impl TracedSettings {
+    /// What these settings cannot see in this scene.
+    pub fn blind_spots(&self, scene: &Scene) -> Vec<BlindSpot> {
+        match self.integrator {
+            Integrator::Path(path) => of_paths(&path, scene),
+            Integrator::Whitted(tree) => {
+                let clear = Specular::of(&scene.needs()).is_some() && tree.glass_shadows == GlassShadows::Clear;
+                vec![if clear { BlindSpot::Caustics } else { BlindSpot::BetweenSurfaces }]
+            }
+            Integrator::Normals(_) => Vec::new(),
+        }
+    }
+
+    /// Where a picture by these settings stays noisy longest, if they leave light to chance.
+    pub fn noise_source(&self, scene: &Scene) -> Option<NoiseSource> {
+        let Integrator::Path(path) = self.integrator else { return None };
+        let needs = scene.needs();
+        // what has no extent is not met by chance, but missing
+        let disc = scene.sun.is_some_and(|sun| sun.angular_radius > 0.0);
+        let lights = needs.area_lights || disc || scene.environment.is_some();
+        match Specular::of(&needs) {
+            _ if lights && !path.estimator.samples_lights() => Some(NoiseSource::ByChance),
+            Some(specular) if lights && path.bounces != Some(0) => Some(NoiseSource::Caustic(specular)),
+            _ if is_blind_in_metal(&path, &needs) => Some(NoiseSource::NarrowReflections),
+            _ => None,
+        }
+    }
+}
+
+fn of_paths(path: &PathSettings, scene: &Scene) -> Vec<BlindSpot> {
+    let needs = scene.needs();
+    let delta_sun = scene.sun.is_some_and(|sun| sun.angular_radius == 0.0);
+    let by_chance = path.estimator.light == LightSampling::BsdfOnly;
+    let sources = [
+        (delta_sun, BlindSpot::Sun, BlindSpot::CausticOfSun as fn(Specular) -> BlindSpot),
+        (needs.point_lights, BlindSpot::PointLights, BlindSpot::CausticOfPointLights),
+    ];
+    let specular = Specular::of(&needs);
+    let unseen = sources
+        .into_iter()
+        .filter(|(there, ..)| *there)
+        .filter_map(|(_, all, caustic)| if by_chance { Some(all) } else { specular.map(caustic) });
+    let metal = is_blind_in_metal(path, &needs).then_some(BlindSpot::NarrowReflections);
+    unseen.chain(metal).chain(path.bounces.map(BlindSpot::LongPaths)).collect()
+}
+
+fn is_blind_in_metal(path: &PathSettings, needs: &Needs) -> bool {
+    needs.rough_conductor && path.estimator.samples_lights() && path.estimator != Estimator::MIS
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{PaneSettings, SceneChanges, Technique, TechniqueName};
+    use pathtrace::Integrator;
+    use scene::builtin;
+
+    fn traced(technique: TechniqueName) -> TracedSettings {
+        match PaneSettings::of(technique).in_use() {
+            Technique::Traced(traced) => traced,
+            Technique::Fake(_) => panic!("the fake is not traced"),
+        }
+    }
+
+    fn path(estimator: Estimator, bounces: Option<u32>) -> TracedSettings {
+        let settings = PathSettings { estimator, bounces, ..PathSettings::default() };
+        TracedSettings { integrator: Integrator::Path(settings), ..traced(TechniqueName::Path) }
+    }
+
+    fn under_a_sun_of_radius(radius: f32) -> Scene {
+        let changes = SceneChanges { sun_radius: Some(radius), ..SceneChanges::default() };
+        changes.applied_to(&builtin::named("whitted").unwrap())
+    }
+
+    fn missing(settings: &TracedSettings, scene: &Scene) -> Vec<String> {
+        settings.blind_spots(scene).into_iter().map(BlindSpot::missing).collect()
+    }
+
+    #[test]
+    fn what_a_picture_lacks_is_said_whatever_else_it_lacks() {
+        let (wide, delta) = (under_a_sun_of_radius(2.5), under_a_sun_of_radius(0.0));
+        assert_eq!(missing(&path(Estimator::LIGHT, None), &wide), [""; 0]);
+        assert_eq!(missing(&path(Estimator::LIGHT, None), &delta), ["light behind glass"]);
+        assert_eq!(missing(&path(Estimator::COSINE, None), &delta), ["the sun's light"]);
+        let short = missing(&path(Estimator::LIGHT, Some(2)), &delta);
+        assert_eq!(short, ["light behind glass", "light after more than 2 bounces (biased)"]);
+        assert_eq!(missing(&path(Estimator::LIGHT, Some(0)), &wide), ["indirect light (biased)"]);
+        assert_eq!(missing(&traced(TechniqueName::Whitted), &wide), ["light between surfaces"]);
+        assert_eq!(missing(&traced(TechniqueName::Normals), &wide), [""; 0]);
+    }
+
+    #[test]
+    fn noise_stays_where_light_is_left_to_chance() {
+        let (wide, delta) = (under_a_sun_of_radius(2.5), under_a_sun_of_radius(0.0));
+        let cornell = builtin::named("cornell").unwrap();
+        let of = |estimator, scene: &Scene| path(estimator, None).noise_source(scene);
+        assert_eq!(of(Estimator::LIGHT, &wide), Some(NoiseSource::Caustic(Specular::Glass)));
+        assert_eq!(of(Estimator::LIGHT, &delta), None, "what is missing is no noise");
+        assert_eq!(of(Estimator::LIGHT, &cornell), None);
+        assert_eq!(of(Estimator::COSINE, &cornell), Some(NoiseSource::ByChance));
+        assert_eq!(path(Estimator::LIGHT, Some(0)).noise_source(&wide), None, "direct light passes no glass");
+        assert_eq!(traced(TechniqueName::Whitted).noise_source(&wide), None);
+    }
+}
