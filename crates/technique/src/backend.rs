@@ -110,7 +110,9 @@ impl Backend {
         let until = accumulation.spp.saturating_add(samples);
         match self {
             Backend::Cpu(tracer) => {
-                accumulation.begin_pass(format!("{} threads", rayon::current_num_threads()), until);
+                let threads = rayon::current_num_threads();
+                let threads = if threads == 1 { "1 thread".into() } else { format!("{threads} threads") };
+                accumulation.begin_pass(threads, until);
                 // what has said so once may not say so again: a hold that ended meanwhile
                 let stopped = AtomicBool::new(false);
                 let stop = || {

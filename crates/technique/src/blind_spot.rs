@@ -76,9 +76,9 @@ impl BlindSpot {
         }
     }
 
-    /// What is missing and why, in a line.
-    pub fn explanation(self) -> &'static str {
-        match self {
+    /// What is missing and why, in a line; `None` of a limit, which whoever sets it has asked for.
+    pub fn explanation(self) -> Option<&'static str> {
+        Some(match self {
             BlindSpot::Sun => "a sun of radius 0 cannot be hit by chance: its light is missing",
             BlindSpot::PointLights => "a point light cannot be hit by chance: its light is missing",
             BlindSpot::CausticOfSun(_) => {
@@ -87,13 +87,13 @@ impl BlindSpot {
             BlindSpot::CausticOfPointLights(_) => {
                 "a point light casts no caustic: no path can find it behind glass or mirror"
             }
-            BlindSpot::LongPaths(_) => "longer paths are lost: the picture is biased, too dark",
+            BlindSpot::LongPaths(_) => return None,
             BlindSpot::BetweenSurfaces => "light from one surface on another is missing: ambient light stands for it",
             BlindSpot::Caustics => "light passes glass straight on: no caustic; mirrors send none on",
             BlindSpot::NarrowReflections => {
                 "smooth rough metal is noise without mis: light in a narrow reflection is hardly ever found"
             }
-        }
+        })
     }
 }
 

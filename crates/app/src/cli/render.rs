@@ -17,8 +17,8 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 use technique::settings::{OF_SCENES, Setting, Value, all_of_panes};
 use technique::{
-    Accumulation, Backend, Device, DeviceChoice, FakeSettings, Frame, INSTEAD, Made, Pacing, PaneSettings, Provenance,
-    Rendered, Renderer, Shot, Technique, Threads, TracedSettings, Watch,
+    Accumulation, Backend, BlindSpot, Device, DeviceChoice, FakeSettings, Frame, INSTEAD, Made, Pacing, PaneSettings,
+    Provenance, Rendered, Renderer, Shot, Technique, Threads, TracedSettings, Watch,
 };
 
 /// Samples per pixel where neither --spp nor --time says how many.
@@ -158,8 +158,8 @@ fn raster(args: &RenderArgs, scene: &Scene, fake: FakeSettings) -> anyhow::Resul
 }
 
 fn trace(args: &RenderArgs, shot: &Shot, traced: TracedSettings) -> anyhow::Result<Timed> {
-    for blind_spot in traced.blind_spots(&shot.scene) {
-        note!("note: {}", blind_spot.explanation());
+    for line in traced.blind_spots(&shot.scene).into_iter().filter_map(BlindSpot::explanation) {
+        note!("note: {line}");
     }
     let spp = spp_wanted(args);
     let (width, height) = shot.size;

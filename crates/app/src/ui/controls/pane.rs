@@ -8,7 +8,7 @@ use crate::ui::theme::palette;
 use crate::ui::widgets::fold;
 use egui::Ui;
 use technique::settings::{Setting, all_of_panes};
-use technique::{PaneSettings, Technique, TechniqueName};
+use technique::{BlindSpot, PaneSettings, Technique, TechniqueName};
 
 /// In which order a technique's controls stand; a setting that is not named stands behind those that are.
 fn order(technique: TechniqueName) -> &'static [&'static str] {
@@ -81,7 +81,7 @@ fn faults(cx: &UiContext, pane: PaneId, ui: &mut Ui) {
         ui.label(fault.to_string());
     }
     let scene = cx.model.document.changes.applied_to(&cx.model.document.scene);
-    for blind_spot in traced.blind_spots(&scene) {
-        ui.label(blind_spot.explanation());
+    for line in traced.blind_spots(&scene).into_iter().filter_map(BlindSpot::explanation) {
+        ui.label(line);
     }
 }

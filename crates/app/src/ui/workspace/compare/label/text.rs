@@ -189,7 +189,8 @@ fn explained(shown: &PaneView) -> Vec<String> {
         }
     }
     if let Some((traced, made)) = traced(shown) {
-        lines.extend(traced.blind_spots(&made.shot.scene).iter().map(|spot| spot.explanation().to_owned()));
+        let blind_spots = traced.blind_spots(&made.shot.scene).into_iter();
+        lines.extend(blind_spots.filter_map(BlindSpot::explanation).map(str::to_owned));
     }
     lines
 }
