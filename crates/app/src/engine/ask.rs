@@ -6,7 +6,7 @@ use super::load::{Loader, Opened};
 use super::pane_workers::PaneWorkers;
 use super::post_process::{PaneUpdate, PaneUpdates, PostProcess};
 use super::reference::{OpenStore, ReferenceUpdate, ReferenceWorker, Wish};
-use super::{Order, STEPS_BACK, Wake, step_back};
+use super::{Order, STEPS_BACK, Wake, step_farther_back};
 use crate::model::{Against, Comparison, ErrorMap, MapWish, Origin, PaneId, Panes, Wanted, WantedPane};
 use anyhow::Context;
 use film::DisplayTransform;
@@ -75,7 +75,8 @@ impl Engine {
         let error_map_worker = Arc::new(ErrorMapWorker::start(wake.clone()).context("no thread for maps")?);
         let post_process =
             PostProcess::start(wake.clone(), error_map_worker.clone()).context("no thread for post-processing")?;
-        let threads = Arc::new(Threads::beside_the_ui(step_back, STEPS_BACK).context("no threads for tracing rays")?);
+        let threads =
+            Arc::new(Threads::beside_the_ui(step_farther_back, STEPS_BACK).context("no threads for tracing rays")?);
         Ok(Engine {
             gpu: window.clone(),
             adapters: adapters.clone(),

@@ -107,9 +107,22 @@ impl Order {
 /// Lets the threads of the window go first, and those of its driver where the processor draws. What this thread starts
 /// steps back with it.
 pub fn step_back() {
-    // only here is it a thread's own affair; one that may not step back is as fast as before
+    give_way(10);
+}
+
+/// Lets those go first too that step back: where the processor draws the fake, its picture, which is done at once, is not
+/// held up by samples that come for seconds.
+pub fn step_farther_back() {
+    give_way(15);
+}
+
+/// By so much less is a thread's share of a core.
+fn give_way(niceness: i32) {
+    // only there is it a thread's own affair; one that may not step back is as fast as before
     #[cfg(target_os = "linux")]
-    let _ = rustix::process::nice(10);
+    let _ = rustix::process::nice(niceness);
+    #[cfg(not(target_os = "linux"))]
+    let _ = niceness;
 }
 
 /// Whether [`step_back`] does so here. Then no core need be left to the user interface.

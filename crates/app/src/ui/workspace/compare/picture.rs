@@ -4,9 +4,9 @@
 use super::{label, map, map_faces, mouse};
 use crate::model::{Line, PaneId, PictureArea, View};
 use crate::ui::UiContext;
-use crate::ui::overlay::spoken;
-use crate::ui::overlay::{say, text_box};
+use crate::ui::overlay::{say, spoken, text_box};
 use egui::{Align2, Color32, Rect, Sense, Stroke, Ui, pos2, vec2};
+use scene::Vec3;
 
 /// Between two pictures side by side, in points.
 const GAP: f32 = 8.0;
@@ -111,6 +111,11 @@ fn picture(cx: &mut UiContext, ui: &Ui, rect: Rect, clip: Rect, pane: PaneId) {
             spoken(ui, &format!("label fault {pane}"), fault, place, true);
         }
         (None, Some(texture)) => {
+            if !rect.contains_rect(clip) {
+                // around a map that is shown smaller it goes on as within
+                let around = cx.model.session.display.rgba8(Vec3::splat(raster::maps::BACKGROUND));
+                ui.painter().rect_filled(clip, 0.0, Color32::from_rgb(around[0], around[1], around[2]));
+            }
             ui.painter().with_clip_rect(clip).image(*texture, rect, WHOLE, Color32::WHITE);
         }
         (None, None) => drop(in_the_middle("rendering ...", Color32::WHITE)),
