@@ -3,9 +3,10 @@
 use crate::{Scene, SceneError, file, nearest};
 use std::path::Path;
 
-const FILES: [(&str, &str); 2] = [
+const FILES: [(&str, &str); 3] = [
     ("whitted", include_str!("../../../assets/scenes/whitted.toml")),
     ("cornell", include_str!("../../../assets/scenes/cornell.toml")),
+    ("phong", include_str!("../../../assets/scenes/phong.toml")),
 ];
 
 /// Scenes with known answers, which hard cases are made of: `hard/NAME`.
