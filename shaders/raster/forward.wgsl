@@ -61,6 +61,8 @@ struct Object {
     has_cube_map: u32,
     // texels by which the shape's own depth may differ within the shadow kernel
     slack: f32,
+    // what Lambert's term takes of the colour
+    diffuse: f32,
 }
 
 @group(0) @binding(0) var<uniform> view: View;
@@ -153,9 +155,10 @@ const SIDE_ROUNDING: f32 = 1.0 / 1048576.0;
 fn surface(p: vec3f, n: vec3f) -> vec3f {
     // a surface in the side between two cells belongs to the upper one, wherever its points are rounded to
     let upper = p + abs(n) * (abs(p) + abs(object.origin)) * SIDE_ROUNDING;
-    let kd = checkerboard(Checkerboard(object.even, object.odd, object.origin, object.cells_per_unit), upper);
+    let colour = checkerboard(Checkerboard(object.even, object.odd, object.origin, object.cells_per_unit), upper);
+    let kd = object.diffuse * colour;
     let v = normalize(view.eye - p);
-    var sum = kd * lights.ambient;
+    var sum = colour * lights.ambient;
     if SUN {
         let l = lights.sun_towards;
         sum += shadow(0u, p, dot(n, l)) * shaded(n, l, v, kd, lights.sun_incident);

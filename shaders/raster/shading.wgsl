@@ -1,6 +1,6 @@
 // What one light adds at a point: n unit normal, l unit direction to the light, v unit direction to the viewer,
-// `incident` the light that a white Lambert surface facing it would send back. Ambient light, kd * ambient, is the
-// caller's.
+// `incident` the light that a white Lambert surface facing it would send back. Ambient light, colour * ambient, is
+// the caller's.
 // Twin: crates/raster/src/shading.rs.
 
 // Keeps log2 finite inside pow, so that 0^0 is 1 and no exponent makes a NaN: the smallest power of ten that is a

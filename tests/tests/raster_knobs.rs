@@ -45,6 +45,8 @@ fn turned() -> Vec<FakeKnobs> {
     vec![
         FakeKnobs { shininess: Some(5.0), ..d },
         FakeKnobs { ambient: Some(0.5), ..d },
+        FakeKnobs { diffuse: Some(0.5), ..d },
+        FakeKnobs { specular: Some(0.5), ..d },
         FakeKnobs { cube_map: Some(8), ..d },
         FakeKnobs { shadow_map: Some(32), ..d },
         FakeKnobs { filter: ShadowFilter::Hard, ..d },
@@ -112,6 +114,8 @@ fn knobs_at_the_scenes_numbers_change_nothing() {
     let same = FakeKnobs {
         shininess: Some(30.0),
         ambient: Some(0.23),
+        diffuse: Some(1.0),
+        specular: Some(17.0 / 255.0),
         cube_map: Some(512),
         shadow_map: Some(512),
         segments: Some(100),

@@ -3,7 +3,7 @@
 use film::DisplayTransform;
 use film::{Film, colour};
 use gpu::Gpu;
-use raster::{Fake, Raster, RasterSettings, Shading, shading};
+use raster::{Fake, FakeKnobs, Raster, RasterSettings, Shading, shading};
 use scene::glam::Vec2;
 use scene::{Bsdf, Camera, Geometry, Scene, Sun, Texture, Vec3, builtin};
 use std::f32::consts::PI;
@@ -167,6 +167,71 @@ fn fair_floor_is_sun_times_cosine_plus_sky_plus_highlight() {
         let off = (found - expected).abs();
         assert!(off.cmple(expected.abs() * 1e-4 + 1e-6).all(), "{point}: {found} is not {expected}");
     }
+}
+
+/// Cells of the floor of `phong` within the highlights, and beside them.
+const GLOSSY: [Vec3; 4] =
+    [Vec3::new(1.5, 0.0, 1.5), Vec3::new(0.5, 0.0, 1.5), Vec3::new(1.5, 0.0, 0.5), Vec3::new(2.5, 0.0, -1.5)];
+
+#[test]
+fn highlights_follow_the_slides_formulas_with_the_knobs_coefficients() {
+    let scene = builtin::named("phong").unwrap();
+    let (sun, board) = (scene.sun.unwrap(), board(&scene));
+    let (kd, ks, p, n, l) = (0.5, 0.4, 50.0, Vec3::Y, sun.towards);
+    let knobs = FakeKnobs { diffuse: Some(kd), specular: Some(ks), shininess: Some(p), ..FakeKnobs::default() };
+    let cosine_of_phong = |v: Vec3| (2.0 * n.dot(l) * n - l).dot(v);
+    let cosine_of_blinn = |v: Vec3| n.dot((l + v).normalize());
+    let models: [(Shading, &dyn Fn(Vec3) -> f32); 2] =
+        [(Shading::Phong, &cosine_of_phong), (Shading::BlinnPhong, &cosine_of_blinn)];
+    for (shading, cosine) in models {
+        let film = rendered(&scene, RasterSettings { shading, knobs, ..RasterSettings::new(WIDTH, HEIGHT) });
+        for point in GLOSSY {
+            let (x, y) = pixel_of(&scene.camera, &film, point);
+            let of_sample = |sub: Vec2| {
+                let d = direction(&scene.camera, &film, Vec2::new(x as f32, y as f32) + sub);
+                let colour = board.at(on_plane(scene.camera.eye, d, 0.0));
+                let incident = sun.irradiance / PI;
+                colour * scene.sky + kd * colour * incident * n.dot(l) + ks * incident * cosine(-d).max(0.0).powf(p)
+            };
+            let expected = GRID.into_iter().map(of_sample).sum::<Vec3>() / 4.0;
+            let found = film.at(x, y);
+            let off = (found - expected).abs().max_element();
+            assert!(off < 1e-4, "{} at {point}: {found} is not {expected}", shading.name());
+        }
+    }
+}
+
+#[test]
+fn without_diffuse_and_specular_light_ambient_light_is_all() {
+    let scene = builtin::named("phong").unwrap();
+    let board = board(&scene);
+    let knobs = FakeKnobs { diffuse: Some(0.0), specular: Some(0.0), ..FakeKnobs::default() };
+    for shading in [Shading::Phong, Shading::BlinnPhong] {
+        let fair = rendered(&scene, RasterSettings { shading, knobs, ..RasterSettings::new(WIDTH, HEIGHT) });
+        let taught = rendered(&scene, RasterSettings { shading, knobs, ..as_taught(WIDTH, HEIGHT) });
+        for point in GLOSSY {
+            let (x, y) = pixel_of(&scene.camera, &fair, point);
+            assert_eq!(fair.at(x, y), board.at(point) * scene.sky, "{point}");
+            let grey = (board.at(point) * scene.fake.ambient * 255.0).round();
+            assert_bytes(&taught, (x, y), grey.to_array().map(|byte| byte as i32), 1);
+        }
+    }
+}
+
+/// What a student sees: more than a tenth of the picture differs by more than two steps of an 8-bit display.
+#[test]
+fn the_scene_phong_tells_phong_from_blinn_phong_and_burns_nothing() {
+    let scene = builtin::named("phong").unwrap();
+    let shown = |shading| {
+        let film = rendered(&scene, RasterSettings { shading, ..RasterSettings::new(320, 180) });
+        assert!(film.radiances().all(|l| l.max_element() < 1.0), "{} burns", shading.name());
+        (0..180).flat_map(|y| (0..320).map(move |x| (x, y))).map(|at| bytes(&film, at)).collect::<Vec<_>>()
+    };
+    shown(Shading::Three);
+    let (phong, blinn) = (shown(Shading::Phong), shown(Shading::BlinnPhong));
+    let differs = |(a, b): &(&[i32; 3], &[i32; 3])| (0..3).any(|c| (a[c] - b[c]).abs() > 2);
+    let share = phong.iter().zip(&blinn).filter(differs).count() as f32 / phong.len() as f32;
+    assert!(share > 0.1, "{share} of the pixels");
 }
 
 #[test]

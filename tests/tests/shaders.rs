@@ -116,7 +116,8 @@ fn mirrors_have_the_layout_of_their_structs() {
             emitting_sides,
             kind,
             has_cube_map,
-            slack
+            slack,
+            diffuse
         ]
     );
 }

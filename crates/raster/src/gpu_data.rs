@@ -116,6 +116,6 @@ pub struct Object {
     pub has_cube_map: u32,
     /// Shadow texels by which the shape may lie behind itself.
     pub slack: f32,
-    /// Padding.
-    pub unused: u32,
+    /// What Lambert's term takes of the colour.
+    pub diffuse: f32,
 }

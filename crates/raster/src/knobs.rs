@@ -15,6 +15,11 @@ pub struct FakeKnobs {
     /// light, so that one number means the same change in both fakes. Where the scene's number is 0, it is the share of
     /// the sky.
     pub ambient: Option<f32>,
+    /// Lambert's share `k_d`, in [`FakeKnobs::COEFFICIENT`], times the colour of every surface: 1 is the scene's own.
+    /// Ambient light keeps the whole colour.
+    pub diffuse: Option<f32>,
+    /// The highlight's share `k_s` of every surface, grey, in [`FakeKnobs::COEFFICIENT`].
+    pub specular: Option<f32>,
     /// Texels along a side of each face of the cube maps, in [`FakeKnobs::CUBE_MAP`].
     pub cube_map: Option<u32>,
     /// Texels along a side of the shadow map, in [`FakeKnobs::SHADOW_MAP`].
@@ -81,6 +86,8 @@ impl FakeKnobs {
     pub const SHININESS: RangeInclusive<f32> = 0.0..=1000.0;
     /// Ambient light.
     pub const AMBIENT: RangeInclusive<f32> = 0.0..=1.0;
+    /// Shares of the light that a surface sends back.
+    pub const COEFFICIENT: RangeInclusive<f32> = 0.0..=1.0;
     /// Texels along a side of a cube map's face.
     pub const CUBE_MAP: RangeInclusive<u32> = 4..=2048;
     /// Texels along a side of a shadow map.
@@ -94,21 +101,24 @@ impl FakeKnobs {
     pub fn fault(&self) -> Option<String> {
         beyond("shininess", self.shininess, &Self::SHININESS)
             .or_else(|| beyond("ambient light", self.ambient, &Self::AMBIENT))
+            .or_else(|| beyond("diffuse coefficient", self.diffuse, &Self::COEFFICIENT))
+            .or_else(|| beyond("specular coefficient", self.specular, &Self::COEFFICIENT))
             .or_else(|| beyond("cube map size", self.cube_map, &Self::CUBE_MAP))
             .or_else(|| beyond("shadow map size", self.shadow_map, &Self::SHADOW_MAP))
             .or_else(|| beyond("shadow bias", Some(self.bias), &Self::BIAS))
             .or_else(|| beyond("number of segments", self.segments, &Self::SEGMENTS))
     }
 
-    /// The scene with these numbers in place of its own, but for ambient light.
+    /// The scene with these numbers in place of its own, but for ambient light and Lambert's share.
     pub(crate) fn applied(&self, scene: &Scene) -> Scene {
         let mut scene = scene.clone();
         let fake = &mut scene.fake;
         fake.cube_map = self.cube_map.unwrap_or(fake.cube_map);
         fake.shadow_map = self.shadow_map.unwrap_or(fake.shadow_map);
         fake.segments = self.segments.unwrap_or(fake.segments);
-        if let Some(shininess) = self.shininess {
-            scene.materials.iter_mut().for_each(|material| material.fake.shininess = shininess);
+        for material in &mut scene.materials {
+            material.fake.shininess = self.shininess.unwrap_or(material.fake.shininess);
+            material.fake.specular = self.specular.unwrap_or(material.fake.specular);
         }
         scene
     }
@@ -160,6 +170,8 @@ mod tests {
             (FakeKnobs { shininess: Some(-1.0), ..d }, "shininess -1"),
             (FakeKnobs { shininess: Some(f32::NAN), ..d }, "shininess NaN"),
             (FakeKnobs { ambient: Some(1.5), ..d }, "ambient light 1.5"),
+            (FakeKnobs { diffuse: Some(1.1), ..d }, "diffuse coefficient 1.1"),
+            (FakeKnobs { specular: Some(-0.1), ..d }, "specular coefficient -0.1"),
             (FakeKnobs { bias: f32::INFINITY, ..d }, "shadow bias inf"),
         ];
         for (knobs, named) in beyond {

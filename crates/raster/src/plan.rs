@@ -220,6 +220,7 @@ fn object(scene: &Scene, index: usize, casting: Casting, settings: &RasterSettin
         reflectivity: material.fake.reflectivity,
         specular: material.fake.specular,
         shininess: material.fake.shininess,
+        diffuse: settings.knobs.diffuse.unwrap_or(1.0),
         slack: if own_lit_side { settings.knobs.filter.reach() } else { 0.0 },
         ..Object::zeroed()
     };

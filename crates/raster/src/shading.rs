@@ -2,7 +2,7 @@
 //! `refraction.wgsl` and `shadow.wgsl`. Tests hold the two against each other, and closed forms are computed with them.
 //!
 //! `n` unit normal, `l` unit direction to the light, `v` unit direction to the viewer, `incident` the light that a
-//! white Lambert surface facing the light would send back. Ambient light, `kd * ambient`, is the caller's.
+//! white Lambert surface facing the light would send back. Ambient light, `colour * ambient`, is the caller's.
 
 use scene::Vec3;
 use scene::material::Checkerboard;

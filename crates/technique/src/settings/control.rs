@@ -13,6 +13,8 @@ pub struct Control {
     pub aside: fn(Value) -> String,
     /// What a picture's label calls its value; `None` for its name and the value.
     pub brief: Option<fn(Value) -> String>,
+    /// What its value means, in a line below it; empty for none.
+    pub below: fn(Value) -> &'static str,
     /// An explanation under the mouse; empty for none.
     pub hover: &'static str,
     /// A technique that needs another explanation.

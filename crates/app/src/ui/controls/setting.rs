@@ -102,7 +102,13 @@ impl Place<'_> {
         self.label(setting.control.label, &self.explanation(setting), ui);
         let words = setting.words(self.scene);
         let shown = words.iter().map(|(word, of_word, hover)| (word.to_string(), *hover, *of_word == value));
-        choice(name, shown, ui, self.dump).map(|index| words[index].1)
+        let chosen = choice(name, shown, ui, self.dump).map(|index| words[index].1);
+        let below = (setting.control.below)(value);
+        if !below.is_empty() {
+            let line = ui.label(below);
+            self.dump.note(&format!("text {name}"), below, line);
+        }
+        chosen
     }
 
     /// Its two rules to be switched on, each or both, and the slider of the probability.

@@ -4,6 +4,8 @@ use super::{BLANK, LOCAL, PLAIN, RASTER, each, named, number, whole};
 use crate::settings::{Control, Kind, Look, Need, Setting, Value};
 use crate::{PaneSettings, TechniqueName};
 use raster::{Fake, FakeKnobs, Shading, ShadowFilter, Show};
+use scene::Scene;
+use scene::stand_ins::FakeMaterial;
 
 /// The settings of the fake; Whitted's method shares its ambient light.
 pub const ROWS: &[Setting<PaneSettings>] = &[
@@ -39,10 +41,15 @@ pub const ROWS: &[Setting<PaneSettings>] = &[
             label: "Highlight",
             brief: Some(|value| format!("{value} highlight")),
             look: Look::Words(&[
-                ("three", "three.js' MeshPhong: a normalised Blinn-Phong with Fresnel"),
+                (
+                    "three",
+                    "three.js' MeshPhong: Blinn-Phong times (p + 2) / 8, so that a smaller highlight is a brighter one, and \
+                     times Fresnel: k_s is what is reflected head-on",
+                ),
                 ("phong", "The slides' Phong: cosine between mirrored light and viewer"),
                 ("blinn-phong", "The slides' Blinn-Phong: cosine between normal and half vector"),
             ]),
+            below: formula,
             more: RASTER,
             ..BLANK
         },
@@ -74,10 +81,10 @@ pub const ROWS: &[Setting<PaneSettings>] = &[
         help: "exponent of every highlight",
         get: |pane| pane.fake.knobs.shininess.map(Value::Number),
         set: |pane, value| pane.fake.knobs.shininess = number(value),
-        own: |scene| Some(Value::Number(scene.materials.first().map_or(30.0, |material| material.fake.shininess))),
+        own: |scene| Some(Value::Number(stand_in(scene).shininess)),
         control: Control {
-            label: "Shininess",
-            hover: "Exponent of the highlight: higher is smaller",
+            label: "Shininess p",
+            hover: "Exponent of the highlight, of all surfaces: higher is smaller",
             look: Look::Steps { range: 0.0..=200.0, step: 1.0 },
             more: RASTER,
             ..BLANK
@@ -103,8 +110,9 @@ pub const ROWS: &[Setting<PaneSettings>] = &[
         },
         own: |scene| Some(Value::Number(scene.fake.ambient)),
         control: Control {
-            label: "Ambient light",
-            hover: "The light that stands for all indirect light; fair scales the sky's by it",
+            label: "Ambient light k_a I_a",
+            hover: "Stands for all indirect light, times the surface's colour; fair scales the sky's light by it, so that \
+                    nothing comes of a black sky",
             hover_in: Some((
                 TechniqueName::Whitted,
                 "Stands for all light from one surface on another, and for the sky's",
@@ -219,4 +227,57 @@ pub const ROWS: &[Setting<PaneSettings>] = &[
         },
         ..PLAIN
     },
+    Setting {
+        name: "diffuse",
+        of: RASTER,
+        kind: Kind::Number(FakeKnobs::COEFFICIENT),
+        letter: "K",
+        help: "k_d, times the colour of every surface; ambient light keeps all of it",
+        get: |pane| pane.fake.knobs.diffuse.map(Value::Number),
+        set: |pane, value| pane.fake.knobs.diffuse = number(value),
+        own: |_| Some(Value::Number(1.0)),
+        control: Control {
+            label: "Diffuse k_d",
+            hover: "Times the surface's colour: what Lambert's term sends back of the light",
+            look: Look::Steps { range: FakeKnobs::COEFFICIENT, step: 0.01 },
+            more: RASTER,
+            ..BLANK
+        },
+        ..PLAIN
+    },
+    Setting {
+        name: "specular",
+        of: RASTER,
+        kind: Kind::Number(FakeKnobs::COEFFICIENT),
+        letter: "K",
+        help: "k_s of every highlight, grey; by three what is reflected head-on",
+        get: |pane| pane.fake.knobs.specular.map(Value::Number),
+        set: |pane, value| pane.fake.knobs.specular = number(value),
+        own: |scene| Some(Value::Number(stand_in(scene).specular)),
+        control: Control {
+            label: "Specular k_s",
+            hover: "Of all surfaces: the height of the highlight; by three what is reflected head-on",
+            look: Look::Steps { range: FakeKnobs::COEFFICIENT, step: 0.01 },
+            more: RASTER,
+            ..BLANK
+        },
+        ..PLAIN
+    },
 ];
+
+/// The highlight that stands for the scene's where its materials differ: that of the first one.
+fn stand_in(scene: &Scene) -> FakeMaterial {
+    scene.materials.first().map_or_else(FakeMaterial::default, |material| material.fake)
+}
+
+/// The slides' formula of a highlight, and the one of three.js.
+fn formula(shading: Value) -> &'static str {
+    match named(shading, Shading::named) {
+        Some(Shading::Phong) => "L = k_a I_a + k_d I_d max(0, N·L) + k_s I_s max(0, R·V)^p",
+        Some(Shading::BlinnPhong) => "L = k_a I_a + k_d I_d max(0, N·L) + k_s I_s max(0, N·H)^p",
+        Some(Shading::Three) => {
+            "L = k_a I_a + I max(0, N·L) (k_d + F (p + 2)/8 (N·H)^p), F from k_s head-on to 1 at grazing light"
+        }
+        None => "",
+    }
+}

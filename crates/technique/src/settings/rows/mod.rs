@@ -34,6 +34,7 @@ const BLANK: Control = Control {
     label: "",
     aside: |_| String::new(),
     brief: None,
+    below: |_| "",
     hover: "",
     hover_in: None,
     look: Look::Typed,
