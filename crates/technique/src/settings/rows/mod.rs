@@ -60,8 +60,9 @@ pub const OF_SCENES: &[Setting<SceneChanges>] = &[
         control: Control {
             label: "Refraction ratio",
             aside: |value| number(value).map_or_else(String::new, |ratio| format!(" (n = {:.2})", 1.0 / ratio)),
-            hover: "Index of refraction outside over inside; 1 is no glass at all",
-            look: Look::Steps { range: 0.4..=1.0, step: 0.01 },
+            hover: "Index of refraction outside over inside: 1 is no glass at all, above it a bubble, which reflects all \
+                    light that grazes it",
+            look: Look::Steps { range: 0.4..=2.5, step: 0.01 },
             ..BLANK
         },
     },
