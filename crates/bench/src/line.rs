@@ -41,7 +41,13 @@ pub fn fake(fake: Fake) -> Technique {
 /// At as many samples as the ladder of its part has.
 const fn paths(settings: PathSettings) -> Technique {
     let integrator = Integrator::Path(settings);
-    Technique::Traced(TracedSettings { integrator, device: DeviceChoice::Cpu, adapter: 0, spp: u32::MAX })
+    Technique::Traced(TracedSettings {
+        integrator,
+        device: DeviceChoice::Cpu,
+        adapter: 0,
+        spp: u32::MAX,
+        sun_radius: None,
+    })
 }
 
 /// A technique in one of the variants.

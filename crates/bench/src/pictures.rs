@@ -54,7 +54,7 @@ pub fn of(
     }
     let size = (part.width, part.height);
     let mut accumulation = Accumulation::blank(size).ok_or(BenchError::Memory(size.0, size.1))?;
-    let TreeSettings { tree, spp } = TreeSettings::default();
+    let TreeSettings { tree, spp, .. } = TreeSettings::default();
     renderer.add(&mut accumulation, &scene.camera, &tree.into(), spp, &|| false)?;
     pairs.push(pair(format!("Whitted, {spp} samples per pixel"), &accumulation.film().image(), truth)?);
     Ok(pairs)

@@ -115,7 +115,7 @@ impl TracedSettings {
     /// What these settings cannot see in this scene.
     pub fn blind_spots(&self, scene: &Scene) -> Vec<BlindSpot> {
         match self.integrator {
-            Integrator::Path(path) => of_paths(&path, scene),
+            Integrator::Path(path) => of_paths(&path, scene, self.sees_a_delta_sun(scene)),
             Integrator::Whitted(tree) => {
                 let clear = Specular::of(&scene.needs()).is_some() && tree.glass_shadows == GlassShadows::Clear;
                 vec![if clear { BlindSpot::Caustics } else { BlindSpot::BetweenSurfaces }]
@@ -129,7 +129,7 @@ impl TracedSettings {
         let Integrator::Path(path) = self.integrator else { return None };
         let needs = scene.needs();
         // what has no extent is not met by chance, but missing
-        let disc = scene.sun.is_some_and(|sun| sun.angular_radius > 0.0);
+        let disc = scene.sun.is_some() && !self.sees_a_delta_sun(scene);
         let lights = needs.area_lights || disc || scene.environment.is_some();
         match Specular::of(&needs) {
             _ if lights && !path.estimator.samples_lights() => Some(NoiseSource::ByChance),
@@ -140,9 +140,8 @@ impl TracedSettings {
     }
 }
 
-fn of_paths(path: &PathSettings, scene: &Scene) -> Vec<BlindSpot> {
+fn of_paths(path: &PathSettings, scene: &Scene, delta_sun: bool) -> Vec<BlindSpot> {
     let needs = scene.needs();
-    let delta_sun = scene.sun.is_some_and(|sun| sun.angular_radius == 0.0);
     let by_chance = path.estimator.light == LightSampling::BsdfOnly;
     let sources = [
         (delta_sun, BlindSpot::Sun, BlindSpot::CausticOfSun as fn(Specular) -> BlindSpot),

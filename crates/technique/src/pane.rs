@@ -58,6 +58,7 @@ impl PaneSettings {
     pub fn forget_the_scene(&mut self, scene: &Scene) {
         self.fake.forget_the_scene(scene);
         self.whitted.tree.ambient = None;
+        (self.whitted.sun_radius, self.truth.sun_radius) = (None, None);
     }
 
     /// Takes the estimator that `scene` asks for, unless another than the usual one was chosen.

@@ -4,7 +4,7 @@
 
 use crate::renderer::{Renderer, Speeds, Watch};
 use crate::{Accumulation, Adapters, Backend, Device, Rank, Shot, Threads, TracedSettings};
-use scene::{Geometry, Shape};
+use scene::{Geometry, Scene, Shape};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
@@ -41,6 +41,13 @@ struct Refusal {
     restarts: u64,
 }
 
+/// A scene, and what is seen of it under a sun of this radius.
+struct Seen {
+    of: Arc<Scene>,
+    sun_radius: Option<f32>,
+    scene: Arc<Scene>,
+}
+
 /// A film and the request that it belongs to, whose wished number of samples may grow.
 struct CachedFilm {
     accumulation: Accumulation,
@@ -52,7 +59,9 @@ pub struct ProgressiveRenderer {
     /// What can trace rays beside the processor.
     adapters: Adapters,
     threads: Arc<Threads>,
-    /// The scene of the last request, ready for rays.
+    /// The scene of the last request as its rays see it.
+    seen: Option<Seen>,
+    /// That scene, ready for rays.
     ready: Option<Renderer>,
     speeds: Speeds,
     refusal: Option<Refusal>,
@@ -69,7 +78,10 @@ pub struct NoMemory;
 impl Request {
     /// Whether two requests differ in the wished number of samples alone.
     pub fn is_same_picture(&self, other: &Request) -> bool {
-        let how = |of: &Request| (of.settings.integrator, of.settings.device, of.settings.adapter);
+        let how = |of: &Request| {
+            let TracedSettings { integrator, device, adapter, spp: _, sun_radius } = of.settings;
+            (integrator, device, adapter, sun_radius)
+        };
         let seen = |of: &Request| (of.shot.camera, of.shot.size, of.restarts);
         how(self) == how(other) && seen(self) == seen(other) && Arc::ptr_eq(&self.shot.scene, &other.shot.scene)
     }
@@ -81,6 +93,7 @@ impl ProgressiveRenderer {
         ProgressiveRenderer {
             adapters,
             threads,
+            seen: None,
             ready: None,
             speeds: Speeds::default(),
             refusal: None,
@@ -95,6 +108,7 @@ impl ProgressiveRenderer {
     /// If there is no memory for its film.
     pub fn render(&mut self, request: &Request, watch: &impl Watch) -> Result<(), NoMemory> {
         self.begun = Instant::now();
+        let request = &self.as_seen(request);
         let kept = self.best_kept(request);
         let mut rough = kept.is_none();
         let mut renderer = self.make_ready(request, &mut rough, watch);
@@ -120,6 +134,20 @@ impl ProgressiveRenderer {
         }
         self.ready = Some(renderer);
         refined
+    }
+
+    /// The request of the scene as its rays see it, which is one and the same as long as its sun stays.
+    fn as_seen(&mut self, request: &Request) -> Request {
+        let Request { shot, settings, .. } = request;
+        let stands = |seen: &Seen| Arc::ptr_eq(&seen.of, &shot.scene) && seen.sun_radius == settings.sun_radius;
+        let seen = self.seen.take().filter(stands).unwrap_or_else(|| Seen {
+            of: shot.scene.clone(),
+            sun_radius: settings.sun_radius,
+            scene: settings.applied_to(&shot.scene),
+        });
+        let scene = seen.scene.clone();
+        self.seen = Some(seen);
+        Request { shot: Shot { scene, ..shot.clone() }, ..request.clone() }
     }
 
     /// The scene on the device that is asked for, or on the processor.

@@ -1,7 +1,9 @@
 //! The settings of what is traced by rays: path tracing, and Whitted's step towards it.
 
-use crate::DeviceChoice;
+use crate::{DeviceChoice, SceneChanges};
 use pathtrace::{Integrator, NormalsSettings, PathSettings, Roulette, WhittedSettings};
+use scene::Scene;
+use std::sync::Arc;
 
 /// An integrator, where and how long it goes on.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -14,6 +16,8 @@ pub struct TracedSettings {
     pub adapter: u8,
     /// Samples per pixel at which rendering stops.
     pub spp: u32,
+    /// Angular radius of the sun for these rays alone, in degrees; `None`: the scene's. References know nothing of it.
+    pub sun_radius: Option<f32>,
 }
 
 /// The settings of path tracing, which without limits tends to the truth.
@@ -23,6 +27,8 @@ pub struct TruthSettings {
     pub path: PathSettings,
     /// Samples per pixel at which rendering stops.
     pub spp: u32,
+    /// As in [`TracedSettings`].
+    pub sun_radius: Option<f32>,
 }
 
 /// The settings of a picture by Whitted's method.
@@ -32,6 +38,8 @@ pub struct TreeSettings {
     pub tree: WhittedSettings,
     /// Samples per pixel at which rendering stops.
     pub spp: u32,
+    /// As in [`TracedSettings`].
+    pub sun_radius: Option<f32>,
 }
 
 /// The settings of a picture of normals.
@@ -52,32 +60,55 @@ impl Default for NormalsPaneSettings {
 
 impl From<NormalsPaneSettings> for TracedSettings {
     fn from(NormalsPaneSettings { normals, spp }: NormalsPaneSettings) -> Self {
-        TracedSettings { integrator: normals.into(), device: DeviceChoice::default(), adapter: 0, spp }
+        TracedSettings {
+            integrator: normals.into(),
+            device: DeviceChoice::default(),
+            adapter: 0,
+            spp,
+            sun_radius: None,
+        }
     }
 }
 
 impl Default for TruthSettings {
     fn default() -> Self {
-        TruthSettings { path: PathSettings::default(), spp: 256 }
+        TruthSettings { path: PathSettings::default(), spp: 256, sun_radius: None }
     }
 }
 
 impl Default for TreeSettings {
     /// Few samples: only edges and soft shadows need them.
     fn default() -> Self {
-        TreeSettings { tree: WhittedSettings::default(), spp: 16 }
+        TreeSettings { tree: WhittedSettings::default(), spp: 16, sun_radius: None }
     }
 }
 
 impl From<TruthSettings> for TracedSettings {
-    fn from(TruthSettings { path, spp }: TruthSettings) -> Self {
-        TracedSettings { integrator: path.into(), device: DeviceChoice::default(), adapter: 0, spp }
+    fn from(TruthSettings { path, spp, sun_radius }: TruthSettings) -> Self {
+        TracedSettings { integrator: path.into(), device: DeviceChoice::default(), adapter: 0, spp, sun_radius }
     }
 }
 
 impl From<TreeSettings> for TracedSettings {
-    fn from(TreeSettings { tree, spp }: TreeSettings) -> Self {
-        TracedSettings { integrator: tree.into(), device: DeviceChoice::default(), adapter: 0, spp }
+    fn from(TreeSettings { tree, spp, sun_radius }: TreeSettings) -> Self {
+        TracedSettings { integrator: tree.into(), device: DeviceChoice::default(), adapter: 0, spp, sun_radius }
+    }
+}
+
+impl TracedSettings {
+    /// The scene as these rays see it: the same one if its own sun is as wide.
+    pub fn applied_to(&self, scene: &Arc<Scene>) -> Arc<Scene> {
+        let own = scene.sun.map(|sun| sun.angular_radius);
+        if self.sun_radius.is_none() || own.is_none() || self.sun_radius == own {
+            return scene.clone();
+        }
+        let changes = SceneChanges { sun_radius: self.sun_radius, ..SceneChanges::default() };
+        Arc::new(changes.applied_to(scene))
+    }
+
+    /// Whether these rays see a sun without a disc.
+    pub(crate) fn sees_a_delta_sun(&self, scene: &Scene) -> bool {
+        scene.sun.is_some_and(|sun| self.sun_radius.unwrap_or(sun.angular_radius) == 0.0)
     }
 }
 
@@ -94,4 +125,39 @@ pub fn roulette_name(roulette: Roulette) -> String {
 /// "inf" or the number.
 pub fn bounces_name(bounces: Option<u32>) -> String {
     bounces.map_or("inf".into(), |n| n.to_string())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{PaneSettings, Technique, TechniqueName};
+
+    #[test]
+    fn a_sun_of_their_own_is_seen_by_these_rays_and_kept_in_records() {
+        let scene = Arc::new(scene::builtin::named("whitted").unwrap());
+        let own = TracedSettings::from(TreeSettings::default());
+        assert!(Arc::ptr_eq(&own.applied_to(&scene), &scene));
+        let point = TracedSettings { sun_radius: Some(0.0), ..own };
+        let seen = point.applied_to(&scene);
+        assert_eq!(seen.sun.map(|sun| sun.angular_radius), Some(0.0));
+        assert_eq!(*seen, SceneChanges { sun_radius: Some(0.0), ..SceneChanges::default() }.applied_to(&scene));
+        assert!(Arc::ptr_eq(&TracedSettings { sun_radius: Some(2.5), ..own }.applied_to(&scene), &scene));
+        let records = |traced| Technique::Traced(traced).options(4);
+        assert!(records(point).contains(&("traced-sun", "0".into())));
+        assert!(records(own).iter().all(|(name, _)| *name != "traced-sun"));
+    }
+
+    #[test]
+    fn another_scene_has_its_own_sun_again_and_a_point_sun_is_a_blind_spot() {
+        let scene = scene::builtin::named("whitted").unwrap();
+        let mut pane = PaneSettings::of(TechniqueName::Path);
+        (pane.truth.sun_radius, pane.whitted.sun_radius) = (Some(0.0), Some(0.0));
+        let blind = |pane: &PaneSettings| match pane.in_use() {
+            Technique::Traced(traced) => traced.blind_spot(&scene),
+            Technique::Fake(_) => None,
+        };
+        assert!(blind(&pane).is_some_and(|said| said.contains("no caustic")));
+        pane.forget_the_scene(&scene);
+        assert_eq!((pane.truth.sun_radius, pane.whitted.sun_radius, blind(&pane)), (None, None, None));
+    }
 }

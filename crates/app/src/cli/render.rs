@@ -167,7 +167,8 @@ fn trace(args: &RenderArgs, shot: &Shot, traced: TracedSettings) -> anyhow::Resu
         .with_context(|| format!("not enough memory for {width}x{height} pixels; ask for a smaller --size"))?;
     let gpu = args.device.open(u64::from(width) * u64::from(height) * u64::from(spp))?;
     let start = Instant::now();
-    let backend = backend(gpu.as_ref(), &shot.scene, args.device)?;
+    let scene = traced.applied_to(&shot.scene);
+    let backend = backend(gpu.as_ref(), &scene, args.device)?;
     let watch = Terminal {
         spp,
         shown: std::io::stderr().is_terminal(),
@@ -176,7 +177,7 @@ fn trace(args: &RenderArgs, shot: &Shot, traced: TracedSettings) -> anyhow::Resu
         // a test does not wait for seconds
         at_risk: if backend.fails_on_purpose() { Duration::ZERO } else { AT_RISK },
     };
-    let renderer = Renderer::new(shot.scene.clone(), backend, Arc::new(Threads::all()));
+    let renderer = Renderer::new(scene, backend, Arc::new(Threads::all()));
     let rendered = renderer.finish(blank, &shot.camera, (&traced.integrator, spp), &watch);
     watch.clear();
     Ok(Timed { rendered, seconds: start.elapsed().as_secs_f64() })

@@ -117,6 +117,33 @@ fn the_reference_of_a_fake_has_the_sun_that_was_asked_for() {
     assert!(!String::from_utf8_lossy(&again.stderr).contains("no effect"));
 }
 
+/// A sun of the picture's own is no other scene: it is kept with the picture, which is made again, and judged by the
+/// reference of the scene's own sun.
+#[test]
+fn a_picture_under_a_sun_of_its_own_is_judged_by_the_scenes() {
+    let workplace = Workplace::new();
+    let reference = workplace.reference("whitted");
+    let [picture, again, changed] = ["picture.exr", "again.exr", "changed.exr"].map(|name| workplace.file(name));
+    let whitted = ["--technique", "whitted", "--spp", "2"];
+    let own = ["--traced-sun", "0", "--errors", "--json"];
+    let run = |out: &str, sun: &[&str]| {
+        json(&workplace.run(&[&["render", "whitted", "-o", out], &SMALL[..], &whitted, sun].concat()))
+    };
+    let report = run(&picture, &own);
+    assert_eq!(report["traced_sun"], "0");
+    assert!(workplace.done(&["reference"]).contains("count   1\n"), "a reference of another sun was made");
+    let by_file = json(&workplace.run(&["compare", &picture, &reference, "--json"]));
+    assert_eq!(report["errors"]["rmse"], by_file["rmse"]);
+    assert_eq!(record(&picture, "traced-sun").as_deref(), Some("0"));
+    assert!(record(&picture, "command").is_some_and(|command| command.contains("--traced-sun 0")));
+    workplace.done(&["render", "--from", &picture, "-o", &again]);
+    run(&changed, &["--sun-radius", "0", "--json"]);
+    let film = |file: &str| image_file::load(Path::new(file)).expect("an EXR");
+    assert!(film(&picture) == film(&again) && film(&picture) == film(&changed));
+    run(&again, &["--json"]);
+    assert!(film(&picture) != film(&again), "without it the sun is the scene's");
+}
+
 #[test]
 fn what_cannot_be_judged_is_one_line() {
     let workplace = Workplace::new();

@@ -7,8 +7,8 @@ mod rows;
 pub use control::{Control, Look};
 pub use rows::{OF_SCENES, all_of_panes};
 
-use crate::{DeviceChoice, PaneSettings, SceneChanges, Technique, TechniqueName, roulette_name};
-use crate::{NormalsPaneSettings, TreeSettings, TruthSettings, bounces_name};
+use crate::{NormalsPaneSettings, TracedSettings, TreeSettings, TruthSettings, bounces_name};
+use crate::{PaneSettings, SceneChanges, Technique, TechniqueName, roulette_name};
 use image_file::Records;
 use pathtrace::{Integrator, Roulette};
 use raster::Show;
@@ -294,11 +294,13 @@ impl From<Technique> for PaneSettings {
         match technique {
             Technique::Fake(fake) => PaneSettings { fake, ..pane },
             Technique::Traced(traced) => {
-                let (device, adapter, spp): (DeviceChoice, u8, u32) = (traced.device, traced.adapter, traced.spp);
+                let TracedSettings { integrator, device, adapter, spp, sun_radius } = traced;
                 let pane = PaneSettings { device, adapter, ..pane };
-                match traced.integrator {
-                    Integrator::Path(path) => PaneSettings { truth: TruthSettings { path, spp }, ..pane },
-                    Integrator::Whitted(tree) => PaneSettings { whitted: TreeSettings { tree, spp }, ..pane },
+                match integrator {
+                    Integrator::Path(path) => PaneSettings { truth: TruthSettings { path, spp, sun_radius }, ..pane },
+                    Integrator::Whitted(tree) => {
+                        PaneSettings { whitted: TreeSettings { tree, spp, sun_radius }, ..pane }
+                    }
                     Integrator::Normals(normals) => {
                         PaneSettings { normals: NormalsPaneSettings { normals, spp }, ..pane }
                     }

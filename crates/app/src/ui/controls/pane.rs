@@ -28,7 +28,9 @@ fn order(technique: TechniqueName) -> &'static [&'static str] {
             "cube-map",
             "segments",
         ],
-        TechniqueName::Whitted => &["depth", "glass-shadows", "ambient", "spp", "shadow-rays", "sampler", "seed"],
+        TechniqueName::Whitted => {
+            &["depth", "glass-shadows", "ambient", "traced-sun", "spp", "shadow-rays", "sampler", "seed"]
+        }
         TechniqueName::Normals => &["space", "spp", "sampler", "seed"],
         TechniqueName::Path => &["estimator", "spp", "bounces", "branches", "roulette", "sampler", "seed"],
     }
@@ -59,9 +61,10 @@ pub fn show(cx: &mut UiContext, pane: PaneId, ui: &mut Ui) {
 
 fn rows(cx: &mut UiContext, pane: PaneId, rows: &[&Setting<PaneSettings>], ui: &mut Ui) {
     let settings = &mut cx.model.session.panes[pane];
+    let scene = cx.model.document.changes.applied_to(&cx.model.document.scene);
     let mut place = Place {
         pane: Some((pane, settings.technique)),
-        scene: &cx.model.document.scene,
+        scene: &scene,
         kept: cx.model.state.switched_off.entry(pane),
         dump: cx.dump,
         fault: None,

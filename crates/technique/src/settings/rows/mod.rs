@@ -11,6 +11,7 @@ const WHITTED: &[TechniqueName] = &[TechniqueName::Whitted];
 const PATH: &[TechniqueName] = &[TechniqueName::Path];
 const NORMALS: &[TechniqueName] = &[TechniqueName::Normals];
 const TRACED: &[TechniqueName] = &[TechniqueName::Whitted, TechniqueName::Path, TechniqueName::Normals];
+const LIGHT: &[TechniqueName] = &[TechniqueName::Whitted, TechniqueName::Path];
 const LOCAL: &[TechniqueName] = &[TechniqueName::Raster, TechniqueName::Whitted];
 
 /// What each row begins from.

@@ -1,6 +1,6 @@
 //! The rows of what is traced.
 
-use super::{BLANK, NORMALS, PATH, PLAIN, TRACED, WHITTED, by_integrator, each, named, whole};
+use super::{BLANK, LIGHT, NORMALS, PATH, PLAIN, TRACED, WHITTED, by_integrator, each, named, number, whole};
 use crate::PaneSettings;
 use crate::settings::{Control, Kind, Look, Need, Setting, Value};
 use pathtrace::{Estimator, GlassShadows, Roulette, SamplerKind, Space, WhittedSettings};
@@ -237,6 +237,29 @@ pub const ROWS: &[Setting<PaneSettings>] = &[
             label: "Axes",
             brief: Some(|value| format!("{value} axes")),
             look: Look::Words(&[("world", "The scene's own axes"), ("camera", "Right, up and towards the camera")]),
+            ..BLANK
+        },
+        ..PLAIN
+    },
+    Setting {
+        name: "traced-sun",
+        of: LIGHT,
+        kind: Kind::DegreesBelow(90.0),
+        letter: "DEG",
+        needs: Need::Sun,
+        help: "angular radius of the sun for these rays alone, 0 as in 1980; references keep the scene's",
+        get: |pane| {
+            let radius = by_integrator(pane, [pane.truth.sun_radius, pane.whitted.sun_radius, None]);
+            radius.map(Value::Number)
+        },
+        set: |pane, value| (pane.truth.sun_radius, pane.whitted.sun_radius) = (number(value), number(value)),
+        own: |scene| scene.sun.map(|sun| Value::Number(sun.angular_radius)),
+        control: Control {
+            label: "This picture's sun radius",
+            hover: "Of this picture alone: its errors are against the scene's own sun. 0 is the point that Whitted had \
+                    in 1980",
+            look: Look::Steps { range: 0.0..=5.0, step: 0.1 },
+            more: PATH,
             ..BLANK
         },
         ..PLAIN
