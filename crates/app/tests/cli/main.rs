@@ -119,7 +119,7 @@ fn bad_scenes_fail_with_the_place_and_write_nothing() {
         let arguments = render(scene);
         assert_refused(&arguments.iter().map(String::as_str).collect::<Vec<_>>(), 1, words);
     };
-    refused("nonsense", &["unknown scene 'nonsense'", "whitted, cornell"]);
+    refused("nonsense", &["unknown scene 'nonsense'", "whitted, cornell, phong"]);
     refused("missing.toml", &["missing.toml", "cannot read"]);
     let broken = folder.file("broken.toml");
     for (text, words) in [
@@ -332,11 +332,30 @@ fn the_check_prints_a_table_or_rows_of_json() {
 }
 
 #[test]
+fn a_preset_sets_a_slide_and_other_options_change_it() {
+    let folder = TestFolder::new();
+    let out = folder.file("out.png");
+    let out = out.to_str().expect("a plain path");
+    let common = ["render", "cornell", "-o", out, "--size", "8x8", "--json", "--preset", "2e-1-bounce"];
+    let stated = json(&visavis(&common));
+    assert_eq!((&stated["technique"], &stated["spp"]), (&"path".into(), &20.into()));
+    let words = ["estimator", "bounces", "roulette", "sampler"].map(|name| stated[name].as_str());
+    assert_eq!(words, [Some("light"), Some("1"), Some("off"), Some("independent")]);
+    let changed = json(&visavis(&[&common, &["--spp", "2", "--bounces", "inf"][..]].concat()));
+    assert_eq!((&changed["spp"], &changed["bounces"], &changed["roulette"]), (&2.into(), &"inf".into(), &"off".into()));
+    assert_refused(
+        &["render", "cornell", "-o", out, "--preset", "3a"],
+        2,
+        &["--preset 3a", "2e-1-bounce, 2e-2-bounces"],
+    );
+}
+
+#[test]
 fn every_technique_and_option_renders() {
     let folder = TestFolder::new();
     let out = folder.file("out.png");
     let out = out.to_str().expect("a plain path");
-    let options: [&[&str]; 8] = [
+    let options: [&[&str]; 9] = [
         &[
             "--technique",
             "whitted",
@@ -353,6 +372,7 @@ fn every_technique_and_option_renders() {
         &["--estimator", "uniform-light", "--roulette", "0.9+throughput"],
         &["--estimator", "uniform-mis", "--branches", "2", "--bounces", "2", "--roulette", "off"],
         &["--technique", "raster", "--shading", "phong", "--shininess", "5", "--ambient", "0.5", "--segments", "12"],
+        &["--technique", "raster", "--shading", "blinn-phong", "--diffuse", "0.5", "--specular", "0.3"],
         &["--technique", "raster", "--shadow-filter", "hard", "--shadow-bias", "-0.001", "--shadow-map", "64"],
         &["--technique", "raster", "--show", "cube-faces", "--cube-map", "16", "--reflectivity", "0.5"],
         &["--technique", "raster", "--show", "shadow-map", "--fake", "as-taught"],

@@ -103,3 +103,44 @@ fn a_change_drops_the_picture_in_hand_and_brings_a_rough_one_first() {
     assert_eq!(first.state("b")["label"], "Path tracing, cosine");
     assert!(first.state("b")["rough"] == true || spp(&first) == Some(1), "{:?}", first.state("b"));
 }
+
+#[test]
+fn a_preset_is_one_choice_and_one_step_of_undo() {
+    let mut user = User::of("whitted");
+    user.wait_for("both pictures", both_whole);
+    user.click("Presets of B");
+    let set = user.click("2 e) 1 bounce, 20 spp");
+    assert_eq!([set.value("B spp"), set.value("B bounces"), set.value("B limit bounces")], ["20", "1", "true"]);
+    assert_eq!(set.value("B roulette off"), "true");
+    let undone = user.key_with(Key::Z, Modifiers::COMMAND);
+    assert_eq!([undone.value("B spp"), undone.value("B roulette off")], ["256", "false"]);
+    assert!(!undone.shows("B bounces"), "there is no limit again");
+}
+
+/// Another sun in one pane is no other view: the pictures are compared.
+#[test]
+fn a_pane_has_a_sun_of_its_own_beside_the_scenes() {
+    let mut user = User::of("whitted");
+    user.click("Presets of A");
+    user.click("Whitted 1980");
+    let of_1980 = user.wait_for("Whitted against the truth", |f| {
+        f.state("a")["label"] == "Whitted (depth 8)" && f.state("a")["rel_mse"].is_number() && both_whole(f)
+    });
+    assert_eq!([of_1980.value("A traced sun"), of_1980.value("sun radius")], ["0", "2.5"]);
+    let under_the_point = of_1980.state("a")["rel_mse"].as_f64();
+    user.set_slider("This picture's sun radius", 2.5);
+    user.wait_for("the scene's sun", |f| f.state("a")["rel_mse"].as_f64() < under_the_point && both_whole(f));
+}
+
+#[test]
+fn the_formula_of_the_highlight_stands_below_its_choice() {
+    let mut user = User::of("phong");
+    user.click_nth("More", 0);
+    let [three, phong, blinn] = ["three", "phong", "blinn-phong"].map(|shading| {
+        let shown = user.click_in("A", shading);
+        shown.value("text A shading").to_owned()
+    });
+    assert!(three.contains("F (p + 2)/8 (N·H)^p"), "{three}");
+    assert!(phong.ends_with("k_s I_s max(0, R·V)^p"), "{phong}");
+    assert!(blinn.ends_with("k_s I_s max(0, N·H)^p"), "{blinn}");
+}

@@ -127,7 +127,7 @@ fn commands() -> Vec<Block> {
     vec![
         Block::new(
             "visavis [SCENE]",
-            "open the viewer; SCENE is whitted, cornell, hard/NAME or a .toml file (default whitted); hard/? lists the \
+            "open the viewer; SCENE is whitted, cornell, phong, hard/NAME or a .toml file (default whitted); hard/? lists the \
              hard ones",
             &view::options(),
         ),
@@ -176,6 +176,9 @@ mod tests {
         let text = text();
         for line in all_of_panes().map(Setting::usage).chain(OF_SCENES.iter().map(Setting::usage)) {
             assert!(text.contains(&format!("    {line}")), "{line}");
+        }
+        for preset in technique::presets::ALL {
+            assert!(text.contains(preset.name), "{}", preset.name);
         }
         assert!(text.lines().all(|line| line.chars().count() <= COLUMNS), "{text}");
     }

@@ -12,7 +12,7 @@ use lexopt::ValueExt;
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 use technique::settings::{of_panes, of_scenes};
-use technique::{DeviceChoice, PaneSettings, Recorded, Technique, TechniqueName, made_from};
+use technique::{DeviceChoice, PaneSettings, Preset, Recorded, Technique, TechniqueName, made_from, presets};
 
 /// `visavis render SCENE -o OUT ...`; `None` leaves a value to the scene.
 #[derive(Debug, Clone, PartialEq)]
@@ -81,6 +81,20 @@ pub fn options() -> Vec<CommandOption<Reading>> {
             read: |reading, parser| {
                 let expected = "raster, whitted, path or normals";
                 reading.args.pane.technique = choice(parser, "--technique", TechniqueName::named, expected)?;
+                Ok(())
+            },
+        },
+        CommandOption {
+            names: &["--preset"],
+            value: "NAME",
+            help: "a technique with the settings of a slide, which other options change: as-taught, fair, phong, blinn-phong, \
+                   whitted-1980, 2b-uniform, naive, naive-4, 2c-light, 2e-0-bounces, 2e-1-bounce, 2e-2-bounces, complete, \
+                   2f-1-spp, 2f-4-spp, 2f-16-spp or truth",
+            read: |reading, parser| {
+                let names: Vec<_> = presets::ALL.iter().map(|preset| preset.name).collect();
+                let preset = choice(parser, "--preset", Preset::named, &names.join(", "))?;
+                preset.apply(&mut reading.args.pane);
+                reading.given.extend(preset.values().map(|(setting, _)| (format!("--{}", setting.name), setting.of)));
                 Ok(())
             },
         },

@@ -4,6 +4,7 @@ mod camera;
 mod device;
 mod display;
 mod pane;
+mod presets;
 mod scene;
 mod setting;
 
@@ -80,16 +81,25 @@ pub fn group(cx: &mut UiContext, ui: &mut Ui, title: &str, open: bool, contents:
     });
 }
 
-/// The pane's letter and its technique, to be chosen.
+/// The pane's letter, its technique and the presets, to be chosen.
 pub fn head(cx: &mut UiContext, pane: PaneId, ui: &mut Ui) {
     let letter = bold(pane.name()).size(TextStyle::Heading.resolve(ui.style()).size).color(palette(ui).pane(pane));
-    named(letter, ui, |ui| techniques(cx, pane, ui));
+    let mut in_the_row = false;
+    named(letter, ui, |ui| {
+        techniques(cx, pane, ui);
+        in_the_row = presets::fits(ui);
+        if in_the_row {
+            presets::menu(cx, pane, ui);
+        }
+    });
+    if !in_the_row {
+        presets::menu(cx, pane, ui);
+    }
 }
 
-/// A row of the heads: a name in a column of its own, and what is chosen under it.
+/// A row of the heads: a name, and what is chosen under it.
 pub fn named(name: RichText, ui: &mut Ui, contents: impl FnOnce(&mut Ui)) -> Response {
-    let type_size = TextStyle::Body.resolve(ui.style()).size;
-    let width = if ui.available_width() > 20.0 * type_size { 4.2 * type_size } else { type_size };
+    let width = TextStyle::Body.resolve(ui.style()).size;
     let row = ui.horizontal(|ui| {
         // as high as the words beside it
         let size = vec2(width, ui.spacing().interact_size.y + 4.0);

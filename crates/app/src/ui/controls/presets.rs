@@ -1,0 +1,40 @@
+//! Settings by name, for a pane.
+
+use crate::model::PaneId;
+use crate::ui::UiContext;
+use crate::ui::widgets::{Explained, menu as menu_of};
+use egui::{Color32, TextStyle, Ui};
+use technique::{Preset, presets};
+
+const TITLE: &str = "Presets";
+
+/// Whether the menu's button fits in what is left of a row.
+pub fn fits(ui: &Ui) -> bool {
+    let font = TextStyle::Button.resolve(ui.style());
+    let text = ui.painter().layout_no_wrap(TITLE.into(), font, Color32::PLACEHOLDER);
+    text.size().x + 2.0 * ui.spacing().button_padding.x <= ui.available_width()
+}
+
+/// The menu of presets of a pane.
+pub fn menu(cx: &mut UiContext, pane: PaneId, ui: &mut Ui) {
+    let (response, _) = menu_of(TITLE).ui(ui, |ui| {
+        for preset in presets::ALL {
+            let hover = format!("{}: {}", preset.about, preset.words());
+            let button = ui.button(preset.title).explained(&hover);
+            if cx.dump.note(&format!("{pane} preset {}", preset.name), "", button).clicked() {
+                take(cx, pane, preset);
+            }
+        }
+    });
+    let button = response.explained("The tutorial's settings by name");
+    cx.dump.note(&format!("{pane} presets"), "", button.accessible_name(format!("Presets of {pane}")));
+}
+
+/// One that states no estimator has the one that the scene asks for.
+fn take(cx: &mut UiContext, pane: PaneId, preset: &Preset) {
+    let settings = &mut cx.model.session.panes[pane];
+    preset.apply(settings);
+    if preset.values().all(|(setting, _)| setting.name != "estimator") {
+        settings.take_usual_estimator(&cx.model.document.scene);
+    }
+}
