@@ -6,7 +6,7 @@ use gpu::Gpu;
 use pathtrace::{Integrator, PathSettings, Tracer, WhittedSettings};
 use raster::{Fake, Raster, RasterSettings};
 use scene::glam::Vec2;
-use scene::{Bsdf, Scene, Vec3, builtin};
+use scene::{Bsdf, Scene, Texture, Vec3, builtin};
 use std::path::Path;
 
 const SIZE: u32 = 64;
@@ -106,18 +106,22 @@ fn the_fakes_bubble_looks_up_the_mirrored_direction_beyond_the_critical_angle() 
     let glass = |m: &&scene::Material| matches!(m.bsdf, Bsdf::Dielectric { .. });
     let share = scene.materials.iter().find(glass).expect("glass").fake.reflectivity;
     let gpu = Gpu::headless().expect("a device");
-    let settings = RasterSettings { fake: Fake::Fair, ..RasterSettings::new(320, 180) };
+    let settings = RasterSettings { fake: Fake::Fair, ..RasterSettings::new(1280, 720) };
     let film =
         Raster::new(&gpu).and_then(|mut raster| raster.render(&scene, &scene.camera, &settings)).expect("a film");
     assert_eq!((gpu.fault(), film.nonfinite), (None, 0));
     let (center, metal) = (Vec3::new(4.2, 2.6, -4.2), Vec3::new(2.0, 1.9, -2.5));
-    let frame = scene.camera.frame(320.0 / 180.0);
-    let expected = Vec3::ONE.lerp(scene.sky, share);
-    let mut count = 0;
-    for (x, y) in (0..180).flat_map(|y| (0..320).map(move |x| (x, y))) {
-        let d = frame.direction(Vec2::new(x as f32 + 0.5, y as f32 + 0.5) / Vec2::new(320.0, 180.0));
+    let frame = scene.camera.frame(16.0 / 9.0);
+    let board = scene.materials.iter().find_map(|m| match m.bsdf {
+        Bsdf::Diffuse { albedo: Texture::Checkerboard(board) } => Some(board),
+        _ => None,
+    });
+    let board = board.expect("a checkerboard");
+    let (mut sky, mut cells) = (0, [0, 0]);
+    for (x, y) in (0..720).flat_map(|y| (0..1280).map(move |x| (x, y))) {
+        let d = frame.direction(Vec2::new(x as f32 + 0.5, y as f32 + 0.5) / Vec2::new(1280.0, 720.0));
         let nearest = (center - scene.camera.eye).dot(d) * d - (center - scene.camera.eye);
-        // sine of the angle at the far side, where the fake bends; a pixel changes it by .01
+        // sine of the angle at the far side, where the fake bends; a pixel changes it by .003
         let sine = nearest.length();
         if sine < 1.0 / ratio + 0.05 || sine > 0.95 {
             continue;
@@ -125,11 +129,21 @@ fn the_fakes_bubble_looks_up_the_mirrored_direction_beyond_the_critical_angle() 
         let normal = (nearest + d * (1.0 - sine * sine).sqrt()).normalize();
         let mirrored = d - 2.0 * d.dot(normal) * normal;
         let sees_the_metal = mirrored.dot((metal - center).normalize()) > 0.8;
+        let found = film.at(x, y);
         if mirrored.y > 0.1 && !sees_the_metal {
-            let found = film.at(x, y);
+            let expected = Vec3::ONE.lerp(scene.sky, share);
             assert!((found - expected).abs().max_element() < 0.01, "({x}, {y}): {found} is not {expected}");
-            count += 1;
+            sky += 1;
+        }
+        let floor = center - mirrored * (center.y / mirrored.y);
+        let in_cell = ((floor - board.origin) * board.cells_per_unit()).fract();
+        let within = |t: f32| (0.3..0.7).contains(&t);
+        if mirrored.y < -0.4 && !sees_the_metal && within(in_cell.x) && within(in_cell.z) && floor.z.abs() < 7.0 {
+            // yellow and red differ in green alone, also in the shadow
+            let even = board.at(floor) == board.even;
+            assert_eq!(found.y > 0.3, even, "({x}, {y}) sees {floor}: {found}");
+            cells[usize::from(even)] += 1;
         }
     }
-    assert!(count > 200, "{count} pixels");
+    assert!(sky > 2000 && cells[0] > 100 && cells[1] > 100, "{sky} of the sky, {cells:?} of the floor");
 }
