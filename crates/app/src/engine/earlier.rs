@@ -51,3 +51,66 @@ fn is_same_picture(a: &Order, b: &Order) -> bool {
     };
     how(a).is_some() && how(a) == how(b)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use film::Vec3;
+    use std::sync::Arc;
+    use technique::{Device, PaneSettings, Provenance, Shot, TechniqueName};
+
+    /// A picture of one pixel whose radiance is its number of samples.
+    fn picture(technique: TechniqueName, view: u64, spp: u32) -> Picture {
+        let mut settings = PaneSettings::of(technique);
+        // more were wished for meanwhile
+        settings.truth.spp = 100 + spp;
+        let shot = Shot::of(scene::builtin::named("cornell").unwrap(), (1, 1));
+        let provenance = Arc::new(Provenance { shot, technique: settings.in_use(), device: Device::Cpu });
+        Picture {
+            image: Image::new(1, 1, [Vec3::splat(spp as f32)]).unwrap(),
+            spp: (technique != TechniqueName::Raster).then_some(spp),
+            seconds: 0.0,
+            nonfinite: 0,
+            adapter: "none".into(),
+            refused: None,
+            cut: None,
+            rough: false,
+            unfinished: true,
+            order: Order { job: 1, view, shrink: 1, restarts: 0, provenance },
+        }
+    }
+
+    /// The samples of then and now after these pictures, one after the other; `None` where the noise is not known.
+    fn parts(pictures: &[Picture]) -> Option<[u32; 2]> {
+        let earlier = pictures.iter().fold(None, Earlier::follow)?;
+        match earlier.noise_of(pictures.last()?) {
+            Noise::Parts(image, samples) => {
+                assert_eq!(image.radiances()[0].x, samples[0] as f32, "the picture of then");
+                Some(samples)
+            }
+            _ => None,
+        }
+    }
+
+    #[test]
+    fn the_part_has_half_of_the_samples_or_less() {
+        let paths = |all: &[u32]| all.iter().map(|spp| picture(TechniqueName::Path, 1, *spp)).collect::<Vec<_>>();
+        assert_eq!(parts(&paths(&[1])), None);
+        assert_eq!(parts(&paths(&[1, 2])), Some([1, 2]));
+        assert_eq!(parts(&paths(&[1, 2, 3])), Some([1, 3]));
+        assert_eq!(parts(&paths(&[1, 2, 3, 4, 7, 8, 15])), Some([4, 15]));
+        assert_eq!(parts(&paths(&[1, 16])), Some([1, 16]), "there was no other");
+    }
+
+    #[test]
+    fn another_picture_begins_anew() {
+        use TechniqueName::{Path, Raster, Whitted};
+        let after = |new: Picture| parts(&[picture(Path, 1, 1), picture(Path, 1, 2), new]);
+        assert_eq!(after(picture(Path, 1, 4)), Some([2, 4]));
+        assert_eq!(after(picture(Path, 2, 4)), None, "seen from elsewhere");
+        assert_eq!(after(picture(Whitted, 1, 4)), None);
+        assert_eq!(after(picture(Path, 1, 1)), None, "begun again");
+        assert_eq!(after(Picture { rough: true, ..picture(Path, 1, 4) }), None);
+        assert!(Earlier::follow(None, &picture(Raster, 1, 1)).is_none(), "it has no samples");
+    }
+}
