@@ -1,5 +1,6 @@
 //! The page: everything in one HTML file that needs no other, to be read on a projector and printed.
 
+mod glossary;
 mod table;
 
 use crate::pictures::{PicturePair, data_uri};
@@ -43,6 +44,7 @@ impl Page<'_> {
             html += &format!("<h2>{}: where the techniques are wrong</h2>\n", escaped(part));
             pairs.iter().for_each(|pair| html += &figure(pair));
         }
+        html += &glossary::html();
         html += "<h2>How this page was made</h2>\n<table class=\"made\">\n";
         for (name, value) in &self.made {
             html += &format!("<tr><th>{}</th><td>{}</td></tr>\n", escaped(name), escaped(value));

@@ -1,12 +1,13 @@
 //! Small pictures for the page: each technique beside the truth, and where it is wrong, with the colours' scale.
 
 use crate::BenchError;
-use crate::line::title;
+use crate::line::{USUAL, title};
 use crate::plan::Part;
 use crate::references::Truth;
 use compare::{ColourScale, ErrorMetric, Tick};
 use film::{DisplayTransform, Image};
 use image_file::{Records, encode_rgba8};
+use pathtrace::Integrator;
 use raster::{Fake, Raster};
 use technique::{Accumulation, FakeSettings, Renderer, Technique, TreeSettings};
 
@@ -32,7 +33,10 @@ pub struct PicturePair {
 
 const BAR: (u32, u32) = (256, 12);
 
-/// The fakes, where something can draw them, and Whitted's picture of a part.
+/// Samples per pixel of the path-traced picture: few, so that its noise is seen.
+const PATH_SPP: u32 = 16;
+
+/// The fakes, where something can draw them, Whitted's picture and a path-traced one of a part.
 ///
 /// # Errors
 /// [`BenchError::Memory`], [`BenchError::File`] if a picture cannot be encoded.
@@ -52,12 +56,21 @@ pub fn of(
             }
         }
     }
-    let size = (part.width, part.height);
-    let mut accumulation = Accumulation::blank(size).ok_or(BenchError::Memory(size.0, size.1))?;
     let TreeSettings { tree, spp, .. } = TreeSettings::default();
-    renderer.add(&mut accumulation, &scene.camera, &tree.into(), spp, &|| false)?;
-    pairs.push(pair(format!("Whitted, {spp} samples per pixel"), &accumulation.film().image(), truth)?);
+    let whitted = traced(part, renderer, &tree.into(), spp)?;
+    pairs.push(pair(format!("Whitted, {spp} samples per pixel"), &whitted, truth)?);
+    if let Technique::Traced(usual) = USUAL {
+        let paths = traced(part, renderer, &usual.integrator, PATH_SPP)?;
+        pairs.push(pair(format!("paths, {}, {PATH_SPP} samples per pixel", title(&USUAL)), &paths, truth)?);
+    }
     Ok(pairs)
+}
+
+fn traced(part: &Part, renderer: &mut Renderer, integrator: &Integrator, spp: u32) -> Result<Image, BenchError> {
+    let (size, camera) = ((part.width, part.height), renderer.scene().camera);
+    let mut accumulation = Accumulation::blank(size).ok_or(BenchError::Memory(size.0, size.1))?;
+    renderer.add(&mut accumulation, &camera, integrator, spp, &|| false)?;
+    Ok(accumulation.film().image())
 }
 
 fn pair(title: String, image: &Image, truth: &Truth) -> Result<PicturePair, BenchError> {

@@ -114,10 +114,8 @@ pub fn run(options: &Options, progress: &mut dyn FnMut(&Progress)) -> Result<Out
         progress,
     };
     let mut pairs = Vec::new();
-    for (i, (part, lines)) in planned.iter().enumerate() {
-        // the last part is the tutorial's own scene, or the only one that was asked for
-        let shown = bench.part(part, lines, i + 1 == planned.len())?;
-        pairs.push((part.title(), shown));
+    for (part, lines) in &planned {
+        pairs.push((part.title(), bench.part(part, lines)?));
     }
     let summaries: Vec<PartSummary> =
         planned.iter().filter_map(|(part, lines)| summary(&bench.journal, part, lines, &peers)).collect();
@@ -157,12 +155,8 @@ fn forecast_of(part: &Part, line: &Line, spp: u32) -> f64 {
 }
 
 impl Bench<'_> {
-    /// Measures what is missing of a part, and makes its pictures if they are to be shown.
-    fn part(&mut self, part: &Part, lines: &[Line], show: bool) -> Result<Vec<PicturePair>, BenchError> {
-        let missing = forecast(&self.journal, part, lines) > 0.0;
-        if !missing && !show {
-            return Ok(Vec::new());
-        }
+    /// Measures what is missing of a part, and makes its pictures.
+    fn part(&mut self, part: &Part, lines: &[Line]) -> Result<Vec<PicturePair>, BenchError> {
         let scene = Arc::new(part.scene()?);
         let mut renderer = Renderer::on_the_processor(scene.clone(), self.threads.clone());
         let truth = self.reference(part, &mut renderer)?;
@@ -190,7 +184,7 @@ impl Bench<'_> {
                 self.clock.done(forecast_of(part, line, spp));
             }
         }
-        if show { pictures::of(part, &mut renderer, self.raster.as_mut(), &truth) } else { Ok(Vec::new()) }
+        pictures::of(part, &mut renderer, self.raster.as_mut(), &truth)
     }
 
     fn reference(&mut self, part: &Part, renderer: &mut Renderer) -> Result<Truth, BenchError> {
@@ -221,9 +215,22 @@ impl Bench<'_> {
         truth: &Truth,
     ) -> Result<Option<Measurement>, BenchError> {
         let (Some(gpu), MakeTracer::Gpu(tracer)) = (&self.gpu, line.variant.tracer) else { return Ok(None) };
-        let measured = tracer(gpu, scene)
-            .map_err(BenchError::from)
-            .and_then(|tracer| measure::traced(part, scene, &mut tracer.into(), (line, integrator), 0, truth));
+        let measured = tracer(gpu, scene).map_err(BenchError::from).and_then(|tracer| {
+            let mut backend = Backend::from(tracer);
+            let measured = measure::traced(part, scene, &mut backend, (line, integrator), 0, truth);
+            Ok((measured?, backend.is_timed_by_the_wall()))
+        });
+        let measured = measured.map(|(measured, by_the_wall)| {
+            if by_the_wall {
+                self.notes.push(format!(
+                    "Seconds of {} of {} are in part by the wall's clock: the device has no clock of its own, or it said less than the wall's \
+                     allows.",
+                    line.name(),
+                    part.name
+                ));
+            }
+            measured
+        });
         match measured {
             Err(BenchError::Gpu(why)) => {
                 self.notes.push(format!("{} of {} is left out: {why}.", line.name(), part.name));

@@ -4,7 +4,7 @@
 //!
 //!     cargo run --release -p pathtrace --example device_rates [WIDTH HEIGHT SPP]
 //!
-//! Seconds are the device's own where it has a clock, without reading the film back; a first pass, in which shaders are
+//! Seconds are the device's own where it has a clock that the wall's bears out, without reading the film back; a first pass, in which shaders are
 //! compiled and the pace is learned, does not count. Also said: what it saves to meet few shapes one by one, and to
 //! leave out what a scene does not need.
 

@@ -120,7 +120,8 @@ impl GpuTracer {
         self.pipelines.has_compiled(&integrator.pipeline_key(self.pipelines.needs().everything()))
     }
 
-    /// Whether dispatches are timed by the device's own clock.
+    /// Whether all dispatches so far were timed by the device's own clock. Some are not even if it has one: those of
+    /// which it says far less than the wall's clock allows.
     pub fn has_a_clock(&self) -> bool {
         self.stopwatch.is_exact()
     }

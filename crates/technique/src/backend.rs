@@ -86,6 +86,11 @@ impl Backend {
         matches!(self, Backend::Gpu(gpu_backend) if gpu_backend.fault.is_some())
     }
 
+    /// Whether a device is timed by the wall's clock: it has none of its own, or one that was wrong.
+    pub fn is_timed_by_the_wall(&self) -> bool {
+        matches!(self, Backend::Gpu(gpu_backend) if !gpu_backend.tracer.has_a_clock())
+    }
+
     /// Seconds of a device's own clock that tracing has taken since the last call; `None` of the processor.
     pub fn take_device_seconds(&mut self) -> Option<f64> {
         match self {

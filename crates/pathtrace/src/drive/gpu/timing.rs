@@ -52,6 +52,10 @@ impl Pace {
 pub struct Stopwatch {
     clock: Option<DeviceClock>,
     last_end: Instant,
+    /// Whether no pass of this series is done yet.
+    first: bool,
+    /// Whether the device's clock was ever off.
+    doubted: bool,
 }
 
 #[derive(Debug)]
@@ -62,18 +66,28 @@ struct DeviceClock {
     seconds_per_tick: f64,
 }
 
+/// A device's clock is doubted where the wall's says more than this many times as much. Some software devices answer
+/// now and then that a pass ended before its work was done.
+const DOUBT: f64 = 4.0;
+
+/// Seconds beside a pass's own that the wall's clock may hold: submitting it, waking up after it.
+const OVERHEAD: f64 = 0.01;
+
+/// The same before the first pass of a series, whose film is on its way to the device.
+const FIRST_OVERHEAD: f64 = 0.25;
+
 /// Bytes of a begin and an end; queries are resolved at multiples of 256.
 const PAIR: u64 = 16;
 
 impl Stopwatch {
     /// A stopwatch for this device.
     pub fn new(gpu: &Gpu) -> Self {
-        Stopwatch { clock: DeviceClock::new(gpu), last_end: Instant::now() }
+        Stopwatch { clock: DeviceClock::new(gpu), last_end: Instant::now(), first: true, doubted: false }
     }
 
-    /// Whether the device has a clock.
+    /// Whether the device has a clock, and none of its times was doubted so far.
     pub fn is_exact(&self) -> bool {
-        self.clock.is_some()
+        self.clock.is_some() && !self.doubted
     }
 
     /// What a compute pass writes when it begins and ends; `slot` 0 or 1.
@@ -102,17 +116,27 @@ impl Stopwatch {
         }
     }
 
-    /// Seconds that the pass took, once it is done. Without a clock, since the pass before it was done.
+    /// Seconds that the pass took, once it is done. Without a clock that is believed, since the pass before it was done.
     pub fn seconds(&mut self, slot: usize) -> f64 {
         let now = Instant::now();
         let wall = now.duration_since(self.last_end).as_secs_f64();
         self.last_end = now;
-        self.clock.as_ref().and_then(|clock| clock.seconds(slot)).unwrap_or(wall)
+        let device = self.clock.as_ref().and_then(|clock| clock.seconds(slot));
+        self.settled(device, wall)
+    }
+
+    /// What the device's clock says, unless the wall's says far more.
+    fn settled(&mut self, device: Option<f64>, wall: f64) -> f64 {
+        let overhead = if std::mem::take(&mut self.first) { FIRST_OVERHEAD } else { OVERHEAD };
+        let Some(device) = device else { return wall };
+        let believed = wall <= DOUBT * device + overhead;
+        self.doubted |= !believed;
+        if believed { device } else { wall }
     }
 
     /// Begins a series of passes: what came before does not count.
     pub fn restart(&mut self) {
-        self.last_end = Instant::now();
+        (self.last_end, self.first) = (Instant::now(), true);
     }
 }
 
@@ -170,5 +194,28 @@ mod tests {
         // never less than a sample, or nothing would ever be done
         pace.learn(1.0, 5.0, 0.05);
         assert_eq!(pace.samples_that_fit(), 1.0);
+    }
+
+    #[test]
+    fn a_device_that_says_less_than_the_wall_allows_is_not_believed() {
+        let begun = || Stopwatch { clock: None, last_end: Instant::now(), first: false, doubted: false };
+        // as once of llvmpipe: two million samples in a third of a millisecond, of two seconds by the wall
+        for (device, wall, expected) in [
+            (Some(3.6e-4), 2.0, 2.0),
+            (Some(0.05), 0.3, 0.3),
+            (Some(0.05), 0.06, 0.05),
+            (Some(0.05), 0.04, 0.05),
+            (Some(1e-5), 5e-3, 1e-5),
+            (None, 0.02, 0.02),
+        ] {
+            let mut stopwatch = begun();
+            assert_eq!(stopwatch.settled(device, wall), expected, "{device:?} {wall}");
+            assert_eq!(stopwatch.doubted, device.is_some_and(|device| device != expected), "{device:?} {wall}");
+        }
+        let mut first = Stopwatch { first: true, ..begun() };
+        assert_eq!(first.settled(Some(1e-4), 0.2), 1e-4, "a film was on its way");
+        assert_eq!(first.settled(Some(1e-4), 0.2), 0.2, "now none is");
+        assert_eq!(first.settled(Some(0.1), 0.1), 0.1, "a later time is believed again");
+        assert!(first.doubted, "and what was off stays known");
     }
 }

@@ -1,0 +1,74 @@
+//! What the page's words mean, a line each: measures, ways to find light, sources of random numbers.
+
+use compare::escaped;
+
+/// Words and lines; those of estimators and samplers by their own names.
+const WORDS: [(&str, &str); 23] = [
+    ("spp", "samples per pixel: paths that were started through each pixel"),
+    ("radiance", "light along a ray, linear, before exposure and the screen's curve"),
+    (
+        "reference",
+        "the mean of many pictures by mis, by which all others are measured; its own error is known by their spread",
+    ),
+    ("RMSE", "root of the mean squared difference from the reference, in radiance: bright pixels decide"),
+    (
+        "relMSE",
+        "mean of (a - r)\u{b2} / (r\u{b2} + 0.01): each pixel as a share of what it should be; dark ones count as well",
+    ),
+    ("MAE", "mean of the differences without their signs, in radiance"),
+    (
+        "FLIP",
+        "how different two pictures look when one is shown in the other's place, 0 to 1 (LDR-FLIP, Andersson et al. 2020)",
+    ),
+    ("bias", "the error that remains however many samples there are; a limit of bounces has one, roulette has none"),
+    ("slope", "errors fall like samples to this power: \u{2212}0.5 for independent numbers"),
+    ("efficiency", "1 / (MSE \u{d7} seconds): twice as much is the same error in half the time"),
+    (
+        "samples/s, rays/s",
+        "paths and rays per second, shadow rays included; of a graphics device by its own clock where that can be right",
+    ),
+    ("heavy tail", "a few rare paths carry much of the light, so that errors themselves are hard to know"),
+    ("uniform", "directions uniform over the hemisphere, p = 1 / (2\u{3c0}); light is found by chance"),
+    ("cosine", "directions by the cosine, p = cos \u{3b8} / \u{3c0}; light is found by chance"),
+    ("light", "a point of a light is chosen at each vertex and asked for by a shadow ray (next-event estimation)"),
+    (
+        "mis",
+        "both by the cosine and by the light, weighted by their densities (multiple importance sampling, Veach 1995)",
+    ),
+    ("independent", "each random number by itself: clumps and gaps, slope \u{2212}0.5"),
+    (
+        "sobol",
+        "Owen-scrambled Sobol points: well spread over each pixel, better than \u{2212}0.5 where the picture is smooth",
+    ),
+    ("roulette", "a path goes on with probability p and then counts 1 / p: no limit, and no bias (Russian roulette)"),
+    ("bounces", "at most so many reflections after the first hit; 0 is direct light"),
+    ("fake, as taught", "rasterised with the tutorial's own numbers: shadow map, cube maps, Phong"),
+    ("fake, fair", "rasterised the same way with the truth's light and materials, linear"),
+    (
+        "Whitted",
+        "mirrors and glass by a tree of rays, light that falls on dull surfaces only straight from lamps (1980)",
+    ),
+];
+
+/// All words as a table.
+pub fn html() -> String {
+    let row = |(word, line): &(&str, &str)| format!("<tr><th>{}</th><td>{}</td></tr>\n", escaped(word), escaped(line));
+    let rows: String = WORDS.iter().map(row).collect();
+    format!("<h2>Words</h2>\n<table class=\"made\">\n{rows}</table>\n")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_way_to_find_light_and_every_source_of_numbers_is_explained() {
+        let known = |word: &str| WORDS.iter().any(|(name, _)| *name == word);
+        for estimator in pathtrace::Estimator::ALL {
+            assert!(known(estimator.name()), "{}", estimator.name());
+        }
+        for sampler in pathtrace::SamplerKind::ALL {
+            assert!(known(sampler.name()), "{}", sampler.name());
+        }
+    }
+}
