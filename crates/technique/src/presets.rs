@@ -142,8 +142,8 @@ pub const ALL: &[Preset] = &[
         settings: &[("estimator", "light"), ("bounces", "2"), ("roulette", "off"), ("spp", "16"), INDEPENDENT],
     },
     Preset {
-        name: "truth",
-        title: "Truth: unlimited, 256 spp",
+        name: "unlimited",
+        title: "Path tracing, unlimited, 256 spp",
         about: "Every path that there is, and random numbers that keep apart",
         technique: Path,
         settings: &[("bounces", "inf"), ("roulette", "throughput"), ("spp", "256")],

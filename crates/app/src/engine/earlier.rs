@@ -70,6 +70,8 @@ mod tests {
             image: Image::new(1, 1, [Vec3::splat(spp as f32)]).unwrap(),
             spp: (technique != TechniqueName::Raster).then_some(spp),
             seconds: 0.0,
+            effort: crate::model::Effort::Traced(pathtrace::Stats::default()),
+            noisy: false,
             nonfinite: 0,
             adapter: "none".into(),
             refused: None,

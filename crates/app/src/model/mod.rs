@@ -18,6 +18,7 @@ mod picture_area;
 mod reference;
 mod saved;
 mod session;
+mod slides;
 mod theme;
 mod ui_state;
 mod view;
@@ -37,6 +38,7 @@ pub use pane::{PaneId, Panes};
 pub use picture_area::PictureArea;
 pub use reference::{Origin, Progress};
 pub use session::{Resolution, Session};
+pub use slides::{SLIDES, Slide};
 pub use theme::Theme;
 pub use ui_state::{SwitchedOff, UiState};
 pub use view::{Line, View};
@@ -83,6 +85,7 @@ impl Model {
     pub fn open(&mut self, scene: Scene, source: String) {
         self.document.open(scene, source);
         self.session.forget_the_scene(&self.document.scene);
+        self.take_awaited_slide();
         self.history = History::new(self.settings());
     }
 

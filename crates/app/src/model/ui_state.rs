@@ -1,6 +1,6 @@
 //! What controls come back to, and what is in hand: nothing that anyone would miss the next day.
 
-use super::{ExportMenu, Message, Panes, PictureArea, Theme};
+use super::{ExportMenu, Message, Panes, PictureArea, Slide, Theme};
 
 /// The state of the controls.
 #[derive(Debug, Clone)]
@@ -35,6 +35,8 @@ pub struct UiState {
     pub scene_file: String,
     /// A reference to load, as typed.
     pub reference_file: String,
+    /// The slide that is shown once its scene has come.
+    pub awaited_slide: Option<&'static Slide>,
     /// What the export menu shows while it is open.
     pub export: ExportMenu,
     /// What switched-off settings come back to.
@@ -75,6 +77,7 @@ impl UiState {
             dragging_line: false,
             scene_file: String::new(),
             reference_file: String::new(),
+            awaited_slide: None,
             export: ExportMenu::default(),
             switched_off: Panes::default(),
         }

@@ -9,6 +9,7 @@ mod help;
 mod keys;
 mod overlay;
 mod pressed;
+mod slides_menu;
 mod theme;
 mod top_bar;
 mod widgets;

@@ -2,7 +2,7 @@
 
 use super::theme::palette;
 use super::widgets::{Explained, Icon, framed, icon_button, menu};
-use super::{UiCommand, UiContext, Workspaces, export_menu};
+use super::{UiCommand, UiContext, Workspaces, export_menu, slides_menu};
 use crate::model::Theme;
 use egui::{Frame, Margin, TextStyle, Ui};
 use scene::builtin;
@@ -82,6 +82,7 @@ fn widths_id() -> egui::Id {
 
 /// What stands at the right of the bar.
 fn tools(cx: &mut UiContext, ui: &mut Ui) {
+    slides_menu::show(cx, ui);
     steps(cx, ui);
     export_menu::show(cx, ui);
     look_menu(cx, ui);

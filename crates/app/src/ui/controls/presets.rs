@@ -4,7 +4,7 @@ use crate::model::PaneId;
 use crate::ui::UiContext;
 use crate::ui::widgets::{Explained, menu as menu_of};
 use egui::{Color32, TextStyle, Ui};
-use technique::{Preset, presets};
+use technique::presets;
 
 const TITLE: &str = "Presets";
 
@@ -22,19 +22,10 @@ pub fn menu(cx: &mut UiContext, pane: PaneId, ui: &mut Ui) {
             let hover = format!("{}: {}", preset.about, preset.words());
             let button = ui.button(preset.title).explained(&hover);
             if cx.dump.note(&format!("{pane} preset {}", preset.name), "", button).clicked() {
-                take(cx, pane, preset);
+                cx.model.take_preset(pane, preset);
             }
         }
     });
     let button = response.explained("The tutorial's settings by name");
     cx.dump.note(&format!("{pane} presets"), "", button.accessible_name(format!("Presets of {pane}")));
-}
-
-/// One that states no estimator has the one that the scene asks for.
-fn take(cx: &mut UiContext, pane: PaneId, preset: &Preset) {
-    let settings = &mut cx.model.session.panes[pane];
-    preset.apply(settings);
-    if preset.values().all(|(setting, _)| setting.name != "estimator") {
-        settings.take_usual_estimator(&cx.model.document.scene);
-    }
 }

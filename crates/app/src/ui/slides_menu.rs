@@ -1,0 +1,20 @@
+//! The menu of the tutorial's slides: one choice opens the scene and sets both panes.
+
+use super::widgets::{Explained, menu};
+use super::{UiCommand, UiContext};
+use crate::model::SLIDES;
+use egui::Ui;
+
+pub fn show(cx: &mut UiContext, ui: &mut Ui) {
+    let (response, _) = menu("Slides").ui(ui, |ui| {
+        for slide in SLIDES {
+            let item = ui.button(slide.title).explained(slide.about);
+            if cx.dump.note(&format!("slide {}", slide.name), "", item).clicked() {
+                let scene = cx.model.show_slide(slide);
+                cx.commands.extend(scene.map(|scene| UiCommand::Open(scene.into())));
+                ui.close();
+            }
+        }
+    });
+    cx.dump.note("slides", "", response.explained("The tutorial, slide by slide: a scene and what A and B show"));
+}
