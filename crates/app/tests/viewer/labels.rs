@@ -36,6 +36,23 @@ fn two_pictures_of_one_technique_are_called_by_what_differs_and_say_what_they_la
 }
 
 #[test]
+fn rays_are_counted_where_paths_branch() {
+    let mut user = User::of("cornell");
+    two_limits_of_bounces(&mut user, [1, 1]);
+    user.viewer.borrow_mut().model.session.panes[PaneId::B].truth.path.branches = 4;
+    let told = user.wait_for("both pictures", |f| both_whole(f) && lines(f, "B")[0] == "B: Path tracing, N = 4");
+    let counted =
+        lines(&told, "B").into_iter().find(|line| line.starts_with("N = 4, at most 4^2 = 16 paths a sample: "));
+    let counted = counted.expect("the count");
+    let figure = counted.split(": ").nth(1).and_then(|rays| rays.split(' ').next()?.parse::<f64>().ok());
+    // at most a camera ray, 20 of 4 + 16 branches and a shadow ray from each of 5 vertices; many leave the box
+    assert!(figure.is_some_and(|rays| (8.0..26.0).contains(&rays)), "{counted}");
+    assert!(counted.ends_with(" rays a second"), "{counted}");
+    assert_eq!(lines(&told, "A")[0], "A: Path tracing, N = 1");
+    assert!(!told.value("label A").contains("rays"), "one direction at each vertex is no tree");
+}
+
+#[test]
 fn l_hides_the_labels_and_shows_them_again_as_its_box_does() {
     let mut user = User::of("cornell");
     let both = |f: &Frame| [f.shows("label A"), f.shows("label B")];
