@@ -54,7 +54,7 @@ fn settings_that_cannot_be_rendered_are_told_on_the_picture_until_they_can() {
     set(&user, 2, None);
     let told = user.wait_for("the refusal", |f| f.shows("label fault B"));
     let said = told.value("label fault B").to_owned();
-    assert!(said.contains("bounces"), "{said}");
+    assert!(said.starts_with("B: 2 directions") && said.contains("bounces"), "{said}");
     assert!(told.state("b")["ready"] == false && !told.shows("label B"), "{:?}", told.state("b"));
     assert!(both_whole(&told) || told.state("a")["ready"] == true, "A stays");
     set(&user, 2, Some(2));

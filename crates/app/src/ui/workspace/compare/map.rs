@@ -43,7 +43,7 @@ fn why_not(cx: &UiContext) -> String {
     for pane in std::iter::once(of).chain(judge) {
         let Some(shown) = cx.shown.panes.get(pane) else { continue };
         if let Some(fault) = &shown.fault {
-            return fault.clone();
+            return format!("{pane}: {fault}");
         }
         if shown.provenance.as_ref().is_some_and(|provenance| !provenance.technique.shows_the_scene()) {
             return format!("{pane} shows a map, not the scene: it has no errors");

@@ -106,9 +106,10 @@ fn picture(cx: &mut UiContext, ui: &Ui, rect: Rect, clip: Rect, pane: PaneId) {
     let fault = cx.shown.panes.get(pane).and_then(|shown| shown.fault.as_ref());
     match (fault, cx.textures.panes.get(pane)) {
         (Some(fault), _) => {
-            let place = in_the_middle(fault, Color32::from_rgb(255, 150, 150));
-            cx.dump.note_text(&format!("label fault {pane}"), fault, place, clip);
-            spoken(ui, &format!("label fault {pane}"), fault, place, true);
+            let (name, text) = (format!("label fault {pane}"), format!("{pane}: {fault}"));
+            let place = in_the_middle(&text, Color32::from_rgb(255, 150, 150));
+            cx.dump.note_text(&name, &text, place, clip);
+            spoken(ui, &name, &text, place, true);
         }
         (None, Some(texture)) => {
             if !rect.contains_rect(clip) {
