@@ -109,9 +109,18 @@ impl Screen {
 
     /// Turns the wheel by one notch, away from the user.
     pub fn wheel_up(&self, at: [f32; 2]) {
+        self.wheel(4, at);
+    }
+
+    /// Turns the wheel by one notch, towards the user.
+    pub fn wheel_down(&self, at: [f32; 2]) {
+        self.wheel(5, at);
+    }
+
+    fn wheel(&self, button: u8, at: [f32; 2]) {
         self.move_to(at[0], at[1]);
-        self.fake(xproto::BUTTON_PRESS_EVENT, 4, at[0], at[1]);
-        self.fake(xproto::BUTTON_RELEASE_EVENT, 4, at[0], at[1]);
+        self.fake(xproto::BUTTON_PRESS_EVENT, button, at[0], at[1]);
+        self.fake(xproto::BUTTON_RELEASE_EVENT, button, at[0], at[1]);
     }
 
     /// Types the key of a Latin letter or digit, with Control held if asked.

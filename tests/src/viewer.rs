@@ -80,9 +80,27 @@ impl ViewerUnderTest {
     /// # Panics
     /// If none comes within a minute, or the viewer ends.
     pub fn wait_for(&mut self, what: &str, holds: impl Fn(&Frame) -> bool) -> Frame {
+        self.wait_at_most(Duration::from_secs(60), what, holds).unwrap_or_else(|last| {
+            panic!("waited a minute for: {what}; last seen: {:?}", last.map(|f| f.0["state"].to_string()))
+        })
+    }
+
+    /// The same for so long; or else the last frame, if there was one.
+    ///
+    /// # Errors
+    /// If no such frame comes.
+    ///
+    /// # Panics
+    /// If the viewer ends.
+    pub fn wait_at_most(
+        &mut self,
+        time: Duration,
+        what: &str,
+        holds: impl Fn(&Frame) -> bool,
+    ) -> Result<Frame, Option<Frame>> {
         let start = Instant::now();
         let mut last = None;
-        while start.elapsed() < Duration::from_secs(60) {
+        while start.elapsed() < time {
             if let Some(status) = self.process.try_wait().expect("the process") {
                 panic!("the viewer ended with {status} while waiting for: {what}; it said: {}", self.said());
             }
@@ -90,13 +108,13 @@ impl ViewerUnderTest {
             if let Ok(value) = serde_json::from_str(&text) {
                 let frame = Frame(value);
                 if holds(&frame) {
-                    return frame;
+                    return Ok(frame);
                 }
                 last = Some(frame);
             }
             std::thread::sleep(Duration::from_millis(20));
         }
-        panic!("waited a minute for: {what}; last seen: {:?}", last.map(|f| f.0["state"].to_string()));
+        Err(last)
     }
 
     /// Waits until a widget is on the screen and has stopped moving.
