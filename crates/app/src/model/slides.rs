@@ -16,6 +16,8 @@ pub struct Slide {
     pub scene: &'static str,
     /// The presets of A and B by their names.
     pub presets: [&'static str; 2],
+    /// How both are seen: under the line, but side by side where each must be seen whole.
+    pub view: View,
 }
 
 const fn slide(
@@ -25,18 +27,21 @@ const fn slide(
     scene: &'static str,
     presets: [&'static str; 2],
 ) -> Slide {
-    Slide { name, title, about, scene, presets }
+    Slide { name, title, about, scene, presets, view: View::Wipe }
 }
 
 /// All slides that two pictures tell.
 pub const SLIDES: &[Slide] = &[
-    slide(
-        "phong",
-        "Phong and Blinn-Phong",
-        "Where the light grazes the floor, Phong's highlight is round and Blinn-Phong's is drawn out towards the viewer",
-        "phong",
-        ["phong", "blinn-phong"],
-    ),
+    Slide {
+        view: View::SideBySide,
+        ..slide(
+            "phong",
+            "Phong and Blinn-Phong",
+            "Where the light grazes the floor, Phong's highlight is round and Blinn-Phong's is drawn out towards the viewer",
+            "phong",
+            ["phong", "blinn-phong"],
+        )
+    },
     slide(
         "whitted",
         "Whitted 1980 above its fake",
@@ -126,9 +131,7 @@ impl Model {
                 self.take_preset(pane, preset);
             }
         }
-        if !matches!(self.session.view, View::Wipe | View::SideBySide) {
-            self.session.view = View::Wipe;
-        }
+        self.session.view = slide.view;
         self.say(Ok(format!("{}: {}", slide.title, slide.about)));
     }
 

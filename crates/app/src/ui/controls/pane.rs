@@ -7,6 +7,7 @@ use crate::ui::UiContext;
 use crate::ui::theme::palette;
 use crate::ui::widgets::fold;
 use egui::Ui;
+use raster::Shading;
 use technique::settings::{Setting, all_of_panes};
 use technique::{BlindSpot, PaneSettings, Technique, TechniqueName};
 
@@ -43,7 +44,8 @@ pub fn show(cx: &mut UiContext, pane: PaneId, ui: &mut Ui) {
         all_of_panes().filter(|row| row.is_of(technique) && row.needs.missing_in(scene).is_none()).collect();
     let order = order(technique);
     usable.sort_by_key(|row| order.iter().position(|name| *name == row.name).unwrap_or(order.len()));
-    let (more, first): (Vec<_>, Vec<_>) = usable.into_iter().partition(|row| row.control.more.contains(&technique));
+    let settings = &cx.model.session.panes[pane];
+    let (more, first): (Vec<_>, Vec<_>) = usable.into_iter().partition(|row| is_rare(row, settings));
     rows(cx, pane, &first, ui);
     let id = ui.make_persistent_id(("more", pane));
     let traced = matches!(cx.model.session.panes[pane].in_use(), Technique::Traced(_));
@@ -57,6 +59,15 @@ pub fn show(cx: &mut UiContext, pane: PaneId, ui: &mut Ui) {
     });
     cx.dump.note(&format!("{pane} more"), open, header);
     faults(cx, pane, ui);
+}
+
+/// The terms of the slides' local models: k_a, k_d, k_s and p.
+const OF_LOCAL_MODELS: [&str; 5] = ["shading", "ambient", "diffuse", "specular", "shininess"];
+
+/// Whether a row stands among those that are folded away. Who has chosen one of the slides' models looks at its coefficients.
+fn is_rare(row: &Setting<PaneSettings>, settings: &PaneSettings) -> bool {
+    let looked_at = settings.fake.shading != Shading::Three && OF_LOCAL_MODELS.contains(&row.name);
+    row.control.more.contains(&settings.technique) && !looked_at
 }
 
 fn rows(cx: &mut UiContext, pane: PaneId, rows: &[&Setting<PaneSettings>], ui: &mut Ui) {
