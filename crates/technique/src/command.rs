@@ -1,6 +1,6 @@
 //! The command lines that make a picture or a reference again, for a shell of the POSIX kind.
 
-use crate::{Provenance, Shot};
+use crate::{Provenance, Recorded, Shot};
 use image_file::Records;
 use scene::{Camera, Vec3};
 
@@ -57,9 +57,60 @@ fn quoted(word: &str) -> String {
     if !word.is_empty() && word.chars().all(plain) { word.into() } else { format!("'{}'", word.replace('\'', r"'\''")) }
 }
 
+/// What a `visavis render` line of this program makes; `None` if it is none. It knows nothing of the scene's hash.
+pub fn made_by_command(command: &str) -> Option<Recorded> {
+    let mut words = words(command)?.into_iter();
+    if words.next()? != "visavis" || words.next()? != "render" {
+        return None;
+    }
+    let scene = words.next()?;
+    let mut options = Vec::new();
+    while let Some(name) = words.next() {
+        let value = words.next()?;
+        if name != "-o" {
+            options.push(format!("{name}={value}"));
+        }
+    }
+    Some(Recorded { scene, scene_hash: None, options })
+}
+
+/// The words of a line as a shell takes them, quoted as [`quoted`] does it; `None` if a quote has no end.
+fn words(line: &str) -> Option<Vec<String>> {
+    let (mut words, mut word) = (Vec::new(), None::<String>);
+    let mut letters = line.chars();
+    while let Some(letter) = letters.next() {
+        match letter {
+            ' ' => words.extend(word.take()),
+            '\'' => {
+                let (inside, after) = letters.as_str().split_once('\'')?;
+                word.get_or_insert_default().push_str(inside);
+                letters = after.chars();
+            }
+            '\\' => word.get_or_insert_default().push(letters.next()?),
+            other => word.get_or_insert_default().push(other),
+        }
+    }
+    words.extend(word);
+    Some(words)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_command_is_read_back_as_it_was_told() {
+        for source in ["whitted", "my scene.toml", "it's/a b.toml", ""] {
+            let options = vec![("technique", "path".to_owned()), ("eye", "1,-2,3".to_owned())];
+            let read = made_by_command(&line("render", source, "a b.png", &options)).expect("a command");
+            assert_eq!((read.scene.as_str(), read.options.concat()), (source, "--technique=path--eye=1,-2,3".into()));
+        }
+        for none in
+            ["", "visavis", "visavis reference whitted -o r.exr", "visavis render 'whitted", "visavis render w -o"]
+        {
+            assert_eq!(made_by_command(none), None, "{none}");
+        }
+    }
 
     #[test]
     fn words_with_blanks_and_quotes_stay_one_word() {
