@@ -26,11 +26,22 @@ pub fn cache_folder() -> Option<PathBuf> {
     caches(|name| std::env::var_os(name), home_folder())
 }
 
-/// A variable whose path is relative is ignored, as the XDG Base Directory Specification asks for.
+/// Where the system has what programs remember of their last run: `$XDG_STATE_HOME`, `%LOCALAPPDATA%`, or a folder in the
+/// home folder.
+pub fn state_folder() -> Option<PathBuf> {
+    let in_home = if cfg!(target_os = "macos") { "Library/Application Support" } else { ".local/state" };
+    own_folder(|name| std::env::var_os(name), "XDG_STATE_HOME", home_folder().map(|home| home.join(in_home)))
+}
+
 fn caches(variable: impl Fn(&str) -> Option<OsString>, home: Option<PathBuf>) -> Option<PathBuf> {
+    let in_home = if cfg!(target_os = "macos") { "Library/Caches" } else { ".cache" };
+    own_folder(variable, "XDG_CACHE_HOME", home.map(|home| home.join(in_home)))
+}
+
+/// A variable whose path is relative is ignored, as the XDG Base Directory Specification asks for.
+fn own_folder(variable: impl Fn(&str) -> Option<OsString>, name: &str, usual: Option<PathBuf>) -> Option<PathBuf> {
     let folder = |name| variable(name).map(PathBuf::from).filter(|path| path.is_absolute());
-    let in_home = || home.map(|home| home.join(if cfg!(target_os = "macos") { "Library/Caches" } else { ".cache" }));
-    folder("XDG_CACHE_HOME").or_else(|| folder("LOCALAPPDATA")).or_else(in_home)
+    folder(name).or_else(|| folder("LOCALAPPDATA")).or(usual)
 }
 
 #[cfg(test)]

@@ -11,7 +11,7 @@ mod primaries;
 mod whole;
 
 pub use error::{ImageFileError, escaped, shown};
-pub use folders::{cache_folder, default_folder, home_folder};
+pub use folders::{cache_folder, default_folder, home_folder, state_folder};
 pub use names::{free_name, typed_path};
 pub use partial::{NoMoreFiles, is_partial, remove_partial_files, remove_unless_held};
 pub use whole::{check_writable, is_same_file, write_new, write_or_keep, write_whole};
