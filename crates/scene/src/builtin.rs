@@ -48,6 +48,12 @@ pub fn text(name: &str) -> Option<&'static str> {
     FILES.iter().chain(&HARD).find(|(known, _)| *known == name).map(|(_, text)| *text)
 }
 
+/// What a built-in scene is, in a sentence or two: the comment at the head of its file.
+pub fn about(name: &str) -> Option<String> {
+    let comment = text(name)?.lines().map_while(|line| line.strip_prefix('#'));
+    Some(comment.map(str::trim).collect::<Vec<_>>().join(" "))
+}
+
 /// A scene by built-in name, or from a file if `name` has a suffix or a folder in it.
 ///
 /// # Errors
@@ -77,6 +83,7 @@ mod tests {
     fn every_scene_loads_and_every_hard_file_is_listed() {
         for name in names().chain(hard_names()) {
             assert!(!named(name).unwrap().shapes.is_empty(), "{name}");
+            assert!(about(name).is_some_and(|about| about.len() > 20 && about.ends_with('.')), "{name}");
         }
         assert!(named("hard/?").unwrap_err().to_string().contains("hard/slab"));
         assert!(named("cornel").unwrap_err().to_string().ends_with("; did you mean cornell?"));
