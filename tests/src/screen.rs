@@ -168,12 +168,12 @@ impl Screen {
         if upper { vec![Screen::SHIFT, keysym] } else { vec![keysym] }
     }
 
-    /// Gives the keyboard to the window of that title and returns it.
+    /// Gives the keyboard to the window of that program, by the end of its title, and returns it.
     ///
     /// # Panics
     /// If there is none.
-    pub fn focus(&self, title: &str) -> xproto::Window {
-        let window = self.find(title).expect("the window");
+    pub fn focus(&self, program: &str) -> xproto::Window {
+        let window = self.find(program).expect("the window");
         self.connection.set_input_focus(xproto::InputFocus::PARENT, window, x11rb::CURRENT_TIME).expect("focus");
         self.connection.sync().expect("the server");
         window
@@ -273,12 +273,22 @@ impl Screen {
         first + (place / per_code) as u8
     }
 
-    fn find(&self, title: &str) -> Option<xproto::Window> {
+    /// The title of a window.
+    ///
+    /// # Panics
+    /// If the server does not answer.
+    pub fn title(&self, window: xproto::Window) -> String {
+        let (name, kind) = (xproto::AtomEnum::WM_NAME, xproto::AtomEnum::ANY);
+        let request = self.connection.get_property(false, window, name, kind, 0, 256).expect("the request");
+        String::from_utf8_lossy(&request.reply().expect("the title").value).into_owned()
+    }
+
+    fn find(&self, program: &str) -> Option<xproto::Window> {
         let tree = self.connection.query_tree(self.root).ok()?.reply().ok()?;
         tree.children.into_iter().find(|&window| {
             let name = xproto::AtomEnum::WM_NAME;
             let request = self.connection.get_property(false, window, name, xproto::AtomEnum::ANY, 0, 256);
-            request.ok().and_then(|r| r.reply().ok()).is_some_and(|r| r.value == title.as_bytes())
+            request.ok().and_then(|r| r.reply().ok()).is_some_and(|r| r.value.ends_with(program.as_bytes()))
         })
     }
 }

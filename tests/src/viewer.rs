@@ -39,6 +39,32 @@ impl ViewerUnderTest {
     /// If it does not start.
     pub fn start_in(binary: &Path, screen: &Screen, variables: &[(&str, Option<&str>)], arguments: &[&str]) -> Self {
         let folder = TestFolder::new();
+        let memory = folder.file("state");
+        Self::start_with(folder, &memory, binary, screen, variables, arguments)
+    }
+
+    /// The same with what windows remember in this folder.
+    ///
+    /// # Panics
+    /// If it does not start.
+    pub fn start_keeping(
+        binary: &Path,
+        screen: &Screen,
+        variables: &[(&str, Option<&str>)],
+        arguments: &[&str],
+        memory: &Path,
+    ) -> Self {
+        Self::start_with(TestFolder::new(), memory, binary, screen, variables, arguments)
+    }
+
+    fn start_with(
+        folder: TestFolder,
+        memory: &Path,
+        binary: &Path,
+        screen: &Screen,
+        variables: &[(&str, Option<&str>)],
+        arguments: &[&str],
+    ) -> Self {
         let home = folder.file("home");
         std::fs::create_dir(&home).expect("a home folder");
         let stderr = std::fs::File::create(folder.file("stderr.txt")).expect("a file");
@@ -59,6 +85,7 @@ impl ViewerUnderTest {
             .env_remove("WAYLAND_SOCKET")
             .env("HOME", &home)
             .env("VISAVIS_CACHE", folder.file("cache"))
+            .env("XDG_STATE_HOME", memory)
             .stderr(stderr)
             .spawn()
             .expect("the viewer");
