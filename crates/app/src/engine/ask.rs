@@ -1,13 +1,16 @@
 //! The threads beside the UI as one: asks them for whatever no longer fits what is wanted, and ends them.
 
+use super::dialogue::{Answer, Choice, Dialogues};
 use super::error_map::ErrorMapWorker;
 use super::export::{Export, Exporter, Outcome};
-use super::load::{Loader, Opened};
+use super::load::{Loaded, Loader, Refusal};
 use super::pane_workers::PaneWorkers;
 use super::post_process::{PaneUpdate, PaneUpdates, PostProcess};
 use super::reference::{OpenStore, ReferenceUpdate, ReferenceWorker, Wish};
+use super::thumbnails::{Thumbnail, Thumbnails};
+use super::watch::{News, Watched, Watcher};
 use super::{Order, STEPS_BACK, Wake, step_farther_back};
-use crate::model::{Against, Comparison, ErrorMap, MapWish, Origin, PaneId, Panes, Wanted, WantedPane};
+use crate::model::{Against, Comparison, ErrorMap, FilePurpose, MapWish, Origin, PaneId, Panes, Wanted, WantedPane};
 use anyhow::Context;
 use film::DisplayTransform;
 use gpu::Gpu;
@@ -31,6 +34,10 @@ pub struct Engine {
     threads: Arc<Threads>,
     exporter: Exporter,
     loader: Loader,
+    watcher: Watcher,
+    dialogues: Dialogues,
+    /// Made when they are first asked for.
+    thumbnails: Option<Thumbnails>,
     wake: Wake,
     asked: Asked,
 }
@@ -88,6 +95,9 @@ impl Engine {
             threads,
             exporter: Exporter::start(wake.clone()).context("no thread for exports")?,
             loader: Loader::new(wake.clone()),
+            watcher: Watcher::start(wake.clone()).context("no thread to watch files")?,
+            dialogues: Dialogues::new(wake.clone()),
+            thumbnails: None,
             wake,
             asked: Asked::default(),
         })
@@ -240,14 +250,53 @@ impl Engine {
         }
     }
 
-    /// Reads a scene beside the UI.
+    /// Reads a scene or a picture beside the UI.
     pub fn load(&self, name: String) {
         self.loader.load(name);
     }
 
-    /// The scene that was read since the last call, or why it was not.
-    pub fn loaded(&self) -> Option<Result<Opened, String>> {
+    /// What was read since the last call, or why nothing was.
+    pub fn loaded(&self) -> Option<Result<Loaded, Refusal>> {
         self.loader.loaded()
+    }
+
+    /// Watches the file of the scene that is open, if it is one.
+    pub fn watch(&self, watched: Option<Watched>) {
+        self.watcher.watch(watched);
+    }
+
+    /// What has changed on disk since the last call.
+    pub fn news(&self) -> News {
+        self.watcher.news()
+    }
+
+    /// Waits for the user's choice of a file.
+    ///
+    /// # Errors
+    /// If the system gives no thread.
+    pub fn wait_for_file(&mut self, purpose: FilePurpose, choice: Choice) -> std::io::Result<()> {
+        self.dialogues.wait_for(purpose, choice)
+    }
+
+    /// The file that was chosen since the last call.
+    pub fn chosen_file(&mut self) -> Option<Answer> {
+        self.dialogues.answer()
+    }
+
+    /// Draws small pictures of these scenes.
+    pub fn draw_thumbnails(&mut self, names: impl IntoIterator<Item = &'static str>) {
+        if self.thumbnails.is_none() {
+            // without a thread there are none
+            self.thumbnails = Thumbnails::start(self.threads.clone(), self.wake.clone()).ok();
+        }
+        if let Some(worker) = &self.thumbnails {
+            worker.draw(names);
+        }
+    }
+
+    /// Those drawn since the last call.
+    pub fn thumbnails(&self) -> Vec<Thumbnail> {
+        self.thumbnails.as_ref().map(Thumbnails::drawn).unwrap_or_default()
     }
 
     /// Writes a picture to a file or the clipboard.

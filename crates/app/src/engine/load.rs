@@ -1,28 +1,111 @@
-//! Reading scenes beside the UI: a large file takes its time.
+//! Reading scenes, and pictures that say which scene they show, beside the UI: a large file takes its time.
 
 use super::Wake;
+use super::restore::{self, Kept};
+use super::watch::Stamp;
 use super::worker::{Control, Service, Worker};
-use scene::{Scene, builtin};
+use crate::model::Setup;
+use image_file::{Kind, shown};
+use scene::{Scene, SceneError, builtin};
 use std::cell::RefCell;
+use std::path::{Path, PathBuf};
 
-/// Reads scenes; the last one asked for wins, and does not wait for the others.
+/// Reads scenes and pictures; the last one asked for wins, and does not wait for the others.
 pub struct Loader {
     wake: Wake,
     /// Reads the last one; or why it does not.
-    last: RefCell<Option<Result<Reader, String>>>,
+    last: RefCell<Option<Result<Reader, Refusal>>>,
 }
 
-type Reader = Worker<Option<String>, Option<Result<Opened, String>>>;
+type Reader = Worker<Option<String>, Option<Result<Loaded, Refusal>>>;
+
+/// What was in a file, or under a name.
+#[derive(Debug)]
+pub enum Loaded {
+    /// Something to look at.
+    Scene(Box<Opened>),
+    /// A picture that does not say how it was made: something to compare with.
+    Reference(PathBuf),
+}
 
 /// A scene that was read.
 #[derive(Debug)]
 pub struct Opened {
-    /// What was asked for: a built-in name or a file.
+    /// What opened it: a built-in name, a scene's file or a picture.
+    pub asked: String,
+    /// The scene's built-in name or file.
     pub source: String,
     /// The scene that was read from it.
     pub scene: Scene,
-    /// What of it is probably not meant, see [`Scene::notes`].
+    /// When that file was written, if it is one.
+    pub stamp: Option<Stamp>,
+    /// What the picture sets up that was opened, if one was.
+    pub setup: Option<Setup>,
+    /// What else is to be said, a line each.
     pub notes: Vec<String>,
+}
+
+/// Why there is nothing to look at.
+#[derive(Debug)]
+pub struct Refusal {
+    /// What was asked for.
+    pub asked: String,
+    /// One line.
+    pub line: String,
+    /// Whether there is no such file.
+    pub missing: bool,
+}
+
+/// Reads what stands under a built-in name or in a file.
+///
+/// # Errors
+/// One line that says what is wrong, and where.
+pub fn read(asked: &str) -> Result<Loaded, Refusal> {
+    let path = Path::new(asked);
+    match Kind::of(path) {
+        Some(kind) if builtin::text(asked).is_none() => read_picture(asked, path, kind),
+        _ => read_scene(asked).map(|opened| Loaded::Scene(Box::new(opened))).map_err(|fault| refusal(asked, &fault)),
+    }
+}
+
+fn refusal(asked: &str, fault: &SceneError) -> Refusal {
+    let missing = matches!(fault, SceneError::Read { why, .. } if why.kind() == std::io::ErrorKind::NotFound);
+    Refusal { asked: asked.to_owned(), line: fault.to_string(), missing }
+}
+
+fn read_scene(source: &str) -> Result<Opened, SceneError> {
+    // before it is read, so that what is written meanwhile is newer
+    let stamp = Stamp::of(Path::new(source)).filter(|_| builtin::text(source).is_none());
+    let scene = builtin::named(source)?;
+    let notes = scene.notes();
+    Ok(Opened { asked: source.to_owned(), source: source.to_owned(), scene, stamp, setup: None, notes })
+}
+
+fn read_picture(asked: &str, path: &Path, kind: Kind) -> Result<Loaded, Refusal> {
+    let refuse = |line: String| Refusal { asked: asked.to_owned(), line, missing: !path.exists() };
+    let Some(kept) = restore::read(path).map_err(|fault| refuse(format!("{fault:#}")))? else {
+        return match kind {
+            Kind::Exr => Ok(Loaded::Reference(path.to_owned())),
+            Kind::Png => Err(refuse(format!(
+                "this picture does not say how it was made, and only an .exr can be a reference: {}",
+                shown(path)
+            ))),
+        };
+    };
+    let mut opened = scene_of(&kept, path).map_err(|fault| refuse(format!("the scene of {asked}: {fault}")))?;
+    opened.notes.extend(kept.note(path, &opened.scene));
+    Ok(Loaded::Scene(Box::new(Opened { asked: asked.to_owned(), setup: Some(kept.setup), ..opened })))
+}
+
+/// The scene of a picture, where it was when the picture was made, or beside the picture.
+fn scene_of(kept: &Kept, picture: &Path) -> Result<Opened, SceneError> {
+    match (read_scene(&kept.scene), Path::new(&kept.scene).file_name()) {
+        (Err(fault @ SceneError::Read { .. }), Some(name)) => {
+            let beside = picture.with_file_name(name);
+            if beside.is_file() { read_scene(&beside.display().to_string()) } else { Err(fault) }
+        }
+        (read, _) => read,
+    }
 }
 
 impl Loader {
@@ -31,10 +114,14 @@ impl Loader {
         Loader { wake, last: RefCell::default() }
     }
 
-    /// Reads a scene, by name or file, on a thread of its own.
+    /// Reads a scene or a picture, by name or file, on a thread of its own.
     pub fn load(&self, name: String) {
-        let started = Worker::start("loader", self.wake.clone(), || Scenes);
-        let reader = started.map_err(|e| format!("no thread to read the scene ({e})"));
+        let started = Worker::start("loader", self.wake.clone(), || Scenes { asked: String::new() });
+        let reader = started.map_err(|e| Refusal {
+            asked: name.clone(),
+            line: format!("no thread to read the scene ({e})"),
+            missing: false,
+        });
         if let Ok(reader) = &reader {
             reader.post(|slot| *slot = Some(name));
         }
@@ -43,17 +130,17 @@ impl Loader {
         }
     }
 
-    /// The scene that was read since the last call, or why it was not.
-    pub fn loaded(&self) -> Option<Result<Opened, String>> {
+    /// What was read since the last call, or why nothing was.
+    pub fn loaded(&self) -> Option<Result<Loaded, Refusal>> {
         let mut last = self.last.borrow_mut();
-        let loaded = match last.as_ref()? {
-            Ok(reader) => reader.collect().flatten()?,
-            Err(fault) => Err(fault.clone()),
-        };
-        if let Some(Ok(reader)) = last.take() {
-            reader.leave();
+        if let Ok(reader) = last.as_ref()? {
+            let loaded = reader.collect().flatten()?;
+            if let Some(Ok(reader)) = last.take() {
+                reader.leave();
+            }
+            return Some(loaded);
         }
-        Some(loaded)
+        last.take().and_then(Result::err).map(Err)
     }
 }
 
@@ -66,19 +153,39 @@ impl Drop for Loader {
     }
 }
 
-struct Scenes;
+struct Scenes {
+    asked: String,
+}
 
 impl Service for Scenes {
     type Job = Option<String>;
-    type Update = Option<Result<Opened, String>>;
+    type Update = Option<Result<Loaded, Refusal>>;
 
     fn serve(&mut self, name: Option<String>, control: &Control<Self::Job, Self::Update>) {
         let Some(name) = name else { return };
-        let read = builtin::named(&name).map_err(|e| e.to_string());
-        control.tell(|loaded| *loaded = Some(read.map(|scene| Opened { source: name, notes: scene.notes(), scene })));
+        self.asked.clone_from(&name);
+        let read = read(&name);
+        control.tell(|loaded| *loaded = Some(read));
     }
 
     fn recover(&mut self, control: &Control<Self::Job, Self::Update>) {
-        control.tell(|loaded| *loaded = Some(Err("reading the scene stopped at a fault of its own".into())));
+        let line = "reading the scene stopped at a fault of its own".into();
+        let refusal = Refusal { asked: std::mem::take(&mut self.asked), line, missing: false };
+        control.tell(|loaded| *loaded = Some(Err(refusal)));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use visavis_tests::TestFolder;
+
+    #[test]
+    fn what_is_not_there_is_told_apart_from_what_is_wrong() {
+        let folder = TestFolder::new();
+        let missing = |name: &str| read(&folder.file(name).display().to_string()).expect_err(name).missing;
+        std::fs::write(folder.file("wrong.toml"), "camera = 1").expect("a file");
+        std::fs::write(folder.file("wrong.png"), "no picture").expect("a file");
+        assert_eq!(["gone.toml", "gone.png", "wrong.toml", "wrong.png"].map(missing), [true, true, false, false]);
     }
 }

@@ -7,6 +7,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Condvar, Mutex, PoisonError};
 use std::thread::JoinHandle;
+use std::time::Duration;
 
 /// What a worker's thread does with jobs.
 pub trait Service {
@@ -171,6 +172,11 @@ impl<Job: Default, Update: Default> Control<Job, Update> {
         self.shared.gate.pass(|| self.ends_soon());
     }
 
+    /// Waits so long, or until it shall end soon.
+    pub fn rest(&self, time: Duration) {
+        self.shared.gate.rest(time, || self.ends_soon());
+    }
+
     /// Changes what is collected, and wakes the UI thread.
     pub fn tell(&self, change: impl FnOnce(&mut Update)) {
         self.shared.updates.post(change);
@@ -211,12 +217,19 @@ impl Gate {
             guard = self.changed.wait(guard).unwrap_or_else(PoisonError::into_inner);
         }
     }
+
+    /// Waits for so long or until `ends` says so.
+    fn rest(&self, time: Duration, ends: impl Fn() -> bool) {
+        let guard = self.lock.lock().unwrap_or_else(PoisonError::into_inner);
+        // a lock that a panic has left behind guards nothing
+        drop(self.changed.wait_timeout_while(guard, time, |()| !ends()));
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use std::time::{Duration, Instant};
+    use std::time::Instant;
 
     /// Panics at 0, waits to be cancelled at 1, waits to be let go at 2, and tells what it has served.
     struct Numbers;

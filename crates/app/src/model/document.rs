@@ -46,6 +46,15 @@ impl Document {
         *self = Document { opened: self.opened + 1, ..Document::new(scene, source) };
     }
 
+    /// Another version of the scene that is open. A camera that was moved stays; one that was the scene's own follows it.
+    pub fn reread(&mut self, scene: Scene) {
+        let kept = Camera { up: scene.camera.up, near: scene.camera.near, far: scene.camera.far, ..self.camera };
+        let moved = self.camera != self.scene.camera && kept.fault().is_none();
+        self.camera = if moved { kept } else { scene.camera };
+        self.scene = Arc::new(scene);
+        self.changed = (SceneChanges::default(), self.scene.clone());
+    }
+
     /// Makes the changes in the scene, where they are others than before.
     pub fn apply_changes(&mut self) {
         if self.changed.0 != self.changes {

@@ -10,14 +10,17 @@ mod effort;
 mod error_map;
 mod errors;
 mod export;
+mod file_wish;
 mod first_line;
 mod history;
 mod message;
 mod pane;
 mod picture_area;
 mod reference;
+mod remembered;
 mod saved;
 mod session;
+mod setup;
 mod slides;
 mod theme;
 mod ui_state;
@@ -32,12 +35,15 @@ pub use effort::{Compiling, Drawing, Effort};
 pub use error_map::{ErrorMap, ErrorMapJob};
 pub use errors::{ErrorHistory, ErrorPoint};
 pub use export::{Destination, ExportMenu, ExportRequest, ExportSubject};
+pub use file_wish::{FilePurpose, FileWish};
 pub use history::{History, Settings};
 pub use message::Message;
 pub use pane::{PaneId, Panes};
 pub use picture_area::PictureArea;
 pub use reference::{Origin, Progress};
+pub use remembered::{Remembered, WindowPlace};
 pub use session::{Resolution, Session};
+pub use setup::Setup;
 pub use slides::{SLIDES, Slide};
 pub use theme::Theme;
 pub use ui_state::{SwitchedOff, UiState};
@@ -76,7 +82,7 @@ impl Model {
     pub fn beside(mut self, adapters: Adapters, device: DeviceChoice) -> Self {
         self.adapters = adapters;
         self.session.trace_on(device);
-        self.history = History::new(self.settings());
+        self.begin_history();
         self
     }
 
@@ -86,6 +92,21 @@ impl Model {
         self.document.open(scene, source);
         self.session.forget_the_scene(&self.document.scene);
         self.take_awaited_slide();
+        self.begin_history();
+    }
+
+    /// Shows another version of the scene that is open; camera, view and settings stay. Returns whether it is another.
+    pub fn reread(&mut self, scene: Scene) -> bool {
+        let changed = *self.document.scene != scene;
+        if changed {
+            self.document.reread(scene);
+            self.session.look_at_what_there_is(&self.document.scene);
+        }
+        changed
+    }
+
+    /// Undo does not go behind this.
+    fn begin_history(&mut self) {
         self.history = History::new(self.settings());
     }
 

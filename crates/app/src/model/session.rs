@@ -2,6 +2,7 @@
 
 use super::{CompareWith, ComparisonSettings, Line, PaneId, Panes, View, saved};
 use film::DisplayTransform;
+use raster::Show;
 use scene::Scene;
 use serde::{Deserialize, Serialize};
 use technique::{DeviceChoice, PaneSettings, TechniqueName};
@@ -89,6 +90,13 @@ impl Session {
         for pane in self.panes.values_mut() {
             pane.forget_the_scene(scene);
             pane.take_usual_estimator(scene);
+        }
+    }
+
+    /// Panes that look at a map which this scene does not have look at the picture.
+    pub fn look_at_what_there_is(&mut self, scene: &Scene) {
+        for pane in self.panes.values_mut().filter(|pane| !pane.fake.show.available(scene)) {
+            pane.fake.show = Show::Picture;
         }
     }
 

@@ -1,6 +1,7 @@
 //! What controls come back to, and what is in hand: nothing that anyone would miss the next day.
 
-use super::{ExportMenu, Message, Panes, PictureArea, Slide, Theme};
+use super::{ExportMenu, Message, Panes, PictureArea, Remembered, Slide, Theme};
+use std::path::PathBuf;
 
 /// The state of the controls.
 #[derive(Debug, Clone)]
@@ -31,6 +32,16 @@ pub struct UiState {
     pub line_placed: Option<u64>,
     /// Whether the drag in hand moves the wipe's line.
     pub dragging_line: bool,
+    /// What is wrong with the scene's file as it stands on disk, until it is mended; the scene before is shown.
+    pub scene_fault: Option<String>,
+    /// The scenes in the folder of the one that is open, if it is a file.
+    pub neighbours: Vec<PathBuf>,
+    /// The files that were opened last, and the window of before.
+    pub remembered: Remembered,
+    /// Whether small pictures of the scenes are asked for.
+    pub thumbnails: bool,
+    /// Whether a file dialogue of the system's is open.
+    pub choosing_file: bool,
     /// A scene to open, as typed.
     pub scene_file: String,
     /// A reference to load, as typed.
@@ -75,6 +86,11 @@ impl UiState {
             picture: PictureArea::default(),
             line_placed: None,
             dragging_line: false,
+            scene_fault: None,
+            neighbours: Vec::new(),
+            remembered: Remembered::default(),
+            thumbnails: false,
+            choosing_file: false,
             scene_file: String::new(),
             reference_file: String::new(),
             awaited_slide: None,

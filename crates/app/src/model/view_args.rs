@@ -1,14 +1,16 @@
 //! What the window is opened with.
 
-use super::Theme;
+use super::{Setup, Theme};
 use std::path::PathBuf;
 use technique::DeviceChoice;
 
 /// What `visavis [SCENE]` was asked for.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ViewArgs {
-    /// A built-in name or a file.
+    /// A built-in name, a scene's file or a picture of this program.
     pub scene: String,
+    /// What is set beside it.
+    pub setup: Setup,
     /// Where to write the names, rectangles and states of the widgets, each frame, for tests.
     pub ui_dump: Option<PathBuf>,
     /// How the window looks at first.

@@ -1,8 +1,8 @@
 //! The export menu: the picture as seen or one pane, to a file or the clipboard, or as a command to type.
 
 use super::widgets::{Explained, framed, menu};
-use super::{UiCommand, UiContext};
-use crate::model::{Destination, ExportRequest, ExportSubject, Model, PaneId, PaneView};
+use super::{UiCommand, UiContext, dialogue_button};
+use crate::model::{Destination, ExportRequest, ExportSubject, FilePurpose, FileWish, Model, PaneId, PaneView};
 use egui::Ui;
 use image_file::{self, Kind};
 use std::path::{Path, PathBuf};
@@ -106,8 +106,13 @@ fn file(cx: &mut UiContext, ui: &mut Ui) {
     ui.horizontal(|ui| {
         let save = cx.dump.note("save", "", ui.add(framed("Save", ui)).explained("Ctrl+S saves as seen"));
         if save.clicked() || entered {
-            let to = Destination::File(typed_file(&cx.model.state.export.file, proposal));
+            let to = Destination::File(typed_file(&cx.model.state.export.file, proposal.clone()));
             cx.commands.push(UiCommand::Export(ExportRequest { subject, to }));
+            ui.close();
+        }
+        let near = typed_file(&cx.model.state.export.file, proposal);
+        let wish = FileWish { purpose: FilePurpose::Export(subject), near };
+        if dialogue_button("choose export", "Choose where to save", wish, cx, ui) {
             ui.close();
         }
         let copy =

@@ -7,7 +7,7 @@ use crate::model::{Destination, ExportRequest, ExportSubject};
 use egui::{Context, Event, Key, Modifiers, Popup};
 
 /// What the keys do that every workspace has, for the help.
-pub const KEYS: [HelpLine; 13] = [
+pub const KEYS: [HelpLine; 14] = [
     ("P", "pause, go on"),
     ("R", "restart"),
     ("C", "camera of the scene"),
@@ -15,6 +15,7 @@ pub const KEYS: [HelpLine; 13] = [
     ("L", "hide or show the labels"),
     ("Ctrl+Z  Ctrl+Shift+Z", "undo, redo a setting"),
     ("Ctrl+S  Ctrl+C", "save, copy the picture as seen"),
+    ("Ctrl+R", "read the scene's file again"),
     ("Ctrl + - 0", "larger, smaller, usual size of all text"),
     ("F11", "full screen, and back"),
     ("Esc", "close the menu or the help that is open"),
@@ -27,6 +28,9 @@ pub fn listen(workspaces: &mut Workspaces, cx: &mut UiContext, context: &Context
     let keys = Keys::of(context);
     if keys.command(Key::S) > 0 {
         export_as_seen(cx, Destination::File(export_menu::seen_file(cx.model)));
+    }
+    if keys.command(Key::R) > 0 {
+        cx.commands.push(UiCommand::ReadAgain);
     }
     if keys.command(Key::Q) > 0 {
         cx.commands.push(UiCommand::Quit);

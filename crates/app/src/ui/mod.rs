@@ -3,12 +3,14 @@
 //! and no thread.
 
 mod controls;
+mod drop;
 mod dump;
 mod export_menu;
 mod help;
 mod keys;
 mod overlay;
 mod pressed;
+mod scene_menu;
 mod slides_menu;
 mod theme;
 mod top_bar;
@@ -20,8 +22,10 @@ pub use dump::{Dump, Widget};
 pub use workspace::{Icon, Workspace};
 pub use workspaces::Workspaces;
 
-use crate::model::{ExportRequest, Model, Panes, ViewModel};
+use self::widgets::Explained;
+use crate::model::{ExportRequest, FileWish, Model, Panes, ViewModel};
 use egui::{TextureId, Ui};
+use std::collections::HashMap;
 use std::path::PathBuf;
 
 /// What only the window around can do.
@@ -29,8 +33,14 @@ use std::path::PathBuf;
 pub enum UiCommand {
     /// Write a picture to a file or the clipboard.
     Export(ExportRequest),
-    /// Read and open a scene, by name or file.
+    /// Read and open a scene, by name or file, or what a picture shows.
     Open(String),
+    /// Read the scene's file again.
+    ReadAgain,
+    /// Let the user choose a file in a dialogue of the system's.
+    Choose(FileWish),
+    /// Draw small pictures of the hard cases.
+    DrawThumbnails,
     /// Read a reference from a file.
     LoadReference(PathBuf),
     /// Fill the screen with the window, or give it back its frame.
@@ -46,6 +56,8 @@ pub struct Textures {
     pub panes: Panes<TextureId>,
     /// The map of errors.
     pub map: Option<TextureId>,
+    /// Small pictures of built-in scenes, by their names.
+    pub thumbnails: HashMap<&'static str, TextureId>,
 }
 
 /// What everything that is drawn in one frame reads, changes and asks for.
@@ -78,7 +90,20 @@ pub fn show(workspaces: &mut Workspaces, cx: &mut UiContext, ui: &mut Ui) {
     workspaces.rail(cx, ui);
     workspaces.open_mut().ui(cx, ui);
     help::show(workspaces.open(), cx, ui);
+    drop::show(cx, ui.ctx());
     let scrolling = ui.input(|i| i.time_since_last_scroll()) < ONE_SCROLL;
     let busy = scrolling || ui.input(|i| i.pointer.any_down()) || ui.ctx().text_edit_focused();
     cx.model.settle(busy);
+}
+
+/// A button that asks for a file in a dialogue of the system's, of which there is one at a time. Returns whether it was
+/// clicked.
+fn dialogue_button(name: &str, label: &str, wish: FileWish, cx: &mut UiContext, ui: &mut Ui) -> bool {
+    let button = ui.add_enabled(!cx.model.state.choosing_file, widgets::framed("Choose ...", ui));
+    let clicked = cx.dump.note(name, "", button.explained(label).accessible_name(label)).clicked();
+    if clicked {
+        cx.model.state.choosing_file = true;
+        cx.commands.push(UiCommand::Choose(wish));
+    }
+    clicked
 }

@@ -12,11 +12,16 @@ pub fn say(cx: &mut UiContext, ui: &Ui, rect: Rect, hint: &str) {
         i.events.iter().any(|e| matches!(e, egui::Event::Key { pressed: true, .. })) || i.pointer.any_pressed()
     });
     cx.model.state.message.take_if(|message| expired(message) || (dismissed && message.is_old()));
+    // a scene's file stays faulty until it is mended, whatever else is said meanwhile
     let (name, text, colour) = match &cx.model.state.message {
         Some(message) => {
             ui.ctx().request_repaint_after(message.remaining().unwrap_or(std::time::Duration::MAX));
             let colour = if message.failed { Color32::from_rgb(255, 150, 150) } else { Color32::WHITE };
             ("message", message.text.clone(), colour)
+        }
+        None if cx.model.state.scene_fault.is_some() => {
+            let fault = cx.model.state.scene_fault.clone().unwrap_or_default();
+            ("fault", fault, Color32::from_rgb(255, 150, 150))
         }
         None if cx.model.state.hint => ("hint", hint.to_owned(), Color32::WHITE),
         None => return,

@@ -2,17 +2,12 @@
 
 use super::theme::palette;
 use super::widgets::{Explained, Icon, framed, icon_button, menu};
-use super::{UiCommand, UiContext, Workspaces, export_menu, slides_menu};
+use super::{UiContext, Workspaces, export_menu, scene_menu, slides_menu};
 use crate::model::Theme;
 use egui::{Frame, Margin, TextStyle, Ui};
-use scene::builtin;
-use std::path::Path;
 
 /// Windows narrower than this, in sizes of the type, have no room for the bar as it is.
 const NARROW: f32 = 57.0;
-
-/// The most letters of a scene's name that the bar shows.
-const MOST_LETTERS: usize = 18;
 
 pub fn show(workspaces: &mut Workspaces, cx: &mut UiContext, ui: &mut Ui) {
     let frame = Frame::new().fill(palette(ui).panel).inner_margin(Margin::symmetric(10, 6));
@@ -50,7 +45,7 @@ enum Part {
 impl Part {
     fn draw(self, workspaces: &mut Workspaces, cx: &mut UiContext, ui: &mut Ui) {
         match self {
-            Part::Scene => scene_menu(cx, ui),
+            Part::Scene => scene_menu::show(cx, ui),
             Part::Workspace => workspaces.open_mut().bar(cx, ui),
             Part::Tools => tools(cx, ui),
         }
@@ -109,45 +104,6 @@ fn steps(cx: &mut UiContext, ui: &mut Ui) {
     if cx.dump.note("redo", can_redo, redo).clicked() {
         cx.model.redo();
     }
-}
-
-fn scene_menu(cx: &mut UiContext, ui: &mut Ui) {
-    let name = &cx.model.document.scene.name;
-    let short: String = name.chars().take(MOST_LETTERS).collect();
-    let title = if short == *name { format!("Scene: {name}") } else { format!("Scene: {short}…") };
-    let (response, _) = menu(title).ui(ui, |ui| {
-        for name in builtin::names() {
-            let item = ui.selectable_label(cx.model.document.scene.name == name, name);
-            if cx.dump.note(&format!("scene {name}"), "", item).clicked() {
-                cx.commands.push(UiCommand::Open(name.into()));
-                ui.close();
-            }
-        }
-        let hard = ui.menu_button("Hard cases", |ui| {
-            for name in builtin::hard_names() {
-                if cx.dump.note(&format!("scene {name}"), "", ui.button(name)).clicked() {
-                    cx.commands.push(UiCommand::Open(name.into()));
-                    ui.close();
-                }
-            }
-        });
-        cx.dump.note("hard cases", "", hard.response);
-        ui.separator();
-        let label = ui.label("A scene file (.toml):");
-        let edit = egui::TextEdit::singleline(&mut cx.model.state.scene_file).hint_text("folder/scene.toml");
-        let line = ui.add(edit).labelled_by(label.id);
-        let entered = line.lost_focus() && ui.input(|i| i.key_pressed(egui::Key::Enter));
-        cx.dump.note("scene file", &cx.model.state.scene_file, line);
-        let open = cx.dump.note("open", "", ui.add(framed("Open", ui)));
-        let typed = cx.model.state.scene_file.trim();
-        if (open.clicked() || entered) && !typed.is_empty() {
-            let built_in = builtin::text(typed).is_some();
-            let path = image_file::typed_path(typed, Path::new(""));
-            cx.commands.push(UiCommand::Open(if built_in { typed.to_owned() } else { path.display().to_string() }));
-            ui.close();
-        }
-    });
-    cx.dump.note("scene", &cx.model.document.scene.name, response);
 }
 
 fn look_menu(cx: &mut UiContext, ui: &mut Ui) {

@@ -1,6 +1,7 @@
 //! Model, workspaces, engine and what they have brought as one: what happens in a frame, whoever has a window for it. The
 //! real one is `window`; tests drive it without any.
 
+mod files;
 mod presentation;
 mod stopwatch;
 
@@ -10,6 +11,7 @@ use crate::engine::Picture;
 use crate::engine::ask::Engine;
 use crate::engine::capture::Capture;
 use crate::engine::export::{Content, Export};
+use crate::engine::memory::Memory;
 use crate::engine::post_process::PaneUpdate;
 use crate::model::{Destination, ExportSubject, Model, PaneId, PaneView};
 use crate::ui::{self, Dump, UiCommand, UiContext, Workspaces};
@@ -30,6 +32,10 @@ pub struct Viewer {
     /// The last frame's widgets.
     dump: Dump,
     commands: Vec<UiCommand>,
+    /// What the next window is to know; `None` if nobody remembers.
+    memory: Option<Memory>,
+    /// Whether the user has asked to read the scene again.
+    asked_again: bool,
 }
 
 impl Viewer {
@@ -43,6 +49,8 @@ impl Viewer {
             stopwatch: Stopwatch::new(started),
             dump: Dump::default(),
             commands: Vec::new(),
+            memory: None,
+            asked_again: false,
         }
     }
 
@@ -60,16 +68,8 @@ impl Viewer {
             self.presentation.update_map(drawn, textures);
         }
         self.follow_the_reference();
-        match self.engine.loaded() {
-            Some(Ok(opened)) => {
-                self.model.say(Ok(format!("Opened {}", opened.scene.name)));
-                self.model.say_notes(&opened.notes);
-                self.model.open(opened.scene, opened.source);
-                self.presentation.clear();
-            }
-            Some(Err(fault)) => self.model.say(Err(fault)),
-            None => {}
-        }
+        self.collect_files();
+        self.presentation.update_thumbnails(self.engine.thumbnails(), textures);
         self.engine.exported().into_iter().for_each(|outcome| self.model.say(outcome));
     }
 
@@ -118,7 +118,9 @@ impl Viewer {
             },
             UiCommand::Open(name) => self.engine.load(name),
             UiCommand::LoadReference(file) => self.engine.load_reference(file),
-            UiCommand::FullScreen | UiCommand::Quit => return Some(command),
+            UiCommand::ReadAgain => self.read_again(),
+            UiCommand::DrawThumbnails => self.engine.draw_thumbnails(scene::builtin::hard_names()),
+            UiCommand::Choose(_) | UiCommand::FullScreen | UiCommand::Quit => return Some(command),
         }
         None
     }
@@ -158,6 +160,7 @@ impl Viewer {
 
     /// Goes on with another device of the window, whose textures are lost.
     pub fn move_to(&mut self, gpu: &Gpu) {
+        self.model.state.thumbnails = false;
         self.presentation.lose_textures();
         self.engine.move_to(gpu);
     }
@@ -181,6 +184,9 @@ impl Viewer {
             "eye": document.camera.eye.to_array(),
             "fov": document.camera.fov_y,
             "message": state.message.as_ref().map(|m| &m.text),
+            "scene_fault": state.scene_fault,
+            "title": self.title(),
+            "neighbours": state.neighbours.len(),
             "focus_id": focused.map(|id| id.value()),
             "pressing": context.input(|i| i.pointer.any_down()),
             "typing": context.text_edit_focused(),

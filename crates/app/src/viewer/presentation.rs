@@ -4,6 +4,7 @@
 use crate::engine::Picture;
 use crate::engine::export::Content;
 use crate::engine::post_process::{DisplayFrame, PaneUpdate, PaneUpdates};
+use crate::engine::thumbnails::Thumbnail;
 use crate::model::{Against, ErrorMap, Model, PaneId, PaneView, Panes, ViewModel, Wanted};
 use crate::ruler::error_records;
 use crate::ui::Textures;
@@ -36,12 +37,16 @@ pub enum Place {
     Pane(PaneId),
     /// The map of errors.
     ErrorMap,
+    /// A small picture of the built-in scene of this name.
+    Thumbnail(&'static str),
 }
 
 impl Presentation {
-    /// Forgets all pictures and the textures that show them.
+    /// Forgets all pictures of the scene and the textures that show them.
     pub fn clear(&mut self) {
-        (self.shown, self.textures) = Default::default();
+        let thumbnails = std::mem::take(&mut self.textures.thumbnails);
+        self.textures = Textures { thumbnails, ..Textures::default() };
+        self.shown = ViewModel::default();
         self.pictures = Panes::default();
     }
 
@@ -104,6 +109,15 @@ impl Presentation {
             textures.upload(Place::ErrorMap, (drawn.map.width, drawn.map.height()), &drawn.rgba, TextureFilter::Nearest)
         });
         self.shown.map = drawn.map(Arc::new);
+    }
+
+    /// Puts up small pictures of scenes.
+    pub fn update_thumbnails(&mut self, drawn: Vec<Thumbnail>, textures: &mut impl TextureStore) {
+        for Thumbnail { name, size, rgba } in drawn {
+            self.textures
+                .thumbnails
+                .insert(name, textures.upload(Place::Thumbnail(name), size, &rgba, TextureFilter::Linear));
+        }
     }
 
     /// The map for export, if there is one.

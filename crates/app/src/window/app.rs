@@ -2,8 +2,8 @@
 
 use super::window_state::WindowState;
 use super::{UserEvent, scale_factor};
+use crate::engine::load::Opened;
 use crate::model::ViewArgs;
-use scene::Scene;
 use std::sync::Arc;
 use std::time::Instant;
 use winit::application::ApplicationHandler;
@@ -14,7 +14,7 @@ use winit::window::WindowId;
 /// Before there is a window, with one, after a failure.
 pub struct App {
     /// Taken when the window opens.
-    scene: Option<Scene>,
+    opened: Option<Opened>,
     args: ViewArgs,
     proxy: EventLoopProxy<UserEvent>,
     started: Instant,
@@ -23,8 +23,8 @@ pub struct App {
 }
 
 impl App {
-    pub fn new(scene: Scene, args: ViewArgs, proxy: EventLoopProxy<UserEvent>, started: Instant) -> Self {
-        App { scene: Some(scene), args, proxy, started, window: None, failure: None }
+    pub fn new(opened: Opened, args: ViewArgs, proxy: EventLoopProxy<UserEvent>, started: Instant) -> Self {
+        App { opened: Some(opened), args, proxy, started, window: None, failure: None }
     }
 
     /// How it ended.
@@ -34,7 +34,7 @@ impl App {
 
     fn finish(&mut self, events: &ActiveEventLoop, outcome: anyhow::Result<()>) {
         self.failure = outcome.err();
-        if let Some(stats) = self.window.take().filter(|_| self.args.frame_stats).map(|w| w.frame_stats()) {
+        if let Some(stats) = self.window.take().map(WindowState::close).filter(|_| self.args.frame_stats) {
             crate::console::to_stderr(format_args!("{stats}"));
         }
         events.exit();
@@ -43,13 +43,13 @@ impl App {
 
 impl ApplicationHandler<UserEvent> for App {
     fn resumed(&mut self, events: &ActiveEventLoop) {
-        let Some(scene) = self.scene.take() else { return };
+        let Some(opened) = self.opened.take() else { return };
         let proxy = self.proxy.clone();
         let wake = Arc::new(move || {
             // a closed event loop has nobody left to wake
             let _ = proxy.send_event(UserEvent::PaneUpdate);
         });
-        match WindowState::open(events, scene, &self.args, self.proxy.clone(), self.started, wake) {
+        match WindowState::open(events, opened, &self.args, self.proxy.clone(), self.started, wake) {
             Ok(window) => self.window = Some(window),
             Err(error) => self.finish(events, Err(error)),
         }

@@ -4,11 +4,13 @@ use super::frame_stats::{Clock, FrameStats};
 use super::recovery::DeviceRecovery;
 use super::surface::{Painting, Presented, WindowSurface};
 use super::textures::{Uploads, WindowTextures};
-use super::{UserEvent, scale_factor};
+use super::{UserEvent, dialogue, icon, place, scale_factor};
 use crate::engine::Wake;
 use crate::engine::ask::Engine;
 use crate::engine::capture::Capture;
-use crate::model::{Destination, ExportRequest, Model, ViewArgs};
+use crate::engine::load::Opened;
+use crate::engine::memory::{self, Memory};
+use crate::model::{Destination, ExportRequest, Model, Remembered, ViewArgs};
 use crate::ui::{UiCommand, Workspaces};
 use crate::viewer::Viewer;
 use anyhow::Context;
@@ -16,11 +18,9 @@ use egui_wgpu::ScreenDescriptor;
 use egui_winit::accesskit_winit;
 use gpu::Gpu;
 use reference::Store;
-use scene::Scene;
 use std::path::Path;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
-use winit::dpi::LogicalSize;
 use winit::event::{InnerSizeWriter, WindowEvent};
 use winit::event_loop::{ActiveEventLoop, EventLoopProxy, OwnedDisplayHandle};
 use winit::window::{Fullscreen, Window};
@@ -33,6 +33,8 @@ pub struct WindowState {
     surface: WindowSurface,
     gpu: Gpu,
     window: Arc<Window>,
+    /// The window's title as it was last set.
+    title: String,
     display: OwnedDisplayHandle,
     recovery: DeviceRecovery,
     next_frame: Option<Instant>,
@@ -48,32 +50,33 @@ pub struct WindowState {
 /// How soon a frame is tried again that had no surface to go to.
 const RETRY: Duration = Duration::from_millis(100);
 
-/// The window's size to begin with, as far as the screen has room for it.
-fn first_size(events: &ActiveEventLoop) -> LogicalSize<f64> {
-    let wished = LogicalSize::new(1280.0, 720.0);
-    let Some(monitor) = events.primary_monitor().or_else(|| events.available_monitors().next()) else { return wished };
-    let room: LogicalSize<f64> = monitor.size().to_logical(monitor.scale_factor());
-    LogicalSize::new(wished.width.min(room.width), wished.height.min(room.height))
-}
-
 impl WindowState {
-    /// Opens the window on a scene.
+    /// Opens the window on what was read.
     ///
     /// # Errors
-    /// If there is no window, no adapter for it, or no threads.
+    /// If there is no window, no adapter for it, or no threads, or if the camera that is asked for sees nothing.
     pub fn open(
         events: &ActiveEventLoop,
-        scene: Scene,
+        opened: Opened,
         args: &ViewArgs,
         proxy: EventLoopProxy<UserEvent>,
         started: Instant,
         wake: Wake,
     ) -> anyhow::Result<Self> {
         scale_factor::check_screens(events)?;
-        let attributes = Window::default_attributes()
+        let Opened { asked, source, scene, stamp, setup, notes } = opened;
+        let setup = setup.unwrap_or_default().overridden_by(&args.setup);
+        let mut model = Model::new(scene, source, args.theme);
+        model.set_up(&setup).map_err(anyhow::Error::msg)?;
+        let memory_file = memory::file_of_the_user();
+        let remembered = memory_file.as_deref().map_or(Ok(Remembered::default()), memory::recall);
+        let remembered = remembered.unwrap_or_else(|fault| {
+            note!("note: {fault}");
+            Remembered::default()
+        });
+        let attributes = place::attributes(events, remembered.window)
             .with_title("Visavis")
-            .with_inner_size(first_size(events))
-            .with_min_inner_size(LogicalSize::new(480.0, 320.0))
+            .with_window_icon(icon::icon())
             // shown once screen readers know it
             .with_visible(false);
         let window = Arc::new(events.create_window(attributes).context("no window can be opened here")?);
@@ -90,13 +93,16 @@ impl WindowState {
         window.set_visible(true);
         window.request_redraw();
         let engine = Engine::start(&gpu, &adapters, Arc::new(Store::of_the_user), wake)?;
-        let notes = scene.notes();
-        notes.iter().for_each(|line| note!("note: {line}"));
-        let mut model = Model::new(scene, args.scene.clone(), args.theme).beside(adapters, args.device);
-        model.say_notes(&notes);
         let workspaces = Workspaces::beginning_with(args.workspace.as_deref());
+        let mut viewer = Viewer::new(model.beside(adapters, args.device), workspaces, engine, started);
+        // without a thread nothing is remembered
+        viewer.remember(remembered, memory_file.and_then(|file| Memory::start(file).ok()));
+        viewer.follow_the_file(&asked, stamp);
+        notes.iter().for_each(|line| note!("note: {line}"));
+        viewer.model.say_notes(&notes);
         Ok(WindowState {
-            viewer: Viewer::new(model, workspaces, engine, started),
+            viewer,
+            title: String::new(),
             textures: WindowTextures::default(),
             egui,
             surface,
@@ -122,9 +128,20 @@ impl WindowState {
         self.next_frame
     }
 
-    /// What frames have cost so far.
-    pub fn frame_stats(self) -> FrameStats {
+    /// Remembers where the window was, and tells what frames have cost.
+    pub fn close(mut self) -> FrameStats {
+        let before = self.viewer.model.state.remembered.window;
+        self.viewer.remember_window(place::of(&self.window, before));
         self.stats
+    }
+
+    /// Says what is open.
+    fn entitle(&mut self) {
+        let title = format!("{} - Visavis", self.viewer.title());
+        if title != self.title {
+            self.window.set_title(&title);
+            self.title = title;
+        }
     }
 
     /// Lets egui hear an event. It answers a frame's own event with the wish for another, which would never end.
@@ -176,6 +193,7 @@ impl WindowState {
             renderer: &mut self.surface.renderer,
             textures: &mut self.textures,
         });
+        self.entitle();
         let poses = std::mem::take(&mut self.poses);
         self.viewer.model.state.posing = !poses.is_empty();
         let input = self.egui.take_egui_input(&self.window);
@@ -234,6 +252,10 @@ impl WindowState {
         match self.viewer.handle(command) {
             Some(UiCommand::Export(ExportRequest { to, .. })) => self.poses.push(to),
             Some(UiCommand::FullScreen) => self.toggle_full_screen(),
+            Some(UiCommand::Choose(wish)) => {
+                let choice = dialogue::choose(&wish, &self.window);
+                self.viewer.wait_for_file(wish.purpose, choice);
+            }
             Some(UiCommand::Quit) => self.quitting = true,
             _ => {}
         }

@@ -6,6 +6,7 @@ mod camera;
 mod comparison;
 mod device;
 mod export;
+mod files;
 mod labels;
 mod layout;
 mod scenes;
@@ -38,6 +39,20 @@ pub struct User {
     uploads: Rc<RefCell<Vec<Upload>>>,
     /// One at a time: each has the machine to itself, as a user has.
     _alone: MutexGuard<'static, ()>,
+}
+
+/// A file as a window hands it on.
+#[derive(Debug)]
+struct Dropped(std::path::PathBuf);
+
+impl egui::DroppedFile for Dropped {
+    fn path(&self) -> &Path {
+        &self.0
+    }
+
+    fn bytes(&self) -> Result<Vec<u8>, String> {
+        std::fs::read(&self.0).map_err(|why| why.to_string())
+    }
 }
 
 /// Pictures as egui keeps them by itself.
@@ -233,6 +248,19 @@ impl User {
         self.harness.set_size(size);
         // widgets are where the last frame has put them
         self.harness.run_steps(2);
+    }
+
+    /// Holds a file over the window, or takes it away.
+    pub fn hover_file(&mut self, file: Option<&Path>) -> Frame {
+        let hovered = |path: &Path| egui::HoveredFile { path: Some(path.to_owned()), ..Default::default() };
+        self.harness.input_mut().hovered_files = file.map(hovered).into_iter().collect();
+        self.frame()
+    }
+
+    /// Lets a file fall onto the window.
+    pub fn drop_file(&mut self, file: &Path) -> Frame {
+        self.harness.input_mut().dropped_files.push(Arc::new(Dropped(file.to_owned())));
+        self.frame()
     }
 
     /// The same scene from a file.

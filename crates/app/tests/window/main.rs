@@ -5,6 +5,7 @@
 mod device;
 mod environment;
 mod export;
+mod files;
 mod journey;
 mod keys;
 mod layout;

@@ -127,10 +127,11 @@ fn commands() -> Vec<Block> {
     vec![
         Block::new(
             "visavis [SCENE]",
-            "open the viewer; SCENE is whitted, cornell, phong, hard/NAME or a .toml file (default whitted); hard/? lists the \
-             hard ones",
+            "open the viewer; SCENE is whitted, cornell, phong, hard/NAME, a .toml file or a picture of this program (.png, .exr), \
+             which is shown again as it was made (default whitted); hard/? lists the hard ones",
             &view::options(),
-        ),
+        )
+        .with_scene_settings(),
         Block::new(
             "visavis render SCENE -o OUT",
             "render to OUT, .png (display-transformed) or .exr (linear, settings in the header)",

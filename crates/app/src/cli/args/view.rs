@@ -1,24 +1,86 @@
 //! The words of `visavis [SCENE]`.
 
-use super::help;
-use super::options::{CommandOption, Typed, no_more, read};
-use super::values::{DEVICES, choice};
+use super::options::{CommandOption, Typed, read, set_in_the_scene};
+use super::seen::{self, Seen};
+use super::values::{DEVICES, choice, number, text};
+use super::{help, usage};
 use crate::cli::{CliError, Command};
-use crate::model::{Theme, ViewArgs};
+use crate::model::{CompareWith, PaneId, Session, Setup, Theme, View, ViewArgs};
 use crate::ui::Workspaces;
 use lexopt::ValueExt;
 use std::ffi::OsString;
 use std::path::PathBuf;
-use technique::DeviceChoice;
+use technique::{DeviceChoice, PaneSetup};
 
 /// The words on their way.
 pub struct Reading {
     args: ViewArgs,
+    /// Camera and changes of the scene; its size is the window's.
+    seen: Seen,
     /// A text to print instead.
     print: Option<String>,
 }
 
+impl AsMut<Seen> for Reading {
+    fn as_mut(&mut self) -> &mut Seen {
+        &mut self.seen
+    }
+}
+
 pub fn options() -> Vec<CommandOption<Reading>> {
+    let of_the_camera = seen::options().into_iter().filter(|option| !option.names.contains(&"--size"));
+    of_a_lecture().into_iter().chain(of_the_camera).chain(of_the_window()).collect()
+}
+
+/// What is shown, and how it is made.
+fn of_a_lecture() -> Vec<CommandOption<Reading>> {
+    vec![
+        CommandOption {
+            names: &["--a"],
+            value: "SPEC",
+            help: "how A is made: a technique, its choices and NAME=VALUE of the settings of render, with commas between \
+                   (default raster), like raster,as-taught,segments=40",
+            read: |reading, parser| a_pane(reading, PaneId::A, "--a", parser),
+        },
+        CommandOption {
+            names: &["--b"],
+            value: "SPEC",
+            help: "the same of B (default path), like path,spp=64,bounces=2,mis",
+            read: |reading, parser| a_pane(reading, PaneId::B, "--b", parser),
+        },
+        CommandOption {
+            names: &["--view"],
+            value: "a|b|wipe|side|map",
+            help: "what is shown: one of them, both, or where they differ (default wipe)",
+            read: |reading, parser| {
+                reading.args.setup.view = Some(choice(parser, "--view", a_view, "a, b, wipe, side or map")?);
+                Ok(())
+            },
+        },
+        CommandOption {
+            names: &["--against"],
+            value: "other|reference",
+            help: "what A and B are compared with (default each other)",
+            read: |reading, parser| {
+                reading.args.setup.with = Some(choice(parser, "--against", a_judge, "other or reference")?);
+                Ok(())
+            },
+        },
+        CommandOption {
+            names: &["--exposure"],
+            value: "EV",
+            help: "stops added before display (default 0)",
+            read: |reading, parser| {
+                let stops = number(parser, "--exposure", "stops from -30 to 30", |v| v.abs() <= 30.0)?;
+                reading.args.setup.exposure = Some(stops);
+                Ok(())
+            },
+        },
+    ]
+}
+
+/// How the window looks, and what it tells.
+fn of_the_window() -> Vec<CommandOption<Reading>> {
     vec![
         CommandOption {
             names: &["--theme"],
@@ -92,18 +154,47 @@ pub fn options() -> Vec<CommandOption<Reading>> {
 pub fn parse(parser: lexopt::Parser) -> Result<Command, CliError> {
     let args = ViewArgs {
         scene: String::new(),
+        setup: Setup::default(),
         ui_dump: None,
         theme: Theme::default(),
         device: DeviceChoice::default(),
         workspace: None,
         frame_stats: false,
     };
-    match read(parser, Reading { args, print: None }, &options(), 1, no_more)? {
+    let reading = Reading { args, seen: Seen::default(), print: None };
+    match read(parser, reading, &options(), 1, |reading, name, parser| {
+        set_in_the_scene(&mut reading.seen, name, parser)
+    })? {
         Typed::Print(text) | Typed::Words(Reading { print: Some(text), .. }, _) => Ok(Command::Print(text)),
-        Typed::Words(Reading { args, .. }, words) => {
+        Typed::Words(Reading { args, seen, .. }, words) => {
             let scene = words.into_iter().next().map(OsString::string).transpose()?;
-            Ok(Command::View(ViewArgs { scene: scene.unwrap_or_else(|| "whitted".into()), ..args }))
+            let Seen { changes, eye, target, fov, size: _ } = seen;
+            let setup = Setup { changes, eye, target, fov, ..args.setup };
+            Ok(Command::View(ViewArgs { scene: scene.unwrap_or_else(|| "whitted".into()), setup, ..args }))
         }
+    }
+}
+
+fn a_pane(reading: &mut Reading, pane: PaneId, option: &str, parser: &mut lexopt::Parser) -> Result<(), CliError> {
+    let words = text(parser)?;
+    let usual = Session::default().panes[pane].technique;
+    match PaneSetup::parse(&words, usual) {
+        Ok(setup) => reading.args.setup.panes.insert(pane, setup),
+        Err(fault) => return usage(format!("{option} {words}: {fault}")),
+    };
+    Ok(())
+}
+
+fn a_view(name: &str) -> Option<View> {
+    let names = ["a", "b", "wipe", "side", "map"];
+    names.iter().position(|known| *known == name).map(|index| View::ALL[index])
+}
+
+fn a_judge(name: &str) -> Option<CompareWith> {
+    match name {
+        "other" => Some(CompareWith::EachOther),
+        "reference" => Some(CompareWith::Reference),
+        _ => None,
     }
 }
 

@@ -1,10 +1,10 @@
 //! What both are compared with, the reference's state, and the map of errors.
 
-use crate::model::{CompareWith, Origin, PaneId, Progress};
+use crate::model::{CompareWith, FilePurpose, FileWish, Origin, PaneId, Progress};
 use crate::ruler::brief;
 use crate::ui::theme::palette;
 use crate::ui::widgets::{Explained, choice, framed, parse_number};
-use crate::ui::{Dump, UiCommand, UiContext, controls};
+use crate::ui::{Dump, UiCommand, UiContext, controls, dialogue_button};
 use compare::ErrorMetric;
 use egui::{DragValue, RichText, Ui};
 use pathtrace::FEWEST_REPLICATES;
@@ -59,10 +59,17 @@ fn load(cx: &mut UiContext, ui: &mut Ui) {
     let line = ui.add(edit).labelled_by(label.id).explained(&format!("A picture of {width}x{height} pixels"));
     let entered = line.lost_focus() && ui.input(|i| i.key_pressed(egui::Key::Enter));
     cx.dump.note("reference file", &*typed, line);
-    let button = cx.dump.note("load reference", "", ui.add(framed("Load", ui)).accessible_name("Load the reference"));
-    if (button.clicked() || entered) && !typed.trim().is_empty() {
-        cx.commands.push(UiCommand::LoadReference(image_file::typed_path(typed, Path::new(""))));
-    }
+    let path = image_file::typed_path(typed, Path::new(""));
+    let wanted = !typed.trim().is_empty();
+    ui.horizontal(|ui| {
+        let button =
+            cx.dump.note("load reference", "", ui.add(framed("Load", ui)).accessible_name("Load the reference"));
+        if (button.clicked() || entered) && wanted {
+            cx.commands.push(UiCommand::LoadReference(path.clone()));
+        }
+        let wish = FileWish { purpose: FilePurpose::Reference, near: path };
+        dialogue_button("choose reference", "Choose a reference", wish, cx, ui);
+    });
 }
 
 pub fn map(cx: &mut UiContext, ui: &mut Ui) {

@@ -1,0 +1,208 @@
+//! What a picture of this program shows, from its records: its scene, and what is to be set up to see it again.
+
+use crate::model::{Line, PaneId, Setup, View};
+use anyhow::{Context, bail};
+use image_file::shown;
+use scene::{Scene, SceneHash, Vec3};
+use std::path::Path;
+use technique::settings::of_scenes;
+use technique::{PaneSetup, Recorded, TechniqueName, made_by_command, made_from, scene_hash};
+
+/// A picture's scene and all that it says beside.
+#[derive(Debug)]
+pub struct Kept {
+    /// The scene as the user asked for it then.
+    pub scene: String,
+    /// The scene as it was read then; `None` of a picture from before this was kept.
+    pub scene_hash: Option<SceneHash>,
+    /// What is set up to see it again.
+    pub setup: Setup,
+}
+
+/// What a picture says of itself; `None` if it says nothing of that kind.
+///
+/// # Errors
+/// If it cannot be read, or if its records are damaged or of a later program.
+pub fn read(file: &Path) -> anyhow::Result<Option<Kept>> {
+    let records = image_file::records(file)?;
+    let kept = match made_from(&records) {
+        Ok(Some(made)) => of_panes(&[(PaneId::A, made)]).map(Some),
+        Ok(None) => as_seen(&records),
+        Err(fault) => Err(fault),
+    };
+    kept.with_context(|| format!("cannot read how it was made: {}", shown(file)))
+}
+
+/// The picture as seen, or the map of errors: each pane's command, and how they were shown.
+fn as_seen(records: &[(String, String)]) -> anyhow::Result<Option<Kept>> {
+    let value = |name: &str| records.iter().find(|(known, _)| known == name).map(|(_, value)| value.as_str());
+    let command = |id: PaneId| {
+        let line = value(id.name())?;
+        Some((id, made_by_command(line.strip_prefix("rough, in full: ").unwrap_or(line))?))
+    };
+    let panes: Vec<_> = [PaneId::A, PaneId::B].into_iter().filter_map(command).collect();
+    if panes.is_empty() {
+        return Ok(None);
+    }
+    let mut kept = of_panes(&panes)?;
+    kept.scene_hash = scene_hash(records)?;
+    kept.setup.view = value("view").and_then(|name| View::ALL.into_iter().find(|view| view.name() == name));
+    kept.setup.line = value("line").and_then(line);
+    kept.setup.exposure = value("exposure").and_then(|stops| stops.parse().ok());
+    Ok(Some(kept))
+}
+
+/// "vertical at 0.5".
+fn line(words: &str) -> Option<(Line, f32)> {
+    let (name, at) = words.split_once(" at ")?;
+    let line = [Line::Vertical, Line::Horizontal].into_iter().find(|line| line.name() == name)?;
+    Some((line, at.parse().ok().filter(|at| (0.0..=1.0).contains(at))?))
+}
+
+fn of_panes(panes: &[(PaneId, Recorded)]) -> anyhow::Result<Kept> {
+    let Some((_, Recorded { scene, scene_hash, .. })) = panes.first() else { bail!("it says nothing") };
+    let mut setup = Setup::default();
+    for (id, made) in panes {
+        add(&mut setup, *id, &made.options)?;
+    }
+    Ok(Kept { scene: scene.clone(), scene_hash: *scene_hash, setup })
+}
+
+/// Sets up a pane as options of `visavis render` say.
+fn add(setup: &mut Setup, id: PaneId, options: &[String]) -> anyhow::Result<()> {
+    let pairs = options.iter().filter_map(|option| option.strip_prefix("--")?.split_once('='));
+    let technique = pairs.clone().find(|(name, _)| *name == "technique").map_or("path", |(_, name)| name);
+    let mut pane =
+        PaneSetup::of(TechniqueName::named(technique).with_context(|| format!("{technique} is no technique"))?);
+    for (name, value) in pairs {
+        match name {
+            // the window has a size and devices of its own
+            "technique" | "size" | "device" => {}
+            "eye" => setup.eye = Some(point(value)?),
+            "target" => setup.target = Some(point(value)?),
+            "fov" => setup.fov = Some(number(value)?),
+            "exposure" => setup.exposure = Some(number(value)?),
+            _ => match of_scenes(name) {
+                Some(change) => {
+                    let value = change.kind.parse(value);
+                    let value = value.map_err(|expected| anyhow::anyhow!("{name}: expected {expected}"))?;
+                    (change.set)(&mut setup.changes, value);
+                }
+                None => pane.set(name, value).map_err(anyhow::Error::msg)?,
+            },
+        }
+    }
+    pane.check().map_err(anyhow::Error::msg)?;
+    setup.panes.insert(id, pane);
+    Ok(())
+}
+
+fn number(word: &str) -> anyhow::Result<f32> {
+    word.parse().ok().filter(|number: &f32| number.is_finite()).with_context(|| format!("{word} is no number"))
+}
+
+fn point(word: &str) -> anyhow::Result<Vec3> {
+    let numbers = word.split(',').map(number).collect::<anyhow::Result<Vec<f32>>>()?;
+    let [x, y, z] = numbers[..] else { bail!("{word} is no point") };
+    Ok(Vec3::new(x, y, z))
+}
+
+impl Kept {
+    /// A line where the scene is no longer the one that the picture shows.
+    pub fn note(&self, file: &Path, now: &Scene) -> Option<String> {
+        let then = self.scene_hash?;
+        (then != now.as_read).then(|| format!("its scene has changed since {} was made", shown(file)))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::model::{Model, Theme};
+    use film::{DisplayTransform, Image};
+    use image_file::{Kind, Records};
+    use std::sync::Arc;
+    use technique::{Device, Made, PaneSettings, Provenance, SceneChanges, Shot};
+    use visavis_tests::TestFolder;
+
+    /// Two pictures of a scene that was changed and turned, as pictures and as what makes them again.
+    fn pictures() -> [Provenance; 2] {
+        let changes = SceneChanges { refraction_ratio: Some(0.6), ..SceneChanges::default() };
+        let scene = scene::builtin::named("whitted").expect("a built-in scene");
+        let camera = scene.camera.orbited(0.3, 0.1);
+        let shot = Shot { source: "whitted".into(), changes, scene: Arc::new(scene), camera, size: (1, 1) };
+        let mut fake = PaneSettings::of(TechniqueName::Raster);
+        fake.fake.knobs.segments = Some(9);
+        let mut truth = PaneSettings::of(TechniqueName::Path);
+        (truth.truth.spp, truth.truth.path.bounces) = (5, Some(3));
+        [fake, truth].map(|pane| Provenance { shot: shot.clone(), technique: pane.in_use(), device: Device::Cpu })
+    }
+
+    fn written(folder: &TestFolder, name: &str, records: &Records) -> Kept {
+        let (file, image) = (folder.file(name), Image::new(1, 1, [Vec3::ONE]).expect("a pixel"));
+        let kind = Kind::of(&file).expect("a kind");
+        let bytes = image_file::encode(kind, &image, &DisplayTransform::default(), records).expect("a picture");
+        std::fs::write(&file, bytes).expect("a file");
+        read(&file).expect("records").expect("one of this program")
+    }
+
+    fn restored(kept: &Kept) -> Model {
+        let scene = scene::builtin::named(&kept.scene).expect("its scene");
+        let mut model = Model::new(scene, kept.scene.clone(), Theme::Dark);
+        model.set_up(&kept.setup).expect("a camera that sees something");
+        model
+    }
+
+    #[test]
+    fn a_panes_picture_is_set_up_in_a_as_it_was_made() {
+        let folder = TestFolder::new();
+        for (name, picture) in ["fake.png", "truth.exr"].into_iter().zip(pictures()) {
+            let made = Made { spp: 5, seconds: 1.0, adapter: "", exposure: 1.5 };
+            let model = restored(&written(&folder, name, &picture.records(made)));
+            let technique = model.session.panes[PaneId::A].in_use();
+            assert_eq!((technique, model.document.camera), (picture.technique, picture.shot.camera), "{name}");
+            assert_eq!((model.document.changes, model.session.display.exposure), (picture.shot.changes, 1.5));
+            assert!(!model.can_undo_and_redo()[0], "{name}: there is nothing behind it");
+        }
+    }
+
+    #[test]
+    fn a_picture_as_seen_is_set_up_in_both_with_its_view() {
+        let [fake, truth] = pictures();
+        let records = vec![
+            ("view", "Side by side".to_owned()),
+            ("line", "horizontal at 0.25".to_owned()),
+            ("exposure", "-1".to_owned()),
+            fake.shot.hash_record(),
+            ("A", fake.command(1, -1.0, "a.png")),
+            ("B", format!("rough, in full: {}", truth.command(5, -1.0, "b.png"))),
+        ];
+        let kept = written(&TestFolder::new(), "seen.png", &records);
+        assert_eq!(kept.scene_hash, Some(fake.shot.scene.as_read));
+        let model = restored(&kept);
+        let session = &model.session;
+        assert_eq!([PaneId::A, PaneId::B].map(|id| session.panes[id].in_use()), [fake.technique, truth.technique]);
+        assert_eq!((session.view, session.line, session.wipe), (View::SideBySide, Line::Horizontal, 0.25));
+        assert_eq!((model.document.camera, session.display.exposure), (fake.shot.camera, -1.0));
+    }
+
+    #[test]
+    fn other_pictures_say_nothing_and_damaged_records_are_told() {
+        let folder = TestFolder::new();
+        let image = Image::new(1, 1, [Vec3::ONE]).expect("a pixel");
+        let [picture, _] = pictures();
+        let made = Made { spp: 1, seconds: 1.0, adapter: "", exposure: 0.0 };
+        let mut damaged = picture.records(made);
+        damaged.iter_mut().filter(|(name, _)| *name == "eye").for_each(|(_, value)| *value = "here".into());
+        for (records, said) in [(Records::new(), None), (damaged, Some("here is no number"))] {
+            let file = folder.file("picture.png");
+            let bytes = image_file::encode(Kind::Png, &image, &DisplayTransform::default(), &records).expect("a PNG");
+            std::fs::write(&file, bytes).expect("a file");
+            match (read(&file), said) {
+                (Ok(None), None) => {}
+                (Err(fault), Some(said)) => assert!(format!("{fault:#}").contains(said), "{fault:#}"),
+                (other, _) => panic!("{other:?}"),
+            }
+        }
+    }
+}

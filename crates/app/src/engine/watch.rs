@@ -1,0 +1,238 @@
+//! Watches the file of the scene that is open, and reads it again where it changes: by its time and size, twice a second,
+//! which needs nothing of the system. Editors write a new file and give it the name of the old one: what has the name counts.
+
+use super::Wake;
+use super::worker::{Control, Service, Worker};
+use scene::{Scene, builtin};
+use std::path::{Path, PathBuf};
+use std::time::{Duration, SystemTime};
+
+/// How often a file is looked at.
+const EVERY: Duration = Duration::from_millis(500);
+
+/// How long a file that has changed must stay as it is: it may be in the middle of being written.
+const SETTLED: Duration = Duration::from_millis(100);
+
+/// What tells that a file was written.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Stamp {
+    modified: Option<SystemTime>,
+    bytes: u64,
+}
+
+impl Stamp {
+    /// Of a file; `None` if there is none.
+    pub fn of(path: &Path) -> Option<Self> {
+        let found = std::fs::metadata(path).ok().filter(|found| found.is_file())?;
+        Some(Stamp { modified: found.modified().ok(), bytes: found.len() })
+    }
+}
+
+/// A scene's file as it was when it was read.
+#[derive(Debug, Clone)]
+pub struct Watched {
+    /// Counts the scenes opened.
+    pub opened: u64,
+    /// The scene's file.
+    pub path: PathBuf,
+    /// `None` if it was not there.
+    pub stamp: Option<Stamp>,
+    /// Whether it is read again without having changed.
+    pub at_once: bool,
+}
+
+/// A scene that was read again, or why it was not.
+#[derive(Debug)]
+pub struct Reread {
+    /// The scene opened that it is another version of.
+    pub opened: u64,
+    /// One line with line and column where it is faulty.
+    pub scene: Result<Scene, String>,
+}
+
+/// What was found since the last look.
+#[derive(Debug, Default)]
+pub struct News {
+    /// The scene, where its file was read again.
+    pub reread: Option<Reread>,
+    /// The scenes in its folder, where they are others than before.
+    pub folder: Option<Vec<PathBuf>>,
+}
+
+/// The thread; dropping it ends it.
+pub struct Watcher(Worker<Option<Watched>, News>);
+
+impl Watcher {
+    /// Starts the thread, which calls `wake` whenever [`Watcher::news`] has something.
+    ///
+    /// # Errors
+    /// If the system gives no thread.
+    pub fn start(wake: Wake) -> std::io::Result<Self> {
+        Worker::start("watcher", wake, || Files).map(Watcher)
+    }
+
+    /// Watches this file from now on, or none.
+    pub fn watch(&self, watched: Option<Watched>) {
+        self.0.post(|slot| *slot = watched);
+    }
+
+    /// What was found since the last call.
+    pub fn news(&self) -> News {
+        self.0.collect().unwrap_or_default()
+    }
+}
+
+struct Files;
+
+impl Service for Files {
+    type Job = Option<Watched>;
+    type Update = News;
+
+    fn serve(&mut self, watched: Option<Watched>, control: &Control<Self::Job, Self::Update>) {
+        let Some(Watched { opened, path, mut stamp, at_once }) = watched else { return };
+        let (mut reads, mut folder) = (at_once, Folder::beside(&path));
+        while !control.ends_soon() {
+            if reads {
+                stamp = Stamp::of(&path);
+                let scene = builtin::named(&path.display().to_string()).map_err(|fault| fault.to_string());
+                control.tell(|news| news.reread = Some(Reread { opened, scene }));
+            }
+            if let Some(scenes) = folder.look_again() {
+                control.tell(|news| news.folder = Some(scenes));
+            }
+            control.rest(EVERY);
+            let now = Stamp::of(&path);
+            reads = now != stamp;
+            if reads {
+                control.rest(SETTLED);
+                // else it is looked at once more
+                reads = Stamp::of(&path) == now;
+            }
+        }
+    }
+
+    fn recover(&mut self, _control: &Control<Self::Job, Self::Update>) {}
+}
+
+/// The most files of a folder that are looked into.
+const MOST_FILES: usize = 200;
+
+/// Bytes in which a scene says that it has a camera.
+const HEAD: u64 = 1 << 16;
+
+/// A folder and the scenes in it as last seen.
+struct Folder {
+    path: PathBuf,
+    modified: Option<SystemTime>,
+    scenes: Option<Vec<PathBuf>>,
+}
+
+impl Folder {
+    fn beside(file: &Path) -> Self {
+        let path = file.parent().unwrap_or(Path::new("")).to_owned();
+        Folder { path, modified: None, scenes: None }
+    }
+
+    /// The scenes in it, if they are others than the last time.
+    fn look_again(&mut self) -> Option<Vec<PathBuf>> {
+        let place = if self.path.as_os_str().is_empty() { Path::new(".") } else { &self.path };
+        let modified = std::fs::metadata(place).ok().and_then(|found| found.modified().ok());
+        if self.scenes.is_some() && modified == self.modified {
+            return None;
+        }
+        self.modified = modified;
+        let now = Some(self.list(place));
+        if now == self.scenes {
+            return None;
+        }
+        self.scenes.clone_from(&now);
+        now
+    }
+
+    fn list(&self, place: &Path) -> Vec<PathBuf> {
+        let entries = std::fs::read_dir(place).into_iter().flatten().flatten();
+        let mut names: Vec<_> = entries.map(|entry| self.path.join(entry.file_name())).collect();
+        names.retain(|path| path.extension().is_some_and(|kind| kind.eq_ignore_ascii_case("toml")));
+        names.sort();
+        names.truncate(MOST_FILES);
+        names.retain(|path| has_a_camera(path));
+        names
+    }
+}
+
+/// Whether a file of TOML may be a scene, each of which has one.
+fn has_a_camera(path: &Path) -> bool {
+    use std::io::Read;
+    let mut head = Vec::new();
+    let is_file = path.is_file();
+    let read = is_file && std::fs::File::open(path).is_ok_and(|file| file.take(HEAD).read_to_end(&mut head).is_ok());
+    read && head.windows(6).any(|word| word == b"camera")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::sync::Arc;
+    use std::time::Instant;
+    use visavis_tests::TestFolder;
+
+    const SCENE: &str = "[camera]\neye = [0, 0, 5]\ntarget = [0, 0, 0]\nfov_y = 45\n\
+                         [material.a]\ndiffuse = { albedo = [1, 1, 1] }\n\
+                         [[sphere]]\ncenter = [0, 0, 0]\nradius = 1\nmaterial = \"a\"\n";
+
+    fn next(watcher: &Watcher) -> Result<Scene, String> {
+        let start = Instant::now();
+        loop {
+            if let Some(reread) = watcher.news().reread {
+                return reread.scene;
+            }
+            assert!(start.elapsed() < Duration::from_secs(60), "waited a minute");
+            std::thread::yield_now();
+        }
+    }
+
+    #[test]
+    fn a_file_is_read_again_when_it_is_written_or_replaced_and_told_where_it_is_faulty() {
+        let folder = TestFolder::new();
+        let (path, other) = (folder.file("scene.toml"), folder.file("other"));
+        std::fs::write(&path, SCENE).expect("a file");
+        let watcher = Watcher::start(Arc::new(|| {})).expect("a thread");
+        let stamp = Stamp::of(&path);
+        watcher.watch(Some(Watched { opened: 1, path: path.clone(), stamp, at_once: false }));
+
+        std::fs::write(&path, SCENE.replace("radius = 1", "radius = none")).expect("a file");
+        let fault = next(&watcher).expect_err("a fault");
+        assert!(fault.contains("scene.toml:9:10: "), "{fault}");
+
+        std::fs::write(&other, SCENE.replace("fov_y = 45", "fov_y = 30.5")).expect("a file");
+        std::fs::rename(&other, &path).expect("a new name");
+        assert_eq!(next(&watcher).expect("a scene").camera.fov_y, 30.5);
+
+        std::fs::remove_file(&path).expect("a file");
+        assert!(next(&watcher).expect_err("a fault").contains("cannot read the scene file"));
+    }
+
+    #[test]
+    fn asked_to_it_reads_at_once_what_has_not_changed() {
+        let folder = TestFolder::new();
+        let path = folder.file("scene.toml");
+        std::fs::write(&path, SCENE).expect("a file");
+        let watcher = Watcher::start(Arc::new(|| {})).expect("a thread");
+        let stamp = Stamp::of(&path);
+        watcher.watch(Some(Watched { opened: 1, path, stamp, at_once: true }));
+        assert!(next(&watcher).is_ok());
+    }
+
+    #[test]
+    fn the_scenes_of_a_folder_are_told_once_and_again_when_one_comes() {
+        let test = TestFolder::new();
+        std::fs::write(test.file("b.toml"), SCENE).expect("a file");
+        std::fs::write(test.file("Cargo.toml"), "[package]").expect("a file");
+        let mut folder = Folder::beside(&test.file("b.toml"));
+        assert_eq!((folder.look_again(), folder.look_again()), (Some(vec![test.file("b.toml")]), None));
+        // a folder whose time is too coarse to tell
+        folder.modified = None;
+        std::fs::write(test.file("a.TOML"), SCENE).expect("a file");
+        assert_eq!(folder.look_again(), Some(vec![test.file("a.TOML"), test.file("b.toml")]));
+    }
+}

@@ -1,0 +1,91 @@
+//! What a scene is opened with beside itself: by options of the window, or by what a picture says of how it was made.
+
+use super::{CompareWith, Line, Model, Panes, View};
+use scene::{Camera, Vec3};
+use technique::settings::OF_SCENES;
+use technique::{PaneSetup, SceneChanges};
+
+/// What is not as it would be by itself; `None` leaves it.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Setup {
+    /// How pictures are made.
+    pub panes: Panes<PaneSetup>,
+    /// What is changed in the scene.
+    pub changes: SceneChanges,
+    /// Where the camera stands.
+    pub eye: Option<Vec3>,
+    /// What it looks at.
+    pub target: Option<Vec3>,
+    /// Its vertical angle of view in degrees.
+    pub fov: Option<f32>,
+    /// What is shown of the pictures.
+    pub view: Option<View>,
+    /// How the wipe's line stands, and where.
+    pub line: Option<(Line, f32)>,
+    /// What they are compared with.
+    pub with: Option<CompareWith>,
+    /// Stops added before display.
+    pub exposure: Option<f32>,
+}
+
+impl Model {
+    /// Takes all that is set up. Undo does not go behind it.
+    ///
+    /// # Errors
+    /// If its camera sees nothing; the scene's own stays, and the rest is taken.
+    pub fn set_up(&mut self, setup: &Setup) -> Result<(), String> {
+        for (id, pane) in setup.panes.iter() {
+            pane.apply(&mut self.session.panes[id], &self.document.scene);
+        }
+        let session = &mut self.session;
+        session.view = setup.view.unwrap_or(match (session.view, setup.panes.ids().next()) {
+            // what was set up is seen
+            (View::Pane(_), Some(first)) => View::Pane(first),
+            (view, _) => view,
+        });
+        if let Some(line) = setup.line {
+            (session.line, session.wipe) = line;
+            self.state.line_placed = Some(self.document.opened);
+        }
+        session.comparison.with = setup.with.unwrap_or(session.comparison.with);
+        session.display.exposure = setup.exposure.unwrap_or(session.display.exposure);
+        self.document.changes = setup.changes;
+        let camera = self.look(setup);
+        self.begin_history();
+        camera
+    }
+
+    fn look(&mut self, Setup { eye, target, fov, .. }: &Setup) -> Result<(), String> {
+        let own = self.document.scene.camera;
+        let (eye, target) = (eye.unwrap_or(own.eye), target.unwrap_or(own.target));
+        let camera = Camera { eye, target, fov_y: fov.unwrap_or(own.fov_y), ..own };
+        if let Some(fault) = camera.fault() {
+            return Err(format!("this camera sees nothing: {fault}; change --eye, --target or --fov"));
+        }
+        self.document.camera = camera;
+        Ok(())
+    }
+}
+
+impl Setup {
+    /// The same with all that `other` says in its place.
+    pub fn overridden_by(mut self, other: &Setup) -> Self {
+        for (id, pane) in other.panes.iter() {
+            self.panes.insert(id, pane.clone());
+        }
+        for setting in OF_SCENES {
+            (setting.get)(&other.changes).into_iter().for_each(|value| (setting.set)(&mut self.changes, value));
+        }
+        Setup {
+            panes: self.panes,
+            changes: self.changes,
+            eye: other.eye.or(self.eye),
+            target: other.target.or(self.target),
+            fov: other.fov.or(self.fov),
+            view: other.view.or(self.view),
+            line: other.line.or(self.line),
+            with: other.with.or(self.with),
+            exposure: other.exposure.or(self.exposure),
+        }
+    }
+}

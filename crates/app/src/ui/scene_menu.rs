@@ -1,0 +1,137 @@
+//! The menu of scenes: built-in ones, those beside the one that is open, files of before, and any other by its name.
+
+use super::widgets::{Explained, framed, menu};
+use super::{UiCommand, UiContext, dialogue_button};
+use crate::model::{FilePurpose, FileWish};
+use egui::{Response, RichText, ScrollArea, Ui, vec2};
+use image_file::shown;
+use scene::builtin;
+use std::path::{Path, PathBuf};
+
+/// The most letters of a scene's name that the bar shows.
+const MOST_LETTERS: usize = 18;
+
+/// Height in points beyond which a list of files scrolls.
+const TALLEST: f32 = 150.0;
+
+/// Width in points of what is said of a hard case.
+const ABOUT: f32 = 300.0;
+
+pub fn show(cx: &mut UiContext, ui: &mut Ui) {
+    let name = &cx.model.document.scene.name;
+    let short: String = name.chars().take(MOST_LETTERS).collect();
+    let title = if short == *name { format!("Scene: {name}") } else { format!("Scene: {short}…") };
+    let (response, _) = menu(title).ui(ui, |ui| {
+        for name in builtin::names() {
+            let chosen = cx.model.document.source == name;
+            let item = ui.selectable_label(chosen, name).explained(&builtin::about(name).unwrap_or_default());
+            let item = cx.dump.note(&format!("scene {name}"), "", item);
+            open_if_clicked(&item, name, cx, ui);
+        }
+        let hard = ui.menu_button("Hard cases", |ui| hard_cases(cx, ui));
+        cx.dump.note("hard cases", "", hard.response);
+        let neighbours = cx.model.state.neighbours.clone();
+        files(&folder_of(&neighbours), "beside", &neighbours, cx, ui);
+        let recent = cx.model.state.remembered.recent.clone();
+        files("Opened before", "recent", &recent, cx, ui);
+        ui.separator();
+        by_name(cx, ui);
+        read_again(cx, ui);
+    });
+    cx.dump.note("scene", &cx.model.document.scene.name, response);
+}
+
+fn open_if_clicked(item: &Response, name: &str, cx: &mut UiContext, ui: &mut Ui) {
+    if item.clicked() {
+        cx.commands.push(UiCommand::Open(name.to_owned()));
+        ui.close();
+    }
+}
+
+/// Each with its picture and what it is for.
+fn hard_cases(cx: &mut UiContext, ui: &mut Ui) {
+    if !std::mem::replace(&mut cx.model.state.thumbnails, true) {
+        cx.commands.push(UiCommand::DrawThumbnails);
+    }
+    let tallest = (ui.ctx().content_rect().height() - 120.0).max(100.0);
+    ScrollArea::vertical().max_height(tallest).show(ui, |ui| {
+        for name in builtin::hard_names() {
+            ui.horizontal(|ui| {
+                let size = vec2(96.0, 64.0);
+                match cx.textures.thumbnails.get(name) {
+                    Some(texture) => cx.dump.note(&format!("thumbnail {name}"), "", ui.image((*texture, size))),
+                    None => ui.allocate_response(size, egui::Sense::hover()),
+                };
+                ui.vertical(|ui| {
+                    ui.set_width(ABOUT);
+                    let item = cx.dump.note(&format!("scene {name}"), "", ui.button(name));
+                    open_if_clicked(&item, name, cx, ui);
+                    ui.label(RichText::new(builtin::about(name).unwrap_or_default()).small());
+                });
+            });
+        }
+    });
+}
+
+/// "In scenes", after the folder.
+fn folder_of(files: &[PathBuf]) -> String {
+    let folder = files.first().and_then(|file| std::path::absolute(file).ok()).unwrap_or_default();
+    let name = folder.parent().and_then(Path::file_name).unwrap_or(std::ffi::OsStr::new("/"));
+    format!("In {}", shown(Path::new(name)))
+}
+
+/// Files by their names under a title; nothing where there are none.
+fn files(title: &str, kind: &str, files: &[PathBuf], cx: &mut UiContext, ui: &mut Ui) {
+    if files.is_empty() {
+        return;
+    }
+    ui.separator();
+    ui.label(RichText::new(title).weak());
+    ScrollArea::vertical().id_salt(kind).max_height(TALLEST).show(ui, |ui| {
+        for file in files {
+            let name = shown(Path::new(file.file_name().unwrap_or(file.as_os_str())));
+            let chosen = Path::new(&cx.model.document.source) == file;
+            let item = ui.selectable_label(chosen, &name).explained(&shown(file));
+            let item = cx.dump.note(&format!("{kind} {name}"), chosen, item);
+            open_if_clicked(&item, &file.display().to_string(), cx, ui);
+        }
+    });
+}
+
+fn by_name(cx: &mut UiContext, ui: &mut Ui) {
+    let label =
+        ui.label("A scene file (.toml):").explained("Or a picture of this program (.png, .exr), which is shown again");
+    let edit = egui::TextEdit::singleline(&mut cx.model.state.scene_file).hint_text("folder/scene.toml");
+    let line = ui.add(edit).labelled_by(label.id);
+    let entered = line.lost_focus() && ui.input(|i| i.key_pressed(egui::Key::Enter));
+    cx.dump.note("scene file", &cx.model.state.scene_file, line);
+    ui.horizontal(|ui| {
+        let open = cx.dump.note("open", "", ui.add(framed("Open", ui)));
+        let typed = cx.model.state.scene_file.trim();
+        if (open.clicked() || entered) && !typed.is_empty() {
+            let built_in = builtin::text(typed).is_some();
+            let path = image_file::typed_path(typed, Path::new(""));
+            cx.commands.push(UiCommand::Open(if built_in { typed.to_owned() } else { path.display().to_string() }));
+            ui.close();
+        }
+        let near = PathBuf::from(&cx.model.document.source);
+        let wish = FileWish { purpose: FilePurpose::Open, near };
+        if dialogue_button("choose scene", "Choose a scene or a picture", wish, cx, ui) {
+            ui.close();
+        }
+    });
+}
+
+/// Only a file can have changed.
+fn read_again(cx: &mut UiContext, ui: &mut Ui) {
+    if builtin::text(&cx.model.document.source).is_some() {
+        return;
+    }
+    let button = ui.add(framed("Read again", ui)).explained(
+        "The scene's file is read again by itself when it changes; its pictures of the sky only here (Ctrl+R)",
+    );
+    if cx.dump.note("read again", "", button).clicked() {
+        cx.commands.push(UiCommand::ReadAgain);
+        ui.close();
+    }
+}

@@ -1,0 +1,165 @@
+//! Scenes, pictures and references as they come from disk: opened, chosen, read again, remembered.
+
+use super::Viewer;
+use crate::engine::dialogue::{Answer, Choice};
+use crate::engine::load::{Loaded, Opened, Refusal};
+use crate::engine::memory::{Memo, Memory};
+use crate::engine::watch::{News, Reread, Stamp, Watched};
+use crate::model::{CompareWith, Destination, ExportRequest, FilePurpose, Remembered, WindowPlace};
+use crate::ui::UiCommand;
+use image_file::shown;
+use scene::builtin;
+use std::path::{Path, PathBuf};
+
+impl Viewer {
+    /// Begins with what was remembered, and remembers from now on.
+    pub fn remember(&mut self, remembered: Remembered, memory: Option<Memory>) {
+        (self.model.state.remembered, self.memory) = (remembered, memory);
+    }
+
+    /// Remembers the window's size and place.
+    pub fn remember_window(&mut self, place: WindowPlace) {
+        self.note(Memo::Window(place));
+    }
+
+    fn note(&mut self, memo: Memo) {
+        memo.clone().note_in(&mut self.model.state.remembered);
+        self.memory.iter().for_each(|memory| memory.note(memo.clone()));
+    }
+
+    /// What is open, for the window's title: "whitted", "scene.toml (folder)".
+    pub fn title(&self) -> String {
+        let source = &self.model.document.source;
+        let path = std::path::absolute(source).unwrap_or_else(|_| PathBuf::from(source));
+        let name = |path: &Path| path.file_name().map(|name| shown(Path::new(name)));
+        match (builtin::text(source), name(&path), path.parent().and_then(name)) {
+            (None, Some(file), Some(folder)) => format!("{file} ({folder})"),
+            _ => source.clone(),
+        }
+    }
+
+    /// Follows the file of the scene that is open, and remembers what opened it.
+    pub fn follow_the_file(&mut self, asked: &str, stamp: Option<Stamp>) {
+        self.model.state.scene_fault = None;
+        self.model.state.neighbours.clear();
+        self.watch(stamp, false);
+        if builtin::text(asked).is_none()
+            && let Ok(file) = std::path::absolute(asked)
+        {
+            self.note(Memo::Opened(file));
+        }
+    }
+
+    fn watch(&self, stamp: Option<Stamp>, at_once: bool) {
+        let document = &self.model.document;
+        let is_file = builtin::text(&document.source).is_none();
+        let watched = Watched { opened: document.opened, path: PathBuf::from(&document.source), stamp, at_once };
+        self.engine.watch(is_file.then_some(watched));
+    }
+
+    /// Reads the scene's file again, changed or not.
+    pub(super) fn read_again(&mut self) {
+        let source = self.model.document.source.clone();
+        if builtin::text(&source).is_some() {
+            return self.model.say(Ok(format!("{source} is built in: there is no file to read again")));
+        }
+        self.asked_again = true;
+        self.watch(Stamp::of(Path::new(&source)), true);
+    }
+
+    /// Takes what was read, chosen or found on disk since the last frame.
+    pub(super) fn collect_files(&mut self) {
+        match self.engine.loaded() {
+            Some(Ok(Loaded::Scene(opened))) => self.open(*opened),
+            Some(Ok(Loaded::Reference(file))) => self.compare_with(file),
+            Some(Err(refusal)) => self.refuse(refusal),
+            None => {}
+        }
+        let News { reread, folder } = self.engine.news();
+        if let Some(scenes) = folder {
+            self.model.state.neighbours = scenes;
+        }
+        if let Some(reread) = reread.filter(|reread| reread.opened == self.model.document.opened) {
+            self.show_again(reread);
+        }
+        if let Some(answer) = self.engine.chosen_file() {
+            self.take_file(answer);
+        }
+    }
+
+    fn open(&mut self, opened: Opened) {
+        let Opened { asked, source, scene, stamp, setup, notes } = opened;
+        let what = match &setup {
+            Some(_) => format!("{} as {} shows it", scene.name, shown(Path::new(&asked))),
+            None => scene.name.clone(),
+        };
+        let slide = self.model.state.awaited_slide.filter(|slide| slide.scene == source);
+        self.model.open(scene, source);
+        let seen = setup.map_or(Ok(()), |setup| self.model.set_up(&setup));
+        match seen {
+            Err(fault) => self.model.say(Err(fault)),
+            // which has said what it is about
+            Ok(()) if slide.is_some() => {}
+            Ok(()) if notes.is_empty() => self.model.say(Ok(format!("Opened {what}"))),
+            Ok(()) => self.model.say_notes(&notes),
+        }
+        self.presentation.clear();
+        self.follow_the_file(&asked, stamp);
+    }
+
+    fn compare_with(&mut self, file: PathBuf) {
+        self.model.session.comparison.with = CompareWith::Reference;
+        self.model.state.reference_file = file.display().to_string();
+        self.model.say(Ok(format!("A and B are compared with {}", shown(&file))));
+        self.engine.load_reference(file);
+    }
+
+    fn refuse(&mut self, refusal: Refusal) {
+        let file = std::path::absolute(&refusal.asked).unwrap_or_default();
+        let forgotten = refusal.missing && self.model.state.remembered.recent.contains(&file);
+        if forgotten {
+            self.note(Memo::Gone(file));
+        }
+        let aside = if forgotten { "; it is no longer among the files opened before" } else { "" };
+        self.model.say(Err(format!("{}{aside}", refusal.line)));
+    }
+
+    /// The scene stays what it was where the file is faulty.
+    fn show_again(&mut self, reread: Reread) {
+        let asked = std::mem::take(&mut self.asked_again);
+        let name = shown(Path::new(&self.model.document.source));
+        match reread.scene {
+            Ok(scene) => {
+                self.model.state.scene_fault = None;
+                let changed = self.model.reread(scene);
+                if changed || asked {
+                    let aside = if changed { "" } else { ": nothing has changed" };
+                    self.model.say(Ok(format!("Read {name} again{aside}")));
+                }
+            }
+            Err(fault) => self.model.state.scene_fault = Some(fault),
+        }
+    }
+
+    /// Waits for a file that the user chooses in this dialogue.
+    pub fn wait_for_file(&mut self, purpose: FilePurpose, choice: Choice) {
+        if let Err(why) = self.engine.wait_for_file(purpose, choice) {
+            self.model.state.choosing_file = false;
+            self.model.say(Err(format!("no thread for a file dialogue ({why})")));
+        }
+    }
+
+    fn take_file(&mut self, answer: Answer) {
+        self.model.state.choosing_file = false;
+        match (answer.chosen, answer.purpose) {
+            (Ok(None), _) => {}
+            (Ok(Some(file)), FilePurpose::Open) => self.commands.push(UiCommand::Open(file.display().to_string())),
+            (Ok(Some(file)), FilePurpose::Reference) => self.compare_with(file),
+            (Ok(Some(file)), FilePurpose::Export(subject)) => {
+                let to = Destination::File(file);
+                self.commands.push(UiCommand::Export(ExportRequest { subject, to }));
+            }
+            (Err(why), _) => self.model.say(Err(why)),
+        }
+    }
+}

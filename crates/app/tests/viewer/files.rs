@@ -1,0 +1,148 @@
+//! Files that are opened, dropped, changed on disk and remembered.
+
+use super::export::export;
+use super::{User, both_whole, says};
+use egui::{Key, Modifiers};
+use std::path::Path;
+use visavis_tests::Frame;
+
+/// A scene with a field of view of so many degrees.
+fn write(file: &Path, fov: &str) {
+    let cornell = scene::builtin::text("cornell").expect("a built-in scene");
+    assert!(cornell.contains("fov_y = 45"));
+    std::fs::write(file, cornell.replace("fov_y = 45", &format!("fov_y = {fov}"))).expect("a file");
+}
+
+fn fov(frame: &Frame) -> f64 {
+    frame.state("fov").as_f64().expect("a number")
+}
+
+/// A user who has opened a scene's file, and the file.
+fn user_of_a_file(fov: &str) -> (User, std::path::PathBuf) {
+    let mut user = User::of("whitted");
+    let file = user.file("box.toml");
+    write(&file, fov);
+    user.drop_file(&file);
+    user.wait_for("the scene of the file", |f| f.state("scene") == "box" && both_whole(f));
+    (user, file)
+}
+
+#[test]
+fn a_scene_that_changes_on_disk_is_shown_again_and_a_fault_stays_until_it_is_mended() {
+    let (mut user, file) = user_of_a_file("40");
+    write(&file, "50");
+    let read = user.wait_for("the other version", |f| fov(f) == 50.0);
+    assert!(says(&read, "Read ") && says(&read, "box.toml again"), "{}", read.state("message"));
+
+    let middle = read.point("picture", 0.3, 0.5);
+    let moved = user.wheel(middle, Modifiers::NONE);
+    let framed = user.key(Key::Num4);
+    assert_ne!(moved.state("eye"), read.state("eye"));
+    user.wait_for("both pictures", both_whole);
+    write(&file, "many");
+    let faulty = user.wait_for("the fault", |f| f.state("scene_fault").is_string());
+    let fault = faulty.state("scene_fault").as_str().expect("a line").to_owned();
+    assert!(fault.contains("box.toml:") && fault.split(':').nth(2).is_some(), "{fault}");
+    for key in [Key::P, Key::P, Key::Num3, Key::Num4] {
+        user.key(key);
+    }
+    let still = user.wait_for("the fault in sight", |f| f.value("fault") == fault);
+    assert!(both_whole(&still), "the pictures of before are still there");
+
+    write(&file, "60");
+    let mended = user.wait_for("the mended version", |f| f.state("scene_fault").is_null() && both_whole(f));
+    assert_eq!(mended.state("view"), framed.state("view"));
+    let eye = |frame: &Frame| frame.state("eye").as_array().expect("a point").clone();
+    assert_eq!(eye(&mended), eye(&still), "a camera that was moved stays");
+}
+
+#[test]
+fn what_is_asked_to_be_read_again_says_what_came_of_it() {
+    let (mut user, _file) = user_of_a_file("40");
+    user.key_with(Key::R, Modifiers::COMMAND);
+    user.wait_for("the answer", |f| says(f, "box.toml again: nothing has changed"));
+    // one user at a time
+    drop(user);
+    let mut built_in = User::of("cornell");
+    built_in.key_with(Key::R, Modifiers::COMMAND);
+    built_in.wait_for("the answer", |f| says(f, "cornell is built in"));
+}
+
+#[test]
+fn a_dropped_picture_is_shown_again_as_it_was_made() {
+    let mut user = User::of("whitted");
+    user.wait_for("both pictures", both_whole);
+    let taught = |frame: &Frame| frame.state("a")["label"].as_str().is_some_and(|label| label.contains("taught"));
+    user.set_slider("Refraction ratio (n = 1.43)", 0.6);
+    user.click_in("A", "as-taught");
+    // made after both changes
+    let first = user.wait_for("both pictures", |f| both_whole(f) && taught(f));
+    let picture = user.file("taught.png");
+    export(&mut user, &["A alone"], &picture);
+
+    user.click("Scene: whitted");
+    user.click("cornell");
+    user.wait_for("another scene", |f| f.state("scene") == "cornell" && both_whole(f));
+    user.click_in("A", "fair");
+    let announced = user.hover_file(Some(&picture));
+    assert_eq!(announced.value("drop"), "Drop to see again what taught.png shows");
+    assert!(!user.hover_file(None).shows("drop"));
+    user.drop_file(&picture);
+    let again = user.wait_for("what it shows", |f| f.state("scene") == "whitted" && both_whole(f) && taught(f));
+    assert!(says(&again, "Opened whitted as") && says(&again, "taught.png shows it"), "{}", again.state("message"));
+    assert_eq!(again.value("refraction ratio"), "0.6");
+    assert_eq!(again.state("a")["label"], first.state("a")["label"]);
+    assert_eq!(again.value("A fake as-taught"), "true");
+}
+
+#[test]
+fn other_files_that_are_dropped_are_compared_with_or_refused_with_a_word() {
+    let mut user = User::of("cornell");
+    let whole = user.wait_for("both pictures", both_whole);
+    let size = whole.state("picture_size");
+    let [width, height] = [0, 1].map(|side| size[side].as_u64().expect("pixels") as u32);
+    let (foreign, png) = (user.file("foreign.exr"), user.file("foreign.png"));
+    let pixels = vec![film::Vec3::ONE; (width * height) as usize];
+    let image = film::Image::new(width, height, pixels).expect("an image");
+    for file in [&foreign, &png] {
+        let kind = image_file::Kind::of(file).expect("a kind");
+        let bytes = image_file::encode(kind, &image, &film::DisplayTransform::default(), &Vec::new());
+        std::fs::write(file, bytes.expect("a picture")).expect("a file");
+    }
+    user.drop_file(&png);
+    user.wait_for("the refusal", |f| says(f, "does not say how it was made"));
+    user.drop_file(Path::new("bunny.obj"));
+    user.wait_for("the refusal", |f| says(f, "bunny.obj is neither a scene (.toml) nor a picture"));
+    user.drop_file(&foreign);
+    user.wait_for("the reference", |f| f.state("reference")[1] == 1 && says(f, "compared with"));
+}
+
+#[test]
+fn files_that_were_opened_are_offered_again_until_they_are_gone() {
+    let (mut user, file) = user_of_a_file("40");
+    write(&user.file("other.toml"), "30");
+    user.wait_for("the folder's scenes", |f| f.state("neighbours") == 2);
+    let menu = user.click("Scene: box");
+    assert!(menu.shows("beside box.toml") && menu.shows("beside other.toml") && menu.shows("recent box.toml"));
+    user.click("other.toml");
+    user.wait_for("the one beside it", |f| f.state("scene") == "other");
+    std::fs::remove_file(&file).expect("the file");
+    user.wait_for("the folder without it", |f| f.state("neighbours") == 1);
+    user.click("Scene: other");
+    user.click("box.toml");
+    let told = user.wait_for("the refusal", |f| says(f, "no longer among the files opened before"));
+    assert_eq!(told.state("scene"), "other");
+    assert!(!user.click("Scene: other").shows("recent box.toml"));
+}
+
+#[test]
+fn hard_cases_are_offered_with_a_picture_and_a_word() {
+    let mut user = User::of("cornell");
+    user.wait_for("both pictures", both_whole);
+    user.click("Scene: cornell");
+    user.click("Hard cases");
+    let menu = user.wait_for("a thumbnail", |f| f.shows("thumbnail hard/slab"));
+    assert!(menu.shows("scene hard/slab"));
+    user.click("hard/ball-on-floor");
+    user.wait_for("the case", |f| f.state("scene") == "hard/ball-on-floor");
+}

@@ -1,0 +1,45 @@
+//! Files in the real window: options, title, a scene that changes on disk, and what the next window remembers.
+
+use super::{alone, both_ready};
+use std::path::Path;
+use visavis_tests::{Screen, TestFolder, ViewerUnderTest};
+
+fn write(file: &Path, fov: &str) {
+    let cornell = scene::builtin::text("cornell").expect("a built-in scene");
+    std::fs::write(file, cornell.replace("fov_y = 45", &format!("fov_y = {fov}"))).expect("a file");
+}
+
+#[test]
+fn a_lecture_is_opened_by_its_options_and_its_window_comes_back() {
+    let _alone = alone();
+    let (screen, folder) = (Screen::start(1280, 720), TestFolder::new());
+    let file = folder.file("lecture.toml");
+    write(&file, "40");
+    let binary = Path::new(env!("CARGO_BIN_EXE_visavis"));
+    let name = file.to_str().expect("a plain path");
+    let variables = [("WINIT_X11_SCALE_FACTOR", Some("1"))];
+    let options = [name, "--a", "path,spp=2,bounces=0", "--b", "path,spp=2,bounces=1", "--view", "side"];
+    let mut viewer = ViewerUnderTest::start_keeping(binary, &screen, &variables, &options, folder.path());
+    let first = viewer.wait_for("both pictures", both_ready);
+    assert_eq!(first.state("view"), "Side by side");
+    assert_eq!([first.value("A bounces"), first.value("B bounces")], ["0", "1"]);
+    let window = screen.focus("Visavis");
+    let parent = folder.path().file_name().expect("a name").to_string_lossy().into_owned();
+    assert_eq!(screen.title(window), format!("lecture.toml ({parent}) - Visavis"));
+
+    write(&file, "55");
+    viewer.wait_for("the other version", |f| f.state("fov") == 55.0 && both_ready(f));
+    screen.resize(window, 900, 640);
+    viewer.wait_for("the smaller window", |f| f.rect("picture")[3] > 600.0 && f.rect("picture")[3] <= 640.0);
+    screen.close(window);
+    assert!(viewer.wait_for_end().success());
+
+    let mut next = ViewerUnderTest::start_keeping(binary, &screen, &variables, &["cornell"], folder.path());
+    let again = next.wait_for("both pictures", both_ready);
+    let [_, _, _, bottom] = again.rect("picture");
+    assert!(bottom > 600.0 && bottom <= 640.0, "as it was left: {bottom}");
+    let window = screen.focus("Visavis");
+    assert_eq!(screen.title(window), "cornell - Visavis");
+    screen.click(again.point("scene", 0.5, 0.5));
+    next.wait_for("the file of before", |f| f.shows("recent lecture.toml"));
+}
