@@ -92,20 +92,24 @@ fn read_picture(asked: &str, path: &Path, kind: Kind) -> Result<Loaded, Refusal>
             ))),
         };
     };
-    let mut opened = scene_of(&kept, path).map_err(|fault| refuse(format!("the scene of {asked}: {fault}")))?;
+    let mut opened = scene_of(&kept, path).map_err(|fault| match fault {
+        SceneError::Read { .. } | SceneError::Unknown { .. } => refuse(format!(
+            "the scene of {} is not found; open it in the folder where it was made, or put the scene beside it: {fault}",
+            shown(path)
+        )),
+        fault => refuse(format!("the scene of {}: {fault}", shown(path))),
+    })?;
     opened.notes.extend(kept.note(path, &opened.scene));
     Ok(Loaded::Scene(Box::new(Opened { asked: asked.to_owned(), setup: Some(kept.setup), ..opened })))
 }
 
 /// The scene of a picture, where it was when the picture was made, or beside the picture.
 fn scene_of(kept: &Kept, picture: &Path) -> Result<Opened, SceneError> {
-    match (read_scene(&kept.scene), Path::new(&kept.scene).file_name()) {
-        (Err(fault @ SceneError::Read { .. }), Some(name)) => {
-            let beside = picture.with_file_name(name);
-            if beside.is_file() { read_scene(&beside.display().to_string()) } else { Err(fault) }
-        }
-        (read, _) => read,
-    }
+    let there = read_scene(&kept.scene);
+    let Err(SceneError::Read { .. } | SceneError::Unknown { .. }) = &there else { return there };
+    let name = Path::new(&kept.scene);
+    let beside = [picture.with_file_name(name), picture.with_file_name(name.file_name().unwrap_or_default())];
+    beside.iter().find(|file| file.is_file()).map_or(there, |file| read_scene(&file.display().to_string()))
 }
 
 impl Loader {
@@ -187,5 +191,23 @@ mod tests {
         std::fs::write(folder.file("wrong.toml"), "camera = 1").expect("a file");
         std::fs::write(folder.file("wrong.png"), "no picture").expect("a file");
         assert_eq!(["gone.toml", "gone.png", "wrong.toml", "wrong.png"].map(missing), [true, true, false, false]);
+    }
+
+    #[test]
+    fn the_scene_of_a_picture_is_looked_for_beside_it_too() {
+        let folder = TestFolder::new();
+        let kept = |scene: &str| Kept { scene: scene.to_owned(), scene_hash: None, setup: Setup::default() };
+        let cornell = builtin::text("cornell").expect("a built-in scene");
+        std::fs::create_dir(folder.file("scenes")).expect("a folder");
+        for name in ["moved.toml", "scenes/below.toml"] {
+            std::fs::write(folder.file(name), cornell).expect("a file");
+        }
+        let source =
+            |scene: &str| scene_of(&kept(scene), &folder.file("a.png")).map(|opened| PathBuf::from(opened.source));
+        for (scene, file) in [("elsewhere/moved.toml", "moved.toml"), ("scenes/below.toml", "scenes/below.toml")] {
+            assert_eq!(source(scene).expect(scene), folder.file(file));
+        }
+        assert!(matches!(source("gone.toml"), Err(SceneError::Read { .. })));
+        assert_eq!(source("cornell").expect("a built-in scene"), PathBuf::from("cornell"));
     }
 }

@@ -3,7 +3,7 @@
 use super::widgets::{Explained, framed, menu};
 use super::{UiCommand, UiContext, dialogue_button};
 use crate::model::{FilePurpose, FileWish};
-use egui::{Response, RichText, ScrollArea, Ui, vec2};
+use egui::{Image, Response, RichText, ScrollArea, Sense, Ui, vec2};
 use image_file::shown;
 use scene::builtin;
 use std::path::{Path, PathBuf};
@@ -15,7 +15,7 @@ const MOST_LETTERS: usize = 18;
 const TALLEST: f32 = 150.0;
 
 /// Width in points of what is said of a hard case.
-const ABOUT: f32 = 300.0;
+const ABOUT: f32 = 360.0;
 
 pub fn show(cx: &mut UiContext, ui: &mut Ui) {
     let name = &cx.model.document.scene.name;
@@ -56,20 +56,26 @@ fn hard_cases(cx: &mut UiContext, ui: &mut Ui) {
     let tallest = (ui.ctx().content_rect().height() - 120.0).max(100.0);
     ScrollArea::vertical().max_height(tallest).show(ui, |ui| {
         for name in builtin::hard_names() {
-            ui.horizontal(|ui| {
-                let size = vec2(96.0, 64.0);
-                match cx.textures.thumbnails.get(name) {
-                    Some(texture) => cx.dump.note(&format!("thumbnail {name}"), "", ui.image((*texture, size))),
-                    None => ui.allocate_response(size, egui::Sense::hover()),
-                };
-                ui.vertical(|ui| {
-                    ui.set_width(ABOUT);
-                    let item = cx.dump.note(&format!("scene {name}"), "", ui.button(name));
-                    open_if_clicked(&item, name, cx, ui);
-                    ui.label(RichText::new(builtin::about(name).unwrap_or_default()).small());
-                });
-            });
+            ui.horizontal(|ui| hard_case(name, cx, ui));
         }
+    });
+}
+
+fn hard_case(name: &'static str, cx: &mut UiContext, ui: &mut Ui) {
+    let (size, sense) = (vec2(96.0, 64.0), Sense::CLICK);
+    let picture = match cx.textures.thumbnails.get(name) {
+        Some(texture) => {
+            let image = ui.add(Image::new((*texture, size)).sense(sense));
+            cx.dump.note(&format!("thumbnail {name}"), "", image)
+        }
+        None => ui.allocate_response(size, sense),
+    };
+    open_if_clicked(&picture, name, cx, ui);
+    ui.vertical(|ui| {
+        ui.set_width(ABOUT);
+        let item = cx.dump.note(&format!("scene {name}"), "", ui.button(name));
+        open_if_clicked(&item, name, cx, ui);
+        ui.label(RichText::new(builtin::about(name).unwrap_or_default()).weak());
     });
 }
 

@@ -137,7 +137,8 @@ impl Viewer {
                     self.model.say(Ok(format!("Read {name} again{aside}")));
                 }
             }
-            Err(fault) => self.model.state.scene_fault = Some(fault),
+            // what was said before does not stand before it
+            Err(fault) => (self.model.state.scene_fault, self.model.state.message) = (Some(fault), None),
         }
     }
 

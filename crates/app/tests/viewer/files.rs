@@ -39,15 +39,18 @@ fn a_scene_that_changes_on_disk_is_shown_again_and_a_fault_stays_until_it_is_men
     let framed = user.key(Key::Num4);
     assert_ne!(moved.state("eye"), read.state("eye"));
     user.wait_for("both pictures", both_whole);
+    user.drop_file(Path::new("bunny.obj"));
     write(&file, "many");
     let faulty = user.wait_for("the fault", |f| f.state("scene_fault").is_string());
     let fault = faulty.state("scene_fault").as_str().expect("a line").to_owned();
+    assert_eq!(faulty.value("fault"), fault, "what was said before goes");
     assert!(fault.contains("box.toml:") && fault.split(':').nth(2).is_some(), "{fault}");
     for key in [Key::P, Key::P, Key::Num3, Key::Num4] {
         user.key(key);
     }
     let still = user.wait_for("the fault in sight", |f| f.value("fault") == fault);
-    assert!(both_whole(&still), "the pictures of before are still there");
+    let ready = ["a", "b"].map(|pane| still.state(pane)["ready"] == true);
+    assert_eq!(ready, [true; 2], "the pictures of before are still there");
 
     write(&file, "60");
     let mended = user.wait_for("the mended version", |f| f.state("scene_fault").is_null() && both_whole(f));
