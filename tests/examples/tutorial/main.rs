@@ -71,9 +71,7 @@ fn shown_by(binary: &Path, point: &Point, steps: &[Step], pictures: Option<&Path
     screen.focus("Visavis");
     let mut hand = Hand { screen: &screen, viewer: &mut viewer, effort: Effort::default(), since: Instant::now() };
     steps.iter().try_for_each(|step| hand.does(step))?;
-    // not that of the settings before
-    let is_new = |frame: &Frame| frame.state("latency_ms").is_number();
-    let shows = |frame: &Frame| both_whole(frame) && is_new(frame) && point.shows.iter().all(|sign| sign.is_in(frame));
+    let shows = |frame: &Frame| both_whole(frame) && point.shows.iter().all(|sign| sign.is_in(frame));
     let found = hand.viewer.wait_at_most(PICTURE, point.name, shows);
     hand.effort.seconds = hand.since.elapsed().as_secs_f64();
     let effort = hand.effort;

@@ -37,6 +37,8 @@ pub enum Sign {
     Value(&'static str, &'static str),
     /// The map of errors.
     Map,
+    /// A picture of what was set last, of B: nothing else on the screen tells it from the one before.
+    Newest,
 }
 
 impl Sign {
@@ -51,6 +53,7 @@ impl Sign {
             }
             Sign::Samples(pane, least) => frame.state(pane)["spp"].as_u64() >= Some(least),
             Sign::Value(name, value) => frame.value(name) == value,
+            Sign::Newest => frame.state("latency_ms").is_number(),
             Sign::Map => frame.state("map").is_string(),
         }
     }
@@ -217,7 +220,7 @@ pub const POINTS: &[Point] = &[
                 ],
             },
         ],
-        shows: &[Sign::Value("A estimator uniform", "true"), Sign::Value("B estimator cosine", "true")],
+        shows: &[Sign::Value("A estimator uniform", "true"), Sign::Value("B estimator cosine", "true"), Sign::Newest],
     },
     Point {
         name: "the naive tracer: N directions explode",
@@ -247,12 +250,12 @@ pub const POINTS: &[Point] = &[
                 ],
             },
         ],
-        shows: &[Sign::Scene("cornell"), Sign::Value("B estimator uniform", "true")],
+        shows: &[Sign::Scene("cornell"), Sign::Value("B estimator uniform", "true"), Sign::Newest],
     },
     Point {
         name: "N = 1 and more samples: path tracing",
         ways: &[Way { name: BY_HAND, steps: &[SCENE, IN_CORNELL, Click("B estimator uniform"), Type("B spp", "64")] }],
-        shows: &[Sign::Value("B estimator uniform", "true"), Sign::Samples("b", 4)],
+        shows: &[Sign::Value("B estimator uniform", "true"), Sign::Samples("b", 4), Sign::Newest],
     },
     Point {
         name: "2 c) light sampling against chance",
@@ -408,7 +411,7 @@ pub const POINTS: &[Point] = &[
     Point {
         name: "importance sampling: MIS against the light alone",
         ways: &[Way { name: BY_HAND, steps: &[SCENE, IN_CORNELL, Click("A path"), Click("B estimator mis")] }],
-        shows: &[Sign::Value("B estimator mis", "true"), Sign::Samples("b", 1)],
+        shows: &[Sign::Value("B estimator mis", "true"), Sign::Samples("b", 1), Sign::Newest],
     },
     Point {
         name: "in real time: the fake follows the hand",
