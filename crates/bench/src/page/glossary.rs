@@ -42,8 +42,8 @@ const WORDS: [(&str, &str); 23] = [
     ),
     ("roulette", "a path goes on with probability p and then counts 1 / p: no limit, and no bias (Russian roulette)"),
     ("bounces", "at most so many reflections after the first hit; 0 is direct light"),
-    ("fake, as taught", "rasterised with the tutorial's own numbers: shadow map, cube maps, Phong"),
-    ("fake, fair", "rasterised the same way with the truth's light and materials, linear"),
+    ("as-taught (fake)", "rasterised with the tutorial's own numbers: shadow map, cube maps, Phong"),
+    ("fair (fake)", "rasterised the same way with the truth's light and materials, linear"),
     (
         "Whitted",
         "mirrors and glass by a tree of rays, light that falls on dull surfaces only straight from lamps (1980)",
