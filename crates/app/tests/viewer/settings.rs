@@ -110,11 +110,11 @@ fn a_preset_is_one_choice_and_one_step_of_undo() {
     user.wait_for("both pictures", both_whole);
     user.click("Presets of B");
     let set = user.click("2 e) 1 bounce, 20 spp");
-    assert_eq!([set.value("B spp"), set.value("B bounces"), set.value("B limit bounces")], ["20", "1", "true"]);
-    assert_eq!(set.value("B roulette off"), "true");
+    assert_eq!([set.value("B spp"), set.value("B bounces")], ["20", "1"]);
+    assert_eq!([set.value("B roulette P"), set.value("B roulette throughput")], ["false", "false"]);
     let undone = user.key_with(Key::Z, Modifiers::COMMAND);
-    assert_eq!([undone.value("B spp"), undone.value("B roulette off")], ["256", "false"]);
-    assert!(!undone.shows("B bounces"), "there is no limit again");
+    assert_eq!([undone.value("B spp"), undone.value("B roulette throughput")], ["256", "true"]);
+    assert_eq!(undone.value("B bounces"), "inf", "there is no limit again");
 }
 
 /// Another sun in one pane is no other view: the pictures are compared.
@@ -124,7 +124,7 @@ fn a_pane_has_a_sun_of_its_own_beside_the_scenes() {
     user.click("Presets of A");
     user.click("Whitted 1980");
     let of_1980 = user.wait_for("Whitted against the truth", |f| {
-        f.state("a")["label"] == "Whitted (depth 8)" && f.state("a")["rel_mse"].is_number() && both_whole(f)
+        f.state("a")["label"] == "Whitted, depth 8" && f.state("a")["rel_mse"].is_number() && both_whole(f)
     });
     assert_eq!([of_1980.value("A traced sun"), of_1980.value("sun radius")], ["0", "2.5"]);
     let under_the_point = of_1980.state("a")["rel_mse"].as_f64();
@@ -135,7 +135,7 @@ fn a_pane_has_a_sun_of_its_own_beside_the_scenes() {
 #[test]
 fn the_formula_of_the_highlight_stands_below_its_choice() {
     let mut user = User::of("phong");
-    user.click_nth("More", 0);
+    user.unfold_more("A");
     let [three, phong, blinn] = ["three", "phong", "blinn-phong"].map(|shading| {
         let shown = user.click_in("A", shading);
         shown.value("text A shading").to_owned()

@@ -23,6 +23,7 @@ pub fn menu(cx: &mut UiContext, pane: PaneId, ui: &mut Ui) {
             let button = ui.button(preset.title).explained(&hover);
             if cx.dump.note(&format!("{pane} preset {}", preset.name), "", button).clicked() {
                 cx.model.take_preset(pane, preset);
+                ui.close();
             }
         }
     });
