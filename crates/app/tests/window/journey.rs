@@ -25,12 +25,12 @@ fn a_lecturer_toggles_slides_wipes_orbits_saves_and_closes() {
     let [left, top, right, bottom] = first.rect("refraction ratio");
     let y = 0.5 * (top + bottom);
     let at = |share: f32| left + share * (right - left);
-    screen.drag([at(0.5), y], [at(0.15), y]);
+    screen.drag([at(0.5), y], [at(0.05), y]);
     let slid = |f: &Frame| f.value("refraction ratio").parse::<f32>().is_ok_and(|r| r < 0.55);
     viewer.wait_for("the slider to stand at its new place", slid);
 
     let settled = |f: &Frame| f.state("b")["rough"] == false && f.state("b")["spp"].as_u64() >= Some(4);
-    let mut from = at(0.15);
+    let mut from = at(0.05);
     for to in [0.36, 0.64, 0.85].map(at) {
         screen.drag([from, y], [to, y]);
         viewer.wait_for("the truth to refine, the slider at rest", settled);

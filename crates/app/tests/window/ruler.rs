@@ -24,9 +24,9 @@ fn the_error_map_has_a_scale_that_can_be_held_and_is_exported_with_it() {
     let bar = screen.pixels(left, top, right - left, bottom - top);
     let row = &bar[2 * (right - left) as usize..3 * (right - left) as usize];
     assert!(
-        close_to(row[3], [0, 114, 178]) && close_to(row[row.len() - 4], [213, 94, 0]),
+        close_to(row[1], [0, 114, 178]) && close_to(row[row.len() - 2], [213, 94, 0]),
         "{:?}",
-        (row[3], row.last())
+        (row[1], row[row.len() - 2])
     );
     assert!(close_to(row[row.len() / 2], [255; 3]));
 

@@ -18,6 +18,11 @@ pub fn label() -> TextStyle {
     TextStyle::Name("label".into())
 }
 
+/// The lines of a label below its first one.
+pub fn figures() -> TextStyle {
+    TextStyle::Name("figures".into())
+}
+
 /// Sizes of type in points.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Sizes {
@@ -25,6 +30,8 @@ pub struct Sizes {
     pub body: f32,
     /// Labels on pictures.
     pub label: f32,
+    /// The lines of a label below its first one.
+    pub figures: f32,
     /// What is read last.
     pub small: f32,
 }
@@ -39,10 +46,11 @@ impl Sizes {
     /// Those of a theme in a window of this height in points. On a projector everything grows with the window.
     pub fn of(theme: Theme, height: f32) -> Self {
         match theme {
-            Theme::Dark | Theme::Light => Sizes { body: 13.0, label: 14.0, small: 12.0 },
+            Theme::Dark | Theme::Light => Sizes { body: 13.0, label: 14.0, figures: 12.0, small: 12.0 },
             Theme::Projector => {
                 let label = (PROJECTED * height / ROW).round().clamp(18.0, 80.0);
-                Sizes { body: (0.72 * label).round().max(16.0), label, small: (0.62 * label).round().max(15.0) }
+                let [body, small] = [(0.72 * label).round().max(16.0), (0.62 * label).round().max(15.0)];
+                Sizes { body, label, figures: label, small }
             }
         }
     }
@@ -55,6 +63,7 @@ impl Sizes {
             (TextStyle::Button, self.body),
             (TextStyle::Monospace, self.body),
             (label(), self.label),
+            (figures(), self.figures),
         ];
         style.text_styles = sizes.map(|(name, size)| (name, FontId::proportional(size))).into();
         style.text_styles.insert(TextStyle::Heading, FontId::new(self.label, semi_bold()));

@@ -3,7 +3,7 @@
 mod fonts;
 mod palette;
 
-pub use fonts::{Sizes, label, semi_bold};
+pub use fonts::{Sizes, figures, label, semi_bold};
 pub use palette::Palette;
 
 use crate::model::Theme;

@@ -80,8 +80,8 @@ fn legend(cx: &mut UiContext, ui: &Ui, rect: Rect, map: &HeatMap, pixel: Option<
     let (bar_height, gap) = (0.9 * size, 0.3 * size);
     let line = name.rows.first().map_or(size, |row| row.height());
     let height = name.size().y + gap + bar_height + gap + line + gap + words.size().y;
-    let place = Rect::from_min_size(rect.min + vec2(12.0, 10.0), vec2(width, height));
-    painter.rect_filled(place.expand2(vec2(6.0, 3.0)), 4.0, Color32::from_black_alpha(215));
+    let place = Rect::from_min_size(rect.min + vec2(22.0, 16.0), vec2(width, height));
+    painter.rect_filled(place.expand2(vec2(10.0, 6.0)), 7.0, Color32::from_black_alpha(217));
 
     painter.galley(place.min, name.clone(), Color32::WHITE);
     let bar = Rect::from_min_size(pos2(place.left(), place.top() + name.size().y + gap), vec2(width, bar_height));

@@ -86,20 +86,21 @@ fn fitting(ui: &Ui, text: &LabelText, pane: PaneId, room: Vec2) -> Option<Arc<Ga
     let width = room.x.min(widest);
     let candidates = [(with_figures, [true, true]), (with_figures, [true, false]), (narrowest, [false, false])];
     candidates.into_iter().filter(|(least, _)| width >= *least).find_map(|(_, parts)| {
-        let mut job = job(text, pane, size, parts);
+        let mut job = job(ui, text, pane, size, parts);
         job.wrap.max_width = width;
         let galley = ui.painter().layout_job(job);
         (galley.size().y <= MOST_HEIGHT * room.y && galley.size().x <= width).then_some(galley)
     })
 }
 
-fn job(text: &LabelText, pane: PaneId, size: f32, [details, notes]: [bool; 2]) -> LayoutJob {
+fn job(ui: &Ui, text: &LabelText, pane: PaneId, size: f32, [details, notes]: [bool; 2]) -> LayoutJob {
     let format = |size, colour| TextFormat::simple(FontId::proportional(size), colour);
     let mut job = LayoutJob::default();
     let bold = |colour| TextFormat::simple(FontId::new(size, theme::semi_bold()), colour);
     job.append(pane.name(), 0.0, bold(colour(pane)));
     job.append(&text.name, 0.5 * size, bold(Color32::WHITE));
-    let mut line = |text: &str, colour| job.append(&format!("\n{text}"), 0.0, format(0.86 * size, colour));
+    let figures = theme::figures().resolve(ui.style()).size;
+    let mut line = |text: &str, colour| job.append(&format!("\n{text}"), 0.0, format(figures, colour));
     if details {
         for figures in text.details() {
             // where it has to be broken it is between two figures
