@@ -119,7 +119,11 @@ impl Hand<'_> {
             Step::Wipe(to) => {
                 let frame = self.sees("picture")?;
                 let at = frame.state("wipe").as_f64().unwrap_or(0.5) as f32;
-                self.drags(frame.point("picture", at, 0.5), frame.point("picture", to, 0.5))
+                let on_the_line = |share| match frame.state("line") == "horizontal" {
+                    true => frame.point("picture", 0.5, share),
+                    false => frame.point("picture", share, 0.5),
+                };
+                self.drags(on_the_line(at), on_the_line(to))
             }
             Step::Orbit => {
                 let frame = self.sees("picture")?;

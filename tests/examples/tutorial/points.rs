@@ -10,7 +10,7 @@ pub enum Step {
     Key(char),
     /// Types into the number of a widget, and Enter.
     Type(&'static str, &'static str),
-    /// Drags the line of the wipe to a share of the picture's width.
+    /// Drags the line of the wipe to a share of the picture's width, or of its height where the line is horizontal.
     Wipe(f32),
     /// Drags the picture a little.
     Orbit,
@@ -80,6 +80,7 @@ use Step::{Click, Key, Orbit, Type, Wipe};
 const SCENE: Step = Click("scene");
 const IN_CORNELL: Step = Click("scene cornell");
 
+const SLIDE: &str = "slide";
 const PRESET: &str = "preset";
 const BY_HAND: &str = "by hand";
 
@@ -93,6 +94,7 @@ pub const POINTS: &[Point] = &[
     Point {
         name: "Phong against Blinn-Phong",
         ways: &[
+            Way { name: SLIDE, steps: &[Click("slides"), Click("slide phong")] },
             Way {
                 name: PRESET,
                 steps: &[
@@ -125,6 +127,7 @@ pub const POINTS: &[Point] = &[
     Point {
         name: "Whitted's trees, 1980",
         ways: &[
+            Way { name: SLIDE, steps: &[Click("slides"), Click("slide 1d-whitted")] },
             Way { name: PRESET, steps: &[Click("B presets"), Click("B preset whitted-1980")] },
             Way { name: BY_HAND, steps: &[Click("B whitted")] },
         ],
@@ -163,6 +166,7 @@ pub const POINTS: &[Point] = &[
     Point {
         name: "a fake Whitted-style, as taught",
         ways: &[
+            Way { name: SLIDE, steps: &[Click("slides"), Click("slide 1a")] },
             Way { name: PRESET, steps: &[Click("A presets"), Click("A preset as-taught")] },
             Way { name: BY_HAND, steps: &[Click("A fake as-taught")] },
         ],
@@ -181,6 +185,7 @@ pub const POINTS: &[Point] = &[
     Point {
         name: "1 d) Whitted is wrong: beside the truth",
         ways: &[
+            Way { name: SLIDE, steps: &[Click("slides"), Click("slide 1d")] },
             Way { name: PRESET, steps: &[Click("A presets"), Click("A preset whitted-1980")] },
             Way { name: BY_HAND, steps: &[Click("A whitted")] },
         ],
@@ -188,10 +193,22 @@ pub const POINTS: &[Point] = &[
     },
     Point {
         name: "Monte Carlo: errors fall with samples",
-        ways: &[Way {
-            name: BY_HAND,
-            steps: &[SCENE, IN_CORNELL, Click("A path"), Type("A spp", "4"), Click("group Compare with")],
-        }],
+        ways: &[
+            Way {
+                name: PRESET,
+                steps: &[
+                    SCENE,
+                    IN_CORNELL,
+                    Click("A presets"),
+                    Click("A preset 2f-4-spp"),
+                    Click("compare with reference"),
+                ],
+            },
+            Way {
+                name: BY_HAND,
+                steps: &[SCENE, IN_CORNELL, Click("A path"), Type("A spp", "4"), Click("group Compare with")],
+            },
+        ],
         shows: &[Sign::Scene("cornell"), Sign::Samples("a", 4), Sign::Samples("b", 16)],
     },
     Point {
@@ -225,6 +242,7 @@ pub const POINTS: &[Point] = &[
     Point {
         name: "the naive tracer: N directions explode",
         ways: &[
+            Way { name: SLIDE, steps: &[Click("slides"), Click("slide naive-n")] },
             Way {
                 name: PRESET,
                 steps: &[
@@ -260,6 +278,7 @@ pub const POINTS: &[Point] = &[
     Point {
         name: "2 c) light sampling against chance",
         ways: &[
+            Way { name: SLIDE, steps: &[Click("slides"), Click("slide 2c")] },
             Way {
                 name: PRESET,
                 steps: &[
@@ -292,6 +311,7 @@ pub const POINTS: &[Point] = &[
     Point {
         name: "2 e) 0 bounces against 1, 20 spp",
         ways: &[
+            Way { name: SLIDE, steps: &[Click("slides"), Click("slide 2e-0-1")] },
             Way {
                 name: PRESET,
                 steps: &[
@@ -328,6 +348,7 @@ pub const POINTS: &[Point] = &[
     Point {
         name: "2 e) 2 bounces against all of them",
         ways: &[
+            Way { name: SLIDE, steps: &[Click("slides"), Click("slide roulette")] },
             Way { name: PRESET, steps: &[SCENE, IN_CORNELL, Click("A presets"), Click("A preset 2e-2-bounces")] },
             Way {
                 name: BY_HAND,
@@ -375,6 +396,7 @@ pub const POINTS: &[Point] = &[
     Point {
         name: "2 f) 1 spp against 16",
         ways: &[
+            Way { name: SLIDE, steps: &[Click("slides"), Click("slide 2f-1-16")] },
             Way {
                 name: PRESET,
                 steps: &[

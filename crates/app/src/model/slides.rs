@@ -71,6 +71,13 @@ pub const SLIDES: &[Slide] = &[
         ["whitted-1980", "unlimited"],
     ),
     slide(
+        "1d-whitted",
+        "1 d) The same of mirror and glass",
+        "Whitted's picture has no caustic and hard shadows under its point sun",
+        "whitted",
+        ["unlimited", "whitted-1980"],
+    ),
+    slide(
         "2b",
         "2 b) Uniform sampling: the naive tracer",
         "Light is found by chance alone: 16 samples are noise",
@@ -108,6 +115,7 @@ pub const SLIDES: &[Slide] = &[
     ),
     slide("2f-1-4", "2 f) 1 and 4 spp", "Four times the samples halve the noise", "cornell", ["2f-1-spp", "2f-4-spp"]),
     slide("2f-4-16", "2 f) 4 and 16 spp", "And halve it again", "cornell", ["2f-4-spp", "2f-16-spp"]),
+    slide("2f-1-16", "2 f) 1 and 16 spp", "A quarter of the noise", "cornell", ["2f-1-spp", "2f-16-spp"]),
 ];
 
 impl Model {
