@@ -3,15 +3,17 @@
 //!
 //! cargo run --release -p visavis-tests --example tutorial -- PATH_TO_VISAVIS [PART OF A POINT'S NAME] [--pictures DIR]
 //!
-//! The points are a table (`points.rs`), each with one or more ways: the first way whose controls this program has is taken, so that one
+//! The points are a table (`table.rs`), each with one or more ways: the first way whose controls this program has is taken, so that one
 //! table is for programs before and after a change. `--pictures` keeps what the screen shows at each point, as PPM.
 
 mod points;
+mod table;
 
-use points::{POINTS, Point, Step};
+use points::{Point, Step};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::{Duration, Instant};
+use table::POINTS;
 use visavis_tests::{Frame, Screen, ViewerUnderTest};
 
 /// Pixels of the screen: more than the window, that no control is cut.

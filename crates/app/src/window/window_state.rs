@@ -50,6 +50,41 @@ pub struct WindowState {
 /// How soon a frame is tried again that had no surface to go to.
 const RETRY: Duration = Duration::from_millis(100);
 
+/// The scene that was read, as the options and the picture that was opened set it up.
+fn model_of(opened: &Opened, args: &ViewArgs) -> anyhow::Result<Model> {
+    let setup = opened.setup.clone().unwrap_or_default().overridden_by(&args.setup);
+    let mut model = Model::new(opened.scene.clone(), opened.source.clone(), args.theme);
+    model.set_up(&setup).map_err(anyhow::Error::msg)?;
+    Ok(model)
+}
+
+/// What the program remembers of earlier windows; what cannot be read is told and left.
+fn recall(file: Option<&Path>) -> Remembered {
+    file.map_or(Ok(Remembered::default()), memory::recall).unwrap_or_else(|fault| {
+        note!("note: {fault}");
+        Remembered::default()
+    })
+}
+
+/// egui as it hears this window, and screen readers with it.
+fn egui_of(
+    events: &ActiveEventLoop,
+    window: &Window,
+    gpu: &Gpu,
+    proxy: EventLoopProxy<UserEvent>,
+) -> egui_winit::State {
+    let mut egui = egui_winit::State::new(
+        egui::Context::default(),
+        egui::ViewportId::ROOT,
+        &events.owned_display_handle(),
+        Some(window.scale_factor() as f32),
+        window.theme(),
+        Some(gpu.device.limits().max_texture_dimension_2d as usize),
+    );
+    egui.init_accesskit(events, window, proxy);
+    egui
+}
+
 impl WindowState {
     /// Opens the window on what was read.
     ///
@@ -64,16 +99,9 @@ impl WindowState {
         wake: Wake,
     ) -> anyhow::Result<Self> {
         scale_factor::check_screens(events)?;
-        let Opened { asked, source, scene, stamp, setup, notes } = opened;
-        let setup = setup.unwrap_or_default().overridden_by(&args.setup);
-        let mut model = Model::new(scene, source, args.theme);
-        model.set_up(&setup).map_err(anyhow::Error::msg)?;
+        let model = model_of(&opened, args)?;
         let memory_file = memory::file_of_the_user();
-        let remembered = memory_file.as_deref().map_or(Ok(Remembered::default()), memory::recall);
-        let remembered = remembered.unwrap_or_else(|fault| {
-            note!("note: {fault}");
-            Remembered::default()
-        });
+        let remembered = recall(memory_file.as_deref());
         let attributes = place::attributes(events, remembered.window)
             .with_title("Visavis")
             .with_window_icon(icon::icon())
@@ -81,15 +109,7 @@ impl WindowState {
             .with_visible(false);
         let window = Arc::new(events.create_window(attributes).context("no window can be opened here")?);
         let (surface, gpu, adapters) = WindowSurface::new(window.clone(), events.owned_display_handle())?;
-        let mut egui = egui_winit::State::new(
-            egui::Context::default(),
-            egui::ViewportId::ROOT,
-            &events.owned_display_handle(),
-            Some(window.scale_factor() as f32),
-            window.theme(),
-            Some(gpu.device.limits().max_texture_dimension_2d as usize),
-        );
-        egui.init_accesskit(events, &window, proxy);
+        let egui = egui_of(events, &window, &gpu, proxy);
         window.set_visible(true);
         window.request_redraw();
         let engine = Engine::start(&gpu, &adapters, Arc::new(Store::of_the_user), wake)?;
@@ -97,9 +117,9 @@ impl WindowState {
         let mut viewer = Viewer::new(model.beside(adapters, args.device), workspaces, engine, started);
         // without a thread nothing is remembered
         viewer.remember(remembered, memory_file.and_then(|file| Memory::start(file).ok()));
-        viewer.follow_the_file(&asked, stamp);
-        notes.iter().for_each(|line| note!("note: {line}"));
-        viewer.model.say_notes(&notes);
+        viewer.follow_the_file(&opened.asked, opened.stamp);
+        opened.notes.iter().for_each(|line| note!("note: {line}"));
+        viewer.model.say_notes(&opened.notes);
         Ok(WindowState {
             viewer,
             title: String::new(),

@@ -11,6 +11,7 @@ mod films;
 mod interrupts;
 mod pictures;
 mod references;
+mod window;
 
 use serde_json::Value;
 use std::process::{Command, Output};
@@ -51,46 +52,6 @@ fn json(output: &Output) -> Value {
 }
 
 /// Without a display: whoever comes to the window has passed.
-#[test]
-fn options_of_the_window_are_those_of_render_and_faults_name_the_word() {
-    for (arguments, words) in [
-        (&["--a", "rastr"][..], &["--a rastr", "expected a technique (raster, whitted, path, normals)"][..]),
-        (&["--a", "raster,spp=4"], &["spp is no setting of raster"]),
-        (&["--b", "path,spp=0"], &["--b path,spp=0", "a whole number from 1"]),
-        (&["--b", "path,branches=4"], &["--b path,branches=4"]),
-        (&["--view", "both"], &["--view both", "a, b, wipe, side or map"]),
-        (&["--against", "truth"], &["--against truth", "other or reference"]),
-        (&["--exposure", "0,5"], &["--exposure 0,5", "stops from -30 to 30"]),
-        (&["--sun-radius", "90"], &["--sun-radius 90", "from 0 to below 90"]),
-        (&["--size", "8x8"], &["--size"]),
-    ] {
-        assert_refused(arguments, 2, words);
-    }
-    let lecture = "--a raster,as-taught --b path,spp=64,bounces=2,mis --view map --against reference --exposure -1 \
-                   --refraction-ratio 0.6 --sun-radius 0 --eye 1,2,3 --target 0,0,0 --fov 30";
-    let arguments: Vec<&str> = ["whitted"].into_iter().chain(lecture.split(' ')).collect();
-    assert_refused(&arguments, 1, &["no window can be opened here"]);
-}
-
-/// What is no scene is refused before there is a window.
-#[test]
-fn a_picture_that_says_nothing_is_no_scene_to_open() {
-    let folder = TestFolder::new();
-    for (name, word) in [("foreign.png", "does not say how it was made"), ("foreign.exr", "open its scene")] {
-        let file = folder.file(name);
-        let image = film::Image::new(1, 1, [film::Vec3::ONE]).expect("a pixel");
-        let kind = image_file::Kind::of(&file).expect("a kind");
-        let bytes = image_file::encode(kind, &image, &film::DisplayTransform::default(), &Vec::new());
-        std::fs::write(&file, bytes.expect("a picture")).expect("a file");
-        assert_refused(&[file.to_str().expect("a plain path")], 1, &[word, name]);
-    }
-    assert_refused(&["gone.png"], 1, &["gone.png"]);
-    let made = folder.file("made.png");
-    let made = made.to_str().expect("a plain path");
-    assert!(visavis(&["render", "cornell", "-o", made, "--size", "4x4", "--spp", "1"]).status.success());
-    assert_refused(&[made], 1, &["no window can be opened here"]);
-}
-
 #[test]
 fn bad_values_are_wrong_usage_and_write_nothing() {
     let folder = TestFolder::new();
