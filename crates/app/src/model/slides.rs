@@ -1,7 +1,8 @@
 //! The tutorial's slides as they are shown: each a scene and two presets side by side, in the order of the lecture.
 
 use super::{Model, PaneId, View};
-use technique::Preset;
+use film::DisplayTransform;
+use technique::{Preset, SceneChanges};
 
 /// What a slide is about, as two pictures of one scene.
 #[derive(Debug, PartialEq, Eq)]
@@ -140,6 +141,10 @@ impl Model {
             }
         }
         self.session.view = slide.view;
+        // what was played with before is not on the slide
+        self.document.changes = SceneChanges::default();
+        self.document.camera = self.document.scene.camera;
+        self.session.display = DisplayTransform::default();
         self.say(Ok(format!("{}: {}", slide.title, slide.about)));
     }
 
@@ -180,7 +185,10 @@ mod tests {
         model.open(open("cornell"), "cornell".into());
         let bounces = |pane| model.session.panes[pane].truth.path.bounces;
         assert_eq!([PaneId::A, PaneId::B].map(bounces), [Some(0), Some(1)]);
+        (model.document.changes.sun_radius, model.document.camera.fov_y) = (Some(1.0), 20.0);
         assert_eq!(model.show_slide(slide), None, "its scene is open");
+        assert_eq!(model.document.changes, SceneChanges::default());
+        assert_eq!(model.document.camera, model.document.scene.camera);
         assert_eq!(model.show_slide(&SLIDES[0]), Some("phong"));
         model.open(open("whitted"), "whitted".into());
         model.open(open("phong"), "phong".into());

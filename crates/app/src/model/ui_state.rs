@@ -20,6 +20,8 @@ pub struct UiState {
     pub hint: bool,
     /// The last thing worth saying.
     pub message: Option<Message>,
+    /// How much of the foot of the picture area the message or the hint took in the last frame, in points.
+    pub said_height: f32,
     /// Whether what is traced waits.
     pub paused: bool,
     /// How often the user began the pictures anew.
@@ -80,6 +82,7 @@ impl UiState {
             labels: true,
             hint: true,
             message: None,
+            said_height: 0.0,
             paused: false,
             restarts: 0,
             posing: false,

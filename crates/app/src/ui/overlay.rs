@@ -24,10 +24,14 @@ pub fn say(cx: &mut UiContext, ui: &Ui, rect: Rect, hint: &str) {
             ("fault", fault, Color32::from_rgb(255, 150, 150))
         }
         None if cx.model.state.hint => ("hint", hint.to_owned(), Color32::WHITE),
-        None => return,
+        None => {
+            cx.model.state.said_height = 0.0;
+            return;
+        }
     };
     let at = rect.center_bottom() - vec2(0.0, 12.0);
     let place = text_box(ui, rect, at, Align2::CENTER_BOTTOM, &text, colour);
+    cx.model.state.said_height = rect.bottom() - place.top() + AROUND.y;
     cx.dump.note_text(name, &text, place, rect);
     spoken(ui, name, &text, place, true);
 }

@@ -1,20 +1,24 @@
 //! The menu of the tutorial's slides: one choice opens the scene and sets both panes.
 
-use super::widgets::{Explained, menu};
+use super::widgets::{Explained, menu, rows_of_menu};
 use super::{UiCommand, UiContext};
 use crate::model::SLIDES;
 use egui::Ui;
 
 pub fn show(cx: &mut UiContext, ui: &mut Ui) {
     let (response, _) = menu("Slides").ui(ui, |ui| {
-        for slide in SLIDES {
-            let item = ui.button(slide.title).explained(slide.about);
-            if cx.dump.note(&format!("slide {}", slide.name), "", item).clicked() {
-                let scene = cx.model.show_slide(slide);
-                cx.commands.extend(scene.map(|scene| UiCommand::Open(scene.into())));
-                ui.close();
-            }
-        }
+        rows_of_menu(ui, |ui| rows(cx, ui));
     });
     cx.dump.note("slides", "", response.explained("The tutorial, slide by slide: a scene and what A and B show"));
+}
+
+fn rows(cx: &mut UiContext, ui: &mut Ui) {
+    for slide in SLIDES {
+        let item = ui.button(slide.title).explained(slide.about);
+        if cx.dump.note(&format!("slide {}", slide.name), "", item).clicked() {
+            let scene = cx.model.show_slide(slide);
+            cx.commands.extend(scene.map(|scene| UiCommand::Open(scene.into())));
+            ui.close();
+        }
+    }
 }

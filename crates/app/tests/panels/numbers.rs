@@ -54,6 +54,32 @@ fn a_number_that_is_refused_stays_and_is_told() {
 }
 
 #[test]
+fn esc_gives_up_what_is_typed() {
+    let mut panels = Panels::of("whitted");
+    panels.type_number("Refraction ratio", "0.5");
+    panels.harness.key_press(Key::Escape);
+    panels.harness.run_steps(6);
+    assert_eq!(panels.ratio(), None);
+    panels.type_number("Refraction ratio", "0.6");
+    panels.enter();
+    assert_eq!(panels.ratio(), Some(0.6), "and the next number counts");
+}
+
+#[test]
+fn the_cameras_numbers_are_refused_with_a_word_as_all_are() {
+    let mut panels = Panels::of("whitted");
+    // which unfolds its card
+    panels.model.borrow_mut().document.camera.fov_y = 59.0;
+    panels.harness.run_steps(3);
+    panels.harness.get_by_role_and_label(Role::SpinButton, "Field of view").scroll_to_me();
+    panels.harness.run_steps(5);
+    panels.type_number("Field of view", "500");
+    panels.enter();
+    assert!(panels.message().contains("500 is outside"), "{}", panels.message());
+    assert_eq!(panels.model.borrow().document.camera.fov_y, 59.0);
+}
+
+#[test]
 fn a_double_click_on_a_slider_brings_back_what_is_usual() {
     let mut panels = Panels::of("whitted");
     panels.harness.get_by_role_and_label(Role::Slider, "Refraction ratio").set_value_accesskit(0.5);
@@ -68,7 +94,7 @@ fn a_double_click_on_a_slider_brings_back_what_is_usual() {
     }
     panels.harness.step();
     panels.harness.run_steps(2);
-    assert_eq!(panels.ratio(), Some(0.7), "the scene's own");
+    assert_eq!(panels.ratio(), None, "the scene's own, and not a number like it");
 }
 
 #[test]

@@ -22,9 +22,7 @@ fn the_camera_dollies_zooms_is_typed_kept_and_reset() {
     let back = user.click("Place 1");
     assert_eq!(back.state("eye"), &place);
 
-    user.click("Vertical field of view in degrees");
-    user.type_into("Vertical field of view in degrees", "60");
-    let typed = user.key(Key::Enter);
+    let typed = user.type_number("Field of view", "60");
     assert_eq!(typed.state("fov"), 60.0);
 }
 

@@ -34,7 +34,7 @@ fn all_controls_at_once_still_do_not_overlap() {
         }
         assert!(right <= 1024.0 && (top < bar || left >= edge), "{name} sticks out: {:?}", frame.rect(name));
     }
-    user.scroll_to("Vertical field of view in degrees");
+    user.scroll_to_number("Field of view");
     user.wait_for("the last control to come into view", |f| {
         let (whole, seen) = (f.rect("field of view"), f.visible("field of view"));
         whole == seen

@@ -175,6 +175,24 @@ impl User {
         self.harness.run_steps(3);
     }
 
+    /// Scrolls until the number is seen that screen readers call so.
+    pub fn scroll_to_number(&mut self, name: &str) {
+        self.harness.get_by_role_and_label(Role::SpinButton, name).scroll_to_me();
+        self.harness.run_steps(3);
+    }
+
+    /// Types a number, and Enter.
+    pub fn type_number(&mut self, name: &str, text: &str) -> Frame {
+        self.scroll_to_number(name);
+        self.harness.get_by_role_and_label(Role::SpinButton, name).click();
+        self.harness.run_steps(2);
+        self.harness.key_press_modifiers(Modifiers::COMMAND, Key::A);
+        self.harness.run_steps(1);
+        self.harness.event(egui::Event::Text(text.into()));
+        self.harness.run_steps(2);
+        self.key(Key::Enter)
+    }
+
     /// The same among the settings of a pane.
     pub fn click_in(&mut self, pane: &str, name: &str) -> Frame {
         // the button that folds them has the same name

@@ -268,7 +268,32 @@ impl SceneChanges {
     }
 }
 
+impl SceneChanges {
+    /// Leaves a number to the scene again.
+    pub fn reset(&mut self, setting: &Setting<SceneChanges>) {
+        let others = OF_SCENES.iter().filter(|other| other.name != setting.name);
+        *self = set_again(SceneChanges::default(), others, self);
+    }
+}
+
+/// All of these as `of` has them.
+fn set_again<'a, T: 'a>(mut fresh: T, settings: impl Iterator<Item = &'a Setting<T>>, of: &T) -> T {
+    for setting in settings {
+        if let Some(value) = (setting.get)(of) {
+            (setting.set)(&mut fresh, value);
+        }
+    }
+    fresh
+}
+
 impl PaneSettings {
+    /// Makes a setting of the technique in use what a new pane has, or the scene's own.
+    pub fn reset(&mut self, setting: &Setting<PaneSettings>) {
+        let others = all_of_panes().filter(|other| other.name != setting.name && other.is_of(self.technique));
+        let fresh = set_again(PaneSettings::of(self.technique), others, self);
+        self.take_settings_in_use(&fresh);
+    }
+
     /// Takes a value for the technique in use; the others are found as they were left.
     pub fn set(&mut self, setting: &Setting<PaneSettings>, value: Value) {
         let mut told = *self;
@@ -350,6 +375,29 @@ mod tests {
                 }
             }
         }
+    }
+
+    #[test]
+    fn what_is_reset_is_a_new_panes_or_the_scenes_and_all_else_stays() {
+        for technique in TechniqueName::ALL {
+            for setting in all_of_panes().filter(|setting| setting.is_of(technique)) {
+                let mut pane = PaneSettings::of(technique);
+                for other in all_of_panes().filter(|other| other.is_of(technique)) {
+                    let word = examples(&other.kind).pop().unwrap();
+                    (other.set)(&mut pane, other.kind.parse(&word).unwrap());
+                }
+                let before = pane;
+                pane.reset(setting);
+                assert_eq!((setting.get)(&pane), (setting.get)(&PaneSettings::of(technique)), "{}", setting.name);
+                let others = all_of_panes().filter(|other| other.is_of(technique) && other.name != setting.name);
+                for other in others {
+                    assert_eq!((other.get)(&pane), (other.get)(&before), "{} by {}", other.name, setting.name);
+                }
+            }
+        }
+        let mut changes = SceneChanges { refraction_ratio: Some(0.5), sun_radius: Some(1.0) };
+        changes.reset(of_scenes("sun-radius").unwrap());
+        assert_eq!(changes, SceneChanges { refraction_ratio: Some(0.5), sun_radius: None });
     }
 
     #[test]

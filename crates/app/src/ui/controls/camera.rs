@@ -1,28 +1,53 @@
 //! The camera in numbers, how many pixels its picture has, and places to come back to.
 
 use crate::model::Resolution;
-use crate::ui::widgets::{Explained, number};
+use crate::ui::theme::palette;
+use crate::ui::widgets::{Explained, NumberRow, Scale};
 use crate::ui::{Dump, UiContext};
-use egui::{DragValue, Ui};
+use egui::Ui;
 use scene::{Camera, Vec3};
 
 pub fn show(cx: &mut UiContext, ui: &mut Ui) {
-    let mut camera = cx.model.document.camera;
-    let speed = 0.005 * f64::from((camera.target - camera.eye).length());
-    point("Eye", &mut camera.eye, speed, ui, cx.dump);
-    point("Target", &mut camera.target, speed, ui, cx.dump);
-    ui.horizontal(|ui| {
-        ui.label("Field of view");
-        let value = DragValue::new(&mut camera.fov_y).range(Camera::FIELD_OF_VIEW).speed(0.2).suffix("°");
-        let text = cx.model.document.camera.fov_y.to_string();
-        number("field of view", "Vertical field of view in degrees", value, text, ui, cx.dump);
-    });
-    // a step that would leave the camera seeing nothing is not taken
-    if camera.fault().is_none() {
-        cx.model.document.camera = camera;
+    let before = cx.model.document.camera;
+    let mut camera = before;
+    let step = f64::from((0.005 * (camera.target - camera.eye).length()).max(1e-6));
+    let faults = [
+        point("Eye", &mut camera.eye, step, ui, cx.dump),
+        point("Target", &mut camera.target, step, ui, cx.dump),
+        field_of_view(cx, &mut camera, ui),
+    ];
+    match camera.fault() {
+        None => cx.model.document.camera = camera,
+        // a step that would leave it blind is not taken
+        Some(fault) => cx.model.say(Err(format!("a camera there would see nothing: {fault}; it stays"))),
+    }
+    if let Some(fault) = faults.into_iter().flatten().next() {
+        cx.model.say(Err(fault));
     }
     resolutions(cx, ui);
     bookmarks(cx, ui);
+}
+
+fn field_of_view(cx: &mut UiContext, camera: &mut Camera, ui: &mut Ui) -> Option<String> {
+    let (least, most) = Camera::FIELD_OF_VIEW.into_inner();
+    let (least, most) = (f64::from(least), f64::from(most));
+    let row = NumberRow {
+        name: "field of view",
+        label: "Field of view",
+        hover: "The vertical angle of view in degrees; of an area narrower than high the horizontal one",
+        scale: Scale::Steps { range: 5.0..=120.0, step: 0.1 },
+        bounds: least..=most,
+        unit: "°",
+        aside: String::new(),
+        resets: true,
+        tint: palette(ui).slider(None),
+    };
+    let mut degrees = f64::from(camera.fov_y);
+    let told = row.show(&mut degrees, ui, cx.dump);
+    if told.changed || told.reset {
+        camera.fov_y = if told.reset { cx.model.document.scene.camera.fov_y } else { degrees as f32 };
+    }
+    told.fault
 }
 
 fn resolutions(cx: &mut UiContext, ui: &mut Ui) {
@@ -42,15 +67,32 @@ fn resolutions(cx: &mut UiContext, ui: &mut Ui) {
     });
 }
 
-fn point(name: &str, point: &mut Vec3, speed: f64, ui: &mut Ui, dump: &mut Dump) {
-    ui.label(format!("{name} x, y, z"));
+fn point(name: &str, point: &mut Vec3, step: f64, ui: &mut Ui, dump: &mut Dump) -> Option<String> {
+    let dim = palette(ui).dim;
+    ui.label(egui::RichText::new(format!("{name} x, y, z")).color(dim));
+    let mut fault = None;
     ui.horizontal_wrapped(|ui| {
         for (axis, value) in ["x", "y", "z"].into_iter().zip(point.as_mut()) {
-            let text = value.to_string();
-            let drag = DragValue::new(value).speed(speed).max_decimals(3);
-            number(&format!("{} {axis}", name.to_lowercase()), &format!("{name} {axis}"), drag, text, ui, dump);
+            let row = NumberRow {
+                name: &format!("{} {axis}", name.to_lowercase()),
+                label: &format!("{name} {axis}"),
+                hover: "",
+                scale: Scale::Steps { range: 0.0..=1.0, step },
+                bounds: -1e12..=1e12,
+                unit: "",
+                aside: String::new(),
+                resets: false,
+                tint: dim,
+            };
+            let mut number = f64::from(*value);
+            let told = row.show_bare(&mut number, ui, dump);
+            if told.changed {
+                *value = number as f32;
+            }
+            fault = fault.take().or(told.fault);
         }
     });
+    fault
 }
 
 fn bookmarks(cx: &mut UiContext, ui: &mut Ui) {

@@ -15,12 +15,12 @@ pub fn show(cx: &mut UiContext, ui: &mut Ui) {
         bounds: -20.0..=20.0,
         unit: " EV",
         aside: String::new(),
-        usual: Some(0.0),
+        resets: true,
         tint: palette(ui).slider(None),
     };
     let told = row.show(&mut stops, ui, cx.dump);
-    if told.changed {
-        cx.model.session.display.exposure = stops as f32;
+    if told.changed || told.reset {
+        cx.model.session.display.exposure = if told.reset { 0.0 } else { stops as f32 };
     }
     if let Some(fault) = told.fault {
         cx.model.say(Err(fault));

@@ -10,7 +10,7 @@ mod setting;
 
 use super::UiContext;
 use super::theme::{bold, palette};
-use super::widgets::{Explained, card, fold, segmented};
+use super::widgets::{Explained, card, fold, note_panel, segmented};
 use crate::model::PaneId;
 use egui::{Align, Button, Frame, Id, Layout, Margin, Response, RichText, TextStyle, Ui, vec2};
 use technique::TechniqueName;
@@ -40,10 +40,23 @@ pub fn panel(cx: &mut UiContext, ui: &mut Ui, heads: Part, cards: Part) {
     let frame = Frame::new().fill(palette(ui).panel).inner_margin(Margin { left: 8, right: 8, top: 8, bottom: 0 });
     let panel = egui::Panel::right("controls").resizable(false).exact_size(width(ui)).frame(frame);
     panel.show(ui, |ui| {
-        heads(cx, ui);
-        ui.add_space(4.0);
-        egui::ScrollArea::vertical().auto_shrink(false).show(ui, |ui| cards(cx, ui));
+        note_panel(ui.ctx(), ui.max_rect().left());
+        let scrolled = egui::ScrollArea::vertical().auto_shrink(false);
+        if is_low(ui) {
+            // heads that stay would leave the cards no room
+            scrolled.show(ui, |ui| all(cx, ui, heads, cards));
+        } else {
+            heads(cx, ui);
+            ui.add_space(4.0);
+            scrolled.show(ui, |ui| cards(cx, ui));
+        }
     });
+}
+
+fn all(cx: &mut UiContext, ui: &mut Ui, heads: Part, cards: Part) {
+    heads(cx, ui);
+    ui.add_space(4.0);
+    cards(cx, ui);
 }
 
 /// What is changed in the scene; absent where nothing can be.

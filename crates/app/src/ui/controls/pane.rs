@@ -1,7 +1,7 @@
 //! The settings of a pane's technique: in which order they stand, and what is no setting. Their table says the rest.
 
 use super::device;
-use super::setting::Place;
+use super::setting::{Change, Place};
 use crate::model::PaneId;
 use crate::ui::UiContext;
 use crate::ui::theme::palette;
@@ -81,8 +81,10 @@ fn rows(cx: &mut UiContext, pane: PaneId, rows: &[&Setting<PaneSettings>], ui: &
         fault: None,
     };
     for setting in rows {
-        if let Some(value) = place.show(setting, settings, ui) {
-            settings.set(setting, value);
+        match place.show(setting, settings, ui) {
+            Some(Change::Set(value)) => settings.set(setting, value),
+            Some(Change::Reset) => settings.reset(setting),
+            None => {}
         }
     }
     if let Some(fault) = place.fault {

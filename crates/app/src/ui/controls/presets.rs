@@ -2,7 +2,7 @@
 
 use crate::model::PaneId;
 use crate::ui::UiContext;
-use crate::ui::widgets::{Explained, menu as menu_of};
+use crate::ui::widgets::{Explained, menu as menu_of, rows_of_menu};
 use egui::{Color32, TextStyle, Ui};
 use technique::presets;
 
@@ -18,14 +18,16 @@ pub fn fits(ui: &Ui) -> bool {
 /// The menu of presets of a pane.
 pub fn menu(cx: &mut UiContext, pane: PaneId, ui: &mut Ui) {
     let (response, _) = menu_of(TITLE).ui(ui, |ui| {
-        for preset in presets::ALL {
-            let hover = format!("{}: {}", preset.about, preset.words());
-            let button = ui.button(preset.title).explained(&hover);
-            if cx.dump.note(&format!("{pane} preset {}", preset.name), "", button).clicked() {
-                cx.model.take_preset(pane, preset);
-                ui.close();
+        rows_of_menu(ui, |ui| {
+            for preset in presets::ALL {
+                let hover = format!("{}: {}", preset.about, preset.words());
+                let button = ui.button(preset.title).explained(&hover);
+                if cx.dump.note(&format!("{pane} preset {}", preset.name), "", button).clicked() {
+                    cx.model.take_preset(pane, preset);
+                    ui.close();
+                }
             }
-        }
+        })
     });
     let button = response.explained("The tutorial's settings by name");
     cx.dump.note(&format!("{pane} presets"), "", button.accessible_name(format!("Presets of {pane}")));

@@ -1,6 +1,6 @@
 //! What is changed in the scene, for both panes at once.
 
-use super::setting::Place;
+use super::setting::{Change, Place};
 use crate::model::{Model, SwitchedOff};
 use crate::ui::UiContext;
 use egui::Ui;
@@ -17,8 +17,10 @@ pub fn show(cx: &mut UiContext, ui: &mut Ui) {
         let document = &mut cx.model.document;
         let kept = &mut SwitchedOff::default();
         let mut place = Place { pane: None, scene: &document.scene, kept, dump: cx.dump, fault: None };
-        if let Some(value) = place.show(setting, &document.changes, ui) {
-            (setting.set)(&mut document.changes, value);
+        match place.show(setting, &document.changes, ui) {
+            Some(Change::Set(value)) => (setting.set)(&mut document.changes, value),
+            Some(Change::Reset) => document.changes.reset(setting),
+            None => {}
         }
         if let Some(fault) = place.fault {
             cx.model.say(Err(fault));

@@ -25,40 +25,44 @@ pub struct Place<'a> {
     pub fault: Option<String>,
 }
 
+/// What a user has done to a setting.
+pub enum Change {
+    /// Given it a value.
+    Set(Value),
+    /// Asked for what is usual: the scene's own, or that of a new pane.
+    Reset,
+}
+
 /// A number of a setting, as its row shows it.
 struct Shown<'a> {
     name: &'a str,
     told: Value,
     value: f64,
-    usual: Option<f64>,
     scale: Scale,
     bounds: RangeInclusive<f64>,
 }
 
 impl Place<'_> {
-    /// Shows the control of a row: what is set, or the scene's own. Returns what the user has set it to, if anything.
-    pub fn show<T>(&mut self, setting: &Setting<T>, of: &T, ui: &mut Ui) -> Option<Value> {
+    /// Shows the control of a row: what is set, or the scene's own. Returns what the user has done to it, if anything.
+    pub fn show<T>(&mut self, setting: &Setting<T>, of: &T, ui: &mut Ui) -> Option<Change> {
         let value = (setting.get)(of).or_else(|| (setting.own)(self.scene))?;
         let control = &setting.control;
         let short = control.dump_name.map_or_else(|| setting.name.replace('-', " "), str::to_owned);
         let name = self.dump_name(&short);
-        let usual = setting.default.or_else(|| (setting.own)(self.scene));
         match (value, &control.look) {
-            (Value::Word(_), Look::Words(_)) => self.words(setting, (&name, value), ui),
+            (Value::Word(_), Look::Words(_)) => self.words(setting, (&name, value), ui).map(Change::Set),
             (Value::Roulette(roulette), Look::Steps { range, step }) => {
-                self.roulette(&name, (roulette, usual), (range.clone(), *step), ui)
+                self.roulette(&name, roulette, (range.clone(), *step), ui).map(Change::Set)
             }
             (value, look) => {
-                let usual = usual.and_then(number_of);
                 let shown = Shown {
                     name: &name,
                     told: value,
                     value: number_of(value)?,
-                    usual,
                     scale: scale_of(look)?,
                     bounds: bounds_of(&setting.kind),
                 };
-                self.number(setting, shown, ui).and_then(|number| value_like(value, number))
+                self.number(setting, shown, ui)
             }
         }
     }
@@ -79,8 +83,8 @@ impl Place<'_> {
         }
     }
 
-    fn number<T>(&mut self, setting: &Setting<T>, shown: Shown, ui: &mut Ui) -> Option<f64> {
-        let Shown { name, told, value, usual, scale, bounds } = shown;
+    fn number<T>(&mut self, setting: &Setting<T>, shown: Shown, ui: &mut Ui) -> Option<Change> {
+        let Shown { name, told, value, scale, bounds } = shown;
         let row = NumberRow {
             name,
             label: setting.control.label,
@@ -89,13 +93,17 @@ impl Place<'_> {
             bounds,
             unit: if matches!(setting.kind, Kind::DegreesBelow(_)) { "°" } else { "" },
             aside: (setting.control.aside)(told),
-            usual,
+            resets: true,
             tint: palette(ui).slider(self.pane.map(|(pane, _)| pane)),
         };
         let mut number = value;
-        let told = row.show(&mut number, ui, self.dump);
-        self.fault = told.fault.or(self.fault.take());
-        told.changed.then_some(number)
+        let done = row.show(&mut number, ui, self.dump);
+        self.fault = done.fault.or(self.fault.take());
+        match (done.reset, done.changed) {
+            (true, _) => Some(Change::Reset),
+            (false, true) => value_like(told, number).map(Change::Set),
+            (false, false) => None,
+        }
     }
 
     fn words<T>(&mut self, setting: &Setting<T>, (name, value): (&str, Value), ui: &mut Ui) -> Option<Value> {
@@ -115,7 +123,7 @@ impl Place<'_> {
     fn roulette(
         &mut self,
         name: &str,
-        (before, usual): (Roulette, Option<Value>),
+        before: Roulette,
         (range, step): (RangeInclusive<f32>, f64),
         ui: &mut Ui,
     ) -> Option<Value> {
@@ -125,22 +133,15 @@ impl Place<'_> {
             roulette.probability = by_p.then_some(self.kept.probability);
         }
         if let Some(p) = &mut roulette.probability {
-            self.probability(name, (p, usual), (range, step), ui);
+            self.probability(name, p, (range, step), ui);
             self.kept.probability = *p;
         }
         self.check(&format!("{name} throughput"), "Roulette by throughput", DARK, &mut roulette.throughput, ui);
         (roulette != before).then_some(Value::Roulette(roulette))
     }
 
-    fn probability(
-        &mut self,
-        name: &str,
-        (p, usual): (&mut f32, Option<Value>),
-        (range, step): (RangeInclusive<f32>, f64),
-        ui: &mut Ui,
-    ) {
+    fn probability(&mut self, name: &str, p: &mut f32, (range, step): (RangeInclusive<f32>, f64), ui: &mut Ui) {
         let mut number = f64::from(*p);
-        let usual = if let Some(Value::Roulette(usual)) = usual { usual.probability } else { None };
         let row = NumberRow {
             name: &format!("{name} probability"),
             label: "Probability P to survive a vertex",
@@ -149,12 +150,12 @@ impl Place<'_> {
             bounds: 1e-6..=1.0,
             unit: "",
             aside: String::new(),
-            usual: Some(f64::from(usual.unwrap_or(SwitchedOff::default().probability))),
+            resets: true,
             tint: palette(ui).slider(self.pane.map(|(pane, _)| pane)),
         };
         let told = row.show(&mut number, ui, self.dump);
         self.fault = told.fault.or(self.fault.take());
-        *p = number as f32;
+        *p = if told.reset { SwitchedOff::default().probability } else { number as f32 };
     }
 
     fn check(&mut self, name: &str, text: &str, hover: &str, on: &mut bool, ui: &mut Ui) -> bool {

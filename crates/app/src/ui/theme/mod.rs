@@ -89,8 +89,8 @@ fn colour(visuals: &mut Visuals, palette: &Palette, projector: bool) {
     widgets.noninteractive.bg_stroke = Stroke::new(1.0, palette.line);
     for (widget, ground) in [
         (&mut widgets.inactive, palette.card),
-        (&mut widgets.hovered, palette.chosen),
-        (&mut widgets.active, palette.chosen),
+        (&mut widgets.hovered, palette.hovered),
+        (&mut widgets.active, palette.hovered),
         (&mut widgets.open, palette.chosen),
     ] {
         dress_widget(widget, ground, edge, palette);

@@ -21,6 +21,8 @@ pub struct Palette {
     pub dim: Color32,
     /// The rail of a slider, and what is chosen of several words.
     pub chosen: Color32,
+    /// Under the mouse, and what has the keyboard: neither chosen nor not.
+    pub hovered: Color32,
     /// The part of a slider's rail before its handle, where no pane lends it a colour.
     pub filled: Color32,
     /// The handle of a slider.
@@ -45,6 +47,7 @@ const DARK: Palette = Palette {
     text: rgb(0xe8eaee),
     dim: rgb(0x9aa3b2),
     chosen: rgb(0x39404d),
+    hovered: rgb(0x2a2f39),
     filled: rgb(0x7e8899),
     handle: rgb(0xe8eaee),
     panes: [rgb(0x6cb2ff), rgb(0xffb057)],
@@ -60,6 +63,7 @@ const LIGHT: Palette = Palette {
     text: rgb(0x0d1117),
     dim: rgb(0x4b5565),
     chosen: rgb(0xd5dae2),
+    hovered: rgb(0xe9ecf1),
     filled: rgb(0x6b7688),
     handle: rgb(0x2b3442),
     panes: [rgb(0x0b57c2), rgb(0xa34a00)],
@@ -73,6 +77,7 @@ const PROJECTOR: Palette = Palette {
     line: rgb(0x6b7688),
     dim: rgb(0x3c4656),
     chosen: rgb(0xc9d0da),
+    hovered: rgb(0xe6eaf0),
     filled: rgb(0x4b5565),
     handle: rgb(0x0d1117),
     panes: [rgb(0x0a4aa6), rgb(0x863d00)],
@@ -140,6 +145,7 @@ mod tests {
                 }
             }
             assert!(contrast(p.text, p.chosen) >= least, "{theme:?}: a chosen word");
+            assert!(p.hovered != p.chosen && contrast(p.text, p.hovered) >= least, "{theme:?}: under the mouse");
         }
     }
 

@@ -78,7 +78,8 @@ pub fn icon_button(icon: Icon, (name, hover): (&str, &str), (enabled, chosen): (
     let palette = palette(ui);
     let visuals = ui.style().interact_selectable(&response, chosen);
     if chosen || (enabled && response.hovered()) {
-        ui.painter().rect_filled(rect, visuals.corner_radius, palette.chosen);
+        let ground = if chosen { palette.chosen } else { palette.hovered };
+        ui.painter().rect_filled(rect, visuals.corner_radius, ground);
     }
     if response.has_focus() {
         ui.painter().rect_stroke(rect, visuals.corner_radius, Stroke::new(1.0, palette.accent), StrokeKind::Inside);
@@ -95,7 +96,7 @@ pub fn icon_and_word(icon: Icon, word: &str, chosen: bool, ui: &mut Ui) -> Respo
     let (rect, response) = ui.allocate_exact_size(vec2(side, side), Sense::click());
     let palette = palette(ui);
     if chosen || response.hovered() {
-        ui.painter().rect_filled(rect, 8.0, if chosen { palette.card } else { palette.chosen });
+        ui.painter().rect_filled(rect, 8.0, if chosen { palette.card } else { palette.hovered });
     }
     let colour = if chosen { palette.text } else { palette.dim };
     let upper = Rect::from_min_max(rect.min, pos2(rect.right(), rect.top() + 0.62 * side));

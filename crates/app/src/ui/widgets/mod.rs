@@ -11,23 +11,22 @@ pub use card::{card, fold};
 pub use choice::{choice, segmented};
 pub use icon::{Icon, icon_and_word, icon_button};
 pub use number::{NumberRow, Scale, parse_number};
-pub use tooltip::Explained;
+pub use tooltip::{Explained, note_panel};
 
-use super::Dump;
 use egui::containers::menu::{MenuButton, MenuConfig};
-use egui::{Button, DragValue, PopupCloseBehavior, Response, Style, Ui, vec2};
-
-/// A number to drag or type, alone.
-pub fn number(name: &str, label: &str, value: DragValue, text: String, ui: &mut Ui, dump: &mut Dump) -> Response {
-    let value = value.update_while_editing(false).custom_parser(|text| parse_number(text).ok());
-    dump.note(name, text, ui.add(value).accessible_name(label))
-}
+use egui::{Button, PopupCloseBehavior, ScrollArea, Style, Ui, vec2};
 
 /// A menu that stays open while one uses what is in it.
 pub fn menu(title: impl Into<String>) -> MenuButton<'static> {
     let stay =
         MenuConfig::new().close_behavior(PopupCloseBehavior::CloseOnClickOutside).style(menu_style as fn(&mut Style));
     MenuButton::new(title.into()).config(stay)
+}
+
+/// The rows of a menu, which scroll where the window is low.
+pub fn rows_of_menu(ui: &mut Ui, contents: impl FnOnce(&mut Ui)) {
+    let tallest = (ui.ctx().content_rect().height() - 100.0).max(80.0);
+    ScrollArea::vertical().max_height(tallest).show(ui, contents);
 }
 
 /// egui's for menus, but with room around the words.

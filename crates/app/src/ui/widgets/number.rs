@@ -4,7 +4,7 @@ use super::Explained;
 use crate::ui::Dump;
 use crate::ui::theme::palette;
 use egui::{
-    Align, Color32, DragValue, Label, Layout, PointerButton, Rect, Response, RichText, Slider, SliderClamping,
+    Align, Color32, DragValue, Id, Key, Label, Layout, PointerButton, Rect, Response, RichText, Slider, SliderClamping,
     TextStyle, Ui,
 };
 use egui::{pos2, vec2};
@@ -45,8 +45,8 @@ pub struct NumberRow<'a> {
     pub unit: &'a str,
     /// What the number means, after its unit.
     pub aside: String,
-    /// What a double click on the slider brings back.
-    pub usual: Option<f64>,
+    /// Whether a double click on the slider brings back what is usual.
+    pub resets: bool,
     /// The colour of the rail before the handle.
     pub tint: Color32,
 }
@@ -56,6 +56,8 @@ pub struct NumberRow<'a> {
 pub struct Told {
     /// Whether it was changed.
     pub changed: bool,
+    /// Whether what is usual shall come back in its place.
+    pub reset: bool,
     /// Why what was typed does not count: a line.
     pub fault: Option<String>,
 }
@@ -102,7 +104,9 @@ impl Scale {
 
     fn parse(&self, text: &str) -> Result<f64, String> {
         match (self, text.trim()) {
-            (Scale::WholeOrNone(_), "no limit" | "inf" | "∞") => Ok(f64::INFINITY),
+            (Scale::WholeOrNone(_), "no limit" | "unlimited" | "inf" | "∞") => Ok(f64::INFINITY),
+            // which may stand between thousands
+            (_, text) if self.is_whole() && text.contains(',') => Err(format!("\"{text}\" is no whole number")),
             (_, text) => parse_number(text),
         }
     }
@@ -121,26 +125,29 @@ impl NumberRow<'_> {
     pub fn show(self, value: &mut f64, ui: &mut Ui, dump: &mut Dump) -> Told {
         let before = *value;
         let fault = RefCell::new(None);
-        ui.scope(|ui| {
+        let shown = ui.scope(|ui| {
             ui.visuals_mut().selection.bg_fill = self.tint;
             ui.spacing_mut().item_spacing.y = 1.0;
             let label = self.head(value, &fault, ui, dump);
-            if self.scale != Scale::Typed {
-                self.slider(value, &label, ui, dump);
-            }
+            self.scale != Scale::Typed && self.slider(value, &label, ui, dump)
         });
         ui.add_space(2.0);
-        Told { changed: *value != before, fault: fault.into_inner() }
+        Told { changed: *value != before, reset: shown.inner, fault: fault.into_inner() }
+    }
+
+    /// Shows its value alone, to be typed or dragged; its label is for screen readers.
+    pub fn show_bare(self, value: &mut f64, ui: &mut Ui, dump: &mut Dump) -> Told {
+        let before = *value;
+        let fault = RefCell::new(None);
+        let response = self.drag_value(value, &fault, ui).accessible_name(self.label).explained(self.hover);
+        dump.note(self.name, before as f32, response);
+        Told { changed: *value != before, reset: false, fault: fault.into_inner() }
     }
 
     /// Name and value in one row, or in two where they do not fit beside each other.
     fn head(&self, value: &mut f64, fault: &RefCell<Option<String>>, ui: &mut Ui, dump: &mut Dump) -> Response {
-        let wide = |text: &str| {
-            let font = TextStyle::Body.resolve(ui.style());
-            ui.painter().layout_no_wrap(text.to_owned(), font, Color32::WHITE).size().x
-        };
         let text = format!("{}{}{}", self.scale.text(*value), self.unit, self.aside);
-        let fits = wide(self.label) + wide(&text) + 24.0 <= ui.available_width();
+        let fits = width(self.label, ui) + width(&text, ui) + 24.0 <= ui.available_width();
         let dim = palette(ui).dim;
         let name = |ui: &mut Ui| ui.add(Label::new(RichText::new(self.label).color(dim)));
         let right = Layout::right_to_left(Align::Center);
@@ -167,34 +174,50 @@ impl NumberRow<'_> {
         (quiet.weak_bg_fill, quiet.bg_stroke.color) = (Color32::TRANSPARENT, Color32::TRANSPARENT);
         ui.spacing_mut().button_padding = vec2(2.0, 0.0);
         ui.spacing_mut().interact_size = vec2(0.0, ui.available_height());
+        let before = *value;
+        let response = self.drag_value(value, fault, ui).labelled_by(label.id).explained(self.hover);
+        let name = if self.scale == Scale::Typed { self.name.to_owned() } else { format!("{} value", self.name) };
+        dump.note(&name, self.scale.text(before), response);
+    }
+
+    fn drag_value(&self, value: &mut f64, fault: &RefCell<Option<String>>, ui: &mut Ui) -> Response {
+        // egui takes what stands in a field one frame after Esc has left it
+        let given_up = has_given_up(ui);
         let parse = |text: &str| match self.read(text) {
+            _ if given_up => None,
             Ok(value) => Some(value),
             Err(why) => {
                 *fault.borrow_mut() = Some(why);
                 None
             }
         };
-        let before = *value;
         let speed = if self.scale.is_whole() { 0.05 + 0.01 * value.min(1e6) } else { self.scale.step() };
+        let suffix = self.suffix(*value, ui);
         let drag = DragValue::new(value).speed(speed).range(self.bounds.clone()).clamp_existing_to_range(false);
         let drag = drag.update_while_editing(false).custom_parser(parse);
-        let drag =
-            drag.custom_formatter(|value, _| self.scale.text(value)).suffix(format!("{}{}", self.unit, self.aside));
-        let response = ui.add(drag).labelled_by(label.id).explained(self.hover);
+        let response = ui.add(drag.custom_formatter(|value, _| self.scale.text(value)).suffix(suffix));
         if self.scale.is_whole() {
             *value = value.round();
         }
-        let name = if self.scale == Scale::Typed { self.name.to_owned() } else { format!("{} value", self.name) };
-        dump.note(&name, self.scale.text(before), response);
+        response
+    }
+
+    /// Its unit and what it means, as far as there is room.
+    fn suffix(&self, value: f64, ui: &Ui) -> String {
+        let whole = format!("{}{}", self.unit, self.aside);
+        let fits = width(&format!("{}{whole}", self.scale.text(value)), ui) + 8.0 <= ui.available_width();
+        if fits { whole } else { self.unit.to_owned() }
     }
 
     /// What a typed text says.
     fn read(&self, text: &str) -> Result<f64, String> {
-        let text = text.trim().trim_end_matches(self.aside.trim()).trim_end().trim_end_matches(self.unit.trim()).trim();
+        // what a value means stands in brackets after it, and may be that of another one
+        let text = text.split(" (").next().unwrap_or_default().trim();
+        let text = text.trim_end_matches(self.unit.trim()).trim();
         let stays = format!("{} stays", self.label);
         let value = self.scale.parse(text).map_err(|why| format!("{why}; {stays}"))?;
         if !self.bounds.contains(&value) {
-            let [least, most] = [self.bounds.start(), self.bounds.end()].map(|bound| self.scale.text(*bound));
+            let [least, most] = [self.bounds.start(), self.bounds.end()].map(|bound| (*bound as f32).to_string());
             return Err(format!("{text} is outside {least} to {most}; {stays}"));
         }
         if self.scale.is_whole() && value.fract() != 0.0 {
@@ -203,7 +226,8 @@ impl NumberRow<'_> {
         Ok(value)
     }
 
-    fn slider(&self, value: &mut f64, label: &Response, ui: &mut Ui, dump: &mut Dump) {
+    /// Returns whether what is usual shall come back.
+    fn slider(&self, value: &mut f64, label: &Response, ui: &mut Ui, dump: &mut Dump) -> bool {
         let before = *value;
         let mut place = self.scale.place_of(before);
         ui.spacing_mut().slider_width = ui.available_width();
@@ -215,14 +239,28 @@ impl NumberRow<'_> {
         }
         // egui's sliders hear drags alone
         let twice = ui.input(|i| i.pointer.button_double_clicked(PointerButton::Primary));
-        if let Some(usual) = self.usual.filter(|_| twice && response.contains_pointer()) {
-            *value = usual;
-        }
+        let reset = self.resets && twice && response.contains_pointer();
         let (start, end) = self.scale.range().into_inner();
         paint_handle(ui, response.rect, (self.scale.place_of(*value) - start) / (end - start));
         let shown = if before.is_infinite() { "inf".to_owned() } else { (before as f32).to_string() };
         dump.note(self.name, shown, response);
+        reset
     }
+}
+
+fn width(text: &str, ui: &Ui) -> f32 {
+    let font = TextStyle::Body.resolve(ui.style());
+    ui.painter().layout_no_wrap(text.to_owned(), font, Color32::WHITE).size().x
+}
+
+/// Whether Esc was pressed in this frame or in one of the two before.
+fn has_given_up(ui: &Ui) -> bool {
+    let (id, now) = (Id::unique("frame of the last Esc"), ui.ctx().cumulative_frame_nr());
+    if ui.input(|i| i.key_pressed(Key::Escape)) {
+        ui.ctx().data_mut(|data| data.insert_temp(id, now));
+    }
+    let last: Option<u64> = ui.ctx().data(|data| data.get_temp(id));
+    last.is_some_and(|last| now.saturating_sub(last) <= 2)
 }
 
 /// A solid handle over egui's, whose inside has the colour of the rail.
@@ -263,7 +301,7 @@ mod tests {
 
     fn row(scale: Scale, bounds: RangeInclusive<f64>) -> NumberRow<'static> {
         let (name, label, hover, unit) = ("ratio", "Ratio", "", "°");
-        NumberRow { name, label, hover, scale, bounds, unit, aside: String::new(), usual: None, tint: Color32::WHITE }
+        NumberRow { name, label, hover, scale, bounds, unit, aside: String::new(), resets: false, tint: Color32::WHITE }
     }
 
     #[test]
@@ -287,10 +325,11 @@ mod tests {
     fn what_is_out_of_range_is_told_and_what_has_its_unit_is_taken() {
         let ratio = row(Scale::Steps { range: 0.4..=2.5, step: 0.01 }, 0.001..=1000.0);
         assert_eq!([ratio.read("0,3"), ratio.read("0.3 °")], [Ok(0.3), Ok(0.3)]);
-        assert_eq!(ratio.read("0"), Err("0 is outside 0.001 to 1000.00; Ratio stays".into()));
+        assert_eq!(ratio.read("0"), Err("0 is outside 0.001 to 1000; Ratio stays".into()));
         assert_eq!(ratio.read("a"), Err("\"a\" is no number; Ratio stays".into()));
         let count = row(Scale::Doubling(0..=16), 1.0..=4e9);
         assert_eq!(count.read("2.5"), Err("2.5 is no whole number; Ratio stays".into()));
+        assert_eq!(count.read("1,000"), Err("\"1,000\" is no whole number; Ratio stays".into()));
     }
 
     #[test]

@@ -30,7 +30,9 @@ pub fn show(cx: &mut UiContext, ui: &Ui, rect: Rect, hover: Option<Pos2>) {
     };
     painter.image(texture, rect, WHOLE, Color32::WHITE);
     let under_the_mouse = hover.filter(|_| !cx.model.state.posing).and_then(|at| numbers_at(map, rect, at));
-    legend(cx, ui, rect, &map.map, under_the_mouse);
+    if cx.model.state.labels {
+        legend(cx, ui, rect, &map.map, under_the_mouse);
+    }
 }
 
 /// Why there is nothing to see.

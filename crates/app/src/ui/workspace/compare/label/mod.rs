@@ -25,7 +25,7 @@ pub fn show(cx: &mut UiContext, ui: &Ui, clip: Rect, pane: PaneId) {
         return;
     }
     let text = LabelText::of(pane, shown, beside(cx, pane), told(cx, pane, shown), cx.model.state.paused);
-    let room = room(cx, ui, clip, pane);
+    let room = room(cx, clip, pane);
     let Some(galley) = fitting(ui, &text, pane, room.size()) else { return };
     let place = align(&cx.model.session, pane).align_size_within_rect(galley.size(), room);
     paint(ui, clip, place, galley, colour(pane));
@@ -61,11 +61,10 @@ fn told(cx: &UiContext, pane: PaneId, shown: &PaneView) -> Option<Told> {
 }
 
 /// Where its text may be: not at the edges, and not where a message stands at the foot of the window.
-fn room(cx: &UiContext, ui: &Ui, clip: Rect, pane: PaneId) -> Rect {
+fn room(cx: &UiContext, clip: Rect, pane: PaneId) -> Rect {
     let mut room = clip.shrink2(INSET);
-    let state = &cx.model.state;
-    if align(&cx.model.session, pane) == Align2::LEFT_BOTTOM && (state.hint || state.message.is_some()) {
-        room.max.y -= 2.0 * theme::label_font(ui).size;
+    if align(&cx.model.session, pane) == Align2::LEFT_BOTTOM {
+        room.max.y = room.max.y.min(clip.bottom() - cx.model.state.said_height - PADDING.y);
     }
     room
 }
