@@ -100,7 +100,8 @@ pub fn errors(image: &Image, reference: &Image) -> Result<Errors, CompareError> 
         rmse: (sum.rmse / values).sqrt(),
         rel_mse: sum.rel_mse / values,
         mae: sum.mae / values,
-        relative_mae: share_of_the_reference(sum.mae),
+        // of black there is no share
+        relative_mae: if reference_sum > 0.0 || sum.mae == 0.0 { share_of_the_reference(sum.mae) } else { f64::NAN },
         bias: sum.bias / values,
         relative_bias: share_of_the_reference(sum.bias),
         nonfinite: sum.nonfinite,

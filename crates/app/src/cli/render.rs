@@ -281,7 +281,7 @@ fn report(
     if let Some(e) = errors {
         report["errors"] = json!({
             "against": "reference", "rmse": e.rmse, "relmse": e.rel_mse, "mae": e.mae, "bias": e.bias,
-            "relative_bias": e.relative_bias, "reference_noise": e.reference_noise,
+            "relative_mae": e.relative_mae, "relative_bias": e.relative_bias, "reference_noise": e.reference_noise,
             "below_reference_noise": e.below_reference_noise(),
         });
     }

@@ -47,7 +47,7 @@ impl Earlier {
 fn is_same_picture(a: &Order, b: &Order) -> bool {
     let how = |order: &Order| match order.provenance.technique {
         Technique::Fake(_) => None,
-        Technique::Traced(traced) => Some((traced.integrator, order.view, order.restarts)),
+        Technique::Traced(traced) => Some((traced.integrator, traced.sun_radius, order.view, order.restarts)),
     };
     how(a).is_some() && how(a) == how(b)
 }
@@ -112,6 +112,12 @@ mod tests {
         assert_eq!(after(picture(Path, 2, 4)), None, "seen from elsewhere");
         assert_eq!(after(picture(Whitted, 1, 4)), None);
         assert_eq!(after(picture(Path, 1, 1)), None, "begun again");
+        let mut under_another_sun = picture(Path, 1, 4);
+        let made = Arc::make_mut(&mut under_another_sun.order.provenance);
+        if let technique::Technique::Traced(traced) = &mut made.technique {
+            traced.sun_radius = Some(0.0);
+        }
+        assert_eq!(after(under_another_sun), None);
         assert_eq!(after(Picture { rough: true, ..picture(Path, 1, 4) }), None);
         assert!(Earlier::follow(None, &picture(Raster, 1, 1)).is_none(), "it has no samples");
     }

@@ -132,7 +132,7 @@ fn give_way(niceness: i32) {
     let _ = niceness;
 }
 
-/// Whether [`step_back`] does so here. Then no core need be left to the user interface.
+/// Whether [`step_farther_back`] does so here. Then no core need be left to the user interface.
 pub const STEPS_BACK: bool = cfg!(target_os = "linux");
 
 /// What a pane says where its picture was ended by a panic.

@@ -17,6 +17,9 @@ pub fn brief(value: f64) -> String {
 /// bright overall". Where `judge` names another picture, which need not be right itself, they are differences: "differs
 /// from B by 12 % on average", "0.3 % brighter overall".
 pub fn error_words(errors: &Errors, judge: Option<&str>) -> [String; 2] {
+    if errors.relative_mae.is_nan() {
+        return ["held against black".into(), "of which nothing is a share".into()];
+    }
     let off = percent(errors.relative_mae);
     let off = match judge {
         Some(judge) => format!("differs from {judge} by {off} % on average"),

@@ -345,6 +345,11 @@ fn a_preset_sets_a_slide_and_other_options_change_it() {
     assert_eq!(words, [Some("light"), Some("1"), Some("off"), Some("independent")]);
     let changed = json(&visavis(&[&common, &["--spp", "2", "--bounces", "inf"][..]].concat()));
     assert_eq!((&changed["spp"], &changed["bounces"], &changed["roulette"]), (&2.into(), &"inf".into(), &"off".into()));
+    let before = json(&visavis(&[&["render", "cornell", "--spp", "2"], &common[2..]].concat()));
+    assert_eq!((&before["spp"], &before["bounces"]), (&2.into(), &"1".into()), "wherever it stands");
+    let technique = ["render", "cornell", "-o", out, "--preset", "2e-1-bounce", "--technique", "whitted"];
+    assert_refused(&technique, 2, &["--preset 2e-1-bounce is a setting of path"]);
+    assert_refused(&["render", "--from", out, "-o", out, "--preset", "fair"], 2, &["--preset and --from"]);
     assert_refused(
         &["render", "cornell", "-o", out, "--preset", "3a"],
         2,

@@ -11,7 +11,7 @@ use image_file::{self, Kind};
 use lexopt::ValueExt;
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
-use technique::settings::{of_panes, of_scenes};
+use technique::settings::{all_of_panes, of_panes, of_scenes};
 use technique::{DeviceChoice, PaneSettings, Preset, Recorded, Technique, TechniqueName, made_from, presets};
 
 /// `visavis render SCENE -o OUT ...`; `None` leaves a value to the scene.
@@ -44,6 +44,7 @@ pub struct Reading {
     out: Option<PathBuf>,
     /// The options that were read, and the techniques that they change.
     given: Vec<(String, &'static [TechniqueName])>,
+    preset: Option<&'static Preset>,
 }
 
 impl AsMut<Seen> for Reading {
@@ -81,6 +82,7 @@ pub fn options() -> Vec<CommandOption<Reading>> {
             read: |reading, parser| {
                 let expected = "raster, whitted, path or normals";
                 reading.args.pane.technique = choice(parser, "--technique", TechniqueName::named, expected)?;
+                reading.given.push(("--technique".into(), &TechniqueName::ALL));
                 Ok(())
             },
         },
@@ -93,8 +95,7 @@ pub fn options() -> Vec<CommandOption<Reading>> {
             read: |reading, parser| {
                 let names: Vec<_> = presets::ALL.iter().map(|preset| preset.name).collect();
                 let preset = choice(parser, "--preset", Preset::named, &names.join(", "))?;
-                preset.apply(&mut reading.args.pane);
-                reading.given.extend(preset.values().map(|(setting, _)| (format!("--{}", setting.name), setting.of)));
+                reading.preset = Some(preset);
                 Ok(())
             },
         },
@@ -194,6 +195,9 @@ pub fn parse(mut parser: lexopt::Parser) -> Result<Command, CliError> {
         (None, None) => return usage("--from needs a picture: visavis render --from FILE -o OUT"),
     };
     words.drain(place..place + taken);
+    if words.iter().any(|word| word.to_string_lossy().split('=').next() == Some("--preset")) {
+        return usage("--preset and --from both say how a picture is made: leave one out");
+    }
     let (before, made) = read_records(&file)?;
     words.splice(0..0, made);
     let mut command = parse_words(words, Some(before.scene.clone()))?;
@@ -219,7 +223,14 @@ fn read_records(file: &Path) -> anyhow::Result<(RenderArgs, Vec<OsString>)> {
     let made =
         made_from(&records).with_context(|| format!("cannot read how it was made: {}", image_file::shown(file)))?;
     let Some(Recorded { scene, scene_hash, options }) = made else {
-        anyhow::bail!("this picture does not say how it was made: {}", image_file::shown(file));
+        let holds = |name: &str| records.iter().any(|(known, _)| known == name);
+        let why = match holds("A") && holds("B") {
+            true => {
+                "this picture holds two, A and B: open it in the window, or render what its record of one of them says"
+            }
+            false => "this picture does not say how it was made",
+        };
+        anyhow::bail!("{why}: {}", image_file::shown(file));
     };
     let original = Some(Original { file: file.to_owned(), scene: scene_hash });
     let words: Vec<OsString> = options.into_iter().map(OsString::from).collect();
@@ -229,6 +240,17 @@ fn read_records(file: &Path) -> anyhow::Result<(RenderArgs, Vec<OsString>)> {
         Ok(_) => anyhow::bail!("its records are no options of render: {}", image_file::shown(file)),
         Err(fault) => anyhow::bail!("its records make no picture ({}): {}", fault.line(), image_file::shown(file)),
     }
+}
+
+/// A preset with the settings that were given beside it, wherever they stand.
+fn beside_what_is_given(preset: &Preset, pane: &PaneSettings, is_given: &impl Fn(&str) -> bool) -> PaneSettings {
+    let given = PaneSettings { technique: preset.technique, ..*pane };
+    let mut with_preset = *pane;
+    preset.apply(&mut with_preset);
+    for setting in all_of_panes().filter(|setting| is_given(&format!("--{}", setting.name))) {
+        (setting.get)(&given).into_iter().for_each(|value| with_preset.set(setting, value));
+    }
+    with_preset
 }
 
 /// Reads words; `scene` is the one to render, if it is not among them.
@@ -250,9 +272,9 @@ fn parse_words(words: Vec<OsString>, scene: Option<String>) -> Result<Command, C
     };
     let mut options = options();
     options.extend(options_of_some().map(|(_, option)| option));
-    let reading = Reading { args: blank, out: None, given: Vec::new() };
+    let reading = Reading { args: blank, out: None, given: Vec::new(), preset: None };
     let most_words = usize::from(scene.is_none());
-    let (Reading { mut args, out, given }, words) =
+    let (Reading { mut args, out, given, preset }, words) =
         match read(lexopt::Parser::from_args(words), reading, &options, most_words, a_setting)? {
             Typed::Words(reading, words) => (reading, words),
             Typed::Print(text) => return Ok(Command::Print(text)),
@@ -266,6 +288,14 @@ fn parse_words(words: Vec<OsString>, scene: Option<String>) -> Result<Command, C
         return usage(format!("-o must end in .png or .exr: {}", image_file::shown(&out)));
     }
     let is_given = |option: &str| given.iter().any(|(given, _)| given == option);
+    if let Some(preset) = preset {
+        if is_given("--technique") && args.pane.technique != preset.technique {
+            let (name, technique) = (preset.name, preset.technique.name());
+            return usage(format!("--preset {name} is a setting of {technique}: leave --technique out"));
+        }
+        args.pane = beside_what_is_given(preset, &args.pane, &is_given);
+    }
+    let states = |name: &str| preset.is_some_and(|preset| preset.values().any(|(setting, _)| setting.name == name));
     let technique = args.pane.technique;
     if technique == TechniqueName::Raster && args.device == DeviceChoice::Cpu {
         return usage(format!("--technique {} runs on the gpu only", technique.name()));
@@ -279,8 +309,8 @@ fn parse_words(words: Vec<OsString>, scene: Option<String>) -> Result<Command, C
     {
         return usage(fault.to_string());
     }
-    args.chose_estimator = is_given("--estimator");
-    args.spp = is_given("--spp").then_some(args.pane.truth.spp);
+    args.chose_estimator = is_given("--estimator") || states("estimator");
+    args.spp = if is_given("--spp") || states("spp") { args.pane.wished_spp() } else { None };
     let ignored = given.into_iter().filter(|(_, of)| !of.contains(&technique));
     args.without_effect = ignored.map(|(option, _)| option).collect();
     Ok(Command::Render(Box::new(RenderArgs { scene, out, ..args })))

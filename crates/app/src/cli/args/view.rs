@@ -60,7 +60,7 @@ fn of_a_lecture() -> Vec<CommandOption<Reading>> {
         CommandOption {
             names: &["--against"],
             value: "other|reference",
-            help: "what A and B are compared with (default each other)",
+            help: "what A and B are held against: each the other, or the reference (default other)",
             read: |reading, parser| {
                 reading.args.setup.with = Some(choice(parser, "--against", a_judge, "other or reference")?);
                 Ok(())
