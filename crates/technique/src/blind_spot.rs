@@ -1,7 +1,7 @@
 //! What settings cannot see in a scene, and where their noise stays longest: to be said rather than hidden.
 
 use crate::TracedSettings;
-use pathtrace::{Estimator, GlassShadows, Integrator, LightSampling, PathSettings};
+use pathtrace::{Estimator, Integrator, LightSampling, PathSettings};
 use scene::{Needs, Scene};
 
 /// Light of a scene that a picture lacks, or hardly ever finds.
@@ -19,7 +19,7 @@ pub enum BlindSpot {
     LongPaths(u32),
     /// Whitted's method: what one surface sends to another.
     BetweenSurfaces,
-    /// Whitted's method where light passes glass straight on.
+    /// Whitted's method: what mirrors and glass send to surfaces, whether or not light passes glass straight on.
     Caustics,
     /// Lights in smooth rough metal, where light sampling alone has to hit the reflection.
     NarrowReflections,
@@ -60,7 +60,7 @@ impl BlindSpot {
     pub fn missing(self) -> String {
         match self {
             BlindSpot::Sun => "the sun's light".into(),
-            BlindSpot::PointLights => "the point lights'".into(),
+            BlindSpot::PointLights => "the point lights' light".into(),
             BlindSpot::CausticOfSun(Specular::Glass) | BlindSpot::CausticOfPointLights(Specular::Glass) => {
                 "light behind glass".into()
             }
@@ -89,7 +89,7 @@ impl BlindSpot {
             }
             BlindSpot::LongPaths(_) => return None,
             BlindSpot::BetweenSurfaces => "light from one surface on another is missing: ambient light stands for it",
-            BlindSpot::Caustics => "light passes glass straight on: no caustic; mirrors send none on",
+            BlindSpot::Caustics => "mirrors and glass send no light on to surfaces: caustics are missing",
             BlindSpot::NarrowReflections => {
                 "smooth rough metal is noise without mis: light in a narrow reflection is hardly ever found"
             }
@@ -116,10 +116,7 @@ impl TracedSettings {
     pub fn blind_spots(&self, scene: &Scene) -> Vec<BlindSpot> {
         match self.integrator {
             Integrator::Path(path) => of_paths(&path, scene, self.sees_a_delta_sun(scene)),
-            Integrator::Whitted(tree) => {
-                let clear = Specular::of(&scene.needs()).is_some() && tree.glass_shadows == GlassShadows::Clear;
-                vec![if clear { BlindSpot::Caustics } else { BlindSpot::BetweenSurfaces }]
-            }
+            Integrator::Whitted(_) => of_trees(&scene.needs()),
             Integrator::Normals(_) => Vec::new(),
         }
     }
@@ -156,6 +153,12 @@ fn of_paths(path: &PathSettings, scene: &Scene, delta_sun: bool) -> Vec<BlindSpo
     unseen.chain(metal).chain(path.bounces.map(BlindSpot::LongPaths)).collect()
 }
 
+/// What trees of rays lack whatever their settings are: rough metal is a mirror to them.
+fn of_trees(needs: &Needs) -> Vec<BlindSpot> {
+    let caustics = Specular::of(needs).is_some() || needs.rough_conductor;
+    std::iter::once(BlindSpot::BetweenSurfaces).chain(caustics.then_some(BlindSpot::Caustics)).collect()
+}
+
 fn is_blind_in_metal(path: &PathSettings, needs: &Needs) -> bool {
     needs.rough_conductor && path.estimator.samples_lights() && path.estimator != Estimator::MIS
 }
@@ -164,7 +167,7 @@ fn is_blind_in_metal(path: &PathSettings, needs: &Needs) -> bool {
 mod tests {
     use super::*;
     use crate::{PaneSettings, SceneChanges, Technique, TechniqueName};
-    use pathtrace::Integrator;
+    use pathtrace::{GlassShadows, WhittedSettings};
     use scene::builtin;
 
     fn traced(technique: TechniqueName) -> TracedSettings {
@@ -197,8 +200,27 @@ mod tests {
         let short = missing(&path(Estimator::LIGHT, Some(2)), &delta);
         assert_eq!(short, ["light behind glass", "light after more than 2 bounces (biased)"]);
         assert_eq!(missing(&path(Estimator::LIGHT, Some(0)), &wide), ["indirect light (biased)"]);
-        assert_eq!(missing(&traced(TechniqueName::Whitted), &wide), ["light between surfaces"]);
         assert_eq!(missing(&traced(TechniqueName::Normals), &wide), [""; 0]);
+    }
+
+    #[test]
+    fn what_has_no_extent_is_named_with_all_its_words_where_light_is_met_by_chance() {
+        let light = scene::PointLight { position: scene::Vec3::Y, intensity: scene::Vec3::ONE };
+        let lamps = Scene { point_lights: vec![light], ..builtin::named("cornell").unwrap() };
+        assert_eq!(missing(&path(Estimator::COSINE, None), &lamps), ["the point lights' light"]);
+        assert_eq!(missing(&path(Estimator::LIGHT, None), &lamps), [""; 0]);
+    }
+
+    #[test]
+    fn whitteds_trees_lack_the_same_whether_or_not_glass_stops_light() {
+        let glass = builtin::named("whitted").unwrap();
+        for glass_shadows in GlassShadows::ALL {
+            let tree = WhittedSettings { glass_shadows, ..WhittedSettings::default() };
+            let trees = TracedSettings { integrator: Integrator::Whitted(tree), ..traced(TechniqueName::Whitted) };
+            assert_eq!(missing(&trees, &glass), ["light between surfaces", "caustics"], "{glass_shadows:?}");
+            let dull = missing(&trees, &builtin::named("cornell").unwrap());
+            assert_eq!(dull, ["light between surfaces"], "{glass_shadows:?}: nothing is specular there");
+        }
     }
 
     #[test]
