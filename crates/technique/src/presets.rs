@@ -74,7 +74,7 @@ pub const ALL: &[Preset] = &[
     Preset {
         name: "naive-4",
         title: "2 b) Naive tracer, N = 4, 1 spp",
-        about: "Distributed ray tracing: four directions at each vertex, 2 bounces; rays grow as N^bounces",
+        about: "Distributed ray tracing: four directions at each vertex, 2 bounces: up to N^(bounces + 1) paths",
         technique: Path,
         settings: &[
             ("estimator", "uniform"),
