@@ -1,7 +1,7 @@
 //! What pictures are called beside each other: by their techniques, or by the settings in which they differ.
 
-use crate::settings::all_of_panes;
-use crate::{PaneSettings, Technique};
+use crate::settings::{Setting, Value, all_of_panes};
+use crate::{FakeSettings, PaneSettings, Technique};
 use pathtrace::Integrator;
 use raster::Show;
 use scene::Scene;
@@ -9,52 +9,61 @@ use scene::Scene;
 impl Technique {
     /// Its name with the setting that says most: "Fake, fair", "Path tracing, light", "Whitted, depth 8".
     pub fn label(&self) -> String {
-        let name = self.name().in_full();
-        match self {
-            Technique::Fake(fake) => match fake.show {
-                Show::Picture => format!("{name}, {}", fake.fake.name()),
-                Show::CubeFaces => format!("Cube faces of the fake, {}", fake.fake.name()),
-                Show::ShadowMap => format!("Shadow map of the fake, {}", fake.fake.name()),
-            },
+        let says_most = match self {
+            Technique::Fake(fake) => fake.fake.name().to_owned(),
             Technique::Traced(traced) => match traced.integrator {
-                Integrator::Path(path) => format!("{name}, {}", path.estimator.name()),
-                Integrator::Whitted(tree) => format!("{name}, depth {}", tree.depth),
-                Integrator::Normals(normals) => format!("{name}, {} axes", normals.space.name()),
+                Integrator::Path(path) => path.estimator.name().to_owned(),
+                Integrator::Whitted(tree) => format!("depth {}", tree.depth),
+                Integrator::Normals(normals) => format!("{} axes", normals.space.name()),
             },
-        }
+        };
+        format!("{}, {says_most}", self.title())
     }
 
     /// What tells it from another picture of `scene`: of one technique all settings that differ, as "Path tracing,
     /// 0 bounces" beside "Path tracing, 1 bounce"; else [`Technique::label`].
     pub fn label_beside(&self, other: &Technique, scene: &Scene) -> String {
         let differing = self.settings_unlike(other, scene);
-        if differing.is_empty() {
+        if self.title() != other.title() || differing.is_empty() {
             return self.label();
         }
-        format!("{}, {}", self.name().in_full(), differing.join(", "))
+        format!("{}, {}", self.title(), differing.join(", "))
     }
 
-    /// Its values of the settings that change pictures of `scene` and have another value in `other`.
-    fn settings_unlike(&self, other: &Technique, scene: &Scene) -> Vec<String> {
-        if self.name() != other.name() {
-            return Vec::new();
+    /// Its name, and of the fake which of its pictures it is.
+    fn title(&self) -> String {
+        match self {
+            Technique::Fake(FakeSettings { show: Show::CubeFaces, .. }) => "Cube faces of the fake".into(),
+            Technique::Fake(FakeSettings { show: Show::ShadowMap, .. }) => "Shadow map of the fake".into(),
+            Technique::Fake(_) | Technique::Traced(_) => self.name().in_full().into(),
         }
-        let panes = [self, other].map(|technique| PaneSettings::from(*technique));
-        let used = all_of_panes().filter(|row| row.is_of(self.name()) && row.needs.missing_in(scene).is_none());
+    }
+
+    /// Its values of the settings that change its picture of `scene` and have another value in `other`.
+    fn settings_unlike(&self, other: &Technique, scene: &Scene) -> Vec<String> {
+        let panes @ [own, _] = [self, other].map(|technique| PaneSettings::from(*technique));
+        let used = all_of_panes()
+            .filter(|row| row.is_of(self.name()) && row.needs.missing_in(scene).is_none() && (row.acts)(&own, scene));
         let unlike = used.filter_map(|row| {
             let [own, others] = panes.map(|pane| (row.get)(&pane).or_else(|| (row.own)(scene)));
-            (own != others).then_some(row.brief(own?))
+            own.filter(|_| own != others).map(|own| told_apart(row, own, others))
         });
         unlike.collect()
     }
 }
 
+/// What a label calls a value, in as many digits as tell it from the other one.
+fn told_apart(row: &Setting<PaneSettings>, own: Value, others: Option<Value>) -> String {
+    let rounded = row.control.look.rounded(own);
+    let alike = others.map(|others| row.control.look.rounded(others)) == Some(rounded);
+    row.brief(if alike { own } else { rounded })
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::settings::{Value, of_panes};
-    use crate::{FakeSettings, TechniqueName};
-    use raster::Fake;
+    use crate::TechniqueName;
+    use crate::settings::of_panes;
 
     fn with(technique: TechniqueName, changes: &[(&str, &str)]) -> Technique {
         let mut pane = PaneSettings::of(technique);
@@ -125,8 +134,44 @@ mod tests {
     }
 
     #[test]
-    fn a_map_of_the_fake_is_called_by_its_name() {
-        let map = FakeSettings { show: Show::ShadowMap, fake: Fake::AsTaught, ..FakeSettings::default() };
-        assert_eq!(Technique::Fake(map).label(), "Shadow map of the fake, as-taught");
+    fn a_setting_that_changes_nothing_beside_the_others_tells_nothing_apart() {
+        use TechniqueName::{Path, Raster, Whitted};
+        let direct = |roulette| [("bounces", "0"), ("roulette", roulette)];
+        let labels_of = |scene, a, b| labels(scene, Path, [&direct(a), &direct(b)]);
+        assert_eq!(labels_of("cornell", "off", "throughput"), ["Path tracing, light"; 2], "no path goes on");
+        assert_eq!(labels_of("cornell", "off", "0.5"), ["Path tracing, light"; 2]);
+        let sky = labels_of("whitted", "off", "0.5");
+        assert_eq!(sky, ["Path tracing, no roulette", "Path tracing, roulette P 0.5"], "the sky may still be met");
+        let lengths = labels("cornell", Path, [&direct("off"), &[]]);
+        let unlimited = "Path tracing, no limit of bounces, roulette by throughput";
+        assert_eq!(lengths, ["Path tracing, 0 bounces", unlimited]);
+        let sky_light = labels("cornell", Raster, [&[("ambient", "0.1")], &[("ambient", "0.5")]]);
+        assert_eq!(sky_light, ["Fake, fair"; 2], "fair scales the light of a sky that is black there");
+        let point = |rays| [("traced-sun", "0"), ("shadow-rays", rays)];
+        assert_eq!(labels("whitted", Whitted, [&point("1"), &point("4")]), ["Whitted, depth 8"; 2]);
+    }
+
+    #[test]
+    fn numbers_are_rounded_unless_they_are_alike_then() {
+        let phong = labels("phong", TechniqueName::Raster, [&[("specular", "0.06666667")], &[("specular", "0.5")]]);
+        assert_eq!(phong, ["Fake, specular 0.067", "Fake, specular 0.5"]);
+        let close = labels("phong", TechniqueName::Raster, [&[("specular", "0.0666")], &[("specular", "0.0667")]]);
+        assert_eq!(close, ["Fake, specular 0.0666", "Fake, specular 0.0667"]);
+    }
+
+    #[test]
+    fn a_map_of_the_fake_is_called_by_its_name_and_by_what_changes_it() {
+        let maps = |show, changes: [&[(&str, &str)]; 2]| {
+            let [a, b] = changes.map(|changes| [&[("show", show)], changes].concat());
+            labels("whitted", TechniqueName::Raster, [&a, &b])
+        };
+        let fakes = maps("shadow-map", [&[("fake", "as-taught")], &[]]);
+        assert_eq!(fakes, ["Shadow map of the fake, as-taught", "Shadow map of the fake, fair"]);
+        let highlights: [&[(&str, &str)]; 2] = [&[("shininess", "5"), ("shading", "phong"), ("cube-map", "512")], &[]];
+        assert_eq!(maps("shadow-map", highlights), ["Shadow map of the fake, fair"; 2]);
+        let faces = maps("cube-faces", [&[("cube-map", "64")], &[("cube-map", "512")]]);
+        assert_eq!(faces, ["Cube faces of the fake, cube map 64", "Cube faces of the fake, cube map 512"]);
+        let picture = labels("whitted", TechniqueName::Raster, [&[("show", "shadow-map"), ("shininess", "5")], &[]]);
+        assert_eq!(picture, ["Shadow map of the fake, fair", "Fake, fair"]);
     }
 }

@@ -2,6 +2,7 @@
 
 use super::{Setting, Value};
 use crate::TechniqueName;
+use pathtrace::Roulette;
 use scene::Scene;
 use std::ops::RangeInclusive;
 
@@ -50,6 +51,25 @@ pub enum Look {
     /// Words to choose from, with spaces where they read better than the option's hyphens, and what each means. Words
     /// that are left out can be chosen by the option alone.
     Words(&'static [(&'static str, &'static str)]),
+}
+
+/// Decimals of a number that is told, where its step has no more.
+const DECIMALS: i32 = 3;
+
+impl Look {
+    /// The value as it is told: no more decimals than three, or than the slider's step has.
+    pub fn rounded(&self, value: Value) -> Value {
+        let Look::Steps { step, .. } = self else { return value };
+        let shift = 10f64.powi(DECIMALS.max(-step.log10().floor() as i32));
+        let rounded = |number: f32| ((f64::from(number) * shift).round() / shift) as f32;
+        match value {
+            Value::Number(number) => Value::Number(rounded(number)),
+            Value::Roulette(roulette) => {
+                Value::Roulette(Roulette { probability: roulette.probability.map(rounded), ..roulette })
+            }
+            other => other,
+        }
+    }
 }
 
 impl Control {
@@ -136,6 +156,19 @@ mod tests {
             );
         }
         assert!(!fits(&Kind::Whole(1..=8), &Look::Doubling(0..=4)) && !fits(&Kind::Bounces, &Look::Typed));
+    }
+
+    #[test]
+    fn numbers_are_told_with_three_decimals_or_as_many_as_their_step_has() {
+        let told = |name: &str, number: f32| {
+            let setting = crate::settings::of_panes(name).unwrap();
+            setting.control.look.rounded(Value::Number(number)).to_string()
+        };
+        assert_eq!([told("specular", 1.0 / 15.0), told("specular", 0.9)], ["0.067", "0.9"]);
+        assert_eq!(told("shadow-bias", -0.00251), "-0.0025");
+        let probability = Value::Roulette(Roulette::constant(2.0 / 3.0));
+        let roulette = crate::settings::of_panes("roulette").unwrap();
+        assert_eq!(roulette.control.look.rounded(probability).to_string(), "0.667");
     }
 
     #[test]

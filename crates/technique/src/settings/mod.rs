@@ -33,6 +33,8 @@ pub struct Setting<T> {
     pub own: fn(&Scene) -> Option<Value>,
     /// What a scene must have for it to change anything.
     pub needs: Need,
+    /// Whether it changes anything beside the other settings, in a scene that has what it needs.
+    pub acts: fn(&T, &Scene) -> bool,
     /// What it does, for --help.
     pub help: &'static str,
     /// Whether a picture's file keeps it even where it is the default.

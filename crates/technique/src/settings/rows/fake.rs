@@ -35,6 +35,7 @@ pub const ROWS: &[Setting<PaneSettings>] = &[
         default: Some(Value::Word("three")),
         help: "whose highlight",
         always_recorded: true,
+        acts: draws_surfaces,
         get: |pane| Some(Value::Word(pane.fake.shading.name())),
         set: |pane, value| each(named(value, Shading::named), [&mut pane.fake.shading]),
         control: Control {
@@ -62,6 +63,7 @@ pub const ROWS: &[Setting<PaneSettings>] = &[
         letter: "R",
         needs: Need::Glass,
         help: "share of the surroundings in fake glass",
+        acts: draws_surfaces,
         get: |pane| pane.fake.reflectivity.map(Value::Number),
         set: |pane, value| pane.fake.reflectivity = number(value),
         own: |scene| scene.reflectivity().map(Value::Number),
@@ -79,6 +81,7 @@ pub const ROWS: &[Setting<PaneSettings>] = &[
         kind: Kind::Number(FakeKnobs::SHININESS),
         letter: "S",
         help: "exponent of every highlight",
+        acts: draws_surfaces,
         get: |pane| pane.fake.knobs.shininess.map(Value::Number),
         set: |pane, value| pane.fake.knobs.shininess = number(value),
         own: |scene| Some(Value::Number(stand_in(scene).shininess)),
@@ -97,6 +100,13 @@ pub const ROWS: &[Setting<PaneSettings>] = &[
         kind: Kind::Number(FakeKnobs::AMBIENT),
         letter: "A",
         help: "ambient light, Whitted's and the fake's; fair scales the sky's by it",
+        acts: |pane, scene| match pane.technique {
+            TechniqueName::Raster => {
+                // fair, it scales the sky's
+                draws_surfaces(pane, scene) && (pane.fake.fake == Fake::AsTaught || scene.needs().sky)
+            }
+            TechniqueName::Whitted | TechniqueName::Path | TechniqueName::Normals => true,
+        },
         get: |pane| {
             let ambient = match pane.technique {
                 TechniqueName::Raster => pane.fake.knobs.ambient,
@@ -130,6 +140,7 @@ pub const ROWS: &[Setting<PaneSettings>] = &[
         letter: "N",
         needs: Need::Glass,
         help: "texels along a side of a cube map's face",
+        acts: draws_surfaces,
         get: |pane| pane.fake.knobs.cube_map.map(Value::Whole),
         set: |pane, value| pane.fake.knobs.cube_map = whole(value),
         own: |scene| Some(Value::Whole(scene.fake.cube_map)),
@@ -156,6 +167,7 @@ pub const ROWS: &[Setting<PaneSettings>] = &[
         default: Some(Value::Word("pcf-soft")),
         needs: Need::ShadowMap,
         help: "how the shadow map is looked up",
+        acts: draws_surfaces,
         get: |pane| Some(Value::Word(pane.fake.knobs.filter.name())),
         set: |pane, value| each(named(value, ShadowFilter::named), [&mut pane.fake.knobs.filter]),
         control: Control {
@@ -180,6 +192,7 @@ pub const ROWS: &[Setting<PaneSettings>] = &[
         default: Some(Value::Number(0.0)),
         needs: Need::ShadowMap,
         help: "added to depths before they are compared",
+        acts: draws_surfaces,
         get: |pane| Some(Value::Number(pane.fake.knobs.bias)),
         set: |pane, value| each(number(value), [&mut pane.fake.knobs.bias]),
         control: Control {
@@ -233,6 +246,7 @@ pub const ROWS: &[Setting<PaneSettings>] = &[
         kind: Kind::Number(FakeKnobs::COEFFICIENT),
         letter: "K",
         help: "k_d, times the colour of every surface; ambient light keeps all of it",
+        acts: draws_surfaces,
         get: |pane| pane.fake.knobs.diffuse.map(Value::Number),
         set: |pane, value| pane.fake.knobs.diffuse = number(value),
         own: |_| Some(Value::Number(1.0)),
@@ -251,6 +265,7 @@ pub const ROWS: &[Setting<PaneSettings>] = &[
         kind: Kind::Number(FakeKnobs::COEFFICIENT),
         letter: "K",
         help: "k_s of every highlight, grey; by three what is reflected head-on",
+        acts: draws_surfaces,
         get: |pane| pane.fake.knobs.specular.map(Value::Number),
         set: |pane, value| pane.fake.knobs.specular = number(value),
         own: |scene| Some(Value::Number(stand_in(scene).specular)),
@@ -264,6 +279,11 @@ pub const ROWS: &[Setting<PaneSettings>] = &[
         ..PLAIN
     },
 ];
+
+/// Whether the fake colours surfaces: its shadow map holds depths alone.
+fn draws_surfaces(pane: &PaneSettings, _scene: &Scene) -> bool {
+    pane.fake.show != Show::ShadowMap
+}
 
 /// The highlight that stands for the scene's where its materials differ: that of the first one.
 fn stand_in(scene: &Scene) -> FakeMaterial {

@@ -3,7 +3,8 @@
 use super::{BLANK, LIGHT, NORMALS, PATH, PLAIN, TRACED, WHITTED, by_integrator, each, named, number, whole};
 use crate::PaneSettings;
 use crate::settings::{Control, Kind, Look, Need, Setting, Value};
-use pathtrace::{Estimator, GlassShadows, Roulette, SamplerKind, Space, WhittedSettings};
+use pathtrace::{Estimator, GlassShadows, LightSampling, PathSettings, Roulette, SamplerKind, Space, WhittedSettings};
+use scene::Scene;
 
 /// The settings of Whitted's method and of path tracing.
 pub const ROWS: &[Setting<PaneSettings>] = &[
@@ -90,6 +91,7 @@ pub const ROWS: &[Setting<PaneSettings>] = &[
         default: Some(Value::Roulette(Roulette::THROUGHPUT)),
         help: "probability to survive a vertex, P in (0, 1]",
         always_recorded: true,
+        acts: |pane, scene| plays_roulette(&pane.truth.path, scene),
         get: |pane| Some(Value::Roulette(pane.truth.path.roulette)),
         set: |pane, value| {
             if let Value::Roulette(roulette) = value {
@@ -188,6 +190,7 @@ pub const ROWS: &[Setting<PaneSettings>] = &[
         default: Some(Value::Whole(1)),
         help: "to each lamp",
         always_recorded: true,
+        acts: has_wide_lights,
         get: |pane| Some(Value::Whole(pane.whitted.tree.shadow_rays)),
         set: |pane, value| each(whole(value), [&mut pane.whitted.tree.shadow_rays]),
         control: Control {
@@ -265,6 +268,21 @@ pub const ROWS: &[Setting<PaneSettings>] = &[
         ..PLAIN
     },
 ];
+
+/// Whether roulette ends paths that would still bring something. With direct light alone, sampled, and no sky to be
+/// met, none does that has left a surface; those that mirrors and glass send on end by a constant probability alone.
+fn plays_roulette(path: &PathSettings, scene: &Scene) -> bool {
+    let needs = scene.needs();
+    let over = path.bounces == Some(0) && path.estimator.light == LightSampling::NextEvent && !needs.sky;
+    let chosen_ways = needs.dielectric || needs.mirror;
+    !over || (chosen_ways && path.roulette.probability.is_some_and(|p| p < 1.0))
+}
+
+/// Whether there are lights that more than one shadow ray can ask for.
+fn has_wide_lights(pane: &PaneSettings, scene: &Scene) -> bool {
+    let sun_radius = scene.sun.map_or(0.0, |sun| pane.whitted.sun_radius.unwrap_or(sun.angular_radius));
+    scene.needs().area_lights || scene.environment.is_some() || sun_radius > 0.0
+}
 
 /// "roulette P 0.8 and throughput".
 fn brief_roulette(value: Value) -> String {
