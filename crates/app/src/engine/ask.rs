@@ -1,5 +1,6 @@
 //! The threads beside the UI as one: asks them for whatever no longer fits what is wanted, and ends them.
 
+use super::asked_pane::{AskedPane, FakesTime};
 use super::dialogue::{Answer, Choice, Dialogues};
 use super::error_map::ErrorMapWorker;
 use super::export::{Export, Exporter, Outcome};
@@ -62,16 +63,6 @@ struct Asked {
     jobs: u64,
 }
 
-/// What a pane was last asked for.
-#[derive(Default)]
-struct AskedPane {
-    view: u64,
-    /// The number of restarts and how it is made; `None` to make it once more.
-    made: Option<(u64, Technique)>,
-    /// Its job, until its last picture has come.
-    unfinished: Option<u64>,
-}
-
 impl Engine {
     /// Starts the threads; `wake` is called whenever there is something to collect. References are kept where
     /// `open_store` says.
@@ -118,8 +109,7 @@ impl Engine {
     pub fn collect(&mut self) -> Option<PaneUpdates> {
         let mut updates = self.post_process.collect()?;
         for (id, pane) in self.asked.panes.iter_mut() {
-            let Some(update) = updates.get(id) else { continue };
-            pane.unfinished.take_if(|job| is_the_last_of(update, *job));
+            updates.get(id).into_iter().for_each(|update| pane.follow(update));
         }
         let (oldest_view, asked) = (self.asked.oldest_view, &self.asked.panes);
         updates.retain(|id, update| asked.get(id).is_some() && !is_older_than(update, oldest_view));
@@ -168,8 +158,22 @@ impl Engine {
                 self.workers(id).submit(pane.technique, order);
             }
         }
+        self.measure_fakes();
         self.compare(wanted);
         jobs
+    }
+
+    /// Once all panes rest, fakes are measured again, one after the other: so far what else was made has slowed them.
+    fn measure_fakes(&mut self) {
+        if self.asked.is_busy() {
+            return;
+        }
+        let at_work = self.asked.panes.iter_mut().find(|(_, pane)| pane.fakes_time == FakesTime::AtWork);
+        if let Some((id, pane)) = at_work {
+            pane.fakes_time = FakesTime::InHand;
+            self.reference_worker.iter().for_each(|reference_worker| reference_worker.hold(true));
+            self.pane_workers.get(id).into_iter().for_each(PaneWorkers::measure_again);
+        }
     }
 
     /// Stops the workers of panes that are no longer wanted. They stay: what they have made is there again with the
@@ -215,7 +219,7 @@ impl Engine {
             }
         }
         // the user explores: panes come first, and what is paused is quiet
-        let busy = self.asked.panes.values().any(|pane| pane.unfinished.is_some());
+        let busy = self.asked.is_busy();
         self.reference_worker.iter().for_each(|reference_worker| reference_worker.hold(busy || wanted.paused));
     }
 
@@ -340,6 +344,11 @@ impl Asked {
         other_scene
     }
 
+    /// Whether a pane's picture is being made or measured.
+    fn is_busy(&self) -> bool {
+        self.panes.values().any(AskedPane::is_busy)
+    }
+
     /// What a pane's workers are to make, if that is not what they were asked for.
     fn order(&mut self, id: PaneId, pane: &WantedPane, restarts: u64) -> Option<Order> {
         let asked = self.panes.entry(id);
@@ -348,6 +357,7 @@ impl Asked {
         }
         self.jobs += 1;
         (asked.made, asked.unfinished) = (Some((restarts, pane.technique)), Some(self.jobs));
+        asked.fakes_time = FakesTime::Settled;
         let (shot, technique) = (pane.shot.clone(), pane.technique);
         let provenance = Arc::new(Provenance { shot, technique, device: technique.name().usual_device() });
         Some(Order { job: self.jobs, view: asked.view, shrink: pane.shrink, restarts, provenance })
@@ -357,14 +367,6 @@ impl Asked {
 /// Whether two pictures show the same, so that they can be compared.
 fn same_shot(a: &Shot, b: &Shot) -> bool {
     Arc::ptr_eq(&a.scene, &b.scene) && (a.camera, a.size) == (b.camera, b.size)
-}
-
-/// Whether no more comes of a job after this.
-fn is_the_last_of(update: &PaneUpdate, job: u64) -> bool {
-    match update {
-        PaneUpdate::Picture(frame) => frame.picture.order.job == job && !frame.picture.unfinished,
-        PaneUpdate::Fault(_) => true,
-    }
 }
 
 fn is_older_than(update: &PaneUpdate, oldest_view: u64) -> bool {

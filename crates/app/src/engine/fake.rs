@@ -19,8 +19,15 @@ pub type FakeJob = Job<FakeSettings>;
 /// A picture that takes longer than this is preceded by a rough one.
 const PATIENCE: Duration = Duration::from_millis(30);
 
+/// What is asked for.
+enum Task {
+    Draw(FakeJob),
+    /// The last picture once more, for its time alone.
+    MeasureAgain,
+}
+
 /// The worker; dropping it ends its thread.
-pub struct FakeWorker(Worker<Option<FakeJob>>);
+pub struct FakeWorker(Worker<Option<Task>>);
 
 impl FakeWorker {
     /// Starts the thread; `window` is the window's device.
@@ -35,13 +42,19 @@ impl FakeWorker {
             seconds_per_pixel: 0.0,
             post_process,
             order: None,
+            drawn: None,
         };
         Worker::start(&format!("fake {pane:?}"), Arc::new(|| ()), service).map(FakeWorker)
     }
 
     /// Asks for a picture; one that was not begun yet is dropped.
     pub fn submit(&self, job: FakeJob) {
-        self.0.post(|slot| *slot = Some(job));
+        self.0.post(|slot| *slot = Some(Task::Draw(job)));
+    }
+
+    /// Asks for the last picture once more, because the machine rests now: its time is then that of the fake alone.
+    pub fn measure_again(&self) {
+        self.0.post(|slot| *slot = Some(Task::MeasureAgain));
     }
 
     /// Drops what was not begun yet.
@@ -87,22 +100,44 @@ struct Fakes {
     post_process: Arc<PostProcess>,
     /// Of the job in hand, or the last one.
     order: Option<Order>,
+    /// The last whole picture, until it is measured again.
+    drawn: Option<Drawn>,
+}
+
+/// A picture that was drawn, and how.
+struct Drawn {
+    job: FakeJob,
+    seconds: f64,
+    kept_maps: bool,
 }
 
 impl Service for Fakes {
-    type Job = Option<FakeJob>;
+    type Job = Option<Task>;
     type Update = ();
 
-    fn serve(&mut self, job: Option<FakeJob>, control: &Control<Option<FakeJob>, ()>) {
-        let Some(job) = job else { return };
-        self.order = Some(job.order.clone());
+    fn serve(&mut self, task: Option<Task>, control: &Control<Option<Task>, ()>) {
+        match task {
+            Some(Task::Draw(job)) => self.draw(job, control),
+            Some(Task::MeasureAgain) => self.measure_again(),
+            None => {}
+        }
+    }
+
+    fn recover(&mut self, _control: &Control<Option<Task>, ()>) {
+        if let Some(order) = self.order.take() {
+            self.post_process.report(self.pane, order, FAULT.into());
+        }
+        self.stage = Stage::on(Gpu::headless());
+    }
+}
+
+impl Fakes {
+    fn draw(&mut self, job: FakeJob, control: &Control<Option<Task>, ()>) {
+        (self.order, self.drawn) = (Some(job.order.clone()), None);
         if let (Some(fault), Ok(stage)) = (&self.fault, &self.stage) {
             fault.count(&stage.gpu);
         }
-        // a device that was lost stays so: the next picture gets another
-        if self.stage.as_ref().is_ok_and(|stage| stage.gpu.fault().is_some()) {
-            self.stage = Stage::on(Gpu::headless());
-        }
+        self.replace_lost_device();
         let stage = match &mut self.stage {
             Ok(stage) => stage,
             Err(fault) => return self.post_process.report(self.pane, job.order, fault.clone()),
@@ -121,15 +156,44 @@ impl Service for Fakes {
             && let Some(seconds) = in_hand.draw_and_measure(stage, &|| control.ends_soon())
         {
             self.seconds_per_pixel = seconds / pixels;
+            let kept_maps = stage.raster.work().kept_maps;
+            self.drawn = Some(Drawn { job, seconds, kept_maps });
         }
     }
 
-    fn recover(&mut self, _control: &Control<Option<FakeJob>, ()>) {
-        if let Some(order) = self.order.take() {
-            self.post_process.report(self.pane, order, FAULT.into());
+    /// Draws the last picture as before and delivers it with the shorter of its times: what else ran may have slowed the
+    /// first one, and nothing makes it faster than it is.
+    fn measure_again(&mut self) {
+        let Some(Drawn { job, seconds, kept_maps }) = self.drawn.take() else { return };
+        self.replace_lost_device();
+        let stage = match &mut self.stage {
+            Ok(stage) => stage,
+            Err(fault) => return self.post_process.report(self.pane, job.order, fault.clone()),
+        };
+        if !kept_maps {
+            stage.raster.forget_maps();
         }
-        self.stage = Stage::on(Gpu::headless());
+        let in_hand = JobInHand { pane: self.pane, post_process: &self.post_process, job: &job, cut: cut(&job) };
+        let start = Instant::now();
+        if let Some(film) = in_hand.film(stage, 1) {
+            let seconds = start.elapsed().as_secs_f64().min(seconds);
+            in_hand.deliver(stage, film, Timing { seconds, shrink: 1, at_rest: true });
+        }
     }
+
+    /// A device that was lost stays so: the next picture gets another.
+    fn replace_lost_device(&mut self) {
+        if self.stage.as_ref().is_ok_and(|stage| stage.gpu.fault().is_some()) {
+            self.stage = Stage::on(Gpu::headless());
+        }
+    }
+}
+
+/// How long a picture took, and under which conditions.
+struct Timing {
+    seconds: f64,
+    shrink: u32,
+    at_rest: bool,
 }
 
 /// A job in hand, and who waits for its pictures.
@@ -155,7 +219,7 @@ impl JobInHand<'_> {
         // what else runs may slow either of them, and nothing makes one faster than it is
         let warm = start.elapsed().as_secs_f64().min(cold);
         stage.compiling += cold - warm;
-        self.deliver(stage, film, (warm, 1));
+        self.deliver(stage, film, Timing { seconds: warm, shrink: 1, at_rest: false });
         Some(warm)
     }
 
@@ -164,7 +228,7 @@ impl JobInHand<'_> {
         let start = Instant::now();
         let film = self.film(stage, shrink)?;
         let seconds = start.elapsed().as_secs_f64();
-        self.deliver(stage, film, (seconds, shrink));
+        self.deliver(stage, film, Timing { seconds, shrink, at_rest: false });
         Some(seconds)
     }
 
@@ -178,21 +242,23 @@ impl JobInHand<'_> {
         }
     }
 
-    fn deliver(&self, stage: &Stage, film: Film, (seconds, shrink): (f64, u32)) {
+    fn deliver(&self, stage: &Stage, film: Film, Timing { seconds, shrink, at_rest }: Timing) {
         let work = stage.raster.work();
-        let compiling = if work.compiled { Compiling::Included } else { Compiling::Apart(stage.compiling) };
+        // another device may have compiled for a picture at rest, whose time is then the one before
+        let compiled = work.compiled && !at_rest;
+        let compiling = if compiled { Compiling::Included } else { Compiling::Apart(stage.compiling) };
         let picture = Picture {
             image: film.image(),
             spp: None,
             seconds,
-            effort: Effort::Drawn(Drawing { compiling, kept_maps: work.kept_maps }),
+            effort: Effort::Drawn(Drawing { compiling, kept_maps: work.kept_maps, at_rest }),
             noisy: false,
             nonfinite: film.nonfinite,
             adapter: stage.adapter.clone(),
             refused: None,
             cut: self.cut.clone(),
             rough: shrink > 1,
-            unfinished: shrink > 1 || work.compiled,
+            unfinished: shrink > 1 || compiled,
             order: self.job.order.clone(),
         };
         self.post_process.deliver(self.pane, picture);

@@ -8,6 +8,7 @@
 //! [`mailbox::Mailbox`] in which newer wishes replace older ones. The UI thread only posts and collects.
 
 pub mod ask;
+mod asked_pane;
 pub mod capture;
 pub mod dialogue;
 mod earlier;

@@ -60,6 +60,11 @@ impl PaneWorkers {
         }
     }
 
+    /// Measures the fake that was drawn last once more.
+    pub fn measure_again(&self) {
+        self.fake.iter().for_each(FakeWorker::measure_again);
+    }
+
     /// Stops whatever this pane was making.
     pub fn rest(&mut self) {
         self.fake.iter().for_each(FakeWorker::cancel);

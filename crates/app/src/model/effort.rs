@@ -18,6 +18,8 @@ pub struct Drawing {
     pub compiling: Compiling,
     /// Whether shadow map and cube maps were there from the picture before.
     pub kept_maps: bool,
+    /// Whether it was drawn while nothing else was: else what else ran may have slowed it.
+    pub at_rest: bool,
 }
 
 /// Where the time is that a device needs once for its pipelines.

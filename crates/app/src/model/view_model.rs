@@ -82,7 +82,9 @@ impl ViewModel {
         let course = Course { against, judged: without_spp(judged), judge: judge(against) };
         let point = ErrorPoint { spp: pane.spp, seconds: pane.seconds, errors };
         let pane = &mut self.panes[id];
-        let begun_anew = pane.history.latest().is_some_and(|latest| latest.spp > point.spp);
+        // a fake that is measured again has a time before that of its first point
+        let is_before = |latest: &ErrorPoint| latest.spp > point.spp || latest.seconds > point.seconds;
+        let begun_anew = pane.history.latest().is_some_and(is_before);
         if begun_anew || pane.course.as_ref() != Some(&course) {
             (pane.history, pane.course) = (ErrorHistory::default(), Some(course));
         }
@@ -136,6 +138,9 @@ mod tests {
             "more are wished: the same picture"
         );
         assert_eq!(history(&[path(256, 4), path(256, 1), path(256, 2)]), [1, 2], "begun anew");
+        let again = PaneView { seconds: 0.1, ..pane(Path, 256, 2) };
+        let slow = PaneView { seconds: 0.5, ..pane(Path, 256, 1) };
+        assert_eq!(history(&[(Raster, slow), (Raster, again)]), [2], "no time goes back");
         assert_eq!(history(&[path(256, 1), (Raster, pane(Whitted, 256, 2))]), [2], "by another technique");
         assert_eq!(history(&[path(256, 1), (Whitted, pane(Path, 256, 2))]), [2], "against another picture");
         let rough = PaneView { rough: true, ..pane(Path, 256, 2) };

@@ -13,7 +13,7 @@ use crate::engine::capture::Capture;
 use crate::engine::export::{Content, Export};
 use crate::engine::memory::Memory;
 use crate::engine::post_process::PaneUpdate;
-use crate::model::{Destination, ExportSubject, Model, PaneId, PaneView};
+use crate::model::{Destination, Drawing, Effort, ExportSubject, Model, PaneId, PaneView};
 use crate::ui::{self, Dump, UiCommand, UiContext, Workspaces};
 use gpu::Gpu;
 use presentation::Presentation;
@@ -212,6 +212,7 @@ fn dump_of(pane: &PaneView, ready: bool) -> Value {
         "spp": pane.spp,
         "rough": pane.rough,
         "unfinished": pane.unfinished,
+        "at_rest": matches!(pane.effort, Some(Effort::Drawn(Drawing { at_rest: true, .. }))),
         "nonfinite": pane.nonfinite,
         "rel_mse": pane.errors.map(|(_, e)| e.rel_mse),
         "fault": pane.fault,

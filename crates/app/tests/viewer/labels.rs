@@ -49,7 +49,8 @@ fn rays_are_counted_where_paths_branch() {
     assert!(figure.is_some_and(|rays| (8.0..26.0).contains(&rays)), "{counted}");
     assert!(counted.ends_with(" rays a second"), "{counted}");
     assert_eq!(lines(&told, "A")[0], "A: Path tracing, N = 1");
-    assert!(!told.value("label A").contains("rays"), "one direction at each vertex is no tree");
+    let straight = lines(&told, "A").into_iter().find(|line| line.starts_with("N = 1, one path a sample: "));
+    assert!(straight.is_some_and(|line| line.ends_with(" rays a second")), "{:?}", lines(&told, "A"));
 }
 
 #[test]
@@ -103,6 +104,27 @@ fn the_fakes_time_is_measured_again_once_its_pipelines_are_compiled() {
     let warm = user.wait_for("a warm fake", |f| both_whole(f) && f.state("a")["unfinished"] == false);
     let cost = warm.value("label A").lines().last().expect("a line of figures");
     assert!(cost.ends_with(" ms") || cost.ends_with(" s"), "{cost}");
+}
+
+#[test]
+fn the_fakes_time_is_measured_again_once_the_other_picture_is_done() {
+    let mut user = User::of("whitted");
+    user.viewer.borrow_mut().model.session.panes[PaneId::B].truth.spp = 16;
+    let is_done = |f: &Frame| both_whole(f) && ["a", "b"].iter().all(|pane| f.state(pane)["unfinished"] == false);
+    let at_work = user.wait_for("the fake, warm", |f| both_whole(f) && f.state("a")["unfinished"] == false);
+    assert!(is_done(&at_work) || at_work.state("a")["at_rest"] == false, "path tracing goes on beside it");
+    user.wait_for("the fake's time at rest", |f| is_done(f) && f.state("a")["at_rest"] == true);
+    // each picture has its own time
+    user.viewer.borrow_mut().model.session.panes[PaneId::A].fake.knobs.shininess = Some(7.0);
+    user.wait_for("another fake", |f| f.state("a")["at_rest"] == false);
+    user.wait_for("its time at rest", |f| is_done(f) && f.state("a")["at_rest"] == true);
+}
+
+#[test]
+fn two_fakes_are_measured_one_after_the_other() {
+    let mut user = User::of("cornell");
+    user.click_nth("Fake", 1);
+    user.wait_for("both at rest", |f| both_whole(f) && ["a", "b"].iter().all(|pane| f.state(pane)["at_rest"] == true));
 }
 
 /// Its rectangle, which must be seen whole.

@@ -5,10 +5,10 @@ mod text;
 use crate::model::{Against, Line, PaneId, PaneView, Session, View};
 use crate::ui::overlay::{describe, spoken};
 use crate::ui::{UiContext, theme};
-use egui::text::LayoutJob;
+use egui::text::{LayoutJob, TextWrapping};
 use egui::{Align2, Color32, FontId, Galley, Rect, Stroke, TextFormat, Ui, Vec2, vec2};
 use std::sync::Arc;
-use text::{LabelText, Told};
+use text::{Beside, LabelText, Told};
 
 /// Between a label's text and the edge of what is seen of its picture, in points. Half of the line's handle is 7 wide.
 const INSET: Vec2 = vec2(22.0, 18.0);
@@ -39,10 +39,9 @@ pub fn show(cx: &mut UiContext, ui: &Ui, clip: Rect, pane: PaneId) {
     }
 }
 
-/// How the other picture is made.
-fn beside<'a>(cx: &UiContext<'a>, pane: PaneId) -> Option<&'a technique::Technique> {
-    let (_, other) = cx.shown.panes.iter().find(|(id, _)| *id != pane)?;
-    other.provenance.as_deref().map(|made| &made.technique)
+/// The other pane.
+fn beside<'a>(cx: &UiContext<'a>, pane: PaneId) -> Option<Beside<'a>> {
+    cx.shown.panes.iter().find(|(id, _)| *id != pane)
 }
 
 /// The errors that are told on a pane's label. Those of two pictures against each other are told once: of A against B,
@@ -85,27 +84,28 @@ fn fitting(ui: &Ui, text: &LabelText, pane: PaneId, room: Vec2) -> Option<Arc<Ga
     let width = room.x.min(widest);
     let candidates = [(with_figures, [true, true]), (with_figures, [true, false]), (narrowest, [false, false])];
     candidates.into_iter().filter(|(least, _)| width >= *least).find_map(|(_, parts)| {
-        let mut job = job(ui, text, pane, size, parts);
-        job.wrap.max_width = width;
-        let galley = ui.painter().layout_job(job);
+        let galley = ui.painter().layout_job(job(ui, text, pane, (size, width), parts));
         (galley.size().y <= MOST_HEIGHT * room.y && galley.size().x <= width).then_some(galley)
     })
 }
 
-fn job(ui: &Ui, text: &LabelText, pane: PaneId, size: f32, [details, notes]: [bool; 2]) -> LayoutJob {
+fn job(ui: &Ui, text: &LabelText, pane: PaneId, (size, width): (f32, f32), [details, notes]: [bool; 2]) -> LayoutJob {
     let format = |size, colour| TextFormat::simple(FontId::proportional(size), colour);
-    let mut job = LayoutJob::default();
+    let mut job = LayoutJob { wrap: TextWrapping::wrap_at_width(width), ..LayoutJob::default() };
     let bold = |colour| TextFormat::simple(FontId::new(size, theme::semi_bold()), colour);
     job.append(pane.name(), 0.0, bold(colour(pane)));
     job.append(&text.name, 0.5 * size, bold(Color32::WHITE));
     let figures = theme::figures().resolve(ui.style()).size;
     let mut line = |text: &str, colour| job.append(&format!("\n{text}"), 0.0, format(figures, colour));
     if details {
-        for figures in text.details() {
-            // where it has to be broken it is between two figures
-            let whole: Vec<String> = figures.iter().map(|figure| figure.replace(' ', "\u{a0}")).collect();
-            line(&whole.join("\u{a0}· "), Color32::from_gray(225));
-        }
+        let width_of = |text: &str| {
+            ui.painter()
+                .layout_job(LayoutJob::simple_singleline(text.into(), FontId::proportional(figures), Color32::WHITE))
+                .size()
+                .x
+        };
+        let lines = text.details_within(|text| width_of(text) <= width);
+        lines.iter().for_each(|text| line(text, Color32::from_gray(225)));
     }
     if notes {
         text.notes.iter().for_each(|note| line(note, Color32::from_rgb(255, 225, 150)));

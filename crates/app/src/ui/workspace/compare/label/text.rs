@@ -5,7 +5,11 @@ use crate::model::{Against, Compiling, Drawing, Effort, PaneId, PaneView};
 use crate::ruler::{brief, error_words, formulas};
 use compare::Errors;
 use pathtrace::{Integrator, PathSettings, Stats};
-use technique::{BlindSpot, Device, Technique, TracedSettings};
+use technique::settings::of_panes;
+use technique::{BlindSpot, Device, PaneSettings, Technique, TracedSettings};
+
+/// Between two figures of a line.
+const BETWEEN: &str = " · ";
 
 /// The words of a label.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -22,6 +26,9 @@ pub struct LabelText {
     pub explanations: Vec<String>,
 }
 
+/// The pane beside it, and what that shows.
+pub type Beside<'a> = (PaneId, &'a PaneView);
+
 /// Errors that a label tells.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Told {
@@ -34,9 +41,9 @@ pub struct Told {
 }
 
 impl LabelText {
-    /// Of a pane's picture beside one by `other`.
-    pub fn of(pane: PaneId, shown: &PaneView, other: Option<&Technique>, told: Option<Told>, paused: bool) -> Self {
-        let mut text = LabelText { name: name(shown, other), ..LabelText::default() };
+    /// Of a pane's picture beside that of another.
+    pub fn of(pane: PaneId, shown: &PaneView, beside: Option<Beside>, told: Option<Told>, paused: bool) -> Self {
+        let mut text = LabelText { name: name(shown, beside), ..LabelText::default() };
         if let Some(told) = told {
             text.tell(pane, told);
         }
@@ -46,18 +53,36 @@ impl LabelText {
             text.notes.extend(missing(&traced.blind_spots(&made.shot.scene)));
             let source = traced.noise_source(&made.shot.scene).filter(|_| shown.noisy);
             text.notes.extend(source.map(|source| source.words().to_owned()));
-            text.notes.extend(branching(traced, shown));
+            text.notes.extend(branching(traced, shown, beside));
         }
-        text.explanations.extend(explained(shown));
+        text.explanations.extend(explained(shown, beside));
         text
     }
 
     /// All that is read, with the pane's letter.
     pub fn whole(&self, pane: PaneId) -> String {
         let name = format!("{pane}: {}", self.name);
-        let details = self.details().into_iter().map(|line| line.join(" · "));
+        let details = self.details().into_iter().map(|line| line.join(BETWEEN));
         let lines = std::iter::once(name).chain(details).chain(self.notes.iter().cloned());
         lines.collect::<Vec<_>>().join("\n")
+    }
+
+    /// The same in lines that fit: broken between two figures, and inside one only where that alone does not fit.
+    pub fn details_within(&self, fits: impl Fn(&str) -> bool) -> Vec<String> {
+        let mut lines: Vec<String> = Vec::new();
+        for figures in self.details() {
+            let mut line = String::new();
+            for figure in figures {
+                let longer = if line.is_empty() { figure.clone() } else { format!("{line}{BETWEEN}{figure}") };
+                let shorter = std::mem::replace(&mut line, longer);
+                if !shorter.is_empty() && !fits(&line) {
+                    lines.push(shorter);
+                    line.clone_from(figure);
+                }
+            }
+            lines.push(line);
+        }
+        lines
     }
 
     /// How far off and at what cost, line by line.
@@ -84,10 +109,10 @@ impl LabelText {
     }
 }
 
-fn name(shown: &PaneView, other: Option<&Technique>) -> String {
+fn name(shown: &PaneView, beside: Option<Beside>) -> String {
     let Some(made) = &shown.provenance else { return String::new() };
-    match other {
-        Some(other) => made.technique.label_beside(other, &made.shot.scene),
+    match beside.and_then(|(_, other)| other.provenance.as_ref()) {
+        Some(other) => made.technique.label_beside(&other.technique, &made.shot.scene),
         None => made.technique.label(),
     }
 }
@@ -146,14 +171,29 @@ fn missing(blind_spots: &[BlindSpot]) -> Option<String> {
     (!words.is_empty()).then(|| format!("missing: {}", words.join(", ")))
 }
 
-/// What several directions at each vertex cost: the slide's N to the power of the vertices that branch, and what was
-/// counted. N bounces are N + 1 vertices.
-fn branching(traced: &TracedSettings, shown: &PaneView) -> Option<String> {
-    let Integrator::Path(path @ PathSettings { branches: 2.., .. }) = traced.integrator else { return None };
-    let vertices = path.scattering_vertices().min(path.branching_vertices());
-    let (n, paths) = (path.branches, path.branches.saturating_pow(vertices));
+/// What several directions at each vertex cost, and beside that what one does: the slide's N to the power of the
+/// vertices that branch, and what was counted.
+fn branching(traced: &TracedSettings, shown: &PaneView, beside: Option<Beside>) -> Option<String> {
+    let Integrator::Path(path) = &traced.integrator else { return None };
+    let n = path.branches;
+    let most = match branching_vertices(path) {
+        Some(vertices) => format!("at most {n}^{vertices} = {} paths a sample", n.saturating_pow(vertices)),
+        None if beside.is_some_and(|(_, other)| branches(other)) => "one path a sample".into(),
+        None => return None,
+    };
     let counted = rays(shown).map_or_else(String::new, |rays| format!(": {rays}"));
-    Some(format!("N = {n}, at most {n}^{vertices} = {paths} paths a sample{counted}"))
+    Some(format!("N = {n}, {most}{counted}"))
+}
+
+/// Vertices of a path at which there are several directions, if there are such.
+fn branching_vertices(path: &PathSettings) -> Option<u32> {
+    (path.branches > 1).then(|| path.scattering_vertices().min(path.branching_vertices()))
+}
+
+/// Whether the paths of a picture branch.
+fn branches(shown: &PaneView) -> bool {
+    let integrator = traced(shown).map(|(traced, _)| traced.integrator);
+    matches!(integrator, Some(Integrator::Path(PathSettings { branches: 2.., .. })))
 }
 
 /// "12.3 rays a sample, 4.5 million rays a second".
@@ -175,24 +215,51 @@ fn large(number: f64) -> String {
     }
 }
 
-/// How its time was spent, and why it lacks what it lacks.
-fn explained(shown: &PaneView) -> Vec<String> {
-    let by = shown.adapter.as_ref().map_or_else(String::new, |adapter| format!(", by {adapter}"));
-    let mut lines: Vec<String> = rays(shown).map(|rays| format!("{rays}{by}")).into_iter().collect();
-    if let Some(Effort::Drawn(Drawing { compiling, kept_maps })) = shown.effort {
-        lines.push(match compiling {
-            Compiling::Included => format!("The time has that of compiling in it{by}"),
-            Compiling::Apart(seconds) => format!("Compiling took {} once, apart from this{by}", duration(seconds)),
-        });
-        if kept_maps {
-            lines.push("Shadow map and cube maps were there from the picture before".into());
-        }
+/// How its time was spent, by which formula it shines, and why it lacks what it lacks.
+fn explained(shown: &PaneView, beside: Option<Beside>) -> Vec<String> {
+    let adapter = shown.adapter.as_deref();
+    let mut lines = Vec::new();
+    if let Some(rays) = rays(shown) {
+        lines.push(adapter.map_or_else(|| rays.clone(), |adapter| format!("{rays}, by {adapter}")));
+    }
+    if let Some(Effort::Drawn(drawing)) = shown.effort {
+        lines.extend(adapter.map(|adapter| format!("Drawn by {adapter}")));
+        lines.extend(drawn(drawing, beside));
+        lines.extend(shown.provenance.as_ref().and_then(|made| highlight(&made.technique)));
     }
     if let Some((traced, made)) = traced(shown) {
+        if let Integrator::Path(path) = &traced.integrator {
+            lines.extend(branching_vertices(path).map(first_vertex));
+        }
         let blind_spots = traced.blind_spots(&made.shot.scene).into_iter();
         lines.extend(blind_spots.filter_map(BlindSpot::explanation).map(str::to_owned));
     }
     lines
+}
+
+/// What the fake's time is that of.
+fn drawn(drawing: Drawing, beside: Option<Beside>) -> Vec<String> {
+    let compiling = match drawing.compiling {
+        Compiling::Included => "The time has that of compiling in it".into(),
+        Compiling::Apart(seconds) => format!("Compiling took {} once, apart from this", duration(seconds)),
+    };
+    let at_work = beside.filter(|(_, other)| other.unfinished && !drawing.at_rest);
+    let at_work = at_work.map(|(pane, _)| format!("Measured while {pane} is made: once more when that is done"));
+    let kept = drawing.kept_maps.then(|| "Shadow map and cube maps were there from the picture before".into());
+    std::iter::once(compiling).chain(at_work).chain(kept).collect()
+}
+
+/// Why the power is one more than the bounces.
+fn first_vertex(vertices: u32) -> String {
+    format!("The first hit branches too: vertices are one more than bounces, {vertices} here")
+}
+
+/// The slides' formula of the highlights in a picture of the fake.
+fn highlight(technique: &Technique) -> Option<String> {
+    let row = of_panes("shading").filter(|row| row.is_of(technique.name()))?;
+    let pane = PaneSettings::from(*technique);
+    let shading = (row.get)(&pane).filter(|_| pane.fake.shows_the_scene())?;
+    Some(format!("Highlight by {shading}: {}", (row.control.below)(shading)))
 }
 
 #[cfg(test)]

@@ -2,8 +2,7 @@
 
 use super::*;
 use std::sync::Arc;
-use technique::settings::of_panes;
-use technique::{PaneSettings, Provenance, Shot, TechniqueName};
+use technique::{Provenance, Shot, TechniqueName};
 
 fn made(scene: &str, technique: TechniqueName, changes: &[(&str, &str)]) -> Provenance {
     let mut pane = PaneSettings::of(technique);
@@ -31,7 +30,7 @@ fn fake(seconds: f64, compiling: Compiling) -> PaneView {
     PaneView {
         provenance: Some(Arc::new(made("whitted", TechniqueName::Raster, &[]))),
         seconds,
-        effort: Some(Effort::Drawn(Drawing { compiling, kept_maps: false })),
+        effort: Some(Effort::Drawn(Drawing { compiling, kept_maps: false, at_rest: false })),
         ..PaneView::default()
     }
 }
@@ -55,9 +54,50 @@ fn the_cost_is_that_of_the_picture_that_is_shown() {
 }
 
 #[test]
-fn compiling_is_told_apart_from_drawing() {
-    let warm = label(&fake(0.0041, Compiling::Apart(0.45)), None);
-    assert_eq!(warm.explanations, ["Compiling took 450 ms once, apart from this"]);
+fn compiling_is_told_apart_from_drawing_and_from_what_draws() {
+    let shown = PaneView { adapter: Some("llvmpipe".into()), ..fake(0.0041, Compiling::Apart(0.45)) };
+    let lines = label(&shown, None).explanations;
+    assert_eq!(lines[..2], ["Drawn by llvmpipe", "Compiling took 450 ms once, apart from this"]);
+}
+
+#[test]
+fn a_time_that_other_work_may_have_slowed_is_told_to_be_so() {
+    let slowed = "Measured while A is made: once more when that is done";
+    let told = |at_rest, unfinished| {
+        let drawing = Drawing { compiling: Compiling::Apart(0.45), kept_maps: false, at_rest };
+        let shown = PaneView { effort: Some(Effort::Drawn(drawing)), ..fake(0.0041, Compiling::Included) };
+        let other = PaneView { unfinished, ..path(&[], 64) };
+        let label = LabelText::of(PaneId::B, &shown, Some((PaneId::A, &other)), None, false);
+        label.explanations.iter().any(|line| line == slowed)
+    };
+    assert!(told(false, true));
+    assert!(!told(true, true), "it was measured before the other was begun anew");
+    assert!(!told(false, false), "it will be in a moment");
+}
+
+#[test]
+fn the_formula_of_a_fakes_highlight_is_told_with_its_picture() {
+    let explained = |changes: &[_]| {
+        let made = made("phong", TechniqueName::Raster, changes);
+        let shown = PaneView { provenance: Some(Arc::new(made)), ..fake(0.0041, Compiling::Apart(0.45)) };
+        label(&shown, None).explanations.join("\n")
+    };
+    let phong = "Highlight by phong: L = k_a I_a + k_d I_d max(0, N·L) + k_s I_s max(0, R·V)^p";
+    assert!(explained(&[("shading", "phong")]).contains(phong), "{}", explained(&[("shading", "phong")]));
+    assert!(explained(&[("shading", "blinn-phong")]).contains("k_s I_s max(0, N·H)^p"));
+    assert!(!explained(&[("shading", "phong"), ("show", "shadow-map")]).contains("Highlight"), "a map has none");
+}
+
+#[test]
+fn figures_are_kept_whole_where_they_fit_a_line() {
+    let errors = ["A differs from B by 56 % on average", "12 % brighter overall"].map(str::to_owned).into();
+    let figures = ["relMSE 1.338", "500 ms"].map(str::to_owned).into();
+    let text = LabelText { errors, figures, ..LabelText::default() };
+    let within = |most: usize| text.details_within(|line| line.chars().count() <= most);
+    assert_eq!(within(99), ["A differs from B by 56 % on average · 12 % brighter overall", "relMSE 1.338 · 500 ms"]);
+    let narrow = ["A differs from B by 56 % on average", "12 % brighter overall", "relMSE 1.338 · 500 ms"];
+    assert_eq!(within(35), narrow, "exactly as wide as the first figure");
+    assert_eq!(within(21), narrow, "what does not fit at all is left to break between its words");
 }
 
 #[test]
@@ -89,9 +129,20 @@ fn rays_are_counted_on_the_label_where_paths_branch_and_else_where_asked() {
     let branching = label(&path(&[("branches", "4"), ("bounces", "1")], 256), None);
     let counted = "13.5 rays a sample, 27 thousand rays a second";
     assert_eq!(branching.notes[1], format!("N = 4, at most 4^2 = 16 paths a sample: {counted}"));
+    let power = "The first hit branches too: vertices are one more than bounces, 2 here";
+    assert_eq!(branching.explanations[1], power);
     let plain = label(&path(&[], 256), None);
     assert!(plain.notes.is_empty());
     assert_eq!(plain.explanations, [format!("{counted}, by 2 threads")]);
+}
+
+#[test]
+fn rays_are_counted_beside_paths_that_branch_too() {
+    let [straight, forked] = ["1", "4"].map(|n| path(&[("branches", n), ("bounces", "1")], 256));
+    let beside = |other| LabelText::of(PaneId::A, &straight, Some((PaneId::B, other)), None, false).notes;
+    let counted = "N = 1, one path a sample: 13.5 rays a sample, 27 thousand rays a second";
+    assert_eq!(beside(&forked)[1], counted);
+    assert_eq!(beside(&straight).len(), 1, "neither branches");
 }
 
 #[test]
