@@ -193,9 +193,7 @@ fn scale_of(look: &Look) -> Option<Scale> {
         Look::Steps { range, step } => {
             Some(Scale::Steps { range: f64::from(*range.start())..=f64::from(*range.end()), step: *step })
         }
-        Look::Whole(range) => {
-            Some(Scale::Steps { range: f64::from(*range.start())..=f64::from(*range.end()), step: 1.0 })
-        }
+        Look::Whole(range) => Some(Scale::Whole(range.clone())),
         Look::WholeOrNone(range) => Some(Scale::WholeOrNone(range.clone())),
         Look::Doubling(exponents) => Some(Scale::Doubling(exponents.clone())),
         Look::Typed => Some(Scale::Typed),

@@ -21,6 +21,8 @@ pub enum Scale {
         /// How far apart its stops are.
         step: f64,
     },
+    /// Whole numbers of a range.
+    Whole(RangeInclusive<u32>),
     /// Powers of two with these exponents.
     Doubling(RangeInclusive<u32>),
     /// Whole numbers that are typed or dragged, without a slider.
@@ -65,7 +67,7 @@ pub struct Told {
 impl Scale {
     fn place_of(&self, value: f64) -> f64 {
         match self {
-            Scale::Steps { .. } | Scale::Typed => value,
+            Scale::Steps { .. } | Scale::Whole(_) | Scale::Typed => value,
             Scale::Doubling(_) => value.max(1.0).log2().floor(),
             Scale::WholeOrNone(range) => value.min(f64::from(*range.end()) + 1.0),
         }
@@ -73,7 +75,7 @@ impl Scale {
 
     fn value_at(&self, place: f64) -> f64 {
         match self {
-            Scale::Steps { .. } | Scale::Typed => place,
+            Scale::Steps { .. } | Scale::Whole(_) | Scale::Typed => place,
             Scale::Doubling(_) => place.exp2(),
             Scale::WholeOrNone(range) if place > f64::from(*range.end()) => f64::INFINITY,
             Scale::WholeOrNone(_) => place,
@@ -83,6 +85,7 @@ impl Scale {
     fn range(&self) -> RangeInclusive<f64> {
         match self {
             Scale::Steps { range, .. } => range.clone(),
+            Scale::Whole(range) => f64::from(*range.start())..=f64::from(*range.end()),
             Scale::Typed => 0.0..=1.0,
             Scale::Doubling(exponents) => f64::from(*exponents.start())..=f64::from(*exponents.end()),
             Scale::WholeOrNone(range) => f64::from(*range.start())..=f64::from(*range.end()) + 1.0,
@@ -98,7 +101,7 @@ impl Scale {
         match self {
             _ if value.is_infinite() => "no limit".into(),
             Scale::Steps { step, .. } => digits(value, *step),
-            Scale::Doubling(_) | Scale::WholeOrNone(_) | Scale::Typed => format!("{value:.0}"),
+            _ => format!("{value:.0}"),
         }
     }
 
@@ -112,7 +115,7 @@ impl Scale {
     }
 
     fn is_whole(&self) -> bool {
-        !matches!(self, Scale::Steps { step, .. } if *step < 1.0)
+        !matches!(self, Scale::Steps { .. })
     }
 }
 
