@@ -59,26 +59,32 @@ impl Camera {
 
     /// Why this camera sees nothing, if it does not: a line for the user.
     pub fn fault(&self) -> Option<&'static str> {
+        self.faulty_value().map(|(_, why)| why)
+    }
+
+    /// The value by which this camera sees nothing, by its name in a scene's file, and why.
+    pub fn faulty_value(&self) -> Option<(&'static str, &'static str)> {
         // in f64, where squares of large f32 still fit
         let (sight, up) = (self.target.as_dvec3() - self.eye.as_dvec3(), self.up.as_dvec3());
         let size = self.eye.as_dvec3().length().max(self.target.as_dvec3().length());
         if !(self.eye.is_finite() && self.target.is_finite() && self.up.is_finite()) {
-            Some("its eye, target and up must be finite")
+            Some(("eye", "its eye, target and up must be finite"))
         } else if size > 1e12 {
-            Some("its eye and target must lie within 1e12 of the origin")
+            Some(("eye", "its eye and target must lie within 1e12 of the origin"))
         } else if sight.length() <= 1e-6 * size {
-            Some("its eye and target must differ")
+            Some(("target", "its eye and target must differ"))
         } else if sight.normalize_or_zero().cross(up.normalize_or_zero()).length() < 1e-4 {
-            Some(
+            Some((
+                "up",
                 "its up must not be parallel to the line from eye to target: to look straight down or up, \
                  up = [0, 0, -1] will do",
-            )
+            ))
         } else if !(self.fov_y > 0.0 && self.fov_y < 180.0) {
-            Some("its field of view must lie between 0 and 180 degrees")
+            Some(("fov_y", "its field of view must lie between 0 and 180 degrees"))
         } else if !(self.near.is_none_or(|near| near > 0.0)
             && self.far.is_none_or(|far| far > self.near.unwrap_or(0.0)))
         {
-            Some("its near must be positive and below its far")
+            Some(("near", "its near must be positive and below its far"))
         } else {
             None
         }

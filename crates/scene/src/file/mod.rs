@@ -252,16 +252,26 @@ fn build(raw: RawScene, name: &str, folder: &Path) -> Result<Scene, Fault> {
 }
 
 fn camera(raw: Spanned<Table<raw::RawCamera>>) -> Result<Camera, Fault> {
-    let (at, Table(raw)) = (raw.span(), raw.into_inner());
+    let (header, Table(raw)) = (raw.span(), raw.into_inner());
+    let (eye, target, fov_y) = (raw.eye.span(), raw.target.span(), raw.fov_y.span());
+    let (up, near) = (raw.up.as_ref().map(Spanned::span), raw.near.as_ref().map(Spanned::span));
     let camera = Camera {
-        eye: raw.eye.into(),
-        target: raw.target.into(),
-        up: raw.up.map_or(Vec3::Y, Vec3::from).as_dvec3().normalize_or_zero().as_vec3(),
-        fov_y: raw.fov_y.get(),
-        near: raw.near.map(|v| v.get()),
+        eye: raw.eye.into_inner().into(),
+        target: raw.target.into_inner().into(),
+        up: raw.up.map_or(Vec3::Y, |up| up.into_inner().into()).as_dvec3().normalize_or_zero().as_vec3(),
+        fov_y: raw.fov_y.into_inner().get(),
+        near: raw.near.map(|v| v.into_inner().get()),
         far: raw.far.map(|v| v.get()),
     };
-    camera.fault().map_or(Ok(camera), |why| fault(at, format!("the camera sees nothing: {why}")))
+    let Some((value, why)) = camera.faulty_value() else { return Ok(camera) };
+    let at = match value {
+        "eye" => eye,
+        "target" => target,
+        "fov_y" => fov_y,
+        "up" => up.unwrap_or(target),
+        _ => near.unwrap_or(header),
+    };
+    fault(at, format!("the camera sees nothing: {why}"))
 }
 
 fn sun(raw: raw::RawSun) -> Result<Sun, Fault> {

@@ -61,11 +61,11 @@ pub struct RawScene {
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct RawCamera {
-    pub eye: Triple<Any>,
-    pub target: Triple<Any>,
-    pub up: Option<Triple<Any>>,
-    pub fov_y: Number<AboveZero>,
-    pub near: Option<Number<AboveZero>>,
+    pub eye: Spanned<Triple<Any>>,
+    pub target: Spanned<Triple<Any>>,
+    pub up: Option<Spanned<Triple<Any>>>,
+    pub fov_y: Spanned<Number<AboveZero>>,
+    pub near: Option<Spanned<Number<AboveZero>>>,
     pub far: Option<Number<AboveZero>>,
 }
 

@@ -106,9 +106,15 @@ fn ranges_types_and_names_are_checked_where_they_stand() {
         (
             "target = [0, 0, 0]",
             "target = [0, 0, 5]",
-            "test.toml:2:1: the camera sees nothing: its eye and target must differ",
+            "test.toml:4:10: the camera sees nothing: its eye and target must differ",
         ),
-        ("fov_y = 45", "fov_y = 180", "its field of view must lie between 0 and 180 degrees"),
+        (
+            "fov_y = 45",
+            "fov_y = 180",
+            "test.toml:5:9: the camera sees nothing: its field of view must lie between 0 and 180 degrees",
+        ),
+        ("fov_y = 45", "fov_y = 45\nup = [0, 0, 2]", "test.toml:6:6: the camera sees nothing: its up must not"),
+        ("fov_y = 45", "far = 2\nfov_y = 45\nnear = 3", "test.toml:7:8: the camera sees nothing: its near must be"),
         ("fov_y = 45\n", "", "missing field `fov_y`"),
     ];
     for (from, to, expected) in cases {
@@ -368,7 +374,7 @@ fn whole_numbers_say_what_they_may_be() {
     for (word, expected) in [
         ("\"x\"", "invalid type: string \"x\", expected a whole number from 3 to 1024"),
         ("4.5", "invalid type: floating point `4.5`, expected a whole number from 3 to 1024"),
-        ("[4]", "invalid type: sequence, expected a whole number from 3 to 1024"),
+        ("[4, 4]", "invalid type: sequence, expected a whole number from 3 to 1024"),
         ("-4", "-4 is not a whole number from 3 to 1024"),
         ("1025", "1025 is not a whole number from 3 to 1024"),
     ] {
