@@ -3,7 +3,13 @@
 
 mod lamp;
 
-use crate::{Bsdf, Geometry, Scene, Shape, Vec3, nesting};
+use crate::{Bsdf, Camera, Geometry, Scene, Shape, Vec3, nesting};
+
+/// Degrees below the horizon from which on a sun is not one that sets.
+const DUSK: f32 = 5.0;
+
+/// Shapes that are tried as what the camera should look at: each is tested against all.
+const MOST_TARGETS: usize = 64;
 
 impl Scene {
     /// What is probably not meant, and what of the scene's pictures is not shown: a line each.
@@ -13,7 +19,7 @@ impl Scene {
             self.without_sight(),
             self.camera_in_a_solid(),
             self.light_in_a_solid(),
-            lamp::that_shines_into_a_wall(self),
+            lamp::that_shines_into_a_wall(self).or_else(|| lamp::that_shines_at_nothing(self)),
             self.sun_from_below(),
             self.angles_in_radians(),
         ];
@@ -40,29 +46,30 @@ impl Scene {
             let nothing = self.environment.is_none();
             return nothing.then(|| "the scene has no shapes: add a [[sphere]], a [[rectangle]] or another".into());
         }
-        if self.shapes.iter().any(|shape| self.may_be_seen(&shape.geometry)) {
+        if self.shapes.iter().any(|shape| may_be_seen(&self.camera, &shape.geometry)) {
             return None;
         }
         let (lo, hi) = self.bounds();
+        let cure = match self.target_that_shows_something() {
+            Some(target) => format!("write target = {target}"),
+            None => "move its eye".into(),
+        };
         Some(format!(
-            "the camera looks past every shape: its eye is {}, its target {}, and the shapes lie between {lo} and {hi}",
+            "the camera looks past every shape: its eye is {}, its target {}, and the shapes lie between {lo} and {hi}; \
+             {cure}",
             self.camera.eye, self.camera.target
         ))
     }
 
-    /// Whether a shape's bounds reach into a picture of twice its height in width; false is certain.
-    fn may_be_seen(&self, geometry: &Geometry) -> bool {
-        let frame = self.camera.frame(2.0);
-        let (width, height) = (frame.right.length(), frame.up.length());
-        let (right, up) = (frame.right / width, frame.up / height);
-        let corners = corners(geometry).map(|corner| corner - frame.eye);
-        let beyond = |outside: &dyn Fn(Vec3) -> bool| corners.iter().all(|corner| outside(*corner));
-        let depth = |p: Vec3| p.dot(frame.forward);
-        !(beyond(&|p| depth(p) <= 0.0)
-            || beyond(&|p| p.dot(right) > width * depth(p))
-            || beyond(&|p| -p.dot(right) > width * depth(p))
-            || beyond(&|p| p.dot(up) > height * depth(p))
-            || beyond(&|p| -p.dot(up) > height * depth(p)))
+    /// The middle of all shapes, or of one, if the camera can look there.
+    fn target_that_shows_something(&self) -> Option<Vec3> {
+        let (lo, hi) = self.bounds();
+        let middles = self.shapes.iter().take(MOST_TARGETS).map(|shape| shape.geometry.center());
+        let targets = std::iter::once(0.5 * (lo + hi)).chain(middles).map(|target| target.map(tidy));
+        targets.into_iter().find(|target| {
+            let camera = Camera { target: *target, ..self.camera };
+            camera.fault().is_none() && self.shapes.iter().any(|shape| may_be_seen(&camera, &shape.geometry))
+        })
     }
 
     /// Balls and boxes that no light passes. Glass is none.
@@ -105,7 +112,8 @@ impl Scene {
     }
 
     fn sun_from_below(&self) -> Option<String> {
-        let towards = self.sun.filter(|sun| sun.towards.dot(self.camera.up) < 0.0)?.towards;
+        let below = |towards: Vec3| -towards.dot(self.camera.up).clamp(-1.0, 1.0).asin().to_degrees();
+        let towards = self.sun.filter(|sun| below(sun.towards) > DUSK)?.towards;
         Some(format!(
             "the sun shines from below: `towards`, here {towards}, points at the sun and not where its light goes; turn \
              its signs around"
@@ -114,7 +122,7 @@ impl Scene {
 
     fn angles_in_radians(&self) -> Option<String> {
         let fov = self.camera.fov_y;
-        let narrow = (fov < std::f32::consts::PI).then(|| ("fov_y".to_owned(), fov, fov.to_degrees()));
+        let narrow = is_usual_in_radians(fov).then(|| ("fov_y".to_owned(), fov, fov.to_degrees()));
         let boxes = self.shapes.iter().filter_map(|shape| match shape.geometry {
             Geometry::Box { turn_y, .. } => Some((format!("turn_y of the {}", self.named(shape)), turn_y)),
             _ => None,
@@ -138,9 +146,29 @@ impl Scene {
     }
 }
 
+/// Whether a shape's bounds reach into a picture of twice its height in width; false is certain.
+fn may_be_seen(camera: &Camera, geometry: &Geometry) -> bool {
+    let frame = camera.frame(2.0);
+    let (width, height) = (frame.right.length(), frame.up.length());
+    let (right, up) = (frame.right / width, frame.up / height);
+    let corners = corners(geometry).map(|corner| corner - frame.eye);
+    let beyond = |outside: &dyn Fn(Vec3) -> bool| corners.iter().all(|corner| outside(*corner));
+    let depth = |p: Vec3| p.dot(frame.forward);
+    !(beyond(&|p| depth(p) <= 0.0)
+        || beyond(&|p| p.dot(right) > width * depth(p))
+        || beyond(&|p| -p.dot(right) > width * depth(p))
+        || beyond(&|p| p.dot(up) > height * depth(p))
+        || beyond(&|p| -p.dot(up) > height * depth(p)))
+}
+
 /// A number without the last digits, in which rounding shows.
 fn tidy(number: f32) -> f32 {
     format!("{number:.3e}").parse().unwrap_or(number)
+}
+
+/// Whether a field of view is a usual one, of 17 to 126 degrees, if it is in radians; whole and half degrees are meant.
+fn is_usual_in_radians(fov: f32) -> bool {
+    (0.3..=2.2).contains(&fov) && (2.0 * fov).fract() != 0.0
 }
 
 /// Degrees, a multiple of 15, if a turn is as many radians to three digits.

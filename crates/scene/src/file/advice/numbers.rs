@@ -50,7 +50,7 @@ impl Place<'_> {
         let spaced: Vec<&str> = spaced.into_iter().filter(|word| !word.is_empty()).collect();
         let fits = |word: &&str| number(word).is_some() || with_a_comma(word).is_some();
         let by_words = || spaced.iter().find_map(|word| with_a_comma(word));
-        let found = if spaced.len() == 3 && spaced.iter().all(|word| fits(word)) {
+        let found = if spaced.len() == 3 && spaced.iter().all(fits) {
             by_words()
         } else {
             let first = list.match_indices(',').nth(1).map(|(end, _)| list[..end].trim());
