@@ -28,7 +28,7 @@ pub use glam::{self, Vec3};
 pub use hash::SceneHash;
 pub use light::{PointLight, Sun};
 pub use material::{Bsdf, Material, Texture};
-pub use nearest::nearest;
+pub use nearest::{nearest, nearest_or_begun};
 pub use needs::Needs;
 pub use shape::{Geometry, Mesh, Shape};
 

@@ -6,12 +6,43 @@ pub fn nearest<'a>(word: &str, known: impl IntoIterator<Item = &'a str>) -> Opti
     let small = word.to_lowercase();
     let distance = |name: &str| strsim::osa_distance(&small, &name.to_lowercase());
     let (name, mistakes) = known.into_iter().map(|name| (name, distance(name))).min_by_key(|(_, d)| *d)?;
-    (3 * mistakes <= name.chars().count().max(3)).then_some(name)
+    let letters = name.chars().count();
+    (mistakes < letters && 3 * mistakes <= letters.max(3)).then_some(name)
+}
+
+/// The nearest, or else the only known name that begins as `word` does: with all of the shorter of the two, or with
+/// four letters.
+pub fn nearest_or_begun<'a>(word: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+    let (small, known) = (word.to_lowercase(), known.into_iter().collect::<Vec<_>>());
+    let begun = || {
+        let alike = |name: &str| small.chars().zip(name.to_lowercase().chars()).take_while(|(a, b)| a == b).count();
+        let enough = |name: &str| name.chars().count().min(small.chars().count()).clamp(3, 4);
+        let mut begun = known.iter().filter(|name| alike(name) >= enough(name));
+        begun.next().filter(|_| begun.next().is_none()).copied()
+    };
+    nearest(word, known.iter().copied()).or_else(begun)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_word_that_begins_as_one_name_alone_does_may_mean_it() {
+        let known = ["a", "side", "wipe", "sampler", "sun-radius", "sun-size"];
+        for (word, meant) in [
+            ("A", Some("a")),
+            ("side-by-side", Some("side")),
+            ("sampp", Some("sampler")),
+            ("samples", Some("sampler")),
+            ("sun", None),
+            ("an", None),
+            ("wi", None),
+            ("", None),
+        ] {
+            assert_eq!(nearest_or_begun(word, known), meant, "{word}");
+        }
+    }
 
     #[test]
     fn a_slip_is_understood_and_another_word_is_not() {

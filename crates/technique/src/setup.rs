@@ -1,8 +1,8 @@
 //! What a pane shall be set to, in words: those of the command line, or those that a picture keeps.
 
 use crate::settings::{Kind, Setting, Value, all_of_panes, of_panes};
-use crate::{PaneSettings, Technique, TechniqueName};
-use scene::Scene;
+use crate::{PaneSettings, Preset, Technique, TechniqueName, presets};
+use scene::{Scene, nearest_or_begun};
 
 /// A technique, and those of its settings that are no defaults.
 #[derive(Debug, Clone, PartialEq)]
@@ -18,26 +18,42 @@ impl PaneSetup {
         PaneSetup { technique, values: Vec::new() }
     }
 
-    /// Reads "path,spp=64,bounces=2": a technique, `usual` where none is named, and settings; a word alone is one of a
-    /// setting's choices.
+    /// The technique of a preset, with what it states.
+    pub fn of_preset(preset: &Preset) -> Self {
+        let values = preset.values().map(|(setting, value)| (setting.name, value)).collect();
+        PaneSetup { technique: preset.technique, values }
+    }
+
+    /// Reads "path,spp=64,bounces=2": a technique or a preset, `usual` where none is named, and settings; a word alone is
+    /// one of a setting's choices. What is said changes a preset.
     ///
     /// # Errors
     /// The word that is wrong, and what was expected.
     pub fn parse(words: &str, usual: TechniqueName) -> Result<Self, String> {
-        let mut words = words.split(',').map(str::trim).peekable();
-        let named = words.peek().and_then(|word| TechniqueName::named(word));
-        if named.is_some() {
-            words.next();
-        }
-        let mut setup = PaneSetup::of(named.unwrap_or(usual));
-        for word in words {
-            match word.split_once('=') {
-                Some((name, value)) => setup.set(name.trim(), value.trim())?,
-                None => setup.choose(word, named.is_none())?,
+        let words: Vec<&str> = words.split(',').map(str::trim).collect();
+        let named = TechniqueName::named(words[0]).map(PaneSetup::of);
+        let named = named.or_else(|| Preset::named(words[0]).map(PaneSetup::of_preset));
+        let first = usize::from(named.is_some());
+        let mut setup = named.unwrap_or(PaneSetup::of(usual));
+        let mut said: Vec<(&str, &str)> = Vec::new();
+        for (i, word) in words.iter().enumerate().skip(first) {
+            let before = words[..i].last().copied().unwrap_or_default();
+            let name = setup.take(word, i == 0).map_err(|fault| fault + &decimal_comma(before, word))?;
+            if let Some((_, other)) = said.iter().find(|(other, _)| *other == name) {
+                return Err(format!("{other} and {word} both say {name}: leave one of them"));
             }
+            said.push((name, word));
         }
         setup.check()?;
         Ok(setup)
+    }
+
+    /// Takes NAME=VALUE or a choice. Returns the setting's name.
+    fn take(&mut self, word: &str, may_name: bool) -> Result<&'static str, String> {
+        match word.split_once('=') {
+            Some((name, value)) => self.take_value(name.trim(), value.trim()),
+            None => self.choose(word, may_name),
+        }
     }
 
     /// Takes a setting by its name.
@@ -45,29 +61,62 @@ impl PaneSetup {
     /// # Errors
     /// What was expected.
     pub fn set(&mut self, name: &str, value: &str) -> Result<(), String> {
+        self.take_value(name, value).map(|_| ())
+    }
+
+    fn take_value(&mut self, name: &str, value: &str) -> Result<&'static str, String> {
         let technique = self.technique;
         let setting = of_panes(name).filter(|setting| setting.is_of(technique)).ok_or_else(|| {
             let known: Vec<_> = settings_of(technique).map(|setting| setting.name).collect();
-            format!("{name} is no setting of {}: expected {}", technique.name(), known.join(", "))
+            let meant = did_you_mean(name, known.iter().copied());
+            format!("{name} is no setting of {}: expected {}{meant}", technique.name(), known.join(", "))
         })?;
-        let value = setting.kind.parse(value).map_err(|expected| format!("{name}={value}: expected {expected}"))?;
+        let value = setting.kind.parse(value).map_err(|expected| {
+            let meant = did_you_mean(value, choices(setting).iter().copied());
+            format!("{name}={value}: expected {expected}{meant}")
+        })?;
         self.values.push((setting.name, value));
-        Ok(())
+        Ok(setting.name)
     }
 
     /// Takes the setting whose choice this word is.
-    fn choose(&mut self, word: &str, unnamed: bool) -> Result<(), String> {
+    fn choose(&mut self, word: &str, may_name: bool) -> Result<&'static str, String> {
         let owner = settings_of(self.technique).find(|setting| choices(setting).contains(&word));
         match owner {
-            Some(setting) => self.set(setting.name, word),
-            None => {
-                let known: Vec<_> = settings_of(self.technique).flat_map(choices).copied().collect();
-                let techniques = TechniqueName::ALL.map(TechniqueName::name).join(", ");
-                let first = if unnamed { format!("a technique ({techniques}), ") } else { String::new() };
-                let technique = self.technique.name();
-                Err(format!("{word}: expected {first}NAME=VALUE or a choice of {technique} ({})", known.join(", ")))
-            }
+            Some(setting) => self.take_value(setting.name, word),
+            None => Err(self.no_choice(word, may_name)),
         }
+    }
+
+    /// What was expected in a word's place.
+    fn no_choice(&self, word: &str, may_name: bool) -> String {
+        let technique = self.technique.name();
+        let known: Vec<_> = settings_of(self.technique).flat_map(choices).copied().collect();
+        let names = TechniqueName::ALL.map(TechniqueName::name);
+        let presets = || presets::ALL.iter().map(|preset| preset.name);
+        let first = match may_name {
+            true => {
+                format!("a technique ({}), a preset ({}), ", names.join(", "), presets().collect::<Vec<_>>().join(", "))
+            }
+            false => String::new(),
+        };
+        let hint = if names.contains(&word) || Preset::named(word).is_some() {
+            format!("; {word} stands first or not at all")
+        } else if let Some(setting) = self.owner_of(word) {
+            format!("; did you mean {}={word}?", setting.name)
+        } else {
+            let settings = settings_of(self.technique).map(|setting| setting.name);
+            let firsts = names.into_iter().chain(presets()).filter(|_| may_name);
+            did_you_mean(word, known.iter().copied().chain(settings).chain(firsts))
+        };
+        let what = if word.is_empty() { "a word is empty" } else { word };
+        format!("{what}: expected {first}NAME=VALUE or a choice of {technique} ({}){hint}", known.join(", "))
+    }
+
+    /// The setting that is no choice between words, but may be this one: "off", "inf".
+    fn owner_of(&self, word: &str) -> Option<&'static Setting<PaneSettings>> {
+        let is_word = word.starts_with(char::is_alphabetic);
+        settings_of(self.technique).find(|setting| is_word && setting.kind.parse(word).is_ok())
     }
 
     /// Whether such a picture can be made.
@@ -109,6 +158,18 @@ fn choices(setting: &Setting<PaneSettings>) -> &'static [&'static str] {
     if let Kind::Choice(words) = setting.kind { words } else { &[] }
 }
 
+fn did_you_mean<'a>(word: &str, known: impl IntoIterator<Item = &'a str>) -> String {
+    nearest_or_begun(word, known).map_or(String::new(), |name| format!("; did you mean {name}?"))
+}
+
+/// What to write instead of "sun=0,7", whose comma parts two words.
+fn decimal_comma(before: &str, word: &str) -> String {
+    let digits = |text: &str| !text.is_empty() && text.chars().all(|c| c.is_ascii_digit());
+    let whole = before.split_once('=').map_or("", |(_, value)| value.trim_start_matches('-'));
+    let is_meant = digits(whole) && digits(word);
+    if is_meant { format!("; numbers have a decimal point: write {before}.{word}") } else { String::new() }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -133,6 +194,23 @@ mod tests {
     }
 
     #[test]
+    fn a_preset_is_a_first_word_and_is_changed_by_what_follows() {
+        let scene = scene::builtin::named("cornell").expect("a built-in scene");
+        for preset in presets::ALL {
+            let (said, mut applied) = (pane_of(preset.name), PaneSettings::of(preset.technique));
+            applied.take_usual_estimator(&scene);
+            let usual = applied.truth.path.estimator;
+            preset.apply(&mut applied);
+            if preset.values().all(|(setting, _)| setting.name != "estimator") {
+                applied.truth.path.estimator = usual;
+            }
+            assert_eq!(said.in_use(), applied.in_use(), "{}", preset.name);
+        }
+        let truth = pane_of("2e-0-bounces,spp=64").truth;
+        assert_eq!((truth.spp, truth.path.bounces), (64, Some(0)));
+    }
+
+    #[test]
     fn every_setting_of_every_technique_is_taken_by_its_name() {
         for technique in TechniqueName::ALL {
             for setting in settings_of(technique) {
@@ -148,10 +226,26 @@ mod tests {
         for (words, said) in [
             ("path,spp=many", "spp=many: expected a whole number"),
             ("path,fair", "fair: expected NAME=VALUE or a choice of path (independent, sobol, "),
-            ("pth", "pth: expected a technique (raster, whitted, path, normals), NAME=VALUE"),
+            ("pth", "pth: expected a technique (raster, whitted, path, normals), a preset (as-taught, fair, "),
+            ("pth", "; did you mean path?"),
+            ("2e-0-bounce", "; did you mean 2e-0-bounces?"),
+            ("path,2e-0-bounces", "; 2e-0-bounces stands first or not at all"),
+            ("spp=4,path", "; path stands first or not at all"),
+            ("path,sampp=4", "; did you mean sampler?"),
+            ("path,Light", "; did you mean light?"),
+            ("path,sampler=Sobol", "; did you mean sobol?"),
+            ("path,throughput", "; did you mean roulette=throughput?"),
+            ("path,off", "; did you mean roulette=off?"),
+            ("path,inf", "; did you mean bounces=inf?"),
+            ("whitted,traced-sun=0,7", "; numbers have a decimal point: write traced-sun=0.7"),
+            ("", "a word is empty: expected a technique"),
+            ("raster,,fair", "a word is empty: expected NAME=VALUE"),
+            ("raster,fair,as-taught", "fair and as-taught both say fake: leave one of them"),
+            ("spp=4,spp=5", "spp=4 and spp=5 both say spp: leave one of them"),
+            ("path,mis,estimator=light", "mis and estimator=light both say estimator: leave one of them"),
             ("raster,spp=4", "spp is no setting of raster: expected fake, shading"),
             ("path,branches=4", "bounces"),
-            ("path,", ": expected NAME=VALUE"),
+            ("path,", "a word is empty: expected NAME=VALUE"),
         ] {
             let fault = PaneSetup::parse(words, TechniqueName::Path).expect_err(words);
             assert!(fault.contains(said), "{words}: {fault}");

@@ -7,7 +7,7 @@ use technique::{Preset, SceneChanges};
 /// What a slide is about, as two pictures of one scene.
 #[derive(Debug, PartialEq, Eq)]
 pub struct Slide {
-    /// Its name in the dump.
+    /// Its name on the command line and in the dump.
     pub name: &'static str,
     /// As the menu calls it.
     pub title: &'static str,
@@ -118,6 +118,13 @@ pub const SLIDES: &[Slide] = &[
     slide("2f-4-16", "2 f) 4 and 16 spp", "And halve it again", "cornell", ["2f-4-spp", "2f-16-spp"]),
     slide("2f-1-16", "2 f) 1 and 16 spp", "A quarter of the noise", "cornell", ["2f-1-spp", "2f-16-spp"]),
 ];
+
+impl Slide {
+    /// The slide of that name.
+    pub fn named(name: &str) -> Option<&'static Slide> {
+        SLIDES.iter().find(|slide| slide.name == name)
+    }
+}
 
 impl Model {
     /// Shows a slide: at once if its scene is open, else when it has come. Returns the scene to be opened for it.

@@ -1,6 +1,6 @@
 //! What the window is opened with.
 
-use super::{Setup, Theme};
+use super::{Setup, Slide, Theme};
 use std::path::PathBuf;
 use technique::DeviceChoice;
 
@@ -9,6 +9,8 @@ use technique::DeviceChoice;
 pub struct ViewArgs {
     /// A built-in name, a scene's file or a picture of this program.
     pub scene: String,
+    /// What is shown of it before what is set beside it.
+    pub slide: Option<&'static Slide>,
     /// What is set beside it.
     pub setup: Setup,
     /// Where to write the names, rectangles and states of the widgets, each frame, for tests.

@@ -54,6 +54,8 @@ const RETRY: Duration = Duration::from_millis(100);
 fn model_of(opened: &Opened, args: &ViewArgs) -> anyhow::Result<Model> {
     let setup = opened.setup.clone().unwrap_or_default().overridden_by(&args.setup);
     let mut model = Model::new(opened.scene.clone(), opened.source.clone(), args.theme);
+    // its scene is the one that is open
+    args.slide.into_iter().for_each(|slide| _ = model.show_slide(slide));
     model.set_up(&setup).map_err(anyhow::Error::msg)?;
     Ok(model)
 }
@@ -312,5 +314,32 @@ impl WindowState {
         let partial = file.with_extension("partial");
         std::fs::write(&partial, self.viewer.dump(self.egui.egui_ctx(), self.scale, more))?;
         Ok(std::fs::rename(&partial, file)?)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::cli::Command;
+    use crate::engine::load::{self, Loaded};
+    use crate::model::{PaneId, View};
+
+    fn opened_with(words: &[&str]) -> Model {
+        let Ok(Command::View(args)) = Command::parse(words.iter().map(Into::into)) else { panic!("{words:?}") };
+        let Ok(Loaded::Scene(opened)) = load::read(&args.scene) else { panic!("{}", args.scene) };
+        model_of(&opened, &args).unwrap()
+    }
+
+    #[test]
+    fn a_slide_is_shown_with_its_scene_and_what_else_is_said_changes_it() {
+        let paths = |model: &Model| {
+            [PaneId::A, PaneId::B]
+                .map(|id| (model.session.panes[id].truth.path.bounces, model.session.panes[id].truth.spp))
+        };
+        let slide = opened_with(&["--slide", "2e-0-1"]);
+        assert_eq!((slide.document.source.as_str(), paths(&slide)), ("cornell", [(Some(0), 20), (Some(1), 20)]));
+        assert_eq!(opened_with(&["--slide", "phong"]).session.view, View::SideBySide);
+        let changed = opened_with(&["--b", "2e-2-bounces,spp=64", "--slide", "2e-0-1", "--view", "map"]);
+        assert_eq!((changed.session.view, paths(&changed)), (View::ALL[4], [(Some(0), 20), (Some(2), 64)]));
     }
 }

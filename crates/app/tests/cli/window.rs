@@ -14,6 +14,17 @@ fn options_of_the_window_are_those_of_render_and_faults_name_the_word() {
         (&["--exposure", "0,5"], &["--exposure 0,5", "stops from -30 to 30"]),
         (&["--sun-radius", "90"], &["--sun-radius 90", "from 0 to below 90"]),
         (&["--size", "8x8"], &["--size"]),
+        (&["--a", ""], &["--a ''", "a word is empty"]),
+        (&["--a", "2e-0-bounce"], &["did you mean 2e-0-bounces?"]),
+        (&["--b", "spp=4,spp=5"], &["spp=4 and spp=5 both say spp"]),
+        (&["--a", "raster", "--a", "path"], &["--a path", "given twice"]),
+        (&["--view", "A"], &["--view A", "did you mean a?"]),
+        (&["--view", "side-by-side"], &["did you mean side?"]),
+        (&["--view", ""], &["--view ''", "a, b, wipe"]),
+        (&["--theme", "Light"], &["did you mean light?"]),
+        (&["--slide", "2e-0"], &["--slide 2e-0", "did you mean 2e-0-1?"]),
+        (&["--slide", "2c", "--slide", "2b"], &["--slide 2b", "--slide 2c"]),
+        (&["cornell", "--slide", "2c"], &["cornell --slide 2c", "the scene of this slide is cornell", "leave one"]),
     ] {
         assert_refused(arguments, 2, words);
     }
@@ -21,6 +32,10 @@ fn options_of_the_window_are_those_of_render_and_faults_name_the_word() {
                    --refraction-ratio 0.6 --sun-radius 0 --eye 1,2,3 --target 0,0,0 --fov 30";
     let arguments: Vec<&str> = ["whitted"].into_iter().chain(lecture.split(' ')).collect();
     assert_refused(&arguments, 1, &["no window can be opened here"]);
+    for prepared in [&["--a", "2e-0-bounces", "--b", "fair"][..], &["--slide", "2e-0-1", "--a", "2e-0-bounces,spp=64"]]
+    {
+        assert_refused(prepared, 1, &["no window can be opened here"]);
+    }
 }
 
 /// What is no scene is refused before there is a window.

@@ -52,6 +52,12 @@ impl Block {
         Block { usage, about, rows: listed.map(|option| Row::Option(typed(option), option.help.into())).collect() }
     }
 
+    /// More options.
+    fn with<A>(mut self, options: &[CommandOption<A>]) -> Self {
+        self.rows.extend(Block::new("", "", options).rows);
+        self
+    }
+
     /// What may be changed in the scene.
     fn with_scene_settings(mut self) -> Self {
         self.rows.extend(OF_SCENES.iter().map(row));
@@ -129,9 +135,10 @@ fn commands() -> Vec<Block> {
             "visavis [SCENE]",
             "open the viewer; SCENE is whitted, cornell, phong, hard/NAME, a .toml file or a picture of this program (.png, .exr), \
              which is shown again as it was made (default whitted); hard/? lists the hard ones",
-            &view::options(),
+            &view::of_what_is_seen(),
         )
-        .with_scene_settings(),
+        .with_scene_settings()
+        .with(&view::of_the_window()),
         Block::new(
             "visavis render SCENE -o OUT",
             "render to OUT, .png (display-transformed) or .exr (linear, settings in the header)",
@@ -181,6 +188,21 @@ mod tests {
         for preset in technique::presets::ALL {
             assert!(text.contains(preset.name), "{}", preset.name);
         }
+        for slide in crate::model::SLIDES {
+            let (_, listed) = text.split_once("--slide NAME").expect("the option");
+            let listed = listed.split("--view a|b").next().expect("what is before the next");
+            assert!(listed.split([',', ' ', '\n']).any(|word| word == slide.name), "{}", slide.name);
+        }
         assert!(text.lines().all(|line| line.chars().count() <= COLUMNS), "{text}");
+    }
+
+    #[test]
+    fn what_is_seen_stands_together_and_help_last() {
+        let text = text();
+        let window = text.split("visavis render SCENE").next().expect("the window's options");
+        let options = window.lines().filter_map(|line| line.strip_prefix("    --")?.split([' ', ',']).next());
+        let expected = "a b slide view against exposure eye target fov refraction-ratio sun-radius theme device frame-stats \
+                        help version";
+        assert_eq!(options.collect::<Vec<_>>(), expected.split(' ').collect::<Vec<_>>());
     }
 }

@@ -21,7 +21,20 @@ pub fn choice<T>(
     expected: &str,
 ) -> Result<T, CliError> {
     let word = text(parser)?;
-    named(&word).map_or_else(|| usage(format!("{option} {word}: expected {expected}")), Ok)
+    let known = expected.split([',', ' ']).filter(|word| named(word).is_some());
+    match named(&word) {
+        Some(value) => Ok(value),
+        None => usage(format!("{option} {}: expected {expected}{}", shown(&word), did_you_mean(&word, known))),
+    }
+}
+
+/// A word as a message shows it: one of no letters is seen too.
+pub fn shown(word: &str) -> &str {
+    if word.is_empty() { "''" } else { word }
+}
+
+fn did_you_mean<'a>(word: &str, known: impl IntoIterator<Item = &'a str>) -> String {
+    scene::nearest_or_begun(word, known).map_or(String::new(), |name| format!("; did you mean {name}?"))
 }
 
 pub fn number(
@@ -32,7 +45,7 @@ pub fn number(
 ) -> Result<f32, CliError> {
     let word = text(parser)?;
     let number = parse_finite(&word).filter(|v| holds(*v));
-    number.map_or_else(|| usage(format!("{option} {word}: expected {expected}{}", decimal_comma(&word))), Ok)
+    number.map_or_else(|| usage(format!("{option} {}: expected {expected}{}", shown(&word), decimal_comma(&word))), Ok)
 }
 
 /// What to write instead of a number with a comma: "0,6" is 0.6.

@@ -2,10 +2,10 @@
 
 use super::options::{CommandOption, Typed, read, set_in_the_scene};
 use super::seen::{self, Seen};
-use super::values::{DEVICES, choice, number, text};
+use super::values::{DEVICES, choice, number, shown, text};
 use super::{help, usage};
 use crate::cli::{CliError, Command};
-use crate::model::{CompareWith, PaneId, Session, Setup, Theme, View, ViewArgs};
+use crate::model::{CompareWith, PaneId, SLIDES, Session, Setup, Slide, Theme, View, ViewArgs};
 use crate::ui::Workspaces;
 use lexopt::ValueExt;
 use std::ffi::OsString;
@@ -28,8 +28,13 @@ impl AsMut<Seen> for Reading {
 }
 
 pub fn options() -> Vec<CommandOption<Reading>> {
+    of_what_is_seen().into_iter().chain(of_the_window()).collect()
+}
+
+/// Beside which --help lists what may be changed in the scene.
+pub fn of_what_is_seen() -> Vec<CommandOption<Reading>> {
     let of_the_camera = seen::options().into_iter().filter(|option| !option.names.contains(&"--size"));
-    of_a_lecture().into_iter().chain(of_the_camera).chain(of_the_window()).collect()
+    of_a_lecture().into_iter().chain(of_the_camera).collect()
 }
 
 /// What is shown, and how it is made.
@@ -38,8 +43,8 @@ fn of_a_lecture() -> Vec<CommandOption<Reading>> {
         CommandOption {
             names: &["--a"],
             value: "SPEC",
-            help: "how A is made: a technique, its choices and NAME=VALUE of the settings of render, with commas between \
-                   (default raster), like raster,as-taught,segments=40",
+            help: "how A is made: a technique or a preset of render, its choices and NAME=VALUE of the settings of render, with \
+                   commas between (default raster), like raster,as-taught,segments=40 or 2e-0-bounces,spp=64",
             read: |reading, parser| a_pane(reading, PaneId::A, "--a", parser),
         },
         CommandOption {
@@ -47,6 +52,20 @@ fn of_a_lecture() -> Vec<CommandOption<Reading>> {
             value: "SPEC",
             help: "the same of B (default path), like path,spp=64,bounces=2,mis",
             read: |reading, parser| a_pane(reading, PaneId::B, "--b", parser),
+        },
+        CommandOption {
+            names: &["--slide"],
+            value: "NAME",
+            help: "a slide of the tutorial with its scene, A, B and view, of which --a, --b and --view change their part: phong, \
+                   whitted, 1a, 1b, 1d, 1d-whitted, 2b, naive-n, 2c, 2e-0-1, 2e-1-2, roulette, 2f-1-4, 2f-4-16 or 2f-1-16",
+            read: |reading, parser| {
+                let names: Vec<_> = SLIDES.iter().map(|slide| slide.name).collect();
+                let slide = choice(parser, "--slide", Slide::named, &names.join(", "))?;
+                match reading.args.slide.replace(slide) {
+                    Some(other) => usage(format!("--slide {}: --slide {} stands before it", slide.name, other.name)),
+                    None => Ok(()),
+                }
+            },
         },
         CommandOption {
             names: &["--view"],
@@ -80,7 +99,7 @@ fn of_a_lecture() -> Vec<CommandOption<Reading>> {
 }
 
 /// How the window looks, and what it tells.
-fn of_the_window() -> Vec<CommandOption<Reading>> {
+pub fn of_the_window() -> Vec<CommandOption<Reading>> {
     vec![
         CommandOption {
             names: &["--theme"],
@@ -155,6 +174,7 @@ pub fn parse(parser: lexopt::Parser) -> Result<Command, CliError> {
     let args = ViewArgs {
         scene: String::new(),
         setup: Setup::default(),
+        slide: None,
         ui_dump: None,
         theme: Theme::default(),
         device: DeviceChoice::default(),
@@ -170,7 +190,17 @@ pub fn parse(parser: lexopt::Parser) -> Result<Command, CliError> {
             let scene = words.into_iter().next().map(OsString::string).transpose()?;
             let Seen { changes, eye, target, fov, size: _ } = seen;
             let setup = Setup { changes, eye, target, fov, ..args.setup };
-            Ok(Command::View(ViewArgs { scene: scene.unwrap_or_else(|| "whitted".into()), setup, ..args }))
+            let scene = match (scene, args.slide) {
+                (Some(scene), Some(slide)) => {
+                    let (slide, of) = (slide.name, slide.scene);
+                    return usage(format!(
+                        "{scene} --slide {slide}: the scene of this slide is {of}; leave one of the two"
+                    ));
+                }
+                (Some(scene), None) => scene,
+                (None, slide) => slide.map_or("whitted", |slide| slide.scene).into(),
+            };
+            Ok(Command::View(ViewArgs { scene, setup, ..args }))
         }
     }
 }
@@ -179,10 +209,12 @@ fn a_pane(reading: &mut Reading, pane: PaneId, option: &str, parser: &mut lexopt
     let words = text(parser)?;
     let usual = Session::default().panes[pane].technique;
     match PaneSetup::parse(&words, usual) {
-        Ok(setup) => reading.args.setup.panes.insert(pane, setup),
-        Err(fault) => return usage(format!("{option} {words}: {fault}")),
-    };
-    Ok(())
+        Err(fault) => usage(format!("{option} {}: {fault}", shown(&words))),
+        Ok(setup) => match reading.args.setup.panes.insert(pane, setup) {
+            Some(_) => usage(format!("{option} {words}: {option} is given twice")),
+            None => Ok(()),
+        },
+    }
 }
 
 fn a_view(name: &str) -> Option<View> {
