@@ -16,6 +16,8 @@ pub struct Page<'a> {
     pub pairs: Vec<(String, Vec<PicturePair>)>,
     /// What is left out or went wrong, a sentence each.
     pub notes: &'a [String],
+    /// Parts and lines whose seconds are not all by the device's own clock.
+    pub by_the_wall: &'a [(String, String)],
     /// How it was made: names and values.
     pub made: Vec<(&'static str, String)>,
 }
@@ -40,6 +42,7 @@ impl Page<'_> {
         for (part, plots) in &self.parts {
             html += &section(part, plots);
         }
+        html += &self.timed_by_the_wall();
         for (part, pairs) in self.pairs.iter().filter(|(_, pairs)| !pairs.is_empty()) {
             html += &format!("<h2>{}: where the techniques are wrong</h2>\n", escaped(part));
             pairs.iter().for_each(|pair| html += &figure(pair));
@@ -50,6 +53,28 @@ impl Page<'_> {
             html += &format!("<tr><th>{}</th><td>{}</td></tr>\n", escaped(name), escaped(value));
         }
         html + "</table>\n</body>\n</html>\n"
+    }
+
+    /// Whose seconds are to be read with care, by their parts.
+    fn timed_by_the_wall(&self) -> String {
+        let mut parts: Vec<(&str, Vec<&str>)> = Vec::new();
+        for (part, line) in self.by_the_wall {
+            match parts.iter_mut().find(|(known, _)| known == part) {
+                Some((_, lines)) => lines.push(line),
+                None => parts.push((part, vec![line])),
+            }
+        }
+        let item =
+            |(part, lines): &(&str, Vec<&str>)| format!("<li>{}: {}</li>\n", escaped(part), escaped(&lines.join(", ")));
+        match parts.is_empty() {
+            true => String::new(),
+            false => format!(
+                "<p class=\"note\">Seconds of these lines are in part by the wall's clock. A device's own clock times each \
+                 piece of work; of pieces for which it has none, or says less than a quarter of what the wall's does, the \
+                 wall's seconds count, with what the driver does beside the work.</p>\n<ul>\n{}</ul>\n",
+                parts.iter().map(item).collect::<String>()
+            ),
+        }
     }
 
     /// The claim of Monte Carlo and what was measured of it, in one table.
@@ -130,4 +155,27 @@ fn figure(pair: &PicturePair) -> String {
         html += &format!("<span style=\"left:{at:.1}%\">{}</span>", escaped(&tick.text));
     }
     html + "</div>\n<p class=\"small\">Radiance, mean of the three channels; blue: too dark, orange: too bright.</p>\n"
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn page_with(by_the_wall: &[(String, String)]) -> String {
+        let pairs = vec![("cornell".to_owned(), Vec::new())];
+        Page { parts: Vec::new(), pairs, notes: &[], by_the_wall, made: Vec::new() }.html()
+    }
+
+    #[test]
+    fn lines_that_the_wall_timed_are_one_list_below_what_was_measured() {
+        let lines = [("cornell", "mis gpu"), ("cornell", "mis gpu through a tree"), ("whitted", "mis gpu")];
+        let page = page_with(&lines.map(|(part, line)| (part.to_owned(), line.to_owned())));
+        assert_eq!(
+            page.matches("by the wall's clock").count(),
+            1 + page_with(&[]).matches("by the wall's clock").count()
+        );
+        let list =
+            page.find("<li>cornell: mis gpu, mis gpu through a tree</li>\n<li>whitted: mis gpu</li>").expect("a list");
+        assert!(page.find("How fast errors fall") < Some(list) && Some(list) < page.find("<h2>Words</h2>"));
+    }
 }

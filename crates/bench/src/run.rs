@@ -73,6 +73,8 @@ struct Bench<'a> {
     threads: Arc<Threads>,
     clock: Clock,
     notes: Vec<String>,
+    /// Parts and lines whose device was timed by the wall's clock.
+    by_the_wall: Vec<(String, String)>,
     progress: &'a mut dyn FnMut(&Progress),
 }
 
@@ -111,6 +113,7 @@ pub fn run(options: &Options, progress: &mut dyn FnMut(&Progress)) -> Result<Out
         threads: Arc::new(Threads::all()),
         clock: Clock::new(ahead),
         notes,
+        by_the_wall: Vec::new(),
         progress,
     };
     let mut pairs = Vec::new();
@@ -126,7 +129,12 @@ pub fn run(options: &Options, progress: &mut dyn FnMut(&Progress)) -> Result<Out
         write_whole(&folder.join(format!("{}.svg", plot.name)), plot.svg.as_bytes())?;
     }
     let made = provenance(options, &run.host, kept, bench.journal.measurements().len(), start);
-    write_whole(&page, Page { parts, pairs, notes: &bench.notes, made }.html().as_bytes())?;
+    let html = Page { parts, pairs, notes: &bench.notes, by_the_wall: &bench.by_the_wall, made }.html();
+    write_whole(&page, html.as_bytes())?;
+    if !bench.by_the_wall.is_empty() {
+        let lines = bench.by_the_wall.len();
+        bench.notes.push(format!("Seconds of {lines} lines are in part by the wall's clock; the page says of which."));
+    }
     let measurements = bench.journal.measurements().len();
     Ok(Outcome { page, notes: bench.notes, kept, measurements, table: text(&summaries) })
 }
@@ -222,12 +230,7 @@ impl Bench<'_> {
         });
         let measured = measured.map(|(measured, by_the_wall)| {
             if by_the_wall {
-                self.notes.push(format!(
-                    "Seconds of {} of {} are in part by the wall's clock: the device has no clock of its own, or it said less than the wall's \
-                     allows.",
-                    line.name(),
-                    part.name
-                ));
+                self.by_the_wall.push((part.name.clone(), line.name()));
             }
             measured
         });

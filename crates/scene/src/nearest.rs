@@ -5,9 +5,13 @@
 pub fn nearest<'a>(word: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let small = word.to_lowercase();
     let distance = |name: &str| strsim::osa_distance(&small, &name.to_lowercase());
-    let (name, mistakes) = known.into_iter().map(|name| (name, distance(name))).min_by_key(|(_, d)| *d)?;
+    let known: Vec<(&str, usize)> = known.into_iter().map(|name| (name, distance(name))).collect();
+    let (name, mistakes) = known.iter().copied().min_by_key(|(_, mistakes)| *mistakes)?;
+    let others = known.iter().filter(|(other, equal)| *equal == mistakes && *other != name).count();
     let letters = name.chars().count();
-    (mistakes < letters && 3 * mistakes <= letters.max(3)).then_some(name)
+    // of short names several are one letter away
+    let is_clear = mistakes == 0 || letters > 3 || others == 0;
+    (is_clear && mistakes < letters && 3 * mistakes <= letters.max(3)).then_some(name)
 }
 
 /// The nearest, or else the only known name that begins as `word` does: with all of the shorter of the two, or with
@@ -60,5 +64,7 @@ mod tests {
             assert_eq!(nearest(word, known), meant, "{word}");
         }
         assert_eq!(nearest("radius", []), None);
+        assert_eq!(nearest("2e", ["1a", "2b", "2c"]), None, "two are as near");
+        assert_eq!(nearest("x", ["a", "b"]), None, "nothing of it is left");
     }
 }

@@ -1,9 +1,9 @@
-//! What the page's words mean, a line each: measures, ways to find light, sources of random numbers.
+//! What the page's words mean, a line each: measures, ways to find light and to trace, sources of random numbers.
 
 use compare::escaped;
 
 /// Words and lines; those of estimators and samplers by their own names.
-const WORDS: [(&str, &str); 23] = [
+const WORDS: [(&str, &str); 34] = [
     ("spp", "samples per pixel: paths that were started through each pixel"),
     ("radiance", "light along a ray, linear, before exposure and the screen's curve"),
     (
@@ -48,6 +48,23 @@ const WORDS: [(&str, &str); 23] = [
         "Whitted",
         "mirrors and glass by a tree of rays, light that falls on dull surfaces only straight from lamps (1980)",
     ),
+    ("lanes", "rays that one instruction of the processor computes at once; the picture is the same, bit for bit"),
+    ("avx512", "sixteen lanes, by the instructions AVX-512 of a processor"),
+    ("avx2", "eight lanes, by the instructions AVX2 of a processor"),
+    ("array", "four lanes in plain arrays, on any processor"),
+    ("scalar", "one lane: ray by ray, by the same steps as many"),
+    (
+        "single rays",
+        "one ray at a time through the tree of shapes (BVH), also where they are so few that all are tried at once",
+    ),
+    ("for any scene", "without knowing what the scene lacks: single rays, and each kind of material is looked for"),
+    ("gpu", "by the graphics device, with code for what the scene has and no tree where shapes are few"),
+    ("gpu through a tree", "the same through a tree of shapes (BVH), however few they are"),
+    ("gpu for any scene", "the same with code for all that any scene may have"),
+    (
+        "not finite",
+        "samples whose radiance was no number or infinite: they are left out of the picture and counted; 0 is right",
+    ),
 ];
 
 /// All words as a table.
@@ -62,10 +79,14 @@ mod tests {
     use super::*;
 
     #[test]
-    fn every_way_to_find_light_and_every_source_of_numbers_is_explained() {
+    fn every_way_to_find_light_or_to_trace_and_every_source_of_numbers_is_explained() {
+        assert!(["lanes", "not finite"].iter().all(|word| WORDS.iter().any(|(name, _)| name == word)));
         let known = |word: &str| WORDS.iter().any(|(name, _)| *name == word);
         for estimator in pathtrace::Estimator::ALL {
             assert!(known(estimator.name()), "{}", estimator.name());
+        }
+        for variant in crate::variant::Variant::ALL.iter().filter(|variant| !variant.name.is_empty()) {
+            assert!(known(variant.name), "{}", variant.name);
         }
         for sampler in pathtrace::SamplerKind::ALL {
             assert!(known(sampler.name()), "{}", sampler.name());
