@@ -36,6 +36,9 @@ const ASTRAY: [&str; 6] = [
     "string values must be quoted",
 ];
 
+/// Names whose value is a word.
+const WORDS: [&str; 3] = ["material", "metal", "image"];
+
 impl Place<'_> {
     /// A value that is not written in TOML's way.
     fn syntax(&self, message: &str) -> Option<String> {
@@ -60,15 +63,16 @@ impl Place<'_> {
 
     /// "radius: 1" for "radius = 1".
     fn colon(&self) -> Option<String> {
-        let before = self.before().trim_end();
-        let (before, value) = match (before.strip_suffix(':'), self.after().trim_start().strip_prefix(':')) {
-            (Some(before), _) => (before, self.after()),
+        let (before, rest) = (self.before().trim_end(), self.rest_of_line());
+        let (before, value) = match (before.strip_suffix(':'), rest.strip_prefix(':')) {
+            (Some(before), _) => (before, rest),
             (None, Some(value)) => (before, value),
             (None, None) => return None,
         };
         let word = |c: char| c.is_alphanumeric() || c == '_';
         let key = before.trim_end().trim_end_matches('"').rsplit(|c| !word(c)).next().filter(|key| !key.is_empty())?;
-        Some(format!("a value stands behind =, not behind a colon: write {key} = {}", place::value(value)))
+        let value = Some(place::value(value)).filter(|value| !value.is_empty())?;
+        Some(format!("a value stands behind =, not behind a colon: write {key} = {value}"))
     }
 
     fn curly_quotes(&self) -> Option<String> {
@@ -79,7 +83,7 @@ impl Place<'_> {
 
     /// (0, 1, 0) or vec3(0, 1, 0) for [0, 1, 0].
     fn parentheses(&self) -> Option<String> {
-        let (_, value) = self.assignment()?;
+        let (_, value) = self.assignment().filter(|(key, _)| !WORDS.contains(key))?;
         let of_here = |text: &'_ str| {
             let (name, inside) = text.split_once('(')?;
             let is_name = name.chars().all(|c| c.is_alphanumeric() || c == '_');
@@ -115,7 +119,7 @@ impl Place<'_> {
             (_, "true" | "false") => Some(format!("write {lower}")),
             ("two_sided", "yes" | "on") => Some("write true".into()),
             ("two_sided", "no" | "off") => Some("write false".into()),
-            ("material" | "metal" | "image", _) => Some(format!("write \"{value}\"")),
+            (key, _) if WORDS.contains(&key) => Some(format!("write \"{value}\"")),
             _ => None,
         }
     }

@@ -20,6 +20,9 @@ pub(super) fn number(word: &str) -> Option<String> {
     Some(part.map_or(format!("{sign}{whole}"), |part| format!("{sign}{whole}.{}", filled(part))))
 }
 
+/// The least code of a screen's colour that is told from a number that is too large: nobody sees darker ones.
+const DARKEST: u8 = 9;
+
 /// "0,5": what is before the comma and behind it.
 fn with_a_comma(word: &str) -> Option<(&str, &str)> {
     let (whole, part) = word.split_once(',')?;
@@ -88,7 +91,7 @@ impl Place<'_> {
     pub fn screen_colour(&self, message: &str) -> Option<String> {
         let codes = if message.contains("is not a number from 0 to 1") {
             let codes = self.list()?.split(',').map(|word| word.trim().parse().ok()).collect::<Option<Vec<u8>>>()?;
-            codes.iter().any(|code| *code > 1).then_some(codes)?
+            codes.iter().any(|code| *code > DARKEST).then_some(codes)?
         } else {
             let (hex, _) = message.strip_prefix("invalid type: string \"#")?.split_once('"')?;
             let code = |i| u8::from_str_radix(hex.get(i..i + 2)?, 16).ok();

@@ -135,6 +135,14 @@ fn a_value_of_another_kind_is_told_with_what_is_written_there() {
         ("radius = 1", "radius = [2]", "; a number stands without brackets: write 2"),
         ("radius = 1", "radius: 0.5", "; a value stands behind =, not behind a colon: write radius = 0.5"),
         (LOBE, "diffuse = { albedo : [1, 1, 1] }", "not behind a colon: write albedo = [1, 1, 1]"),
+        ("radius = 1", "radius:\ncenter = [1, 2, 3]", "key with no value, expected `=`"),
+        ("material = \"white\"", "material = white(2)", "; write \"white(2)\""),
+        (
+            "[[sphere]]\ncenter = [0, 0, 0]\nradius = 1",
+            "[[mesh]]\npositions = [0, 0, 0]\ntriangles = [[0, 1, 2]]",
+            "; each is a list of its own, like positions = [[0, 1, 2], [0, 2, 3]]",
+        ),
+        (LOBE, "diffuse = { albedo = [2, 0, 0] }", "2 is not a number from 0 to 1"),
         ("material = \"white\"", "material = “white”", "; quotes are straight: write \"white\""),
     ]);
 }

@@ -73,6 +73,9 @@ fn three_numbers(key: &str, written: &str) -> Option<String> {
     if let Some(numbers) = unquoted.and_then(listed) {
         return Some(format!("a list has no quotes: write [{}]", numbers.join(", ")));
     }
+    if matches!(key, "positions" | "triangles") {
+        return Some(format!("each is a list of its own, like {key} = [[0, 1, 2], [0, 2, 3]]"));
+    }
     match three_times(written) {
         Some(three) if !PLACES.contains(&key) => Some(format!("for the same in all three write {three}")),
         _ if PLACES.contains(&key) => Some(format!("write its x, y and z, like {key} = [0, 1, 0]")),
