@@ -42,7 +42,8 @@ pub(crate) fn size_option((width, height): (u32, u32)) -> (&'static str, String)
     ("size", format!("{width}x{height}"))
 }
 
-pub(crate) fn camera_options(camera: &Camera) -> Records {
+/// Options of `visavis render` that place the camera.
+pub fn camera_options(camera: &Camera) -> Records {
     vec![("eye", point(camera.eye)), ("target", point(camera.target)), ("fov", camera.fov_y.to_string())]
 }
 

@@ -48,8 +48,12 @@ const RECORDS_VERSION: u32 = 2;
 /// Holds [`Scene::as_read`](scene::Scene::as_read).
 const SCENE_HASH: &str = "scene.hash";
 
-/// Records that say what a picture took, and are no options of `visavis render`.
-const NO_OPTIONS: [&str; 7] = ["records", "version", "scene", SCENE_HASH, "adapter", "seconds", "command"];
+/// Holds the vertical angle of view of the camera whose picture this is, where the picture shows more: it was in a part of a
+/// window that has room for that above and below.
+pub const OWN_FOV: &str = "camera.fov";
+
+/// Records that say what a picture took or where it was, and are no options of `visavis render`.
+const NO_OPTIONS: [&str; 8] = ["records", "version", "scene", SCENE_HASH, "adapter", "seconds", "command", OWN_FOV];
 
 /// Records that say how far a picture is from another begin with this.
 const MEASURED: &str = "error.";

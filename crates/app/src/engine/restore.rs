@@ -1,12 +1,13 @@
 //! What a picture of this program shows, from its records: its scene, and what is to be set up to see it again.
 
-use crate::model::{Line, PaneId, Setup, View};
+use crate::model::{CompareWith, Line, MapSetup, PaneId, Setup, View};
 use anyhow::{Context, bail};
+use compare::ErrorMetric;
 use image_file::shown;
 use scene::{Scene, SceneHash, Vec3};
 use std::path::Path;
 use technique::settings::of_scenes;
-use technique::{PaneSetup, Recorded, TechniqueName, made_by_command, made_from, scene_hash};
+use technique::{OWN_FOV, PaneSetup, Recorded, TechniqueName, made_by_command, made_from, scene_hash};
 
 /// A picture's scene and all that it says beside.
 #[derive(Debug)]
@@ -26,16 +27,30 @@ pub struct Kept {
 pub fn read(file: &Path) -> anyhow::Result<Option<Kept>> {
     let records = image_file::records(file)?;
     let kept = match made_from(&records) {
-        Ok(Some(made)) => of_panes(&[(PaneId::A, made)]).map(Some),
+        Ok(Some(made)) => alone(made, &records).map(Some),
         Ok(None) => as_seen(&records),
         Err(fault) => Err(fault),
     };
     kept.with_context(|| format!("cannot read how it was made: {}", shown(file)))
 }
 
+/// The picture of a pane, shown alone in A.
+fn alone(made: Recorded, records: &[(String, String)]) -> anyhow::Result<Kept> {
+    let mut kept = of_panes(&[(PaneId::A, made)])?;
+    kept.setup.view = Some(View::Pane(PaneId::A));
+    if let Some(fov) = value(records, OWN_FOV) {
+        kept.setup.fov = Some(number(fov)?);
+    }
+    Ok(kept)
+}
+
+fn value<'a>(records: &'a [(String, String)], name: &str) -> Option<&'a str> {
+    records.iter().find(|(known, _)| known == name).map(|(_, value)| value.as_str())
+}
+
 /// The picture as seen, or the map of errors: each pane's command, and how they were shown.
 fn as_seen(records: &[(String, String)]) -> anyhow::Result<Option<Kept>> {
-    let value = |name: &str| records.iter().find(|(known, _)| known == name).map(|(_, value)| value.as_str());
+    let value = |name: &str| value(records, name);
     let command = |id: PaneId| {
         let line = value(id.name())?;
         Some((id, made_by_command(line.strip_prefix("rough, in full: ").unwrap_or(line))?))
@@ -49,7 +64,22 @@ fn as_seen(records: &[(String, String)]) -> anyhow::Result<Option<Kept>> {
     kept.setup.view = value("view").and_then(|name| View::ALL.into_iter().find(|view| view.name() == name));
     kept.setup.line = value("line").and_then(line);
     kept.setup.exposure = value("exposure").and_then(|stops| stops.parse().ok());
+    kept.setup.with = value("against").and_then(|name| CompareWith::ALL.into_iter().find(|with| with.name() == name));
+    kept.setup.map = map(records);
+    // the panes' commands have the camera of the pictures, which show more of it where they are narrow
+    let camera = &mut kept.setup;
+    camera.eye = value("eye").map(point).transpose()?.or(camera.eye);
+    camera.target = value("target").map(point).transpose()?.or(camera.target);
+    camera.fov = value("fov").map(number).transpose()?.or(camera.fov);
     Ok(Some(kept))
+}
+
+/// The map of errors; `None` of a picture from before it was kept.
+fn map(records: &[(String, String)]) -> Option<MapSetup> {
+    let of = PaneId::named(value(records, "errors of")?)?;
+    let metric = ErrorMetric::named(value(records, "errors")?)?;
+    let held = value(records, "scale")?.parse().ok().filter(|end: &f32| end.is_finite() && *end > 0.0);
+    Some(MapSetup { of, metric, held })
 }
 
 /// "vertical at 0.5".

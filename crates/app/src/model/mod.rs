@@ -43,7 +43,7 @@ pub use picture_area::PictureArea;
 pub use reference::{Origin, Progress};
 pub use remembered::{Remembered, WindowPlace};
 pub use session::{Resolution, Session};
-pub use setup::Setup;
+pub use setup::{MapSetup, Setup};
 pub use slides::{SLIDES, Slide};
 pub use theme::Theme;
 pub use ui_state::{SwitchedOff, UiState};

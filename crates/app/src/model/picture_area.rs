@@ -41,6 +41,11 @@ impl PictureArea {
     pub fn camera(&self, camera: &Camera) -> Camera {
         if self.widening > 1.0 { camera.zoomed(1.0 / self.widening) } else { *camera }
     }
+
+    /// The camera that one picture shows by `shown`: to the last bit if that is of `camera`.
+    pub fn own(&self, shown: &Camera, camera: &Camera) -> Camera {
+        if self.camera(camera) == *shown { *camera } else { shown.zoomed(self.widening) }
+    }
 }
 
 #[cfg(test)]
@@ -76,6 +81,17 @@ mod tests {
     fn an_area_that_becomes_narrow_does_not_crop_a_square() {
         let (square, narrow) = (seen([600.0, 600.0], [600.0, 600.0]), seen([300.0, 600.0], [300.0, 600.0]));
         assert!((narrow[0] / square[0] - 1.0).abs() < 1e-5 && narrow[1] > 1.9 * square[1], "{narrow:?} {square:?}");
+    }
+
+    #[test]
+    fn the_camera_of_a_picture_is_told_from_what_it_shows() {
+        let camera = scene::builtin::named("whitted").unwrap().camera;
+        let area = PictureArea::new([980.0, 696.0], [486.0, 696.0], 1, [0.0; 4]);
+        let shown = area.camera(&camera);
+        assert!(shown.fov_y > 1.3 * camera.fov_y);
+        assert_eq!(area.own(&shown, &camera), camera);
+        let own = area.own(&shown, &camera.orbited(0.5, 0.0));
+        assert!((own.fov_y - camera.fov_y).abs() < 1e-4 && own.eye == camera.eye, "{own:?}");
     }
 
     #[test]

@@ -1,6 +1,7 @@
 //! What a scene is opened with beside itself: by options of the window, or by what a picture says of how it was made.
 
-use super::{CompareWith, Line, Model, Panes, View};
+use super::{CompareWith, Line, Model, PaneId, Panes, View};
+use compare::ErrorMetric;
 use scene::{Camera, Vec3};
 use technique::settings::OF_SCENES;
 use technique::{PaneSetup, SceneChanges};
@@ -24,8 +25,21 @@ pub struct Setup {
     pub line: Option<(Line, f32)>,
     /// What they are compared with.
     pub with: Option<CompareWith>,
+    /// The map of errors.
+    pub map: Option<MapSetup>,
     /// Stops added before display.
     pub exposure: Option<f32>,
+}
+
+/// Which errors are mapped, and how far.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct MapSetup {
+    /// Whose errors.
+    pub of: PaneId,
+    /// How they are measured.
+    pub metric: ErrorMetric,
+    /// Where the scale ends; `None` to fit it.
+    pub held: Option<f32>,
 }
 
 impl Model {
@@ -48,6 +62,10 @@ impl Model {
             self.state.line_placed = Some(self.document.opened);
         }
         session.comparison.with = setup.with.unwrap_or(session.comparison.with);
+        if let Some(MapSetup { of, metric, held }) = setup.map {
+            (session.comparison.of, session.comparison.metric) = (of, metric);
+            session.comparison.held[metric as usize] = held;
+        }
         session.display.exposure = setup.exposure.unwrap_or(session.display.exposure);
         self.document.changes = setup.changes;
         let camera = self.look(setup);
@@ -68,6 +86,12 @@ impl Model {
 }
 
 impl Setup {
+    /// Whether a picture that is shown alone leaves all in sight that is asked for.
+    fn is_seen_in(&self, view: View) -> bool {
+        let View::Pane(shown) = view else { return true };
+        self.panes.ids().all(|asked| asked == shown)
+    }
+
     /// The same with all that `other` says in its place.
     pub fn overridden_by(mut self, other: &Setup) -> Self {
         for (id, pane) in other.panes.iter() {
@@ -82,10 +106,33 @@ impl Setup {
             eye: other.eye.or(self.eye),
             target: other.target.or(self.target),
             fov: other.fov.or(self.fov),
-            view: other.view.or(self.view),
+            view: other.view.or(self.view.filter(|view| other.is_seen_in(*view))),
             line: other.line.or(self.line),
             with: other.with.or(self.with),
+            map: other.map.or(self.map),
             exposure: other.exposure.or(self.exposure),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use technique::TechniqueName;
+
+    #[test]
+    fn a_pane_that_is_asked_for_beside_a_picture_is_seen_beside_it() {
+        let pane = |id| {
+            let mut setup = Setup::default();
+            setup.panes.insert(id, PaneSetup::of(TechniqueName::Path));
+            setup
+        };
+        let picture = Setup { view: Some(View::Pane(PaneId::A)), ..pane(PaneId::A) };
+        let view = |other: &Setup| picture.clone().overridden_by(other).view;
+        assert_eq!(view(&Setup::default()), Some(View::Pane(PaneId::A)));
+        assert_eq!(view(&pane(PaneId::A)), Some(View::Pane(PaneId::A)));
+        assert_eq!(view(&pane(PaneId::B)), None);
+        let side = Setup { view: Some(View::SideBySide), ..pane(PaneId::B) };
+        assert_eq!(view(&side), Some(View::SideBySide));
     }
 }

@@ -126,7 +126,7 @@ impl Viewer {
     }
 
     fn export_pane(&mut self, pane: PaneId, to: Destination) {
-        match self.presentation.pane(pane, self.model.session.display) {
+        match self.presentation.pane(pane, &self.model) {
             Some((content, records)) => self.engine.export(Export { content, records, to }),
             None => self.model.say(Err(format!("{pane} has no whole picture yet; try again in a moment"))),
         }

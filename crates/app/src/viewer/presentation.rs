@@ -5,14 +5,15 @@ use crate::engine::Picture;
 use crate::engine::export::Content;
 use crate::engine::post_process::{DisplayFrame, PaneUpdate, PaneUpdates};
 use crate::engine::thumbnails::Thumbnail;
-use crate::model::{Against, ErrorMap, Model, PaneId, PaneView, Panes, ViewModel, Wanted};
+use crate::model::{Against, ComparisonSettings, ErrorMap, Model, PaneId, PaneView, Panes, ViewModel, Wanted};
 use crate::ruler::error_records;
 use crate::ui::Textures;
 use egui::{TextureFilter, TextureId};
 use film::DisplayTransform;
 use image_file::Records;
+use scene::Camera;
 use std::sync::Arc;
-use technique::{Made, Technique};
+use technique::{Made, OWN_FOV, Technique, camera_options};
 
 /// All panes and the map.
 #[derive(Default)]
@@ -127,7 +128,8 @@ impl Presentation {
     }
 
     /// One pane for export; `None` while there is nothing but a rough picture.
-    pub fn pane(&self, pane: PaneId, display: DisplayTransform) -> Option<(Content, Records)> {
+    pub fn pane(&self, pane: PaneId, model: &Model) -> Option<(Content, Records)> {
+        let display = model.session.display;
         let picture = self.pictures.get(pane).filter(|picture| !picture.rough)?;
         let made = Made {
             spp: picture.spp.unwrap_or(1),
@@ -136,6 +138,10 @@ impl Presentation {
             exposure: display.exposure,
         };
         let mut records = picture.order.provenance.records(made);
+        let own = own_camera(picture, model);
+        if own.fov_y != picture.order.camera().fov_y {
+            records.push((OWN_FOV, own.fov_y.to_string()));
+        }
         if let Some((against, errors)) = self.shown.panes.get(pane).and_then(|shown| shown.errors)
             && let Some(judge) = self.name_of_what_judges(against, display)
         {
@@ -161,14 +167,34 @@ impl Presentation {
             ("line", format!("{} at {}", session.line.name(), session.wipe)),
             ("exposure", exposure.to_string()),
         ];
-        // all panes show one scene
-        records.extend(self.pictures.iter().next().map(|(_, shown)| shown.order.provenance.shot.hash_record()));
+        records.extend(records_of_comparison(&session.comparison));
+        // all panes show one scene from one place
+        if let Some((_, shown)) = self.pictures.iter().next() {
+            records.push(shown.order.provenance.shot.hash_record());
+            records.extend(camera_options(&own_camera(shown, model)));
+        }
         for (pane, picture) in self.pictures.iter() {
             let command = picture.order.provenance.command(picture.spp.unwrap_or(1), exposure, &file_of(pane));
             records.push((pane.name(), if picture.rough { format!("rough, in full: {command}") } else { command }));
         }
         records
     }
+}
+
+/// The camera of the document, of which a picture shows more where it is narrow.
+fn own_camera(picture: &Picture, model: &Model) -> Camera {
+    model.state.picture.own(picture.order.camera(), &model.document.camera)
+}
+
+/// What is compared with what, and how errors are mapped.
+fn records_of_comparison(comparison: &ComparisonSettings) -> Records {
+    let scale = comparison.map().held.map_or_else(|| "fitted".into(), |end| end.to_string());
+    vec![
+        ("against", comparison.with.name().to_owned()),
+        ("errors of", comparison.of.name().to_owned()),
+        ("errors", comparison.metric.name().to_owned()),
+        ("scale", scale),
+    ]
 }
 
 /// A picture that stands for a finer one until that has come is smooth, as that will be; and so is a map, which is seen

@@ -4,6 +4,7 @@ use super::export::export;
 use super::{User, both_whole, says};
 use egui::{Key, Modifiers};
 use std::path::Path;
+use visavis::model::{CompareWith, ComparisonSettings, PaneId};
 use visavis_tests::Frame;
 
 /// A scene with a field of view of so many degrees.
@@ -91,11 +92,68 @@ fn a_dropped_picture_is_shown_again_as_it_was_made() {
     assert_eq!(announced.value("drop"), "Drop to see again what taught.png shows");
     assert!(!user.hover_file(None).shows("drop"));
     user.drop_file(&picture);
-    let again = user.wait_for("what it shows", |f| f.state("scene") == "whitted" && both_whole(f) && taught(f));
+    let whole = |f: &Frame| f.state("a")["ready"] == true && f.state("a")["rough"] == false;
+    let again = user.wait_for("what it shows", |f| f.state("scene") == "whitted" && whole(f) && taught(f));
+    assert_eq!(again.state("view"), "A", "it is shown alone");
     assert!(says(&again, "Opened whitted as") && says(&again, "taught.png shows it"), "{}", again.state("message"));
     assert_eq!(again.value("refraction ratio"), "0.6");
     assert_eq!(again.state("a")["label"], first.state("a")["label"]);
     assert_eq!(again.value("A fake as-taught"), "true");
+}
+
+/// Commands that make the pictures of both panes: camera, size and settings.
+fn commands(user: &mut User) -> [String; 2] {
+    let menu = user.click("Export");
+    let commands = ["A", "B"].map(|pane| menu.value(&format!("command {pane}")).to_owned());
+    user.click("Export");
+    commands
+}
+
+#[test]
+fn a_picture_as_seen_comes_back_with_the_camera_that_made_it_narrow_or_high() {
+    // side by side in a window that is wider than high, and one picture in one that is higher than wide
+    for (size, view) in [([1280.0, 720.0], Key::Num4), ([700.0, 900.0], Key::Num3)] {
+        let mut user = User::beside("whitted", size.into(), 1.0, technique::DeviceChoice::Cpu);
+        // samples would be counted while they come
+        user.change(|model| model.session.panes[PaneId::B].technique = technique::TechniqueName::Raster);
+        user.key(view);
+        let first = user.wait_for("both pictures", both_whole);
+        let (made, shown) = (commands(&mut user), first.state("view").clone());
+        let (seen, one) = (user.file("seen.png"), user.file("one.png"));
+        user.export_as_seen(&seen);
+        export(&mut user, &["A alone"], &one);
+        for (file, words) in [(&seen, "seen.png shows it"), (&one, "one.png shows it")] {
+            user.drop_file(file);
+            let again = user.wait_for("it again", |f| says(f, words));
+            assert_eq!(fov(&again), fov(&first), "{words} at {size:?}");
+        }
+        user.drop_file(&seen);
+        user.wait_for("both again", |f| *f.state("view") == shown && both_whole(f));
+        assert_eq!(commands(&mut user), made, "the pictures are others at {size:?}");
+    }
+}
+
+#[test]
+fn a_map_of_errors_comes_back_as_it_was() {
+    let mut user = User::of("cornell");
+    user.wait_for("both pictures", both_whole);
+    let seen = user.file("map.png");
+    let with = |user: &mut User, change: fn(&mut ComparisonSettings)| {
+        user.change(|model| change(&mut model.session.comparison));
+    };
+    with(&mut user, |comparison| {
+        (comparison.with, comparison.of) = (CompareWith::Reference, PaneId::B);
+        comparison.metric = compare::ErrorMetric::Relative;
+        comparison.held[compare::ErrorMetric::Relative as usize] = Some(0.25);
+    });
+    user.key(Key::Num5);
+    let before = user.comparison();
+    user.export_as_seen(&seen);
+    with(&mut user, |comparison| *comparison = ComparisonSettings::default());
+    user.key(Key::Num3);
+    user.drop_file(&seen);
+    user.wait_for("the map", |f| says(f, "map.png shows it") && f.state("view") == "Error map");
+    assert_eq!(user.comparison(), before);
 }
 
 #[test]

@@ -26,7 +26,8 @@ use std::sync::{Arc, Mutex, MutexGuard};
 use std::time::{Duration, Instant};
 use technique::{Adapters, DeviceChoice};
 use visavis::engine::ask::Engine;
-use visavis::model::{Model, Theme};
+use visavis::engine::capture::Capture;
+use visavis::model::{ComparisonSettings, Destination, Model, Theme};
 use visavis::ui::{UiCommand, Workspaces};
 use visavis::viewer::{Place, TextureStore, Viewer};
 use visavis_tests::{Frame, TestFolder};
@@ -39,6 +40,7 @@ pub struct User {
     uploads: Rc<RefCell<Vec<Upload>>>,
     /// One at a time: each has the machine to itself, as a user has.
     _alone: MutexGuard<'static, ()>,
+    gpu: Gpu,
 }
 
 /// A file as a window hands it on.
@@ -126,7 +128,34 @@ impl User {
             viewer.shown();
         };
         let harness = Harness::builder().with_size(size).with_pixels_per_point(scale).build_ui(app);
-        User { harness, viewer, folder, uploads, _alone: alone }
+        User { harness, viewer, folder, uploads, _alone: alone, gpu }
+    }
+
+    /// Exports the picture as seen, of which no window has any pixels.
+    pub fn export_as_seen(&mut self, file: &Path) -> Frame {
+        let texture = self.gpu.device.create_texture(&wgpu::TextureDescriptor {
+            label: None,
+            size: wgpu::Extent3d { width: 4, height: 4, depth_or_array_layers: 1 },
+            mip_level_count: 1,
+            sample_count: 1,
+            dimension: wgpu::TextureDimension::D2,
+            format: wgpu::TextureFormat::Rgba8Unorm,
+            usage: wgpu::TextureUsages::COPY_SRC | wgpu::TextureUsages::RENDER_ATTACHMENT,
+            view_formats: &[],
+        });
+        let capture = Capture { gpu: self.gpu.clone(), texture, part: [0, 0, 4, 4] };
+        self.viewer.borrow_mut().export_as_seen(capture, Destination::File(file.to_owned()));
+        self.wait_for("the picture as seen", |_| file.is_file())
+    }
+
+    /// Changes what controls would change.
+    pub fn change(&mut self, change: impl FnOnce(&mut Model)) {
+        change(&mut self.viewer.borrow_mut().model);
+    }
+
+    /// What is compared with what.
+    pub fn comparison(&self) -> ComparisonSettings {
+        self.viewer.borrow().model.session.comparison.clone()
     }
 
     /// A file that no test has but this one.
