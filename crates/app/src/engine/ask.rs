@@ -4,7 +4,7 @@ use super::asked_pane::{AskedPane, FakesTime};
 use super::dialogue::{Answer, Choice, Dialogues};
 use super::error_map::ErrorMapWorker;
 use super::export::{Export, Exporter, Outcome};
-use super::load::{Loaded, Loader, Refusal};
+use super::load::{Asked as AskedFile, Loaded, Loader, Refusal};
 use super::pane_workers::PaneWorkers;
 use super::post_process::{PaneUpdate, PaneUpdates, PostProcess};
 use super::reference::{OpenStore, ReferenceUpdate, ReferenceWorker, Wish};
@@ -35,6 +35,8 @@ pub struct Engine {
     threads: Arc<Threads>,
     exporter: Exporter,
     loader: Loader,
+    /// Reads pictures to compare with, whatever else is opened.
+    reference_loader: Loader,
     watcher: Watcher,
     dialogues: Dialogues,
     /// Made when they are first asked for.
@@ -86,6 +88,7 @@ impl Engine {
             threads,
             exporter: Exporter::start(wake.clone()).context("no thread for exports")?,
             loader: Loader::new(wake.clone()),
+            reference_loader: Loader::new(wake.clone()),
             watcher: Watcher::start(wake.clone()).context("no thread to watch files")?,
             dialogues: Dialogues::new(wake.clone()),
             thumbnails: None,
@@ -254,14 +257,17 @@ impl Engine {
         }
     }
 
-    /// Reads a scene or a picture beside the UI.
-    pub fn load(&self, name: String) {
-        self.loader.load(name);
+    /// Reads a file beside the UI.
+    pub fn load(&self, asked: AskedFile) {
+        match asked {
+            AskedFile::Open { .. } => self.loader.load(asked),
+            AskedFile::Reference(_) => self.reference_loader.load(asked),
+        }
     }
 
     /// What was read since the last call, or why nothing was.
     pub fn loaded(&self) -> Option<Result<Loaded, Refusal>> {
-        self.loader.loaded()
+        self.loader.loaded().or_else(|| self.reference_loader.loaded())
     }
 
     /// Watches the file of the scene that is open, if it is one.

@@ -1,11 +1,13 @@
 //! Reading scenes, and pictures that say which scene they show, beside the UI: a large file takes its time.
 
 use super::Wake;
-use super::restore::{self, Kept};
+use super::find_scene::scene_of;
+use super::restore::{self, Kept, Told};
 use super::watch::Stamp;
 use super::worker::{Control, Service, Worker};
 use crate::model::Setup;
 use image_file::{Kind, shown};
+use reference::Reference;
 use scene::{Scene, SceneError, builtin};
 use std::cell::RefCell;
 use std::path::{Path, PathBuf};
@@ -17,15 +19,26 @@ pub struct Loader {
     last: RefCell<Option<Result<Reader, Refusal>>>,
 }
 
-type Reader = Worker<Option<String>, Option<Result<Loaded, Refusal>>>;
+type Reader = Worker<Option<Asked>, Option<Result<Loaded, Refusal>>>;
 
 /// What was in a file, or under a name.
 #[derive(Debug)]
 pub enum Loaded {
     /// Something to look at.
     Scene(Box<Opened>),
-    /// A picture that does not say how it was made: something to compare with.
-    Reference(PathBuf),
+    /// A picture without a scene: something to compare with.
+    Reference(ReferenceFile),
+}
+
+/// A picture to compare with.
+#[derive(Debug, Clone)]
+pub struct ReferenceFile {
+    /// Its file, which can be read.
+    pub file: PathBuf,
+    /// Width and height in pixels.
+    pub size: (u32, u32),
+    /// Why its scene is not opened, if it says which one that is.
+    pub sceneless: Option<String>,
 }
 
 /// A scene that was read.
@@ -41,6 +54,8 @@ pub struct Opened {
     pub stamp: Option<Stamp>,
     /// What the picture sets up that was opened, if one was.
     pub setup: Option<Setup>,
+    /// That picture, where it is the scene's reference.
+    pub reference: Option<ReferenceFile>,
     /// What else is to be said, a line each.
     pub notes: Vec<String>,
 }
@@ -56,15 +71,40 @@ pub struct Refusal {
     pub missing: bool,
 }
 
-/// Reads what stands under a built-in name or in a file.
+/// Something to read.
+#[derive(Debug, Clone)]
+pub enum Asked {
+    /// A scene by its built-in name, a scene's file, or a picture.
+    Open {
+        /// Name or file.
+        name: String,
+        /// The files that were opened before, among which a picture's scene may be.
+        recent: Vec<PathBuf>,
+    },
+    /// A picture to compare with.
+    Reference(PathBuf),
+}
+
+impl Asked {
+    fn name(&self) -> String {
+        match self {
+            Asked::Open { name, .. } => name.clone(),
+            Asked::Reference(file) => file.display().to_string(),
+        }
+    }
+}
+
+/// Reads what is asked for.
 ///
 /// # Errors
 /// One line that says what is wrong, and where.
-pub fn read(asked: &str) -> Result<Loaded, Refusal> {
-    let path = Path::new(asked);
-    match Kind::of(path) {
-        Some(kind) if builtin::text(asked).is_none() => read_picture(asked, path, kind),
-        _ => read_scene(asked).map(|opened| Loaded::Scene(Box::new(opened))).map_err(|fault| refusal(asked, &fault)),
+pub fn read(asked: &Asked) -> Result<Loaded, Refusal> {
+    match asked {
+        Asked::Reference(file) => read_reference(file).map(Loaded::Reference),
+        Asked::Open { name, recent } => match Kind::of(Path::new(name)) {
+            Some(kind) if builtin::text(name).is_none() => read_picture(Path::new(name), kind, recent),
+            _ => read_scene(name).map(|opened| Loaded::Scene(Box::new(opened))).map_err(|fault| refusal(name, &fault)),
+        },
     }
 }
 
@@ -73,43 +113,76 @@ fn refusal(asked: &str, fault: &SceneError) -> Refusal {
     Refusal { asked: asked.to_owned(), line: fault.to_string(), missing }
 }
 
-fn read_scene(source: &str) -> Result<Opened, SceneError> {
+/// A scene by its built-in name, or from its file.
+///
+/// # Errors
+/// What is wrong with it.
+pub(super) fn read_scene(source: &str) -> Result<Opened, SceneError> {
     // before it is read, so that what is written meanwhile is newer
     let stamp = Stamp::of(Path::new(source)).filter(|_| builtin::text(source).is_none());
     let scene = builtin::named(source)?;
     let notes = scene.notes();
-    Ok(Opened { asked: source.to_owned(), source: source.to_owned(), scene, stamp, setup: None, notes })
+    Ok(Opened {
+        asked: source.to_owned(),
+        source: source.to_owned(),
+        scene,
+        stamp,
+        setup: None,
+        reference: None,
+        notes,
+    })
 }
 
-fn read_picture(asked: &str, path: &Path, kind: Kind) -> Result<Loaded, Refusal> {
-    let refuse = |line: String| Refusal { asked: asked.to_owned(), line, missing: !path.exists() };
-    let Some(kept) = restore::read(path).map_err(|fault| refuse(format!("{fault:#}")))? else {
-        return match kind {
-            Kind::Exr => Ok(Loaded::Reference(path.to_owned())),
-            Kind::Png => Err(refuse(format!(
-                "this picture does not say how it was made, and only an .exr can be a reference: {}",
-                shown(path)
-            ))),
-        };
-    };
-    let mut opened = scene_of(&kept, path).map_err(|fault| match fault {
-        SceneError::Read { .. } | SceneError::Unknown { .. } => refuse(format!(
-            "the scene of {} is not found; open it in the folder where it was made, or put the scene beside it: {fault}",
+fn read_picture(path: &Path, kind: Kind, recent: &[PathBuf]) -> Result<Loaded, Refusal> {
+    let refuse = |line: String| refuse(path, line);
+    match (restore::read(path).map_err(|fault| refuse(format!("{fault:#}")))?, kind) {
+        (Told::Picture(kept), _) => {
+            let opened = scene_of(&kept, path, recent).map_err(refuse)?;
+            Ok(Loaded::Scene(Box::new(set_up(opened, kept, path))))
+        }
+        (Told::Reference(kept), _) => {
+            let reference = read_reference(path)?;
+            Ok(match scene_of(&kept, path, recent) {
+                Ok(opened) => {
+                    let opened = set_up(opened, kept, path);
+                    Loaded::Scene(Box::new(Opened { reference: Some(reference), ..opened }))
+                }
+                Err(line) => Loaded::Reference(ReferenceFile { sceneless: Some(line), ..reference }),
+            })
+        }
+        (Told::ErrorMap, _) => Err(refuse(map_of_errors(path))),
+        (Told::Nothing, Kind::Exr) => read_reference(path).map(Loaded::Reference),
+        (Told::Nothing, Kind::Png) => Err(refuse(format!(
+            "this picture does not say how it was made: {}; a scene (.toml) can be opened, a picture that visavis has saved, \
+             or an .exr to compare with",
             shown(path)
-        )),
-        fault => refuse(format!("the scene of {}: {fault}", shown(path))),
-    })?;
-    opened.notes.extend(kept.note(path, &opened.scene));
-    Ok(Loaded::Scene(Box::new(Opened { asked: asked.to_owned(), setup: Some(kept.setup), ..opened })))
+        ))),
+    }
 }
 
-/// The scene of a picture, where it was when the picture was made, or beside the picture.
-fn scene_of(kept: &Kept, picture: &Path) -> Result<Opened, SceneError> {
-    let there = read_scene(&kept.scene);
-    let Err(SceneError::Read { .. } | SceneError::Unknown { .. }) = &there else { return there };
-    let name = Path::new(&kept.scene);
-    let beside = [picture.with_file_name(name), picture.with_file_name(name.file_name().unwrap_or_default())];
-    beside.iter().find(|file| file.is_file()).map_or(there, |file| read_scene(&file.display().to_string()))
+fn refuse(path: &Path, line: String) -> Refusal {
+    Refusal { asked: path.display().to_string(), line, missing: !path.exists() }
+}
+
+/// What its picture shows.
+fn set_up(opened: Opened, kept: Kept, picture: &Path) -> Opened {
+    let notes = opened.notes.iter().cloned().chain(kept.note(picture, &opened.scene)).collect();
+    Opened { asked: picture.display().to_string(), setup: Some(kept.setup), notes, ..opened }
+}
+
+fn read_reference(path: &Path) -> Result<ReferenceFile, Refusal> {
+    let loaded = Reference::load(path).map_err(|fault| refuse(path, fault.to_string()))?;
+    if matches!(restore::read(path), Ok(Told::ErrorMap)) {
+        return Err(refuse(path, map_of_errors(path)));
+    }
+    Ok(ReferenceFile { file: path.to_owned(), size: loaded.image.size(), sceneless: None })
+}
+
+fn map_of_errors(path: &Path) -> String {
+    format!(
+        "this is a map of errors, with which no picture can be compared: {}; open one of its two pictures",
+        shown(path)
+    )
 }
 
 impl Loader {
@@ -118,16 +191,16 @@ impl Loader {
         Loader { wake, last: RefCell::default() }
     }
 
-    /// Reads a scene or a picture, by name or file, on a thread of its own.
-    pub fn load(&self, name: String) {
+    /// Reads this on a thread of its own.
+    pub fn load(&self, asked: Asked) {
         let started = Worker::start("loader", self.wake.clone(), || Scenes { asked: String::new() });
         let reader = started.map_err(|e| Refusal {
-            asked: name.clone(),
+            asked: asked.name(),
             line: format!("no thread to read the scene ({e})"),
             missing: false,
         });
         if let Ok(reader) = &reader {
-            reader.post(|slot| *slot = Some(name));
+            reader.post(|slot| *slot = Some(asked));
         }
         if let Some(Ok(before)) = self.last.replace(Some(reader)) {
             before.leave();
@@ -162,13 +235,13 @@ struct Scenes {
 }
 
 impl Service for Scenes {
-    type Job = Option<String>;
+    type Job = Option<Asked>;
     type Update = Option<Result<Loaded, Refusal>>;
 
-    fn serve(&mut self, name: Option<String>, control: &Control<Self::Job, Self::Update>) {
-        let Some(name) = name else { return };
-        self.asked.clone_from(&name);
-        let read = read(&name);
+    fn serve(&mut self, asked: Option<Asked>, control: &Control<Self::Job, Self::Update>) {
+        let Some(asked) = asked else { return };
+        self.asked = asked.name();
+        let read = read(&asked);
         control.tell(|loaded| *loaded = Some(read));
     }
 
@@ -187,27 +260,10 @@ mod tests {
     #[test]
     fn what_is_not_there_is_told_apart_from_what_is_wrong() {
         let folder = TestFolder::new();
-        let missing = |name: &str| read(&folder.file(name).display().to_string()).expect_err(name).missing;
+        let asked = |name: &str| Asked::Open { name: folder.file(name).display().to_string(), recent: Vec::new() };
+        let missing = |name: &str| read(&asked(name)).expect_err(name).missing;
         std::fs::write(folder.file("wrong.toml"), "camera = 1").expect("a file");
         std::fs::write(folder.file("wrong.png"), "no picture").expect("a file");
         assert_eq!(["gone.toml", "gone.png", "wrong.toml", "wrong.png"].map(missing), [true, true, false, false]);
-    }
-
-    #[test]
-    fn the_scene_of_a_picture_is_looked_for_beside_it_too() {
-        let folder = TestFolder::new();
-        let kept = |scene: &str| Kept { scene: scene.to_owned(), scene_hash: None, setup: Setup::default() };
-        let cornell = builtin::text("cornell").expect("a built-in scene");
-        std::fs::create_dir(folder.file("scenes")).expect("a folder");
-        for name in ["moved.toml", "scenes/below.toml"] {
-            std::fs::write(folder.file(name), cornell).expect("a file");
-        }
-        let source =
-            |scene: &str| scene_of(&kept(scene), &folder.file("a.png")).map(|opened| PathBuf::from(opened.source));
-        for (scene, file) in [("elsewhere/moved.toml", "moved.toml"), ("scenes/below.toml", "scenes/below.toml")] {
-            assert_eq!(source(scene).expect(scene), folder.file(file));
-        }
-        assert!(matches!(source("gone.toml"), Err(SceneError::Read { .. })));
-        assert_eq!(source("cornell").expect("a built-in scene"), PathBuf::from("cornell"));
     }
 }

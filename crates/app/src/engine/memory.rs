@@ -144,6 +144,9 @@ mod tests {
         memory.note(Memo::Opened("/a.toml".into()));
         drop(memory);
         assert_eq!(recall(&file).expect("a memory").recent, [PathBuf::from("/a.toml")]);
+        let strange = r#"{"recent": ["", "a.toml", "/a.toml", "../b.toml"]}"#;
+        std::fs::write(&file, strange).expect("a file");
+        assert_eq!(recall(&file).expect("a memory").recent, [PathBuf::from("/a.toml")]);
         let many = Remembered { recent: (0..50).map(|i| format!("/{i}.toml").into()).collect(), window: None };
         std::fs::write(&file, serde_json::to_string(&many).expect("JSON")).expect("a file");
         assert_eq!(recall(&file).expect("a memory").recent.len(), Remembered::MOST_FILES);

@@ -190,11 +190,21 @@ fn fail(control: &ReferenceControl, fault: String) {
 /// and whether it is of the same scene.
 fn load(file: &Path, shot: &Shot) -> Result<(Reference, Vec<String>), String> {
     let (reference, notes) = Reference::load_with_notes(file).map_err(|fault| fault.to_string())?;
-    let ((w, h), (width, height)) = (reference.image.size(), shot.size);
-    if (w, h) == (width, height) {
-        return Ok((reference, notes.into_iter().chain(of_another_scene(file, shot)).collect()));
+    match misfit(file, reference.image.size(), shot) {
+        None => Ok((reference, notes.into_iter().chain(of_another_scene(file, shot)).collect())),
+        Some(line) => Err(line),
     }
-    Err(format!("the reference has {w}x{h} pixels, the picture {width}x{height}: {}", image_file::shown(file)))
+}
+
+/// Why a reference of this size is none of what is seen: one line, with what makes one that is.
+pub fn misfit(file: &Path, (w, h): (u32, u32), shot: &Shot) -> Option<String> {
+    let (width, height) = shot.size;
+    ((w, h) != shot.size).then(|| {
+        let (file, command) = (image_file::shown(file), shot.reference_command());
+        format!(
+            "the reference has {w}x{h} pixels, the picture {width}x{height}: {file}; one that fits is made by {command}"
+        )
+    })
 }
 
 /// A line where the file is of another scene than what is seen, or does not tell.

@@ -20,18 +20,50 @@ pub struct Kept {
     pub setup: Setup,
 }
 
-/// What a picture says of itself; `None` if it says nothing of that kind.
+/// What a file's records say of its picture.
+#[derive(Debug)]
+pub enum Told {
+    /// How it was made.
+    Picture(Kept),
+    /// That it is a scene's reference.
+    Reference(Kept),
+    /// That it is a map of errors, not of which pictures.
+    ErrorMap,
+    /// Nothing of that kind.
+    Nothing,
+}
+
+/// What a picture says of itself.
 ///
 /// # Errors
 /// If it cannot be read, or if its records are damaged or of a later program.
-pub fn read(file: &Path) -> anyhow::Result<Option<Kept>> {
+pub fn read(file: &Path) -> anyhow::Result<Told> {
     let records = image_file::records(file)?;
-    let kept = match made_from(&records) {
-        Ok(Some(made)) => alone(made, &records).map(Some),
-        Ok(None) => as_seen(&records),
-        Err(fault) => Err(fault),
-    };
-    kept.with_context(|| format!("cannot read how it was made: {}", shown(file)))
+    told(&records).with_context(|| format!("cannot read how it was made: {}", shown(file)))
+}
+
+fn told(records: &[(String, String)]) -> anyhow::Result<Told> {
+    if let Some(made) = made_from(records)? {
+        return alone(made, records).map(Told::Picture);
+    }
+    if let Some(kept) = as_seen(records)? {
+        return Ok(Told::Picture(kept));
+    }
+    if let Some(kept) = of_reference(records)? {
+        return Ok(Told::Reference(kept));
+    }
+    let is_map = value(records, "map").is_some() && value(records, "colours").is_some();
+    Ok(if is_map { Told::ErrorMap } else { Told::Nothing })
+}
+
+/// The reference of a scene, as `reference` keeps it: it tells by which estimator it was made.
+fn of_reference(records: &[(String, String)]) -> anyhow::Result<Option<Kept>> {
+    let (Some(scene), Some(_)) = (value(records, "scene"), value(records, "estimator")) else { return Ok(None) };
+    let mut setup = Setup::default();
+    for (name, value) in records {
+        look(&mut setup, name, value)?;
+    }
+    Ok(Some(Kept { scene: scene.to_owned(), scene_hash: scene_hash(records)?, setup }))
 }
 
 /// The picture of a pane, shown alone in A.
@@ -108,23 +140,30 @@ fn add(setup: &mut Setup, id: PaneId, options: &[String]) -> anyhow::Result<()> 
         match name {
             // the window has a size and devices of its own
             "technique" | "size" | "device" => {}
-            "eye" => setup.eye = Some(point(value)?),
-            "target" => setup.target = Some(point(value)?),
-            "fov" => setup.fov = Some(number(value)?),
             "exposure" => setup.exposure = Some(number(value)?),
-            _ => match of_scenes(name) {
-                Some(change) => {
-                    let value = change.kind.parse(value);
-                    let value = value.map_err(|expected| anyhow::anyhow!("{name}: expected {expected}"))?;
-                    (change.set)(&mut setup.changes, value);
-                }
-                None => pane.set(name, value).map_err(anyhow::Error::msg)?,
-            },
+            _ if look(setup, name, value)? => {}
+            _ => pane.set(name, value).map_err(anyhow::Error::msg)?,
         }
     }
     pane.check().map_err(anyhow::Error::msg)?;
     setup.panes.insert(id, pane);
     Ok(())
+}
+
+/// Sets the camera or what is changed in the scene; returns whether it is of that kind.
+fn look(setup: &mut Setup, name: &str, value: &str) -> anyhow::Result<bool> {
+    match name {
+        "eye" => setup.eye = Some(point(value)?),
+        "target" => setup.target = Some(point(value)?),
+        "fov" => setup.fov = Some(number(value)?),
+        _ => {
+            let Some(change) = of_scenes(name) else { return Ok(false) };
+            let value = change.kind.parse(value);
+            let value = value.map_err(|expected| anyhow::anyhow!("{name}: expected {expected}"))?;
+            (change.set)(&mut setup.changes, value);
+        }
+    }
+    Ok(true)
 }
 
 fn number(word: &str) -> anyhow::Result<f32> {
@@ -173,7 +212,10 @@ mod tests {
         let kind = Kind::of(&file).expect("a kind");
         let bytes = image_file::encode(kind, &image, &DisplayTransform::default(), records).expect("a picture");
         std::fs::write(&file, bytes).expect("a file");
-        read(&file).expect("records").expect("one of this program")
+        match read(&file).expect("records") {
+            Told::Picture(kept) => kept,
+            other => panic!("{other:?}"),
+        }
     }
 
     fn restored(kept: &Kept) -> Model {
@@ -217,6 +259,20 @@ mod tests {
     }
 
     #[test]
+    fn a_reference_tells_its_scene_and_camera_and_a_map_what_it_is() {
+        let [picture, _] = pictures();
+        let owned = |records: Records| -> Vec<(String, String)> {
+            records.into_iter().map(|(name, value)| (name.to_owned(), value)).collect()
+        };
+        let Ok(Told::Reference(kept)) = told(&owned(reference::records(&picture.shot))) else { panic!("no reference") };
+        let model = restored(&kept);
+        assert_eq!((model.document.camera, model.document.changes), (picture.shot.camera, picture.shot.changes));
+        assert_eq!(kept.scene_hash, Some(picture.shot.scene.as_read));
+        let map = vec![("map", "A - reference".to_owned()), ("colours", "signed".to_owned())];
+        assert!(matches!(told(&owned(map)), Ok(Told::ErrorMap)));
+    }
+
+    #[test]
     fn other_pictures_say_nothing_and_damaged_records_are_told() {
         let folder = TestFolder::new();
         let image = Image::new(1, 1, [Vec3::ONE]).expect("a pixel");
@@ -229,7 +285,7 @@ mod tests {
             let bytes = image_file::encode(Kind::Png, &image, &DisplayTransform::default(), &records).expect("a PNG");
             std::fs::write(&file, bytes).expect("a file");
             match (read(&file), said) {
-                (Ok(None), None) => {}
+                (Ok(Told::Nothing), None) => {}
                 (Err(fault), Some(said)) => assert!(format!("{fault:#}").contains(said), "{fault:#}"),
                 (other, _) => panic!("{other:?}"),
             }

@@ -40,8 +40,10 @@ impl Remembered {
         self.recent.retain(|known| known != file);
     }
 
-    /// What was read, within bounds; a window whose size is none is not remembered.
+    /// What was read, within bounds, without paths that mean another file in each folder, and without a window whose size is
+    /// none.
     pub fn bounded(mut self) -> Self {
+        self.recent.retain(|file| file.is_absolute());
         self.recent.truncate(Self::MOST_FILES);
         self.window.take_if(|place| !place.size.iter().all(|side| (1.0..=65536.0).contains(side)));
         self

@@ -73,6 +73,12 @@ impl Model {
         camera
     }
 
+    /// Stands where this camera does, of which a picture shows all as it is seen now. Undo does not go behind it.
+    pub fn look_through(&mut self, shown: &Camera) {
+        self.document.camera = self.state.picture.own(shown, shown);
+        self.begin_history();
+    }
+
     fn look(&mut self, Setup { eye, target, fov, .. }: &Setup) -> Result<(), String> {
         let own = self.document.scene.camera;
         let (eye, target) = (eye.unwrap_or(own.eye), target.unwrap_or(own.target));

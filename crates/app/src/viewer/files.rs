@@ -1,11 +1,12 @@
 //! Scenes, pictures and references as they come from disk: opened, chosen, read again, remembered.
 
 use super::Viewer;
+use super::judge::Judge;
 use crate::engine::dialogue::{Answer, Choice};
 use crate::engine::load::{Loaded, Opened, Refusal};
 use crate::engine::memory::{Memo, Memory};
 use crate::engine::watch::{News, Reread, Stamp, Watched};
-use crate::model::{CompareWith, Destination, ExportRequest, FilePurpose, Remembered, WindowPlace};
+use crate::model::{Destination, ExportRequest, FilePurpose, Remembered, WindowPlace};
 use crate::ui::UiCommand;
 use image_file::shown;
 use scene::builtin;
@@ -38,8 +39,16 @@ impl Viewer {
         }
     }
 
+    /// Goes on with the scene that the model was begun with.
+    pub fn begin_with(&mut self, opened: Opened) {
+        let Opened { asked, stamp, reference, notes, .. } = opened;
+        self.follow_the_file(&asked, stamp);
+        self.model.say_notes(&notes);
+        self.judge = reference.map(|reference| Judge::of_its_scene(reference, &self.model, notes));
+    }
+
     /// Follows the file of the scene that is open, and remembers what opened it.
-    pub fn follow_the_file(&mut self, asked: &str, stamp: Option<Stamp>) {
+    fn follow_the_file(&mut self, asked: &str, stamp: Option<Stamp>) {
         self.model.state.scene_fault = None;
         self.model.state.neighbours.clear();
         self.watch(stamp, false);
@@ -71,7 +80,7 @@ impl Viewer {
     pub(super) fn collect_files(&mut self) {
         match self.engine.loaded() {
             Some(Ok(Loaded::Scene(opened))) => self.open(*opened),
-            Some(Ok(Loaded::Reference(file))) => self.compare_with(file),
+            Some(Ok(Loaded::Reference(reference))) => self.judge = Some(Judge::alone(reference)),
             Some(Err(refusal)) => self.refuse(refusal),
             None => {}
         }
@@ -88,7 +97,10 @@ impl Viewer {
     }
 
     fn open(&mut self, opened: Opened) {
-        let Opened { asked, source, scene, stamp, setup, notes } = opened;
+        if self.is_seen(&opened) {
+            return self.judge = opened.reference.map(Judge::alone);
+        }
+        let Opened { asked, source, scene, stamp, setup, reference, notes } = opened;
         let what = match &setup {
             Some(_) => format!("{} as {} shows it", scene.name, shown(Path::new(&asked))),
             None => scene.name.clone(),
@@ -105,13 +117,7 @@ impl Viewer {
         }
         self.presentation.clear();
         self.follow_the_file(&asked, stamp);
-    }
-
-    fn compare_with(&mut self, file: PathBuf) {
-        self.model.session.comparison.with = CompareWith::Reference;
-        self.model.state.reference_file = file.display().to_string();
-        self.model.say(Ok(format!("A and B are compared with {}", shown(&file))));
-        self.engine.load_reference(file);
+        self.judge = reference.map(|reference| Judge::of_its_scene(reference, &self.model, notes));
     }
 
     fn refuse(&mut self, refusal: Refusal) {
@@ -131,10 +137,14 @@ impl Viewer {
         match reread.scene {
             Ok(scene) => {
                 self.model.state.scene_fault = None;
+                let notes = scene.notes();
                 let changed = self.model.reread(scene);
-                if changed || asked {
-                    let aside = if changed { "" } else { ": nothing has changed" };
-                    self.model.say(Ok(format!("Read {name} again{aside}")));
+                let aside = if changed { "" } else { ": nothing has changed" };
+                let said = format!("Read {name} again{aside}");
+                match (changed || asked, notes.is_empty()) {
+                    (true, true) => self.model.say(Ok(said)),
+                    (true, false) => self.model.say_notes(&[vec![said], notes].concat()),
+                    (false, _) => {}
                 }
             }
             // what was said before does not stand before it
@@ -155,7 +165,7 @@ impl Viewer {
         match (answer.chosen, answer.purpose) {
             (Ok(None), _) => {}
             (Ok(Some(file)), FilePurpose::Open) => self.commands.push(UiCommand::Open(file.display().to_string())),
-            (Ok(Some(file)), FilePurpose::Reference) => self.compare_with(file),
+            (Ok(Some(file)), FilePurpose::Reference) => self.commands.push(UiCommand::LoadReference(file)),
             (Ok(Some(file)), FilePurpose::Export(subject)) => {
                 let to = Destination::File(file);
                 self.commands.push(UiCommand::Export(ExportRequest { subject, to }));

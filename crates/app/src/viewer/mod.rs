@@ -2,6 +2,7 @@
 //! real one is `window`; tests drive it without any.
 
 mod files;
+mod judge;
 mod presentation;
 mod stopwatch;
 
@@ -11,11 +12,13 @@ use crate::engine::Picture;
 use crate::engine::ask::Engine;
 use crate::engine::capture::Capture;
 use crate::engine::export::{Content, Export};
+use crate::engine::load::Asked;
 use crate::engine::memory::Memory;
 use crate::engine::post_process::PaneUpdate;
 use crate::model::{Destination, Drawing, Effort, ExportSubject, Model, PaneId, PaneView};
 use crate::ui::{self, Dump, UiCommand, UiContext, Workspaces};
 use gpu::Gpu;
+use judge::Judge;
 use presentation::Presentation;
 use serde_json::{Value, json};
 use std::time::{Duration, Instant};
@@ -36,6 +39,8 @@ pub struct Viewer {
     memory: Option<Memory>,
     /// Whether the user has asked to read the scene again.
     asked_again: bool,
+    /// A picture to compare with, until it is known how large what is seen is.
+    judge: Option<Judge>,
 }
 
 impl Viewer {
@@ -51,6 +56,7 @@ impl Viewer {
             commands: Vec::new(),
             memory: None,
             asked_again: false,
+            judge: None,
         }
     }
 
@@ -116,8 +122,11 @@ impl Viewer {
                 ExportSubject::Pane(pane) => self.export_pane(pane, request.to),
                 ExportSubject::ErrorMap => self.export_map(request.to),
             },
-            UiCommand::Open(name) => self.engine.load(name),
-            UiCommand::LoadReference(file) => self.engine.load_reference(file),
+            UiCommand::Open(name) => {
+                let recent = self.model.state.remembered.recent.clone();
+                self.engine.load(Asked::Open { name, recent });
+            }
+            UiCommand::LoadReference(file) => self.engine.load(Asked::Reference(file)),
             UiCommand::ReadAgain => self.read_again(),
             UiCommand::DrawThumbnails => self.engine.draw_thumbnails(scene::builtin::hard_names()),
             UiCommand::Choose(_) | UiCommand::FullScreen | UiCommand::Quit => return Some(command),
@@ -147,9 +156,11 @@ impl Viewer {
 
     /// Asks the engine for what is wanted now.
     pub fn ask(&mut self) {
+        let judge = self.take_judge();
         let wanted = self.workspaces.open().wanted(&self.model);
         self.presentation.keep(&wanted);
         self.engine.ask(&wanted).values().for_each(|job| self.stopwatch.asked(*job));
+        judge.into_iter().for_each(|file| self.engine.load_reference(file));
     }
 
     /// A frame is on the screen.

@@ -1,8 +1,7 @@
 //! The application as winit sees it: events in, frames out.
 
 use super::window_state::WindowState;
-use super::{UserEvent, scale_factor};
-use crate::engine::load::Opened;
+use super::{Beginning, UserEvent, scale_factor};
 use crate::model::ViewArgs;
 use std::sync::Arc;
 use std::time::Instant;
@@ -14,7 +13,7 @@ use winit::window::WindowId;
 /// Before there is a window, with one, after a failure.
 pub struct App {
     /// Taken when the window opens.
-    opened: Option<Opened>,
+    beginning: Option<Beginning>,
     args: ViewArgs,
     proxy: EventLoopProxy<UserEvent>,
     started: Instant,
@@ -23,8 +22,8 @@ pub struct App {
 }
 
 impl App {
-    pub fn new(opened: Opened, args: ViewArgs, proxy: EventLoopProxy<UserEvent>, started: Instant) -> Self {
-        App { opened: Some(opened), args, proxy, started, window: None, failure: None }
+    pub fn new(beginning: Beginning, args: ViewArgs, proxy: EventLoopProxy<UserEvent>, started: Instant) -> Self {
+        App { beginning: Some(beginning), args, proxy, started, window: None, failure: None }
     }
 
     /// How it ended.
@@ -43,13 +42,13 @@ impl App {
 
 impl ApplicationHandler<UserEvent> for App {
     fn resumed(&mut self, events: &ActiveEventLoop) {
-        let Some(opened) = self.opened.take() else { return };
+        let Some(beginning) = self.beginning.take() else { return };
         let proxy = self.proxy.clone();
         let wake = Arc::new(move || {
             // a closed event loop has nobody left to wake
             let _ = proxy.send_event(UserEvent::PaneUpdate);
         });
-        match WindowState::open(events, opened, &self.args, self.proxy.clone(), self.started, wake) {
+        match WindowState::open(events, beginning, &self.args, self.proxy.clone(), self.started, wake) {
             Ok(window) => self.window = Some(window),
             Err(error) => self.finish(events, Err(error)),
         }

@@ -11,8 +11,9 @@ mod surface;
 mod textures;
 mod window_state;
 
-use crate::engine::load::{self, Loaded};
-use crate::model::ViewArgs;
+use crate::engine::load::{self, Asked, Loaded, Opened, ReferenceFile};
+use crate::engine::memory;
+use crate::model::{Remembered, ViewArgs};
 use anyhow::{Context, bail};
 use egui_winit::accesskit_winit;
 use winit::event_loop::EventLoop;
@@ -32,28 +33,75 @@ impl From<accesskit_winit::Event> for UserEvent {
     }
 }
 
+/// What a window begins with.
+pub struct Beginning {
+    /// The scene, or the picture that shows it.
+    pub opened: Opened,
+    /// What earlier windows have left.
+    pub remembered: Remembered,
+}
+
+impl Beginning {
+    /// # Errors
+    /// If there is no scene to show.
+    fn read(scene: &str) -> anyhow::Result<Self> {
+        let remembered = recall();
+        let asked = Asked::Open { name: scene.to_owned(), recent: remembered.recent.clone() };
+        match load::read(&asked) {
+            Ok(Loaded::Scene(opened)) => Ok(Beginning { opened: *opened, remembered }),
+            Ok(Loaded::Reference(ReferenceFile { sceneless: Some(line), .. })) => bail!("{line}"),
+            Ok(Loaded::Reference(ReferenceFile { file, .. })) => bail!(
+                "this picture does not say how it was made; open its scene and compare with it there: {}",
+                image_file::shown(&file)
+            ),
+            Err(refusal) => bail!("{}", refusal.line),
+        }
+    }
+}
+
+/// What the program remembers of earlier windows; what cannot be read is told and left.
+fn recall() -> Remembered {
+    let file = memory::file_of_the_user();
+    file.as_deref().map_or(Ok(Remembered::default()), memory::recall).unwrap_or_else(|fault| {
+        note!("note: {fault}");
+        Remembered::default()
+    })
+}
+
 /// Opens the viewer and returns when it is closed.
 ///
 /// # Errors
 /// If the scene does not load, if there is no display, or if no adapter can draw the window.
 pub fn open(args: &ViewArgs) -> anyhow::Result<()> {
     let started = std::time::Instant::now();
-    let opened = match load::read(&args.scene) {
-        Ok(Loaded::Scene(opened)) => *opened,
-        Ok(Loaded::Reference(file)) => bail!(
-            "this picture does not say how it was made; open its scene and compare with it there: {}",
-            image_file::shown(&file)
-        ),
-        Err(refusal) => bail!("{}", refusal.line),
-    };
+    let beginning = Beginning::read(&args.scene)?;
     scale_factor::check_variable()?;
     let events = EventLoop::<UserEvent>::with_user_event().build().map_err(|e| {
         anyhow::anyhow!(
-            "no window can be opened here ({e}); without a display, use: visavis render {} -o out.png",
+            "no window can be opened here ({}); without a display, use: visavis render {} -o out.png",
+            cause(&e),
             args.scene
         )
     })?;
-    let mut app = app::App::new(opened, args.clone(), events.create_proxy(), started);
+    let mut app = app::App::new(beginning, args.clone(), events.create_proxy(), started);
     events.run_app(&mut app).context("the window stopped")?;
     app.outcome()
+}
+
+/// Why the system refuses, without the line of winit's source that begins its errors.
+fn cause(fault: &impl std::fmt::Display) -> String {
+    let text = fault.to_string();
+    let behind = text.strip_prefix("os error at ").and_then(|place| place.split_once(": "));
+    behind.map_or(text.clone(), |(_, cause)| cause.to_owned())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::cause;
+
+    #[test]
+    fn the_cause_is_told_without_the_source_that_tells_it() {
+        assert_eq!(cause(&"os error at /a/b c/mod.rs:765: no display: none"), "no display: none");
+        assert_eq!(cause(&"not supported"), "not supported");
+    }
 }

@@ -4,16 +4,15 @@ use super::frame_stats::{Clock, FrameStats};
 use super::recovery::DeviceRecovery;
 use super::surface::{Painting, Presented, WindowSurface};
 use super::textures::{Uploads, WindowTextures};
-use super::{UserEvent, dialogue, icon, place, scale_factor};
+use super::{Beginning, UserEvent, dialogue, icon, place, scale_factor};
 use crate::engine::Wake;
 use crate::engine::ask::Engine;
 use crate::engine::capture::Capture;
 use crate::engine::load::Opened;
 use crate::engine::memory::{self, Memory};
-use crate::model::{Destination, ExportRequest, Model, Remembered, ViewArgs};
+use crate::model::{Destination, ExportRequest, Model, ViewArgs};
 use crate::ui::{UiCommand, Workspaces};
 use crate::viewer::Viewer;
-use anyhow::Context;
 use egui_wgpu::ScreenDescriptor;
 use egui_winit::accesskit_winit;
 use gpu::Gpu;
@@ -60,14 +59,6 @@ fn model_of(opened: &Opened, args: &ViewArgs) -> anyhow::Result<Model> {
     Ok(model)
 }
 
-/// What the program remembers of earlier windows; what cannot be read is told and left.
-fn recall(file: Option<&Path>) -> Remembered {
-    file.map_or(Ok(Remembered::default()), memory::recall).unwrap_or_else(|fault| {
-        note!("note: {fault}");
-        Remembered::default()
-    })
-}
-
 /// egui as it hears this window, and screen readers with it.
 fn egui_of(
     events: &ActiveEventLoop,
@@ -94,22 +85,25 @@ impl WindowState {
     /// If there is no window, no adapter for it, or no threads, or if the camera that is asked for sees nothing.
     pub fn open(
         events: &ActiveEventLoop,
-        opened: Opened,
+        beginning: Beginning,
         args: &ViewArgs,
         proxy: EventLoopProxy<UserEvent>,
         started: Instant,
         wake: Wake,
     ) -> anyhow::Result<Self> {
         scale_factor::check_screens(events)?;
+        let Beginning { opened, remembered } = beginning;
         let model = model_of(&opened, args)?;
-        let memory_file = memory::file_of_the_user();
-        let remembered = recall(memory_file.as_deref());
         let attributes = place::attributes(events, remembered.window)
             .with_title("Visavis")
             .with_window_icon(icon::icon())
             // shown once screen readers know it
             .with_visible(false);
-        let window = Arc::new(events.create_window(attributes).context("no window can be opened here")?);
+        let window = Arc::new(
+            events
+                .create_window(attributes)
+                .map_err(|fault| anyhow::anyhow!("no window can be opened here ({})", super::cause(&fault)))?,
+        );
         let (surface, gpu, adapters) = WindowSurface::new(window.clone(), events.owned_display_handle())?;
         let egui = egui_of(events, &window, &gpu, proxy);
         window.set_visible(true);
@@ -118,10 +112,9 @@ impl WindowState {
         let workspaces = Workspaces::beginning_with(args.workspace.as_deref());
         let mut viewer = Viewer::new(model.beside(adapters, args.device), workspaces, engine, started);
         // without a thread nothing is remembered
-        viewer.remember(remembered, memory_file.and_then(|file| Memory::start(file).ok()));
-        viewer.follow_the_file(&opened.asked, opened.stamp);
+        viewer.remember(remembered, memory::file_of_the_user().and_then(|file| Memory::start(file).ok()));
         opened.notes.iter().for_each(|line| note!("note: {line}"));
-        viewer.model.say_notes(&opened.notes);
+        viewer.begin_with(opened);
         Ok(WindowState {
             viewer,
             title: String::new(),

@@ -106,6 +106,7 @@ fn commands(user: &mut User) -> [String; 2] {
     let menu = user.click("Export");
     let commands = ["A", "B"].map(|pane| menu.value(&format!("command {pane}")).to_owned());
     user.click("Export");
+    assert!(commands.iter().all(|command| command.starts_with("visavis render ")), "{commands:?}");
     commands
 }
 
@@ -176,6 +177,102 @@ fn other_files_that_are_dropped_are_compared_with_or_refused_with_a_word() {
     user.wait_for("the refusal", |f| says(f, "bunny.obj is neither a scene (.toml) nor a picture"));
     user.drop_file(&foreign);
     user.wait_for("the reference", |f| f.state("reference")[1] == 1 && says(f, "compared with"));
+}
+
+/// A picture of this size as a reference of what `shot` shows, which is not good for more.
+fn write_reference(file: &Path, shot: &technique::Shot) {
+    let pixels = vec![film::Vec3::ONE; (shot.size.0 * shot.size.1) as usize];
+    let image = film::Image::new(shot.size.0, shot.size.1, pixels).expect("an image");
+    let made = reference::Reference { image, replicates: 64, seconds: 1.0, nonfinite: 0 };
+    std::fs::write(file, made.encode(reference::records(shot)).expect("an EXR")).expect("a file");
+}
+
+fn picture_size(frame: &Frame) -> (u32, u32) {
+    let side = |index: usize| frame.state("picture_size")[index].as_u64().expect("pixels") as u32;
+    (side(0), side(1))
+}
+
+#[test]
+fn a_reference_opens_its_scene_and_camera_and_is_compared_with() {
+    let mut user = User::of("whitted");
+    user.key(Key::Num4);
+    let open = user.wait_for("both pictures", |f| both_whole(f) && f.state("view") == "Side by side");
+    // as a window has seen it side by side, which shows more above and below
+    let scene = scene::builtin::named("cornell").expect("a scene");
+    let mut shot = technique::Shot::of(scene, picture_size(&open));
+    (shot.source, shot.camera) = ("cornell".into(), shot.camera.orbited(0.2, 0.0).zoomed(0.5));
+    let file = user.file("truth.exr");
+    write_reference(&file, &shot);
+    user.drop_file(&file);
+    let compared = |f: &Frame| f.state("reference")[1] == 1 && says(f, "compared with") && says(f, "truth.exr");
+    let seen = user.wait_for("the reference", |f| f.state("scene") == "cornell" && compared(f) && both_whole(f));
+    let [command, _] = commands(&mut user);
+    let number = |name: &str| -> f32 {
+        let (_, behind) = command.split_once(name).expect("an option");
+        behind.split(' ').next().expect("a value").parse().expect("a number")
+    };
+    assert!((number("--fov ") - shot.camera.fov_y).abs() < 1e-3, "{command} shows {}", shot.camera.fov_y);
+    let eye = seen.state("eye")[0].as_f64().expect("a number") as f32;
+    assert_eq!(eye, shot.camera.eye.x);
+
+    // what is seen already is not opened again
+    let scenes_opened = |user: &mut User| {
+        let mut opened = 0;
+        user.change(|model| opened = model.document.opened);
+        opened
+    };
+    let before = scenes_opened(&mut user);
+    user.change(|model| model.session.comparison.with = CompareWith::EachOther);
+    user.drop_file(&file);
+    user.wait_for("the reference again", |f| f.state("reference")[1] == 1 && says(f, "compared with"));
+    assert_eq!(scenes_opened(&mut user), before);
+
+    // another size: the scene and the camera alone
+    shot.size = (8, 8);
+    write_reference(&file, &shot);
+    user.change(|model| model.session.comparison.with = CompareWith::EachOther);
+    user.open("whitted");
+    user.wait_for("another scene", |f| f.state("scene") == "whitted");
+    user.drop_file(&file);
+    user.wait_for("the scene", |f| f.state("scene") == "cornell" && says(f, "the reference has 8x8 pixels"));
+    assert_eq!(user.comparison().with, CompareWith::EachOther);
+}
+
+#[test]
+fn a_reference_that_does_not_fit_changes_nothing_and_names_the_cure() {
+    let mut user = User::of("cornell");
+    let whole = user.wait_for("both pictures", both_whole);
+    let (width, height) = picture_size(&whole);
+    let (small, map, cut) = (user.file("small.exr"), user.file("map.exr"), user.file("cut.exr"));
+    let image = film::Image::new(8, 8, vec![film::Vec3::ONE; 64]).expect("an image");
+    let write = |file: &Path, records: image_file::Records| {
+        let display = film::DisplayTransform::default();
+        let bytes = image_file::encode(image_file::Kind::Exr, &image, &display, &records).expect("a picture");
+        std::fs::write(file, bytes).expect("a file");
+    };
+    write(&small, Vec::new());
+    write(&map, vec![("map", "A - reference".into()), ("colours", "signed".into())]);
+    std::fs::write(&cut, "no picture").expect("a file");
+    let cure = format!("visavis reference cornell -o reference.exr --size {width}x{height}");
+    for (file, words) in [(&small, cure.as_str()), (&map, "a map of errors"), (&cut, "cut.exr")] {
+        user.drop_file(file);
+        user.wait_for(words, |f| says(f, words));
+        assert_eq!(user.comparison(), ComparisonSettings::default(), "{}", file.display());
+    }
+}
+
+#[test]
+fn what_is_probably_not_meant_is_said_of_a_scene_that_was_read_again() {
+    let (mut user, file) = user_of_a_file("40");
+    let text = std::fs::read_to_string(&file).expect("the file");
+    std::fs::write(&file, text.replace("fov_y = 40", "fov_y = 41").replace("[30, 30, 30]", "[0, 0, 0]"))
+        .expect("a file");
+    let read = user.wait_for("the other version", |f| fov(f) == 41.0);
+    let notes = scene::builtin::named(file.to_str().expect("a plain path")).expect("a scene").notes();
+    assert!(!notes.is_empty());
+    for line in notes {
+        assert!(says(&read, &line) && says(&read, "box.toml again"), "{}", read.state("message"));
+    }
 }
 
 #[test]
