@@ -4,6 +4,7 @@
 mod error;
 mod exr;
 mod folders;
+mod lock;
 mod names;
 mod partial;
 mod png;
@@ -12,6 +13,7 @@ mod whole;
 
 pub use error::{ImageFileError, escaped, shown};
 pub use folders::{cache_folder, default_folder, home_folder, state_folder};
+pub use lock::hold;
 pub use names::{free_name, typed_path};
 pub use partial::{NoMoreFiles, is_partial, remove_partial_files, remove_unless_held};
 pub use whole::{check_writable, is_same_file, write_new, write_or_keep, write_whole};

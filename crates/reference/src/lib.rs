@@ -7,7 +7,6 @@
 //! once, and can be made finer later.
 
 mod key;
-mod lock;
 mod maker;
 mod seal;
 mod store;

@@ -1,10 +1,9 @@
 //! References on disk: one file each in the user's cache folder, the ones not used for longest going when there are too
 //! many.
 
-use crate::lock::hold;
 use crate::seal::Seal;
 use crate::{Key, Reference};
-use image_file::{ImageFileError, Records};
+use image_file::{ImageFileError, Records, hold};
 use std::fs::{DirEntry, File};
 use std::io::Read;
 use std::path::{Path, PathBuf};

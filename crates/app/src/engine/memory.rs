@@ -3,6 +3,7 @@
 
 use super::worker::{Control, Service, Worker};
 use crate::model::{Remembered, WindowPlace};
+use anyhow::Context;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -61,7 +62,7 @@ impl Memory {
     /// # Errors
     /// If the system gives none.
     pub fn start(file: PathBuf) -> std::io::Result<Self> {
-        Worker::start("memory", Arc::new(|| {}), || Pen { file }).map(Memory)
+        Worker::start("memory", Arc::new(|| {}), || Pen { file, told: false }).map(Memory)
     }
 
     /// Remembers this, after what came before.
@@ -78,33 +79,45 @@ impl Drop for Memory {
 
 struct Pen {
     file: PathBuf,
+    /// Whether it was told that the file cannot be written.
+    told: bool,
 }
 
 impl Service for Pen {
     type Job = Vec<Memo>;
     type Update = ();
 
-    /// Onto what is there by now: another window may have written since.
     fn serve(&mut self, memos: Vec<Memo>, _control: &Control<Self::Job, Self::Update>) {
-        let before = recall(&self.file);
-        let mut remembered = before.clone().unwrap_or_default();
-        memos.into_iter().for_each(|memo| memo.note_in(&mut remembered));
-        if before.as_ref() != Ok(&remembered)
-            && let Err(fault) = write(&self.file, &remembered)
-        {
-            // nobody would miss it today, and there may be no window any more
-            note!("note: recent files and the window's place are not remembered: {fault:#}");
+        // nobody would miss it today, and there may be no window any more
+        if let Some(line) = self.fault_of(memos) {
+            note!("note: {line}");
         }
     }
 
     fn recover(&mut self, _control: &Control<Self::Job, Self::Update>) {}
 }
 
-fn write(file: &Path, remembered: &Remembered) -> anyhow::Result<()> {
-    if let Some(folder) = file.parent() {
-        std::fs::create_dir_all(folder)?;
+impl Pen {
+    /// Why these are not remembered: one line, the first time.
+    fn fault_of(&mut self, memos: Vec<Memo>) -> Option<String> {
+        let fault = add(memos, &self.file).err()?;
+        let first = !std::mem::replace(&mut self.told, true);
+        first.then(|| format!("recent files and the window's place are not remembered: {fault:#}"))
     }
-    Ok(image_file::write_whole(file, serde_json::to_string_pretty(remembered)?.as_bytes())?)
+}
+
+/// Adds to what is there by now: another window may have written since, and waits meanwhile.
+fn add(memos: Vec<Memo>, file: &Path) -> anyhow::Result<()> {
+    let folder = file.parent().unwrap_or(Path::new(""));
+    std::fs::create_dir_all(folder).with_context(|| format!("cannot make the folder {}", image_file::shown(folder)))?;
+    let _alone = image_file::hold(folder, true);
+    let before = recall(file);
+    let mut remembered = before.clone().unwrap_or_default();
+    memos.into_iter().for_each(|memo| memo.note_in(&mut remembered));
+    if before.as_ref() == Ok(&remembered) {
+        return Ok(());
+    }
+    Ok(image_file::write_whole(file, serde_json::to_string_pretty(&remembered)?.as_bytes())?)
 }
 
 #[cfg(test)]
@@ -128,6 +141,38 @@ mod tests {
         let expected = Remembered { recent: vec!["/b.toml".into(), "/a.toml".into()], window: Some(place) };
         assert_eq!(recall(&file), Ok(expected));
         assert_eq!(folder.names(), ["state"], "nothing is left beside it");
+    }
+
+    #[test]
+    fn windows_that_remember_at_once_lose_nothing_of_each_other() {
+        let folder = TestFolder::new();
+        for round in 0..8 {
+            let file = folder.file(&format!("{round}/window.json"));
+            let windows: Vec<_> = (0..8).map(|_| Memory::start(file.clone()).expect("a thread")).collect();
+            for (index, window) in windows.iter().enumerate() {
+                window.note(Memo::Opened(format!("/{index}.toml").into()));
+            }
+            drop(windows);
+            let mut recent = recall(&file).expect("a memory").recent;
+            recent.sort();
+            let all: Vec<PathBuf> = (0..8).map(|index| format!("/{index}.toml").into()).collect();
+            assert_eq!(recent, all, "round {round}");
+        }
+    }
+
+    #[test]
+    fn what_cannot_be_written_is_told_once_with_its_path() {
+        let folder = TestFolder::new();
+        std::fs::write(folder.file("state"), "a file where a folder must be").expect("a file");
+        std::fs::create_dir_all(folder.file("taken/window.json")).expect("a folder");
+        for (file, path) in [("state/window.json", "state"), ("taken/window.json", "taken/window.json")] {
+            let mut pen = Pen { file: folder.file(file), told: false };
+            let mut note = || pen.fault_of(vec![Memo::Opened("/a.toml".into())]);
+            let line = note().expect("a line");
+            let path = image_file::shown(&folder.file(path));
+            assert!(line.matches(&path).count() == 1 && line.lines().count() == 1, "{line}");
+            assert_eq!(note(), None, "once is enough");
+        }
     }
 
     #[test]

@@ -13,7 +13,7 @@ const PAUSE: Duration = Duration::from_millis(5);
 /// The file that stands for the folder where a folder cannot be locked. It stays: whoever removed it would let others hold
 /// two of them.
 #[cfg(not(unix))]
-const LOCK_FILE: &str = "references.lock";
+const LOCK_FILE: &str = ".visavis.lock";
 
 /// Holds a folder, alone or together with others who look, until the file is dropped. `None` where that cannot be had:
 /// file systems without locks are used without.
