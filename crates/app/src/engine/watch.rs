@@ -124,24 +124,50 @@ const HEAD: u64 = 1 << 16;
 struct Folder {
     path: PathBuf,
     modified: Option<SystemTime>,
+    files: Vec<Candidate>,
     scenes: Option<Vec<PathBuf>>,
+}
+
+/// A file of TOML.
+struct Candidate {
+    path: PathBuf,
+    is_scene: bool,
+    /// The file as it was when it was none; `None` if it could not be read.
+    looked_into: Option<Stamp>,
+}
+
+impl Candidate {
+    fn new(path: PathBuf) -> Self {
+        Candidate { path, is_scene: false, looked_into: None }
+    }
+
+    /// Looks into one that was no scene and has changed: who makes a file may write it later, which no folder tells.
+    fn look_again(&mut self) {
+        let stamp = Stamp::of(&self.path);
+        if self.is_scene || stamp.is_none() || stamp == self.looked_into {
+            return;
+        }
+        let found = has_a_camera(&self.path);
+        (self.is_scene, self.looked_into) = (found == Some(true), stamp.filter(|_| found.is_some()));
+    }
 }
 
 impl Folder {
     fn beside(file: &Path) -> Self {
         let path = file.parent().unwrap_or(Path::new("")).to_owned();
-        Folder { path, modified: None, scenes: None }
+        Folder { path, modified: None, files: Vec::new(), scenes: None }
     }
 
     /// The scenes in it, if they are others than the last time.
     fn look_again(&mut self) -> Option<Vec<PathBuf>> {
         let place = if self.path.as_os_str().is_empty() { Path::new(".") } else { &self.path };
         let modified = std::fs::metadata(place).ok().and_then(|found| found.modified().ok());
-        if self.scenes.is_some() && modified == self.modified {
-            return None;
+        if self.scenes.is_none() || modified != self.modified {
+            self.files = self.list(place).into_iter().map(Candidate::new).collect();
         }
         self.modified = modified;
-        let now = Some(self.list(place));
+        self.files.iter_mut().for_each(Candidate::look_again);
+        let now = Some(self.files.iter().filter(|file| file.is_scene).map(|file| file.path.clone()).collect());
         if now == self.scenes {
             return None;
         }
@@ -155,18 +181,16 @@ impl Folder {
         names.retain(|path| path.extension().is_some_and(|kind| kind.eq_ignore_ascii_case("toml")));
         names.sort();
         names.truncate(MOST_FILES);
-        names.retain(|path| has_a_camera(path));
         names
     }
 }
 
-/// Whether a file of TOML may be a scene, each of which has one.
-fn has_a_camera(path: &Path) -> bool {
+/// Whether a file of TOML may be a scene, each of which has one; `None` if it cannot be read.
+fn has_a_camera(path: &Path) -> Option<bool> {
     use std::io::Read;
     let mut head = Vec::new();
-    let is_file = path.is_file();
-    let read = is_file && std::fs::File::open(path).is_ok_and(|file| file.take(HEAD).read_to_end(&mut head).is_ok());
-    read && head.windows(6).any(|word| word == b"camera")
+    std::fs::File::open(path).ok()?.take(HEAD).read_to_end(&mut head).ok()?;
+    Some(head.windows(6).any(|word| word == b"camera"))
 }
 
 #[cfg(test)]
@@ -234,5 +258,24 @@ mod tests {
         folder.modified = None;
         std::fs::write(test.file("a.TOML"), SCENE).expect("a file");
         assert_eq!(folder.look_again(), Some(vec![test.file("a.TOML"), test.file("b.toml")]));
+    }
+
+    #[test]
+    fn a_file_that_is_filled_after_the_folder_was_read_is_told() {
+        let test = TestFolder::new();
+        let [open, new] = ["b.toml", "new.toml"].map(|name| test.file(name));
+        std::fs::write(&open, SCENE).expect("a file");
+        let mut folder = Folder::beside(&open);
+        folder.look_again();
+        // an editor has just emptied the one, and a shell has made the other
+        std::fs::write(&open, "").expect("a file");
+        std::fs::write(&new, "").expect("a file");
+        folder.modified = None;
+        assert_eq!((folder.look_again(), folder.look_again()), (Some(vec![]), None));
+        let of_the_folder = folder.modified;
+        std::fs::write(&open, SCENE).expect("a file");
+        std::fs::write(&new, SCENE).expect("a file");
+        assert_eq!(folder.look_again(), Some(vec![open, new]));
+        assert_eq!(folder.modified, of_the_folder, "which tells nothing of that");
     }
 }
