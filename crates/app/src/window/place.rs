@@ -68,22 +68,31 @@ fn fitting(remembered: Option<WindowPlace>, screens: &[Screen], first: Option<Sc
     ([0, 1].map(|axis| wished[axis].min(room[axis])), found.map(|(at, _)| at))
 }
 
-/// Where a window is. One that fills its screen comes back to the size that `before` was remembered of.
+/// Where a window is. One that fills its screen comes back to the size that is remembered of `before`, else to the usual one.
 pub fn of(window: &Window, before: Option<WindowPlace>) -> WindowPlace {
     let size = window.inner_size().to_logical::<f64>(window.scale_factor());
     let at = window.outer_position().ok().map(|at| [at.x, at.y]);
     let here = WindowPlace { size: [size.width, size.height], at, maximised: window.is_maximized() };
-    match before {
-        Some(before) if here.maximised || window.fullscreen().is_some() => {
-            WindowPlace { maximised: here.maximised, ..before }
-        }
-        _ => here,
-    }
+    let is_whole = here.maximised || window.fullscreen().is_some();
+    if is_whole { before_it_was_whole(here.maximised, before) } else { here }
+}
+
+/// Where a window that fills its screen comes back to: nobody has chosen the screen's size for it.
+fn before_it_was_whole(maximised: bool, before: Option<WindowPlace>) -> WindowPlace {
+    WindowPlace { maximised, ..before.unwrap_or(WindowPlace { size: USUAL, at: None, maximised }) }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_screens_size_is_not_remembered_as_a_windows() {
+        let before = WindowPlace { size: [900.0, 600.0], at: Some([100, 50]), maximised: false };
+        assert_eq!(before_it_was_whole(true, Some(before)), WindowPlace { maximised: true, ..before });
+        let first = WindowPlace { size: USUAL, at: None, maximised: false };
+        assert_eq!(before_it_was_whole(false, None), first);
+    }
 
     #[test]
     fn a_window_comes_back_where_it_was_and_never_off_the_screens() {

@@ -145,9 +145,13 @@ impl WindowState {
 
     /// Remembers where the window was, and tells what frames have cost.
     pub fn close(mut self) -> FrameStats {
+        self.remember_place();
+        self.stats
+    }
+
+    fn remember_place(&mut self) {
         let before = self.viewer.model.state.remembered.window;
         self.viewer.remember_window(place::of(&self.window, before));
-        self.stats
     }
 
     /// Says what is open.
@@ -278,8 +282,12 @@ impl WindowState {
     }
 
     /// On the screen that the window is on.
-    fn toggle_full_screen(&self) {
+    fn toggle_full_screen(&mut self) {
         let is_full = self.window.fullscreen().is_some();
+        if !is_full {
+            // to which it comes back, also if it is closed meanwhile
+            self.remember_place();
+        }
         self.window.set_fullscreen((!is_full).then_some(Fullscreen::Borderless(None)));
     }
 
