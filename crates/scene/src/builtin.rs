@@ -63,16 +63,19 @@ pub fn named(name: &str) -> Result<Scene, SceneError> {
         return file::parse(text, name, Path::new(name));
     }
     let path = Path::new(name);
+    if name == "hard/?" {
+        return Err(unknown(name, hard_names().collect::<Vec<_>>().join(", ")));
+    }
     if name.starts_with("hard/") && !path.is_file() {
-        return Err(unknown(name, hard_names().collect()));
+        return Err(unknown(name, format!("{} and those that hard/? lists", names().collect::<Vec<_>>().join(", "))));
     }
     let like_a_file = path.extension().is_some() || path.components().count() > 1 || path.exists();
-    if like_a_file { file::load(path) } else { Err(unknown(name, names().collect())) }
+    if like_a_file { file::load(path) } else { Err(unknown(name, names().collect::<Vec<_>>().join(", "))) }
 }
 
-fn unknown(name: &str, known: Vec<&str>) -> SceneError {
+fn unknown(name: &str, known: String) -> SceneError {
     let meant = nearest(name, names().chain(hard_names())).map(str::to_owned);
-    SceneError::Unknown { name: name.to_owned(), known: known.join(", "), meant }
+    SceneError::Unknown { name: name.to_owned(), known, meant }
 }
 
 #[cfg(test)]
@@ -88,6 +91,8 @@ mod tests {
         assert!(named("hard/?").unwrap_err().to_string().contains("hard/slab"));
         assert!(named("cornel").unwrap_err().to_string().ends_with("; did you mean cornell?"));
         assert!(named("hard/slap").unwrap_err().to_string().ends_with("; did you mean hard/slab?"));
+        let line = named("hard/foo").unwrap_err().to_string();
+        assert!(line.contains("hard/? lists") && !line.contains("hard/slab"), "{line}");
         assert!(!named("nothing").unwrap_err().to_string().contains("mean"));
         let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../assets/scenes/hard");
         assert_eq!(std::fs::read_dir(folder).unwrap().count(), HARD.len());

@@ -31,9 +31,11 @@ pub fn show(cx: &mut UiContext, ui: &mut Ui) {
         let hard = ui.menu_button("Hard cases", |ui| hard_cases(cx, ui));
         cx.dump.note("hard cases", "", hard.response);
         let neighbours = cx.model.state.neighbours.clone();
-        files(&folder_of(&neighbours), "beside", &neighbours, cx, ui);
         let recent = cx.model.state.remembered.recent.clone();
-        files("Opened before", "recent", &recent, cx, ui);
+        let all = [neighbours.clone(), recent.clone()].concat();
+        // those of one folder have names of their own
+        files(&folder_of(&neighbours), "beside", (&neighbours, &recent), cx, ui);
+        files("Opened before", "recent", (&recent, &all), cx, ui);
         ui.separator();
         by_name(cx, ui);
         read_again(cx, ui);
@@ -86,8 +88,28 @@ fn folder_of(files: &[PathBuf]) -> String {
     format!("In {}", shown(Path::new(name)))
 }
 
-/// Files by their names under a title; nothing where there are none.
-fn files(title: &str, kind: &str, files: &[PathBuf], cx: &mut UiContext, ui: &mut Ui) {
+/// A file's name; with its folder's, or all its path, where another one of `all` has the same.
+fn name_among(file: &Path, all: &[PathBuf]) -> String {
+    let whole = |file: &Path| std::path::absolute(file).unwrap_or_else(|_| file.to_owned());
+    let name = |file: &Path| shown(Path::new(file.file_name().unwrap_or(file.as_os_str())));
+    let with_folder = |file: &Path| match whole(file).parent().and_then(Path::file_name) {
+        Some(folder) => format!("{} ({})", name(file), shown(Path::new(folder))),
+        None => name(file),
+    };
+    let of_its_name = all.iter().filter(|other| other.file_name() == file.file_name());
+    let own = whole(file);
+    let others: Vec<_> = of_its_name.filter(|other| whole(other) != own).collect();
+    if others.is_empty() {
+        name(file)
+    } else if others.iter().all(|other| with_folder(other) != with_folder(file)) {
+        with_folder(file)
+    } else {
+        shown(&own)
+    }
+}
+
+/// Files by their names among `all` under a title; nothing where there are none.
+fn files(title: &str, kind: &str, (files, all): (&[PathBuf], &[PathBuf]), cx: &mut UiContext, ui: &mut Ui) {
     if files.is_empty() {
         return;
     }
@@ -95,7 +117,7 @@ fn files(title: &str, kind: &str, files: &[PathBuf], cx: &mut UiContext, ui: &mu
     ui.label(RichText::new(title).weak());
     ScrollArea::vertical().id_salt(kind).max_height(TALLEST).show(ui, |ui| {
         for file in files {
-            let name = shown(Path::new(file.file_name().unwrap_or(file.as_os_str())));
+            let name = name_among(file, all);
             let chosen = Path::new(&cx.model.document.source) == file;
             let item = ui.selectable_label(chosen, &name).explained(&shown(file));
             let item = cx.dump.note(&format!("{kind} {name}"), chosen, item);
@@ -139,5 +161,24 @@ fn read_again(cx: &mut UiContext, ui: &mut Ui) {
     if cx.dump.note("read again", "", button).clicked() {
         cx.commands.push(UiCommand::ReadAgain);
         ui.close();
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn files_of_one_name_are_told_by_their_folders() {
+        let names = |files: &[&str]| -> Vec<String> {
+            let files: Vec<_> = files.iter().map(PathBuf::from).collect();
+            files.iter().map(|file| name_among(file, &files)).collect()
+        };
+        assert_eq!(names(&["/p/a.toml", "/q/b.toml"]), ["a.toml", "b.toml"]);
+        assert_eq!(names(&["/p/a.toml", "/q/a.toml", "/a.toml"]), ["a.toml (p)", "a.toml (q)", "a.toml"]);
+        assert_eq!(names(&["/r/p/a.toml", "/s/p/a.toml"]), ["/r/p/a.toml", "/s/p/a.toml"]);
+        assert_eq!(names(&["/p/a.toml", "/p/a.toml"]), ["a.toml", "a.toml"], "one file in two lists");
+        let here = std::path::absolute("a.toml").expect("a path").display().to_string();
+        assert_eq!(names(&["a.toml", &here]), ["a.toml", "a.toml"]);
     }
 }

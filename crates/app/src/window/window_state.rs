@@ -322,12 +322,13 @@ impl WindowState {
 mod tests {
     use super::*;
     use crate::cli::Command;
-    use crate::engine::load::{self, Loaded};
+    use crate::engine::load::{self, Asked, Loaded};
     use crate::model::{PaneId, View};
 
     fn opened_with(words: &[&str]) -> Model {
         let Ok(Command::View(args)) = Command::parse(words.iter().map(Into::into)) else { panic!("{words:?}") };
-        let Ok(Loaded::Scene(opened)) = load::read(&args.scene) else { panic!("{}", args.scene) };
+        let asked = Asked::Open { name: args.scene.clone(), recent: Vec::new() };
+        let Ok(Loaded::Scene(opened)) = load::read(&asked) else { panic!("{}", args.scene) };
         model_of(&opened, &args).unwrap()
     }
 

@@ -36,6 +36,9 @@ fn options_of_the_window_are_those_of_render_and_faults_name_the_word() {
     {
         assert_refused(prepared, 1, &["no window can be opened here"]);
     }
+    let told = visavis(&["whitted"]);
+    let line = String::from_utf8_lossy(&told.stderr);
+    assert!(line.contains("no window can be opened here") && !line.contains(".rs:"), "{line}");
 }
 
 /// What is no scene is refused before there is a window.
