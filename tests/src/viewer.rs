@@ -159,6 +159,11 @@ impl ViewerUnderTest {
         }
     }
 
+    /// The process, for signals.
+    pub fn id(&self) -> u32 {
+        self.process.id()
+    }
+
     /// Waits for the process to end by itself.
     ///
     /// # Panics

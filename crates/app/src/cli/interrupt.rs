@@ -3,6 +3,7 @@
 
 use std::process::ExitCode;
 use std::sync::atomic::{AtomicI32, AtomicUsize, Ordering};
+use std::sync::{Mutex, PoisonError};
 
 /// The signal that asked; 0 if none did.
 static ASKED: AtomicI32 = AtomicI32::new(0);
@@ -20,6 +21,17 @@ pub struct Heeded(());
 pub fn heed() -> Heeded {
     HEEDING.fetch_add(1, Ordering::Relaxed);
     Heeded(())
+}
+
+/// What is called when the program is first asked to end, beside whoever looks at [`is_asked`].
+static WAKE: Mutex<Option<Wake>> = Mutex::new(None);
+
+type Wake = Box<dyn Fn() + Send>;
+
+/// As [`heed`], for who sleeps until it is woken.
+pub fn heed_when_woken(wake: Wake) -> Heeded {
+    *WAKE.lock().unwrap_or_else(PoisonError::into_inner) = Some(wake);
+    heed()
 }
 
 impl Drop for Heeded {
@@ -62,6 +74,7 @@ fn take(signal: i32) {
         crate::console::to_stderr(format_args!(
             "{new_line}note: ends soon and saves what there is; once more ends at once\n"
         ));
+        WAKE.lock().unwrap_or_else(PoisonError::into_inner).iter().for_each(|wake| wake());
     } else if signal != SIGHUP {
         // of a terminal that is closed both the shell and the system tell
         end_at_once(signal);

@@ -91,7 +91,7 @@ impl Command {
 
     fn run(self) -> anyhow::Result<()> {
         match self {
-            Command::View(args) => crate::window::open(&args),
+            Command::View(args) => crate::window::open(&args, interrupt::heed_when_woken),
             Command::Render(mut args) => render::run(&mut args),
             Command::Compare(args) => compare::run(&args),
             Command::Bench(args) => bench::run(&args),

@@ -54,11 +54,12 @@ impl ApplicationHandler<UserEvent> for App {
         }
     }
 
-    fn user_event(&mut self, _: &ActiveEventLoop, event: UserEvent) {
-        let Some(window) = &mut self.window else { return };
-        match event {
-            UserEvent::PaneUpdate => window.request_frame(),
-            UserEvent::Accessibility(event) => window.hear_screen_reader(event),
+    fn user_event(&mut self, events: &ActiveEventLoop, event: UserEvent) {
+        match (event, &mut self.window) {
+            (UserEvent::Ended, _) => self.finish(events, Ok(())),
+            (UserEvent::PaneUpdate, Some(window)) => window.request_frame(),
+            (UserEvent::Accessibility(event), Some(window)) => window.hear_screen_reader(event),
+            (_, None) => {}
         }
     }
 

@@ -23,6 +23,8 @@ use winit::event_loop::EventLoop;
 pub enum UserEvent {
     /// A worker has something.
     PaneUpdate,
+    /// The system asks the program to end.
+    Ended,
     /// A screen reader wants something.
     Accessibility(accesskit_winit::Event),
 }
@@ -68,11 +70,12 @@ fn recall() -> Remembered {
     })
 }
 
-/// Opens the viewer and returns when it is closed.
+/// Opens the viewer and returns when it is closed. Who asks the program to end calls what `heed` is given, and is heeded as
+/// long as lives what it returns.
 ///
 /// # Errors
 /// If the scene does not load, if there is no display, or if no adapter can draw the window.
-pub fn open(args: &ViewArgs) -> anyhow::Result<()> {
+pub fn open<Heeded>(args: &ViewArgs, heed: impl FnOnce(Box<dyn Fn() + Send>) -> Heeded) -> anyhow::Result<()> {
     let started = std::time::Instant::now();
     let beginning = Beginning::read(&args.scene)?;
     scale_factor::check_variable()?;
@@ -83,6 +86,11 @@ pub fn open(args: &ViewArgs) -> anyhow::Result<()> {
             args.scene
         )
     })?;
+    let proxy = events.create_proxy();
+    let _heeded = heed(Box::new(move || {
+        // a window that is closed has ended
+        let _ = proxy.send_event(UserEvent::Ended);
+    }));
     let mut app = app::App::new(beginning, args.clone(), events.create_proxy(), started);
     events.run_app(&mut app).context("the window stopped")?;
     app.outcome()

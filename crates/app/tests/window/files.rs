@@ -43,3 +43,27 @@ fn a_lecture_is_opened_by_its_options_and_its_window_comes_back() {
     screen.click(again.point("scene", 0.5, 0.5));
     next.wait_for("the file of before", |f| f.shows("recent lecture.toml"));
 }
+
+/// As a session of the desktop's ends: nobody closes the window.
+#[cfg(unix)]
+#[test]
+fn a_window_that_the_system_ends_remembers_its_size() {
+    use std::os::unix::process::ExitStatusExt;
+    let _alone = alone();
+    let (screen, folder) = (Screen::start(1280, 720), TestFolder::new());
+    let binary = Path::new(env!("CARGO_BIN_EXE_visavis"));
+    let variables = [("WINIT_X11_SCALE_FACTOR", Some("1"))];
+    let mut viewer = ViewerUnderTest::start_keeping(binary, &screen, &variables, &["cornell"], folder.path());
+    viewer.wait_for("both pictures", both_ready);
+    let window = screen.focus("Visavis");
+    screen.resize(window, 900, 640);
+    viewer.wait_for("the smaller window", |f| f.rect("picture")[3] > 600.0 && f.rect("picture")[3] <= 640.0);
+    let process = rustix::process::Pid::from_raw(viewer.id() as i32).expect("a process");
+    rustix::process::kill_process(process, rustix::process::Signal::TERM).expect("a signal");
+    assert_eq!(viewer.wait_for_end().signal(), Some(15));
+
+    let mut next = ViewerUnderTest::start_keeping(binary, &screen, &variables, &["cornell"], folder.path());
+    let again = next.wait_for("both pictures", both_ready);
+    let [_, _, _, bottom] = again.rect("picture");
+    assert!(bottom > 600.0 && bottom <= 640.0, "as it was left: {bottom}");
+}
