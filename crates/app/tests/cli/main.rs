@@ -99,7 +99,8 @@ fn bad_values_are_wrong_usage_and_write_nothing() {
     assert_refused(&["render", "cornell", "-o", out, "--branches", "2"], 2, &["limit of bounces"]);
     assert_refused(&["render", "cornell", "-o", out, "--depth", "65"], 2, &["from 0 to 64"]);
     assert_refused(&["render", "cornell", "-o", out, "--segments", "2"], 2, &["from 3 to 512"]);
-    assert_refused(&["render", "hard/none", "-o", out], 1, &["hard/slab"]);
+    assert_refused(&["render", "hard/none", "-o", out], 1, &["hard/? lists"]);
+    assert_refused(&["render", "hard/?", "-o", out], 1, &["hard/slab"]);
     assert_refused(&["whitted", "--device", "tpu"], 2, &["--device tpu", "auto, cpu or gpu"]);
     assert_refused(&["render", "whitted", "-o", out, "--refraction-ratio", "0,6"], 2, &["a decimal point: write 0.6"]);
     assert_refused(&["render", "whitted", "-o", out, "--fov", "22,5"], 2, &["a decimal point: write 22.5"]);
