@@ -45,7 +45,7 @@ fn options_of_the_window_are_those_of_render_and_faults_name_the_word() {
 #[test]
 fn a_picture_that_says_nothing_is_no_scene_to_open() {
     let folder = TestFolder::new();
-    for (name, word) in [("foreign.png", "does not say how it was made"), ("foreign.exr", "open its scene")] {
+    for (name, word) in [("foreign.png", "a picture that visavis has saved"), ("foreign.exr", "open its scene")] {
         let file = folder.file(name);
         let image = film::Image::new(1, 1, [film::Vec3::ONE]).expect("a pixel");
         let kind = image_file::Kind::of(&file).expect("a kind");
