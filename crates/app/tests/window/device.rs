@@ -126,7 +126,7 @@ fn the_window_follows_the_mouse(arguments: &[&str]) {
     let (mut viewer, first) = ready(&screen, arguments);
     let [left, top, _, bottom] = first.rect("refraction ratio");
     let y = 0.5 * (top + bottom);
-    screen.drag_to_and_fro([left + 20.0, y], [left + 110.0, y], Duration::from_secs(4));
+    screen.drag_to_and_fro([left + 80.0, y], [left + 170.0, y], Duration::from_secs(4));
     let frame = viewer.wait_for("the end of the drag", |f| f.state("pressing") == false);
     assert_ne!(frame.value("refraction ratio"), first.value("refraction ratio"));
     let dragged = frame.state("dragged_ms");
