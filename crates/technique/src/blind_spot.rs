@@ -30,7 +30,7 @@ pub enum BlindSpot {
 pub enum Specular {
     /// Glass, with mirrors or without.
     Glass,
-    /// Mirrors alone.
+    /// Mirrors, and no glass.
     Mirror,
 }
 

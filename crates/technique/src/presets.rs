@@ -10,7 +10,7 @@ pub struct Preset {
     pub name: &'static str,
     /// What menus call it.
     pub title: &'static str,
-    /// What it shows.
+    /// What its picture shows a class, in a few words.
     pub about: &'static str,
     /// The technique that it sets.
     pub technique: TechniqueName,

@@ -59,7 +59,7 @@ impl PaneSetup {
     /// Takes a setting by its name.
     ///
     /// # Errors
-    /// What was expected.
+    /// If the table has no such name, or the value is none of it: what was expected.
     pub fn set(&mut self, name: &str, value: &str) -> Result<(), String> {
         self.take_value(name, value).map(|_| ())
     }
@@ -122,7 +122,7 @@ impl PaneSetup {
     /// Whether such a picture can be made.
     ///
     /// # Errors
-    /// Why not.
+    /// If these settings make no picture: why not.
     pub fn check(&self) -> Result<(), String> {
         let mut pane = PaneSettings::of(self.technique);
         self.give_to(&mut pane);

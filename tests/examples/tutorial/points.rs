@@ -25,9 +25,9 @@ pub struct Way {
 /// What is seen when a point is shown.
 #[derive(Debug)]
 pub enum Sign {
-    /// The open scene.
+    /// The scene of this name is open.
     Scene(&'static str),
-    /// The view.
+    /// The view of this name is shown.
     View(&'static str),
     /// A pane ("a", "b") whose technique's label has these words, in any case.
     Label(&'static str, &'static str),

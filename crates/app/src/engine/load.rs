@@ -65,18 +65,18 @@ pub struct Opened {
 pub struct Refusal {
     /// What was asked for.
     pub asked: String,
-    /// One line.
+    /// What is wrong, where, and what to do, in one line.
     pub line: String,
     /// Whether there is no such file.
     pub missing: bool,
 }
 
-/// Something to read.
+/// What the user has asked for: to be looked at, or to be compared with.
 #[derive(Debug, Clone)]
 pub enum Asked {
     /// A scene by its built-in name, a scene's file, or a picture.
     Open {
-        /// Name or file.
+        /// A built-in name, or the path of a scene or a picture.
         name: String,
         /// The files that were opened before, among which a picture's scene may be.
         recent: Vec<PathBuf>,

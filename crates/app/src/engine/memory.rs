@@ -10,7 +10,7 @@ use std::sync::Arc;
 /// A file of more bytes than this is none of ours.
 const LARGEST: u64 = 1 << 16;
 
-/// Something to remember.
+/// What has happened that the next window is to know of.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Memo {
     /// A file that was opened.
@@ -57,7 +57,7 @@ pub fn recall(file: &Path) -> Result<Remembered, String> {
 pub struct Memory(Worker<Vec<Memo>>);
 
 impl Memory {
-    /// Starts the thread.
+    /// Starts the thread that writes to `file`.
     ///
     /// # Errors
     /// If the system gives none.

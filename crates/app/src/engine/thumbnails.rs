@@ -39,7 +39,7 @@ impl Thumbnails {
         Worker::start("thumbnails", wake, || Draughtsman { threads }).map(Thumbnails)
     }
 
-    /// Draws these scenes.
+    /// Draws small pictures of these built-in scenes, one after the other.
     pub fn draw(&self, names: impl IntoIterator<Item = &'static str>) {
         self.0.post(|job| *job = names.into_iter().collect());
     }

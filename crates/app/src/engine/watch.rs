@@ -33,7 +33,7 @@ impl Stamp {
 pub struct Watched {
     /// Counts the scenes opened.
     pub opened: u64,
-    /// The scene's file.
+    /// Where the file of the scene lies that is open.
     pub path: PathBuf,
     /// `None` if it was not there.
     pub stamp: Option<Stamp>,

@@ -7,7 +7,7 @@ use pathtrace::Stats;
 pub enum Effort {
     /// On so many samples and rays.
     Traced(Stats),
-    /// On triangles.
+    /// On the triangles of the fake.
     Drawn(Drawing),
 }
 
@@ -27,6 +27,6 @@ pub struct Drawing {
 pub enum Compiling {
     /// In the picture's seconds: they say little about the next one.
     Included,
-    /// Apart, in seconds.
+    /// Left out of them; so many seconds, once.
     Apart(f64),
 }

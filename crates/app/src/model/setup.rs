@@ -34,7 +34,7 @@ pub struct Setup {
 /// Which errors are mapped, and how far.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MapSetup {
-    /// Whose errors.
+    /// The pane whose errors are mapped.
     pub of: PaneId,
     /// How they are measured.
     pub metric: ErrorMetric,

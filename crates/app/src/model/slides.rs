@@ -13,7 +13,7 @@ pub struct Slide {
     pub title: &'static str,
     /// What to look at.
     pub about: &'static str,
-    /// A built-in scene.
+    /// The name of a built-in scene.
     pub scene: &'static str,
     /// The presets of A and B by their names.
     pub presets: [&'static str; 2],

@@ -52,7 +52,7 @@ impl Block {
         Block { usage, about, rows: listed.map(|option| Row::Option(typed(option), option.help.into())).collect() }
     }
 
-    /// More options.
+    /// Lists these options too, below those that stand there already.
     fn with<A>(mut self, options: &[CommandOption<A>]) -> Self {
         self.rows.extend(Block::new("", "", options).rows);
         self

@@ -28,7 +28,7 @@ pub fn figures() -> TextStyle {
 pub struct Sizes {
     /// Controls, and all that is not another.
     pub body: f32,
-    /// Labels on pictures.
+    /// The first line of a label on a picture.
     pub label: f32,
     /// The lines of a label below its first one.
     pub figures: f32,

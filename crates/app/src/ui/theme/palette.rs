@@ -9,13 +9,13 @@ use egui::Color32;
 pub struct Palette {
     /// Under everything: fields that are typed into.
     pub ground: Color32,
-    /// Bars, panels, menus.
+    /// The ground of bars, panels and menus.
     pub panel: Color32,
     /// What belongs together on a panel.
     pub card: Color32,
     /// Edges of panels and fields.
     pub line: Color32,
-    /// What is read.
+    /// Text that is read first.
     pub text: Color32,
     /// What is read second: names of controls, what is not chosen.
     pub dim: Color32,
@@ -31,7 +31,7 @@ pub struct Palette {
     pub panes: [Color32; 2],
     /// What has the keyboard, and what is new.
     pub accent: Color32,
-    /// What has failed.
+    /// Text that says what has failed.
     pub error: Color32,
 }
 

@@ -7,17 +7,17 @@ use egui::{Pos2, Rect, Response, Role, Sense, Stroke, StrokeKind, Ui, WidgetInfo
 /// What an icon stands for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Icon {
-    /// Take back.
+    /// An arrow back, for what is taken back.
     Undo,
-    /// Do again.
+    /// An arrow forth, for what is done again.
     Redo,
     /// The controls at the right.
     Controls,
-    /// Mouse and keys.
+    /// A question mark, for mouse and keys.
     Help,
     /// Two pictures with a line between them.
     Compare,
-    /// Nothing in it.
+    /// A frame with nothing in it.
     Empty,
 }
 

@@ -37,7 +37,7 @@ pub struct NumberRow<'a> {
     pub name: &'a str,
     /// What it is, in words.
     pub label: &'a str,
-    /// More about it.
+    /// What is told of it under the mouse; empty for nothing.
     pub hover: &'a str,
     /// Where the slider goes.
     pub scale: Scale,

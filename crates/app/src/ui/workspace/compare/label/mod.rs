@@ -39,7 +39,7 @@ pub fn show(cx: &mut UiContext, ui: &Ui, clip: Rect, pane: PaneId) {
     }
 }
 
-/// The other pane.
+/// What is known of the picture that is shown beside this one.
 fn beside<'a>(cx: &UiContext<'a>, pane: PaneId) -> Option<Beside<'a>> {
     cx.shown.panes.iter().find(|(id, _)| *id != pane)
 }

@@ -32,9 +32,9 @@ pub type Beside<'a> = (PaneId, &'a PaneView);
 /// Errors that a label tells.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Told {
-    /// Whose they are.
+    /// The pane whose errors they are.
     pub of: PaneId,
-    /// What judges it.
+    /// What that pane is held against.
     pub against: Against,
     /// How far it is from that.
     pub errors: Errors,
