@@ -2,7 +2,7 @@
 //! pass, so that two of them do not ask for twice the cores.
 
 use std::collections::BTreeSet;
-use std::sync::atomic::{AtomicU8, Ordering};
+use std::sync::atomic::{AtomicU8, AtomicUsize, Ordering};
 use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
@@ -27,6 +27,10 @@ const ASKS_EVERY: Duration = Duration::from_millis(5);
 pub struct Threads {
     /// `None` for the pool of the whole process.
     pool: Option<rayon::ThreadPool>,
+    /// One fewer, for while somebody needs a core; `None` where the pool leaves one anyway.
+    fewer: Option<rayon::ThreadPool>,
+    /// How many need one now.
+    spared: AtomicUsize,
     turns: Mutex<Turns>,
     passed_on: Condvar,
     /// The highest rank that waits; 0 if nobody does. Read before every segment of a path, so without the lock.
@@ -39,6 +43,15 @@ struct Turns {
     tickets: u64,
     /// Rank and ticket; tickets count down, so that the last of the set is the next.
     waiting: BTreeSet<(Rank, u64)>,
+}
+
+/// A core that is left to somebody; dropping it gives it back.
+pub struct SparedCore<'a>(&'a Threads);
+
+impl Drop for SparedCore<'_> {
+    fn drop(&mut self) {
+        self.0.spared.fetch_sub(1, Ordering::Relaxed);
+    }
 }
 
 impl Threads {
@@ -54,12 +67,21 @@ impl Threads {
     /// If the system gives no threads.
     pub fn beside_the_ui(start: fn(), they_step_back: bool) -> Result<Self, rayon::ThreadPoolBuildError> {
         let cores = std::thread::available_parallelism().map_or(1, usize::from);
-        let pool = rayon::ThreadPoolBuilder::new()
-            .num_threads(if they_step_back { cores } else { cores.saturating_sub(1).max(1) })
-            .thread_name(|i| format!("rays {i}"))
-            .start_handler(move |_| start())
-            .build()?;
-        Ok(Threads { pool: Some(pool), ..Threads::default() })
+        let but_one = cores.saturating_sub(1).max(1);
+        let pool_of = |threads| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
+            pool.thread_name(|i| format!("rays {i}")).start_handler(move |_| start()).build()
+        };
+        let pool = pool_of(if they_step_back { cores } else { but_one })?;
+        let fewer = (they_step_back && but_one < cores).then(|| pool_of(but_one)).transpose()?;
+        Ok(Threads { pool: Some(pool), fewer, ..Threads::default() })
+    }
+
+    /// Leaves a core to who asks, in all turns that begin until what is returned is dropped. Work that the system does
+    /// beside it for the first time, as compiling what draws, is done sooner.
+    pub fn spare_a_core(&self) -> SparedCore<'_> {
+        self.spared.fetch_add(1, Ordering::Relaxed);
+        SparedCore(self)
     }
 
     /// How many there are.
@@ -85,7 +107,8 @@ impl Threads {
     }
 
     fn install<R: Send>(&self, work: impl FnOnce() -> R + Send) -> R {
-        match &self.pool {
+        let fewer = self.fewer.as_ref().filter(|_| self.spared.load(Ordering::Relaxed) > 0);
+        match fewer.or(self.pool.as_ref()) {
             Some(pool) => pool.install(work),
             None => work(),
         }
@@ -183,6 +206,19 @@ mod tests {
         let cores = std::thread::available_parallelism().map_or(1, usize::from);
         let count = |they_step_back| Threads::beside_the_ui(|| (), they_step_back).unwrap().count();
         assert_eq!([count(true), count(false)], [cores, (cores - 1).max(1)]);
+    }
+
+    #[test]
+    fn a_core_is_left_to_who_asks_until_it_is_given_back() {
+        let threads = Threads::beside_the_ui(|| (), true).unwrap();
+        let cores = threads.count();
+        let in_a_turn = || threads.turn(Rank::Background, rayon::current_num_threads);
+        let (first, second) = (threads.spare_a_core(), threads.spare_a_core());
+        assert_eq!(in_a_turn(), (cores - 1).max(1));
+        drop(first);
+        assert_eq!(in_a_turn(), (cores - 1).max(1), "one needs it still");
+        drop(second);
+        assert_eq!(in_a_turn(), cores);
     }
 
     #[test]

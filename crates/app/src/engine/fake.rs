@@ -11,7 +11,7 @@ use gpu::{Gpu, GpuError};
 use raster::{Raster, RasterError};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
-use technique::FakeSettings;
+use technique::{FakeSettings, Threads};
 
 /// A picture to make.
 pub type FakeJob = Job<FakeSettings>;
@@ -30,13 +30,19 @@ enum Task {
 pub struct FakeWorker(Worker<Option<Task>>);
 
 impl FakeWorker {
-    /// Starts the thread; `window` is the window's device.
+    /// Starts the thread; `window` is the window's device, and `threads` are those that trace beside it.
     ///
     /// # Errors
     /// If the system gives no thread.
-    pub fn start(pane: PaneId, window: Gpu, post_process: Arc<PostProcess>) -> std::io::Result<Self> {
+    pub fn start(
+        pane: PaneId,
+        window: Gpu,
+        threads: Arc<Threads>,
+        post_process: Arc<PostProcess>,
+    ) -> std::io::Result<Self> {
         let service = move || Fakes {
             pane,
+            threads,
             stage: Stage::on(device_beside(&window)),
             fault: FaultInjection::of_fakes(),
             seconds_per_pixel: 0.0,
@@ -93,6 +99,7 @@ impl Stage {
 
 /// Draws fakes for one pane.
 struct Fakes {
+    threads: Arc<Threads>,
     pane: PaneId,
     stage: Result<Stage, String>,
     fault: Option<FaultInjection>,
@@ -148,6 +155,8 @@ impl Fakes {
         let shrink = if expected > 4.0 * PATIENCE.as_secs_f64() { 4 } else { 2 };
         let rough = expected > PATIENCE.as_secs_f64();
         let in_hand = JobInHand { pane: self.pane, post_process: &self.post_process, job: &job, cut: cut(&job) };
+        // the first one compiles its pipelines: where the processor plays the device, on a core
+        let _spared = (self.seconds_per_pixel == 0.0).then(|| self.threads.spare_a_core());
         if rough {
             in_hand.draw(stage, shrink);
         }

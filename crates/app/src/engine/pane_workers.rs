@@ -79,7 +79,8 @@ impl PaneWorkers {
 
     fn fake(&mut self) -> anyhow::Result<&FakeWorker> {
         if self.fake.is_none() {
-            let worker = FakeWorker::start(self.pane, self.gpu.clone(), self.post_process.clone());
+            let worker =
+                FakeWorker::start(self.pane, self.gpu.clone(), self.threads.clone(), self.post_process.clone());
             let worker = worker.context("no thread for the fake")?;
             self.fake = Some(worker);
         }
