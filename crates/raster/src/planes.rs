@@ -17,7 +17,7 @@ const OF_REACH: f32 = 1e-3;
 /// Distances along the line of sight between which a view draws.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Planes {
-    /// Above 0.
+    /// Distance of the near plane, above 0.
     pub near: f32,
     /// Above `near`; may be infinite.
     pub far: f32,

@@ -117,7 +117,7 @@ impl TechniqueName {
 /// A technique with its settings: all that a picture depends on beside what is seen.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Technique {
-    /// The rasterised fake.
+    /// The rasterised fake with its settings.
     Fake(FakeSettings),
     /// Traced by an integrator.
     Traced(TracedSettings),

@@ -45,7 +45,7 @@ pub struct Recorded {
 /// 2: with the scene's hash.
 const RECORDS_VERSION: u32 = 2;
 
-/// Holds [`Scene::as_read`](scene::Scene::as_read).
+/// The record's name of the hash that [`Scene::as_read`](scene::Scene::as_read) makes.
 const SCENE_HASH: &str = "scene.hash";
 
 /// Holds the vertical angle of view of the camera whose picture this is, where the picture shows more: it was in a part of a

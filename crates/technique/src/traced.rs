@@ -27,7 +27,7 @@ pub struct TruthSettings {
     pub path: PathSettings,
     /// Samples per pixel at which rendering stops.
     pub spp: u32,
-    /// As in [`TracedSettings`].
+    /// The sun for these paths alone, as in [`TracedSettings`].
     pub sun_radius: Option<f32>,
 }
 
@@ -38,7 +38,7 @@ pub struct TreeSettings {
     pub tree: WhittedSettings,
     /// Samples per pixel at which rendering stops.
     pub spp: u32,
-    /// As in [`TracedSettings`].
+    /// The sun for these trees alone, as in [`TracedSettings`].
     pub sun_radius: Option<f32>,
 }
 

@@ -114,7 +114,7 @@ fn map(records: &[(String, String)]) -> Option<MapSetup> {
     Some(MapSetup { of, metric, held })
 }
 
-/// "vertical at 0.5".
+/// Reads how the wipe's line stands and where, as records have it: "vertical at 0.5".
 fn line(words: &str) -> Option<(Line, f32)> {
     let (name, at) = words.split_once(" at ")?;
     let line = [Line::Vertical, Line::Horizontal].into_iter().find(|line| line.name() == name)?;

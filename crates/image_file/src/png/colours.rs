@@ -8,7 +8,7 @@ use film::glam::DMat3;
 /// From a number between 0 and 1 to linear light.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Transfer {
-    /// IEC 61966-2-1.
+    /// The curve of sRGB, by IEC 61966-2-1.
     Srgb,
     /// The number to this power.
     Power(f32),

@@ -19,7 +19,7 @@ use simd::{Float, Mask, Vector};
 /// Whose axes a direction is told by.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum Space {
-    /// The scene's axes.
+    /// Along the x, y and z axes of the scene.
     #[default]
     World,
     /// The camera's: x to the right, y up, z towards the viewer.

@@ -130,7 +130,7 @@ impl SortedFaces {
 struct Touch {
     /// Of the other surface from the sphere's centre.
     distance: f64,
-    /// Unit direction there.
+    /// Unit direction from the sphere's centre to the other surface.
     normal: DVec3,
     /// The largest step off the other surface.
     step: f64,

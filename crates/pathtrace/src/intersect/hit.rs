@@ -38,7 +38,7 @@ pub struct Blocker {
     pub id: u32,
     /// Index into the scene's materials.
     pub material: u32,
-    /// As [`Intersection::light`].
+    /// The light that the surface belongs to, as [`Intersection::light`] has it.
     pub light: u32,
 }
 

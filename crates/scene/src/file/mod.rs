@@ -44,7 +44,7 @@ pub enum SceneError {
         image_file::shown(path)
     )]
     OtherFormat {
-        /// The file.
+        /// Where the file lies that is no scene.
         path: PathBuf,
     },
     /// The file could not be read.

@@ -47,7 +47,7 @@ pub struct RayAnswer {
     pub reflectance: f32,
     /// Of a sphere that is met; 0 if the surface is flat.
     pub radius: f32,
-    /// Padding.
+    /// Fills the struct up to a multiple of 16 bytes, as WGSL has it.
     pub unused: [u32; 3],
 }
 
