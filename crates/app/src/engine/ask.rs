@@ -366,7 +366,8 @@ impl Asked {
         asked.fakes_time = FakesTime::Settled;
         let (shot, technique) = (pane.shot.clone(), pane.technique);
         let provenance = Arc::new(Provenance { shot, technique, device: technique.name().usual_device() });
-        Some(Order { job: self.jobs, view: asked.view, shrink: pane.shrink, restarts, provenance })
+        let (view, shrink, own_camera) = (asked.view, pane.shrink, pane.own_camera);
+        Some(Order { job: self.jobs, view, shrink, restarts, own_camera, provenance })
     }
 }
 

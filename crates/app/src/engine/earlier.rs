@@ -65,6 +65,7 @@ mod tests {
         // more were wished for meanwhile
         settings.truth.spp = 100 + spp;
         let shot = Shot::of(scene::builtin::named("cornell").unwrap(), (1, 1));
+        let own_camera = shot.camera;
         let provenance = Arc::new(Provenance { shot, technique: settings.in_use(), device: Device::Cpu });
         Picture {
             image: Image::new(1, 1, [Vec3::splat(spp as f32)]).unwrap(),
@@ -78,7 +79,7 @@ mod tests {
             cut: None,
             rough: false,
             unfinished: true,
-            order: Order { job: 1, view, shrink: 1, restarts: 0, provenance },
+            order: Order { job: 1, view, shrink: 1, restarts: 0, own_camera, provenance },
         }
     }
 

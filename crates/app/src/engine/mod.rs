@@ -83,6 +83,8 @@ pub struct Order {
     pub shrink: u32,
     /// How often the user began what is traced anew.
     pub restarts: u64,
+    /// The document's camera, of which a narrow picture shows more above and below.
+    pub own_camera: Camera,
     /// All that the picture depends on.
     pub provenance: Arc<Provenance>,
 }

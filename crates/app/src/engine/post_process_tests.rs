@@ -8,8 +8,9 @@ use technique::{Device, PaneSettings, Provenance, Shot, TechniqueName};
 fn order(job: u64, view: u64) -> Order {
     let shot = Shot::of(scene::builtin::named("cornell").unwrap(), (1, 1));
     let technique = PaneSettings::of(TechniqueName::Path).in_use();
+    let own_camera = shot.camera;
     let provenance = Arc::new(Provenance { shot, technique, device: Device::Cpu });
-    Order { job, view, shrink: 1, restarts: 0, provenance }
+    Order { job, view, shrink: 1, restarts: 0, own_camera, provenance }
 }
 
 fn pixel(grey: f32) -> Image {

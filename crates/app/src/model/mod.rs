@@ -186,11 +186,14 @@ impl Model {
         let shot = document.shot(&state.picture);
         let pane = |id| {
             let (technique, shrink) = (session.panes.get(id)?.in_use(), session.resolution.shrink());
-            Some((id, WantedPane { shot: shot.clone(), technique, shrink }))
+            Some((id, WantedPane { shot: shot.clone(), own_camera: document.camera, technique, shrink }))
         };
+        // before the first layout there is no place for a picture
+        let (width, height) = state.picture.size;
+        let panes = panes.into_iter().filter(|_| width > 0 && height > 0);
         Wanted {
             opened: document.opened,
-            panes: panes.into_iter().filter_map(pane).collect(),
+            panes: panes.filter_map(pane).collect(),
             comparisons: Vec::new(),
             map: None,
             display: session.display,

@@ -75,7 +75,7 @@ impl Model {
 
     /// Stands where this camera does, of which a picture shows all as it is seen now. Undo does not go behind it.
     pub fn look_through(&mut self, shown: &Camera) {
-        self.document.camera = self.state.picture.own(shown, shown);
+        self.document.camera = self.state.picture.own(shown);
         self.begin_history();
     }
 

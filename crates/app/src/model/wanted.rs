@@ -2,6 +2,7 @@
 
 use super::{Comparison, MapWish, Panes};
 use film::DisplayTransform;
+use scene::Camera;
 use technique::Shot;
 use technique::Technique;
 
@@ -29,8 +30,24 @@ pub struct Wanted {
 pub struct WantedPane {
     /// Scene, camera and size.
     pub shot: Shot,
+    /// The document's camera, of which a narrow picture shows more above and below.
+    pub own_camera: Camera,
     /// The technique with its settings.
     pub technique: Technique,
     /// Pixels of the picture area along a side of one of the picture.
     pub shrink: u32,
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::model::{Model, PaneId, Theme};
+
+    #[test]
+    fn no_picture_is_wanted_before_there_is_a_place_for_it() {
+        let mut model = Model::new(scene::builtin::named("cornell").unwrap(), "cornell".into(), Theme::Dark);
+        let wanted = |model: &Model| model.wanted([PaneId::A, PaneId::B]).panes.ids().count();
+        assert_eq!(wanted(&model), 0);
+        model.state.picture.size = (1, 1);
+        assert_eq!(wanted(&model), 2);
+    }
 }

@@ -11,7 +11,6 @@ use crate::ui::Textures;
 use egui::{TextureFilter, TextureId};
 use film::DisplayTransform;
 use image_file::Records;
-use scene::Camera;
 use std::sync::Arc;
 use technique::{Made, OWN_FOV, Technique, camera_options};
 
@@ -138,7 +137,7 @@ impl Presentation {
             exposure: display.exposure,
         };
         let mut records = picture.order.provenance.records(made);
-        let own = own_camera(picture, model);
+        let own = &picture.order.own_camera;
         if own.fov_y != picture.order.camera().fov_y {
             records.push((OWN_FOV, own.fov_y.to_string()));
         }
@@ -171,7 +170,7 @@ impl Presentation {
         // all panes show one scene from one place
         if let Some((_, shown)) = self.pictures.iter().next() {
             records.push(shown.order.provenance.shot.hash_record());
-            records.extend(camera_options(&own_camera(shown, model)));
+            records.extend(camera_options(&shown.order.own_camera));
         }
         for (pane, picture) in self.pictures.iter() {
             let command = picture.order.provenance.command(picture.spp.unwrap_or(1), exposure, &file_of(pane));
@@ -179,11 +178,6 @@ impl Presentation {
         }
         records
     }
-}
-
-/// The camera of the document, of which a picture shows more where it is narrow.
-fn own_camera(picture: &Picture, model: &Model) -> Camera {
-    model.state.picture.own(picture.order.camera(), &model.document.camera)
 }
 
 /// What is compared with what, and how errors are mapped.

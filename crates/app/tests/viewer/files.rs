@@ -135,6 +135,20 @@ fn a_picture_as_seen_comes_back_with_the_camera_that_made_it_narrow_or_high() {
 }
 
 #[test]
+fn pictures_of_the_view_before_are_exported_with_the_camera_that_made_them() {
+    let mut user = User::of("whitted");
+    user.change(|model| model.session.panes[PaneId::B].technique = technique::TechniqueName::Raster);
+    let whole = user.wait_for("both pictures", both_whole);
+    let seen = user.file("seen.png");
+    // halves show more above and below, and are still being drawn
+    user.key(Key::Num4);
+    user.export_as_seen(&seen);
+    user.drop_file(&seen);
+    let again = user.wait_for("it again", |f| says(f, "seen.png shows it"));
+    assert_eq!(fov(&again), fov(&whole));
+}
+
+#[test]
 fn a_map_of_errors_comes_back_as_it_was() {
     let mut user = User::of("cornell");
     user.wait_for("both pictures", both_whole);
