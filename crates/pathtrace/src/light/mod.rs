@@ -16,6 +16,7 @@ pub use table::LightSamples;
 
 use crate::intersect::sphere::Sphere;
 use crate::intersect::{NO_LIGHT, SurfacePoint, triangle_normal};
+use crate::sampling::discrete::Discrete;
 use crate::sampling::warp;
 use crate::vectors::{glam_vector, lane_vector};
 use film::colour;
@@ -43,8 +44,6 @@ pub struct Lights {
     pub(crate) lights: Vec<Light>,
     /// The probability of choosing each.
     pub(crate) probabilities: Vec<f32>,
-    /// Their running sum, the last one 1.
-    pub(crate) cumulative: Vec<f32>,
     /// See [`Lights::light_of_shape`].
     light_of_shape: Vec<u32>,
     /// Index of the sun.
@@ -102,19 +101,11 @@ impl Lights {
         let scene_radius = 0.5 * (hi - lo).length();
         let powers: Vec<f64> = lights.iter().map(|light| f64::from(light.power(scene_radius))).collect();
         let probabilities = mixed_probabilities(&powers);
-        let mut sum = 0.0;
-        let running = probabilities.iter().map(|probability| {
-            sum += probability;
-            sum as f32
-        });
-        let mut cumulative: Vec<f32> = running.collect();
-        if let Some(last) = cumulative.last_mut() {
-            *last = 1.0;
-        }
+        let choice = Discrete::new(probabilities.iter().copied());
         let probabilities: Vec<f32> = probabilities.iter().map(|&p| p as f32).collect();
         let environment = environment.zip(probabilities.last()).map(|(map, &last)| Arc::new(map.chosen_with(last)));
-        let table = Table::new(&lights, &probabilities, cumulative.clone(), environment.clone());
-        Lights { cumulative, lights, probabilities, light_of_shape, sun, environment, table }
+        let table = Table::new(&lights, &probabilities, choice, environment.clone());
+        Lights { lights, probabilities, light_of_shape, sun, environment, table }
     }
 
     /// Number of lights; each triangle of a mesh that shines is one.

@@ -7,6 +7,7 @@ use super::flat::{Flats, Outline};
 use super::{Environment, Light};
 use crate::intersect::SurfacePoints;
 use crate::intersect::sphere::SphereLanes;
+use crate::sampling::discrete::Discrete;
 use crate::sampling::warp;
 use crate::vectors::VectorColumn;
 use scene::Vec3;
@@ -26,11 +27,9 @@ pub struct Table {
     /// Area, radius of a ball, `1 - cos` of the sun's angular radius.
     size: Column,
     probability: Column,
-    /// Running sum of the probabilities, the last one 1.
-    cumulative: Column,
+    choice: Discrete,
     /// See [`kind`].
     kind: WordColumn,
-    count: u32,
     has: Has,
     environment: Option<Arc<Environment>>,
 }
@@ -110,7 +109,7 @@ impl Table {
     pub(super) fn new(
         lights: &[Light],
         probabilities: &[f32],
-        cumulative: Vec<f32>,
+        choice: Discrete,
         environment: Option<Arc<Environment>>,
     ) -> Self {
         let vectors = |of: fn(&Light) -> Vec3| VectorColumn::new(lights.iter().map(of));
@@ -144,9 +143,8 @@ impl Table {
                 Light::Sun(sun) => sun.one_minus_cos(),
             })),
             probability: Column::new(probabilities.iter().copied()),
-            cumulative: Column::new(cumulative),
+            choice,
             kind: WordColumn::new(lights.iter().map(kind_of)),
-            count: lights.len() as u32,
             has: Has {
                 flats: lights.iter().any(|light| matches!(light, Light::Flat(..))),
                 balls: lights.iter().any(|light| matches!(light, Light::Sphere(..))),
@@ -157,22 +155,15 @@ impl Table {
         }
     }
 
-    /// The light that `u` in [0, 1) chooses; there must be one. The first whose running sum is above `u`, by halving.
+    /// The light that `u` in [0, 1) chooses; there must be one.
     #[inline(always)]
     pub fn choose<F: Float>(&self, u: F) -> F::U {
-        let mut below = F::U::splat(0);
-        if self.count > 1 {
-            let last = F::U::splat(self.count - 1);
-            let mut step = self.count.next_power_of_two();
-            while step > 0 {
-                let next = below.wrapping_add(F::U::splat(step));
-                let of_next = next.wrapping_sub(F::U::splat(1));
-                let passed = !last.lt(next) & of_next.look_up(&self.cumulative).le(u);
-                below = F::U::select(passed, next, below);
-                step /= 2;
-            }
-        }
-        below
+        self.choice.choose(u)
+    }
+
+    /// The running sums of the probabilities, the last one 1.
+    pub(crate) fn running_sums(&self) -> &[f32] {
+        self.choice.running_sums()
     }
 
     /// Samples the light that reaches the points `x`: one number in [0, 1) to choose a light, two to choose a point on
@@ -181,7 +172,7 @@ impl Table {
     pub fn sample<F: Float>(&self, x: Vector<F>, u_light: F, u: [F; 2]) -> LightSamples<F> {
         let light = self.choose(u_light);
         let mut sample = self.sample_one(light, x, u);
-        if self.count > 1 {
+        if self.choice.len() > 1 {
             let probability = light.look_up(&self.probability);
             sample.radiance_over_pdf = sample.radiance_over_pdf * (F::splat(1.0) / probability);
             sample.pdf = sample.pdf * probability;

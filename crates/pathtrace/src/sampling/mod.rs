@@ -1,6 +1,7 @@
 //! Warps of uniform random numbers to directions and points, each with its density: [`crate::sampling::warp`] for one
 //! lane.
 
+pub mod discrete;
 pub mod rng;
 pub mod sampler;
 pub mod sobol;
@@ -59,6 +60,18 @@ mod tests {
             let (sin, cos) = sin_cos_2pi(u);
             let exact = f64::from(u) * std::f64::consts::TAU;
             assert!((f64::from(sin) - exact.sin()).abs() < 1.5e-7 && (f64::from(cos) - exact.cos()).abs() < 1.5e-7);
+        }
+    }
+
+    #[test]
+    fn angles_of_sines_are_right_to_single_precision() {
+        for i in 0..=100_000 {
+            let exact = f64::from(i) / 100_000.0 * std::f64::consts::FRAC_PI_2;
+            let angle = f64::from(warp::angle_of_sine(exact.sin() as f32, exact.cos() as f32));
+            assert!((angle - exact).abs() < 1.5e-7, "{exact}: {angle}");
+            let small = 1e-3 * exact;
+            let angle = f64::from(warp::angle_of_sine(small.sin() as f32, small.cos() as f32));
+            assert!((angle - small).abs() <= 1.2e-7 * small, "{small}: {angle}");
         }
     }
 

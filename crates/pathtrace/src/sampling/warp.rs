@@ -47,6 +47,20 @@ pub fn angle_of_upper<F: Float>(y: F, x: F) -> F {
     F::select(x.lt(zero), F::splat(PI) - angle, angle)
 }
 
+/// The angle in [0, pi / 2] with this sine and cosine: the arc sine of the smaller of the two, which is at most the
+/// root of a half, by a minimax polynomial. Without the cancellation that an arc sine near 1 has. Largest error 1.5e-7,
+/// of small angles relative.
+#[inline(always)]
+pub fn angle_of_sine<F: Float>(sin: F, cos: F) -> F {
+    let steep = sin.gt(cos);
+    let x = F::select(steep, cos, sin);
+    let z = x * x;
+    let series = (z * 1.136_366_3e-1 + -9.695_092e-2) * z + 8.020_588e-2;
+    let series = ((series * z + 1.516_110_2e-2) * z + 4.675_157_4e-2) * z + 7.485_898e-2;
+    let angle = x + x * z * (series * z + 1.666_702_1e-1);
+    F::select(steep, F::splat(FRAC_PI_2) - angle, angle)
+}
+
 /// Two unit vectors that make a right-handed frame with the unit vector `n`: Duff et al., "Building an Orthonormal
 /// Basis, Revisited" (JCGT 6(1), 2017), accurate also at n = (0, 0, -1).
 #[inline(always)]

@@ -201,7 +201,7 @@ fn material(from: &scene::Material) -> Material {
 
 /// What is sampled as a light, and which of its surfaces coincide.
 pub fn lights(lights: &Lights, groups: &Groups) -> Vec<Light> {
-    let chances = lights.probabilities.iter().zip(&lights.cumulative);
+    let chances = lights.probabilities.iter().zip(lights.table().running_sums());
     let one = |((from, (&probability, &cumulative)), index)| Light {
         probability,
         cumulative,
