@@ -11,6 +11,7 @@
 //! not depend on the number of threads either.
 
 pub mod bsdf;
+pub mod caster;
 pub mod drive;
 mod gpu_tracer;
 pub mod integrator;

@@ -21,7 +21,7 @@ pub mod coincident;
 pub(crate) mod contact;
 pub mod disk;
 mod hit;
-mod pairs;
+pub(crate) mod pairs;
 pub(crate) mod primitive;
 pub(crate) mod ray;
 pub mod shape_list;

@@ -3,7 +3,7 @@
 use scene::Vec3;
 
 /// Lower and upper corner of a box.
-pub(super) type Bounds = (Vec3, Vec3);
+pub(crate) type Bounds = (Vec3, Vec3);
 
 /// Whether two boxes have a point in common.
 pub(super) fn meet(a: Bounds, b: Bounds) -> bool {
@@ -12,7 +12,7 @@ pub(super) fn meet(a: Bounds, b: Bounds) -> bool {
 
 /// Calls `found` with the places of any two boxes that have a point in common, each pair once: swept along the axis along
 /// which they overlap least.
-pub(super) fn for_each_pair(bounds: &[Bounds], mut found: impl FnMut(usize, usize)) {
+pub(crate) fn for_each_pair(bounds: &[Bounds], mut found: impl FnMut(usize, usize)) {
     let axis = sparsest_axis(bounds);
     let mut order: Vec<usize> = (0..bounds.len()).collect();
     order.sort_by(|a, b| bounds[*a].0[axis].total_cmp(&bounds[*b].0[axis]));
