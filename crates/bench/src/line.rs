@@ -11,21 +11,22 @@ pub const USUAL: Technique = path(Estimator::LIGHT, SamplerKind::Sobol);
 
 /// Path tracing without a limit of bounces.
 pub const fn path(estimator: Estimator, sampler: SamplerKind) -> Technique {
-    paths(PathSettings { estimator, sampler, bounces: None, roulette: Roulette::THROUGHPUT, branches: 1, seed: 1 })
+    let (roulette, connections) = (Roulette::THROUGHPUT, true);
+    paths(PathSettings { estimator, sampler, bounces: None, roulette, branches: 1, connections, seed: 1 })
 }
 
 /// Paths of at most so many bounces, and no roulette: the tutorial's biased loop.
 pub const fn bounded(bounces: u32) -> Technique {
     let (estimator, sampler) = (Estimator::LIGHT, SamplerKind::Independent);
     let (bounces, roulette) = (Some(bounces), Roulette::OFF);
-    paths(PathSettings { estimator, sampler, bounces, roulette, branches: 1, seed: 1 })
+    paths(PathSettings { estimator, sampler, bounces, roulette, branches: 1, connections: false, seed: 1 })
 }
 
 /// Paths without limit that survive each vertex with a constant probability: the tutorial's roulette.
 pub const fn survived(probability: f32) -> Technique {
     let (estimator, sampler) = (Estimator::LIGHT, SamplerKind::Independent);
     let roulette = Roulette::constant(probability);
-    paths(PathSettings { estimator, sampler, bounces: None, roulette, branches: 1, seed: 1 })
+    paths(PathSettings { estimator, sampler, bounces: None, roulette, branches: 1, connections: false, seed: 1 })
 }
 
 /// Whitted's trees of rays, at the few samples that edges and soft shadows need.

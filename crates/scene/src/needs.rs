@@ -21,6 +21,8 @@ pub struct Needs {
     pub rough_conductor: bool,
     /// Glass.
     pub dielectric: bool,
+    /// A sphere of glass, denser than what is around it, or of a perfect mirror: what casts caustics that can be aimed at.
+    pub casters: bool,
     /// A shape that shines.
     pub area_lights: bool,
     /// A point light.
@@ -50,9 +52,15 @@ impl Scene {
             needs.area_lights |= material.emission.is_some();
             match material.bsdf {
                 Bsdf::Diffuse { albedo } => needs.checkerboard |= matches!(albedo, Texture::Checkerboard(_)),
-                Bsdf::Mirror { .. } => needs.mirror = true,
+                Bsdf::Mirror { .. } => {
+                    needs.mirror = true;
+                    needs.casters |= sphere;
+                }
                 Bsdf::RoughConductor { .. } => needs.rough_conductor = true,
-                Bsdf::Dielectric { .. } => needs.dielectric = true,
+                Bsdf::Dielectric { ior } => {
+                    needs.dielectric = true;
+                    needs.casters |= sphere && ior > 1.0;
+                }
             }
         }
         needs

@@ -72,7 +72,7 @@ pub fn made_by_command(command: &str) -> Option<Recorded> {
             options.push(format!("{name}={value}"));
         }
     }
-    Some(Recorded { scene, scene_hash: None, options })
+    Some(Recorded::new(scene, None, options))
 }
 
 /// The words of a line as a shell takes them, quoted as [`quoted`] does it; `None` if a quote has no end.

@@ -62,14 +62,28 @@ pub const ALL: &[Preset] = &[
         title: "2 b) Uniform sampling, 20 spp",
         about: "Direct light, found by chance: p = 1 / (2 pi)",
         technique: Path,
-        settings: &[("estimator", "uniform"), ("bounces", "0"), ("roulette", "off"), ("spp", "20"), INDEPENDENT],
+        settings: &[
+            ("estimator", "uniform"),
+            ("bounces", "0"),
+            ("roulette", "off"),
+            ("spp", "20"),
+            INDEPENDENT,
+            UNCONNECTED,
+        ],
     },
     Preset {
         name: "naive",
         title: "2 b) Naive tracer, N = 1, 16 spp",
         about: "Path tracing: one direction at each vertex, 2 bounces, light found by chance",
         technique: Path,
-        settings: &[("estimator", "uniform"), ("bounces", "2"), ("roulette", "off"), ("spp", "16"), INDEPENDENT],
+        settings: &[
+            ("estimator", "uniform"),
+            ("bounces", "2"),
+            ("roulette", "off"),
+            ("spp", "16"),
+            INDEPENDENT,
+            UNCONNECTED,
+        ],
     },
     Preset {
         name: "naive-4",
@@ -83,6 +97,7 @@ pub const ALL: &[Preset] = &[
             ("branches", "4"),
             ("spp", "1"),
             INDEPENDENT,
+            UNCONNECTED,
         ],
     },
     Preset {
@@ -90,56 +105,112 @@ pub const ALL: &[Preset] = &[
         title: "2 c) Light sampling, 20 spp",
         about: "Direct light, sampled: p = 1 / S",
         technique: Path,
-        settings: &[("estimator", "light"), ("bounces", "0"), ("roulette", "off"), ("spp", "20"), INDEPENDENT],
+        settings: &[
+            ("estimator", "light"),
+            ("bounces", "0"),
+            ("roulette", "off"),
+            ("spp", "20"),
+            INDEPENDENT,
+            UNCONNECTED,
+        ],
     },
     Preset {
         name: "2e-0-bounces",
         title: "2 e) No bounce, 20 spp",
         about: "Direct light only",
         technique: Path,
-        settings: &[("estimator", "light"), ("bounces", "0"), ("roulette", "off"), ("spp", "20"), INDEPENDENT],
+        settings: &[
+            ("estimator", "light"),
+            ("bounces", "0"),
+            ("roulette", "off"),
+            ("spp", "20"),
+            INDEPENDENT,
+            UNCONNECTED,
+        ],
     },
     Preset {
         name: "2e-1-bounce",
         title: "2 e) 1 bounce, 20 spp",
         about: "Light from one surface on another, once",
         technique: Path,
-        settings: &[("estimator", "light"), ("bounces", "1"), ("roulette", "off"), ("spp", "20"), INDEPENDENT],
+        settings: &[
+            ("estimator", "light"),
+            ("bounces", "1"),
+            ("roulette", "off"),
+            ("spp", "20"),
+            INDEPENDENT,
+            UNCONNECTED,
+        ],
     },
     Preset {
         name: "2e-2-bounces",
         title: "2 e) 2 bounces, 20 spp",
         about: "Still biased: longer paths are lost",
         technique: Path,
-        settings: &[("estimator", "light"), ("bounces", "2"), ("roulette", "off"), ("spp", "20"), INDEPENDENT],
+        settings: &[
+            ("estimator", "light"),
+            ("bounces", "2"),
+            ("roulette", "off"),
+            ("spp", "20"),
+            INDEPENDENT,
+            UNCONNECTED,
+        ],
     },
     Preset {
         name: "complete",
         title: "Complete tracer: roulette, P = 0.8, 20 spp",
         about: "Unlimited and unbiased: what survives is divided by P",
         technique: Path,
-        settings: &[("estimator", "light"), ("bounces", "inf"), ("roulette", "0.8"), ("spp", "20"), INDEPENDENT],
+        settings: &[
+            ("estimator", "light"),
+            ("bounces", "inf"),
+            ("roulette", "0.8"),
+            ("spp", "20"),
+            INDEPENDENT,
+            UNCONNECTED,
+        ],
     },
     Preset {
         name: "2f-1-spp",
         title: "2 f) 1 spp, 2 bounces",
         about: "One path for each pixel",
         technique: Path,
-        settings: &[("estimator", "light"), ("bounces", "2"), ("roulette", "off"), ("spp", "1"), INDEPENDENT],
+        settings: &[
+            ("estimator", "light"),
+            ("bounces", "2"),
+            ("roulette", "off"),
+            ("spp", "1"),
+            INDEPENDENT,
+            UNCONNECTED,
+        ],
     },
     Preset {
         name: "2f-4-spp",
         title: "2 f) 4 spp, 2 bounces",
         about: "Half the noise of 1 spp",
         technique: Path,
-        settings: &[("estimator", "light"), ("bounces", "2"), ("roulette", "off"), ("spp", "4"), INDEPENDENT],
+        settings: &[
+            ("estimator", "light"),
+            ("bounces", "2"),
+            ("roulette", "off"),
+            ("spp", "4"),
+            INDEPENDENT,
+            UNCONNECTED,
+        ],
     },
     Preset {
         name: "2f-16-spp",
         title: "2 f) 16 spp, 2 bounces",
         about: "A quarter of the noise of 1 spp",
         technique: Path,
-        settings: &[("estimator", "light"), ("bounces", "2"), ("roulette", "off"), ("spp", "16"), INDEPENDENT],
+        settings: &[
+            ("estimator", "light"),
+            ("bounces", "2"),
+            ("roulette", "off"),
+            ("spp", "16"),
+            INDEPENDENT,
+            UNCONNECTED,
+        ],
     },
     Preset {
         name: "unlimited",
@@ -152,6 +223,9 @@ pub const ALL: &[Preset] = &[
 
 /// The tutorial's random numbers, whose error falls like 1 / sqrt(spp).
 const INDEPENDENT: (&str, &str) = ("sampler", "independent");
+
+/// The tutorial leaves caustics to chance.
+const UNCONNECTED: (&str, &str) = ("connections", "off");
 
 impl Preset {
     /// The preset of that name.

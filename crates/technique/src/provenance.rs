@@ -1,6 +1,7 @@
 //! Where a picture comes from: everything that makes it again, as records to keep in its file and as a command to type.
 
 use crate::command::{camera_options, size_option};
+use crate::settings::unsaid_of_old;
 use crate::{Device, Shot, Technique, TechniqueName};
 use anyhow::Context;
 use image_file::Records;
@@ -41,6 +42,19 @@ pub struct Recorded {
     pub options: Vec<String>,
 }
 
+impl Recorded {
+    /// With what these options leave unsaid because they are older than a setting.
+    pub(crate) fn new(scene: String, scene_hash: Option<SceneHash>, mut options: Vec<String>) -> Self {
+        let pairs = options.iter().filter_map(|option| option.strip_prefix("--")?.split_once('='));
+        let value = |name: &str| pairs.clone().find(|(known, _)| *known == name).map(|(_, value)| value);
+        let technique = value("technique").map_or(Some(TechniqueName::Path), TechniqueName::named);
+        let unsaid = technique.into_iter().flat_map(|technique| unsaid_of_old(technique, |name| value(name).is_some()));
+        let unsaid: Vec<String> = unsaid.map(|(name, value)| format!("--{name}={value}")).collect();
+        options.extend(unsaid);
+        Recorded { scene, scene_hash, options }
+    }
+}
+
 /// Version of the records; it grows when an older program would misread them, or when a scene has another hash.
 /// 2: with the scene's hash.
 const RECORDS_VERSION: u32 = 2;
@@ -74,8 +88,8 @@ pub fn made_from(records: &[(String, String)]) -> anyhow::Result<Option<Recorded
     let says_nothing = |name: &str| NO_OPTIONS.contains(&name) || (name == "device" && !asks_for_gpu);
     let is_option = |name: &str| !says_nothing(name) && !name.starts_with(MEASURED);
     let options = records.iter().filter(|(name, _)| is_option(name));
-    let words = options.map(|(name, value)| format!("--{name}={value}"));
-    Ok(Some(Recorded { scene: scene.to_owned(), scene_hash: scene_hash(records)?, options: words.collect() }))
+    let words = options.map(|(name, value)| format!("--{name}={value}")).collect();
+    Ok(Some(Recorded::new(scene.to_owned(), scene_hash(records)?, words)))
 }
 
 /// The scene that a picture or a reference shows, as it was read then; `None` if its records do not tell.
@@ -132,5 +146,28 @@ impl Shot {
         records.extend(self.changes.options());
         records.push(("command", self.reference_command()));
         records
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::made_by_command;
+
+    /// Pictures from before there were connections were made without them, and those of techniques that have none stay
+    /// as they are.
+    #[test]
+    fn what_old_records_leave_unsaid_is_what_was_done_then() {
+        let old = |technique: &str| {
+            let record = |name: &str, value: &str| (name.to_owned(), value.to_owned());
+            let records = [record("records", "2"), record("scene", "whitted"), record("technique", technique)];
+            made_from(&records).unwrap().unwrap().options
+        };
+        assert_eq!(old("path"), ["--technique=path", "--connections=off"]);
+        assert_eq!(old("whitted"), ["--technique=whitted"]);
+        let line = |words: &str| made_by_command(&format!("visavis render whitted {words} -o a.png")).unwrap().options;
+        assert_eq!(line("--technique path"), old("path"));
+        assert_eq!(line("--technique path --connections on"), ["--technique=path", "--connections=on"]);
+        assert_eq!(line("--spp 4"), ["--spp=4", "--connections=off"], "paths are what is traced unless it says");
     }
 }

@@ -132,7 +132,11 @@ fn tell_what_has_no_effect(args: &RenderArgs, scene: &Scene) {
     }
     let of_scene = OF_SCENES.iter().filter(|setting| (setting.get)(&args.seen.changes).is_some());
     let of_scene = of_scene.map(|setting| (setting.name, setting.needs));
-    let chosen = |setting: &&Setting<PaneSettings>| (setting.get)(&args.pane) != setting.default;
+    // what a picture was made with before there was the setting is nobody's choice
+    let chosen = |setting: &&Setting<PaneSettings>| {
+        let value = (setting.get)(&args.pane);
+        value != setting.default && value != setting.before
+    };
     let of_pane = all_of_panes().filter(|setting| setting.is_of(technique)).filter(chosen);
     let mut given: Vec<_> = of_scene.chain(of_pane.map(|setting| (setting.name, setting.needs))).collect();
     given.sort_by_key(|(_, needs)| *needs);

@@ -137,6 +137,9 @@ pub struct PathSettings {
     /// Directions drawn at each diffuse vertex, their light averaged: 1 is path tracing, more is distributed ray
     /// tracing, whose rays multiply with every bounce. At least 1; [`PathSettings::check`] says how many are too many.
     pub branches: u32,
+    /// Whether light that is sampled is also looked for through spheres of glass and off those and mirroring ones: the
+    /// caustics of the scene's [`crate::caster`]s. Without it chance has to find them.
+    pub connections: bool,
     /// Where random numbers come from.
     pub sampler: SamplerKind,
     /// Selects one of 2^32 independent pictures.
@@ -216,6 +219,7 @@ impl Default for PathSettings {
             bounces: None,
             roulette: Roulette::THROUGHPUT,
             branches: 1,
+            connections: true,
             sampler: SamplerKind::default(),
             seed: 1,
         }

@@ -29,6 +29,8 @@ pub struct Setting<T> {
     pub letter: &'static str,
     /// What it is where nobody says otherwise; `None` for the scene's own.
     pub default: Option<Value>,
+    /// What pictures were made with before there was this row, if not the default: what records that lack it mean.
+    pub before: Option<Value>,
     /// What a scene has of its own where there is no default.
     pub own: fn(&Scene) -> Option<Value>,
     /// What a scene must have for it to change anything.
@@ -88,6 +90,8 @@ pub enum Need {
     Glass,
     /// A mirror, which rough metal is one of for Whitted's trees, or a dielectric.
     Specular,
+    /// A sphere that light can be connected through or off.
+    Caster,
     /// A shape that is a sphere.
     Spheres,
     /// A sun, however small its disc.
@@ -104,6 +108,7 @@ impl Need {
             Need::Nothing => return None,
             Need::Glass => (needs.dielectric, "glass"),
             Need::Specular => (needs.dielectric || needs.mirror || needs.rough_conductor, "mirror, metal or glass"),
+            Need::Caster => (needs.casters, "sphere of glass or mirror"),
             Need::Spheres => (needs.spheres, "sphere"),
             Need::Sun => (needs.sun, "sun"),
             Need::ShadowMap => (Show::ShadowMap.available(scene), "light that casts shadows in the fake"),
@@ -222,6 +227,16 @@ impl<T> Setting<T> {
 /// The setting of this name.
 pub fn of_panes(name: &str) -> Option<&'static Setting<PaneSettings>> {
     all_of_panes().find(|setting| setting.name == name)
+}
+
+/// What the options of a picture's records leave unsaid because they are older than a row: settings that this technique
+/// has, with what they were before.
+pub fn unsaid_of_old<'a>(
+    technique: TechniqueName,
+    is_said: impl Fn(&str) -> bool + 'a,
+) -> impl Iterator<Item = (&'static str, Value)> + 'a {
+    let unsaid = move |setting: &&Setting<PaneSettings>| setting.is_of(technique) && !is_said(setting.name);
+    all_of_panes().filter(unsaid).filter_map(|setting| Some((setting.name, setting.before?)))
 }
 
 /// The setting of this name.

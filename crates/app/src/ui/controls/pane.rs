@@ -33,7 +33,9 @@ fn order(technique: TechniqueName) -> &'static [&'static str] {
             &["depth", "glass-shadows", "ambient", "traced-sun", "spp", "shadow-rays", "sampler", "seed"]
         }
         TechniqueName::Normals => &["space", "spp", "sampler", "seed"],
-        TechniqueName::Path => &["estimator", "spp", "bounces", "branches", "roulette", "sampler", "seed"],
+        TechniqueName::Path => {
+            &["estimator", "spp", "connections", "bounces", "branches", "roulette", "sampler", "seed"]
+        }
     }
 }
 

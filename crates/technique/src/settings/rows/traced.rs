@@ -267,6 +267,33 @@ pub const ROWS: &[Setting<PaneSettings>] = &[
         },
         ..PLAIN
     },
+    Setting {
+        name: "connections",
+        of: PATH,
+        kind: Kind::Choice(&["on", "off"]),
+        default: Some(Value::Word("on")),
+        before: Some(Value::Word("off")),
+        needs: Need::Caster,
+        acts: |pane, _| pane.truth.path.estimator.samples_lights(),
+        help: "light that is sampled also arrives by way of spheres of glass and mirror, computed; off: found by chance",
+        always_recorded: true,
+        get: |pane| Some(Value::Word(if pane.truth.path.connections { "on" } else { "off" })),
+        set: |pane, value| pane.truth.path.connections = value == Value::Word("on"),
+        control: Control {
+            label: "Connections",
+            brief: Some(|value| if value == Value::Word("on") { "connections" } else { "no connections" }.into()),
+            hover: "How light gets through spheres of glass, and off those and mirroring ones, to where its caustic is",
+            look: Look::Words(&[
+                (
+                    "on",
+                    "Lights are sampled through spheres too: the ray between two points by way of a sphere is computed",
+                ),
+                ("off", "What spheres send on is found by chance alone"),
+            ]),
+            ..BLANK
+        },
+        ..PLAIN
+    },
 ];
 
 /// Whether roulette ends paths that would still bring something. With direct light alone, sampled, and no sky to be
