@@ -5,13 +5,14 @@
 use crate::bsdf::Interactions;
 use crate::bsdf::interaction::facing;
 use crate::bsdf::materials::Materials;
+use crate::caster::Casters;
 use crate::intersect::aggregate::Aggregate;
 use crate::intersect::shape_list::Scratch;
-use crate::intersect::{Intersections, Rays, SHADOW_END, SurfacePoints};
+use crate::intersect::{Intersections, NO_LIGHT, Rays, SHADOW_END, SurfacePoints};
 use crate::light::{LightSamples, Lights, SunDisc};
 use crate::vectors::in_all_lanes;
 use scene::Vec3;
-use simd::{Float, Vector};
+use simd::{Float, Vector, Word};
 
 /// What a path walks through.
 pub struct PreparedScene {
@@ -21,12 +22,26 @@ pub struct PreparedScene {
     pub materials: Materials,
     /// What shines and is sampled.
     pub lights: Lights,
+    /// What lights are connected to vertices by.
+    pub casters: Casters,
     /// Radiance where nothing is hit, of a sky of one colour; a picture is one of the lights.
     pub sky: Vec3,
     /// The sun that a ray can hit.
     pub sun_disc: Option<SunDisc>,
     /// Density per solid angle with which the sun's disc is sampled.
     pub sun_pdf: f32,
+}
+
+/// What stands for the light that a shadow ray goes to, where it goes to none: of no surface, not even of one that is no
+/// light.
+const NOT_A_LIGHT: u32 = NO_LIGHT - 1;
+
+/// Shadow rays between points, both ends off their surfaces.
+#[inline(always)]
+fn between<F: Float>(at: &SurfacePoints<F>, to: &SurfacePoints<F>, direction: Vector<F>) -> Rays<F> {
+    let from = at.leaving_towards(direction);
+    let to = to.leaving_towards(-direction);
+    Rays { origin: from, direction: to - from, tmax: F::splat(SHADOW_END) }
 }
 
 /// What the samples in the lanes have brought home so far.
@@ -78,12 +93,22 @@ impl PreparedScene {
         opaque: bool,
         scratch: &mut Scratch<F>,
     ) -> F::M {
-        // both ends off their surfaces
-        let from = at.leaving_towards(sample.wi);
-        let to = sample.point.leaving_towards(-sample.wi);
-        let between = Rays { origin: from, direction: to - from, tmax: F::splat(SHADOW_END) };
-        let rays = Rays::select(sample.endless, Rays::new(from, sample.wi), between);
+        let between = between(at, &sample.point, sample.wi);
+        let rays = Rays::select(sample.endless, Rays::new(between.origin, sample.wi), between);
         self.aggregate.occluded(&rays, sample.light, wanted, opaque, scratch)
+    }
+
+    /// Where anything stands between the `wanted` points and others, which lie in these unit directions.
+    #[inline(always)]
+    pub fn blocked<F: Float>(
+        &self,
+        at: &SurfacePoints<F>,
+        to: &SurfacePoints<F>,
+        direction: Vector<F>,
+        wanted: F::M,
+        scratch: &mut Scratch<F>,
+    ) -> F::M {
+        self.aggregate.occluded(&between(at, to, direction), F::U::splat(NOT_A_LIGHT), wanted, false, scratch)
     }
 
     /// Radiance that rays find where they hit nothing: the sky of one colour, and `sun_weight` times the sun's disc unless it is a

@@ -1,6 +1,7 @@
 //! From rays to a film: progressive, parallel over chunks of pixels, cancelled at once.
 
 use crate::bsdf::materials::Materials;
+use crate::caster::Casters;
 use crate::drive::lanes::{FilmJob, FilmPass};
 use crate::integrator::Integrator;
 use crate::intersect::Accel;
@@ -33,6 +34,7 @@ impl Tracer {
                 sky: if scene.environment.is_some() { Vec3::ZERO } else { scene.sky },
                 sun_disc: scene.sun.as_ref().and_then(SunDisc::new),
                 sun_pdf: lights.sun_pdf(),
+                casters: Casters::new(scene),
                 lights,
             },
             stand_ins: scene.fake,

@@ -6,6 +6,7 @@
 //! spheres it has met. A caster may shine as well: it is then met and sampled like any light, and what it sends by way of
 //! itself does not leave the sphere.
 
+pub mod connect;
 pub mod sphere_chain;
 
 use crate::intersect::pairs::{Bounds, for_each_pair};

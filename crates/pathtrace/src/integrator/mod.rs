@@ -4,6 +4,8 @@
 //! A new integrator is a file here with its settings and lanes, its twin in `shaders/pathtrace/integrator/`, and a
 //! variant of [`Integrator`] with an arm in each of the matches below: all that the machines ask an integrator for.
 
+pub(crate) mod chain_state;
+mod connected;
 pub(crate) mod forks;
 pub mod normals;
 pub mod path;

@@ -15,6 +15,7 @@ use crate::bsdf::{BsdfSamples, Interactions, ScaledColours};
 use crate::drive::gpu::film_data::RenderParams;
 use crate::drive::gpu::{PipelineKey, flag};
 use crate::drive::lanes::{LaneIntegrator, LanePlan};
+use crate::integrator::chain_state::ChainStates;
 use crate::integrator::forks::{Forks, MOST_FORKS, child};
 use crate::integrator::path_state::{ALREADY_COUNTED, DiffuseVertices, MET_BY_CHANCE, PathStates, balance};
 use crate::integrator::roulette::{SPARED_VERTICES, survivors};
@@ -33,11 +34,13 @@ pub const MOST_BRANCHES: u32 = 65_536;
 
 /// Settings as the walk reads them.
 pub struct Plan {
-    directions: Directions,
-    light: LightSampling,
+    pub(super) directions: Directions,
+    pub(super) light: LightSampling,
+    /// Whether lights that are sampled are connected to by way of spheres as well.
+    pub(super) connections: bool,
     roulette: Roulette,
     /// Vertices at which a path may scatter.
-    limit: u32,
+    pub(super) limit: u32,
     /// Whether that is the hard cap rather than the user's wish.
     capped: bool,
     branches: u32,
@@ -55,6 +58,7 @@ impl Plan {
         Plan {
             directions: settings.estimator.directions,
             light: settings.estimator.light,
+            connections: settings.connections && settings.estimator.samples_lights(),
             roulette: settings.roulette,
             limit: settings.scattering_vertices(),
             capped: settings.bounces.is_none(),
@@ -109,17 +113,20 @@ impl PathSettings {
 
 /// Paths, where they walk and what they bring.
 pub struct PathLanes<'a, F: Float> {
-    scene: &'a PreparedScene,
-    plan: &'a Plan,
-    path: PathStates<F>,
+    pub(super) scene: &'a PreparedScene,
+    pub(super) plan: &'a Plan,
+    pub(super) path: PathStates<F>,
+    /// Whether there is what connections go by, and light to connect to.
+    pub(super) connecting: bool,
+    pub(super) chain: ChainStates<F>,
     /// Where a path comes back to a vertex that waits for more branches, and to which.
     resumed: F::M,
     vertex: DiffuseVertices<F>,
     forks: Forks<F>,
-    scratch: Scratch<F>,
+    pub(super) scratch: Scratch<F>,
     outcome: Outcomes<F>,
     /// Rays traced.
-    rays: u64,
+    pub(super) rays: u64,
 }
 
 impl<'a, F: Float> LaneIntegrator<F> for PathLanes<'a, F> {
@@ -129,6 +136,9 @@ impl<'a, F: Float> LaneIntegrator<F> for PathLanes<'a, F> {
         self.path = PathStates::select(here, PathStates::leaving_camera(rays), self.path);
         self.outcome.radiance = Vector::select(here, Vector::zero(), self.outcome.radiance);
         self.outcome.cut = self.outcome.cut & !here;
+        if self.connecting {
+            self.chain.begin(here);
+        }
     }
 
     /// One segment of the paths in the lanes `taken`; where these, and all their branches, have come to their ends.
@@ -140,20 +150,19 @@ impl<'a, F: Float> LaneIntegrator<F> for PathLanes<'a, F> {
         let missed = walking & !hit.met;
         let met = walking & hit.met;
         if self.scene.has_environment() && missed.any() {
-            let weight = self.path.weight_of_meeting(F::splat(self.scene.sun_pdf));
+            let weight = self.weight_of_endless(missed, F::splat(self.scene.sun_pdf));
             self.receive(missed, self.scene.environment(self.path.rays.direction, weight));
         }
         if let Some(environment) = self.scene.lights.environment()
             && missed.any()
         {
             let (radiance, pdf) = environment.look_up_lanes(self.path.rays.direction);
-            self.receive(missed, radiance * self.path.weight_of_meeting(pdf));
+            self.receive(missed, radiance * self.weight_of_endless(missed, pdf));
         }
         let wo = -self.path.rays.direction;
         let shining = met & self.scene.shines(&hit);
         if self.scene.materials.has().area_lights && shining.any() {
-            let mis = self.plan.light == LightSampling::Mis;
-            let weight = self.path.weight_of_meeting(if mis { self.light_pdf(&hit) } else { F::splat(0.0) });
+            let weight = self.weight_of_meeting(shining, &hit);
             self.receive(shining, self.scene.emitted(&hit, wo) * weight);
         }
         let at_limit = met & self.path.vertices.eq(F::U::splat(self.plan.limit));
@@ -199,6 +208,8 @@ impl<'a, F: Float> PathLanes<'a, F> {
         PathLanes {
             scene,
             plan,
+            connecting: plan.connections && !scene.casters.is_empty() && !scene.lights.is_empty(),
+            chain: ChainStates::none(),
             path: PathStates::leaving_camera(&Rays::new(zero, Vector::splat([0.0, 0.0, 1.0]))),
             resumed: F::M::splat(false),
             vertex: DiffuseVertices { point: SurfacePoints::in_the_air(zero), normal: zero, albedo: zero },
@@ -211,7 +222,7 @@ impl<'a, F: Float> PathLanes<'a, F> {
 
     /// Adds radiance that came along the path, where `here` says so.
     #[inline(always)]
-    fn receive(&mut self, here: F::M, radiance: Vector<F>) {
+    pub(super) fn receive(&mut self, here: F::M, radiance: Vector<F>) {
         let sum = self.outcome.radiance + self.path.throughput * radiance;
         self.outcome.radiance = Vector::select(here, sum, self.outcome.radiance);
     }
@@ -249,6 +260,9 @@ impl<'a, F: Float> PathLanes<'a, F> {
         let choosing = here & !delta;
         if self.plan.light != LightSampling::BsdfOnly && !self.scene.lights.is_empty() && choosing.any() {
             self.sample_lights(choosing, at, sampler.unit4(self.path.light_dimension()));
+            if self.connecting {
+                self.connect(choosing, at, sampler.unit4(self.path.connection_dimension()));
+            }
         }
         let mut sample = self.scene.materials.sample(if uniform { here & delta } else { here }, at, u);
         let mut throughput = self.path.throughput * sample.weight;
@@ -262,6 +276,10 @@ impl<'a, F: Float> PathLanes<'a, F> {
             LightSampling::NextEvent => F::select(delta, F::splat(MET_BY_CHANCE), F::splat(ALREADY_COUNTED)),
             LightSampling::Mis => sample.pdf,
         };
+        if self.connecting {
+            self.chain.leave(choosing, at.point.position, sample.pdf);
+            self.chain.scatter(here & delta, at, sample.wi, self.scene.casters.materials());
+        }
         let rays = Rays::new(at.point.leaving_towards(sample.wi), sample.wi);
         self.path = PathStates { rays, throughput, from: at.point.position, direction_pdf, ..self.path };
     }
@@ -312,15 +330,37 @@ impl<'a, F: Float> PathLanes<'a, F> {
             return;
         }
         let shadowed = self.scene.in_shadow(&at.point, &sample, faced, false, &mut self.scratch);
-        let weighted = match (self.plan.light, self.plan.directions) {
-            (LightSampling::Mis, Directions::Cosine) => {
-                cosine * balance(sample.pdf, self.scene.materials.pdf(at, sample.wi, cosine))
-            }
-            (LightSampling::Mis, Directions::Uniform) => cosine * balance(sample.pdf, F::splat(UNIFORM_HEMISPHERE_PDF)),
+        let weighted = match self.plan.light {
+            LightSampling::Mis => cosine * balance(sample.pdf, self.direction_pdf(at, sample.wi, cosine)),
             _ => cosine,
         };
         let bsdf = self.scene.materials.eval(at, sample.wi);
         self.receive(faced & !shadowed, bsdf.times(sample.radiance_over_pdf * weighted));
+    }
+
+    /// Density per solid angle with which chance takes a direction at this cosine to the normal of a surface that leaves a
+    /// choice.
+    #[inline(always)]
+    pub(super) fn direction_pdf(&self, at: &Interactions<F>, wi: Vector<F>, cosine: F) -> F {
+        match self.plan.directions {
+            Directions::Cosine => self.scene.materials.pdf(at, wi, cosine),
+            Directions::Uniform => F::splat(UNIFORM_HEMISPHERE_PDF),
+        }
+    }
+
+    /// How much the light of these hits counts, beside the same light sampled.
+    #[inline(always)]
+    fn weight_of_meeting(&self, shining: F::M, hit: &Intersections<F>) -> F {
+        let mis = self.plan.light == LightSampling::Mis;
+        let weight = self.path.weight_of_meeting(if mis { self.light_pdf(hit) } else { F::splat(0.0) });
+        if self.connecting { weight * self.weight_of_chain_to_hit(shining, hit) } else { weight }
+    }
+
+    /// How much light from where rays hit nothing counts, beside the same light sampled with this density.
+    #[inline(always)]
+    fn weight_of_endless(&self, missed: F::M, pdf: F) -> F {
+        let weight = self.path.weight_of_meeting(pdf);
+        if self.connecting { weight * self.weight_of_chain_to_sky(missed, pdf) } else { weight }
     }
 
     /// Density with which light sampling at the paths' last vertices draws the directions to these hits.

@@ -29,6 +29,10 @@ pub const MET_BY_CHANCE: f32 = f32::INFINITY;
 /// Light was sampled at the last vertex: meeting it now would count it twice.
 pub const ALREADY_COUNTED: f32 = 0.0;
 
+/// Set in the number of the blocks of connections: branches are numbered up to twice
+/// [`crate::integrator::path::MOST_BRANCHES`], in the bits from 11 to 27.
+pub const CONNECTION: u32 = 1 << 31;
+
 /// A point of a diffuse surface, in each lane.
 #[derive(Clone, Copy)]
 pub struct DiffuseVertices<F: Float> {
@@ -85,6 +89,12 @@ impl<F: Float> PathStates<F> {
     #[inline(always)]
     pub fn light_dimension(&self) -> F::U {
         self.direction_dimension().wrapping_add(F::U::splat(1))
+    }
+
+    /// Of connections by way of spheres, by the one bit that no other block has.
+    #[inline(always)]
+    pub fn connection_dimension(&self) -> F::U {
+        self.light_dimension() | F::U::splat(CONNECTION)
     }
 
     /// How much light that was met counts beside the same light sampled at the last vertex with density `light_pdf`.

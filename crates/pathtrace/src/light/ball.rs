@@ -38,6 +38,13 @@ fn cone<F: Float>(x: Vector<F>, ball: &SphereLanes<F>) -> (F, F::M) {
     (F::select(outside, sin * sin / (cos + 1.0), F::splat(ALL_DIRECTIONS)), outside)
 }
 
+/// Where a sample from `x` may be a point of the ball on whose outer side `x` lies, or does not.
+#[inline(always)]
+pub fn sees<F: Float>(x: Vector<F>, ball: &SphereLanes<F>, two_sided: F::M, on_outer_side: F::M) -> F::M {
+    let outside = cone(x, ball).1;
+    (outside & on_outer_side) | (!outside & two_sided)
+}
+
 /// Density per solid angle of a direction from `x` that meets the ball.
 #[inline(always)]
 pub fn pdf<F: Float>(x: Vector<F>, ball: &SphereLanes<F>) -> F {

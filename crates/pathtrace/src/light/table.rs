@@ -5,8 +5,8 @@
 use super::ball;
 use super::flat::{Flats, Outline};
 use super::{Environment, Light};
-use crate::intersect::SurfacePoints;
 use crate::intersect::sphere::SphereLanes;
+use crate::intersect::{NO_LIGHT, SurfacePoints};
 use crate::sampling::discrete::Discrete;
 use crate::sampling::warp;
 use crate::vectors::VectorColumn;
@@ -275,6 +275,24 @@ impl Table {
             density = F::select(is(kind, kind::BALL), ball::pdf(x, &ball), density);
         }
         density * light.look_up(&self.probability)
+    }
+
+    /// As [`Table::pdf`], but 0 where no sample at `x` is that point of the light, whose normal is given: on its back, or
+    /// on the far side of a ball.
+    #[inline(always)]
+    pub fn pdf_where_sampled<F: Float>(&self, light: F::U, x: Vector<F>, on: &SurfacePoints<F>) -> F {
+        let kind = light.look_up_word(&self.kind);
+        let (cosine, zero) = (on.normal.dot(x - on.position), F::splat(0.0));
+        let two_sided = is(kind, kind::TWO_SIDED);
+        let mut sampled = cosine.gt(zero) | (two_sided & cosine.lt(zero));
+        if self.has.balls {
+            let ball = SphereLanes { center: self.position.look_up(light), radius: light.look_up(&self.size) };
+            let seen = ball::sees(x, &ball, two_sided, cosine.gt(zero));
+            let is_ball = is(kind, kind::BALL);
+            sampled = (is_ball & seen) | (!is_ball & sampled);
+        }
+        let sampled = sampled & !light.eq(F::U::splat(NO_LIGHT));
+        F::select(sampled, self.pdf(light, x, on.position), zero)
     }
 
     #[inline(always)]
