@@ -19,12 +19,12 @@ use scene::stand_ins::FakeNumbers;
 use scene::{Camera, Vec3};
 use simd::{Float, Kernel, Lanes, MOST_LANES, Mask, Word};
 
-/// Walks of rays, one in each lane.
-pub trait LaneIntegrator<F: Float> {
+/// Walks of rays, one in each lane, by random numbers from an `S`.
+pub trait LaneIntegrator<F: Float, S = Sampler<<F as Float>::U>> {
     /// Starts along camera rays where `here` says so.
     fn begin(&mut self, here: F::M, rays: &Rays<F>);
     /// One segment in the lanes `taken`; where samples are complete.
-    fn segment(&mut self, taken: F::M, sampler: &Sampler<F::U>) -> F::M;
+    fn segment(&mut self, taken: F::M, sampler: &S) -> F::M;
     /// What the samples have brought home.
     fn outcomes(&self) -> &Outcomes<F>;
     /// Rays traced so far.
@@ -152,6 +152,14 @@ fn fill<F: Float>(pass: &FilmPass, chunk: Chunk, mut integrator: impl LaneIntegr
     driver.tally
 }
 
+/// The rays through places of a picture, from -1 to 1 to the right and upwards.
+#[inline(always)]
+pub fn rays_through<F: Float>(frame: &PictureFrame, x: F, y: F) -> Rays<F> {
+    let (right, up) = (in_all_lanes::<F>(frame.right), in_all_lanes::<F>(frame.up));
+    let through = in_all_lanes::<F>(frame.forward) + right * x + up * y;
+    Rays::new(in_all_lanes(frame.eye), through.normalize())
+}
+
 /// Which pixel and sample each lane has.
 struct LaneDriver<'a, F: Float> {
     pixels: &'a mut [Pixel],
@@ -221,10 +229,7 @@ impl<'a, F: Float> LaneDriver<'a, F> {
         let (width, height) = (pass.size[0] as f32, pass.size[1] as f32);
         let x = (F::load(&self.column) + jitter_x) / width * 2.0 - 1.0;
         let y = F::splat(1.0) - (F::load(&self.row) + jitter_y) / height * 2.0;
-        let frame = &pass.frame;
-        let (right, up) = (in_all_lanes::<F>(frame.right), in_all_lanes::<F>(frame.up));
-        let through = in_all_lanes::<F>(frame.forward) + right * x + up * y;
-        Rays::new(in_all_lanes(frame.eye), through.normalize())
+        rays_through(&pass.frame, x, y)
     }
 
     /// Adds complete samples to their pixels, and moves lanes on.

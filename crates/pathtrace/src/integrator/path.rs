@@ -24,7 +24,7 @@ use crate::intersect::shape_list::Scratch;
 use crate::intersect::{Intersections, NO_LIGHT, Rays, SurfacePoints};
 use crate::prepared::{Outcomes, PreparedScene};
 use crate::sampling::UNIFORM_HEMISPHERE_PDF;
-use crate::sampling::sampler::Sampler;
+use crate::sampling::sampler::RandomNumbers;
 use crate::sampling::warp::{to_world, uniform_hemisphere};
 use scene::Vec3;
 use simd::{Column, Float, Mask, Vector, Word};
@@ -129,7 +129,7 @@ pub struct PathLanes<'a, F: Float> {
     pub(super) rays: u64,
 }
 
-impl<'a, F: Float> LaneIntegrator<F> for PathLanes<'a, F> {
+impl<'a, F: Float, S: RandomNumbers<F::U>> LaneIntegrator<F, S> for PathLanes<'a, F> {
     /// Starts paths along camera rays where `here` says so.
     #[inline(always)]
     fn begin(&mut self, here: F::M, rays: &Rays<F>) {
@@ -143,7 +143,7 @@ impl<'a, F: Float> LaneIntegrator<F> for PathLanes<'a, F> {
 
     /// One segment of the paths in the lanes `taken`; where these, and all their branches, have come to their ends.
     #[inline(always)]
-    fn segment(&mut self, taken: F::M, sampler: &Sampler<F::U>) -> F::M {
+    fn segment(&mut self, taken: F::M, sampler: &S) -> F::M {
         let walking = taken & !self.resumed;
         self.rays += u64::from(walking.count());
         let hit = self.scene.closest(&self.path.rays, walking, &mut self.scratch);
@@ -254,7 +254,7 @@ impl<'a, F: Float> PathLanes<'a, F> {
     /// Samples a light, and takes the directions in which paths leave their vertices, from three random numbers. Paths that
     /// are not `here` have ended, and what becomes of them is of no account: nothing has to be kept.
     #[inline(always)]
-    fn scatter(&mut self, here: F::M, at: &Interactions<F>, sampler: &Sampler<F::U>, u: [F; 3]) {
+    fn scatter(&mut self, here: F::M, at: &Interactions<F>, sampler: &impl RandomNumbers<F::U>, u: [F; 3]) {
         let delta = at.is_delta();
         let uniform = self.plan.directions == Directions::Uniform;
         let choosing = here & !delta;

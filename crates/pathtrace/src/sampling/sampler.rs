@@ -60,11 +60,31 @@ impl Sampler {
     }
 }
 
+/// What gives random numbers along the paths in the lanes, in blocks of four.
+pub trait RandomNumbers<U: Word> {
+    /// Four floats in [0, 1) for the block `dimension`; the same ones however often a path asks.
+    fn unit4(&self, dimension: U) -> [U::F; 4];
+}
+
+impl<U: Word> RandomNumbers<U> for Sampler<U> {
+    #[inline(always)]
+    fn unit4(&self, dimension: U) -> [U::F; 4] {
+        self.unit4(dimension)
+    }
+}
+
 impl<U: Word> Sampler<U> {
     /// Four floats in [0, 1) for the block `dimension`. Blocks are independent of each other; within one, Sobol's four
     /// numbers are coordinates of one point. What of the four is not used costs nothing.
     #[inline(always)]
     pub fn unit4(&self, dimension: U) -> [U::F; 4] {
+        let [a, b, c, d] = self.words4(dimension);
+        [unit_float(a), unit_float(b), unit_float(c), unit_float(d)]
+    }
+
+    /// The same numbers as 32-bit fractions.
+    #[inline(always)]
+    pub fn words4(&self, dimension: U) -> [U; 4] {
         let seed = U::splat(self.seed);
         let sobol = self.kind == SamplerKind::Sobol;
         // the constant keeps Sobol's words apart from those of an independent sample
@@ -73,8 +93,7 @@ impl<U: Word> Sampler<U> {
         if sobol {
             words = sobol::shuffled_scrambled(self.sample, words);
         }
-        let [a, b, c, d] = words;
-        [unit_float(a), unit_float(b), unit_float(c), unit_float(d)]
+        words
     }
 }
 
