@@ -38,6 +38,10 @@ const WHITTED: [&str; 9] = [
     "--ambient 0.4",
 ];
 
+/// Films of Metropolis' chains, of every scene.
+const METROPOLIS: [&str; 2] =
+    ["--sampler sobol", "--chains 3 --large-step 0.1 --mutation 0.05 --bounces 3 --sampler independent"];
+
 /// Films that all kinds of lanes render, of every scene. Each is among those above, in the widest lanes.
 const IN_ALL_LANES: [&str; 6] = [
     "--technique path --device cpu --estimator light --sampler sobol",
@@ -175,6 +179,7 @@ fn films_on_cpu(scenes: &[String]) -> Vec<String> {
         }
         PATH.iter().for_each(|options| add("path", options));
         WHITTED.iter().for_each(|options| add("whitted", options));
+        METROPOLIS.iter().for_each(|options| add("metropolis", options));
         if !THOROUGH.contains(&scene.as_str()) {
             continue;
         }

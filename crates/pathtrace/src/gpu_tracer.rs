@@ -117,7 +117,8 @@ impl GpuTracer {
     /// Whether rays can be traced like this at once, without compiling anything first: that takes a software device
     /// seconds.
     pub fn has_compiled(&self, integrator: &Integrator) -> bool {
-        self.pipelines.has_compiled(&integrator.pipeline_key(self.pipelines.needs().everything()))
+        let key = integrator.pipeline_key(self.pipelines.needs().everything());
+        key.is_some_and(|key| self.pipelines.has_compiled(&key))
     }
 
     /// Whether all dispatches so far were timed by the device's own clock. Some are not even if it has one: those of
@@ -155,6 +156,7 @@ impl GpuTracer {
         stop: &impl Fn() -> bool,
     ) -> Result<(), GpuTraceError> {
         let key = integrator.pipeline_key(self.pipelines.needs().everything());
+        let key = key.ok_or(GpuTraceError::NoShader { integrator: integrator.name() })?;
         let pipeline = self.pipelines.prepare(&self.gpu, &key)?;
         let params = integrator.render_params(params(film, camera), &self.stand_ins);
         let effort = params.effort();

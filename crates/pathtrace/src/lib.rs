@@ -27,13 +27,14 @@ pub mod twins;
 mod vectors;
 
 pub use integrator::Integrator;
+pub use integrator::metropolis::MetropolisSettings;
 pub use integrator::normals::{NormalsSettings, Space};
 pub use integrator::settings::{Directions, Estimator, LightSampling, PathSettings, Roulette, SettingsError};
 pub use integrator::whitted::{GlassShadows, WhittedSettings};
 pub use replicates::{FEWEST_REPLICATES, estimate_with_replicates};
 pub use sampling::sampler::SamplerKind;
 pub use simd::Lanes;
-pub use stats::Stats;
+pub use stats::{ChainStats, Stats};
 pub use tracer::Tracer;
 
 /// Tracing on a graphics device.

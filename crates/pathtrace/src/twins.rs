@@ -81,6 +81,6 @@ pub fn override_names() -> Vec<&'static str> {
         [PathSettings::default().into(), WhittedSettings::default().into(), NormalsSettings::default().into()];
     let keys = integrators.map(|integrator| integrator.pipeline_key(false));
     // they share some
-    let of_settings: BTreeSet<_> = keys.into_iter().flat_map(PipelineKey::constant_names).collect();
+    let of_settings: BTreeSet<_> = keys.into_iter().flatten().flat_map(PipelineKey::constant_names).collect();
     SceneNeeds::constant_names().chain(of_settings).collect()
 }

@@ -43,6 +43,16 @@ impl Lanes {
         }
     }
 
+    /// How many they are.
+    pub fn count(self) -> usize {
+        match self {
+            Self::Avx512 => 16,
+            Self::Avx2 => 8,
+            Self::Array => 4,
+            Self::Scalar => 1,
+        }
+    }
+
     /// The lanes of that name.
     pub fn named(name: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|lanes| lanes.name() == name)

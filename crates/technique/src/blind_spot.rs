@@ -43,6 +43,8 @@ pub enum NoiseSource {
     Caustic(Specular),
     /// In smooth rough metal.
     NarrowReflections,
+    /// Where chains have been: their paths are alike.
+    Chains,
 }
 
 impl Specular {
@@ -106,6 +108,7 @@ impl NoiseSource {
             NoiseSource::Caustic(Specular::Mirror) => {
                 "still noisy where mirrors send light: it gets there only by chance"
             }
+            NoiseSource::Chains => "still noisy in blotches: a chain's paths are alike",
             NoiseSource::NarrowReflections => "still noisy in the metal: its reflections hardly ever meet a light",
         }
     }
@@ -116,6 +119,7 @@ impl TracedSettings {
     pub fn blind_spots(&self, scene: &Scene) -> Vec<BlindSpot> {
         match self.integrator {
             Integrator::Path(path) => of_paths(&path, scene, self.sees_a_delta_sun(scene)),
+            Integrator::Metropolis(chains) => of_paths(&chains.path, scene, self.sees_a_delta_sun(scene)),
             Integrator::Whitted(_) => of_trees(&scene.needs()),
             Integrator::Normals(_) => Vec::new(),
         }
@@ -123,7 +127,11 @@ impl TracedSettings {
 
     /// Where a picture by these settings stays noisy longest, if they leave light to chance.
     pub fn noise_source(&self, scene: &Scene) -> Option<NoiseSource> {
-        let Integrator::Path(path) = self.integrator else { return None };
+        let path = match self.integrator {
+            Integrator::Path(path) => path,
+            Integrator::Metropolis(_) => return Some(NoiseSource::Chains),
+            Integrator::Whitted(_) | Integrator::Normals(_) => return None,
+        };
         let needs = scene.needs();
         // what has no extent is not met by chance, but missing
         let disc = scene.sun.is_some() && !self.sees_a_delta_sun(scene);
@@ -201,6 +209,11 @@ mod tests {
         assert_eq!(short, ["light behind glass", "light after more than 2 bounces (biased)"]);
         assert_eq!(missing(&path(Estimator::LIGHT, Some(0)), &wide), ["indirect light (biased)"]);
         assert_eq!(missing(&traced(TechniqueName::Normals), &wide), [""; 0]);
+        assert_eq!(
+            missing(&traced(TechniqueName::Metropolis), &delta),
+            ["light behind glass"],
+            "it has the same paths"
+        );
     }
 
     #[test]
@@ -234,5 +247,6 @@ mod tests {
         assert_eq!(of(Estimator::COSINE, &cornell), Some(NoiseSource::ByChance));
         assert_eq!(path(Estimator::LIGHT, Some(0)).noise_source(&wide), None, "direct light passes no glass");
         assert_eq!(traced(TechniqueName::Whitted).noise_source(&wide), None);
+        assert_eq!(traced(TechniqueName::Metropolis).noise_source(&cornell), Some(NoiseSource::Chains));
     }
 }

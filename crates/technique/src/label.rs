@@ -14,6 +14,7 @@ impl Technique {
             Technique::Traced(traced) => match traced.integrator {
                 Integrator::Path(path) => path.estimator.name().to_owned(),
                 Integrator::Whitted(tree) => format!("depth {}", tree.depth),
+                Integrator::Metropolis(metropolis) => format!("{} chains", metropolis.chains),
                 Integrator::Normals(normals) => format!("{} axes", normals.space.name()),
             },
         };

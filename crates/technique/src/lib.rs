@@ -40,7 +40,9 @@ pub use renderer::{Frame, Pacing, Rendered, Renderer, Watch};
 pub use setup::PaneSetup;
 pub use shot::{SceneChanges, Shot};
 pub use threads::{Rank, Threads};
-pub use traced::{NormalsPaneSettings, TracedSettings, TreeSettings, TruthSettings, bounces_name, roulette_name};
+pub use traced::{
+    ChainSettings, NormalsPaneSettings, TracedSettings, TreeSettings, TruthSettings, bounces_name, roulette_name,
+};
 
 use pathtrace::Integrator;
 
@@ -53,16 +55,24 @@ pub enum TechniqueName {
     Whitted,
     /// Path tracing, which without limits tends to the truth.
     Path,
+    /// Chains of paths, each from the last by a mutation.
+    Metropolis,
     /// The normals of what is seen.
     Normals,
 }
 
 impl TechniqueName {
     /// Those that show light, in the order of the lecture.
-    pub const OF_LIGHT: [TechniqueName; 3] = [TechniqueName::Raster, TechniqueName::Whitted, TechniqueName::Path];
+    pub const OF_LIGHT: [TechniqueName; 4] =
+        [TechniqueName::Raster, TechniqueName::Whitted, TechniqueName::Path, TechniqueName::Metropolis];
     /// Every technique: those that show light, then the normals.
-    pub const ALL: [TechniqueName; 4] =
-        [TechniqueName::Raster, TechniqueName::Whitted, TechniqueName::Path, TechniqueName::Normals];
+    pub const ALL: [TechniqueName; 5] = [
+        TechniqueName::Raster,
+        TechniqueName::Whitted,
+        TechniqueName::Path,
+        TechniqueName::Metropolis,
+        TechniqueName::Normals,
+    ];
 
     /// The name on the command line.
     pub fn name(self) -> &'static str {
@@ -70,6 +80,7 @@ impl TechniqueName {
             TechniqueName::Raster => "raster",
             TechniqueName::Whitted => "whitted",
             TechniqueName::Path => "path",
+            TechniqueName::Metropolis => "metropolis",
             TechniqueName::Normals => "normals",
         }
     }
@@ -85,6 +96,7 @@ impl TechniqueName {
             TechniqueName::Raster => "Fake",
             TechniqueName::Whitted => "Whitted",
             TechniqueName::Path => "Path",
+            TechniqueName::Metropolis => "Metropolis",
             TechniqueName::Normals => "Normals",
         }
     }
@@ -101,7 +113,7 @@ impl TechniqueName {
     pub fn reads_stand_ins(self) -> bool {
         match self {
             TechniqueName::Raster | TechniqueName::Whitted => true,
-            TechniqueName::Path | TechniqueName::Normals => false,
+            TechniqueName::Path | TechniqueName::Metropolis | TechniqueName::Normals => false,
         }
     }
 
@@ -109,7 +121,9 @@ impl TechniqueName {
     pub fn usual_device(self) -> Device {
         match self {
             TechniqueName::Raster => Device::Gpu,
-            TechniqueName::Whitted | TechniqueName::Path | TechniqueName::Normals => Device::Cpu,
+            TechniqueName::Whitted | TechniqueName::Path | TechniqueName::Metropolis | TechniqueName::Normals => {
+                Device::Cpu
+            }
         }
     }
 }
@@ -128,9 +142,12 @@ impl Technique {
     pub fn name(&self) -> TechniqueName {
         match self {
             Technique::Fake(_) => TechniqueName::Raster,
-            Technique::Traced(TracedSettings { integrator: Integrator::Whitted(_), .. }) => TechniqueName::Whitted,
-            Technique::Traced(TracedSettings { integrator: Integrator::Path(_), .. }) => TechniqueName::Path,
-            Technique::Traced(TracedSettings { integrator: Integrator::Normals(_), .. }) => TechniqueName::Normals,
+            Technique::Traced(traced) => match traced.integrator {
+                Integrator::Whitted(_) => TechniqueName::Whitted,
+                Integrator::Path(_) => TechniqueName::Path,
+                Integrator::Metropolis(_) => TechniqueName::Metropolis,
+                Integrator::Normals(_) => TechniqueName::Normals,
+            },
         }
     }
 

@@ -1,8 +1,8 @@
 //! What a pane of the viewer or one call of `visavis render` is set to.
 
 use crate::{
-    DeviceChoice, FakeSettings, NormalsPaneSettings, Technique, TechniqueName, TracedSettings, TreeSettings,
-    TruthSettings,
+    ChainSettings, DeviceChoice, FakeSettings, NormalsPaneSettings, Technique, TechniqueName, TracedSettings,
+    TreeSettings, TruthSettings,
 };
 use pathtrace::Estimator;
 use scene::Scene;
@@ -22,6 +22,8 @@ pub struct PaneSettings {
     pub whitted: TreeSettings,
     /// The settings of path tracing.
     pub truth: TruthSettings,
+    /// The settings of Metropolis' chains.
+    pub metropolis: ChainSettings,
     /// The settings of a picture of normals.
     pub normals: NormalsPaneSettings,
 }
@@ -36,6 +38,7 @@ impl PaneSettings {
             fake: FakeSettings::default(),
             whitted: TreeSettings::default(),
             truth: TruthSettings::default(),
+            metropolis: ChainSettings::default(),
             normals: NormalsPaneSettings::default(),
         }
     }
@@ -46,6 +49,7 @@ impl PaneSettings {
             TechniqueName::Raster => Technique::Fake(self.fake),
             TechniqueName::Whitted => Technique::Traced(self.here(self.whitted.into())),
             TechniqueName::Path => Technique::Traced(self.here(self.truth.into())),
+            TechniqueName::Metropolis => Technique::Traced(self.here(self.metropolis.into())),
             TechniqueName::Normals => Technique::Traced(self.here(self.normals.into())),
         }
     }
@@ -58,14 +62,15 @@ impl PaneSettings {
     pub fn forget_the_scene(&mut self, scene: &Scene) {
         self.fake.forget_the_scene(scene);
         self.whitted.tree.ambient = None;
-        (self.whitted.sun_radius, self.truth.sun_radius) = (None, None);
+        (self.whitted.sun_radius, self.truth.sun_radius, self.metropolis.sun_radius) = (None, None, None);
     }
 
     /// Takes the estimator that `scene` asks for, unless another than the usual one was chosen.
     pub fn take_usual_estimator(&mut self, scene: &Scene) {
-        let estimator = &mut self.truth.path.estimator;
-        if *estimator == Estimator::default() {
-            *estimator = Estimator::usual_for(&scene.needs());
+        for path in [&mut self.truth.path, &mut self.metropolis.metropolis.path] {
+            if path.estimator == Estimator::default() {
+                path.estimator = Estimator::usual_for(&scene.needs());
+            }
         }
     }
 

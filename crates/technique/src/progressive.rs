@@ -217,7 +217,7 @@ impl ProgressiveRenderer {
 
     /// The device that is asked for, unless that has failed at this scene and nobody has asked to try again.
     fn device_for(&mut self, request: &Request) -> Device {
-        let wish = request.settings.device.beside(self.adapters.only_software());
+        let wish = request.settings.device_choice().beside(self.adapters.only_software());
         let stands = |of: &Refusal| of.source == request.shot.source && of.restarts == request.restarts;
         self.refusal.take_if(|refusal| wish == Device::Cpu || !stands(refusal));
         if self.refusal.is_some() { Device::Cpu } else { wish }

@@ -226,7 +226,10 @@ mod tests {
         for (words, said) in [
             ("path,spp=many", "spp=many: expected a whole number"),
             ("path,fair", "fair: expected NAME=VALUE or a choice of path (independent, sobol, "),
-            ("pth", "pth: expected a technique (raster, whitted, path, normals), a preset (as-taught, fair, "),
+            (
+                "pth",
+                "pth: expected a technique (raster, whitted, path, metropolis, normals), a preset (as-taught, fair, ",
+            ),
             ("pth", "; did you mean path?"),
             ("2e-0-bounce", "; did you mean 2e-0-bounces?"),
             ("path,2e-0-bounces", "; 2e-0-bounces stands first or not at all"),

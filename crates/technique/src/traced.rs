@@ -1,7 +1,7 @@
 //! The settings of what is traced by rays: path tracing, and Whitted's step towards it.
 
 use crate::{DeviceChoice, SceneChanges};
-use pathtrace::{Integrator, NormalsSettings, PathSettings, Roulette, WhittedSettings};
+use pathtrace::{Integrator, MetropolisSettings, NormalsSettings, PathSettings, Roulette, WhittedSettings};
 use scene::Scene;
 use std::sync::Arc;
 
@@ -42,6 +42,17 @@ pub struct TreeSettings {
     pub sun_radius: Option<f32>,
 }
 
+/// The settings of a picture by Metropolis' chains.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ChainSettings {
+    /// How chains walk.
+    pub metropolis: MetropolisSettings,
+    /// Runs at which rendering stops, each a sample of every pixel.
+    pub spp: u32,
+    /// The sun for these paths alone, as in [`TracedSettings`].
+    pub sun_radius: Option<f32>,
+}
+
 /// The settings of a picture of normals.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct NormalsPaneSettings {
@@ -76,6 +87,12 @@ impl Default for TruthSettings {
     }
 }
 
+impl Default for ChainSettings {
+    fn default() -> Self {
+        ChainSettings { metropolis: MetropolisSettings::default(), spp: 256, sun_radius: None }
+    }
+}
+
 impl Default for TreeSettings {
     /// Few samples: only edges and soft shadows need them.
     fn default() -> Self {
@@ -86,6 +103,13 @@ impl Default for TreeSettings {
 impl From<TruthSettings> for TracedSettings {
     fn from(TruthSettings { path, spp, sun_radius }: TruthSettings) -> Self {
         TracedSettings { integrator: path.into(), device: DeviceChoice::default(), adapter: 0, spp, sun_radius }
+    }
+}
+
+impl From<ChainSettings> for TracedSettings {
+    fn from(ChainSettings { metropolis, spp, sun_radius }: ChainSettings) -> Self {
+        let integrator = metropolis.into();
+        TracedSettings { integrator, device: DeviceChoice::default(), adapter: 0, spp, sun_radius }
     }
 }
 
@@ -104,6 +128,11 @@ impl TracedSettings {
         }
         let changes = SceneChanges { sun_radius: self.sun_radius, ..SceneChanges::default() };
         Arc::new(changes.applied_to(scene))
+    }
+
+    /// The wish for a device, of what one can trace; else the processor.
+    pub fn device_choice(&self) -> DeviceChoice {
+        if self.integrator.runs_on_a_device() { self.device } else { DeviceChoice::Cpu }
     }
 
     /// Whether these rays see a sun without a disc.

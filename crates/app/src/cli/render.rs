@@ -8,7 +8,7 @@ use film::{DisplayTransform, Image};
 use gpu::Gpu;
 use image_file::{self, Kind};
 use pathtrace::gpu::GpuTraceError;
-use pathtrace::{SamplerKind, Stats};
+use pathtrace::{ChainStats, Stats};
 use raster::Raster;
 use scene::{Scene, builtin};
 use serde_json::json;
@@ -80,6 +80,9 @@ pub fn run(args: &mut RenderArgs) -> anyhow::Result<()> {
             seconds,
             out
         );
+        if let Some(line) = chains(&rendered.stats.chains, args.pane.metropolis.metropolis.chains) {
+            note!("{line}");
+        }
         if let Some(e) = errors {
             let noise = noise_line(&e).map_or_else(String::new, |line| format!(", noise {line}"));
             let (words, rel_mse, rmse) = (error_words(&e, None).join(", "), brief(e.rel_mse), brief(e.rmse));
@@ -123,6 +126,16 @@ fn save(
     let kind = Kind::of(&args.out).context("a picture's name must end in .png or .exr")?;
     let bytes = image_file::encode(kind, image, &DisplayTransform { exposure: args.exposure }, &records)?;
     Ok(image_file::write_or_keep(&args.out, &bytes)?)
+}
+
+/// What Metropolis' chains did.
+fn chains(stats: &ChainStats, chains: u32) -> Option<String> {
+    let scale = stats.scale()?;
+    let taken = stats.acceptance().map_or_else(
+        || "found no light".to_owned(),
+        |share| format!("took {:.0} % of {} mutations", 100.0 * share, stats.mutations),
+    );
+    Some(format!("{chains} chains a sample {taken}; start-up scale {}", brief(scale)))
 }
 
 fn tell_what_has_no_effect(args: &RenderArgs, scene: &Scene) {
@@ -169,10 +182,11 @@ fn trace(args: &RenderArgs, shot: &Shot, traced: TracedSettings) -> anyhow::Resu
     let (width, height) = shot.size;
     let blank = Accumulation::blank(shot.size)
         .with_context(|| format!("not enough memory for {width}x{height} pixels; ask for a smaller --size"))?;
-    let gpu = args.device.open(u64::from(width) * u64::from(height) * u64::from(spp))?;
+    let device = TracedSettings { device: args.device, ..traced }.device_choice();
+    let gpu = device.open(u64::from(width) * u64::from(height) * u64::from(spp))?;
     let start = Instant::now();
     let scene = traced.applied_to(&shot.scene);
-    let backend = backend(gpu.as_ref(), &scene, args.device)?;
+    let backend = backend(gpu.as_ref(), &scene, device)?;
     let watch = Terminal {
         spp,
         shown: std::io::stderr().is_terminal(),
@@ -277,9 +291,13 @@ fn report(
             report["rays"] = json!(rendered.stats.rays);
             report["cut_paths"] = json!(rendered.stats.cut_paths);
             report["standard_error"] = json!(rendered.film.standard_error());
-            let independent = rays.integrator.sampler() == SamplerKind::Independent;
-            let reliable = independent && rendered.film.standard_error_is_reliable();
+            let reliable = rays.integrator.is_independent() && rendered.film.standard_error_is_reliable();
             report["standard_error_reliable"] = json!(reliable);
+            if let Some(scale) = rendered.stats.chains.scale() {
+                report["mutations"] = json!(rendered.stats.chains.mutations);
+                report["acceptance"] = json!(rendered.stats.chains.acceptance());
+                report["start_up_scale"] = json!(scale);
+            }
         }
     }
     if let Some(e) = errors {

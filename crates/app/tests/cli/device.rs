@@ -100,3 +100,31 @@ fn a_missing_runtime_folder_is_no_error_of_any_command() {
         }
     }
 }
+
+/// The graphics device has no such chains: who asks for it is told, and auto leaves it alone.
+#[test]
+fn chains_run_on_the_processor_and_tell_what_they_did() {
+    let folder = TestFolder::new();
+    let refused = render(&folder, None, &["--technique", "metropolis", "--device", "gpu"]);
+    let told = String::from_utf8_lossy(&refused.stderr).into_owned();
+    assert!(refused.status.code() == Some(2) && told.contains("metropolis runs on the cpu only"), "{told}");
+    let words = ["--technique", "metropolis", "--chains", "5", "--spp", "3", "--sampler", "independent"];
+    // enough to be worth a device, if it were one for that
+    let report = json(&render(&folder, None, &[&words[..], &["--large-step", "0.5"]].concat()));
+    assert_eq!((&report["device"], &report["chains"], &report["spp"]), (&"cpu".into(), &5.into(), &3.into()));
+    assert_eq!(report["standard_error_reliable"], false, "pixels share paths");
+    // 9216 pixels are no multiple of 5 chains
+    assert_eq!(report["mutations"], 3 * 5 * 1844);
+    let [acceptance, scale] = ["acceptance", "start_up_scale"].map(|name| report[name].as_f64().expect("a number"));
+    assert!(acceptance > 0.05 && acceptance < 0.95, "{acceptance}");
+    let mean: Vec<f64> = (0..3).map(|c| report["mean"][c].as_f64().expect("a mean")).collect();
+    let luminance = 0.2126 * mean[0] + 0.7152 * mean[1] + 0.0722 * mean[2];
+    assert!((luminance / scale - 1.0).abs() < 1e-5, "{luminance} for {scale}");
+    let out = folder.file("out.exr").to_str().expect("a plain path").to_owned();
+    let again = folder.file("again.exr").to_str().expect("a plain path").to_owned();
+    let made = visavis(&["render", "--from", &out, "-o", &again]);
+    let said = String::from_utf8_lossy(&made.stderr).into_owned();
+    assert!(said.contains("5 chains a sample took "), "{said}");
+    let pixels = |file: &str| image_file::read(file.as_ref()).expect("a picture").image;
+    assert_eq!(pixels(&out), pixels(&again));
+}

@@ -5,7 +5,10 @@ use super::*;
 #[test]
 fn options_of_the_window_are_those_of_render_and_faults_name_the_word() {
     for (arguments, words) in [
-        (&["--a", "rastr"][..], &["--a rastr", "expected a technique (raster, whitted, path, normals)"][..]),
+        (
+            &["--a", "rastr"][..],
+            &["--a rastr", "expected a technique (raster, whitted, path, metropolis, normals)"][..],
+        ),
         (&["--a", "raster,spp=4"], &["spp is no setting of raster"]),
         (&["--b", "path,spp=0"], &["--b path,spp=0", "a whole number from 1"]),
         (&["--b", "path,branches=4"], &["--b path,branches=4"]),

@@ -1,5 +1,5 @@
-//! Light transport: [`path`], the tutorial's Monte Carlo path tracer, and [`whitted`], the step before it; and
-//! [`normals`], which shows no light at all.
+//! Light transport: [`path`], the tutorial's Monte Carlo path tracer, [`whitted`], the step before it, and [`metropolis`],
+//! chains of such paths; and [`normals`], which shows no light at all.
 //!
 //! A new integrator is a file here with its settings and lanes, its twin in `shaders/pathtrace/integrator/`, and a
 //! variant of [`Integrator`] with an arm in each of the matches below: all that the machines ask an integrator for.
@@ -7,6 +7,7 @@
 pub(crate) mod chain_state;
 mod connected;
 pub(crate) mod forks;
+pub mod metropolis;
 pub mod normals;
 pub mod path;
 pub(crate) mod path_state;
@@ -19,6 +20,7 @@ use crate::drive::lanes::FilmJob;
 use crate::sampling::sampler::SamplerKind;
 use crate::stats::Stats;
 use film::Film;
+use metropolis::MetropolisSettings;
 use normals::NormalsSettings;
 use scene::stand_ins::FakeNumbers;
 use settings::{PathSettings, SettingsError};
@@ -31,6 +33,8 @@ pub enum Integrator {
     Path(PathSettings),
     /// In trees of mirrors and glass.
     Whitted(WhittedSettings),
+    /// Along paths that come from each other by mutations.
+    Metropolis(MetropolisSettings),
     /// To the first surface.
     Normals(NormalsSettings),
 }
@@ -41,6 +45,7 @@ impl Integrator {
         match self {
             Integrator::Path(_) => "path",
             Integrator::Whitted(_) => "whitted",
+            Integrator::Metropolis(_) => "metropolis",
             Integrator::Normals(_) => "normals",
         }
     }
@@ -50,6 +55,7 @@ impl Integrator {
         match self {
             Integrator::Path(settings) => settings.sampler,
             Integrator::Whitted(settings) => settings.sampler,
+            Integrator::Metropolis(settings) => settings.path.sampler,
             Integrator::Normals(settings) => settings.sampler,
         }
     }
@@ -59,6 +65,7 @@ impl Integrator {
         match self {
             Integrator::Path(settings) => settings.seed,
             Integrator::Whitted(settings) => settings.seed,
+            Integrator::Metropolis(settings) => settings.path.seed,
             Integrator::Normals(settings) => settings.seed,
         }
     }
@@ -68,6 +75,9 @@ impl Integrator {
         match self {
             Integrator::Path(settings) => PathSettings { seed, ..settings }.into(),
             Integrator::Whitted(settings) => WhittedSettings { seed, ..settings }.into(),
+            Integrator::Metropolis(settings) => {
+                MetropolisSettings { path: PathSettings { seed, ..settings.path }, ..settings }.into()
+            }
             Integrator::Normals(settings) => NormalsSettings { seed, ..settings }.into(),
         }
     }
@@ -79,6 +89,7 @@ impl Integrator {
     pub fn check(&self) -> Result<(), SettingsError> {
         match self {
             Integrator::Path(settings) => settings.check(),
+            Integrator::Metropolis(settings) => settings.check(),
             Integrator::Whitted(_) | Integrator::Normals(_) => Ok(()),
         }
     }
@@ -88,16 +99,29 @@ impl Integrator {
         match self {
             Integrator::Path(settings) => job.fill(film, &path::Plan::new(settings)),
             Integrator::Whitted(settings) => job.fill(film, &whitted::Plan::new(settings, job.stand_ins)),
+            Integrator::Metropolis(settings) => settings.fill(film, job),
             Integrator::Normals(settings) => job.fill(film, &normals::Plan::new(settings, &job.pass.frame)),
         }
     }
 
-    /// Its shader on the graphics device, and what of the settings is compiled into it; all of it if `everything`.
-    pub(crate) fn pipeline_key(&self, everything: bool) -> PipelineKey {
+    /// Whether a graphics device can run it, or the processor alone.
+    pub fn runs_on_a_device(&self) -> bool {
+        self.pipeline_key(false).is_some()
+    }
+
+    /// Whether a pixel's samples, and pixels, are independent of each other, so that their spread tells the error.
+    pub fn is_independent(&self) -> bool {
+        self.sampler() == SamplerKind::Independent && !matches!(self, Integrator::Metropolis(_))
+    }
+
+    /// Its shader on the graphics device, and what of the settings is compiled into it; all of it if `everything`. `None`
+    /// if it has none.
+    pub(crate) fn pipeline_key(&self, everything: bool) -> Option<PipelineKey> {
         match self {
-            Integrator::Path(settings) => settings.pipeline_key(everything),
-            Integrator::Whitted(settings) => settings.pipeline_key(),
-            Integrator::Normals(settings) => settings.pipeline_key(),
+            Integrator::Path(settings) => Some(settings.pipeline_key(everything)),
+            Integrator::Whitted(settings) => Some(settings.pipeline_key()),
+            Integrator::Metropolis(_) => None,
+            Integrator::Normals(settings) => Some(settings.pipeline_key()),
         }
     }
 
@@ -107,7 +131,7 @@ impl Integrator {
         match self {
             Integrator::Path(settings) => settings.render_params(params),
             Integrator::Whitted(settings) => settings.render_params(params, stand_ins),
-            Integrator::Normals(_) => params,
+            Integrator::Metropolis(_) | Integrator::Normals(_) => params,
         }
     }
 }
@@ -115,6 +139,12 @@ impl Integrator {
 impl From<PathSettings> for Integrator {
     fn from(settings: PathSettings) -> Self {
         Integrator::Path(settings)
+    }
+}
+
+impl From<MetropolisSettings> for Integrator {
+    fn from(settings: MetropolisSettings) -> Self {
+        Integrator::Metropolis(settings)
     }
 }
 

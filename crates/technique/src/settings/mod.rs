@@ -7,7 +7,7 @@ mod rows;
 pub use control::{Control, Look};
 pub use rows::{OF_SCENES, all_of_panes};
 
-use crate::{NormalsPaneSettings, TracedSettings, TreeSettings, TruthSettings, bounces_name};
+use crate::{ChainSettings, NormalsPaneSettings, TracedSettings, TreeSettings, TruthSettings, bounces_name};
 use crate::{PaneSettings, SceneChanges, Technique, TechniqueName, roulette_name};
 use image_file::Records;
 use pathtrace::{Integrator, Roulette};
@@ -324,6 +324,7 @@ impl PaneSettings {
             TechniqueName::Raster => self.fake = other.fake,
             TechniqueName::Whitted => self.whitted = other.whitted,
             TechniqueName::Path => self.truth = other.truth,
+            TechniqueName::Metropolis => self.metropolis = other.metropolis,
             TechniqueName::Normals => self.normals = other.normals,
         }
     }
@@ -342,6 +343,9 @@ impl From<Technique> for PaneSettings {
                     Integrator::Path(path) => PaneSettings { truth: TruthSettings { path, spp, sun_radius }, ..pane },
                     Integrator::Whitted(tree) => {
                         PaneSettings { whitted: TreeSettings { tree, spp, sun_radius }, ..pane }
+                    }
+                    Integrator::Metropolis(metropolis) => {
+                        PaneSettings { metropolis: ChainSettings { metropolis, spp, sun_radius }, ..pane }
                     }
                     Integrator::Normals(normals) => {
                         PaneSettings { normals: NormalsPaneSettings { normals, spp }, ..pane }

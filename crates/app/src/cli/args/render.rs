@@ -53,7 +53,8 @@ impl AsMut<Seen> for Reading {
     }
 }
 
-const TRACED: &[TechniqueName] = &[TechniqueName::Whitted, TechniqueName::Path, TechniqueName::Normals];
+const TRACED: &[TechniqueName] =
+    &[TechniqueName::Whitted, TechniqueName::Path, TechniqueName::Metropolis, TechniqueName::Normals];
 
 /// Options of every technique, beside settings.
 pub fn options() -> Vec<CommandOption<Reading>> {
@@ -77,10 +78,11 @@ pub fn options() -> Vec<CommandOption<Reading>> {
         },
         CommandOption {
             names: &["--technique"],
-            value: "raster|whitted|path|normals",
-            help: "the fake, Whitted's trees of rays, path tracing, or the normals of what is seen (default path)",
+            value: "raster|whitted|path|metropolis|normals",
+            help: "the fake, Whitted's trees of rays, path tracing, Metropolis' chains of paths, or the normals of what is seen \
+                   (default path)",
             read: |reading, parser| {
-                let expected = "raster, whitted, path or normals";
+                let expected = "raster, whitted, path, metropolis or normals";
                 reading.args.pane.technique = choice(parser, "--technique", TechniqueName::named, expected)?;
                 reading.given.push(("--technique".into(), &TechniqueName::ALL));
                 Ok(())
@@ -299,6 +301,12 @@ fn parse_words(words: Vec<OsString>, scene: Option<String>) -> Result<Command, C
     let technique = args.pane.technique;
     if technique == TechniqueName::Raster && args.device == DeviceChoice::Cpu {
         return usage(format!("--technique {} runs on the gpu only", technique.name()));
+    }
+    if let Technique::Traced(traced) = args.pane.in_use()
+        && !traced.integrator.runs_on_a_device()
+        && args.device == DeviceChoice::Gpu
+    {
+        return usage(format!("--technique {} runs on the cpu only", technique.name()));
     }
     // only the processor has lanes
     if args.device == DeviceChoice::Auto && is_given("--lanes") {

@@ -4,11 +4,16 @@ use crate::model::PaneId;
 use crate::ui::UiContext;
 use crate::ui::widgets::{Explained, choice};
 use egui::{ComboBox, Ui};
-use technique::{Device, DeviceChoice};
+use technique::{Device, DeviceChoice, Technique};
 
 pub fn show(cx: &mut UiContext, pane: PaneId, ui: &mut Ui) {
     let Some(best) = cx.model.adapters.0.first() else { return };
     let settings = &mut cx.model.session.panes[pane];
+    if matches!(settings.in_use(), Technique::Traced(traced) if !traced.integrator.runs_on_a_device()) {
+        let text = format!("{} runs on the CPU only", settings.technique.title());
+        cx.dump.note(&format!("text {pane} device"), &text, ui.label(&text));
+        return;
+    }
     ui.label("Rays are traced by");
     let words = DeviceChoice::ALL.map(|d| (title(d).to_owned(), explain(d, best.software), settings.device == d));
     if let Some(index) = choice(&format!("{pane} device"), words, ui, cx.dump) {

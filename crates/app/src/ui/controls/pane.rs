@@ -32,6 +32,18 @@ fn order(technique: TechniqueName) -> &'static [&'static str] {
         TechniqueName::Whitted => {
             &["depth", "glass-shadows", "ambient", "traced-sun", "spp", "shadow-rays", "sampler", "seed"]
         }
+        TechniqueName::Metropolis => &[
+            "estimator",
+            "spp",
+            "chains",
+            "large-step",
+            "mutation",
+            "bounces",
+            "roulette",
+            "traced-sun",
+            "sampler",
+            "seed",
+        ],
         TechniqueName::Normals => &["space", "spp", "sampler", "seed"],
         TechniqueName::Path => {
             &["estimator", "spp", "connections", "bounces", "branches", "roulette", "sampler", "seed"]

@@ -20,6 +20,12 @@ pub enum GpuTraceError {
         /// What there is too much of: "triangles".
         what: &'static str,
     },
+    /// The integrator has no shader.
+    #[error("{integrator} runs on the CPU only")]
+    NoShader {
+        /// Its name on the command line.
+        integrator: &'static str,
+    },
     /// A device without compute shaders, or with too few bindings.
     #[error("{adapter} can't path trace: it has {has} {what}, and {needs} are needed; render on the CPU")]
     Unable {

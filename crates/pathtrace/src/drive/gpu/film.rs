@@ -183,7 +183,7 @@ impl GpuFilm {
             let added = pixels.par_iter_mut().zip(sums).with_min_len(1 << 14).map(|(pixel, sums)| {
                 let samples = u64::from(sums.samples.saturating_sub(pixel.samples));
                 let (rays, cut_paths, not_finite) = sums.add_to(pixel);
-                (Stats { samples, rays, cut_paths }, not_finite)
+                (Stats { samples, rays, cut_paths, ..Stats::default() }, not_finite)
             });
             let none = || (Stats::default(), 0);
             let (took, not_finite) = added.reduce(none, |(a, m), (b, n)| (a.plus(b), m + n));

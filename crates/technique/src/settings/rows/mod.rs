@@ -1,17 +1,22 @@
 //! The rows, in the order in which files keep them.
 
 mod fake;
+mod metropolis;
 mod traced;
 
 use super::{Control, Kind, Look, Need, Setting, Value};
 use crate::{PaneSettings, SceneChanges, TechniqueName};
+use pathtrace::PathSettings;
 
 const RASTER: &[TechniqueName] = &[TechniqueName::Raster];
 const WHITTED: &[TechniqueName] = &[TechniqueName::Whitted];
 const PATH: &[TechniqueName] = &[TechniqueName::Path];
+const METROPOLIS: &[TechniqueName] = &[TechniqueName::Metropolis];
+const PATHS: &[TechniqueName] = &[TechniqueName::Path, TechniqueName::Metropolis];
 const NORMALS: &[TechniqueName] = &[TechniqueName::Normals];
-const TRACED: &[TechniqueName] = &[TechniqueName::Whitted, TechniqueName::Path, TechniqueName::Normals];
-const LIGHT: &[TechniqueName] = &[TechniqueName::Whitted, TechniqueName::Path];
+const TRACED: &[TechniqueName] =
+    &[TechniqueName::Whitted, TechniqueName::Path, TechniqueName::Metropolis, TechniqueName::Normals];
+const LIGHT: &[TechniqueName] = &[TechniqueName::Whitted, TechniqueName::Path, TechniqueName::Metropolis];
 const LOCAL: &[TechniqueName] = &[TechniqueName::Raster, TechniqueName::Whitted];
 
 /// What each row begins from.
@@ -96,12 +101,24 @@ pub const OF_SCENES: &[Setting<SceneChanges>] = &[
 
 /// What a pane is set to.
 pub fn all_of_panes() -> impl Iterator<Item = &'static Setting<PaneSettings>> {
-    traced::ROWS.iter().chain(fake::ROWS)
+    traced::ROWS.iter().chain(metropolis::ROWS).chain(fake::ROWS)
 }
 
-fn by_integrator<T>(pane: &PaneSettings, [path, whitted, normals]: [T; 3]) -> T {
+/// How the paths of the technique in use walk.
+fn path_of(pane: &PaneSettings) -> &PathSettings {
+    let PaneSettings { truth, metropolis, .. } = pane;
+    if pane.technique == TechniqueName::Metropolis { &metropolis.metropolis.path } else { &truth.path }
+}
+
+/// How paths walk, whoever's they are.
+fn all_paths(pane: &mut PaneSettings) -> [&mut PathSettings; 2] {
+    [&mut pane.truth.path, &mut pane.metropolis.metropolis.path]
+}
+
+fn by_integrator<T>(pane: &PaneSettings, [path, whitted, metropolis, normals]: [T; 4]) -> T {
     match pane.technique {
         TechniqueName::Whitted => whitted,
+        TechniqueName::Metropolis => metropolis,
         TechniqueName::Normals => normals,
         TechniqueName::Raster | TechniqueName::Path => path,
     }

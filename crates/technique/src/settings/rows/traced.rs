@@ -1,6 +1,7 @@
 //! The rows of what is traced.
 
-use super::{BLANK, LIGHT, NORMALS, PATH, PLAIN, TRACED, WHITTED, by_integrator, each, named, number, whole};
+use super::{BLANK, LIGHT, NORMALS, PATH, PATHS, PLAIN, TRACED, WHITTED};
+use super::{all_paths, by_integrator, each, named, number, path_of, whole};
 use crate::PaneSettings;
 use crate::settings::{Control, Kind, Look, Need, Setting, Value};
 use pathtrace::{Estimator, GlassShadows, LightSampling, PathSettings, Roulette, SamplerKind, Space, WhittedSettings};
@@ -17,7 +18,10 @@ pub const ROWS: &[Setting<PaneSettings>] = &[
         help: "samples per pixel",
         always_recorded: true,
         get: |pane| pane.wished_spp().map(Value::Whole),
-        set: |pane, value| each(whole(value), [&mut pane.truth.spp, &mut pane.whitted.spp, &mut pane.normals.spp]),
+        set: |pane, value| {
+            let PaneSettings { truth, whitted, metropolis, normals, .. } = pane;
+            each(whole(value), [&mut truth.spp, &mut whitted.spp, &mut metropolis.spp, &mut normals.spp]);
+        },
         control: Control {
             label: "Samples per pixel (spp)",
             brief: Some(|value| format!("{value} spp")),
@@ -34,13 +38,14 @@ pub const ROWS: &[Setting<PaneSettings>] = &[
         help: "where random numbers come from",
         always_recorded: true,
         get: |pane| {
-            let of_all = [pane.truth.path.sampler, pane.whitted.tree.sampler, pane.normals.normals.sampler];
+            let path = path_of(pane).sampler;
+            let of_all = [path, pane.whitted.tree.sampler, path, pane.normals.normals.sampler];
             Some(Value::Word(by_integrator(pane, of_all).name()))
         },
         set: |pane, value| {
-            let PaneSettings { truth, whitted, normals, .. } = pane;
-            let of_all = [&mut truth.path.sampler, &mut whitted.tree.sampler, &mut normals.normals.sampler];
-            each(named(value, SamplerKind::named), of_all);
+            let sampler = named(value, SamplerKind::named);
+            each(sampler, [&mut pane.whitted.tree.sampler, &mut pane.normals.normals.sampler]);
+            each(sampler, all_paths(pane).map(|path| &mut path.sampler));
         },
         control: Control {
             label: "Random numbers",
@@ -56,16 +61,16 @@ pub const ROWS: &[Setting<PaneSettings>] = &[
     },
     Setting {
         name: "bounces",
-        of: PATH,
+        of: PATHS,
         kind: Kind::Bounces,
         letter: "N|inf",
         default: Some(Value::Bounces(None)),
         help: "scattering vertices after the first; 0 is direct light",
         always_recorded: true,
-        get: |pane| Some(Value::Bounces(pane.truth.path.bounces)),
+        get: |pane| Some(Value::Bounces(path_of(pane).bounces)),
         set: |pane, value| {
             if let Value::Bounces(bounces) = value {
-                pane.truth.path.bounces = bounces;
+                each(Some(bounces), all_paths(pane).map(|path| &mut path.bounces));
             }
         },
         control: Control {
@@ -85,17 +90,17 @@ pub const ROWS: &[Setting<PaneSettings>] = &[
     },
     Setting {
         name: "roulette",
-        of: PATH,
+        of: PATHS,
         kind: Kind::Roulette,
         letter: "P|throughput|P+throughput|off",
         default: Some(Value::Roulette(Roulette::THROUGHPUT)),
         help: "probability to survive a vertex, P in (0, 1]",
         always_recorded: true,
-        acts: |pane, scene| plays_roulette(&pane.truth.path, scene),
-        get: |pane| Some(Value::Roulette(pane.truth.path.roulette)),
+        acts: |pane, scene| plays_roulette(path_of(pane), scene),
+        get: |pane| Some(Value::Roulette(path_of(pane).roulette)),
         set: |pane, value| {
             if let Value::Roulette(roulette) = value {
-                pane.truth.path.roulette = roulette;
+                each(Some(roulette), all_paths(pane).map(|path| &mut path.roulette));
             }
         },
         control: Control {
@@ -109,14 +114,16 @@ pub const ROWS: &[Setting<PaneSettings>] = &[
     },
     Setting {
         name: "estimator",
-        of: PATH,
+        of: PATHS,
         kind: Kind::Choice(&["uniform", "cosine", "light", "mis", "uniform-light", "uniform-mis"]),
         default: Some(Value::Word("light")),
         help: "directions uniform or cosine-weighted, light found by chance, by sampling or by both, weighted; \
                without it mis where there is rough metal",
         always_recorded: true,
-        get: |pane| Some(Value::Word(pane.truth.path.estimator.name())),
-        set: |pane, value| each(named(value, Estimator::named), [&mut pane.truth.path.estimator]),
+        get: |pane| Some(Value::Word(path_of(pane).estimator.name())),
+        set: |pane, value| {
+            each(named(value, Estimator::named), all_paths(pane).map(|path| &mut path.estimator));
+        },
         control: Control {
             brief: Some(|value| value.to_string()),
             look: Look::Words(&[
@@ -211,12 +218,13 @@ pub const ROWS: &[Setting<PaneSettings>] = &[
         help: "selects one of 2^32 independent pictures",
         always_recorded: true,
         get: |pane| {
-            let of_all = [pane.truth.path.seed, pane.whitted.tree.seed, pane.normals.normals.seed];
+            let path = path_of(pane).seed;
+            let of_all = [path, pane.whitted.tree.seed, path, pane.normals.normals.seed];
             Some(Value::Whole(by_integrator(pane, of_all)))
         },
         set: |pane, value| {
-            let PaneSettings { truth, whitted, normals, .. } = pane;
-            each(whole(value), [&mut truth.path.seed, &mut whitted.tree.seed, &mut normals.normals.seed]);
+            each(whole(value), [&mut pane.whitted.tree.seed, &mut pane.normals.normals.seed]);
+            each(whole(value), all_paths(pane).map(|path| &mut path.seed));
         },
         control: Control {
             label: "Seed",
@@ -252,17 +260,22 @@ pub const ROWS: &[Setting<PaneSettings>] = &[
         needs: Need::Sun,
         help: "angular radius of the sun for these rays alone, 0 as in 1980; references keep the scene's",
         get: |pane| {
-            let radius = by_integrator(pane, [pane.truth.sun_radius, pane.whitted.sun_radius, None]);
-            radius.map(Value::Number)
+            let PaneSettings { truth, whitted, metropolis, .. } = pane;
+            let of_all = [truth.sun_radius, whitted.sun_radius, metropolis.sun_radius, None];
+            by_integrator(pane, of_all).map(Value::Number)
         },
-        set: |pane, value| (pane.truth.sun_radius, pane.whitted.sun_radius) = (number(value), number(value)),
+        set: |pane, value| {
+            let PaneSettings { truth, whitted, metropolis, .. } = pane;
+            let of_all = [&mut truth.sun_radius, &mut whitted.sun_radius, &mut metropolis.sun_radius];
+            each(Some(number(value)), of_all);
+        },
         own: |scene| scene.sun.map(|sun| Value::Number(sun.angular_radius)),
         control: Control {
             label: "This picture's sun radius",
             hover: "Of this picture alone: its errors are against the scene's own sun. 0 is the point that Whitted had \
                     in 1980",
             look: Look::Steps { range: 0.0..=5.0, step: 0.1 },
-            more: PATH,
+            more: PATHS,
             ..BLANK
         },
         ..PLAIN

@@ -4,7 +4,7 @@
 use crate::model::{Against, Compiling, Drawing, Effort, PaneId, PaneView};
 use crate::ruler::{brief, error_words, formulas};
 use compare::Errors;
-use pathtrace::{Integrator, PathSettings, Stats};
+use pathtrace::{ChainStats, Integrator, MetropolisSettings, PathSettings, Stats};
 use technique::settings::of_panes;
 use technique::{BlindSpot, Device, PaneSettings, Technique, TracedSettings};
 
@@ -54,6 +54,7 @@ impl LabelText {
             let source = traced.noise_source(&made.shot.scene).filter(|_| shown.noisy);
             text.notes.extend(source.map(|source| source.words().to_owned()));
             text.notes.extend(branching(traced, shown, beside));
+            text.notes.extend(chains(shown).map(|stats| told_of_chains(traced, &stats)));
         }
         text.explanations.extend(explained(shown, beside));
         text
@@ -196,6 +197,31 @@ fn branches(shown: &PaneView) -> bool {
     matches!(integrator, Some(Integrator::Path(PathSettings { branches: 2.., .. })))
 }
 
+/// What Metropolis' chains did.
+fn chains(shown: &PaneView) -> Option<ChainStats> {
+    let Some(Effort::Traced(Stats { chains, .. })) = shown.effort else { return None };
+    (chains.runs > 0 && !shown.rough).then_some(chains)
+}
+
+/// "64 chains, 54 % of mutations taken, start-up scale 0.139".
+fn told_of_chains(traced: &TracedSettings, stats: &ChainStats) -> String {
+    let count = match traced.integrator {
+        Integrator::Metropolis(MetropolisSettings { chains: 1, .. }) => "1 chain, ".into(),
+        Integrator::Metropolis(MetropolisSettings { chains, .. }) => format!("{chains} chains, "),
+        _ => String::new(),
+    };
+    let acceptance = stats.acceptance();
+    let taken =
+        acceptance.map_or("no light found".into(), |share| format!("{:.0} % of mutations taken", 100.0 * share));
+    format!("{count}{taken}, start-up scale {}", brief(stats.scale().unwrap_or_default()))
+}
+
+/// What these figures mean.
+const OF_CHAINS: [&str; 2] = [
+    "The start-up scale is the mean luminance of the candidates that chains begin with: all light counts as much",
+    "Neighbouring pixels share a chain's paths: their spread does not tell the error",
+];
+
 /// "12.3 rays a sample, 4.5 million rays a second".
 fn rays(shown: &PaneView) -> Option<String> {
     let Some(Effort::Traced(Stats { samples: samples @ 1.., rays, .. })) = shown.effort else { return None };
@@ -222,6 +248,7 @@ fn explained(shown: &PaneView, beside: Option<Beside>) -> Vec<String> {
     if let Some(rays) = rays(shown) {
         lines.push(adapter.map_or_else(|| rays.clone(), |adapter| format!("{rays}, by {adapter}")));
     }
+    lines.extend(chains(shown).into_iter().flat_map(|_| OF_CHAINS.map(str::to_owned)));
     if let Some(Effort::Drawn(drawing)) = shown.effort {
         lines.extend(adapter.map(|adapter| format!("Drawn by {adapter}")));
         lines.extend(drawn(drawing, beside));

@@ -15,7 +15,7 @@ fn made(scene: &str, technique: TechniqueName, changes: &[(&str, &str)]) -> Prov
 }
 
 fn path(changes: &[(&str, &str)], spp: u32) -> PaneView {
-    let stats = Stats { samples: 1000, rays: 13_500, cut_paths: 0 };
+    let stats = Stats { samples: 1000, rays: 13_500, cut_paths: 0, ..Stats::default() };
     PaneView {
         provenance: Some(Arc::new(made("whitted", TechniqueName::Path, changes))),
         spp: Some(spp),
@@ -51,6 +51,24 @@ fn the_cost_is_that_of_the_picture_that_is_shown() {
     let held = PaneView { unfinished: true, ..path(&[("spp", "256")], 64) };
     let held = LabelText::of(PaneId::B, &held, None, None, true);
     assert_eq!(held.figures, ["64 of 256 spp, 500 ms, paused"]);
+}
+
+#[test]
+fn chains_tell_what_they_take_and_that_their_spread_is_no_error() {
+    let chains = pathtrace::ChainStats { runs: 4, mutations: 4000, accepted: 2160, scales: 0.556 };
+    let of_chains = |changes: &[(&str, &str)], chains| PaneView {
+        provenance: Some(Arc::new(made("whitted", TechniqueName::Metropolis, changes))),
+        effort: Some(Effort::Traced(Stats { samples: 4500, rays: 9000, chains, ..Stats::default() })),
+        ..path(&[], 4)
+    };
+    let told = label(&PaneView { noisy: true, ..of_chains(&[], chains) }, None);
+    assert_eq!(told.name, "Metropolis, 32 chains");
+    let blotches = "still noisy in blotches: a chain's paths are alike";
+    assert_eq!(told.notes, [blotches, "32 chains, 54 % of mutations taken, start-up scale 0.139"]);
+    assert!(told.explanations.iter().any(|line| line.contains("does not tell the error")), "{told:?}");
+    let dark = of_chains(&[("chains", "1")], pathtrace::ChainStats { runs: 4, ..pathtrace::ChainStats::default() });
+    assert_eq!(label(&dark, None).notes, ["1 chain, no light found, start-up scale 0"]);
+    assert_eq!(label(&PaneView { rough: true, ..of_chains(&[], chains) }, None).notes, [""; 0]);
 }
 
 #[test]

@@ -1,0 +1,285 @@
+//! Points of primary sample space, one for the chain in each lane: the random numbers that a path asks for are a point's
+//! coordinates, in blocks of four, and a mutation moves all of them a little, or draws all anew.
+//!
+//! Coordinates are 32-bit fractions: a step that wraps around stays on the torus, and is as likely there as back. Where a
+//! chain stands is a pure function: its last large step, and the small steps since, each drawn by a hash. So only
+//! coordinates that a path asks for are computed, whenever it does, and what was computed is kept up to date.
+
+use crate::intersect::aggregate::lanes_of;
+use crate::sampling::rng::{pcg4d, unit_float};
+use crate::sampling::sampler::{RandomNumbers, Sampler, SamplerKind};
+use simd::{Float, MOST_LANES, Mask, Word};
+use std::cell::RefCell;
+
+/// Blocks of a path whose coordinates are kept: those of longer paths are computed from the last large step on.
+const KEPT_BLOCKS: usize = 256;
+
+/// The block whose numbers decide on the mutation itself: none that a path asks for.
+const DECISION: u32 = u32::MAX;
+
+/// What a chain proposes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Proposal {
+    /// The candidate with which it begins.
+    Start,
+    /// A point nearby.
+    Small,
+    /// A point anywhere.
+    Large,
+}
+
+/// Four coordinates as they were when last asked for.
+#[derive(Clone, Copy)]
+struct Block {
+    words: [u32; 4],
+    /// Small steps that are in them.
+    steps: u32,
+    /// The origin that they belong to.
+    origin: u32,
+}
+
+/// Where a chain stands.
+struct Point {
+    /// All coordinates at its start or after its last large step.
+    origin: Sampler,
+    /// Tells origins apart.
+    origins: u32,
+    /// The mutations that were small steps from there.
+    steps: Vec<u32>,
+    blocks: Vec<Block>,
+}
+
+impl Point {
+    fn new() -> Self {
+        let nowhere = Block { words: [0; 4], steps: 0, origin: 0 };
+        Point {
+            origin: Sampler::independent(0, 0, 0),
+            origins: 0,
+            steps: Vec::new(),
+            blocks: vec![nowhere; KEPT_BLOCKS],
+        }
+    }
+
+    fn move_to(&mut self, origin: Sampler) {
+        self.origin = origin;
+        self.origins = self.origins.wrapping_add(1);
+        self.steps.clear();
+    }
+
+    /// Coordinates as far as they are known.
+    #[inline(always)]
+    fn block(&self, dimension: u32) -> Block {
+        match self.blocks.get(dimension as usize) {
+            Some(block) if block.origin == self.origins => *block,
+            _ => Block { words: self.origin.words4(dimension), steps: 0, origin: self.origins },
+        }
+    }
+
+    #[inline(always)]
+    fn keep(&mut self, dimension: u32, words: [u32; 4]) {
+        let (steps, origin) = (self.steps.len() as u32, self.origins);
+        if let Some(block) = self.blocks.get_mut(dimension as usize) {
+            *block = Block { words, steps, origin };
+        }
+    }
+}
+
+/// A chain's point in each lane, and the mutation that it proposes.
+pub struct PrimaryPoints<F: Float> {
+    /// Kept up to date where a path asks.
+    points: RefCell<Vec<Point>>,
+    /// Lanes that ask.
+    pub active: F::M,
+    chain: [u32; MOST_LANES],
+    mutation: [u32; MOST_LANES],
+    /// Lanes whose proposals are small steps, and large ones.
+    small: u32,
+    large: u32,
+    /// Chooses among the steps of all chains.
+    key: u32,
+    /// Length of the longest small step.
+    size: f32,
+}
+
+impl<F: Float> PrimaryPoints<F> {
+    /// No chain yet.
+    pub fn new(key: u32, size: f32) -> Self {
+        PrimaryPoints {
+            points: RefCell::new((0..F::LANES).map(|_| Point::new()).collect()),
+            active: F::M::splat(false),
+            chain: [0; MOST_LANES],
+            mutation: [0; MOST_LANES],
+            small: 0,
+            large: 0,
+            key,
+            size,
+        }
+    }
+
+    /// A chain begins in a lane, with this candidate.
+    pub fn start(&mut self, lane: usize, chain: u32, candidate: Sampler) {
+        (self.chain[lane], self.mutation[lane]) = (chain, 0);
+        self.points.get_mut()[lane].move_to(candidate);
+        self.propose(lane, Proposal::Start);
+    }
+
+    /// The number of a lane's mutation; 0 where its chain begins.
+    pub fn mutation(&self, lane: usize) -> u32 {
+        self.mutation[lane]
+    }
+
+    /// The next mutation of a lane's chain, a large step with this probability. Returns a number in [0, 1) to decide
+    /// by whether it is taken.
+    pub fn mutate(&mut self, lane: usize, large_step: f32) -> f32 {
+        self.mutation[lane] += 1;
+        let [size, taken, ..] = pcg4d([self.chain[lane], self.mutation[lane], DECISION, self.key]);
+        let is_large = unit_float(size) < large_step;
+        self.propose(lane, if is_large { Proposal::Large } else { Proposal::Small });
+        unit_float(taken)
+    }
+
+    fn propose(&mut self, lane: usize, proposal: Proposal) {
+        let bit = 1 << lane;
+        self.small = if proposal == Proposal::Small { self.small | bit } else { self.small & !bit };
+        self.large = if proposal == Proposal::Large { self.large | bit } else { self.large & !bit };
+    }
+
+    /// A lane's chain takes the mutation that it has proposed.
+    pub fn accept(&mut self, lane: usize) {
+        let point = &mut self.points.get_mut()[lane];
+        if self.large >> lane & 1 != 0 {
+            point.move_to(drawn(self.chain[lane], self.mutation[lane], self.key));
+        } else {
+            point.steps.push(self.mutation[lane]);
+        }
+    }
+
+    /// Four coordinates of the proposals in the lanes `here`.
+    #[inline(always)]
+    pub fn words4(&self, here: F::M, dimension: F::U) -> [F::U; 4] {
+        let drawn = pcg4d([F::U::load(&self.chain), F::U::load(&self.mutation), dimension, F::U::splat(self.key)]);
+        let (small, large) = (F::M::from_bits(self.small), F::M::from_bits(self.large));
+        let stays = here & !large;
+        if !stays.any() {
+            return drawn;
+        }
+        let at = self.up_to_date(stays, dimension);
+        let moved = moved::<F>(at, small, drawn, self.size);
+        select4::<F>(large, drawn, moved)
+    }
+
+    /// Four coordinates of the points in the lanes `here`.
+    #[inline(always)]
+    fn up_to_date(&self, here: F::M, dimension: F::U) -> [F::U; 4] {
+        let mut points = self.points.borrow_mut();
+        let mut dimensions = [0; MOST_LANES];
+        dimension.store(&mut dimensions);
+        let mut known = [[0; MOST_LANES]; 4];
+        let mut steps = [0; MOST_LANES];
+        for lane in lanes_of(here) {
+            let block = points[lane].block(dimensions[lane]);
+            steps[lane] = block.steps as usize;
+            for (known, word) in known.iter_mut().zip(block.words) {
+                known[lane] = word;
+            }
+        }
+        let mut words = load4::<F>(&known);
+        let mut behind = lagging::<F>(here, &points, &steps);
+        let changed = behind;
+        while behind.any() {
+            let mut mutation = [0; MOST_LANES];
+            for lane in lanes_of(behind) {
+                mutation[lane] = points[lane].steps[steps[lane]];
+                steps[lane] += 1;
+            }
+            let key = F::U::splat(self.key);
+            let drawn = pcg4d([F::U::load(&self.chain), F::U::load(&mutation), dimension, key]);
+            words = moved::<F>(words, behind, drawn, self.size);
+            behind = lagging::<F>(here, &points, &steps);
+        }
+        if changed.any() {
+            store4::<F>(words, &mut known);
+        }
+        for lane in lanes_of(here) {
+            points[lane].keep(dimensions[lane], [known[0][lane], known[1][lane], known[2][lane], known[3][lane]]);
+        }
+        words
+    }
+}
+
+impl<F: Float> RandomNumbers<F::U> for PrimaryPoints<F> {
+    #[inline(always)]
+    fn unit4(&self, dimension: F::U) -> [F; 4] {
+        let [a, b, c, d] = self.words4(self.active, dimension);
+        [unit_float(a), unit_float(b), unit_float(c), unit_float(d)]
+    }
+}
+
+/// Where a mutation that draws all coordinates anew leads: its blocks are the words by which a small step would go.
+fn drawn(chain: u32, mutation: u32, key: u32) -> Sampler {
+    Sampler { kind: SamplerKind::Independent, pixel: chain, sample: mutation, seed: key }
+}
+
+/// Where points have taken steps that are not in their coordinates.
+#[inline(always)]
+fn lagging<F: Float>(here: F::M, points: &[Point], steps: &[usize; MOST_LANES]) -> F::M {
+    let mut bits = 0;
+    for lane in lanes_of(here) {
+        bits |= u32::from(steps[lane] < points[lane].steps.len()) << lane;
+    }
+    F::M::from_bits(bits)
+}
+
+/// Coordinates a small step further, where `here` says so.
+#[inline(always)]
+fn moved<F: Float>(words: [F::U; 4], here: F::M, drawn: [F::U; 4], size: f32) -> [F::U; 4] {
+    let [a, b, c, d] = drawn;
+    let by = [small_step(a, size), small_step(b, size), small_step(c, size), small_step(d, size)];
+    let further = [
+        words[0].wrapping_add(by[0]),
+        words[1].wrapping_add(by[1]),
+        words[2].wrapping_add(by[2]),
+        words[3].wrapping_add(by[3]),
+    ];
+    select4::<F>(here, further, words)
+}
+
+/// Kelemen's step from a random word, as a fraction of 2^32: as likely forth as back, its length `size` times 16^-r, r
+/// uniform in [0, 1). The power of two is right to .2 %, which bends the lengths' density a little and nothing else.
+#[inline(always)]
+fn small_step<U: Word>(word: U, size: f32) -> U {
+    let halvings = word.shr::<30>();
+    let fraction = (word.shr::<8>() & U::splat(0x003f_ffff)).to_float() * (1.0 / 4_194_304.0);
+    let power = fraction * (fraction * 0.1717 - 0.6717) + 1.0;
+    let length = (power * (size * 4_294_967_296.0)).to_bits().wrapping_sub(halvings.shl::<23>());
+    let length = length.float_from_bits().to_word();
+    let forth = (word & U::splat(1)).eq(U::splat(1));
+    U::select(forth, length, U::splat(0).wrapping_sub(length))
+}
+
+#[inline(always)]
+fn select4<F: Float>(mask: F::M, yes: [F::U; 4], no: [F::U; 4]) -> [F::U; 4] {
+    [
+        F::U::select(mask, yes[0], no[0]),
+        F::U::select(mask, yes[1], no[1]),
+        F::U::select(mask, yes[2], no[2]),
+        F::U::select(mask, yes[3], no[3]),
+    ]
+}
+
+#[inline(always)]
+fn load4<F: Float>(from: &[[u32; MOST_LANES]; 4]) -> [F::U; 4] {
+    [F::U::load(&from[0]), F::U::load(&from[1]), F::U::load(&from[2]), F::U::load(&from[3])]
+}
+
+#[inline(always)]
+fn store4<F: Float>(words: [F::U; 4], to: &mut [[u32; MOST_LANES]; 4]) {
+    words[0].store(&mut to[0]);
+    words[1].store(&mut to[1]);
+    words[2].store(&mut to[2]);
+    words[3].store(&mut to[3]);
+}
+
+#[cfg(test)]
+#[path = "primary_tests.rs"]
+mod tests;
