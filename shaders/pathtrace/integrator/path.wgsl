@@ -276,7 +276,7 @@ fn balance(own: f32, other: f32) -> f32 {
 }
 
 // Survival for each unit of throughput.
-const ROULETTE_SLOPE: f32 = 2.0;
+const ROULETTE_SLOPE: f32 = 4.0;
 
 // Random numbers are multiples of 2^-24: a probability is one as well, or the survivors would be too many by up to
 // that.

@@ -101,7 +101,7 @@ impl Default for Estimator {
 pub struct Roulette {
     /// The tutorial's: every vertex is survived with this probability, in (0, 1]; `None` is 1.
     pub probability: Option<f32>,
-    /// Survival with twice the path's largest throughput channel, at most 1: dark paths end, bright ones go on. Not at
+    /// Survival with four times the path's largest throughput channel, at most 1: dark paths end, bright ones go on. Not at
     /// mirrors and glass, which leave no choice: a path is as dark there as what it finds may be bright.
     pub throughput: bool,
 }
