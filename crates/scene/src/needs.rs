@@ -23,6 +23,8 @@ pub struct Needs {
     pub dielectric: bool,
     /// A sphere of glass, denser than what is around it, or of a perfect mirror: what casts caustics that can be aimed at.
     pub casters: bool,
+    /// Glass or a mirror that is none of these.
+    pub other_speculars: bool,
     /// A shape that shines.
     pub area_lights: bool,
     /// A point light.
@@ -55,11 +57,14 @@ impl Scene {
                 Bsdf::Mirror { .. } => {
                     needs.mirror = true;
                     needs.casters |= sphere;
+                    needs.other_speculars |= !sphere;
                 }
                 Bsdf::RoughConductor { .. } => needs.rough_conductor = true,
                 Bsdf::Dielectric { ior } => {
                     needs.dielectric = true;
-                    needs.casters |= sphere && ior > 1.0;
+                    let caster = sphere && ior > 1.0;
+                    needs.casters |= caster;
+                    needs.other_speculars |= !caster;
                 }
             }
         }

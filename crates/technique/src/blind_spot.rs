@@ -15,6 +15,8 @@ pub enum BlindSpot {
     CausticOfSun(Specular),
     /// The same of point lights.
     CausticOfPointLights(Specular),
+    /// What a sun without a disc or point lights send by way of several spheres, where connections find what goes by one.
+    LongChains,
     /// What paths of more bounces than these bring.
     LongPaths(u32),
     /// Whitted's method: what one surface sends to another.
@@ -69,6 +71,7 @@ impl BlindSpot {
             BlindSpot::CausticOfSun(Specular::Mirror) | BlindSpot::CausticOfPointLights(Specular::Mirror) => {
                 "light from mirrors".into()
             }
+            BlindSpot::LongChains => "light by way of several spheres".into(),
             BlindSpot::LongPaths(0) => "indirect light (biased)".into(),
             BlindSpot::LongPaths(1) => "light after more than 1 bounce (biased)".into(),
             BlindSpot::LongPaths(bounces) => format!("light after more than {bounces} bounces (biased)"),
@@ -88,6 +91,10 @@ impl BlindSpot {
             }
             BlindSpot::CausticOfPointLights(_) => {
                 "a point light casts no caustic: no path can find it behind glass or mirror"
+            }
+            BlindSpot::LongChains => {
+                "a light without extent is connected to by one sphere at a time: what goes by several of them, or more than \
+                 once about in one, is missing"
             }
             BlindSpot::LongPaths(_) => return None,
             BlindSpot::BetweenSurfaces => "light from one surface on another is missing: ambient light stands for it",
@@ -138,7 +145,9 @@ impl TracedSettings {
         let lights = needs.area_lights || disc || scene.environment.is_some();
         match Specular::of(&needs) {
             _ if lights && !path.estimator.samples_lights() => Some(NoiseSource::ByChance),
-            Some(specular) if lights && path.bounces != Some(0) => Some(NoiseSource::Caustic(specular)),
+            Some(specular) if lights && path.bounces != Some(0) && !finds_caustics(&path, &needs) => {
+                Some(NoiseSource::Caustic(specular))
+            }
             _ if is_blind_in_metal(&path, &needs) => Some(NoiseSource::NarrowReflections),
             _ => None,
         }
@@ -153,12 +162,23 @@ fn of_paths(path: &PathSettings, scene: &Scene, delta_sun: bool) -> Vec<BlindSpo
         (needs.point_lights, BlindSpot::PointLights, BlindSpot::CausticOfPointLights),
     ];
     let specular = Specular::of(&needs);
-    let unseen = sources
+    let caustics = |of: fn(Specular) -> BlindSpot| {
+        let missing = |specular| if finds_caustics(path, &needs) { BlindSpot::LongChains } else { of(specular) };
+        specular.map(missing)
+    };
+    let mut unseen: Vec<_> = sources
         .into_iter()
         .filter(|(there, ..)| *there)
-        .filter_map(|(_, all, caustic)| if by_chance { Some(all) } else { specular.map(caustic) });
+        .filter_map(|(_, all, caustic)| if by_chance { Some(all) } else { caustics(caustic) })
+        .collect();
+    unseen.dedup();
     let metal = is_blind_in_metal(path, &needs).then_some(BlindSpot::NarrowReflections);
-    unseen.chain(metal).chain(path.bounces.map(BlindSpot::LongPaths)).collect()
+    unseen.into_iter().chain(metal).chain(path.bounces.map(BlindSpot::LongPaths)).collect()
+}
+
+/// Whether lights are connected to by way of all that is glass or a mirror.
+fn finds_caustics(path: &PathSettings, needs: &Needs) -> bool {
+    path.connections && path.estimator.samples_lights() && !needs.other_speculars
 }
 
 /// What trees of rays lack whatever their settings are: rough metal is a mirror to them.
@@ -190,6 +210,11 @@ mod tests {
         TracedSettings { integrator: Integrator::Path(settings), ..traced(TechniqueName::Path) }
     }
 
+    fn unconnected(bounces: Option<u32>) -> TracedSettings {
+        let settings = PathSettings { connections: false, bounces, ..PathSettings::default() };
+        TracedSettings { integrator: Integrator::Path(settings), ..traced(TechniqueName::Path) }
+    }
+
     fn under_a_sun_of_radius(radius: f32) -> Scene {
         let changes = SceneChanges { sun_radius: Some(radius), ..SceneChanges::default() };
         changes.applied_to(&builtin::named("whitted").unwrap())
@@ -203,9 +228,10 @@ mod tests {
     fn what_a_picture_lacks_is_said_whatever_else_it_lacks() {
         let (wide, delta) = (under_a_sun_of_radius(2.5), under_a_sun_of_radius(0.0));
         assert_eq!(missing(&path(Estimator::LIGHT, None), &wide), [""; 0]);
-        assert_eq!(missing(&path(Estimator::LIGHT, None), &delta), ["light behind glass"]);
+        assert_eq!(missing(&path(Estimator::LIGHT, None), &delta), ["light by way of several spheres"]);
+        assert_eq!(missing(&unconnected(None), &delta), ["light behind glass"]);
         assert_eq!(missing(&path(Estimator::COSINE, None), &delta), ["the sun's light"]);
-        let short = missing(&path(Estimator::LIGHT, Some(2)), &delta);
+        let short = missing(&unconnected(Some(2)), &delta);
         assert_eq!(short, ["light behind glass", "light after more than 2 bounces (biased)"]);
         assert_eq!(missing(&path(Estimator::LIGHT, Some(0)), &wide), ["indirect light (biased)"]);
         assert_eq!(missing(&traced(TechniqueName::Normals), &wide), [""; 0]);
@@ -241,7 +267,15 @@ mod tests {
         let (wide, delta) = (under_a_sun_of_radius(2.5), under_a_sun_of_radius(0.0));
         let cornell = builtin::named("cornell").unwrap();
         let of = |estimator, scene: &Scene| path(estimator, None).noise_source(scene);
-        assert_eq!(of(Estimator::LIGHT, &wide), Some(NoiseSource::Caustic(Specular::Glass)));
+        let caustic = Some(NoiseSource::Caustic(Specular::Glass));
+        assert_eq!(of(Estimator::LIGHT, &wide), None, "connections aim at it");
+        assert_eq!(unconnected(None).noise_source(&wide), caustic);
+        let block = scene::Geometry::Box { corner: scene::Vec3::ZERO, size: scene::Vec3::ONE, turn_y: 0.0 };
+        let mut blocks = wide.clone();
+        let glass = wide.materials.iter().position(|m| matches!(m.bsdf, scene::Bsdf::Dielectric { .. })).unwrap();
+        blocks.shapes =
+            wide.shapes.iter().cloned().chain([scene::Shape { geometry: block, material: glass }]).collect();
+        assert_eq!(of(Estimator::LIGHT, &blocks), caustic, "a block of glass is left to chance");
         assert_eq!(of(Estimator::LIGHT, &delta), None, "what is missing is no noise");
         assert_eq!(of(Estimator::LIGHT, &cornell), None);
         assert_eq!(of(Estimator::COSINE, &cornell), Some(NoiseSource::ByChance));

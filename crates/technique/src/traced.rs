@@ -185,7 +185,7 @@ mod tests {
             Technique::Traced(traced) => traced.blind_spots(&scene),
             Technique::Fake(_) => Vec::new(),
         };
-        assert!(matches!(blind(&pane)[..], [BlindSpot::CausticOfSun(_)]), "{:?}", blind(&pane));
+        assert!(matches!(blind(&pane)[..], [BlindSpot::LongChains]), "{:?}", blind(&pane));
         pane.forget_the_scene(&scene);
         assert_eq!((pane.truth.sun_radius, pane.whitted.sun_radius, blind(&pane)), (None, None, Vec::new()));
     }
