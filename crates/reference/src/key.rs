@@ -13,6 +13,10 @@ pub struct Key(u128);
 /// files are not found.
 const VERSION: u32 = 3;
 
+/// The same of scenes with casters alone: 1, connections find what chance hardly did or, of lights without extent, not at
+/// all.
+const VERSION_OF_CASTERS: u32 = 1;
+
 impl Key {
     /// Of what the truth of a scene depends on, down to the last bit of every number, and of nothing else: the fake's
     /// numbers may move, and the scene's file may have a new name.
@@ -22,6 +26,9 @@ impl Key {
             [VERSION, super::SAMPLES_PER_REPLICATE, size.0, size.1].into_iter().for_each(|word| canonical.word(word));
             canonical.camera(camera);
             canonical.scene(scene);
+            if scene.needs().casters {
+                canonical.word(VERSION_OF_CASTERS);
+            }
         }))
     }
 }
