@@ -172,6 +172,8 @@ impl<F: Float> ChainSurfaces<F> {
     /// mirror as for glass of infinite index.
     #[inline(always)]
     pub fn reflectance(&self, cos: F) -> F {
+        // a mirror's equations are 0 / 0 at grazing incidence
+        let cos = cos.max(F::splat(f32::MIN_POSITIVE));
         let (ratio, inner) = (self.inside.times(F::splat(1.0)), self.inside.cosine(cos));
         let parallel = (cos - ratio * inner) / (cos + ratio * inner);
         let perpendicular = (ratio * cos - inner) / (ratio * cos + inner);
@@ -227,4 +229,65 @@ fn reaches_into(other: &Geometry, (center, radius): (Vec3, f32)) -> bool {
     }
     let (low, high) = other.bounds();
     center.as_dvec3().distance(center.clamp(low, high).as_dvec3()) < f64::from(radius)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use scene::builtin;
+
+    fn whitted_and(geometry: Geometry, index: f32) -> Casters {
+        let mut scene = builtin::named("whitted").unwrap();
+        scene.set_refraction_ratio(1.0 / index);
+        let floor = scene.shapes.iter().find(|shape| sphere(shape).is_none());
+        let material = floor.unwrap().material;
+        scene.shapes = scene.shapes.iter().cloned().chain([Shape { geometry, material }]).collect();
+        Casters::new(&scene)
+    }
+
+    fn ball(center: [f32; 3], radius: f32) -> Geometry {
+        Geometry::Sphere { center: center.into(), radius }
+    }
+
+    #[test]
+    fn casters_are_spheres_of_glass_and_mirrors() {
+        let beside = ball([8.0, 1.0, 2.0], 0.5);
+        assert_eq!(whitted_and(beside.clone(), 1.5).len(), 3);
+        assert_eq!(whitted_and(beside, 0.8).len(), 1, "of a bubble nothing");
+        assert!(Casters::new(&builtin::named("cornell").unwrap()).is_empty());
+    }
+
+    #[test]
+    fn what_lies_in_glass_is_seen() {
+        assert!(whitted_and(ball([8.0, 1.0, 2.0], 0.5), 1.5).are_hollow());
+        assert!(whitted_and(ball([2.0, 1.9, -2.5], 0.5), 1.5).are_hollow(), "in the mirror");
+        assert!(!whitted_and(ball([4.2, 2.6, -4.2], 0.5), 1.5).are_hollow(), "in the glass");
+        assert!(!whitted_and(ball([4.2, 1.6, -4.2], 0.5), 1.5).are_hollow(), "cut by it");
+        assert!(whitted_and(ball([4.2, 2.6, -4.2], 2.0), 1.5).are_hollow(), "around it");
+    }
+
+    /// Every chain is chosen as often as its material's row says, and the rows' probabilities add up to 1.
+    #[test]
+    fn chains_are_chosen_with_their_probabilities() {
+        let casters = whitted_and(ball([8.0, 1.0, 2.0], 0.5), 1.5);
+        let n = 3000;
+        let mut inverse = 0.0;
+        for k in 0..n {
+            let chain = casters.choose((k as f32 + 0.5) / n as f32);
+            assert!(chain.surface.probability > 0.0);
+            inverse += f64::from(1.0 / chain.surface.probability);
+        }
+        assert!((inverse / f64::from(n) - 3.0).abs() < 1e-2, "{inverse}: three chains");
+    }
+
+    #[test]
+    fn reflectance_is_fresnels() {
+        let casters = whitted_and(ball([8.0, 1.0, 2.0], 0.5), 1.5);
+        for k in 0..=1000 {
+            let cos = k as f32 / 1000.0;
+            let of = |u: f32| casters.choose(u).surface.reflectance(cos);
+            let exact = crate::bsdf::Interface { ior: 1.5, entering: true }.fresnel(cos);
+            assert!((of(0.0) - exact).abs() < 1e-6 && of(0.999) == 1.0, "{cos}: {} {exact}, {}", of(0.0), of(0.999));
+        }
+    }
 }
