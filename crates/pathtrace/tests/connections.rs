@@ -3,10 +3,11 @@
 
 #![expect(clippy::expect_used, reason = "a scene that does not load is a failure")]
 
-use film::Film;
+use film::{Film, Image};
 use pathtrace::{Estimator, PathSettings, Roulette, Tracer};
-use scene::{Bsdf, Geometry, Scene, Shape, Vec3, builtin};
+use scene::{Bsdf, EnvironmentMap, Geometry, Scene, Shape, Vec3, builtin};
 use std::path::Path;
+use std::sync::Arc;
 
 const SIZE: (u32, u32) = (32, 24);
 /// Edge of the blocks of pixels that are compared.
@@ -176,6 +177,18 @@ fn limits_of_bounces_hold_for_connections_too() {
     assert_as_by_chance("branches", &scene, PathSettings { branches: 2, bounces: Some(3), ..base }, 12);
     let sky = "sky = { radiance = [0.4, 0.6, 1.2] }\n";
     assert_as_by_chance("under a sky", &parsed(&format!("{sky}{BALLS}{FLOOR}{sun}{TWO}")), base, 24);
+}
+
+/// A sky that is a picture, all of it bright and a part of it more so.
+#[test]
+fn a_picture_of_the_sky_arrives_as_by_chance() {
+    let mut scene = with(TWO);
+    let texel = |k: u32| Vec3::splat(if k == 6 { 12.0 } else { 0.5 });
+    let image = Image::new(8, 4, (0..32).map(texel).collect::<Vec<_>>()).expect("a picture");
+    let map = EnvironmentMap::new(image, 1.0, 0.0).expect("a sky");
+    scene.sky = map.mean();
+    scene.environment = Some(Arc::new(map));
+    assert_as_by_chance("sky", &scene, connected(Estimator::MIS), 24);
 }
 
 /// The scene moved this far along all axes.

@@ -142,9 +142,11 @@ impl<F: Float> SphereChains<F> {
     /// which the near end lies, through it from the opposite one. Convex in `i`, and 0 at 0. With two derivatives.
     #[inline(always)]
     fn turn(&self, i: F, Incidence { sin, cos }: Incidence<F>) -> [F; 3] {
-        let [near, far, inside] = [self.near, self.far, self.inside].map(|ratio| ratio.angle(sin, cos));
-        let without = |whole: F, k: usize| whole - near[k] - far[k] - self.refractions * inside[k];
-        [without(i + i, 0), without(F::splat(2.0), 1), without(F::splat(0.0), 2)]
+        // no closures: what is not inlined for sure has none of the lanes' instructions
+        let (near, far, inside) = (self.near.angle(sin, cos), self.far.angle(sin, cos), self.inside.angle(sin, cos));
+        let [value, slope, bend] = [near[0] + far[0], near[1] + far[1], near[2] + far[2]];
+        let twice = self.refractions;
+        [i + i - (value + twice * inside[0]), F::splat(2.0) - (slope + twice * inside[1]), -(bend + twice * inside[2])]
     }
 
     /// The first derivative of the turn alone.

@@ -22,6 +22,7 @@ impl<F: Float> PathLanes<'_, F> {
         let fits = self.path.vertices.wrapping_add(specular).lt(F::U::splat(self.plan.limit));
         let light = self.scene.lights.table().sample(chain.center, u[2], [u[0], u[1]]);
         let connections = Connections::new(at.point.position, chain, light);
+        let fits = fits & !self.is_left_to_chance(&connections.light);
         let wanted = here & fits & connections.possible & !connections.is_behind(at.normal);
         for index in 0..MOST_ROOTS {
             let root = connections.root(index, wanted);
@@ -29,6 +30,18 @@ impl<F: Float> PathLanes<'_, F> {
                 self.receive_by(root.found, at, &connections, &connections.ray(&root));
             }
         }
+    }
+
+    /// Where a sample is of a sky that is a picture, and connections are not weighed against chance, which finds what comes
+    /// from everywhere better.
+    #[inline(always)]
+    fn is_left_to_chance(&self, sample: &LightSamples<F>) -> F::M {
+        let lights = &self.scene.lights;
+        if lights.environment().is_none() || self.plan.light == LightSampling::Mis {
+            return F::M::splat(false);
+        }
+        // it is the last of the lights
+        sample.light.eq(F::U::splat(lights.len() as u32 - 1))
     }
 
     /// Takes the light of a connection, if nothing stands in its way; under MIS weighted against chance.

@@ -157,7 +157,7 @@ impl<'a, F: Float, S: RandomNumbers<F::U>> LaneIntegrator<F, S> for PathLanes<'a
             && missed.any()
         {
             let (radiance, pdf) = environment.look_up_lanes(self.path.rays.direction);
-            self.receive(missed, radiance * self.weight_of_endless(missed, pdf));
+            self.receive(missed, radiance * self.weight_of_environment(missed, pdf));
         }
         let wo = -self.path.rays.direction;
         let shining = met & self.scene.shines(&hit);
@@ -361,6 +361,15 @@ impl<'a, F: Float> PathLanes<'a, F> {
     fn weight_of_endless(&self, missed: F::M, pdf: F) -> F {
         let weight = self.path.weight_of_meeting(pdf);
         if self.connecting { weight * self.weight_of_chain_to_sky(missed, pdf) } else { weight }
+    }
+
+    /// The same of a sky that is a picture.
+    #[inline(always)]
+    fn weight_of_environment(&self, missed: F::M, pdf: F) -> F {
+        if self.plan.light == LightSampling::Mis {
+            return self.weight_of_endless(missed, pdf);
+        }
+        self.path.weight_of_meeting(pdf)
     }
 
     /// Density with which light sampling at the paths' last vertices draws the directions to these hits.
