@@ -66,12 +66,12 @@ impl Point {
         self.steps.clear();
     }
 
-    /// Coordinates as far as they are known.
+    /// Coordinates as far as they are known, and whether they were kept.
     #[inline(always)]
-    fn block(&self, dimension: u32) -> Block {
+    fn block(&self, dimension: u32) -> (Block, bool) {
         match self.blocks.get(dimension as usize) {
-            Some(block) if block.origin == self.origins => *block,
-            _ => Block { words: self.origin.words4(dimension), steps: 0, origin: self.origins },
+            Some(block) if block.origin == self.origins => (*block, true),
+            _ => (Block { words: self.origin.words4(dimension), steps: 0, origin: self.origins }, false),
         }
     }
 
@@ -92,6 +92,9 @@ pub struct PrimaryPoints<F: Float> {
     pub active: F::M,
     chain: [u32; MOST_LANES],
     mutation: [u32; MOST_LANES],
+    /// How many small steps each lane's point has taken, and the mutation that was the last of them.
+    steps: [u32; MOST_LANES],
+    last_step: [u32; MOST_LANES],
     /// Lanes whose proposals are small steps, and large ones.
     small: u32,
     large: u32,
@@ -109,6 +112,8 @@ impl<F: Float> PrimaryPoints<F> {
             active: F::M::splat(false),
             chain: [0; MOST_LANES],
             mutation: [0; MOST_LANES],
+            steps: [0; MOST_LANES],
+            last_step: [0; MOST_LANES],
             small: 0,
             large: 0,
             key,
@@ -119,7 +124,7 @@ impl<F: Float> PrimaryPoints<F> {
     /// A chain begins in a lane, with this candidate.
     pub fn start(&mut self, lane: usize, chain: u32, candidate: Sampler) {
         (self.chain[lane], self.mutation[lane]) = (chain, 0);
-        self.points.get_mut()[lane].move_to(candidate);
+        self.move_to(lane, candidate);
         self.propose(lane, Proposal::Start);
     }
 
@@ -146,18 +151,24 @@ impl<F: Float> PrimaryPoints<F> {
 
     /// A lane's chain takes the mutation that it has proposed.
     pub fn accept(&mut self, lane: usize) {
-        let point = &mut self.points.get_mut()[lane];
         if self.large >> lane & 1 != 0 {
-            point.move_to(drawn(self.chain[lane], self.mutation[lane], self.key));
+            self.move_to(lane, drawn(self.chain[lane], self.mutation[lane], self.key));
         } else {
-            point.steps.push(self.mutation[lane]);
+            self.points.get_mut()[lane].steps.push(self.mutation[lane]);
+            self.steps[lane] += 1;
+            self.last_step[lane] = self.mutation[lane];
         }
+    }
+
+    fn move_to(&mut self, lane: usize, origin: Sampler) {
+        self.points.get_mut()[lane].move_to(origin);
+        self.steps[lane] = 0;
     }
 
     /// Four coordinates of the proposals in the lanes `here`.
     #[inline(always)]
     pub fn words4(&self, here: F::M, dimension: F::U) -> [F::U; 4] {
-        let drawn = pcg4d([F::U::load(&self.chain), F::U::load(&self.mutation), dimension, F::U::splat(self.key)]);
+        let drawn = self.drawn(F::U::load(&self.mutation), dimension);
         let (small, large) = (F::M::from_bits(self.small), F::M::from_bits(self.large));
         let stays = here & !large;
         if !stays.any() {
@@ -168,42 +179,51 @@ impl<F: Float> PrimaryPoints<F> {
         select4::<F>(large, drawn, moved)
     }
 
-    /// Four coordinates of the points in the lanes `here`.
+    /// Four coordinates of the points in the lanes `here`. Steps add up in any order: the last one first, which is all
+    /// that most coordinates lack.
     #[inline(always)]
     fn up_to_date(&self, here: F::M, dimension: F::U) -> [F::U; 4] {
         let mut points = self.points.borrow_mut();
         let mut dimensions = [0; MOST_LANES];
         dimension.store(&mut dimensions);
         let mut known = [[0; MOST_LANES]; 4];
-        let mut steps = [0; MOST_LANES];
+        let (mut steps, mut all_kept) = ([0; MOST_LANES], true);
         for lane in lanes_of(here) {
-            let block = points[lane].block(dimensions[lane]);
-            steps[lane] = block.steps as usize;
+            let (block, was_kept) = points[lane].block(dimensions[lane]);
+            all_kept &= was_kept;
+            steps[lane] = block.steps;
             for (known, word) in known.iter_mut().zip(block.words) {
                 known[lane] = word;
             }
         }
         let mut words = load4::<F>(&known);
-        let mut behind = lagging::<F>(here, &points, &steps);
-        let changed = behind;
+        let mut left = F::U::load(&self.steps).wrapping_sub(F::U::load(&steps));
+        let mut behind = here & !left.eq(F::U::splat(0));
+        if all_kept && !behind.any() {
+            return words;
+        }
+        let mut mutation = self.last_step;
         while behind.any() {
-            let mut mutation = [0; MOST_LANES];
+            let drawn = self.drawn(F::U::load(&mutation), dimension);
+            words = moved::<F>(words, behind, drawn, self.size);
+            left = F::U::select(behind, left.wrapping_sub(F::U::splat(1)), left);
+            behind = here & !left.eq(F::U::splat(0));
             for lane in lanes_of(behind) {
-                mutation[lane] = points[lane].steps[steps[lane]];
+                mutation[lane] = points[lane].steps[steps[lane] as usize];
                 steps[lane] += 1;
             }
-            let key = F::U::splat(self.key);
-            let drawn = pcg4d([F::U::load(&self.chain), F::U::load(&mutation), dimension, key]);
-            words = moved::<F>(words, behind, drawn, self.size);
-            behind = lagging::<F>(here, &points, &steps);
         }
-        if changed.any() {
-            store4::<F>(words, &mut known);
-        }
+        store4::<F>(words, &mut known);
         for lane in lanes_of(here) {
             points[lane].keep(dimensions[lane], [known[0][lane], known[1][lane], known[2][lane], known[3][lane]]);
         }
         words
+    }
+
+    /// The words of the mutations of these numbers.
+    #[inline(always)]
+    fn drawn(&self, mutation: F::U, dimension: F::U) -> [F::U; 4] {
+        pcg4d([F::U::load(&self.chain), mutation, dimension, F::U::splat(self.key)])
     }
 }
 
@@ -218,16 +238,6 @@ impl<F: Float> RandomNumbers<F::U> for PrimaryPoints<F> {
 /// Where a mutation that draws all coordinates anew leads: its blocks are the words by which a small step would go.
 fn drawn(chain: u32, mutation: u32, key: u32) -> Sampler {
     Sampler { kind: SamplerKind::Independent, pixel: chain, sample: mutation, seed: key }
-}
-
-/// Where points have taken steps that are not in their coordinates.
-#[inline(always)]
-fn lagging<F: Float>(here: F::M, points: &[Point], steps: &[usize; MOST_LANES]) -> F::M {
-    let mut bits = 0;
-    for lane in lanes_of(here) {
-        bits |= u32::from(steps[lane] < points[lane].steps.len()) << lane;
-    }
-    F::M::from_bits(bits)
 }
 
 /// Coordinates a small step further, where `here` says so.
