@@ -165,12 +165,17 @@ fn series(curve: &Curve, name: String, of: impl Fn(&Point) -> (f64, Range)) -> S
 }
 
 /// Colours that [`look`] does not use begin here: for peers.
-const FIRST_FREE_COLOUR: usize = 7;
+const FIRST_FREE_COLOUR: usize = 8;
 
 fn look(technique: &Technique) -> (usize, Stroke) {
     match technique {
         Technique::Traced(TracedSettings { integrator: Integrator::Path(path), .. }) => {
-            let colour = Estimator::ALL.iter().position(|e| *e == path.estimator).unwrap_or(0);
+            let colour = match Estimator::ALL.iter().position(|e| *e == path.estimator) {
+                Some(place @ ..4) => place,
+                // after those of other techniques
+                Some(_) => 7,
+                None => 0,
+            };
             (colour, if path.sampler == SamplerKind::Sobol { Stroke::Solid } else { Stroke::Dashed })
         }
         Technique::Traced(_) => (5, Stroke::Level),

@@ -2,7 +2,7 @@
 
 use crate::hard::{known, spot, with_geometry};
 use crate::measure::Trial;
-use pathtrace::{Estimator, PathSettings, Roulette, Tracer, WhittedSettings};
+use pathtrace::{Estimator, LightSampling, PathSettings, Roulette, Tracer, WhittedSettings};
 use scene::{Camera, Geometry, Scene, Vec3};
 
 /// Direct light alone.
@@ -134,12 +134,12 @@ pub fn disk(trial: &mut Trial) {
         let quantity = format!("height {height}");
         for estimator in Estimator::EVERY {
             // sampling alone has a relative variance of 0.167, 33, 3.3e3, 3.3e5 and 3.3e7
-            let alone = estimator.samples_lights() && !matches!(estimator, Estimator::MIS | Estimator::UNIFORM_MIS);
+            let alone = estimator.light == LightSampling::NextEvent;
             if alone && height < trial.pick(1.0, 0.1) {
                 continue;
             }
             let found = trial.traced(&quantity, expected, (&tracer, &camera), direct(estimator));
-            if matches!(estimator, Estimator::MIS | Estimator::UNIFORM_MIS) {
+            if estimator.light == LightSampling::Mis {
                 let subject = format!("path {}", estimator.name());
                 let quantity = format!("relative variance, height {height}");
                 trial.at_most(&subject, &quantity, 1.0, found.relative_variance());

@@ -42,7 +42,7 @@ pub fn white_furnace(trial: &mut Trial) {
     }
     let scene = known("white-furnace");
     let seen = (&Tracer::new(&scene), &scene.camera);
-    for estimator in [Estimator::COSINE, Estimator::LIGHT, Estimator::MIS] {
+    for estimator in [Estimator::COSINE, Estimator::LIGHT, Estimator::MIS, Estimator::GUIDED] {
         let film = trial.film(seen, with(estimator, None, Roulette::THROUGHPUT), 32, 16);
         let subject = format!("path {}", estimator.name());
         trial.equal(&subject, "every pixel, no variance at all", 1.0, farthest(&film, 1.0), 1e-5);

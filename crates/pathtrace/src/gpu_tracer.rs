@@ -118,7 +118,7 @@ impl GpuTracer {
     /// seconds.
     pub fn has_compiled(&self, integrator: &Integrator) -> bool {
         let key = integrator.pipeline_key(self.pipelines.needs().everything());
-        key.is_some_and(|key| self.pipelines.has_compiled(&key))
+        key.is_ok_and(|key| self.pipelines.has_compiled(&key))
     }
 
     /// Whether all dispatches so far were timed by the device's own clock. Some are not even if it has one: those of
@@ -156,7 +156,7 @@ impl GpuTracer {
         stop: &impl Fn() -> bool,
     ) -> Result<(), GpuTraceError> {
         let key = integrator.pipeline_key(self.pipelines.needs().everything());
-        let key = key.ok_or(GpuTraceError::NoShader { integrator: integrator.name() })?;
+        let key = key.map_err(GpuTraceError::ForTheProcessor)?;
         let pipeline = self.pipelines.prepare(&self.gpu, &key)?;
         let params = integrator.render_params(params(film, camera), &self.stand_ins);
         let effort = params.effort();

@@ -2,8 +2,11 @@
 
 use crate::bsdf::materials::Materials;
 use crate::caster::Casters;
-use crate::drive::lanes::{FilmJob, FilmPass};
+use crate::drive::lanes::{FilmJob, FilmPass, Stop};
 use crate::integrator::Integrator;
+use crate::integrator::guide::{cells::Cells, guides::Guides};
+#[cfg(test)]
+use crate::integrator::{guide::Guide, path::Plan, settings::PathSettings};
 use crate::intersect::Accel;
 use crate::intersect::aggregate::Aggregate;
 use crate::intersect::contact::held_apart;
@@ -19,6 +22,7 @@ use simd::Lanes;
 pub struct Tracer {
     scene: PreparedScene,
     stand_ins: FakeNumbers,
+    guides: Guides,
     lanes: Lanes,
 }
 
@@ -38,6 +42,7 @@ impl Tracer {
                 lights,
             },
             stand_ins: scene.fake,
+            guides: Guides::new(Cells::new(scene.bounds())),
             lanes: Lanes::best(),
         }
     }
@@ -101,8 +106,26 @@ impl Tracer {
         stop: &(impl Fn() -> bool + Sync),
     ) -> Stats {
         let pass = FilmPass::new(film, camera, samples, (integrator.sampler(), integrator.seed()));
-        let Tracer { scene, stand_ins, lanes } = self;
         // not generic: kernels are large, and compiled in this crate once
-        integrator.fill(film, &FilmJob { scene, stand_ins, lanes: *lanes, pass, stop })
+        integrator.fill(film, &self.job(pass, stop))
+    }
+
+    fn job<'a>(&'a self, pass: FilmPass, stop: &'a Stop) -> FilmJob<'a> {
+        let Tracer { scene, stand_ins, guides, lanes } = self;
+        FilmJob { scene, stand_ins, guides, lanes: *lanes, pass, stop }
+    }
+
+    /// As [`Tracer::render`], by a guide that was not learned.
+    #[cfg(test)]
+    pub(crate) fn render_by(
+        &self,
+        film: &mut Film,
+        camera: &Camera,
+        settings: &PathSettings,
+        guide: Guide,
+        samples: u32,
+    ) {
+        let pass = FilmPass::new(film, camera, samples, (settings.sampler, settings.seed));
+        self.job(pass, &|| false).fill(film, &Plan::guided_by(settings, guide.into()));
     }
 }

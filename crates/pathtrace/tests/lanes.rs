@@ -51,7 +51,7 @@ fn scenes() -> Vec<Scene> {
 }
 
 fn all_settings() -> Vec<PathSettings> {
-    let estimators = Estimator::EVERY.map(|estimator| PathSettings { estimator, ..PathSettings::default() });
+    let estimators = Estimator::on_devices().map(|estimator| PathSettings { estimator, ..PathSettings::default() });
     let base = PathSettings { sampler: SamplerKind::Independent, seed: 5, ..PathSettings::default() };
     let others = [
         base,
@@ -61,7 +61,7 @@ fn all_settings() -> Vec<PathSettings> {
         PathSettings { branches: 3, bounces: Some(2), ..base },
         PathSettings { branches: 2, bounces: Some(3), estimator: Estimator::UNIFORM_MIS, ..PathSettings::default() },
     ];
-    estimators.into_iter().chain(others).collect()
+    estimators.chain(others).collect()
 }
 
 fn path(tracer: &Tracer, scene: &Scene, settings: &PathSettings, samples: u32) -> (Film, Stats) {
@@ -95,6 +95,20 @@ fn all_lanes_trace_the_same_paths() {
     }
 }
 
+/// Guides are learned in these lanes too, which takes one lane a while: in one scene alone.
+#[test]
+fn all_lanes_learn_and_follow_the_same_guide() {
+    let scene = everything();
+    for estimator in [Estimator::GUIDED, Estimator::GUIDED_MIS] {
+        let settings = PathSettings { estimator, bounces: Some(4), ..PathSettings::default() };
+        let of_lanes = tracers(&scene).into_iter().map(|(lanes, tracer)| (lanes, path(&tracer, &scene, &settings, 2)));
+        let of_lanes: Vec<_> = of_lanes.collect();
+        for (lanes, film) in &of_lanes {
+            assert!(film == &of_lanes[0].1, "{}: {} differs", estimator.name(), lanes.name());
+        }
+    }
+}
+
 #[test]
 fn all_lanes_grow_the_same_trees() {
     let default = WhittedSettings::default();
@@ -118,11 +132,13 @@ fn all_lanes_grow_the_same_trees() {
 fn pictures_do_not_depend_on_threads_or_on_how_samples_are_split() {
     for scene in [everything(), a_tree()] {
         let tracer = Tracer::new(&scene);
-        for sampler in SamplerKind::ALL {
-            let settings = PathSettings { sampler, ..PathSettings::default() };
+        let ways = SamplerKind::ALL.map(|sampler| (sampler, Estimator::default()));
+        for (sampler, estimator) in ways.into_iter().chain([(SamplerKind::Sobol, Estimator::GUIDED)]) {
+            let settings = PathSettings { sampler, estimator, ..PathSettings::default() };
             let on = |threads: usize| {
                 let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
-                pool.install(|| path(&tracer, &scene, &settings, 4))
+                // a guide that is kept would not depend on anything
+                pool.install(|| path(&Tracer::new(&scene), &scene, &settings, 4))
             };
             let whole = on(1);
             assert!(whole == on(2) && whole == on(7), "{sampler:?}");
@@ -147,6 +163,35 @@ fn a_stopped_picture_is_completed() {
     assert!(taken == stats.samples && taken > 0 && film.samples_per_pixel() == 0, "{taken}");
     tracer.render(&mut film, &scene.camera, &settings.into(), 16, &|| false);
     assert!(film == path(&tracer, &scene, &settings, 16).0);
+}
+
+/// A guide is learned before the first sample, or not at all; the next call learns it anew.
+#[test]
+fn a_guide_that_was_stopped_leaves_no_trace() {
+    let scene = everything();
+    let tracer = Tracer::new(&scene);
+    let settings = PathSettings { estimator: Estimator::GUIDED, ..PathSettings::default() };
+    let (asked, mut film) = (AtomicU32::new(0), Film::new(SIZE.0, SIZE.1));
+    let stop = || asked.fetch_add(1, Ordering::Relaxed) > 1000;
+    let stats = tracer.render(&mut film, &scene.camera, &settings.into(), 2, &stop);
+    assert!(stats.samples == 0 && film == Film::new(SIZE.0, SIZE.1), "{stats:?}");
+    tracer.render(&mut film, &scene.camera, &settings.into(), 2, &|| false);
+    assert!(film == path(&Tracer::new(&scene), &scene, &settings, 2).0);
+}
+
+/// One tracer keeps the guide of the last picture; of another view, seed or limit it learns another.
+#[test]
+fn a_kept_guide_serves_its_own_picture_alone() {
+    let scene = everything();
+    let kept = Tracer::new(&scene);
+    let guided = PathSettings { estimator: Estimator::GUIDED, ..PathSettings::default() };
+    let others = [guided, PathSettings { seed: 2, ..guided }, PathSettings { bounces: Some(1), ..guided }, guided];
+    for settings in others {
+        assert!(path(&kept, &scene, &settings, 1) == path(&Tracer::new(&scene), &scene, &settings, 1), "{settings:?}");
+    }
+    let mut elsewhere = scene.clone();
+    elsewhere.camera.eye.x += 0.1;
+    assert!(path(&kept, &elsewhere, &guided, 1).0 == path(&Tracer::new(&scene), &elsewhere, &guided, 1).0);
 }
 
 /// Of ten tries the fastest counts: a machine that does other things may wake a thread late.

@@ -188,7 +188,9 @@ fn of_trees(needs: &Needs) -> Vec<BlindSpot> {
 }
 
 fn is_blind_in_metal(path: &PathSettings, needs: &Needs) -> bool {
-    needs.rough_conductor && path.estimator.samples_lights() && path.estimator != Estimator::MIS
+    needs.rough_conductor
+        && path.estimator.samples_lights()
+        && !matches!(path.estimator, Estimator::MIS | Estimator::GUIDED_MIS)
 }
 
 #[cfg(test)]

@@ -215,7 +215,8 @@ impl ProgressiveRenderer {
         Renderer::new(request.shot.scene.clone(), backend, self.threads.clone()).with_speeds(self.speeds)
     }
 
-    /// The device that is asked for, unless that has failed at this scene and nobody has asked to try again.
+    /// The device that is asked for, unless that cannot follow these paths, or has failed at this scene and nobody has
+    /// asked to try again.
     fn device_for(&mut self, request: &Request) -> Device {
         let wish = request.settings.device_choice().beside(self.adapters.only_software());
         let stands = |of: &Refusal| of.source == request.shot.source && of.restarts == request.restarts;

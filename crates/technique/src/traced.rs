@@ -132,7 +132,7 @@ impl TracedSettings {
 
     /// The wish for a device, of what one can trace; else the processor.
     pub fn device_choice(&self) -> DeviceChoice {
-        if self.integrator.runs_on_a_device() { self.device } else { DeviceChoice::Cpu }
+        if self.integrator.needs_the_processor().is_some() { DeviceChoice::Cpu } else { self.device }
     }
 
     /// Whether these rays see a sun without a disc.

@@ -107,7 +107,11 @@ fn chains_run_on_the_processor_and_tell_what_they_did() {
     let folder = TestFolder::new();
     let refused = render(&folder, None, &["--technique", "metropolis", "--device", "gpu"]);
     let told = String::from_utf8_lossy(&refused.stderr).into_owned();
-    assert!(refused.status.code() == Some(2) && told.contains("metropolis runs on the cpu only"), "{told}");
+    assert!(
+        refused.status.code() == Some(2)
+            && told.contains("--device gpu: the chains of Metropolis run on the processor alone"),
+        "{told}"
+    );
     let words = ["--technique", "metropolis", "--chains", "5", "--spp", "3", "--sampler", "independent"];
     // enough to be worth a device, if it were one for that
     let report = json(&render(&folder, None, &[&words[..], &["--large-step", "0.5"]].concat()));

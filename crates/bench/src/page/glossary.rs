@@ -3,7 +3,7 @@
 use compare::escaped;
 
 /// Words and lines; those of estimators and samplers by their own names.
-const WORDS: [(&str, &str); 34] = [
+const WORDS: [(&str, &str); 35] = [
     ("spp", "samples per pixel: paths that were started through each pixel"),
     ("radiance", "light along a ray, linear, before exposure and the screen's curve"),
     (
@@ -40,6 +40,7 @@ const WORDS: [(&str, &str); 34] = [
         "sobol",
         "Owen-scrambled Sobol points: well spread over each pixel, better than \u{2212}0.5 where the picture is smooth",
     ),
+    ("guided", "light sampled; directions drawn where some 130 000 paths before have found that light comes from"),
     ("roulette", "a path goes on with probability p and then counts 1 / p: no limit, and no bias (Russian roulette)"),
     ("bounces", "at most so many reflections after the first hit; 0 is direct light"),
     ("as-taught (fake)", "rasterised with the tutorial's own numbers: shadow map, cube maps, Phong"),

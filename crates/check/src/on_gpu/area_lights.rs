@@ -17,7 +17,7 @@ pub fn rectangle(bench: &mut Bench) -> Outcome {
     for (x, y, expected) in RECTANGLE {
         let camera = from_above(x, y, 0.5);
         let quantity = format!("at ({x}, {y})");
-        for estimator in Estimator::EVERY {
+        for estimator in Estimator::on_devices() {
             // far off, few of the directions by chance meet the area light
             if estimator.samples_lights() || expected > bench.trial.pick(1.0, 0.1) {
                 bench.mean(&quantity, expected, (tracer, &camera), direct(estimator))?;
@@ -88,7 +88,7 @@ pub fn disk(bench: &mut Bench) -> Outcome {
         let (scene, camera) = under_a_disk(height);
         tracer.set_scene(&scene)?;
         let quantity = format!("height {height}");
-        for estimator in Estimator::EVERY {
+        for estimator in Estimator::on_devices() {
             // sampling alone has a relative variance of 0.167, 33, 3.3e3, 3.3e5 and 3.3e7
             let weighted = matches!(estimator, Estimator::MIS | Estimator::UNIFORM_MIS);
             if estimator.samples_lights() && !weighted && height < bench.trial.pick(1.0, 0.1) {
@@ -111,7 +111,7 @@ pub fn sphere(bench: &mut Bench) -> Outcome {
         let (scene, camera) = under_a_sphere(radius, distance, degrees);
         tracer.set_scene(&scene)?;
         let quantity = format!("radius {radius}, distance {distance}, {degrees} degrees");
-        for estimator in Estimator::EVERY {
+        for estimator in Estimator::on_devices() {
             let seen_by_chance = (radius / distance).powi(2) > bench.trial.pick(0.2, 0.01);
             if estimator.samples_lights() || seen_by_chance {
                 bench.mean(&quantity, expected, (tracer, &camera), direct(estimator))?;
@@ -126,7 +126,7 @@ pub fn touching_wall(bench: &mut Bench) -> Outcome {
     let tracer = &mut bench.tracer(&known("light-touching-wall"))?;
     for (x, factor) in WALL {
         let camera = beside_the_wall(x);
-        for estimator in Estimator::EVERY {
+        for estimator in Estimator::on_devices() {
             if estimator.samples_lights() || factor > 0.1 || bench.trial.full() {
                 let quantity = format!("at {x} from the edge");
                 bench.mean(&quantity, 0.5 * factor, (tracer, &camera), direct(estimator))?;

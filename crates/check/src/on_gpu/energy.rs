@@ -9,7 +9,7 @@ use crate::energy::{
 use crate::hard::known;
 use crate::measure::farthest;
 use film::Film;
-use pathtrace::{Estimator, PathSettings, Roulette, WhittedSettings};
+use pathtrace::{Directions, Estimator, PathSettings, Roulette, WhittedSettings};
 use scene::Vec3;
 
 fn without_ambient(depth: u32) -> WhittedSettings {
@@ -59,7 +59,7 @@ pub fn closed_box(bench: &mut Bench) -> Outcome {
         walls.set_scene(&shining(diffuse.clone(), share, emission))?;
         reflecting.set_scene(&shining(mirrors.clone(), share, emission))?;
         let roulettes = [(Roulette::THROUGHPUT, "throughput"), (Roulette::constant(0.9), "constant .9")];
-        for estimator in estimators_of_walls(share) {
+        for estimator in estimators_of_walls(share).filter(|estimator| estimator.directions != Directions::Guided) {
             for (roulette, name) in roulettes.into_iter().take(if share > 0.5 { 1 } else { 2 }) {
                 let quantity = format!("mean, albedo {share}, roulette {name}");
                 let settings = with(estimator, None, roulette);

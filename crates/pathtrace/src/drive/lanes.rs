@@ -4,6 +4,7 @@
 //! Twins: `shaders/pathtrace/drive/pixels.wgsl`, where a thread has one pixel and its own loop, and, of the camera's rays,
 //! `shaders/pathtrace/camera.wgsl`.
 
+use crate::integrator::guide::guides::Guides;
 use crate::intersect::Rays;
 use crate::intersect::aggregate::lanes_of;
 use crate::prepared::{Outcomes, PreparedScene};
@@ -45,11 +46,14 @@ pub trait LanePlan: Sync {
 pub type Stop<'a> = dyn Fn() -> bool + Sync + 'a;
 
 /// A film to be filled, and what with.
+#[derive(Clone, Copy)]
 pub struct FilmJob<'a> {
     /// Ready for rays.
     pub scene: &'a PreparedScene,
     /// What stands in for physics where an integrator leaves it out.
     pub stand_ins: &'a FakeNumbers,
+    /// What earlier passes have learned of the scene.
+    pub guides: &'a Guides,
     /// What the processor works in.
     pub lanes: Lanes,
     /// Which samples of what.

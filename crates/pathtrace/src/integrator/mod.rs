@@ -7,6 +7,7 @@
 pub(crate) mod chain_state;
 mod connected;
 pub(crate) mod forks;
+pub(crate) mod guide;
 pub mod metropolis;
 pub mod normals;
 pub mod path;
@@ -97,16 +98,19 @@ impl Integrator {
     /// Fills a film on the processor.
     pub(crate) fn fill(&self, film: &mut Film, job: &FilmJob) -> Stats {
         match self {
-            Integrator::Path(settings) => job.fill(film, &path::Plan::new(settings)),
+            // none where the job was stopped while a guide was learned
+            Integrator::Path(settings) => {
+                path::Plan::of(settings, job).map(|plan| job.fill(film, &plan)).unwrap_or_default()
+            }
             Integrator::Whitted(settings) => job.fill(film, &whitted::Plan::new(settings, job.stand_ins)),
             Integrator::Metropolis(settings) => settings.fill(film, job),
             Integrator::Normals(settings) => job.fill(film, &normals::Plan::new(settings, &job.pass.frame)),
         }
     }
 
-    /// Whether a graphics device can run it, or the processor alone.
-    pub fn runs_on_a_device(&self) -> bool {
-        self.pipeline_key(false).is_some()
+    /// Why no graphics device can follow it, as a line for the user; `None` if one can.
+    pub fn needs_the_processor(&self) -> Option<&'static str> {
+        self.pipeline_key(false).err()
     }
 
     /// Whether a pixel's samples, and pixels, are independent of each other, so that their spread tells the error.
@@ -114,14 +118,16 @@ impl Integrator {
         self.sampler() == SamplerKind::Independent && !matches!(self, Integrator::Metropolis(_))
     }
 
-    /// Its shader on the graphics device, and what of the settings is compiled into it; all of it if `everything`. `None`
-    /// if it has none.
-    pub(crate) fn pipeline_key(&self, everything: bool) -> Option<PipelineKey> {
+    /// Its shader on the graphics device, and what of the settings is compiled into it; all of it if `everything`.
+    ///
+    /// # Errors
+    /// If it has none: why, as a line for the user.
+    pub(crate) fn pipeline_key(&self, everything: bool) -> Result<PipelineKey, &'static str> {
         match self {
-            Integrator::Path(settings) => Some(settings.pipeline_key(everything)),
-            Integrator::Whitted(settings) => Some(settings.pipeline_key()),
-            Integrator::Metropolis(_) => None,
-            Integrator::Normals(settings) => Some(settings.pipeline_key()),
+            Integrator::Path(settings) => settings.pipeline_key(everything),
+            Integrator::Whitted(settings) => Ok(settings.pipeline_key()),
+            Integrator::Metropolis(_) => Err("the chains of Metropolis run on the processor alone"),
+            Integrator::Normals(settings) => Ok(settings.pipeline_key()),
         }
     }
 

@@ -14,9 +14,12 @@
 use crate::bsdf::{BsdfSamples, Interactions, ScaledColours};
 use crate::drive::gpu::film_data::RenderParams;
 use crate::drive::gpu::{PipelineKey, flag};
-use crate::drive::lanes::{LaneIntegrator, LanePlan};
+use crate::drive::lanes::{FilmJob, LaneIntegrator, LanePlan};
 use crate::integrator::chain_state::ChainStates;
 use crate::integrator::forks::{Forks, MOST_FORKS, child};
+use crate::integrator::guide::Guide;
+use crate::integrator::guide::guidance::Guidance;
+use crate::integrator::guide::training::Notes;
 use crate::integrator::path_state::{ALREADY_COUNTED, DiffuseVertices, MET_BY_CHANCE, PathStates, balance};
 use crate::integrator::roulette::{SPARED_VERTICES, survivors};
 use crate::integrator::settings::{Directions, LightSampling, PathSettings, Roulette};
@@ -28,12 +31,13 @@ use crate::sampling::sampler::RandomNumbers;
 use crate::sampling::warp::{to_world, uniform_hemisphere};
 use scene::Vec3;
 use simd::{Column, Float, Mask, Vector, Word};
+use std::sync::Arc;
 
 /// Paths that one sample may branch into.
 pub const MOST_BRANCHES: u32 = 65_536;
 
 /// Settings as the walk reads them.
-pub struct Plan {
+pub struct Plan<'n> {
     pub(super) directions: Directions,
     pub(super) light: LightSampling,
     /// Whether lights that are sampled are connected to by way of spheres as well.
@@ -48,11 +52,33 @@ pub struct Plan {
     branching_vertices: u32,
     /// `branches` to the power of the vertices that branched.
     paths_after: Column,
+    /// Where light comes from, if that was learned.
+    guide: Option<Arc<Guide>>,
+    /// What is found is written here, for a guide to learn from.
+    notes: Option<&'n Notes>,
 }
 
-impl Plan {
-    /// Reads the settings.
-    pub fn new(settings: &PathSettings) -> Self {
+impl<'n> Plan<'n> {
+    /// Reads the settings, and learns what they ask for; `None` if the job is stopped meanwhile.
+    pub fn of(settings: &PathSettings, job: &FilmJob) -> Option<Self> {
+        Some(match settings.estimator.directions {
+            Directions::Guided => Self::guided_by(settings, job.guides.of(settings, job)?),
+            Directions::Uniform | Directions::Cosine => Self::new(settings),
+        })
+    }
+
+    /// With a guide that was learned.
+    pub fn guided_by(settings: &PathSettings, guide: Arc<Guide>) -> Self {
+        Plan { guide: Some(guide), ..Self::new(settings) }
+    }
+
+    /// For paths that write down what they find.
+    pub fn that_teaches(settings: &PathSettings, notes: &'n Notes) -> Self {
+        Plan { notes: Some(notes), ..Self::new(settings) }
+    }
+
+    /// Reads the settings; without a guide, paths that ask for one are not guided.
+    pub(super) fn new(settings: &PathSettings) -> Self {
         let branches = settings.branches.max(1);
         let forks = 0..=MOST_FORKS as i32;
         Plan {
@@ -65,12 +91,17 @@ impl Plan {
             branches,
             branching_vertices: settings.branching_vertices().min(MOST_FORKS as u32),
             paths_after: Column::new(forks.map(|forks| (branches as f32).powi(forks))),
+            guide: None,
+            notes: None,
         }
     }
 }
 
-impl LanePlan for Plan {
-    type LaneState<'a, F: Float> = PathLanes<'a, F>;
+impl LanePlan for Plan<'_> {
+    type LaneState<'a, F: Float>
+        = PathLanes<'a, F>
+    where
+        Self: 'a;
 
     #[inline(always)]
     fn lane_state<'a, F: Float>(&'a self, scene: &'a PreparedScene) -> PathLanes<'a, F> {
@@ -84,7 +115,10 @@ pub(crate) const BY_SAMPLING: u32 = 1;
 pub(crate) const BY_BOTH: u32 = 2;
 
 impl PathSettings {
-    pub(super) fn pipeline_key(&self, everything: bool) -> PipelineKey {
+    pub(super) fn pipeline_key(&self, everything: bool) -> Result<PipelineKey, &'static str> {
+        if self.estimator.directions == Directions::Guided {
+            return Err("a guide of paths is learned and followed by the processor alone");
+        }
         let light_sampling = match self.estimator.light {
             LightSampling::BsdfOnly => BY_CHANCE,
             LightSampling::NextEvent => BY_SAMPLING,
@@ -95,7 +129,7 @@ impl PathSettings {
             ("LIGHT_SAMPLING", f64::from(light_sampling)),
             ("BRANCHING", flag(self.branches > 1 || everything)),
         ];
-        PipelineKey::new("pathtrace/integrator/path.wgsl", self.sampler, &constants)
+        Ok(PipelineKey::new("pathtrace/integrator/path.wgsl", self.sampler, &constants))
     }
 
     pub(super) fn render_params(&self, params: RenderParams) -> RenderParams {
@@ -114,7 +148,7 @@ impl PathSettings {
 /// Paths, where they walk and what they bring.
 pub struct PathLanes<'a, F: Float> {
     pub(super) scene: &'a PreparedScene,
-    pub(super) plan: &'a Plan,
+    pub(super) plan: &'a Plan<'a>,
     pub(super) path: PathStates<F>,
     /// Whether there is what connections go by, and light to connect to.
     pub(super) connecting: bool,
@@ -125,6 +159,7 @@ pub struct PathLanes<'a, F: Float> {
     forks: Forks<F>,
     pub(super) scratch: Scratch<F>,
     outcome: Outcomes<F>,
+    guidance: Guidance<'a, F>,
     /// Rays traced.
     pub(super) rays: u64,
 }
@@ -181,8 +216,13 @@ impl<'a, F: Float, S: RandomNumbers<F::U>> LaneIntegrator<F, S> for PathLanes<'a
         }
         let has = self.scene.materials.has();
         let delta = if has.mirrors | has.glass { vertex.is_delta() } else { F::M::splat(false) };
+        let before = self.path.throughput;
         let alive = self.goes_on(scattering, delta, u[2]);
         let ended = taken & !alive;
+        if self.guidance.learns() {
+            let carried = [before, self.path.throughput];
+            self.guidance.note([scattering, ended], carried, self.outcome.radiance, sampler.pixel_and_sample());
+        }
         if self.plan.branching_vertices > 0 {
             self.resumed = self.forks.next(ended, self.plan.branches, &mut self.vertex, &mut self.path);
             return ended & !self.resumed;
@@ -203,7 +243,7 @@ impl<'a, F: Float, S: RandomNumbers<F::U>> LaneIntegrator<F, S> for PathLanes<'a
 impl<'a, F: Float> PathLanes<'a, F> {
     /// No path yet.
     #[inline(always)]
-    pub fn new(scene: &'a PreparedScene, plan: &'a Plan) -> Self {
+    pub fn new(scene: &'a PreparedScene, plan: &'a Plan<'a>) -> Self {
         let zero = Vector::zero();
         PathLanes {
             scene,
@@ -216,6 +256,7 @@ impl<'a, F: Float> PathLanes<'a, F> {
             forks: Forks::default(),
             scratch: Scratch::new(scene.aggregate.shape_list()),
             outcome: Outcomes { radiance: zero, cut: F::M::splat(false) },
+            guidance: Guidance::new(plan.guide.as_deref(), plan.notes),
             rays: 0,
         }
     }
@@ -258,6 +299,7 @@ impl<'a, F: Float> PathLanes<'a, F> {
         let delta = at.is_delta();
         let uniform = self.plan.directions == Directions::Uniform;
         let choosing = here & !delta;
+        let u = self.guidance.bend(choosing & at.is_diffuse(), at, u);
         if self.plan.light != LightSampling::BsdfOnly && !self.scene.lights.is_empty() && choosing.any() {
             self.sample_lights(choosing, at, sampler.unit4(self.path.light_dimension()));
             if self.connecting {
@@ -271,6 +313,12 @@ impl<'a, F: Float> PathLanes<'a, F> {
             throughput = Vector::select(delta, throughput, weight.times(self.path.throughput));
             sample = BsdfSamples::select(delta, sample, drawn);
         }
+        let mut guided = self.path.guided;
+        if let Some(ratio) = self.guidance.ratio() {
+            throughput = throughput.divided_by(ratio);
+            sample.pdf = sample.pdf * ratio;
+            guided = guided * ratio;
+        }
         let direction_pdf = match self.plan.light {
             LightSampling::BsdfOnly => F::splat(MET_BY_CHANCE),
             LightSampling::NextEvent => F::select(delta, F::splat(MET_BY_CHANCE), F::splat(ALREADY_COUNTED)),
@@ -281,7 +329,7 @@ impl<'a, F: Float> PathLanes<'a, F> {
             self.chain.scatter(here & delta, at, sample.wi, self.scene.casters.materials());
         }
         let rays = Rays::new(at.point.leaving_towards(sample.wi), sample.wi);
-        self.path = PathStates { rays, throughput, from: at.point.position, direction_pdf, ..self.path };
+        self.path = PathStates { rays, throughput, from: at.point.position, direction_pdf, guided, ..self.path };
     }
 
     /// Directions of the tutorial's naive tracer, whatever the surface (Task 2 b), and their weights.
@@ -313,8 +361,15 @@ impl<'a, F: Float> PathLanes<'a, F> {
         if self.plan.branching_vertices > 0 {
             branches = path.forked.look_up(&self.plan.paths_after);
         }
+        // the guide's choices are no reason to end: only what the surfaces have taken is
+        branches = branches * path.guided;
         let (survives, throughput) = survivors(path.throughput, branches, spared, self.plan.roulette, u_roulette);
-        path.throughput = throughput;
+        let before = std::mem::replace(&mut path.throughput, throughput);
+        if self.plan.guide.is_some() {
+            let carried = Vector::select(survives, path.throughput, Vector::zero());
+            let made_up = self.guidance.made_up_for(alive, before - carried);
+            self.outcome.radiance = self.outcome.radiance + made_up;
+        }
         alive & survives
     }
 
@@ -344,6 +399,7 @@ impl<'a, F: Float> PathLanes<'a, F> {
     pub(super) fn direction_pdf(&self, at: &Interactions<F>, wi: Vector<F>, cosine: F) -> F {
         match self.plan.directions {
             Directions::Cosine => self.scene.materials.pdf(at, wi, cosine),
+            Directions::Guided => self.guidance.pdf(at, wi, self.scene.materials.pdf(at, wi, cosine)),
             Directions::Uniform => F::splat(UNIFORM_HEMISPHERE_PDF),
         }
     }

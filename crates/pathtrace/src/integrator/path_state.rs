@@ -22,6 +22,8 @@ pub struct PathStates<F: Float> {
     /// Density per solid angle of the direction taken there, as far as the light met now needs it: [`MET_BY_CHANCE`] if
     /// it all counts, [`ALREADY_COUNTED`] if it does not, else weighted against light sampling.
     pub direction_pdf: F,
+    /// How many times as dense as without a guide its directions were drawn, all together.
+    pub guided: F,
 }
 
 /// No light was sampled at the last vertex, or none could be: the camera, a mirror, glass.
@@ -55,6 +57,7 @@ impl<F: Float> PathStates<F> {
             branch: none,
             from: rays.origin,
             direction_pdf: F::splat(MET_BY_CHANCE),
+            guided: F::splat(1.0),
         }
     }
 
@@ -75,6 +78,7 @@ impl<F: Float> PathStates<F> {
             branch: F::U::select(mask, yes.branch, no.branch),
             from: Vector::select(mask, yes.from, no.from),
             direction_pdf: F::select(mask, yes.direction_pdf, no.direction_pdf),
+            guided: F::select(mask, yes.guided, no.guided),
         }
     }
 

@@ -13,6 +13,9 @@ pub enum Directions {
     Uniform,
     /// Proportional to BSDF times cosine, which for Lambert's law is the cosine: density `cos / pi`.
     Cosine,
+    /// Where a guide says that light comes from, which was learned from some paths before; see
+    /// [`crate::integrator::guide`]. On the processor alone.
+    Guided,
 }
 
 /// How light is found.
@@ -53,12 +56,27 @@ impl Estimator {
     pub const UNIFORM_LIGHT: Self = Estimator { directions: Directions::Uniform, light: LightSampling::NextEvent };
     /// Light sampled and met, weighted; uniform directions.
     pub const UNIFORM_MIS: Self = Estimator { directions: Directions::Uniform, light: LightSampling::Mis };
+    /// Light sampled; indirect light from where a guide has learned that it comes from.
+    pub const GUIDED: Self = Estimator { directions: Directions::Guided, light: LightSampling::NextEvent };
+    /// Light sampled and met, weighted; guided directions.
+    pub const GUIDED_MIS: Self = Estimator { directions: Directions::Guided, light: LightSampling::Mis };
+    /// Guided directions, light by chance: what a guide finds without being told where the lights are.
+    pub const GUIDED_CHANCE: Self = Estimator { directions: Directions::Guided, light: LightSampling::BsdfOnly };
 
     /// The usual ones, in the order of the lecture.
-    pub const ALL: [Self; 4] = [Self::UNIFORM, Self::COSINE, Self::LIGHT, Self::MIS];
+    pub const ALL: [Self; 5] = [Self::UNIFORM, Self::COSINE, Self::LIGHT, Self::MIS, Self::GUIDED];
     /// Every pair.
-    pub const EVERY: [Self; 6] =
-        [Self::UNIFORM, Self::COSINE, Self::LIGHT, Self::MIS, Self::UNIFORM_LIGHT, Self::UNIFORM_MIS];
+    pub const EVERY: [Self; 9] = [
+        Self::UNIFORM,
+        Self::COSINE,
+        Self::LIGHT,
+        Self::MIS,
+        Self::UNIFORM_LIGHT,
+        Self::UNIFORM_MIS,
+        Self::GUIDED,
+        Self::GUIDED_MIS,
+        Self::GUIDED_CHANCE,
+    ];
 
     /// The name on the command line and in the window.
     pub fn name(self) -> &'static str {
@@ -69,6 +87,9 @@ impl Estimator {
             (Directions::Cosine, LightSampling::Mis) => "mis",
             (Directions::Uniform, LightSampling::NextEvent) => "uniform-light",
             (Directions::Uniform, LightSampling::Mis) => "uniform-mis",
+            (Directions::Guided, LightSampling::NextEvent) => "guided",
+            (Directions::Guided, LightSampling::Mis) => "guided-mis",
+            (Directions::Guided, LightSampling::BsdfOnly) => "guided-chance",
         }
     }
 
@@ -81,6 +102,11 @@ impl Estimator {
     /// alone hardly ever hits it.
     pub fn usual_for(needs: &Needs) -> Self {
         if needs.rough_conductor { Self::MIS } else { Self::default() }
+    }
+
+    /// Those that graphics devices know too.
+    pub fn on_devices() -> impl Iterator<Item = Self> {
+        Self::EVERY.into_iter().filter(|estimator| estimator.directions != Directions::Guided)
     }
 
     /// Whether area lights, point lights and sun are sampled.
@@ -166,6 +192,9 @@ pub enum SettingsError {
     /// No direction at all.
     #[error("a vertex needs at least one direction")]
     NoBranch,
+    /// Chains cannot follow a guide, which is learned pixel by pixel.
+    #[error("a guide is learned for paths, not for chains: choose another estimator than {0}")]
+    GuidedChains(&'static str),
     /// A probability outside (0, 1].
     #[error("a path survives with a probability above 0 and at most 1, not {0}")]
     Probability(f32),

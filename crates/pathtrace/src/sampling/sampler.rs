@@ -64,12 +64,22 @@ impl Sampler {
 pub trait RandomNumbers<U: Word> {
     /// Four floats in [0, 1) for the block `dimension`; the same ones however often a path asks.
     fn unit4(&self, dimension: U) -> [U::F; 4];
+
+    /// The pixel that they are for, and which of its samples: zeros where paths belong to no pixel.
+    fn pixel_and_sample(&self) -> [U; 2] {
+        [U::splat(0); 2]
+    }
 }
 
 impl<U: Word> RandomNumbers<U> for Sampler<U> {
     #[inline(always)]
     fn unit4(&self, dimension: U) -> [U::F; 4] {
         self.unit4(dimension)
+    }
+
+    #[inline(always)]
+    fn pixel_and_sample(&self) -> [U; 2] {
+        [self.pixel, self.sample]
     }
 }
 

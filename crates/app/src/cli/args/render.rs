@@ -303,10 +303,10 @@ fn parse_words(words: Vec<OsString>, scene: Option<String>) -> Result<Command, C
         return usage(format!("--technique {} runs on the gpu only", technique.name()));
     }
     if let Technique::Traced(traced) = args.pane.in_use()
-        && !traced.integrator.runs_on_a_device()
+        && let Some(why) = traced.integrator.needs_the_processor()
         && args.device == DeviceChoice::Gpu
     {
-        return usage(format!("--technique {} runs on the cpu only", technique.name()));
+        return usage(format!("--device gpu: {why}"));
     }
     // only the processor has lanes
     if args.device == DeviceChoice::Auto && is_given("--lanes") {

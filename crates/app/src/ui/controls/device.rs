@@ -9,9 +9,10 @@ use technique::{Device, DeviceChoice, Technique};
 pub fn show(cx: &mut UiContext, pane: PaneId, ui: &mut Ui) {
     let Some(best) = cx.model.adapters.0.first() else { return };
     let settings = &mut cx.model.session.panes[pane];
-    if matches!(settings.in_use(), Technique::Traced(traced) if !traced.integrator.runs_on_a_device()) {
-        let text = format!("{} runs on the CPU only", settings.technique.title());
-        cx.dump.note(&format!("text {pane} device"), &text, ui.label(&text));
+    if let Technique::Traced(traced) = settings.in_use()
+        && let Some(why) = traced.integrator.needs_the_processor()
+    {
+        cx.dump.note(&format!("text {pane} device"), why, ui.label(why));
         return;
     }
     ui.label("Rays are traced by");

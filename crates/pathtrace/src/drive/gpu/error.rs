@@ -20,12 +20,6 @@ pub enum GpuTraceError {
         /// What there is too much of: "triangles".
         what: &'static str,
     },
-    /// The integrator has no shader.
-    #[error("{integrator} runs on the CPU only")]
-    NoShader {
-        /// Its name on the command line.
-        integrator: &'static str,
-    },
     /// A device without compute shaders, or with too few bindings.
     #[error("{adapter} can't path trace: it has {has} {what}, and {needs} are needed; render on the CPU")]
     Unable {
@@ -38,6 +32,9 @@ pub enum GpuTraceError {
         /// How many it takes.
         needs: u32,
     },
+    /// What no device can follow.
+    #[error("{0}: render it on the CPU")]
+    ForTheProcessor(&'static str),
     /// The film does not fit into memory.
     #[error("not enough memory for {width} x {height} pixels: ask for a smaller picture")]
     Memory {

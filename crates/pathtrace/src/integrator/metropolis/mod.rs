@@ -20,7 +20,7 @@ mod walk;
 
 use crate::drive::lanes::FilmJob;
 use crate::integrator::path::Plan;
-use crate::integrator::settings::{PathSettings, SettingsError};
+use crate::integrator::settings::{Directions, PathSettings, SettingsError};
 use crate::sampling::rng::{pcg4d, unit_float};
 use crate::sampling::sampler::Sampler;
 use crate::stats::{ChainStats, Stats};
@@ -64,6 +64,10 @@ impl Default for MetropolisSettings {
 
 impl MetropolisSettings {
     pub(super) fn check(&self) -> Result<(), SettingsError> {
+        let estimator = self.path.estimator;
+        if estimator.directions == Directions::Guided {
+            return Err(SettingsError::GuidedChains(estimator.name()));
+        }
         self.path.check()
     }
 
@@ -101,7 +105,7 @@ impl MetropolisSettings {
 struct Run<'a> {
     settings: &'a MetropolisSettings,
     job: &'a FilmJob<'a>,
-    plan: &'a Plan,
+    plan: &'a Plan<'a>,
     splats: &'a Splats,
     number: u32,
 }

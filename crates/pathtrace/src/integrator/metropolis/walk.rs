@@ -22,7 +22,7 @@ pub struct Walk<'a> {
     /// Ready for rays.
     pub scene: &'a PreparedScene,
     /// How paths walk.
-    pub plan: &'a Plan,
+    pub plan: &'a Plan<'a>,
     /// What the camera sees.
     pub frame: &'a PictureFrame,
     /// Width and height.

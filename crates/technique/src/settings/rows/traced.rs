@@ -115,9 +115,20 @@ pub const ROWS: &[Setting<PaneSettings>] = &[
     Setting {
         name: "estimator",
         of: PATHS,
-        kind: Kind::Choice(&["uniform", "cosine", "light", "mis", "uniform-light", "uniform-mis"]),
+        kind: Kind::Choice(&[
+            "uniform",
+            "cosine",
+            "light",
+            "mis",
+            "uniform-light",
+            "uniform-mis",
+            "guided",
+            "guided-mis",
+            "guided-chance",
+        ]),
         default: Some(Value::Word("light")),
-        help: "directions uniform or cosine-weighted, light found by chance, by sampling or by both, weighted; \
+        help: "directions uniform, cosine-weighted or guided by what some paths before have found (by the processor), light found by \
+               chance, by sampling or by both, weighted; \
                without it mis where there is rough metal",
         always_recorded: true,
         get: |pane| Some(Value::Word(path_of(pane).estimator.name())),
@@ -131,6 +142,7 @@ pub const ROWS: &[Setting<PaneSettings>] = &[
                 ("cosine", "Directions cosine-weighted, light found by chance"),
                 ("light", "Light sampled at every vertex, indirect light cosine-weighted"),
                 ("mis", "Light sampled and met by chance, weighted; cosine-weighted directions"),
+                ("guided", "Light sampled; directions as 130 000 paths before have learned where light comes from"),
             ]),
             ..BLANK
         },
