@@ -9,7 +9,7 @@ use crate::caster::Casters;
 use crate::intersect::aggregate::Aggregate;
 use crate::intersect::shape_list::Scratch;
 use crate::intersect::{Intersections, NO_LIGHT, Rays, SHADOW_END, SurfacePoints};
-use crate::light::{LightSamples, Lights, SunDisc};
+use crate::light::{Emitters, LightSamples, Lights, SunDisc};
 use crate::vectors::in_all_lanes;
 use scene::Vec3;
 use simd::{Float, Vector, Word};
@@ -30,6 +30,8 @@ pub struct PreparedScene {
     pub sun_disc: Option<SunDisc>,
     /// Density per solid angle with which the sun's disc is sampled.
     pub sun_pdf: f32,
+    /// What sends out photons.
+    pub emitters: Emitters,
 }
 
 /// What stands for the light that a shadow ray goes to, where it goes to none: of no surface, not even of one that is no

@@ -10,7 +10,7 @@ use crate::integrator::{guide::Guide, path::Plan, settings::PathSettings};
 use crate::intersect::Accel;
 use crate::intersect::aggregate::Aggregate;
 use crate::intersect::contact::held_apart;
-use crate::light::{Lights, SunDisc};
+use crate::light::{Emitters, Lights, SunDisc};
 use crate::prepared::PreparedScene;
 use crate::stats::Stats;
 use film::Film;
@@ -39,6 +39,7 @@ impl Tracer {
                 sun_disc: scene.sun.as_ref().and_then(SunDisc::new),
                 sun_pdf: lights.sun_pdf(),
                 casters: Casters::new(scene),
+                emitters: Emitters::new(scene, &lights),
                 lights,
             },
             stand_ins: scene.fake,

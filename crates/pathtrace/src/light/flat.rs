@@ -59,6 +59,18 @@ impl Flat {
         Flat { outline: Outline::Triangle, corner: a, edge_u, edge_v, normal, area: (0.5 * doubled) as f32 }
     }
 
+    /// How far along its edges the uniform point lies that two numbers choose.
+    pub fn place(&self, u: [f32; 2]) -> [f32; 2] {
+        match self.outline {
+            Outline::Parallelogram | Outline::Rectangle => u,
+            Outline::Triangle => {
+                let [_, s, t] = warp::triangle(u);
+                [s, t]
+            }
+            Outline::Disk => warp::disk(u),
+        }
+    }
+
     /// A disk with its unit normal. Its radii in f64: each component shall be right for itself.
     pub fn disk(center: Vec3, normal: Vec3, radius: f32) -> Self {
         let exact = normal.as_dvec3().normalize();

@@ -3,12 +3,14 @@
 //! density of doing so, as MIS needs it.
 
 pub(crate) mod ball;
+mod emission;
 mod environment;
 pub(crate) mod flat;
 mod spherical_rectangle;
 mod sun;
 mod table;
 
+pub use emission::{EmissionChoice, Emitted, Emitters};
 pub use environment::{Environment, EnvironmentSamples};
 pub use spherical_rectangle::SphericalRectangle;
 pub use sun::SunDisc;
