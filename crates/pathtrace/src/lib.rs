@@ -29,6 +29,9 @@ mod vectors;
 pub use integrator::Integrator;
 pub use integrator::metropolis::MetropolisSettings;
 pub use integrator::normals::{NormalsSettings, Space};
+pub use integrator::photon::{
+    DirectLight, LightTracingSettings, MOST_PHOTONS, PhotonSettings, USUAL_PHOTONS, usual_radius,
+};
 pub use integrator::settings::{Directions, Estimator, LightSampling, PathSettings, Roulette, SettingsError};
 pub use integrator::whitted::{GlassShadows, WhittedSettings};
 pub use replicates::{FEWEST_REPLICATES, estimate_with_replicates};

@@ -32,6 +32,8 @@ pub struct PreparedScene {
     pub sun_pdf: f32,
     /// What sends out photons.
     pub emitters: Emitters,
+    /// The radius of photon maps if nobody says otherwise.
+    pub photon_radius: f32,
 }
 
 /// What stands for the light that a shadow ray goes to, where it goes to none: of no surface, not even of one that is no

@@ -5,6 +5,7 @@ use crate::caster::Casters;
 use crate::drive::lanes::{FilmJob, FilmPass, Stop};
 use crate::integrator::Integrator;
 use crate::integrator::guide::{cells::Cells, guides::Guides};
+use crate::integrator::photon::usual_radius;
 #[cfg(test)]
 use crate::integrator::{guide::Guide, path::Plan, settings::PathSettings};
 use crate::intersect::Accel;
@@ -40,6 +41,7 @@ impl Tracer {
                 sun_pdf: lights.sun_pdf(),
                 casters: Casters::new(scene),
                 emitters: Emitters::new(scene, &lights),
+                photon_radius: usual_radius(scene),
                 lights,
             },
             stand_ins: scene.fake,
@@ -85,6 +87,12 @@ impl Tracer {
     /// The shapes, ready for rays in lanes.
     pub fn aggregate(&self) -> &Aggregate {
         &self.scene.aggregate
+    }
+
+    /// The scene as integrators ask it.
+    #[cfg(test)]
+    pub(crate) fn prepared(&self) -> &PreparedScene {
+        &self.scene
     }
 
     /// What is sampled as a light.

@@ -23,6 +23,10 @@ pub enum BlindSpot {
     BetweenSurfaces,
     /// Whitted's method: what mirrors and glass send to surfaces, whether or not light passes glass straight on.
     Caustics,
+    /// Photon maps: what is finer than the radius in which photons are gathered.
+    BlurredLight,
+    /// Light tracing: what is seen in mirrors or through glass.
+    InSpeculars(Specular),
     /// Lights in smooth rough metal, where light sampling alone has to hit the reflection.
     NarrowReflections,
 }
@@ -77,6 +81,9 @@ impl BlindSpot {
             BlindSpot::LongPaths(bounces) => format!("light after more than {bounces} bounces (biased)"),
             BlindSpot::BetweenSurfaces => "light between surfaces".into(),
             BlindSpot::Caustics => "caustics".into(),
+            BlindSpot::BlurredLight => "light finer than the radius (biased)".into(),
+            BlindSpot::InSpeculars(Specular::Glass) => "what glass and mirrors show".into(),
+            BlindSpot::InSpeculars(Specular::Mirror) => "what mirrors show".into(),
             BlindSpot::NarrowReflections => "most light in narrow reflections".into(),
         }
     }
@@ -99,6 +106,12 @@ impl BlindSpot {
             BlindSpot::LongPaths(_) => return None,
             BlindSpot::BetweenSurfaces => "light from one surface on another is missing: ambient light stands for it",
             BlindSpot::Caustics => "mirrors and glass send no light on to surfaces: caustics are missing",
+            BlindSpot::BlurredLight => {
+                "photons are gathered over a disc: light is blurred, and too dark at edges, less with each pass"
+            }
+            BlindSpot::InSpeculars(_) => {
+                "mirrors and glass are black: a photon that leaves them hits the pinhole by no chance"
+            }
             BlindSpot::NarrowReflections => {
                 "smooth rough metal is noise without mis: light in a narrow reflection is hardly ever found"
             }
@@ -128,6 +141,11 @@ impl TracedSettings {
             Integrator::Path(path) => of_paths(&path, scene, self.sees_a_delta_sun(scene)),
             Integrator::Metropolis(chains) => of_paths(&chains.path, scene, self.sees_a_delta_sun(scene)),
             Integrator::Whitted(_) => of_trees(&scene.needs()),
+            Integrator::Photon(photon) if photon.points => Vec::new(),
+            Integrator::Photon(_) => vec![BlindSpot::BlurredLight],
+            Integrator::LightTracing(_) => {
+                Specular::of(&scene.needs()).map(BlindSpot::InSpeculars).into_iter().collect()
+            }
             Integrator::Normals(_) => Vec::new(),
         }
     }
@@ -137,6 +155,7 @@ impl TracedSettings {
         let path = match self.integrator {
             Integrator::Path(path) => path,
             Integrator::Metropolis(_) => return Some(NoiseSource::Chains),
+            Integrator::Photon(_) | Integrator::LightTracing(_) => return None,
             Integrator::Whitted(_) | Integrator::Normals(_) => return None,
         };
         let needs = scene.needs();
@@ -262,6 +281,21 @@ mod tests {
             let dull = missing(&trees, &builtin::named("cornell").unwrap());
             assert_eq!(dull, ["light between surfaces"], "{glass_shadows:?}: nothing is specular there");
         }
+    }
+
+    #[test]
+    fn photons_blur_light_and_a_pinhole_sees_them_in_no_mirror() {
+        let (delta, cornell) = (under_a_sun_of_radius(0.0), builtin::named("cornell").unwrap());
+        let mut photon = traced(TechniqueName::Photon);
+        assert_eq!(missing(&photon, &delta), ["light finer than the radius (biased)"], "its caustic is there");
+        if let Integrator::Photon(settings) = &mut photon.integrator {
+            settings.points = true;
+        }
+        assert_eq!(missing(&photon, &delta), [""; 0], "points are no light");
+        let light = traced(TechniqueName::LightTracing);
+        assert_eq!(missing(&light, &delta), ["what glass and mirrors show"]);
+        assert_eq!(missing(&light, &cornell), [""; 0]);
+        assert_eq!(light.noise_source(&delta), None);
     }
 
     #[test]

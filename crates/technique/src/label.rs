@@ -14,6 +14,9 @@ impl Technique {
             Technique::Traced(traced) => match traced.integrator {
                 Integrator::Path(path) => path.estimator.name().to_owned(),
                 Integrator::Whitted(tree) => format!("depth {}", tree.depth),
+                Integrator::Photon(photon) if photon.points => "points".into(),
+                Integrator::Photon(photon) => format!("{} photons a pass", photon.photons),
+                Integrator::LightTracing(light) => format!("{} photons a pass", light.photons),
                 Integrator::Metropolis(metropolis) => format!("{} chains", metropolis.chains),
                 Integrator::Normals(normals) => format!("{} axes", normals.space.name()),
             },
@@ -92,6 +95,20 @@ mod tests {
         assert_eq!(path.label_beside(&fake, &scene), "Path tracing, light");
         assert_eq!(whitted.label_beside(&path, &scene), "Whitted, depth 8");
         assert_eq!(normals.label_beside(&path, &scene), "Normals, world axes");
+    }
+
+    #[test]
+    fn photons_are_told_by_their_number_and_by_what_they_show() {
+        let points = ("photon-picture", "points");
+        let shown = labels("whitted", TechniqueName::Photon, [&[points], &[]]);
+        assert_eq!(shown, ["Photon mapping, points", "Photon mapping, light"]);
+        assert_eq!(with(TechniqueName::Photon, &[points]).label(), "Photon mapping, points");
+        let radii = labels("whitted", TechniqueName::Photon, [&[("radius", "0.1")], &[("alpha", "0.5")]]);
+        assert_eq!(radii, ["Photon mapping, radius 0.1, alpha 0.667", "Photon mapping, radius 0.273, alpha 0.5"]);
+        let hidden = labels("whitted", TechniqueName::Photon, [&[points, ("radius", "0.1")], &[points]]);
+        assert_eq!(hidden, ["Photon mapping, points"; 2], "points are gathered within no radius");
+        let light = with(TechniqueName::LightTracing, &[("photons", "1024")]);
+        assert_eq!(light.label(), "Light tracing, 1024 photons a pass");
     }
 
     #[test]

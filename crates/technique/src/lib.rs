@@ -41,7 +41,8 @@ pub use setup::PaneSetup;
 pub use shot::{SceneChanges, Shot};
 pub use threads::{Rank, Threads};
 pub use traced::{
-    ChainSettings, NormalsPaneSettings, TracedSettings, TreeSettings, TruthSettings, bounces_name, roulette_name,
+    ChainSettings, LightPaneSettings, NormalsPaneSettings, PhotonPaneSettings, TracedSettings, TreeSettings,
+    TruthSettings, bounces_name, roulette_name,
 };
 
 use pathtrace::Integrator;
@@ -55,6 +56,10 @@ pub enum TechniqueName {
     Whitted,
     /// Path tracing, which without limits tends to the truth.
     Path,
+    /// Photons from the lights, gathered where the camera looks.
+    Photon,
+    /// Photons from the lights, sent on to the camera.
+    LightTracing,
     /// Chains of paths, each from the last by a mutation.
     Metropolis,
     /// The normals of what is seen.
@@ -63,13 +68,21 @@ pub enum TechniqueName {
 
 impl TechniqueName {
     /// Those that show light, in the order of the lecture.
-    pub const OF_LIGHT: [TechniqueName; 4] =
-        [TechniqueName::Raster, TechniqueName::Whitted, TechniqueName::Path, TechniqueName::Metropolis];
-    /// Every technique: those that show light, then the normals.
-    pub const ALL: [TechniqueName; 5] = [
+    pub const OF_LIGHT: [TechniqueName; 6] = [
         TechniqueName::Raster,
         TechniqueName::Whitted,
         TechniqueName::Path,
+        TechniqueName::Photon,
+        TechniqueName::LightTracing,
+        TechniqueName::Metropolis,
+    ];
+    /// Every technique: those that show light, then the normals.
+    pub const ALL: [TechniqueName; 7] = [
+        TechniqueName::Raster,
+        TechniqueName::Whitted,
+        TechniqueName::Path,
+        TechniqueName::Photon,
+        TechniqueName::LightTracing,
         TechniqueName::Metropolis,
         TechniqueName::Normals,
     ];
@@ -80,6 +93,8 @@ impl TechniqueName {
             TechniqueName::Raster => "raster",
             TechniqueName::Whitted => "whitted",
             TechniqueName::Path => "path",
+            TechniqueName::Photon => "photon",
+            TechniqueName::LightTracing => "light-tracing",
             TechniqueName::Metropolis => "metropolis",
             TechniqueName::Normals => "normals",
         }
@@ -96,6 +111,8 @@ impl TechniqueName {
             TechniqueName::Raster => "Fake",
             TechniqueName::Whitted => "Whitted",
             TechniqueName::Path => "Path",
+            TechniqueName::Photon => "Photons",
+            TechniqueName::LightTracing => "Light",
             TechniqueName::Metropolis => "Metropolis",
             TechniqueName::Normals => "Normals",
         }
@@ -105,6 +122,8 @@ impl TechniqueName {
     pub fn in_full(self) -> &'static str {
         match self {
             TechniqueName::Path => "Path tracing",
+            TechniqueName::Photon => "Photon mapping",
+            TechniqueName::LightTracing => "Light tracing",
             other => other.title(),
         }
     }
@@ -113,7 +132,11 @@ impl TechniqueName {
     pub fn reads_stand_ins(self) -> bool {
         match self {
             TechniqueName::Raster | TechniqueName::Whitted => true,
-            TechniqueName::Path | TechniqueName::Metropolis | TechniqueName::Normals => false,
+            TechniqueName::Path
+            | TechniqueName::Photon
+            | TechniqueName::LightTracing
+            | TechniqueName::Metropolis
+            | TechniqueName::Normals => false,
         }
     }
 
@@ -121,9 +144,12 @@ impl TechniqueName {
     pub fn usual_device(self) -> Device {
         match self {
             TechniqueName::Raster => Device::Gpu,
-            TechniqueName::Whitted | TechniqueName::Path | TechniqueName::Metropolis | TechniqueName::Normals => {
-                Device::Cpu
-            }
+            TechniqueName::Whitted
+            | TechniqueName::Path
+            | TechniqueName::Photon
+            | TechniqueName::LightTracing
+            | TechniqueName::Metropolis
+            | TechniqueName::Normals => Device::Cpu,
         }
     }
 }
@@ -145,17 +171,26 @@ impl Technique {
             Technique::Traced(traced) => match traced.integrator {
                 Integrator::Whitted(_) => TechniqueName::Whitted,
                 Integrator::Path(_) => TechniqueName::Path,
+                Integrator::Photon(_) => TechniqueName::Photon,
+                Integrator::LightTracing(_) => TechniqueName::LightTracing,
                 Integrator::Metropolis(_) => TechniqueName::Metropolis,
                 Integrator::Normals(_) => TechniqueName::Normals,
             },
         }
     }
 
-    /// Whether it shows the scene's light, so that its error means something; a shadow map does not.
+    /// Whether it shows the scene's light, so that its error means something; a shadow map does not, nor do points.
     pub fn shows_the_scene(&self) -> bool {
         match self {
             Technique::Fake(fake) => fake.shows_the_scene(),
-            Technique::Traced(traced) => !matches!(traced.integrator, Integrator::Normals(_)),
+            Technique::Traced(traced) => match traced.integrator {
+                Integrator::Photon(photon) => !photon.points,
+                Integrator::Path(_)
+                | Integrator::Whitted(_)
+                | Integrator::LightTracing(_)
+                | Integrator::Metropolis(_) => true,
+                Integrator::Normals(_) => false,
+            },
         }
     }
 }

@@ -1,8 +1,8 @@
 //! What a pane of the viewer or one call of `visavis render` is set to.
 
 use crate::{
-    ChainSettings, DeviceChoice, FakeSettings, NormalsPaneSettings, Technique, TechniqueName, TracedSettings,
-    TreeSettings, TruthSettings,
+    ChainSettings, DeviceChoice, FakeSettings, LightPaneSettings, NormalsPaneSettings, PhotonPaneSettings, Technique,
+    TechniqueName, TracedSettings, TreeSettings, TruthSettings,
 };
 use pathtrace::Estimator;
 use scene::Scene;
@@ -22,6 +22,10 @@ pub struct PaneSettings {
     pub whitted: TreeSettings,
     /// The settings of path tracing.
     pub truth: TruthSettings,
+    /// The settings of photon mapping.
+    pub photon: PhotonPaneSettings,
+    /// The settings of light tracing.
+    pub light: LightPaneSettings,
     /// The settings of Metropolis' chains.
     pub metropolis: ChainSettings,
     /// The settings of a picture of normals.
@@ -38,6 +42,8 @@ impl PaneSettings {
             fake: FakeSettings::default(),
             whitted: TreeSettings::default(),
             truth: TruthSettings::default(),
+            photon: PhotonPaneSettings::default(),
+            light: LightPaneSettings::default(),
             metropolis: ChainSettings::default(),
             normals: NormalsPaneSettings::default(),
         }
@@ -49,6 +55,8 @@ impl PaneSettings {
             TechniqueName::Raster => Technique::Fake(self.fake),
             TechniqueName::Whitted => Technique::Traced(self.here(self.whitted.into())),
             TechniqueName::Path => Technique::Traced(self.here(self.truth.into())),
+            TechniqueName::Photon => Technique::Traced(self.here(self.photon.into())),
+            TechniqueName::LightTracing => Technique::Traced(self.here(self.light.into())),
             TechniqueName::Metropolis => Technique::Traced(self.here(self.metropolis.into())),
             TechniqueName::Normals => Technique::Traced(self.here(self.normals.into())),
         }
@@ -62,7 +70,9 @@ impl PaneSettings {
     pub fn forget_the_scene(&mut self, scene: &Scene) {
         self.fake.forget_the_scene(scene);
         self.whitted.tree.ambient = None;
-        (self.whitted.sun_radius, self.truth.sun_radius, self.metropolis.sun_radius) = (None, None, None);
+        (self.whitted.sun_radius, self.truth.sun_radius) = (None, None);
+        (self.photon.sun_radius, self.light.sun_radius, self.metropolis.sun_radius) = (None, None, None);
+        self.photon.photon.radius = None;
     }
 
     /// Takes the estimator that `scene` asks for, unless another than the usual one was chosen.

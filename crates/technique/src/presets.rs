@@ -279,7 +279,8 @@ mod tests {
                 };
                 assert_eq!((setting.get)(&pane), expected, "{} of {}", setting.name, preset.name);
             }
-            let others = |pane: &PaneSettings| (pane.fake, pane.whitted, pane.truth, pane.normals);
+            let others =
+                |pane: &PaneSettings| (pane.fake, pane.whitted, pane.truth, pane.photon, pane.light, pane.normals);
             let mut back = pane;
             back.take_settings_in_use(&PaneSettings { technique: preset.technique, ..changed });
             assert_eq!(others(&back), others(&changed), "{} leaves other techniques alone", preset.name);

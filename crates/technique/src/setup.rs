@@ -228,7 +228,7 @@ mod tests {
             ("path,fair", "fair: expected NAME=VALUE or a choice of path (independent, sobol, "),
             (
                 "pth",
-                "pth: expected a technique (raster, whitted, path, metropolis, normals), a preset (as-taught, fair, ",
+                "pth: expected a technique (raster, whitted, path, photon, light-tracing, metropolis, normals), a preset (as-taught, fair, ",
             ),
             ("pth", "; did you mean path?"),
             ("2e-0-bounce", "; did you mean 2e-0-bounces?"),

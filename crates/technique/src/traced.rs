@@ -1,7 +1,10 @@
 //! The settings of what is traced by rays: path tracing, and Whitted's step towards it.
 
 use crate::{DeviceChoice, SceneChanges};
-use pathtrace::{Integrator, MetropolisSettings, NormalsSettings, PathSettings, Roulette, WhittedSettings};
+use pathtrace::{
+    Integrator, LightTracingSettings, MetropolisSettings, NormalsSettings, PathSettings, PhotonSettings, Roulette,
+    WhittedSettings,
+};
 use scene::Scene;
 use std::sync::Arc;
 
@@ -39,6 +42,28 @@ pub struct TreeSettings {
     /// Samples per pixel at which rendering stops.
     pub spp: u32,
     /// The sun for these trees alone, as in [`TracedSettings`].
+    pub sun_radius: Option<f32>,
+}
+
+/// The settings of a picture by photon mapping.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PhotonPaneSettings {
+    /// How photons are traced and gathered.
+    pub photon: PhotonSettings,
+    /// Samples per pixel, which are passes, at which rendering stops.
+    pub spp: u32,
+    /// The sun for these photons alone, as in [`TracedSettings`].
+    pub sun_radius: Option<f32>,
+}
+
+/// The settings of a picture by light tracing.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LightPaneSettings {
+    /// How photons are traced.
+    pub light: LightTracingSettings,
+    /// Samples per pixel, which are passes, at which rendering stops.
+    pub spp: u32,
+    /// The sun for these photons alone, as in [`TracedSettings`].
     pub sun_radius: Option<f32>,
 }
 
@@ -97,6 +122,30 @@ impl Default for TreeSettings {
     /// Few samples: only edges and soft shadows need them.
     fn default() -> Self {
         TreeSettings { tree: WhittedSettings::default(), spp: 16, sun_radius: None }
+    }
+}
+
+impl Default for PhotonPaneSettings {
+    fn default() -> Self {
+        PhotonPaneSettings { photon: PhotonSettings::default(), spp: 256, sun_radius: None }
+    }
+}
+
+impl Default for LightPaneSettings {
+    fn default() -> Self {
+        LightPaneSettings { light: LightTracingSettings::default(), spp: 256, sun_radius: None }
+    }
+}
+
+impl From<PhotonPaneSettings> for TracedSettings {
+    fn from(PhotonPaneSettings { photon, spp, sun_radius }: PhotonPaneSettings) -> Self {
+        TracedSettings { integrator: photon.into(), device: DeviceChoice::default(), adapter: 0, spp, sun_radius }
+    }
+}
+
+impl From<LightPaneSettings> for TracedSettings {
+    fn from(LightPaneSettings { light, spp, sun_radius }: LightPaneSettings) -> Self {
+        TracedSettings { integrator: light.into(), device: DeviceChoice::default(), adapter: 0, spp, sun_radius }
     }
 }
 

@@ -101,6 +101,23 @@ fn a_missing_runtime_folder_is_no_error_of_any_command() {
     }
 }
 
+#[test]
+fn what_the_processor_alone_follows_is_traced_by_it_and_refused_for_a_device() {
+    let folder = TestFolder::new();
+    for technique in ["photon", "light-tracing"] {
+        let options = ["--technique", technique, "--spp", "2", "--photons", "1024", "--sampler", "independent"];
+        let report = json(&render(&folder, None, &options));
+        assert_eq!((&report["device"], &report["spp"], &report["photons"]), (&"cpu".into(), &2.into(), &1024.into()));
+        assert_eq!(report["standard_error_reliable"], false, "pixels share photons");
+        let refused = render(&folder, None, &[&options[..], &["--device", "gpu"]].concat());
+        let told = String::from_utf8_lossy(&refused.stderr).into_owned();
+        assert!(
+            !refused.status.success() && told.contains("--device gpu: photons are followed by the processor alone"),
+            "{told}"
+        );
+    }
+}
+
 /// The graphics device has no such chains: who asks for it is told, and auto leaves it alone.
 #[test]
 fn chains_run_on_the_processor_and_tell_what_they_did() {

@@ -71,7 +71,7 @@ fn bad_values_are_wrong_usage_and_write_nothing() {
         (&["--size", "100000x100000"], "at most"),
         (&["--bounces", "-1"], "or inf"),
         (&["--estimator", "best"], "uniform, cosine, light"),
-        (&["--technique", "phong"], "raster, whitted, path, metropolis or normals"),
+        (&["--technique", "phong"], "raster, whitted, path, photon, light-tracing, metropolis or normals"),
         (&["--eye", "1,2"], "three finite numbers"),
         (&["--sun-radius", "90"], "from 0 to below 90"),
     ];

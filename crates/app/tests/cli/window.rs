@@ -7,7 +7,8 @@ fn options_of_the_window_are_those_of_render_and_faults_name_the_word() {
     for (arguments, words) in [
         (
             &["--a", "rastr"][..],
-            &["--a rastr", "expected a technique (raster, whitted, path, metropolis, normals)"][..],
+            &["--a rastr", "expected a technique (raster, whitted, path, photon, light-tracing, metropolis, normals)"]
+                [..],
         ),
         (&["--a", "raster,spp=4"], &["spp is no setting of raster"]),
         (&["--b", "path,spp=0"], &["--b path,spp=0", "a whole number from 1"]),

@@ -1,3 +1,5 @@
+//! Light transport: [`path`], the tutorial's Monte Carlo path tracer, and [`whitted`], the step before it; [`photon`], in
+//! which light walks from its sources; and [`normals`], which shows no light at all.
 //! Light transport: [`path`], the tutorial's Monte Carlo path tracer, [`whitted`], the step before it, and [`metropolis`],
 //! chains of such paths; and [`normals`], which shows no light at all.
 //!
@@ -12,6 +14,7 @@ pub mod metropolis;
 pub mod normals;
 pub mod path;
 pub(crate) mod path_state;
+pub mod photon;
 pub(crate) mod roulette;
 pub mod settings;
 pub mod whitted;
@@ -23,6 +26,7 @@ use crate::stats::Stats;
 use film::Film;
 use metropolis::MetropolisSettings;
 use normals::NormalsSettings;
+use photon::{LightTracingSettings, PhotonSettings};
 use scene::stand_ins::FakeNumbers;
 use settings::{PathSettings, SettingsError};
 use whitted::WhittedSettings;
@@ -34,6 +38,10 @@ pub enum Integrator {
     Path(PathSettings),
     /// In trees of mirrors and glass.
     Whitted(WhittedSettings),
+    /// From the lights to a map, and from the camera to that.
+    Photon(PhotonSettings),
+    /// From the lights to the camera.
+    LightTracing(LightTracingSettings),
     /// Along paths that come from each other by mutations.
     Metropolis(MetropolisSettings),
     /// To the first surface.
@@ -46,6 +54,8 @@ impl Integrator {
         match self {
             Integrator::Path(_) => "path",
             Integrator::Whitted(_) => "whitted",
+            Integrator::Photon(_) => "photon",
+            Integrator::LightTracing(_) => "light-tracing",
             Integrator::Metropolis(_) => "metropolis",
             Integrator::Normals(_) => "normals",
         }
@@ -56,6 +66,8 @@ impl Integrator {
         match self {
             Integrator::Path(settings) => settings.sampler,
             Integrator::Whitted(settings) => settings.sampler,
+            Integrator::Photon(settings) => settings.sampler,
+            Integrator::LightTracing(settings) => settings.sampler,
             Integrator::Metropolis(settings) => settings.path.sampler,
             Integrator::Normals(settings) => settings.sampler,
         }
@@ -66,6 +78,8 @@ impl Integrator {
         match self {
             Integrator::Path(settings) => settings.seed,
             Integrator::Whitted(settings) => settings.seed,
+            Integrator::Photon(settings) => settings.seed,
+            Integrator::LightTracing(settings) => settings.seed,
             Integrator::Metropolis(settings) => settings.path.seed,
             Integrator::Normals(settings) => settings.seed,
         }
@@ -76,6 +90,8 @@ impl Integrator {
         match self {
             Integrator::Path(settings) => PathSettings { seed, ..settings }.into(),
             Integrator::Whitted(settings) => WhittedSettings { seed, ..settings }.into(),
+            Integrator::Photon(settings) => PhotonSettings { seed, ..settings }.into(),
+            Integrator::LightTracing(settings) => LightTracingSettings { seed, ..settings }.into(),
             Integrator::Metropolis(settings) => {
                 MetropolisSettings { path: PathSettings { seed, ..settings.path }, ..settings }.into()
             }
@@ -90,6 +106,8 @@ impl Integrator {
     pub fn check(&self) -> Result<(), SettingsError> {
         match self {
             Integrator::Path(settings) => settings.check(),
+            Integrator::Photon(settings) => settings.check(),
+            Integrator::LightTracing(settings) => settings.check(),
             Integrator::Metropolis(settings) => settings.check(),
             Integrator::Whitted(_) | Integrator::Normals(_) => Ok(()),
         }
@@ -103,6 +121,8 @@ impl Integrator {
                 path::Plan::of(settings, job).map(|plan| job.fill(film, &plan)).unwrap_or_default()
             }
             Integrator::Whitted(settings) => job.fill(film, &whitted::Plan::new(settings, job.stand_ins)),
+            Integrator::Photon(settings) => settings.fill(film, job),
+            Integrator::LightTracing(settings) => settings.fill(film, job),
             Integrator::Metropolis(settings) => settings.fill(film, job),
             Integrator::Normals(settings) => job.fill(film, &normals::Plan::new(settings, &job.pass.frame)),
         }
@@ -113,9 +133,15 @@ impl Integrator {
         self.pipeline_key(false).err()
     }
 
+    /// Whether pixels have random numbers in common, so that the error of a picture's mean is more or less than its pixels' errors
+    /// say.
+    pub fn shares_between_pixels(&self) -> bool {
+        matches!(self, Integrator::Photon(_) | Integrator::LightTracing(_) | Integrator::Metropolis(_))
+    }
+
     /// Whether a pixel's samples, and pixels, are independent of each other, so that their spread tells the error.
     pub fn is_independent(&self) -> bool {
-        self.sampler() == SamplerKind::Independent && !matches!(self, Integrator::Metropolis(_))
+        self.sampler() == SamplerKind::Independent && !self.shares_between_pixels()
     }
 
     /// Its shader on the graphics device, and what of the settings is compiled into it; all of it if `everything`.
@@ -126,6 +152,7 @@ impl Integrator {
         match self {
             Integrator::Path(settings) => settings.pipeline_key(everything),
             Integrator::Whitted(settings) => Ok(settings.pipeline_key()),
+            Integrator::Photon(_) | Integrator::LightTracing(_) => Err("photons are followed by the processor alone"),
             Integrator::Metropolis(_) => Err("the chains of Metropolis run on the processor alone"),
             Integrator::Normals(settings) => Ok(settings.pipeline_key()),
         }
@@ -137,7 +164,10 @@ impl Integrator {
         match self {
             Integrator::Path(settings) => settings.render_params(params),
             Integrator::Whitted(settings) => settings.render_params(params, stand_ins),
-            Integrator::Metropolis(_) | Integrator::Normals(_) => params,
+            Integrator::Photon(_)
+            | Integrator::LightTracing(_)
+            | Integrator::Metropolis(_)
+            | Integrator::Normals(_) => params,
         }
     }
 }
@@ -145,6 +175,18 @@ impl Integrator {
 impl From<PathSettings> for Integrator {
     fn from(settings: PathSettings) -> Self {
         Integrator::Path(settings)
+    }
+}
+
+impl From<PhotonSettings> for Integrator {
+    fn from(settings: PhotonSettings) -> Self {
+        Integrator::Photon(settings)
+    }
+}
+
+impl From<LightTracingSettings> for Integrator {
+    fn from(settings: LightTracingSettings) -> Self {
+        Integrator::LightTracing(settings)
     }
 }
 

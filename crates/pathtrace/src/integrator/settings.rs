@@ -3,6 +3,7 @@
 //! usual pairs.
 
 use crate::integrator::path::MOST_BRANCHES;
+use crate::integrator::photon::MOST_PHOTONS;
 use crate::sampling::sampler::SamplerKind;
 use scene::Needs;
 
@@ -198,6 +199,15 @@ pub enum SettingsError {
     /// A probability outside (0, 1].
     #[error("a path survives with a probability above 0 and at most 1, not {0}")]
     Probability(f32),
+    /// No photons, or more than there is memory for.
+    #[error("a pass has 1 to {MOST_PHOTONS} photons, not {0}")]
+    Photons(u32),
+    /// A radius that is none.
+    #[error("photons are gathered within a radius above 0, not {0}")]
+    Radius(f32),
+    /// A shrinking that is none.
+    #[error("alpha is above 0 and below 1, not {0}: at 1 the radius would never shrink")]
+    Alpha(f32),
 }
 
 impl PathSettings {

@@ -7,7 +7,10 @@ mod rows;
 pub use control::{Control, Look};
 pub use rows::{OF_SCENES, all_of_panes};
 
-use crate::{ChainSettings, NormalsPaneSettings, TracedSettings, TreeSettings, TruthSettings, bounces_name};
+use crate::{
+    ChainSettings, LightPaneSettings, NormalsPaneSettings, PhotonPaneSettings, TracedSettings, TreeSettings,
+    TruthSettings, bounces_name,
+};
 use crate::{PaneSettings, SceneChanges, Technique, TechniqueName, roulette_name};
 use image_file::Records;
 use pathtrace::{Integrator, Roulette};
@@ -324,6 +327,8 @@ impl PaneSettings {
             TechniqueName::Raster => self.fake = other.fake,
             TechniqueName::Whitted => self.whitted = other.whitted,
             TechniqueName::Path => self.truth = other.truth,
+            TechniqueName::Photon => self.photon = other.photon,
+            TechniqueName::LightTracing => self.light = other.light,
             TechniqueName::Metropolis => self.metropolis = other.metropolis,
             TechniqueName::Normals => self.normals = other.normals,
         }
@@ -343,6 +348,12 @@ impl From<Technique> for PaneSettings {
                     Integrator::Path(path) => PaneSettings { truth: TruthSettings { path, spp, sun_radius }, ..pane },
                     Integrator::Whitted(tree) => {
                         PaneSettings { whitted: TreeSettings { tree, spp, sun_radius }, ..pane }
+                    }
+                    Integrator::Photon(photon) => {
+                        PaneSettings { photon: PhotonPaneSettings { photon, spp, sun_radius }, ..pane }
+                    }
+                    Integrator::LightTracing(light) => {
+                        PaneSettings { light: LightPaneSettings { light, spp, sun_radius }, ..pane }
                     }
                     Integrator::Metropolis(metropolis) => {
                         PaneSettings { metropolis: ChainSettings { metropolis, spp, sun_radius }, ..pane }

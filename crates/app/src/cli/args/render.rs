@@ -53,8 +53,14 @@ impl AsMut<Seen> for Reading {
     }
 }
 
-const TRACED: &[TechniqueName] =
-    &[TechniqueName::Whitted, TechniqueName::Path, TechniqueName::Metropolis, TechniqueName::Normals];
+const TRACED: &[TechniqueName] = &[
+    TechniqueName::Whitted,
+    TechniqueName::Path,
+    TechniqueName::Photon,
+    TechniqueName::LightTracing,
+    TechniqueName::Metropolis,
+    TechniqueName::Normals,
+];
 
 /// Options of every technique, beside settings.
 pub fn options() -> Vec<CommandOption<Reading>> {
@@ -78,11 +84,11 @@ pub fn options() -> Vec<CommandOption<Reading>> {
         },
         CommandOption {
             names: &["--technique"],
-            value: "raster|whitted|path|metropolis|normals",
-            help: "the fake, Whitted's trees of rays, path tracing, Metropolis' chains of paths, or the normals of what is seen \
-                   (default path)",
+            value: "raster|whitted|path|photon|light-tracing|metropolis|normals",
+            help: "the fake, Whitted's trees of rays, path tracing, photon mapping, light tracing, Metropolis' chains of paths, or the \
+                   normals of what is seen (default path)",
             read: |reading, parser| {
-                let expected = "raster, whitted, path, metropolis or normals";
+                let expected = "raster, whitted, path, photon, light-tracing, metropolis or normals";
                 reading.args.pane.technique = choice(parser, "--technique", TechniqueName::named, expected)?;
                 reading.given.push(("--technique".into(), &TechniqueName::ALL));
                 Ok(())

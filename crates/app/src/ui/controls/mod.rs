@@ -162,6 +162,8 @@ fn describe(technique: TechniqueName) -> &'static str {
         TechniqueName::Raster => "Rasterised: shadow map, cube map, local shading",
         TechniqueName::Whitted => "Whitted: trees of rays at mirrors and glass, local light elsewhere",
         TechniqueName::Path => "Path traced: light itself, by Monte Carlo",
+        TechniqueName::Photon => "Photon mapping: photons from the lights, gathered where the camera looks",
+        TechniqueName::LightTracing => "Light tracing: photons from the lights, sent on to the camera",
         TechniqueName::Metropolis => "Metropolis: path tracing in chains, each path a mutation of the last",
         TechniqueName::Normals => "The normals of what is seen",
     }

@@ -32,9 +32,14 @@ fn order(technique: TechniqueName) -> &'static [&'static str] {
         TechniqueName::Whitted => {
             &["depth", "glass-shadows", "ambient", "traced-sun", "spp", "shadow-rays", "sampler", "seed"]
         }
+        TechniqueName::Photon => {
+            &["photon-picture", "photons", "radius", "alpha", "direct-light", "spp", "traced-sun", "sampler", "seed"]
+        }
+        TechniqueName::LightTracing => &["photons", "spp", "traced-sun", "sampler", "seed"],
         TechniqueName::Metropolis => &[
             "estimator",
             "spp",
+            "connections",
             "chains",
             "large-step",
             "mutation",
@@ -62,11 +67,11 @@ pub fn show(cx: &mut UiContext, pane: PaneId, ui: &mut Ui) {
     let (more, first): (Vec<_>, Vec<_>) = usable.into_iter().partition(|row| is_rare(row, settings));
     rows(cx, pane, &first, ui);
     let id = ui.make_persistent_id(("more", pane));
-    let traced = matches!(cx.model.session.panes[pane].in_use(), Technique::Traced(_));
-    let count = more.len() + usize::from(traced && !cx.model.adapters.0.is_empty());
+    let chooses_device = matches!(cx.model.session.panes[pane].in_use(), Technique::Traced(_));
+    let count = more.len() + usize::from(chooses_device && !cx.model.adapters.0.is_empty());
     let title = format!("{count} more settings");
     let (header, open) = fold(&title, Some(palette(ui).dim), (id, false), ui, |ui| {
-        if traced {
+        if chooses_device {
             device::show(cx, pane, ui);
         }
         rows(cx, pane, &more, ui);

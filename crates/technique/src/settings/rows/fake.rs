@@ -105,14 +105,12 @@ pub const ROWS: &[Setting<PaneSettings>] = &[
                 // fair, it scales the sky's
                 draws_surfaces(pane, scene) && (pane.fake.fake == Fake::AsTaught || scene.needs().sky)
             }
-            TechniqueName::Whitted | TechniqueName::Path | TechniqueName::Metropolis | TechniqueName::Normals => true,
+            _ => true,
         },
         get: |pane| {
             let ambient = match pane.technique {
                 TechniqueName::Raster => pane.fake.knobs.ambient,
-                TechniqueName::Whitted | TechniqueName::Path | TechniqueName::Metropolis | TechniqueName::Normals => {
-                    pane.whitted.tree.ambient
-                }
+                _ => pane.whitted.tree.ambient,
             };
             ambient.map(Value::Number)
         },

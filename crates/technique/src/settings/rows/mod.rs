@@ -2,6 +2,7 @@
 
 mod fake;
 mod metropolis;
+mod photon;
 mod traced;
 
 use super::{Control, Kind, Look, Need, Setting, Value};
@@ -11,12 +12,26 @@ use pathtrace::PathSettings;
 const RASTER: &[TechniqueName] = &[TechniqueName::Raster];
 const WHITTED: &[TechniqueName] = &[TechniqueName::Whitted];
 const PATH: &[TechniqueName] = &[TechniqueName::Path];
+const PHOTON: &[TechniqueName] = &[TechniqueName::Photon];
+const OF_PHOTONS: &[TechniqueName] = &[TechniqueName::Photon, TechniqueName::LightTracing];
 const METROPOLIS: &[TechniqueName] = &[TechniqueName::Metropolis];
 const PATHS: &[TechniqueName] = &[TechniqueName::Path, TechniqueName::Metropolis];
 const NORMALS: &[TechniqueName] = &[TechniqueName::Normals];
-const TRACED: &[TechniqueName] =
-    &[TechniqueName::Whitted, TechniqueName::Path, TechniqueName::Metropolis, TechniqueName::Normals];
-const LIGHT: &[TechniqueName] = &[TechniqueName::Whitted, TechniqueName::Path, TechniqueName::Metropolis];
+const TRACED: &[TechniqueName] = &[
+    TechniqueName::Whitted,
+    TechniqueName::Path,
+    TechniqueName::Photon,
+    TechniqueName::LightTracing,
+    TechniqueName::Metropolis,
+    TechniqueName::Normals,
+];
+const LIGHT: &[TechniqueName] = &[
+    TechniqueName::Whitted,
+    TechniqueName::Path,
+    TechniqueName::Photon,
+    TechniqueName::LightTracing,
+    TechniqueName::Metropolis,
+];
 const LOCAL: &[TechniqueName] = &[TechniqueName::Raster, TechniqueName::Whitted];
 
 /// What each row begins from.
@@ -101,7 +116,7 @@ pub const OF_SCENES: &[Setting<SceneChanges>] = &[
 
 /// What a pane is set to.
 pub fn all_of_panes() -> impl Iterator<Item = &'static Setting<PaneSettings>> {
-    traced::ROWS.iter().chain(metropolis::ROWS).chain(fake::ROWS)
+    traced::ROWS.iter().chain(photon::ROWS).chain(metropolis::ROWS).chain(fake::ROWS)
 }
 
 /// How the paths of the technique in use walk.
@@ -115,9 +130,11 @@ fn all_paths(pane: &mut PaneSettings) -> [&mut PathSettings; 2] {
     [&mut pane.truth.path, &mut pane.metropolis.metropolis.path]
 }
 
-fn by_integrator<T>(pane: &PaneSettings, [path, whitted, metropolis, normals]: [T; 4]) -> T {
+fn by_integrator<T>(pane: &PaneSettings, [path, whitted, photon, light, metropolis, normals]: [T; 6]) -> T {
     match pane.technique {
         TechniqueName::Whitted => whitted,
+        TechniqueName::Photon => photon,
+        TechniqueName::LightTracing => light,
         TechniqueName::Metropolis => metropolis,
         TechniqueName::Normals => normals,
         TechniqueName::Raster | TechniqueName::Path => path,

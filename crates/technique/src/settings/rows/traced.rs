@@ -2,8 +2,8 @@
 
 use super::{BLANK, LIGHT, NORMALS, PATH, PATHS, PLAIN, TRACED, WHITTED};
 use super::{all_paths, by_integrator, each, named, number, path_of, whole};
-use crate::PaneSettings;
 use crate::settings::{Control, Kind, Look, Need, Setting, Value};
+use crate::{PaneSettings, TechniqueName};
 use pathtrace::{Estimator, GlassShadows, LightSampling, PathSettings, Roulette, SamplerKind, Space, WhittedSettings};
 use scene::Scene;
 
@@ -19,8 +19,9 @@ pub const ROWS: &[Setting<PaneSettings>] = &[
         always_recorded: true,
         get: |pane| pane.wished_spp().map(Value::Whole),
         set: |pane, value| {
-            let PaneSettings { truth, whitted, metropolis, normals, .. } = pane;
+            let PaneSettings { truth, whitted, photon, light, metropolis, normals, .. } = pane;
             each(whole(value), [&mut truth.spp, &mut whitted.spp, &mut metropolis.spp, &mut normals.spp]);
+            each(whole(value), [&mut photon.spp, &mut light.spp]);
         },
         control: Control {
             label: "Samples per pixel (spp)",
@@ -38,13 +39,16 @@ pub const ROWS: &[Setting<PaneSettings>] = &[
         help: "where random numbers come from",
         always_recorded: true,
         get: |pane| {
-            let path = path_of(pane).sampler;
-            let of_all = [path, pane.whitted.tree.sampler, path, pane.normals.normals.sampler];
+            let (path, PaneSettings { whitted, photon, light, normals, .. }) = (path_of(pane).sampler, pane);
+            let of_photons = [photon.photon.sampler, light.light.sampler];
+            let of_all = [path, whitted.tree.sampler, of_photons[0], of_photons[1], path, normals.normals.sampler];
             Some(Value::Word(by_integrator(pane, of_all).name()))
         },
         set: |pane, value| {
             let sampler = named(value, SamplerKind::named);
-            each(sampler, [&mut pane.whitted.tree.sampler, &mut pane.normals.normals.sampler]);
+            let PaneSettings { whitted, photon, light, normals, .. } = pane;
+            each(sampler, [&mut whitted.tree.sampler, &mut normals.normals.sampler]);
+            each(sampler, [&mut photon.photon.sampler, &mut light.light.sampler]);
             each(sampler, all_paths(pane).map(|path| &mut path.sampler));
         },
         control: Control {
@@ -230,12 +234,14 @@ pub const ROWS: &[Setting<PaneSettings>] = &[
         help: "selects one of 2^32 independent pictures",
         always_recorded: true,
         get: |pane| {
-            let path = path_of(pane).seed;
-            let of_all = [path, pane.whitted.tree.seed, path, pane.normals.normals.seed];
+            let (path, PaneSettings { whitted, photon, light, normals, .. }) = (path_of(pane).seed, pane);
+            let of_all = [path, whitted.tree.seed, photon.photon.seed, light.light.seed, path, normals.normals.seed];
             Some(Value::Whole(by_integrator(pane, of_all)))
         },
         set: |pane, value| {
-            each(whole(value), [&mut pane.whitted.tree.seed, &mut pane.normals.normals.seed]);
+            let PaneSettings { whitted, photon, light, normals, .. } = pane;
+            each(whole(value), [&mut whitted.tree.seed, &mut normals.normals.seed]);
+            each(whole(value), [&mut photon.photon.seed, &mut light.light.seed]);
             each(whole(value), all_paths(pane).map(|path| &mut path.seed));
         },
         control: Control {
@@ -272,14 +278,19 @@ pub const ROWS: &[Setting<PaneSettings>] = &[
         needs: Need::Sun,
         help: "angular radius of the sun for these rays alone, 0 as in 1980; references keep the scene's",
         get: |pane| {
-            let PaneSettings { truth, whitted, metropolis, .. } = pane;
-            let of_all = [truth.sun_radius, whitted.sun_radius, metropolis.sun_radius, None];
+            let PaneSettings { truth, whitted, photon, light, metropolis, .. } = pane;
+            let of_photons = [photon.sun_radius, light.sun_radius];
+            let of_all =
+                [truth.sun_radius, whitted.sun_radius, of_photons[0], of_photons[1], metropolis.sun_radius, None];
             by_integrator(pane, of_all).map(Value::Number)
         },
         set: |pane, value| {
-            let PaneSettings { truth, whitted, metropolis, .. } = pane;
-            let of_all = [&mut truth.sun_radius, &mut whitted.sun_radius, &mut metropolis.sun_radius];
-            each(Some(number(value)), of_all);
+            let PaneSettings { truth, whitted, photon, light, metropolis, .. } = pane;
+            let of_paths = [&mut truth.sun_radius, &mut whitted.sun_radius, &mut metropolis.sun_radius];
+            of_paths
+                .into_iter()
+                .chain([&mut photon.sun_radius, &mut light.sun_radius])
+                .for_each(|radius| *radius = number(value));
         },
         own: |scene| scene.sun.map(|sun| Value::Number(sun.angular_radius)),
         control: Control {
@@ -287,23 +298,26 @@ pub const ROWS: &[Setting<PaneSettings>] = &[
             hover: "Of this picture alone: its errors are against the scene's own sun. 0 is the point that Whitted had \
                     in 1980",
             look: Look::Steps { range: 0.0..=5.0, step: 0.1 },
-            more: PATHS,
+            more: &[TechniqueName::Path, TechniqueName::Photon, TechniqueName::LightTracing, TechniqueName::Metropolis],
             ..BLANK
         },
         ..PLAIN
     },
     Setting {
         name: "connections",
-        of: PATH,
+        of: PATHS,
         kind: Kind::Choice(&["on", "off"]),
         default: Some(Value::Word("on")),
         before: Some(Value::Word("off")),
         needs: Need::Caster,
-        acts: |pane, _| pane.truth.path.estimator.samples_lights(),
+        acts: |pane, _| path_of(pane).estimator.samples_lights(),
         help: "light that is sampled also arrives by way of spheres of glass and mirror, computed; off: found by chance",
         always_recorded: true,
-        get: |pane| Some(Value::Word(if pane.truth.path.connections { "on" } else { "off" })),
-        set: |pane, value| pane.truth.path.connections = value == Value::Word("on"),
+        get: |pane| Some(Value::Word(if path_of(pane).connections { "on" } else { "off" })),
+        set: |pane, value| {
+            let on = value == Value::Word("on");
+            each(Some(on), all_paths(pane).map(|path| &mut path.connections));
+        },
         control: Control {
             label: "Connections",
             brief: Some(|value| if value == Value::Word("on") { "connections" } else { "no connections" }.into()),
