@@ -23,6 +23,8 @@ override POINT_LIGHTS: bool = true;
 override SUN: bool = true;
 // whether the sky is a picture
 override ENVIRONMENT: bool = true;
+// spheres of glass or of a mirror
+override CASTERS: bool = true;
 // whether random numbers are Sobol points; independent ones if not
 override SOBOL: bool = true;
 // whether shadow rays pass glass

@@ -23,6 +23,10 @@ struct Header {
     environment_turn: f32,
     // of being chosen among the lights
     environment_probability: f32,
+    // ways by the spheres that cast caustics; they stand behind the lights
+    chains: u32,
+    // whether nothing lies inside of any sphere that they go through
+    hollow: u32,
     // of few shapes: where among them quadrilaterals, triangles, spheres and disks end
     seen: vec4u,
     // the same of those that shadow rays may meet, which stand first in each kind
@@ -112,6 +116,9 @@ struct Material {
     eta: vec3f,
     alpha: f32,
     k: vec3f,
+    // with which a chain off such a sphere is chosen, or through it; 0 if none is
+    off: f32,
+    through: f32,
 }
 
 // Codes of lobes and of what varies them. Mirror: crates/pathtrace/src/bsdf/materials.rs.
@@ -124,13 +131,14 @@ const CHECKERED: u32 = 256u;
 // of a conductor: it reflects by Fresnel's equations
 const HAS_INDEX: u32 = 512u;
 
+// What is sampled as a light; or a chain by a sphere, of which there is a centre, a radius and a material.
 struct Light {
-    // corner of a flat area light, centre of a disk or ball, a point light, the direction to the sun
+    // corner of a flat area light, centre of a disk, ball or caster, a point light, the direction to the sun
     position: vec3f,
     outline: u32,
     // edges of a flat area light; radii of a disk, at right angles
     u: vec3f,
-    // area of a flat area light, radius of a ball, 1 - cos of the sun's angular radius
+    // area of a flat area light, radius of a ball or caster, 1 - cos of the sun's angular radius
     area: f32,
     v: vec3f,
     // whether a parallelogram's edges are at right angles
@@ -146,6 +154,8 @@ struct Light {
     cumulative: f32,
     // of what its surface coincides with, or NO_GROUP
     group: u32,
+    // of a caster
+    material: u32,
 }
 
 const LIGHT_RECTANGLE: u32 = 0u;
@@ -155,6 +165,8 @@ const LIGHT_BALL: u32 = 3u;
 const LIGHT_POINT: u32 = 4u;
 const LIGHT_SUN: u32 = 5u;
 const LIGHT_ENVIRONMENT: u32 = 6u;
+const CHAIN_OFF: u32 = 7u;
+const CHAIN_THROUGH: u32 = 8u;
 
 @group(0) @binding(0) var<uniform> header: Header;
 @group(0) @binding(1) var<storage, read> nodes: array<Node>;

@@ -139,6 +139,8 @@ fn mirrors_of_the_path_tracer_have_the_layout_of_their_structs() {
             environment_size,
             environment_turn,
             environment_probability,
+            chains,
+            hollow,
             seen,
             shading
         ]
@@ -155,12 +157,12 @@ fn mirrors_of_the_path_tracer_have_the_layout_of_their_structs() {
     assert_same_layout!(
         "pathtrace/scene.wgsl",
         Material,
-        [colour, emission, emitting_sides, lobe, ior, root, root_low, eta, alpha, k]
+        [colour, emission, emitting_sides, lobe, ior, root, root_low, eta, alpha, k, off, through]
     );
     assert_same_layout!(
         "pathtrace/scene.wgsl",
         Light,
-        [position, outline, u, area, v, square, normal, two_sided, radiance, probability, cumulative, group]
+        [position, outline, u, area, v, square, normal, two_sided, radiance, probability, cumulative, group, material]
     );
     assert_same_layout!("pathtrace/drive/film.wgsl", PictureFrame, [eye, forward, right, up]);
     assert_same_layout!(

@@ -4,6 +4,7 @@
 //! [`GpuTracer::render`] does both for a [`film::Film`]. Nothing here panics when the device fails: every fault is a
 //! [`GpuTraceError`], and the processor's [`crate::Tracer`] can take over.
 
+use crate::caster::Casters;
 use crate::drive::gpu::dispatch::Dispatcher;
 use crate::drive::gpu::film_data::RenderParams;
 use crate::drive::gpu::pipelines::{PipelineKey, Pipelines, SceneNeeds};
@@ -219,6 +220,7 @@ struct Leaves {
 /// A scene made ready, before it is on a device.
 struct Made {
     lights: Lights,
+    casters: Casters,
     shapes: Shapes,
     needs: SceneNeeds,
 }
@@ -233,7 +235,7 @@ impl Made {
         }?;
         let needs = SceneNeeds::of(scene, &lights, shapes.kinds());
         let needs = if leaves.nothing_out { needs.with_everything() } else { needs };
-        Ok(Made { lights, shapes, needs })
+        Ok(Made { lights, casters: Casters::new(scene), shapes, needs })
     }
 
     fn upload(
@@ -242,16 +244,18 @@ impl Made {
         layout: &wgpu::BindGroupLayout,
         scene: &Scene,
     ) -> Result<wgpu::BindGroup, GpuTraceError> {
-        let Made { lights, shapes, .. } = self;
+        let Made { lights, casters, shapes, .. } = self;
+        let mut aims = scene_data::lights(lights, &shapes.groups);
+        aims.extend(scene_data::chains(casters));
         let mut few = [FewShape::zeroed(); MOST_SHAPES];
         few[..shapes.few.len()].copy_from_slice(&shapes.few);
         let buffers = [
-            gpu.buffer("the scene", &[scene_data::header(scene, shapes, lights)], BufferUsages::UNIFORM)?,
+            gpu.buffer("the scene", &[scene_data::header(scene, shapes, lights, casters)], BufferUsages::UNIFORM)?,
             storage(gpu, "the tree of boxes", &shapes.nodes)?,
             storage(gpu, "the shapes", &shapes.primitives)?,
             storage(gpu, "the surfaces", &shapes.surfaces)?,
-            storage(gpu, "the materials", &scene_data::materials(scene))?,
-            storage(gpu, "the lights", &scene_data::lights(lights, &shapes.groups))?,
+            storage(gpu, "the materials", &scene_data::materials(scene, casters))?,
+            storage(gpu, "the lights", &aims)?,
             storage(gpu, "the Sobol points", &scene_data::sobol_bytes())?,
             gpu.buffer("the shapes", &few, BufferUsages::UNIFORM)?,
         ];

@@ -11,6 +11,8 @@ pub const SOURCES: &[Source<'static>] = gpu::wgsl_sources![
     "pathtrace/bsdf/mirror.wgsl",
     "pathtrace/bsdf/rough_conductor.wgsl",
     "pathtrace/camera.wgsl",
+    "pathtrace/caster/caster.wgsl",
+    "pathtrace/caster/sphere_chain.wgsl",
     "pathtrace/drive/film.wgsl",
     "pathtrace/drive/pixels.wgsl",
     "pathtrace/drive/rays.wgsl",

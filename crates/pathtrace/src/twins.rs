@@ -2,6 +2,7 @@
 //! the shaders say.
 
 use crate::bsdf::materials::{CHECKERED, HAS_INDEX, LOBE_DIELECTRIC, LOBE_LAMBERT, LOBE_MIRROR, LOBE_ROUGH_CONDUCTOR};
+use crate::caster::sphere_chain::{LAST_STEP, MOST_ROOTS, MOST_STEPS, NEAR_AXIS};
 use crate::drive::gpu::dispatch::GROUP;
 use crate::drive::gpu::film_data::CUT_SHIFT;
 use crate::drive::gpu::scene_data::*;
@@ -22,7 +23,7 @@ use crate::light::ball::ALL_DIRECTIONS;
 use crate::light::flat::SMALLEST_SOLID_ANGLE;
 use crate::sampling::UNIFORM_HEMISPHERE_PDF;
 use std::collections::BTreeSet;
-use std::f32::consts::FRAC_1_PI;
+use std::f32::consts::{FRAC_1_PI, FRAC_PI_2};
 
 /// Constants that stand on both sides under one name. A test holds each against what the shaders say.
 pub fn shared_constants() -> Vec<(&'static str, f64)> {
@@ -35,16 +36,20 @@ pub fn shared_constants() -> Vec<(&'static str, f64)> {
         BY_BOTH,
         BY_CHANCE,
         BY_SAMPLING,
+        CHAIN_OFF,
+        CHAIN_THROUGH,
         CHECKERED,
         COUNT_SHIFT,
         CUT_SHIFT,
         FRAC_1_PI,
+        FRAC_PI_2,
         GROUP,
         HAS_INDEX,
         KIND_DISK,
         KIND_SHIFT,
         KIND_SPHERE,
         KIND_TRIANGLE,
+        LAST_STEP,
         LIGHT_BALL,
         LIGHT_DISK,
         LIGHT_ENVIRONMENT,
@@ -61,8 +66,11 @@ pub fn shared_constants() -> Vec<(&'static str, f64)> {
         MOST_DEPTH,
         MOST_FORKS,
         MOST_LIGHTS,
+        MOST_ROOTS,
         MOST_SHAPES,
+        MOST_STEPS,
         MOST_WAITING,
+        NEAR_AXIS,
         NO_LIGHT,
         NO_GROUP,
         ROULETTE_SLOPE,

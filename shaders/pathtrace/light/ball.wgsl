@@ -27,6 +27,12 @@ fn ball_pdf(area_light: Light, x: vec3f) -> f32 {
     return cone_pdf(select(ALL_DIRECTIONS, outside, outside > 0.0));
 }
 
+// Whether a sample from x may be a point of the ball on whose outer side x lies, or does not.
+fn ball_is_seen(area_light: Light, x: vec3f, on_outer_side: bool) -> bool {
+    let outside = one_minus_cos(x, area_light.position, area_light.area) > 0.0;
+    return select(area_light.two_sided == 1u, on_outer_side, outside);
+}
+
 fn ball_sample(area_light: Light, x: vec3f, u: vec2f) -> LightSample {
     let radius = area_light.area;
     let to_center = area_light.position - x;

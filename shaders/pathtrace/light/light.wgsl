@@ -6,10 +6,15 @@
 // "Sampling Area Light". One light is chosen, then a direction to it. Twin: crates/pathtrace/src/light/table.rs, in
 // lanes.
 
-// The light that u in [0, 1) chooses: the first whose running sum exceeds it.
+// The light that u in [0, 1) chooses.
 fn choose(u: f32) -> u32 {
-    var low = 0u;
-    var high = header.lights - 1u;
+    return choose_from(0u, header.lights, u);
+}
+
+// Which of `count` lights from the first one on u in [0, 1) chooses: the first whose running sum exceeds it.
+fn choose_from(first: u32, count: u32, u: f32) -> u32 {
+    var low = first;
+    var high = first + count - 1u;
     while low < high {
         let middle = (low + high) / 2u;
         if lights[middle].cumulative <= u {
@@ -66,6 +71,17 @@ fn light_pdf(light: u32, x: vec3f, met: vec3f) -> f32 {
         return flat_pdf(area_light, x, met) * area_light.probability;
     }
     return 0.0;
+}
+
+// As light_pdf, but 0 where no sample at x is that point of the light: on its back, or on the far side of a ball.
+fn light_pdf_where_sampled(light: u32, x: vec3f, met: SurfacePoint) -> f32 {
+    let cosine = dot(met.normal, x - met.position);
+    let two_sided = lights[light].two_sided == 1u;
+    var sampled = cosine > 0.0 || (two_sided && cosine < 0.0);
+    if BALL_LIGHTS && lights[light].outline == LIGHT_BALL {
+        sampled = ball_is_seen(lights[light], x, cosine > 0.0);
+    }
+    return select(0.0, light_pdf(light, x, met.position), sampled);
 }
 
 // Intensity over squared distance: the irradiance on a surface that faces the point.

@@ -5,13 +5,15 @@
 //! The probability of a chain is a matter of the sphere's material alone, so that chance need not know which of the
 //! spheres it has met. A caster may shine as well: it is then met and sampled like any light, and what it sends by way of
 //! itself does not leave the sphere.
+//!
+//! Twin: `shaders/pathtrace/caster/caster.wgsl`.
 
 pub mod connect;
 pub mod sphere_chain;
 
 use crate::intersect::pairs::{Bounds, for_each_pair};
 use crate::sampling::discrete::Discrete;
-use crate::vectors::VectorColumn;
+use crate::vectors::{VectorColumn, glam_vector};
 use film::colour;
 use scene::{Bsdf, Geometry, Scene, Shape, Vec3};
 use simd::{Column, Float, Vector, Word, WordColumn};
@@ -107,6 +109,15 @@ impl Casters {
     /// Number of chains.
     pub fn len(&self) -> usize {
         self.choice.len()
+    }
+
+    /// Each chain's centre, radius and code, with the running sum of the probabilities of being chosen.
+    pub(crate) fn rows(&self) -> impl Iterator<Item = (Vec3, f32, u32, f32)> {
+        let row = |(chain, &cumulative): (u32, &f32)| {
+            let center = glam_vector(self.center.look_up(chain));
+            (center, chain.look_up(&self.radius), chain.look_up_word(&self.code), cumulative)
+        };
+        (0..).zip(self.choice.running_sums()).map(row)
     }
 
     /// Whether nothing lies inside of any sphere that light goes through.

@@ -6,6 +6,8 @@
 //!
 //! Lengths are in radii. Every angle of a ray at the sphere has a sine that is a [`Ratio`] times that of the incidence:
 //! at the one end 1 / distance, at the other 1 / distance as well (0 for a sun), inside the glass 1 / index.
+//!
+//! Twin: `shaders/pathtrace/caster/sphere_chain.wgsl`.
 
 use crate::sampling::warp::{angle_of_sine, sin_cos_2pi};
 use simd::{Float, Mask};

@@ -125,6 +125,7 @@ impl SceneNeeds {
             ("POINT_LIGHTS", self.flag(self.lights.points)),
             ("SUN", self.flag(self.needs.sun)),
             ("ENVIRONMENT", self.flag(self.lights.environment)),
+            ("CASTERS", self.flag(self.needs.casters)),
         ]);
         constants
     }

@@ -3,6 +3,7 @@
 
 use super::shape_data::Shapes;
 use crate::bsdf::materials::lobe_of;
+use crate::caster::{Casters, THROUGH};
 use crate::intersect::coincident::Groups;
 use crate::light::flat::Outline;
 use crate::light::{Environment, Light as HostLight, Lights, SunDisc};
@@ -37,8 +38,10 @@ pub struct Header {
     pub environment_turn: f32,
     /// Of being chosen among the lights.
     pub environment_probability: f32,
-    /// Padding.
-    pub unused: [u32; 2],
+    /// Ways by the spheres that cast caustics; they stand behind the lights.
+    pub chains: u32,
+    /// 1 if nothing lies inside of any sphere that they go through.
+    pub hollow: u32,
     /// Of few shapes: where among them quadrilaterals, triangles, spheres and disks end.
     pub seen: [u32; 4],
     /// The same of those that shadow rays may meet, which stand first in each kind.
@@ -91,8 +94,12 @@ pub struct Material {
     pub alpha: f32,
     /// Extinction coefficient.
     pub k: Vec3,
+    /// With which a chain off such a sphere is chosen, 0 if none is.
+    pub off: f32,
+    /// The same through it.
+    pub through: f32,
     /// Padding.
-    pub unused: u32,
+    pub unused: [u32; 3],
 }
 
 /// Codes of [`Light::outline`].
@@ -103,18 +110,21 @@ pub(crate) const LIGHT_BALL: u32 = 3;
 pub(crate) const LIGHT_POINT: u32 = 4;
 pub(crate) const LIGHT_SUN: u32 = 5;
 pub(crate) const LIGHT_ENVIRONMENT: u32 = 6;
+/// Chains by spheres, which are aimed at in their own way.
+pub(crate) const CHAIN_OFF: u32 = 7;
+pub(crate) const CHAIN_THROUGH: u32 = 8;
 
-/// What is sampled as a light.
+/// What is sampled as a light; or a chain by a sphere, of which there is a centre, a radius and a material.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
 pub struct Light {
-    /// Corner of a flat area light, centre of a disk or ball, a point light, the direction to the sun.
+    /// Corner of a flat area light, centre of a disk, ball or caster, a point light, the direction to the sun.
     pub position: Vec3,
     /// One of `LIGHT_*`.
     pub outline: u32,
     /// First edge of a flat area light, a radius of a disk.
     pub u: Vec3,
-    /// Area of a flat area light, radius of a ball, 1 - cos of the sun's angular radius.
+    /// Area of a flat area light, radius of a ball or caster, 1 - cos of the sun's angular radius.
     pub area: f32,
     /// Second edge of a flat area light, another radius of a disk.
     pub v: Vec3,
@@ -132,12 +142,14 @@ pub struct Light {
     pub cumulative: f32,
     /// Of what its surface coincides with, or [`NO_GROUP`](crate::intersect::coincident::NO_GROUP).
     pub group: u32,
+    /// Of a caster.
+    pub material: u32,
     /// Padding.
-    pub unused: [u32; 2],
+    pub unused: u32,
 }
 
 /// The header of a scene.
-pub(crate) fn header(scene: &Scene, shapes: &Shapes, lights: &Lights) -> Header {
+pub(crate) fn header(scene: &Scene, shapes: &Shapes, lights: &Lights, casters: &Casters) -> Header {
     let disc = scene.sun.as_ref().and_then(SunDisc::new);
     let environment = lights.environment();
     Header {
@@ -153,15 +165,22 @@ pub(crate) fn header(scene: &Scene, shapes: &Shapes, lights: &Lights) -> Header 
         environment_size: environment.map_or([1, 1], Environment::size),
         environment_turn: environment.map_or(0.0, Environment::turn),
         environment_probability: environment.map_or(0.0, Environment::probability),
-        unused: [0; 2],
+        chains: casters.len() as u32,
+        hollow: u32::from(casters.are_hollow()),
         seen: shapes.seen,
         shading: shapes.shading,
     }
 }
 
 /// The scene's materials.
-pub fn materials(scene: &Scene) -> Vec<Material> {
-    scene.materials.iter().map(material).collect()
+pub fn materials(scene: &Scene, casters: &Casters) -> Vec<Material> {
+    let one = |(from, index): (&scene::Material, u32)| {
+        let chosen = |through| casters.materials().of::<f32>(index, through).probability;
+        let casts = !casters.is_empty();
+        let [off, through] = [false, true].map(|through| if casts { chosen(through) } else { 0.0 });
+        Material { off, through, ..material(from) }
+    };
+    scene.materials.iter().zip(0..).map(one).collect()
 }
 
 fn material(from: &scene::Material) -> Material {
@@ -197,6 +216,18 @@ fn material(from: &scene::Material) -> Material {
         to.emitting_sides = 1 + u32::from(emission.two_sided);
     }
     to
+}
+
+/// The chains by spheres, which stand behind the lights.
+pub fn chains(casters: &Casters) -> impl Iterator<Item = Light> {
+    casters.rows().map(|(position, area, code, cumulative)| Light {
+        position,
+        area,
+        outline: if code & THROUGH == 0 { CHAIN_OFF } else { CHAIN_THROUGH },
+        material: code & !THROUGH,
+        cumulative,
+        ..Light::zeroed()
+    })
 }
 
 /// What is sampled as a light, and which of its surfaces coincide.
