@@ -4,13 +4,28 @@
 // What a ray meets in the scene. Twins: crates/pathtrace/src/prepared.rs and
 // crates/pathtrace/src/bsdf/materials.rs.
 
+// What stands for the light that a shadow ray goes to, where it goes to none: of no surface, not even of one that is no
+// light.
+const NOT_A_LIGHT: u32 = 0xfffffffeu;
+
 // Whether something stands between a point and what shines on it.
 fn in_shadow(at: SurfacePoint, sample: LightSample) -> bool {
+    return occluded(shadow_ray(at, sample), sample.light);
+}
+
+// The ray from a point to what shines on it.
+fn shadow_ray(at: SurfacePoint, sample: LightSample) -> Ray {
     let start = leaving_towards(at, sample.wi);
     if sample.endless {
-        return occluded(Ray(start, sample.wi, FAR), sample.light);
+        return Ray(start, sample.wi, FAR);
     }
-    return occluded(Ray(start, sample.end - start, SHADOW_END), sample.light);
+    return Ray(start, sample.end - start, SHADOW_END);
+}
+
+// The shadow ray between two points, of which the other lies in this unit direction.
+fn ray_between(at: SurfacePoint, to: SurfacePoint, direction: vec3f) -> Ray {
+    let start = leaving_towards(at, direction);
+    return Ray(start, leaving_towards(to, -direction) - start, SHADOW_END);
 }
 
 // The surface that was met, seen from wo.

@@ -1,8 +1,11 @@
 //! The path tracer on the GPU is the twin of the CPU's: rays meet the same surfaces at the same places, pictures agree
 //! pixel by pixel, and their means within their errors, on every device of this computer.
 
+mod pair;
+
 use film::Film;
 use gpu::Gpu;
+use pair::{Pair, paths};
 use pathtrace::gpu::GpuTracer;
 use pathtrace::intersect::Ray;
 use pathtrace::sampling::{self, rng};
@@ -104,39 +107,6 @@ fn rays_meet_the_same_surfaces_at_the_same_places(scene: &Scene) {
             rays = next;
         }
     }
-}
-
-struct Pair {
-    gpu: Film,
-    cpu: Film,
-    stats: [Stats; 2],
-}
-
-impl Pair {
-    /// Pixels farther apart than `tolerance`, as a share of all; relative above 1.
-    fn apart(&self, tolerance: f32) -> f64 {
-        assert_eq!((self.gpu.nonfinite, self.cpu.nonfinite), (0, 0));
-        let far = |(a, b): &(Vec3, Vec3)| (a - b).abs().max_element() > tolerance * b.max_element().max(1.0);
-        let pixels = f64::from(self.gpu.width() * self.gpu.height());
-        self.gpu.radiances().zip(self.cpu.radiances()).filter(far).count() as f64 / pixels
-    }
-
-    /// Rays on the GPU over rays on the CPU.
-    fn rays(&self) -> f64 {
-        let [gpu, cpu] = self.stats;
-        assert_eq!((gpu.samples, gpu.cut_paths), (cpu.samples, cpu.cut_paths));
-        gpu.rays as f64 / cpu.rays as f64
-    }
-}
-
-fn paths(gpu: &Gpu, scene: &Scene, size: (u32, u32), spp: u32, settings: &PathSettings) -> Pair {
-    let [mut on_gpu, mut on_cpu] = [(); 2].map(|()| Film::new(size.0, size.1));
-    let gpu = GpuTracer::new(gpu, scene)
-        .unwrap()
-        .render(&mut on_gpu, &scene.camera, &(*settings).into(), spp, &|| false)
-        .unwrap();
-    let cpu = Tracer::new(scene).render(&mut on_cpu, &scene.camera, &(*settings).into(), spp, &|| false);
-    Pair { gpu: on_gpu, cpu: on_cpu, stats: [gpu, cpu] }
 }
 
 fn settings(estimator: Estimator, bounces: u32) -> PathSettings {

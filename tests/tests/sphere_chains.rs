@@ -86,7 +86,7 @@ fn roots_on_the_device_are_those_of_bisection() {
         [u32::from(through), words[0], words[1], words[2], angle(item).to_bits(), 0, 0, 0]
     });
     let body = "var found = vec3f(-1.0);
-        for (var index = 0u; index < MOST_ROOTS; index++) {
+        for (var index = 0u; index < roots_at_most(chain); index++) {
             let root = chain_root(chain, index, f(at + 4u));
             if root.found { found[index] = angle_of_sine(root.incidence.x, root.incidence.y); }
         }

@@ -38,7 +38,7 @@ pub struct PreparedScene {
 
 /// What stands for the light that a shadow ray goes to, where it goes to none: of no surface, not even of one that is no
 /// light.
-const NOT_A_LIGHT: u32 = NO_LIGHT - 1;
+pub(crate) const NOT_A_LIGHT: u32 = NO_LIGHT - 1;
 
 /// Shadow rays between points, both ends off their surfaces.
 #[inline(always)]

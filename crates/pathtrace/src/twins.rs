@@ -9,10 +9,11 @@ use crate::drive::gpu::scene_data::*;
 use crate::drive::gpu::shape_data::*;
 use crate::drive::gpu::{PipelineKey, SceneNeeds};
 use crate::integrator::Integrator;
+use crate::integrator::chain_state;
 use crate::integrator::forks::MOST_FORKS;
 use crate::integrator::normals::NormalsSettings;
 use crate::integrator::path::{BY_BOTH, BY_CHANCE, BY_SAMPLING};
-use crate::integrator::path_state::{ALREADY_COUNTED, MET_BY_CHANCE};
+use crate::integrator::path_state::{ALREADY_COUNTED, CONNECTION, MET_BY_CHANCE};
 use crate::integrator::roulette::{ROULETTE_SLOPE, SPARED_VERTICES, STEPS};
 use crate::integrator::settings::PathSettings;
 use crate::integrator::whitted::{MOST_BRANCHES, MOST_LIGHTS, WhittedSettings};
@@ -21,6 +22,7 @@ use crate::intersect::ray::BEHIND_THE_END;
 use crate::intersect::{NO_LIGHT, SHADOW_END};
 use crate::light::ball::ALL_DIRECTIONS;
 use crate::light::flat::SMALLEST_SOLID_ANGLE;
+use crate::prepared::NOT_A_LIGHT;
 use crate::sampling::UNIFORM_HEMISPHERE_PDF;
 use std::collections::BTreeSet;
 use std::f32::consts::{FRAC_1_PI, FRAC_PI_2};
@@ -28,6 +30,11 @@ use std::f32::consts::{FRAC_1_PI, FRAC_PI_2};
 /// Constants that stand on both sides under one name. A test holds each against what the shaders say.
 pub fn shared_constants() -> Vec<(&'static str, f64)> {
     const MOST_DEPTH: u32 = WhittedSettings::MOST_DEPTH;
+    const STAGE_NONE: u32 = chain_state::NONE;
+    const STAGE_LEFT: u32 = chain_state::LEFT;
+    const STAGE_INSIDE: u32 = chain_state::INSIDE;
+    const STAGE_OFF: u32 = chain_state::OFF;
+    const STAGE_THROUGH: u32 = chain_state::THROUGH;
     const SMALLEST_POSITIVE: f32 = f32::MIN_POSITIVE;
     gpu::named_values![
         ALL_DIRECTIONS,
@@ -39,6 +46,7 @@ pub fn shared_constants() -> Vec<(&'static str, f64)> {
         CHAIN_OFF,
         CHAIN_THROUGH,
         CHECKERED,
+        CONNECTION,
         COUNT_SHIFT,
         CUT_SHIFT,
         FRAC_1_PI,
@@ -71,6 +79,7 @@ pub fn shared_constants() -> Vec<(&'static str, f64)> {
         MOST_STEPS,
         MOST_WAITING,
         NEAR_AXIS,
+        NOT_A_LIGHT,
         NO_LIGHT,
         NO_GROUP,
         ROULETTE_SLOPE,
@@ -78,6 +87,11 @@ pub fn shared_constants() -> Vec<(&'static str, f64)> {
         SPARED_VERTICES,
         SMALLEST_POSITIVE,
         SMALLEST_SOLID_ANGLE,
+        STAGE_INSIDE,
+        STAGE_LEFT,
+        STAGE_NONE,
+        STAGE_OFF,
+        STAGE_THROUGH,
         STEPS,
         UNIFORM_HEMISPHERE_PDF,
     ]

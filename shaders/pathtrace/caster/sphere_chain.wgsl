@@ -65,8 +65,9 @@ fn ratio_cosine(ratio: Ratio, cosine: f32) -> f32 {
 // The angle, and its first two derivatives by the incidence.
 fn ratio_angle(ratio: Ratio, incidence: vec2f) -> vec3f {
     let cosine = ratio_cosine(ratio, incidence.y);
-    let slope = ratio.sine / cosine;
-    let bend = -(slope * ratio.rest / (cosine * cosine));
+    let inverse = 1.0 / cosine;
+    let slope = ratio.sine * inverse;
+    let bend = -(slope * ratio.rest) * (inverse * inverse);
     return vec3f(angle_of_sine(ratio.sine * incidence.x, cosine), incidence.y * slope, incidence.x * bend);
 }
 
@@ -96,7 +97,12 @@ fn turn_slope(chain: SphereChain, cosine: f32) -> f32 {
     return 2.0 - ends - chain.refractions * ratio_slope(chain.inside, cosine);
 }
 
-// The root number `index` below MOST_ROOTS for an angle in [0, pi] between the far end and the direction that turns are
+// How many roots there may be.
+fn roots_at_most(chain: SphereChain) -> u32 {
+    return select(1u, MOST_ROOTS, chain.through && chain.first_slope < 0.0);
+}
+
+// The root number `index` below roots_at_most for an angle in [0, pi] between the far end and the direction that turns are
 // counted from. The first crosses the axis where light goes through; near a caustic there are two more on the far end's
 // own side.
 fn chain_root(chain: SphereChain, index: u32, angle: f32) -> Root {
@@ -105,9 +111,6 @@ fn chain_root(chain: SphereChain, index: u32, angle: f32) -> Root {
     let target_ = select(-angle, angle, first);
     let none = Root(false, vec2f(0.0, 1.0), first == chain.through);
     if rising && target_ > chain.last_turn {
-        return none;
-    }
-    if !first && !(chain.through && chain.first_slope < 0.0) {
         return none;
     }
     let i = solve(chain, target_, rising);

@@ -65,6 +65,9 @@ struct Outcome {
     cut: bool,
 }
 
+// of the sample on its way
+var<private> outcome: Outcome;
+
 @group(1) @binding(0) var<uniform> params: RenderParams;
 @group(1) @binding(1) var<storage, read_write> film: array<Pixel>;
 

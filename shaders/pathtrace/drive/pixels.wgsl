@@ -7,7 +7,6 @@
 // returns false when the sample is complete and its radiance in `outcome`.
 
 var<private> sampler_: Sampler;
-var<private> outcome: Outcome;
 
 @compute @workgroup_size(GROUP, GROUP)
 fn trace(@builtin(global_invocation_id) id: vec3u) {

@@ -1,43 +1,15 @@
 //#import pathtrace/prepared.wgsl
 //#import pathtrace/bsdf/bsdf.wgsl
+//#import pathtrace/integrator/path_state.wgsl
+//#import pathtrace/integrator/connected.wgsl
 //#import pathtrace/drive/pixels.wgsl
 // One path: the tutorial's `shade`, turned from recursion into a state that moves from vertex to vertex (Task 2 d).
-// Twins: crates/pathtrace/src/integrator/path.rs, path_state.rs, forks.rs and roulette.rs.
+// Twins: crates/pathtrace/src/integrator/path.rs, forks.rs and roulette.rs.
 //
 // Each step is one segment: meet a surface, take its emission, sample a light, draw a direction, play roulette.
 
-// whether diffuse vertices draw directions uniformly; by the cosine if not
-override UNIFORM_DIRECTIONS: bool = true;
-// how light is found: by chance, by sampling, or both, weighted
-override LIGHT_SAMPLING: u32 = BY_BOTH;
 // whether a diffuse vertex may be left in more than one direction
 override BRANCHING: bool = true;
-
-const BY_CHANCE: u32 = 0u;
-const BY_SAMPLING: u32 = 1u;
-const BY_BOTH: u32 = 2u;
-
-struct PathState {
-    ray: Ray,
-    // what radiance met now is worth at the camera
-    throughput: vec3f,
-    // vertices at which the path has scattered
-    vertices: u32,
-    // diffuse ones among them, as far as they branched
-    forked: u32,
-    // the path's number in the tree of its sample's branches, 0 if nothing branches
-    branch: u32,
-    // the last vertex
-    from_: vec3f,
-    // density per solid angle of the direction taken there, as far as the light met now needs it
-    direction_pdf: f32,
-}
-
-// No light was sampled at the last vertex, or none could be: the camera, a mirror, glass. Other than
-// the twin's: shaders may take infinity away.
-const MET_BY_CHANCE: f32 = -1.0;
-// Light was sampled at the last vertex: meeting it now would count it twice.
-const ALREADY_COUNTED: f32 = 0.0;
 
 // Vertices that can wait for more branches at a time.
 const MOST_FORKS: u32 = 16u;
@@ -47,7 +19,6 @@ const PATH_ENDS: u32 = 0u;
 const PATH_GOES_ON: u32 = 1u;
 const PATH_SCATTERS: u32 = 2u;
 
-var<private> path: PathState;
 var<private> vertex: Interaction;
 // vertices that more branches will leave, and the path as it arrived there: one list for each part, because compilers
 // take long over lists of structures
@@ -68,6 +39,9 @@ var<private> waiting: u32;
 fn begin(ray: Ray) {
     path = PathState(ray, vec3f(1.0), 0u, 0u, 0u, ray.origin, MET_BY_CHANCE);
     waiting = 0u;
+    if CASTERS && CONNECTIONS {
+        chain_state.stage = STAGE_NONE;
+    }
 }
 
 // One segment, or one more branch of a vertex that waits; false when the sample is done.
@@ -126,25 +100,16 @@ fn child(parent: u32, branches: u32, index: u32) -> u32 {
     return parent * branches + index + 1u;
 }
 
-// Blocks of random numbers: the camera takes block 0, each vertex two; branches keep apart by the bits above these.
-fn direction_dimension() -> u32 {
-    return 1u + 2u * path.vertices + (path.branch << 11u);
-}
-
-fn light_dimension() -> u32 {
-    return direction_dimension() + 1u;
-}
-
 // To the next surface.
 fn segment() -> u32 {
     outcome.rays += 1u;
     let nearest = closest(path.ray);
     if nearest.index == NOTHING {
-        let weight = weight_of_meeting(header.sun_pdf);
+        let weight = weight_of_endless(header.sun_pdf);
         outcome.radiance += path.throughput * environment(weight, path.ray.direction);
         if ENVIRONMENT {
             let found = environment_look_up(path.ray.direction);
-            outcome.radiance += path.throughput * found.xyz * weight_of_meeting(found.w);
+            outcome.radiance += path.throughput * found.xyz * weight_of_endless(found.w);
         }
         return PATH_ENDS;
     }
@@ -178,6 +143,9 @@ fn scatter() -> bool {
     let delta = is_delta(vertex);
     if LIGHT_SAMPLING != BY_CHANCE && header.lights > 0u && !delta {
         sample_lights(unit4(sampler_, light_dimension()));
+        if CASTERS && CONNECTIONS && header.chains > 0u {
+            connect(vertex, unit4(sampler_, connection_dimension()));
+        }
     }
     let u = unit4(sampler_, direction_dimension());
     var sample: BsdfSample;
@@ -193,6 +161,11 @@ fn scatter() -> bool {
         path.direction_pdf = ALREADY_COUNTED;
     } else {
         path.direction_pdf = sample.pdf;
+    }
+    if CASTERS && CONNECTIONS && delta {
+        scatter_on_chain(vertex, sample.wi);
+    } else if CASTERS && CONNECTIONS {
+        leave_vertex(vertex.point.position, sample.pdf);
     }
     path.from_ = vertex.point.position;
     path.ray = Ray(leaving_towards(vertex.point, sample.wi), sample.wi, FAR);
@@ -241,38 +214,32 @@ fn sample_lights(u: vec4f) {
     }
     var weight = 1.0;
     if LIGHT_SAMPLING == BY_BOTH {
-        var pdf = UNIFORM_HEMISPHERE_PDF;
-        if !UNIFORM_DIRECTIONS {
-            pdf = bsdf_pdf(vertex, sample.wi, cosine);
-        }
-        weight = balance(sample.pdf, pdf);
+        weight = balance(sample.pdf, direction_pdf(vertex, sample.wi, cosine));
     }
     let bsdf = eval_bsdf(vertex, sample.wi);
     outcome.radiance += path.throughput * bsdf.colour * bsdf.factor * (sample.radiance_over_pdf * (cosine * weight));
 }
 
-// How much light that was met counts beside the same light sampled at the last vertex with density `light_pdf`.
-fn weight_of_meeting(light_pdf: f32) -> f32 {
-    if path.direction_pdf == MET_BY_CHANCE {
-        return 1.0;
-    }
-    if path.direction_pdf == ALREADY_COUNTED {
-        return 0.0;
-    }
-    return balance(path.direction_pdf, light_pdf);
-}
-
+// How much the light of a hit counts, beside the same light sampled.
 fn weight_of_hit(hit: Hit) -> f32 {
     var density = 0.0;
     if LIGHT_SAMPLING == BY_BOTH && path.direction_pdf > 0.0 && hit.light != NO_LIGHT {
         density = light_pdf(hit.light, path.from_, hit.point.position);
     }
-    return weight_of_meeting(density);
+    let weight = weight_of_meeting(density);
+    if CASTERS && CONNECTIONS {
+        return weight * weight_of_chain_to_hit(hit);
+    }
+    return weight;
 }
 
-// The balance heuristic: the weight of a sample of density `own` against one of density `other`.
-fn balance(own: f32, other: f32) -> f32 {
-    return 1.0 / (1.0 + other / own);
+// How much light from where rays hit nothing counts, beside the same light sampled with this density.
+fn weight_of_endless(pdf: f32) -> f32 {
+    let weight = weight_of_meeting(pdf);
+    if CASTERS && CONNECTIONS {
+        return weight * weight_of_chain_to_sky(pdf);
+    }
+    return weight;
 }
 
 // Survival for each unit of throughput.

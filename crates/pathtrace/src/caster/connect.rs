@@ -1,6 +1,8 @@
 //! Connections from vertices to sampled lights by way of a sphere: every ray that goes there by one chain, with its
 //! density. The light is sampled as the sphere's centre sees it, for that is the one place on the axis that all rays of a
 //! chain have in common: a direction at the vertex then has a density in closed form.
+//!
+//! Twin: `shaders/pathtrace/caster/connect.wgsl`.
 
 use super::Chains;
 use super::sphere_chain::{Ratio, Root, SphereChains};

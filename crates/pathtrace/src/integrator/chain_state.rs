@@ -1,5 +1,7 @@
 //! Which chain by a sphere a path is on since its last vertex that has a choice of directions, in each lane: what light
 //! found by chance needs to know, to be weighed against connections. Of no use where a scene has no casters.
+//!
+//! Twin: `shaders/pathtrace/integrator/chain_state.wgsl`.
 
 use crate::bsdf::Interactions;
 use crate::caster::connect::End;
@@ -9,15 +11,15 @@ use crate::intersect::SurfacePoints;
 use simd::{Float, Mask, Vector, Word};
 
 /// On no chain: from the camera, or by more than one sphere, or otherwise than chains go.
-const NONE: u32 = 0;
+pub(crate) const NONE: u32 = 0;
 /// Has left the vertex.
-const LEFT: u32 = 1;
+pub(crate) const LEFT: u32 = 1;
 /// Inside the sphere.
-const INSIDE: u32 = 2;
+pub(crate) const INSIDE: u32 = 2;
 /// Has been reflected off the sphere.
-const OFF: u32 = 3;
+pub(crate) const OFF: u32 = 3;
 /// Has come out of the sphere.
-const THROUGH: u32 = 4;
+pub(crate) const THROUGH: u32 = 4;
 
 /// The chains of paths on their way.
 #[derive(Clone, Copy)]

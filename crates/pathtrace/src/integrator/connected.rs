@@ -1,5 +1,7 @@
 //! What paths do beside sampling lights where a scene has casters: at vertices they connect to a light by way of a sphere,
 //! and light that chance finds by the same chain counts so much the less.
+//!
+//! Twin: `shaders/pathtrace/integrator/connected.wgsl`.
 
 use crate::bsdf::Interactions;
 use crate::caster::connect::{ConnectedRays, Connections, End, facing};

@@ -128,6 +128,7 @@ impl PathSettings {
             ("UNIFORM_DIRECTIONS", flag(self.estimator.directions == Directions::Uniform)),
             ("LIGHT_SAMPLING", f64::from(light_sampling)),
             ("BRANCHING", flag(self.branches > 1 || everything)),
+            ("CONNECTIONS", flag(self.connections && self.estimator.samples_lights())),
         ];
         Ok(PipelineKey::new("pathtrace/integrator/path.wgsl", self.sampler, &constants))
     }

@@ -1,6 +1,6 @@
 //! A path between two of its vertices, and a vertex, in each lane.
 //!
-//! Twin: `shaders/pathtrace/integrator/path.wgsl`.
+//! Twin: `shaders/pathtrace/integrator/path_state.wgsl`.
 
 use crate::intersect::{Rays, SurfacePoints};
 use simd::{Float, Vector, Word};
