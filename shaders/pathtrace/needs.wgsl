@@ -25,6 +25,9 @@ override SUN: bool = true;
 override ENVIRONMENT: bool = true;
 // spheres of glass or of a mirror
 override CASTERS: bool = true;
+// whether there are meshes of mirror or glass that get cones, or any shapes
+override MESH_CONES: bool = true;
+override CASTER_CONES: bool = true;
 // whether random numbers are Sobol points; independent ones if not
 override SOBOL: bool = true;
 // whether shadow rays pass glass

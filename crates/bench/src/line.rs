@@ -2,7 +2,7 @@
 //! them by.
 
 use crate::variant::{MakeTracer, Variant};
-use pathtrace::{Estimator, Integrator, PathSettings, Roulette, SamplerKind};
+use pathtrace::{ConesAt, Estimator, Integrator, PathSettings, Roulette, SamplerKind};
 use raster::Fake;
 use technique::{Device, DeviceChoice, FakeSettings, Technique, TracedSettings, TreeSettings};
 
@@ -11,22 +11,45 @@ pub const USUAL: Technique = path(Estimator::LIGHT, SamplerKind::Sobol);
 
 /// Path tracing without a limit of bounces.
 pub const fn path(estimator: Estimator, sampler: SamplerKind) -> Technique {
-    let (roulette, connections) = (Roulette::THROUGHPUT, true);
-    paths(PathSettings { estimator, sampler, bounces: None, roulette, branches: 1, connections, seed: 1 })
+    let roulette = Roulette::THROUGHPUT;
+    let (connections, cones, split_glass) = (true, ConesAt::Meshes, true);
+    paths(PathSettings {
+        estimator,
+        sampler,
+        bounces: None,
+        roulette,
+        branches: 1,
+        connections,
+        cones,
+        split_glass,
+        seed: 1,
+    })
 }
 
 /// Paths of at most so many bounces, and no roulette: the tutorial's biased loop.
 pub const fn bounded(bounces: u32) -> Technique {
     let (estimator, sampler) = (Estimator::LIGHT, SamplerKind::Independent);
     let (bounces, roulette) = (Some(bounces), Roulette::OFF);
-    paths(PathSettings { estimator, sampler, bounces, roulette, branches: 1, connections: false, seed: 1 })
+    let (connections, cones, split_glass) = (false, ConesAt::Nothing, false);
+    paths(PathSettings { estimator, sampler, bounces, roulette, branches: 1, connections, cones, split_glass, seed: 1 })
 }
 
 /// Paths without limit that survive each vertex with a constant probability: the tutorial's roulette.
 pub const fn survived(probability: f32) -> Technique {
     let (estimator, sampler) = (Estimator::LIGHT, SamplerKind::Independent);
     let roulette = Roulette::constant(probability);
-    paths(PathSettings { estimator, sampler, bounces: None, roulette, branches: 1, connections: false, seed: 1 })
+    let (connections, cones, split_glass) = (false, ConesAt::Nothing, false);
+    paths(PathSettings {
+        estimator,
+        sampler,
+        bounces: None,
+        roulette,
+        branches: 1,
+        connections,
+        cones,
+        split_glass,
+        seed: 1,
+    })
 }
 
 /// Whitted's trees of rays, at the few samples that edges and soft shadows need.

@@ -32,7 +32,7 @@ pub use integrator::normals::{NormalsSettings, Space};
 pub use integrator::photon::{
     DirectLight, LightTracingSettings, MOST_PHOTONS, PhotonSettings, USUAL_PHOTONS, usual_radius,
 };
-pub use integrator::settings::{Directions, Estimator, LightSampling, PathSettings, Roulette, SettingsError};
+pub use integrator::settings::{ConesAt, Directions, Estimator, LightSampling, PathSettings, Roulette, SettingsError};
 pub use integrator::whitted::{GlassShadows, WhittedSettings};
 pub use replicates::{FEWEST_REPLICATES, estimate_with_replicates};
 pub use sampling::sampler::SamplerKind;

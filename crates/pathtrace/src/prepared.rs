@@ -6,6 +6,8 @@ use crate::bsdf::Interactions;
 use crate::bsdf::interaction::facing;
 use crate::bsdf::materials::Materials;
 use crate::caster::Casters;
+use crate::caster::cone::Cones;
+use crate::integrator::settings::ConesAt;
 use crate::intersect::aggregate::Aggregate;
 use crate::intersect::shape_list::Scratch;
 use crate::intersect::{Intersections, NO_LIGHT, Rays, SHADOW_END, SurfacePoints};
@@ -24,6 +26,8 @@ pub struct PreparedScene {
     pub lights: Lights,
     /// What lights are connected to vertices by.
     pub casters: Casters,
+    /// Where directions may go to shapes of mirror and glass, by the settings' choice.
+    pub cones: [Cones; ConesAt::ALL.len()],
     /// Radiance where nothing is hit, of a sky of one colour; a picture is one of the lights.
     pub sky: Vec3,
     /// The sun that a ray can hit.

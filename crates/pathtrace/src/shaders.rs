@@ -12,6 +12,7 @@ pub const SOURCES: &[Source<'static>] = gpu::wgsl_sources![
     "pathtrace/bsdf/rough_conductor.wgsl",
     "pathtrace/camera.wgsl",
     "pathtrace/caster/caster.wgsl",
+    "pathtrace/caster/cone.wgsl",
     "pathtrace/caster/connect.wgsl",
     "pathtrace/caster/sphere_chain.wgsl",
     "pathtrace/drive/film.wgsl",

@@ -2,12 +2,14 @@
 
 use crate::bsdf::materials::Materials;
 use crate::caster::Casters;
+use crate::caster::cone::Cones;
 use crate::drive::lanes::{FilmJob, FilmPass, Stop};
 use crate::integrator::Integrator;
 use crate::integrator::guide::{cells::Cells, guides::Guides};
 use crate::integrator::photon::usual_radius;
+use crate::integrator::settings::ConesAt;
 #[cfg(test)]
-use crate::integrator::{guide::Guide, path::Plan, settings::PathSettings};
+use crate::integrator::{guide::Guide, path_plan::Plan, settings::PathSettings};
 use crate::intersect::Accel;
 use crate::intersect::aggregate::Aggregate;
 use crate::intersect::contact::held_apart;
@@ -42,6 +44,7 @@ impl Tracer {
                 casters: Casters::new(scene),
                 emitters: Emitters::new(scene, &lights),
                 photon_radius: usual_radius(scene),
+                cones: ConesAt::ALL.map(|at| Cones::new(at, scene, &lights)),
                 lights,
             },
             stand_ins: scene.fake,

@@ -2,6 +2,7 @@
 //! the shaders say.
 
 use crate::bsdf::materials::{CHECKERED, HAS_INDEX, LOBE_DIELECTRIC, LOBE_LAMBERT, LOBE_MIRROR, LOBE_ROUGH_CONDUCTOR};
+use crate::caster::cone::{CONE_DENSITY, MOST_CONES, MOST_SHARE, NARROWEST, WIDEST};
 use crate::caster::sphere_chain::{LAST_STEP, MOST_ROOTS, MOST_STEPS, NEAR_AXIS};
 use crate::drive::gpu::dispatch::GROUP;
 use crate::drive::gpu::film_data::CUT_SHIFT;
@@ -12,10 +13,11 @@ use crate::integrator::Integrator;
 use crate::integrator::chain_state;
 use crate::integrator::forks::MOST_FORKS;
 use crate::integrator::normals::NormalsSettings;
-use crate::integrator::path::{BY_BOTH, BY_CHANCE, BY_SAMPLING};
+use crate::integrator::path_plan::{BY_BOTH, BY_CHANCE, BY_SAMPLING};
 use crate::integrator::path_state::{ALREADY_COUNTED, CONNECTION, MET_BY_CHANCE};
 use crate::integrator::roulette::{ROULETTE_SLOPE, SPARED_VERTICES, STEPS};
-use crate::integrator::settings::PathSettings;
+use crate::integrator::settings::{ConesAt, PathSettings};
+use crate::integrator::splits::{ALWAYS_REFRACTED, SPLITTING_VERTICES};
 use crate::integrator::whitted::{MOST_BRANCHES, MOST_LIGHTS, WhittedSettings};
 use crate::intersect::coincident::NO_GROUP;
 use crate::intersect::ray::BEHIND_THE_END;
@@ -25,10 +27,12 @@ use crate::light::flat::SMALLEST_SOLID_ANGLE;
 use crate::prepared::NOT_A_LIGHT;
 use crate::sampling::UNIFORM_HEMISPHERE_PDF;
 use std::collections::BTreeSet;
-use std::f32::consts::{FRAC_1_PI, FRAC_PI_2};
+use std::f32::consts::{FRAC_1_PI, FRAC_PI_2, TAU};
 
 /// Constants that stand on both sides under one name. A test holds each against what the shaders say.
 pub fn shared_constants() -> Vec<(&'static str, f64)> {
+    const CONES_AT_EVERYTHING: u32 = ConesAt::Everything as u32;
+    const CONES_AT_MESHES: u32 = ConesAt::Meshes as u32;
     const MOST_DEPTH: u32 = WhittedSettings::MOST_DEPTH;
     const STAGE_NONE: u32 = chain_state::NONE;
     const STAGE_LEFT: u32 = chain_state::LEFT;
@@ -39,6 +43,7 @@ pub fn shared_constants() -> Vec<(&'static str, f64)> {
     gpu::named_values![
         ALL_DIRECTIONS,
         ALREADY_COUNTED,
+        ALWAYS_REFRACTED,
         BEHIND_THE_END,
         BY_BOTH,
         BY_CHANCE,
@@ -47,6 +52,9 @@ pub fn shared_constants() -> Vec<(&'static str, f64)> {
         CHAIN_THROUGH,
         CHECKERED,
         CONNECTION,
+        CONE_DENSITY,
+        CONES_AT_EVERYTHING,
+        CONES_AT_MESHES,
         COUNT_SHIFT,
         CUT_SHIFT,
         FRAC_1_PI,
@@ -72,12 +80,15 @@ pub fn shared_constants() -> Vec<(&'static str, f64)> {
         MET_BY_CHANCE,
         MOST_BRANCHES,
         MOST_DEPTH,
+        MOST_CONES,
         MOST_FORKS,
         MOST_LIGHTS,
         MOST_ROOTS,
         MOST_SHAPES,
+        MOST_SHARE,
         MOST_STEPS,
         MOST_WAITING,
+        NARROWEST,
         NEAR_AXIS,
         NOT_A_LIGHT,
         NO_LIGHT,
@@ -85,6 +96,7 @@ pub fn shared_constants() -> Vec<(&'static str, f64)> {
         ROULETTE_SLOPE,
         SHADOW_END,
         SPARED_VERTICES,
+        SPLITTING_VERTICES,
         SMALLEST_POSITIVE,
         SMALLEST_SOLID_ANGLE,
         STAGE_INSIDE,
@@ -93,7 +105,9 @@ pub fn shared_constants() -> Vec<(&'static str, f64)> {
         STAGE_OFF,
         STAGE_THROUGH,
         STEPS,
+        TAU,
         UNIFORM_HEMISPHERE_PDF,
+        WIDEST,
     ]
 }
 

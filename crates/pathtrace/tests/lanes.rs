@@ -3,7 +3,9 @@
 #![expect(clippy::expect_used, reason = "a scene that does not load is a failure")]
 
 use film::Film;
-use pathtrace::{Estimator, GlassShadows, Lanes, PathSettings, Roulette, SamplerKind, Stats, Tracer, WhittedSettings};
+use pathtrace::{
+    ConesAt, Estimator, GlassShadows, Lanes, PathSettings, Roulette, SamplerKind, Stats, Tracer, WhittedSettings,
+};
 use scene::{Scene, builtin};
 use std::f64::consts::{PI, TAU};
 use std::path::Path;
@@ -58,6 +60,8 @@ fn all_settings() -> Vec<PathSettings> {
         PathSettings { bounces: Some(0), ..base },
         PathSettings { bounces: Some(3), roulette: Roulette::OFF, estimator: Estimator::MIS, ..base },
         PathSettings { roulette: Roulette { probability: Some(0.7), throughput: true }, ..base },
+        PathSettings { cones: ConesAt::Everything, estimator: Estimator::MIS, ..PathSettings::default() },
+        PathSettings { cones: ConesAt::Nothing, split_glass: false, ..PathSettings::default() },
         PathSettings { branches: 3, bounces: Some(2), ..base },
         PathSettings { branches: 2, bounces: Some(3), estimator: Estimator::UNIFORM_MIS, ..PathSettings::default() },
     ];

@@ -1,4 +1,5 @@
 //#import pathtrace/bsdf/bsdf.wgsl
+//#import pathtrace/caster/cone.wgsl
 //#import pathtrace/drive/film.wgsl
 //#import pathtrace/integrator/chain_state.wgsl
 //#import pathtrace/integrator/path_state.wgsl
@@ -109,5 +110,9 @@ fn direction_pdf(at: Interaction, wi: vec3f, cosine: f32) -> f32 {
     if UNIFORM_DIRECTIONS {
         return UNIFORM_HEMISPHERE_PDF;
     }
-    return bsdf_pdf(at, wi, cosine);
+    let lobe = bsdf_pdf(at, wi, cosine);
+    if has_cones() && is_diffuse(at) {
+        return pdf_with_cones(wi, lobe);
+    }
+    return lobe;
 }

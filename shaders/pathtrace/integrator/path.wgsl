@@ -1,18 +1,28 @@
 //#import pathtrace/prepared.wgsl
 //#import pathtrace/bsdf/bsdf.wgsl
+//#import pathtrace/caster/cone.wgsl
 //#import pathtrace/integrator/path_state.wgsl
 //#import pathtrace/integrator/connected.wgsl
 //#import pathtrace/drive/pixels.wgsl
 // One path: the tutorial's `shade`, turned from recursion into a state that moves from vertex to vertex (Task 2 d).
-// Twins: crates/pathtrace/src/integrator/path.rs, forks.rs and roulette.rs.
+// Twins: crates/pathtrace/src/integrator/path.rs, directions.rs, path_state.rs, forks.rs,
+// splits.rs and roulette.rs.
 //
 // Each step is one segment: meet a surface, take its emission, sample a light, draw a direction, play roulette.
 
 // whether a diffuse vertex may be left in more than one direction
 override BRANCHING: bool = true;
+// whether glass that the camera sees sends paths on both ways
+override SPLITTING: bool = true;
 
 // Vertices that can wait for more branches at a time.
 const MOST_FORKS: u32 = 16u;
+
+// Vertices of a path up to which glass splits it.
+const SPLITTING_VERTICES: u32 = 2u;
+
+// The largest of the random numbers: glass refracts, unless all is reflected.
+const ALWAYS_REFRACTED: f32 = 0.99999994;
 
 // What comes after a segment. Here alone: lanes have masks for it.
 const PATH_ENDS: u32 = 0u;
@@ -34,6 +44,14 @@ var<private> fork_throughputs: array<vec3f, MOST_FORKS>;
 // vertices, forked, branch, and branches to come
 var<private> fork_counts: array<vec4u, MOST_FORKS>;
 var<private> waiting: u32;
+// whether the path has met nothing but mirrors and glass
+var<private> from_camera: bool;
+// paths that glass has split off, by their parts; of each its vertices and its branch
+var<private> split_origins: array<vec3f, SPLITTING_VERTICES>;
+var<private> split_directions: array<vec3f, SPLITTING_VERTICES>;
+var<private> split_throughputs: array<vec3f, SPLITTING_VERTICES>;
+var<private> split_numbers: array<vec2u, SPLITTING_VERTICES>;
+var<private> split_off: u32;
 
 // Begins a sample.
 fn begin(ray: Ray) {
@@ -42,6 +60,8 @@ fn begin(ray: Ray) {
     if CASTERS && CONNECTIONS {
         chain_state.stage = STAGE_NONE;
     }
+    from_camera = true;
+    split_off = 0u;
 }
 
 // One segment, or one more branch of a vertex that waits; false when the sample is done.
@@ -55,6 +75,10 @@ fn step_on() -> bool {
     }
     if BRANCHING && then == PATH_ENDS && waiting > 0u {
         next_branch();
+        return true;
+    }
+    if SPLITTING && then == PATH_ENDS && split_off > 0u {
+        next_split();
         return true;
     }
     return then == PATH_GOES_ON;
@@ -93,6 +117,43 @@ fn fork() {
     fork_throughputs[waiting] = path.throughput;
     fork_counts[waiting] = vec4u(path.vertices, path.forked, path.branch, params.branches - 1u);
     waiting += 1u;
+}
+
+// Goes on with the last path that glass has split off.
+fn next_split() {
+    split_off -= 1u;
+    let ray = Ray(split_origins[split_off], split_directions[split_off], FAR);
+    let numbers = split_numbers[split_off];
+    path = PathState(ray, split_throughputs[split_off], numbers.x, 0u, numbers.y, ray.origin, MET_BY_CHANCE);
+    from_camera = true;
+    if CASTERS && CONNECTIONS {
+        chain_state.stage = STAGE_NONE;
+    }
+}
+
+// Whether glass that the camera sees is to split the path.
+fn splits_here() -> bool {
+    let glass = DIELECTRIC && vertex.lobe == LOBE_DIELECTRIC;
+    return SPLITTING && glass && from_camera && path.vertices < SPLITTING_VERTICES;
+}
+
+// Lets the part of the path that glass reflects wait where it goes on by refraction.
+fn split() {
+    if dot(vertex.normal, path.ray.direction) >= 0.0 {
+        return;
+    }
+    let share = fresnel(interface_of(vertex), dot(vertex.normal, vertex.wo));
+    if share > 0.0 {
+        let mirrored = reflect(vertex.wo, vertex.normal);
+        let wi = mirrored / sqrt(dot(mirrored, mirrored));
+        split_origins[split_off] = leaving_towards(vertex.point, wi);
+        split_directions[split_off] = wi;
+        split_throughputs[split_off] = path.throughput * share;
+        split_numbers[split_off] = vec2u(path.vertices + 1u, child(path.branch, 2u, 1u));
+        split_off += 1u;
+    }
+    path.throughput *= 1.0 - share;
+    path.branch = child(path.branch, 2u, 0u);
 }
 
 // Number of a path's branch `index` in a tree where each has `branches`.
@@ -141,6 +202,9 @@ fn segment() -> u32 {
 // Samples a light and draws the direction in which the path leaves its vertex; false where it ends.
 fn scatter() -> bool {
     let delta = is_delta(vertex);
+    if has_cones() && !delta {
+        see_cones(vertex);
+    }
     if LIGHT_SAMPLING != BY_CHANCE && header.lights > 0u && !delta {
         sample_lights(unit4(sampler_, light_dimension()));
         if CASTERS && CONNECTIONS && header.chains > 0u {
@@ -148,12 +212,19 @@ fn scatter() -> bool {
         }
     }
     let u = unit4(sampler_, direction_dimension());
+    let splitting = splits_here();
     var sample: BsdfSample;
+    var deserved = path.throughput * vertex.colour;
     if UNIFORM_DIRECTIONS && !delta {
         sample = sample_uniformly(u.xy);
-    } else {
-        sample = sample_bsdf(vertex, u.xyw);
+        deserved = path.throughput;
+    } else if has_cones() && is_diffuse(vertex) {
+        sample = sample_with_cones(u.xyw);
         path.throughput *= sample.weight;
+    } else {
+        sample = sample_bsdf(vertex, vec3f(u.xy, select(u.w, ALWAYS_REFRACTED, splitting)));
+        path.throughput *= sample.weight;
+        deserved = path.throughput;
     }
     if delta || LIGHT_SAMPLING == BY_CHANCE {
         path.direction_pdf = MET_BY_CHANCE;
@@ -169,7 +240,26 @@ fn scatter() -> bool {
     }
     path.from_ = vertex.point.position;
     path.ray = Ray(leaving_towards(vertex.point, sample.wi), sample.wi, FAR);
-    return goes_on(delta, u.z);
+    if SPLITTING {
+        from_camera = from_camera && delta;
+    }
+    if splitting {
+        split();
+    }
+    return goes_on(delta, deserved, u.z);
+}
+
+// A direction of Lambert's lobe or into a cone, weighted by the density of both.
+fn sample_with_cones(u: vec3f) -> BsdfSample {
+    var wi: vec3f;
+    if u.z < cone_share {
+        wi = sample_cones(u.z, u.xy);
+    } else {
+        wi = sample_lambert(vertex, u.xy).wi;
+    }
+    let lobe = pdf_lambert(max(dot(vertex.normal, wi), 0.0));
+    let pdf = pdf_with_cones(wi, lobe);
+    return BsdfSample(wi, vertex.colour * (lobe / pdf), pdf);
 }
 
 // A direction of the tutorial's naive tracer, whatever the surface (Task 2 b); its weight is in the throughput.
@@ -183,7 +273,7 @@ fn sample_uniformly(u: vec2f) -> BsdfSample {
 }
 
 // Counts the vertex and plays roulette.
-fn goes_on(delta: bool, u_roulette: f32) -> bool {
+fn goes_on(delta: bool, deserved: vec3f, u_roulette: f32) -> bool {
     let spared = delta && path.vertices < SPARED_VERTICES;
     path.vertices += 1u;
     let all_counted = path.direction_pdf == ALREADY_COUNTED && all(header.sky == vec3f(0.0));
@@ -197,7 +287,7 @@ fn goes_on(delta: bool, u_roulette: f32) -> bool {
             shared_by *= f32(params.branches);
         }
     }
-    return survives(shared_by, spared, u_roulette);
+    return survives(deserved, shared_by, spared, u_roulette);
 }
 
 // Takes the light of one sample of the lights, unless it is in shadow. Under MIS weighted against meeting the same light
@@ -252,12 +342,12 @@ const STEPS: f32 = 16777216.0;
 // Vertices of a path up to which throughput does not count at mirrors and glass.
 const SPARED_VERTICES: u32 = 64u;
 
-// Russian roulette; the survivor carries the light of those that did not. `branches` paths share what one would carry;
-// one that is `spared` does not end for its throughput.
-fn survives(branches: f32, spared: bool, u: f32) -> bool {
+// Russian roulette by what a path has `deserved`; the survivor carries the light of those that did not. `branches` paths
+// share what one would carry; one that is `spared` does not end for what it has deserved.
+fn survives(deserved: vec3f, branches: f32, spared: bool, u: f32) -> bool {
     var probability = params.probability;
     if params.by_throughput == 1u && !spared {
-        let largest = max(path.throughput.x, max(path.throughput.y, path.throughput.z));
+        let largest = max(deserved.x, max(deserved.y, deserved.z));
         probability *= min(ROULETTE_SLOPE * branches * largest, 1.0);
     }
     probability = ceil(probability * STEPS) / STEPS;

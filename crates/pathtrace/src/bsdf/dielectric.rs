@@ -17,6 +17,12 @@ pub fn sample<F: Float>(at: &Interactions<F>, ior: F, u: F) -> BsdfSamples<F> {
     BsdfSamples { wi, ..BsdfSamples::delta(at) }
 }
 
+/// Share that is reflected of light of which the rest goes on in the refracted direction `wi`.
+#[inline(always)]
+pub fn reflected_beside<F: Float>(at: &Interactions<F>, ior: F, wi: Vector<F>) -> F {
+    Interfaces::at(at, ior).reflected_share(at.normal.dot(at.wo), at.normal.dot(wi).abs())
+}
+
 /// Where light goes on, and how much of it.
 #[derive(Debug, Clone, Copy)]
 pub struct Split<F: Float> {
@@ -72,6 +78,12 @@ impl<F: Float> Interfaces<F> {
     #[inline(always)]
     pub fn fresnel(self, cos_i: F) -> F {
         let (cos_t, refracts) = self.refracted_cosine(cos_i);
+        F::select(refracts | self.ior.eq(F::splat(1.0)), self.reflected_share(cos_i, cos_t), F::splat(1.0))
+    }
+
+    /// The same where the rest is refracted at `cos_t`.
+    #[inline(always)]
+    fn reflected_share(self, cos_i: F, cos_t: F) -> F {
         let outside = self.ior * F::select(self.entering, cos_i, cos_t);
         let inside = F::select(self.entering, cos_t, cos_i);
         let parallel = (outside - inside) / (outside + inside);
@@ -79,8 +91,7 @@ impl<F: Float> Interfaces<F> {
         let inside = self.ior * inside;
         let perpendicular = (outside - inside) / (outside + inside);
         let share = (parallel * parallel + perpendicular * perpendicular) * 0.5;
-        let one = F::splat(1.0);
-        F::select(self.ior.eq(one), F::splat(0.0), F::select(refracts, share, one))
+        F::select(self.ior.eq(F::splat(1.0)), F::splat(0.0), share)
     }
 
     /// The direction into which `wo` refracts at the unit normal `n` on its side (`n . wo` >= 0), by Snell's law, and

@@ -78,6 +78,12 @@ impl Materials {
         sample
     }
 
+    /// Share that glass reflects of light of which the rest goes on in the refracted direction `wi`.
+    #[inline(always)]
+    pub fn reflected_beside<F: Float>(&self, at: &Interactions<F>, wi: Vector<F>) -> F {
+        dielectric::reflected_beside(at, self.ior(at.material), wi)
+    }
+
     /// The BSDF for light from the unit direction `wi`, on the side of `wo`. Not of lobes that leave no choice.
     #[inline(always)]
     pub fn eval<F: Float>(&self, at: &Interactions<F>, wi: Vector<F>) -> ScaledColours<F> {

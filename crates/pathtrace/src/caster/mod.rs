@@ -6,8 +6,11 @@
 //! spheres it has met. A caster may shine as well: it is then met and sampled like any light, and what it sends by way of
 //! itself does not leave the sphere.
 //!
+//! Shapes of mirror and glass that connections do not go by have [`cone`]s, which a part of the directions goes into.
+//!
 //! Twin: `shaders/pathtrace/caster/caster.wgsl`.
 
+pub mod cone;
 pub mod connect;
 pub mod sphere_chain;
 

@@ -7,6 +7,7 @@ use crate::bsdf::Interactions;
 use crate::caster::connect::{ConnectedRays, Connections, End, facing};
 use crate::caster::sphere_chain::MOST_ROOTS;
 use crate::integrator::chain_state::SeenFromCenter;
+use crate::integrator::directions::DirectionsAt;
 use crate::integrator::path::PathLanes;
 use crate::integrator::path_state::balance;
 use crate::integrator::settings::LightSampling;
@@ -18,7 +19,7 @@ impl<F: Float> PathLanes<'_, F> {
     /// Takes the light of one sample of the lights by way of one sphere: of every ray that goes there. Its specular
     /// vertices count against the limit of bounces as they do by chance.
     #[inline(always)]
-    pub(super) fn connect(&mut self, here: F::M, at: &Interactions<F>, u: [F; 4]) {
+    pub(super) fn connect(&mut self, here: F::M, at: &Interactions<F>, directions: &DirectionsAt<F>, u: [F; 4]) {
         let chain = self.scene.casters.choose(u[3]);
         let specular = F::U::select(chain.through, F::U::splat(2), F::U::splat(1));
         let fits = self.path.vertices.wrapping_add(specular).lt(F::U::splat(self.plan.limit));
@@ -29,7 +30,7 @@ impl<F: Float> PathLanes<'_, F> {
         for index in 0..MOST_ROOTS {
             let root = connections.root(index, wanted);
             if root.found.any() {
-                self.receive_by(root.found, at, &connections, &connections.ray(&root));
+                self.receive_by(root.found, (at, directions), &connections, &connections.ray(&root));
             }
         }
     }
@@ -48,7 +49,13 @@ impl<F: Float> PathLanes<'_, F> {
 
     /// Takes the light of a connection, if nothing stands in its way; under MIS weighted against chance.
     #[inline(always)]
-    fn receive_by(&mut self, here: F::M, at: &Interactions<F>, by: &Connections<F>, ray: &ConnectedRays<F>) {
+    fn receive_by(
+        &mut self,
+        here: F::M,
+        (at, directions): (&Interactions<F>, &DirectionsAt<F>),
+        by: &Connections<F>,
+        ray: &ConnectedRays<F>,
+    ) {
         let (zero, cosine) = (F::splat(0.0), at.normal.dot(ray.wi));
         let arrives = self.arrives(here & cosine.gt(zero) & ray.density.gt(zero), &at.point, by, ray);
         if !arrives.any() {
@@ -58,7 +65,7 @@ impl<F: Float> PathLanes<'_, F> {
         let mut density = ray.density * surface.probability;
         if self.plan.light == LightSampling::Mis {
             // of what the sample's own density is the unit of
-            density = density + ray.passes * self.direction_pdf(at, ray.wi, cosine) / by.light.pdf;
+            density = density + ray.passes * self.direction_pdf(at, directions, ray.wi, cosine) / by.light.pdf;
         }
         let colour = Vector::select(by.chain.through, Vector::along_all(F::splat(1.0)), surface.colour);
         let bsdf = self.scene.materials.eval(at, ray.wi);

@@ -5,7 +5,7 @@
 use crate::integrator::path_state::{DiffuseVertices, PathStates};
 use simd::{Float, Mask, Word};
 
-/// Vertices that can wait for more branches at a time: two to this power is [`crate::integrator::path::MOST_BRANCHES`].
+/// Vertices that can wait for more branches at a time: two to this power is [`crate::integrator::path_plan::MOST_BRANCHES`].
 pub const MOST_FORKS: usize = 16;
 
 /// A vertex that more branches will leave, in each lane.

@@ -8,15 +8,18 @@
 
 pub(crate) mod chain_state;
 mod connected;
+pub(crate) mod directions;
 pub(crate) mod forks;
 pub(crate) mod guide;
 pub mod metropolis;
 pub mod normals;
 pub mod path;
+pub(crate) mod path_plan;
 pub(crate) mod path_state;
 pub mod photon;
 pub(crate) mod roulette;
 pub mod settings;
+pub(crate) mod splits;
 pub mod whitted;
 
 use crate::drive::gpu::{PipelineKey, film_data::RenderParams};
@@ -118,7 +121,7 @@ impl Integrator {
         match self {
             // none where the job was stopped while a guide was learned
             Integrator::Path(settings) => {
-                path::Plan::of(settings, job).map(|plan| job.fill(film, &plan)).unwrap_or_default()
+                path_plan::Plan::of(settings, job).map(|plan| job.fill(film, &plan)).unwrap_or_default()
             }
             Integrator::Whitted(settings) => job.fill(film, &whitted::Plan::new(settings, job.stand_ins)),
             Integrator::Photon(settings) => settings.fill(film, job),

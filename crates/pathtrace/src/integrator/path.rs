@@ -11,140 +11,23 @@
 //!
 //! Twin: `shaders/pathtrace/integrator/path.wgsl`.
 
-use crate::bsdf::{BsdfSamples, Interactions, ScaledColours};
-use crate::drive::gpu::film_data::RenderParams;
-use crate::drive::gpu::{PipelineKey, flag};
-use crate::drive::lanes::{FilmJob, LaneIntegrator, LanePlan};
+use crate::bsdf::Interactions;
+use crate::drive::lanes::LaneIntegrator;
 use crate::integrator::chain_state::ChainStates;
-use crate::integrator::forks::{Forks, MOST_FORKS, child};
-use crate::integrator::guide::Guide;
+use crate::integrator::directions::{DirectionsAt, Drawn};
+use crate::integrator::forks::{Forks, child};
 use crate::integrator::guide::guidance::Guidance;
-use crate::integrator::guide::training::Notes;
+use crate::integrator::path_plan::Plan;
 use crate::integrator::path_state::{ALREADY_COUNTED, DiffuseVertices, MET_BY_CHANCE, PathStates, balance};
 use crate::integrator::roulette::{SPARED_VERTICES, survivors};
-use crate::integrator::settings::{Directions, LightSampling, PathSettings, Roulette};
+use crate::integrator::settings::{Directions, LightSampling};
+use crate::integrator::splits::{ALWAYS_REFRACTED, Splits};
 use crate::intersect::shape_list::Scratch;
 use crate::intersect::{Intersections, NO_LIGHT, Rays, SurfacePoints};
 use crate::prepared::{Outcomes, PreparedScene};
-use crate::sampling::UNIFORM_HEMISPHERE_PDF;
 use crate::sampling::sampler::RandomNumbers;
-use crate::sampling::warp::{to_world, uniform_hemisphere};
 use scene::Vec3;
-use simd::{Column, Float, Mask, Vector, Word};
-use std::sync::Arc;
-
-/// Paths that one sample may branch into.
-pub const MOST_BRANCHES: u32 = 65_536;
-
-/// Settings as the walk reads them.
-pub struct Plan<'n> {
-    pub(super) directions: Directions,
-    pub(super) light: LightSampling,
-    /// Whether lights that are sampled are connected to by way of spheres as well.
-    pub(super) connections: bool,
-    roulette: Roulette,
-    /// Vertices at which a path may scatter.
-    pub(super) limit: u32,
-    /// Whether that is the hard cap rather than the user's wish.
-    capped: bool,
-    branches: u32,
-    /// Diffuse vertices of a path that may branch.
-    branching_vertices: u32,
-    /// `branches` to the power of the vertices that branched.
-    paths_after: Column,
-    /// Where light comes from, if that was learned.
-    guide: Option<Arc<Guide>>,
-    /// What is found is written here, for a guide to learn from.
-    notes: Option<&'n Notes>,
-}
-
-impl<'n> Plan<'n> {
-    /// Reads the settings, and learns what they ask for; `None` if the job is stopped meanwhile.
-    pub fn of(settings: &PathSettings, job: &FilmJob) -> Option<Self> {
-        Some(match settings.estimator.directions {
-            Directions::Guided => Self::guided_by(settings, job.guides.of(settings, job)?),
-            Directions::Uniform | Directions::Cosine => Self::new(settings),
-        })
-    }
-
-    /// With a guide that was learned.
-    pub fn guided_by(settings: &PathSettings, guide: Arc<Guide>) -> Self {
-        Plan { guide: Some(guide), ..Self::new(settings) }
-    }
-
-    /// For paths that write down what they find.
-    pub fn that_teaches(settings: &PathSettings, notes: &'n Notes) -> Self {
-        Plan { notes: Some(notes), ..Self::new(settings) }
-    }
-
-    /// Reads the settings; without a guide, paths that ask for one are not guided.
-    pub(super) fn new(settings: &PathSettings) -> Self {
-        let branches = settings.branches.max(1);
-        let forks = 0..=MOST_FORKS as i32;
-        Plan {
-            directions: settings.estimator.directions,
-            light: settings.estimator.light,
-            connections: settings.connections && settings.estimator.samples_lights(),
-            roulette: settings.roulette,
-            limit: settings.scattering_vertices(),
-            capped: settings.bounces.is_none(),
-            branches,
-            branching_vertices: settings.branching_vertices().min(MOST_FORKS as u32),
-            paths_after: Column::new(forks.map(|forks| (branches as f32).powi(forks))),
-            guide: None,
-            notes: None,
-        }
-    }
-}
-
-impl LanePlan for Plan<'_> {
-    type LaneState<'a, F: Float>
-        = PathLanes<'a, F>
-    where
-        Self: 'a;
-
-    #[inline(always)]
-    fn lane_state<'a, F: Float>(&'a self, scene: &'a PreparedScene) -> PathLanes<'a, F> {
-        PathLanes::new(scene, self)
-    }
-}
-
-/// How light is found.
-pub(crate) const BY_CHANCE: u32 = 0;
-pub(crate) const BY_SAMPLING: u32 = 1;
-pub(crate) const BY_BOTH: u32 = 2;
-
-impl PathSettings {
-    pub(super) fn pipeline_key(&self, everything: bool) -> Result<PipelineKey, &'static str> {
-        if self.estimator.directions == Directions::Guided {
-            return Err("a guide of paths is learned and followed by the processor alone");
-        }
-        let light_sampling = match self.estimator.light {
-            LightSampling::BsdfOnly => BY_CHANCE,
-            LightSampling::NextEvent => BY_SAMPLING,
-            LightSampling::Mis => BY_BOTH,
-        };
-        let constants = [
-            ("UNIFORM_DIRECTIONS", flag(self.estimator.directions == Directions::Uniform)),
-            ("LIGHT_SAMPLING", f64::from(light_sampling)),
-            ("BRANCHING", flag(self.branches > 1 || everything)),
-            ("CONNECTIONS", flag(self.connections && self.estimator.samples_lights())),
-        ];
-        Ok(PipelineKey::new("pathtrace/integrator/path.wgsl", self.sampler, &constants))
-    }
-
-    pub(super) fn render_params(&self, params: RenderParams) -> RenderParams {
-        RenderParams {
-            limit: self.scattering_vertices(),
-            capped: u32::from(self.bounces.is_none()),
-            branches: self.branches.max(1),
-            branching_vertices: self.branching_vertices().min(MOST_FORKS as u32),
-            by_throughput: u32::from(self.roulette.throughput),
-            probability: self.roulette.probability.unwrap_or(1.0),
-            ..params
-        }
-    }
-}
+use simd::{Float, Mask, Vector, Word};
 
 /// Paths, where they walk and what they bring.
 pub struct PathLanes<'a, F: Float> {
@@ -158,6 +41,9 @@ pub struct PathLanes<'a, F: Float> {
     resumed: F::M,
     vertex: DiffuseVertices<F>,
     forks: Forks<F>,
+    /// Where a path has met nothing but mirrors and glass.
+    pub(super) from_camera: F::M,
+    pub(super) splits: Splits<F>,
     pub(super) scratch: Scratch<F>,
     outcome: Outcomes<F>,
     guidance: Guidance<'a, F>,
@@ -170,6 +56,7 @@ impl<'a, F: Float, S: RandomNumbers<F::U>> LaneIntegrator<F, S> for PathLanes<'a
     #[inline(always)]
     fn begin(&mut self, here: F::M, rays: &Rays<F>) {
         self.path = PathStates::select(here, PathStates::leaving_camera(rays), self.path);
+        self.from_camera = self.from_camera | here;
         self.outcome.radiance = Vector::select(here, Vector::zero(), self.outcome.radiance);
         self.outcome.cut = self.outcome.cut & !here;
         if self.connecting {
@@ -212,17 +99,21 @@ impl<'a, F: Float, S: RandomNumbers<F::U>> LaneIntegrator<F, S> for PathLanes<'a
             scattering = scattering | self.resumed;
         }
         let u = sampler.unit4(self.path.direction_dimension());
+        let mut deserved = self.path.throughput;
         if scattering.any() {
-            self.scatter(scattering, &vertex, sampler, [u[0], u[1], u[3]]);
+            deserved = self.scatter(scattering, &vertex, sampler, [u[0], u[1], u[3]]);
         }
         let has = self.scene.materials.has();
         let delta = if has.mirrors | has.glass { vertex.is_delta() } else { F::M::splat(false) };
         let before = self.path.throughput;
-        let alive = self.goes_on(scattering, delta, u[2]);
+        let alive = self.goes_on(scattering, delta, deserved, u[2]);
         let ended = taken & !alive;
         if self.guidance.learns() {
             let carried = [before, self.path.throughput];
             self.guidance.note([scattering, ended], carried, self.outcome.radiance, sampler.pixel_and_sample());
+        }
+        if self.splits_glass() {
+            return ended & !self.next_split(ended);
         }
         if self.plan.branching_vertices > 0 {
             self.resumed = self.forks.next(ended, self.plan.branches, &mut self.vertex, &mut self.path);
@@ -255,6 +146,8 @@ impl<'a, F: Float> PathLanes<'a, F> {
             resumed: F::M::splat(false),
             vertex: DiffuseVertices { point: SurfacePoints::in_the_air(zero), normal: zero, albedo: zero },
             forks: Forks::default(),
+            from_camera: F::M::splat(false),
+            splits: Splits::default(),
             scratch: Scratch::new(scene.aggregate.shape_list()),
             outcome: Outcomes { radiance: zero, cut: F::M::splat(false) },
             guidance: Guidance::new(plan.guide.as_deref(), plan.notes),
@@ -293,33 +186,35 @@ impl<'a, F: Float> PathLanes<'a, F> {
         self.path = PathStates::select(here, path, self.path);
     }
 
-    /// Samples a light, and takes the directions in which paths leave their vertices, from three random numbers. Paths that
-    /// are not `here` have ended, and what becomes of them is of no account: nothing has to be kept.
+    /// Samples a light, and takes the directions in which paths leave their vertices, from three random numbers; what roulette goes
+    /// by. Paths that are not `here` have ended, and what becomes of them is of no account: nothing has to be kept.
     #[inline(always)]
-    fn scatter(&mut self, here: F::M, at: &Interactions<F>, sampler: &impl RandomNumbers<F::U>, u: [F; 3]) {
+    fn scatter(
+        &mut self,
+        here: F::M,
+        at: &Interactions<F>,
+        sampler: &impl RandomNumbers<F::U>,
+        u: [F; 3],
+    ) -> Vector<F> {
         let delta = at.is_delta();
-        let uniform = self.plan.directions == Directions::Uniform;
         let choosing = here & !delta;
+        let directions = self.directions(choosing, at);
         let u = self.guidance.bend(choosing & at.is_diffuse(), at, u);
         if self.plan.light != LightSampling::BsdfOnly && !self.scene.lights.is_empty() && choosing.any() {
-            self.sample_lights(choosing, at, sampler.unit4(self.path.light_dimension()));
+            self.sample_lights(choosing, at, &directions, sampler.unit4(self.path.light_dimension()));
             if self.connecting {
-                self.connect(choosing, at, sampler.unit4(self.path.connection_dimension()));
+                self.connect(choosing, at, &directions, sampler.unit4(self.path.connection_dimension()));
             }
         }
-        let mut sample = self.scene.materials.sample(if uniform { here & delta } else { here }, at, u);
-        let mut throughput = self.path.throughput * sample.weight;
-        if uniform {
-            let (drawn, weight) = self.sample_uniformly(at, [u[0], u[1]]);
-            throughput = Vector::select(delta, throughput, weight.times(self.path.throughput));
-            sample = BsdfSamples::select(delta, sample, drawn);
-        }
+        let splitting = self.splitting(here, at);
+        let u = [u[0], u[1], F::select(splitting, F::splat(ALWAYS_REFRACTED), u[2])];
+        let mut drawn = directions.sample(here, at, self.path.throughput, u);
         let mut guided = self.path.guided;
         if let Some(ratio) = self.guidance.ratio() {
-            throughput = throughput.divided_by(ratio);
-            sample.pdf = sample.pdf * ratio;
+            drawn = drawn.times_as_dense(ratio);
             guided = guided * ratio;
         }
+        let Drawn { sample, throughput, deserved } = drawn;
         let direction_pdf = match self.plan.light {
             LightSampling::BsdfOnly => F::splat(MET_BY_CHANCE),
             LightSampling::NextEvent => F::select(delta, F::splat(MET_BY_CHANCE), F::splat(ALREADY_COUNTED)),
@@ -331,21 +226,28 @@ impl<'a, F: Float> PathLanes<'a, F> {
         }
         let rays = Rays::new(at.point.leaving_towards(sample.wi), sample.wi);
         self.path = PathStates { rays, throughput, from: at.point.position, direction_pdf, guided, ..self.path };
+        if self.splits_glass() {
+            self.from_camera = self.from_camera & !choosing;
+            self.split(splitting, at);
+        }
+        deserved
     }
 
-    /// Directions of the tutorial's naive tracer, whatever the surface (Task 2 b), and their weights.
+    /// How directions are drawn at these vertices, of which those that leave a choice are `choosing`.
     #[inline(always)]
-    fn sample_uniformly(&self, at: &Interactions<F>, u: [F; 2]) -> (BsdfSamples<F>, ScaledColours<F>) {
-        let local = uniform_hemisphere(u);
-        let wi = to_world(local, at.normal);
-        let mut weight = self.scene.materials.eval(at, wi);
-        weight.factor = local.z * (weight.factor / F::splat(UNIFORM_HEMISPHERE_PDF));
-        (BsdfSamples { wi, weight: weight.colour, pdf: F::splat(UNIFORM_HEMISPHERE_PDF) }, weight)
+    fn directions(&self, choosing: F::M, at: &Interactions<F>) -> DirectionsAt<'a, F> {
+        let cones = &self.scene.cones[self.plan.cones as usize];
+        let some = !cones.is_empty() && choosing.any();
+        DirectionsAt {
+            materials: &self.scene.materials,
+            uniform: self.plan.directions == Directions::Uniform,
+            cones: some.then(|| cones.seen_from(at)),
+        }
     }
 
     /// Counts the vertex and plays roulette; where paths go on.
     #[inline(always)]
-    fn goes_on(&mut self, alive: F::M, delta: F::M, u_roulette: F) -> F::M {
+    fn goes_on(&mut self, alive: F::M, delta: F::M, deserved: Vector<F>, u_roulette: F) -> F::M {
         let path = &mut self.path;
         let spared = delta & path.vertices.lt(F::U::splat(SPARED_VERTICES));
         path.vertices = path.vertices.wrapping_add(F::U::splat(1));
@@ -364,7 +266,8 @@ impl<'a, F: Float> PathLanes<'a, F> {
         }
         // the guide's choices are no reason to end: only what the surfaces have taken is
         branches = branches * path.guided;
-        let (survives, throughput) = survivors(path.throughput, branches, spared, self.plan.roulette, u_roulette);
+        let (survives, throughput) =
+            survivors(path.throughput, deserved, branches, spared, self.plan.roulette, u_roulette);
         let before = std::mem::replace(&mut path.throughput, throughput);
         if self.plan.guide.is_some() {
             let carried = Vector::select(survives, path.throughput, Vector::zero());
@@ -377,7 +280,7 @@ impl<'a, F: Float> PathLanes<'a, F> {
     /// Takes the light of one sample of the lights, where it is not in shadow. Under MIS weighted against meeting the
     /// same light by chance.
     #[inline(always)]
-    fn sample_lights(&mut self, here: F::M, at: &Interactions<F>, u: [F; 4]) {
+    fn sample_lights(&mut self, here: F::M, at: &Interactions<F>, directions: &DirectionsAt<F>, u: [F; 4]) {
         let sample = self.scene.lights.table().sample(at.point.position, u[2], [u[0], u[1]]);
         let cosine = at.normal.dot(sample.wi);
         let faced = here & sample.shines & cosine.gt(F::splat(0.0));
@@ -387,22 +290,24 @@ impl<'a, F: Float> PathLanes<'a, F> {
         }
         let shadowed = self.scene.in_shadow(&at.point, &sample, faced, false, &mut self.scratch);
         let weighted = match self.plan.light {
-            LightSampling::Mis => cosine * balance(sample.pdf, self.direction_pdf(at, sample.wi, cosine)),
+            LightSampling::Mis => cosine * balance(sample.pdf, self.direction_pdf(at, directions, sample.wi, cosine)),
             _ => cosine,
         };
         let bsdf = self.scene.materials.eval(at, sample.wi);
         self.receive(faced & !shadowed, bsdf.times(sample.radiance_over_pdf * weighted));
     }
 
-    /// Density per solid angle with which chance takes a direction at this cosine to the normal of a surface that leaves a
-    /// choice.
+    /// Density per solid angle with which chance takes a direction `wi` whose cosine to the normal is above 0, at vertices
+    /// that leave a choice.
     #[inline(always)]
-    pub(super) fn direction_pdf(&self, at: &Interactions<F>, wi: Vector<F>, cosine: F) -> F {
-        match self.plan.directions {
-            Directions::Cosine => self.scene.materials.pdf(at, wi, cosine),
-            Directions::Guided => self.guidance.pdf(at, wi, self.scene.materials.pdf(at, wi, cosine)),
-            Directions::Uniform => F::splat(UNIFORM_HEMISPHERE_PDF),
-        }
+    pub(super) fn direction_pdf(
+        &self,
+        at: &Interactions<F>,
+        directions: &DirectionsAt<F>,
+        wi: Vector<F>,
+        cosine: F,
+    ) -> F {
+        self.guidance.pdf(at, wi, directions.pdf(at, wi, cosine))
     }
 
     /// How much the light of these hits counts, beside the same light sampled.

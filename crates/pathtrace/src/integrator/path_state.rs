@@ -32,7 +32,7 @@ pub const MET_BY_CHANCE: f32 = f32::INFINITY;
 pub const ALREADY_COUNTED: f32 = 0.0;
 
 /// Set in the number of the blocks of connections: branches are numbered up to twice
-/// [`crate::integrator::path::MOST_BRANCHES`], in the bits from 11 to 27.
+/// [`crate::integrator::path_plan::MOST_BRANCHES`], in the bits from 11 to 27.
 pub const CONNECTION: u32 = 1 << 31;
 
 /// A point of a diffuse surface, in each lane.

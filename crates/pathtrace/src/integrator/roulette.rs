@@ -20,10 +20,12 @@ pub(crate) const STEPS: f32 = 16_777_216.0;
 pub(crate) const SPARED_VERTICES: u32 = 64;
 
 /// Russian roulette: where paths survive, and the throughput of survivors, who carry the light of those that did not.
-/// `branches` paths share what one would carry; those that are `spared` do not end for their throughput.
+/// They survive by what they have `deserved`: their throughput, but for choices of directions that are undone if few
+/// survive them. `branches` paths share what one would carry; those that are `spared` do not end for their throughput.
 #[inline(always)]
 pub fn survivors<F: Float>(
     throughput: Vector<F>,
+    deserved: Vector<F>,
     branches: F,
     spared: F::M,
     roulette: Roulette,
@@ -37,7 +39,7 @@ pub fn survivors<F: Float>(
     let one = F::splat(1.0);
     let mut probability = F::splat(roulette.probability.unwrap_or(1.0));
     if roulette.throughput {
-        let by_throughput = (branches * ROULETTE_SLOPE * throughput.max_element()).min(one);
+        let by_throughput = (branches * ROULETTE_SLOPE * deserved.max_element()).min(one);
         probability = probability * F::select(spared, one, by_throughput);
     }
     probability = (probability * STEPS).ceil() * (1.0 / STEPS);

@@ -29,7 +29,7 @@ pub struct BallSamples<F: Float> {
 /// A point on the sphere itself counts as inside: which side it was rounded to says nothing, from inside it sees the
 /// whole sphere, and outside nothing of it.
 #[inline(always)]
-fn cone<F: Float>(x: Vector<F>, ball: &SphereLanes<F>) -> (F, F::M) {
+pub(crate) fn cone<F: Float>(x: Vector<F>, ball: &SphereLanes<F>) -> (F, F::M) {
     let (radius, distance) = (ball.radius, (ball.center - x).length_squared().sqrt());
     let rounding = (ball.center.abs().max_element() + radius) * gamma(8);
     let outside = !distance.le(radius + rounding);

@@ -6,6 +6,8 @@ use super::GpuTraceError;
 use super::film_data::RenderParams;
 use super::scene_data::Header;
 use super::shape_data::{FewShape, MOST_SHAPES, ShapeKinds};
+use crate::caster::cone::Cones;
+use crate::integrator::settings::ConesAt;
 use crate::light::flat::Outline;
 use crate::light::{Light, Lights};
 use crate::sampling::sampler::SamplerKind;
@@ -78,6 +80,10 @@ pub struct SceneNeeds {
     needs: Needs,
     shapes: ShapeKinds,
     lights: LightKinds,
+    /// Whether there are meshes of mirror or glass that get cones ...
+    mesh_cones: bool,
+    /// ... or any shapes.
+    caster_cones: bool,
     /// Everything is compiled in, as if the scene had some of it.
     everything: bool,
 }
@@ -90,7 +96,15 @@ impl SceneNeeds {
 
     /// What this scene needs.
     pub(crate) fn of(scene: &Scene, lights: &Lights, shapes: ShapeKinds) -> Self {
-        SceneNeeds { needs: scene.needs(), shapes, lights: LightKinds::of(lights), everything: false }
+        let has_cones = |at| !Cones::new(at, scene, lights).is_empty();
+        SceneNeeds {
+            needs: scene.needs(),
+            shapes,
+            lights: LightKinds::of(lights),
+            mesh_cones: has_cones(ConesAt::Meshes),
+            caster_cones: has_cones(ConesAt::Everything),
+            everything: false,
+        }
     }
 
     /// The same, with code for all that any scene can ask for: to measure what leaving it out saves.
@@ -126,6 +140,8 @@ impl SceneNeeds {
             ("SUN", self.flag(self.needs.sun)),
             ("ENVIRONMENT", self.flag(self.lights.environment)),
             ("CASTERS", self.flag(self.needs.casters)),
+            ("MESH_CONES", self.flag(self.mesh_cones)),
+            ("CASTER_CONES", self.flag(self.caster_cones)),
         ]);
         constants
     }
@@ -133,7 +149,7 @@ impl SceneNeeds {
     /// Names of the overrides that speak of the scene.
     pub(crate) fn constant_names() -> impl Iterator<Item = &'static str> {
         let (needs, shapes, lights) = (Needs::default(), ShapeKinds::default(), LightKinds::default());
-        let nothing = SceneNeeds { needs, shapes, lights, everything: false };
+        let nothing = SceneNeeds { needs, shapes, lights, mesh_cones: false, caster_cones: false, everything: false };
         nothing.constants().into_iter().map(|(name, _)| name)
     }
 

@@ -3,7 +3,9 @@
 
 use super::shape_data::Shapes;
 use crate::bsdf::materials::lobe_of;
+use crate::caster::cone::{Cones, MOST_CONES};
 use crate::caster::{Casters, THROUGH};
+use crate::integrator::settings::ConesAt;
 use crate::intersect::coincident::Groups;
 use crate::light::flat::Outline;
 use crate::light::{Environment, Light as HostLight, Lights, SunDisc};
@@ -46,6 +48,10 @@ pub struct Header {
     pub seen: [u32; 4],
     /// The same of those that shadow rays may meet, which stand first in each kind.
     pub shading: [u32; 4],
+    /// Spheres around meshes of mirror and glass: centre and radius, which is 0 where there are no more.
+    pub meshes: [[f32; 4]; MOST_CONES],
+    /// The same around all shapes of mirror and glass.
+    pub casters: [[f32; 4]; MOST_CONES],
 }
 
 /// Two colours of cells that fill space; `even` alone without a pattern.
@@ -169,6 +175,8 @@ pub(crate) fn header(scene: &Scene, shapes: &Shapes, lights: &Lights, casters: &
         hollow: u32::from(casters.are_hollow()),
         seen: shapes.seen,
         shading: shapes.shading,
+        meshes: Cones::new(ConesAt::Meshes, scene, lights).spheres(),
+        casters: Cones::new(ConesAt::Everything, scene, lights).spheres(),
     }
 }
 

@@ -4,7 +4,7 @@ use super::Guide;
 use super::cells::Cells;
 use super::training::{Notes, SAMPLES, SIDE};
 use crate::drive::lanes::{FilmJob, FilmPass};
-use crate::integrator::path::Plan;
+use crate::integrator::path_plan::Plan;
 use crate::integrator::settings::{Directions, Estimator, PathSettings};
 use film::Film;
 use scene::camera::PictureFrame;

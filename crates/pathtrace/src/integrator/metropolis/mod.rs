@@ -19,7 +19,7 @@ mod splats;
 mod walk;
 
 use crate::drive::lanes::FilmJob;
-use crate::integrator::path::Plan;
+use crate::integrator::path_plan::Plan;
 use crate::integrator::settings::{Directions, PathSettings, SettingsError};
 use crate::sampling::rng::{pcg4d, unit_float};
 use crate::sampling::sampler::Sampler;

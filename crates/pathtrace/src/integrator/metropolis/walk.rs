@@ -4,7 +4,8 @@
 use super::primary::PrimaryPoints;
 use super::splats::Splats;
 use crate::drive::lanes::{LaneIntegrator, Stop, rays_through};
-use crate::integrator::path::{PathLanes, Plan};
+use crate::integrator::path::PathLanes;
+use crate::integrator::path_plan::Plan;
 use crate::intersect::Rays;
 use crate::intersect::aggregate::lanes_of;
 use crate::prepared::{Outcomes, PreparedScene};

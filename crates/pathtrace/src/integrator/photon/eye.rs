@@ -172,7 +172,8 @@ impl<F: Float> EyeLanes<'_, F> {
         let rays = Rays::new(at.point.leaving_towards(sample.wi), sample.wi);
         let spared = delta & self.path.vertices.lt(F::U::splat(SPARED_VERTICES));
         let throughput = self.path.throughput * sample.weight;
-        let (survives, throughput) = survivors(throughput, F::splat(1.0), spared, Roulette::THROUGHPUT, u[2]);
+        let (survives, throughput) =
+            survivors(throughput, throughput, F::splat(1.0), spared, Roulette::THROUGHPUT, u[2]);
         let weighted = F::select(delta, F::splat(MET_BY_CHANCE), sample.pdf);
         let direction_pdf = F::select(diffuse, F::splat(ALREADY_COUNTED), weighted);
         let vertices = self.path.vertices.wrapping_add(F::U::splat(1));

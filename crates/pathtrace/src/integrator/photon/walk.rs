@@ -222,7 +222,8 @@ impl<'a, F: Float> PhotonLanes<'a, F> {
         let refracted = vertex.normal.dot(sample.wi).lt(F::splat(0.0));
         let spared = vertex.is_delta() & self.path.vertices.lt(F::U::splat(SPARED_VERTICES));
         let throughput = self.path.throughput * sample.weight;
-        let (survives, throughput) = survivors(throughput, F::splat(1.0), spared, Roulette::THROUGHPUT, u[2]);
+        let (survives, throughput) =
+            survivors(throughput, throughput, F::splat(1.0), spared, Roulette::THROUGHPUT, u[2]);
         if self.scene.materials.has().glass {
             self.power = self.power * F::select(scattering & refracted, self.basic(&vertex), F::splat(1.0));
         }
