@@ -10,8 +10,7 @@ use pathtrace::gpu::GpuTracer;
 use pathtrace::intersect::Ray;
 use pathtrace::sampling::{self, rng};
 use pathtrace::{
-    Estimator, GlassShadows, NormalsSettings, PathSettings, Roulette, SamplerKind, Space, Stats, Tracer,
-    WhittedSettings,
+    Estimator, GlassShadows, NormalsSettings, PathSettings, Roulette, SamplerKind, Space, Tracer, WhittedSettings,
 };
 use scene::{Camera, Scene, Vec3, builtin};
 use std::path::Path;

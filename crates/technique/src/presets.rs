@@ -62,28 +62,14 @@ pub const ALL: &[Preset] = &[
         title: "2 b) Uniform sampling, 20 spp",
         about: "Direct light, found by chance: p = 1 / (2 pi)",
         technique: Path,
-        settings: &[
-            ("estimator", "uniform"),
-            ("bounces", "0"),
-            ("roulette", "off"),
-            ("spp", "20"),
-            INDEPENDENT,
-            UNCONNECTED,
-        ],
+        settings: &[("estimator", "uniform"), ("bounces", "0"), ("roulette", "off"), ("spp", "20"), INDEPENDENT],
     },
     Preset {
         name: "naive",
         title: "2 b) Naive tracer, N = 1, 16 spp",
         about: "Path tracing: one direction at each vertex, 2 bounces, light found by chance",
         technique: Path,
-        settings: &[
-            ("estimator", "uniform"),
-            ("bounces", "2"),
-            ("roulette", "off"),
-            ("spp", "16"),
-            INDEPENDENT,
-            UNCONNECTED,
-        ],
+        settings: &[("estimator", "uniform"), ("bounces", "2"), ("roulette", "off"), ("spp", "16"), INDEPENDENT],
     },
     Preset {
         name: "naive-4",
@@ -97,7 +83,6 @@ pub const ALL: &[Preset] = &[
             ("branches", "4"),
             ("spp", "1"),
             INDEPENDENT,
-            UNCONNECTED,
         ],
     },
     Preset {
@@ -105,112 +90,56 @@ pub const ALL: &[Preset] = &[
         title: "2 c) Light sampling, 20 spp",
         about: "Direct light, sampled: p = 1 / S",
         technique: Path,
-        settings: &[
-            ("estimator", "light"),
-            ("bounces", "0"),
-            ("roulette", "off"),
-            ("spp", "20"),
-            INDEPENDENT,
-            UNCONNECTED,
-        ],
+        settings: &[("estimator", "light"), ("bounces", "0"), ("roulette", "off"), ("spp", "20"), INDEPENDENT],
     },
     Preset {
         name: "2e-0-bounces",
         title: "2 e) No bounce, 20 spp",
         about: "Direct light only",
         technique: Path,
-        settings: &[
-            ("estimator", "light"),
-            ("bounces", "0"),
-            ("roulette", "off"),
-            ("spp", "20"),
-            INDEPENDENT,
-            UNCONNECTED,
-        ],
+        settings: &[("estimator", "light"), ("bounces", "0"), ("roulette", "off"), ("spp", "20"), INDEPENDENT],
     },
     Preset {
         name: "2e-1-bounce",
         title: "2 e) 1 bounce, 20 spp",
         about: "Light from one surface on another, once",
         technique: Path,
-        settings: &[
-            ("estimator", "light"),
-            ("bounces", "1"),
-            ("roulette", "off"),
-            ("spp", "20"),
-            INDEPENDENT,
-            UNCONNECTED,
-        ],
+        settings: &[("estimator", "light"), ("bounces", "1"), ("roulette", "off"), ("spp", "20"), INDEPENDENT],
     },
     Preset {
         name: "2e-2-bounces",
         title: "2 e) 2 bounces, 20 spp",
         about: "Still biased: longer paths are lost",
         technique: Path,
-        settings: &[
-            ("estimator", "light"),
-            ("bounces", "2"),
-            ("roulette", "off"),
-            ("spp", "20"),
-            INDEPENDENT,
-            UNCONNECTED,
-        ],
+        settings: &[("estimator", "light"), ("bounces", "2"), ("roulette", "off"), ("spp", "20"), INDEPENDENT],
     },
     Preset {
         name: "complete",
         title: "Complete tracer: roulette, P = 0.8, 20 spp",
         about: "Unlimited and unbiased: what survives is divided by P",
         technique: Path,
-        settings: &[
-            ("estimator", "light"),
-            ("bounces", "inf"),
-            ("roulette", "0.8"),
-            ("spp", "20"),
-            INDEPENDENT,
-            UNCONNECTED,
-        ],
+        settings: &[("estimator", "light"), ("bounces", "inf"), ("roulette", "0.8"), ("spp", "20"), INDEPENDENT],
     },
     Preset {
         name: "2f-1-spp",
         title: "2 f) 1 spp, 2 bounces",
         about: "One path for each pixel",
         technique: Path,
-        settings: &[
-            ("estimator", "light"),
-            ("bounces", "2"),
-            ("roulette", "off"),
-            ("spp", "1"),
-            INDEPENDENT,
-            UNCONNECTED,
-        ],
+        settings: &[("estimator", "light"), ("bounces", "2"), ("roulette", "off"), ("spp", "1"), INDEPENDENT],
     },
     Preset {
         name: "2f-4-spp",
         title: "2 f) 4 spp, 2 bounces",
         about: "Half the noise of 1 spp",
         technique: Path,
-        settings: &[
-            ("estimator", "light"),
-            ("bounces", "2"),
-            ("roulette", "off"),
-            ("spp", "4"),
-            INDEPENDENT,
-            UNCONNECTED,
-        ],
+        settings: &[("estimator", "light"), ("bounces", "2"), ("roulette", "off"), ("spp", "4"), INDEPENDENT],
     },
     Preset {
         name: "2f-16-spp",
         title: "2 f) 16 spp, 2 bounces",
         about: "A quarter of the noise of 1 spp",
         technique: Path,
-        settings: &[
-            ("estimator", "light"),
-            ("bounces", "2"),
-            ("roulette", "off"),
-            ("spp", "16"),
-            INDEPENDENT,
-            UNCONNECTED,
-        ],
+        settings: &[("estimator", "light"), ("bounces", "2"), ("roulette", "off"), ("spp", "16"), INDEPENDENT],
     },
     Preset {
         name: "unlimited",
@@ -224,8 +153,8 @@ pub const ALL: &[Preset] = &[
 /// The tutorial's random numbers, whose error falls like 1 / sqrt(spp).
 const INDEPENDENT: (&str, &str) = ("sampler", "independent");
 
-/// The tutorial leaves caustics to chance.
-const UNCONNECTED: (&str, &str) = ("connections", "off");
+/// What the tutorial's own path tracers, those with its random numbers, leave to chance.
+const LEFT_TO_CHANCE: &[(&str, &str)] = &[("connections", "off"), ("cones", "off"), ("split-glass", "off")];
 
 impl Preset {
     /// The preset of that name.
@@ -233,9 +162,15 @@ impl Preset {
         ALL.iter().find(|preset| preset.name == name)
     }
 
+    /// What it states, and what it leaves to chance as the tutorial did.
+    fn all_settings(&self) -> impl Iterator<Item = &'static (&'static str, &'static str)> {
+        let taught = self.settings.contains(&INDEPENDENT);
+        self.settings.iter().chain(if taught { LEFT_TO_CHANCE } else { &[] })
+    }
+
     /// What it states, by the rows of the table.
     pub fn values(&self) -> impl Iterator<Item = (&'static Setting<PaneSettings>, Value)> {
-        self.settings.iter().filter_map(|(name, word)| {
+        self.all_settings().filter_map(|(name, word)| {
             let setting = of_panes(name)?;
             Some((setting, setting.kind.parse(word).ok()?))
         })
@@ -251,7 +186,7 @@ impl Preset {
 
     /// Its settings as options are typed: "estimator uniform, bounces 0".
     pub fn words(&self) -> String {
-        let words: Vec<_> = self.settings.iter().map(|(name, word)| format!("{name} {word}")).collect();
+        let words: Vec<_> = self.all_settings().map(|(name, word)| format!("{name} {word}")).collect();
         words.join(", ")
     }
 }
@@ -272,7 +207,7 @@ mod tests {
             preset.apply(&mut pane);
             assert_eq!((pane.technique, pane.device, pane.adapter), (preset.technique, DeviceChoice::Gpu, 3));
             for setting in all_of_panes().filter(|setting| setting.is_of(preset.technique)) {
-                let stated = preset.settings.iter().find(|(name, _)| *name == setting.name);
+                let stated = preset.all_settings().find(|(name, _)| *name == setting.name);
                 let expected = match stated {
                     Some((_, word)) => Some(setting.kind.parse(word).unwrap()),
                     None => (setting.get)(&PaneSettings::of(preset.technique)),
@@ -290,7 +225,7 @@ mod tests {
     #[test]
     fn presets_name_settings_of_their_technique_and_can_be_traced() {
         for preset in ALL {
-            assert_eq!(preset.values().count(), preset.settings.len(), "{}: {}", preset.name, preset.words());
+            assert_eq!(preset.values().count(), preset.all_settings().count(), "{}: {}", preset.name, preset.words());
             assert!(preset.values().all(|(setting, _)| setting.is_of(preset.technique)), "{}", preset.name);
             let of_the_name = ALL.iter().filter(|other| other.name == preset.name).count();
             assert_eq!(of_the_name, 1, "{}", preset.name);

@@ -154,8 +154,8 @@ mod tests {
     use super::*;
     use crate::made_by_command;
 
-    /// Pictures from before there were connections were made without them, and those of techniques that have none stay
-    /// as they are.
+    /// Pictures from before there were connections, cones and split glass were made without them, and those of
+    /// techniques that have none stay as they are.
     #[test]
     fn what_old_records_leave_unsaid_is_what_was_done_then() {
         let old = |technique: &str| {
@@ -163,11 +163,14 @@ mod tests {
             let records = [record("records", "2"), record("scene", "whitted"), record("technique", technique)];
             made_from(&records).unwrap().unwrap().options
         };
-        assert_eq!(old("path"), ["--technique=path", "--connections=off"]);
+        let left_to_chance = ["--connections=off", "--cones=off", "--split-glass=off"];
+        assert_eq!(old("path"), [&["--technique=path"][..], &left_to_chance].concat());
         assert_eq!(old("whitted"), ["--technique=whitted"]);
         let line = |words: &str| made_by_command(&format!("visavis render whitted {words} -o a.png")).unwrap().options;
         assert_eq!(line("--technique path"), old("path"));
-        assert_eq!(line("--technique path --connections on"), ["--technique=path", "--connections=on"]);
-        assert_eq!(line("--spp 4"), ["--spp=4", "--connections=off"], "paths are what is traced unless it says");
+        let said = ["--technique=path", "--connections=on", "--cones=all", "--split-glass=on"];
+        assert_eq!(line("--technique path --connections on --cones all --split-glass on"), said);
+        let unsaid = [&["--spp=4"][..], &left_to_chance].concat();
+        assert_eq!(line("--spp 4"), unsaid, "paths are what is traced unless it says");
     }
 }

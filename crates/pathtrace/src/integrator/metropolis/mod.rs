@@ -20,7 +20,7 @@ mod walk;
 
 use crate::drive::lanes::FilmJob;
 use crate::integrator::path_plan::Plan;
-use crate::integrator::settings::{Directions, PathSettings, SettingsError};
+use crate::integrator::settings::{ConesAt, Directions, PathSettings, SettingsError};
 use crate::sampling::rng::{pcg4d, unit_float};
 use crate::sampling::sampler::Sampler;
 use crate::stats::{ChainStats, Stats};
@@ -73,7 +73,7 @@ impl MetropolisSettings {
 
     /// Adds runs up to the wished number. One that is stopped is left out, and made again by the next call.
     pub(super) fn fill(&self, film: &mut Film, job: &FilmJob) -> Stats {
-        let plan = Plan::new(&PathSettings { branches: 1, ..self.path });
+        let plan = Plan::new(&PathSettings { branches: 1, cones: ConesAt::Nothing, split_glass: false, ..self.path });
         let (mut next, until) = (film.samples_per_pixel(), job.pass.until);
         let at_once = self.runs_at_once(job.lanes).min(until - next);
         let mut splats: Vec<_> = (0..at_once).map(|_| Splats::new(film.pixels().len())).collect();

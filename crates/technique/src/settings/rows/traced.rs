@@ -4,8 +4,11 @@ use super::{BLANK, LIGHT, NORMALS, PATH, PATHS, PLAIN, TRACED, WHITTED};
 use super::{all_paths, by_integrator, each, named, number, path_of, whole};
 use crate::settings::{Control, Kind, Look, Need, Setting, Value};
 use crate::{PaneSettings, TechniqueName};
-use pathtrace::{Estimator, GlassShadows, LightSampling, PathSettings, Roulette, SamplerKind, Space, WhittedSettings};
-use scene::Scene;
+use pathtrace::{
+    ConesAt, Directions, Estimator, GlassShadows, LightSampling, PathSettings, Roulette, SamplerKind, Space,
+    WhittedSettings,
+};
+use scene::{Bsdf, Geometry, Scene, Shape};
 
 /// The settings of Whitted's method and of path tracing.
 pub const ROWS: &[Setting<PaneSettings>] = &[
@@ -333,7 +336,70 @@ pub const ROWS: &[Setting<PaneSettings>] = &[
         },
         ..PLAIN
     },
+    Setting {
+        name: "cones",
+        of: PATH,
+        kind: Kind::Choice(&["off", "meshes", "all"]),
+        default: Some(Value::Word("meshes")),
+        before: Some(Value::Word("off")),
+        needs: Need::Specular,
+        acts: |pane, scene| has_cones(&pane.truth.path, scene),
+        help: "shapes of glass and mirror that get a part of the directions; balls, boxes and flat mirrors with all",
+        always_recorded: true,
+        get: |pane| Some(Value::Word(pane.truth.path.cones.name())),
+        set: |pane, value| each(named(value, ConesAt::named), [&mut pane.truth.path.cones]),
+        control: Control {
+            label: "Cones at glass and mirrors",
+            brief: Some(
+                |value| if value == Value::Word("off") { "no cones".into() } else { format!("cones at {value}") },
+            ),
+            hover: "A part of the directions at a diffuse surface goes to what throws caustics on it",
+            look: Look::Words(&[
+                ("off", "Caustics are found as often as a direction happens to meet what throws them"),
+                ("meshes", "A part of the directions goes to meshes of glass and mirror"),
+                ("all", "A part of the directions goes to every shape of glass and mirror"),
+            ]),
+            more: PATH,
+            ..BLANK
+        },
+        ..PLAIN
+    },
+    Setting {
+        name: "split-glass",
+        of: PATH,
+        kind: Kind::Choice(&["on", "off"]),
+        default: Some(Value::Word("on")),
+        before: Some(Value::Word("off")),
+        needs: Need::Glass,
+        acts: |pane, _| pane.truth.path.branches < 2,
+        help: "whether the first glass that the camera sees both reflects and refracts a path; off: one of them by chance",
+        always_recorded: true,
+        get: |pane| Some(Value::Word(if pane.truth.path.split_glass { "on" } else { "off" })),
+        set: |pane, value| pane.truth.path.split_glass = value == Value::Word("on"),
+        control: Control {
+            label: "Glass splits paths",
+            brief: Some(|value| if value == Value::Word("on") { "split at glass" } else { "not split" }.into()),
+            hover: "What a path does at the first glass that the camera sees",
+            look: Look::Words(&[
+                ("on", "It goes on both ways, as in Whitted's trees: the sun glints in glass without noise"),
+                ("off", "It goes on one way, reflected or refracted, by chance"),
+            ]),
+            more: PATH,
+            ..BLANK
+        },
+        ..PLAIN
+    },
 ];
+
+/// Whether any shape of a scene gets directions of its own.
+fn has_cones(path: &PathSettings, scene: &Scene) -> bool {
+    let drawn_well = path.estimator.directions == Directions::Cosine && path.estimator.samples_lights();
+    let gets_one = |shape: &Shape| {
+        let specular = matches!(scene.material_of(shape).bsdf, Bsdf::Mirror { .. } | Bsdf::Dielectric { .. });
+        specular && (path.cones == ConesAt::Everything || matches!(shape.geometry, Geometry::Mesh(_)))
+    };
+    drawn_well && scene.shapes.iter().any(gets_one)
+}
 
 /// Whether roulette ends paths that would still bring something. With direct light alone, sampled, and no sky to be
 /// met, none does that has left a surface; those that mirrors and glass send on end by a constant probability alone.
