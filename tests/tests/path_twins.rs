@@ -10,7 +10,8 @@ use pathtrace::gpu::GpuTracer;
 use pathtrace::intersect::Ray;
 use pathtrace::sampling::{self, rng};
 use pathtrace::{
-    Estimator, GlassShadows, NormalsSettings, PathSettings, Roulette, SamplerKind, Space, Tracer, WhittedSettings,
+    ConesAt, Estimator, GlassShadows, NormalsSettings, PathSettings, Roulette, SamplerKind, Space, Tracer,
+    WhittedSettings,
 };
 use scene::{Camera, Scene, Vec3, builtin};
 use std::path::Path;
@@ -163,7 +164,7 @@ fn rough_metal_agrees_pixel_by_pixel() {
     }
 }
 
-/// Every estimator, sampler, roulette and number of branches, where all kinds of lights and materials are.
+/// Every estimator, sampler, roulette and number of branches, cones and split glass, where all kinds of lights and materials are.
 #[test]
 fn every_setting_agrees_pixel_by_pixel() {
     let gpu = Gpu::headless().unwrap();
@@ -176,6 +177,9 @@ fn every_setting_agrees_pixel_by_pixel() {
     all[3] = PathSettings { sampler: SamplerKind::Independent, seed: 9, ..all[3] };
     all[4] = PathSettings { branches: 2, ..all[4] };
     all[5] = PathSettings { branches: 3, roulette: Roulette::OFF, bounces: Some(2), ..all[5] };
+    let cones = |estimator| PathSettings { cones: ConesAt::Everything, ..settings(estimator, 3) };
+    all.extend([cones(Estimator::LIGHT), cones(Estimator::MIS)]);
+    all.push(PathSettings { split_glass: false, ..settings(Estimator::LIGHT, 3) });
     for settings in all {
         let pair = paths(&gpu, &scene, (96, 64), 1, &settings);
         let (apart, rays) = (pair.apart(1e-3), pair.rays());

@@ -157,8 +157,8 @@ impl Default for Roulette {
 pub enum ConesAt {
     /// None: caustics are found as often as chance meets what throws them.
     Nothing,
-    /// Meshes. Measured, relMSE by chance over that with cones, suns of 4 and 15 degrees, for 1.3 times the time: 2.3 to
-    /// 3.8 for glass meshes above a floor, 1.15 to 1.5 where they touch it.
+    /// Meshes. Measured, relMSE by chance over that with cones, suns of 4 and 15 degrees, for 1.2 to 1.5 times the time:
+    /// 2.3 to 3.8 for glass meshes above a floor, 1.15 to 1.5 where they touch it.
     Meshes,
     /// All, balls, boxes and flat mirrors too: 1.4 to 1.5 for a glass box and 1.1 to 1.6 for a mirroring disk, which just
     /// pays for the time; 3 for the spheres of `whitted` under its sun, as long as only chance finds their caustics.
