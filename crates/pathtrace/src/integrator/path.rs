@@ -186,8 +186,9 @@ impl<'a, F: Float> PathLanes<'a, F> {
         self.path = PathStates::select(here, path, self.path);
     }
 
-    /// Samples a light, and takes the directions in which paths leave their vertices, from three random numbers; what roulette goes
-    /// by. Paths that are not `here` have ended, and what becomes of them is of no account: nothing has to be kept.
+    /// Samples a light, and takes the directions in which paths leave their vertices, from three random numbers; says what
+    /// roulette goes by. Paths that are not `here` have ended, and what becomes of them is of no account: nothing has to be
+    /// kept.
     #[inline(always)]
     fn scatter(
         &mut self,
