@@ -3,13 +3,14 @@
 
 mod pair;
 
-use film::Film;
+use film::{Film, Image};
 use gpu::Gpu;
 use pair::{Pair, paths};
 use pathtrace::gpu::GpuTracer;
 use pathtrace::{Estimator, PathSettings, Roulette, SamplerKind, Tracer};
-use scene::{Scene, builtin};
+use scene::{EnvironmentMap, Scene, Vec3, builtin};
 use std::path::Path;
+use std::sync::Arc;
 
 const SIZE: (u32, u32) = (96, 64);
 
@@ -60,19 +61,20 @@ material = "glass"
     scene::parse(&text, "balls", Path::new("balls.toml")).unwrap()
 }
 
+/// Large ones among them, so that chance finds them by the balls as well.
 const LIGHTS: [(&str, &str); 8] = [
-    ("a sun", "[sun]\ntowards = [1, 2, 0.5]\nirradiance = [3, 3, 3]\nangular_radius = 2\n"),
+    ("a sun", "[sun]\ntowards = [1, 2, 0.5]\nirradiance = [3, 3, 3]\nangular_radius = 25\n"),
     ("a delta sun", "[sun]\ntowards = [1, 2, 0.5]\nirradiance = [3, 3, 3]\nangular_radius = 0\n"),
     ("a point", "[[point_light]]\nposition = [-0.5, 2.4, 0.6]\nintensity = [6, 6, 7]\n"),
-    ("a ball", "[[sphere]]\ncenter = [-0.6, 2.6, 0.6]\nradius = 0.3\nmaterial = 'lamp'\n"),
+    ("a ball", "[[sphere]]\ncenter = [-0.6, 3, 0.6]\nradius = 1\nmaterial = 'lamp'\n"),
     (
         "a rectangle",
-        "[[rectangle]]\ncorner = [-0.5, 2.5, 0]\nedge_u = [0.8, 0, 0]\nedge_v = [0, 0, 0.6]\nmaterial = 'lamp'\n",
+        "[[rectangle]]\ncorner = [-2, 2.5, -1.5]\nedge_u = [4, 0, 0]\nedge_v = [0, 0, 4]\nmaterial = 'lamp'\n",
     ),
-    ("a disk", "[[disk]]\ncenter = [-0.3, 2.5, 0.6]\nnormal = [0, -1, 0]\nradius = 0.4\nmaterial = 'both'\n"),
+    ("a disk", "[[disk]]\ncenter = [-0.3, 2.5, 0.6]\nnormal = [0, -1, 0]\nradius = 1.5\nmaterial = 'both'\n"),
     (
         "triangles",
-        "[[mesh]]\npositions = [[-0.6, 2.5, 0], [0.6, 2.5, 0], [0, 2.4, 0.9]]\ntriangles = [[0, 1, 2]]\nmaterial = 'both'\n",
+        "[[mesh]]\npositions = [[-2, 2.5, -1], [2, 2.5, -1], [0, 2.3, 3]]\ntriangles = [[0, 1, 2]]\nmaterial = 'both'\n",
     ),
     (
         "a sky and two lights",
@@ -89,7 +91,7 @@ fn settings(estimator: Estimator, bounces: u32) -> PathSettings {
 fn agree(what: &str, pair: &Pair) {
     let (apart, rays) = (pair.apart(2e-3), pair.rays());
     println!("{what}: {apart:.5} of the pixels apart, {rays:.5} times the rays");
-    assert!(apart <= 1e-2 && (rays - 1.0).abs() < 2e-3, "{what}: {apart} {rays}");
+    assert!(apart <= 3e-3 && (rays - 1.0).abs() < 2e-3, "{what}: {apart} {rays}");
 }
 
 /// What connections change in the mean, against what is there without them, on the GPU.
@@ -148,6 +150,34 @@ fn pictures_agree_with_every_setting() {
     }
 }
 
+/// Under a ball that nearly focuses a near light, where most of what is seen of the floor has three rays by it.
+#[test]
+fn pictures_agree_near_a_focus() {
+    let gpu = Gpu::headless().unwrap();
+    let text = "[camera]\neye = [1, 0.5, 0]\ntarget = [0.1, 0, 0]\nfov_y = 40\n\
+                [material.floor]\ndiffuse = { albedo = [0.7, 0.6, 0.5] }\n[material.glass]\ndielectric = { ior = 1.5 }\n\
+                [[rectangle]]\ncorner = [-4, 0, -4]\nedge_u = [0, 0, 8]\nedge_v = [8, 0, 0]\nmaterial = 'floor'\n\
+                [[sphere]]\ncenter = [0, 1.6, 0]\nradius = 1\nmaterial = 'glass'\n\
+                [[point_light]]\nposition = [0, 3.1, 0]\nintensity = [6, 6, 7]\n";
+    let scene = scene::parse(text, "focus", Path::new("focus.toml")).unwrap();
+    for estimator in [Estimator::LIGHT, Estimator::MIS] {
+        agree(estimator.name(), &paths(&gpu, &scene, SIZE, 1, &settings(estimator, 2)));
+    }
+}
+
+/// A sky that is a picture is connected to under MIS and left to chance otherwise.
+#[test]
+fn pictures_agree_under_a_sky_that_is_a_picture() {
+    let gpu = Gpu::headless().unwrap();
+    let mut scene = under(LIGHTS[2].1);
+    let bright = |x: u32, y: u32| if x == 5 && y == 2 { 30.0 } else { 0.3 };
+    let texels: Vec<Vec3> = (0..8 * 16).map(|k| Vec3::splat(bright(k % 16, k / 16))).collect();
+    scene.environment = Some(Arc::new(EnvironmentMap::new(Image::new(16, 8, texels).unwrap(), 1.0, 0.2).unwrap()));
+    for estimator in [Estimator::LIGHT, Estimator::MIS] {
+        agree(estimator.name(), &paths(&gpu, &scene, SIZE, 1, &settings(estimator, 4)));
+    }
+}
+
 /// What lies inside a ball of glass stands in the way of what goes through: chords are asked for as well.
 #[test]
 fn pictures_agree_where_balls_are_inside_of_glass() {
@@ -158,7 +188,7 @@ fn pictures_agree_where_balls_are_inside_of_glass() {
     agree("balls inside of glass", &paths(&gpu, &scene, SIZE, 1, &settings(Estimator::MIS, 6)));
 }
 
-/// More spheres than are met one by one, some of them casters: through a tree, with code for everything.
+/// More spheres than are met one by one, some of them casters: through a tree.
 #[test]
 fn pictures_agree_where_many_spheres_cast() {
     let gpu = Gpu::headless().unwrap();

@@ -72,7 +72,7 @@ fn angle(item: u32) -> f32 {
     let [a, b, ..] = units(item, 41);
     let fold = -chain(item).turn(chain(item).fold()) as f32;
     let near = fold + fold * (b - 0.5) * 10f32.powf(-5.0 * a);
-    if item % 4 == 0 && fold > 0.0 { near.clamp(0.0, PI as f32) } else { a * PI as f32 }
+    if item.is_multiple_of(4) && fold > 0.0 { near.clamp(0.0, PI as f32) } else { a * PI as f32 }
 }
 
 /// Off a fold's branch by so little in the turn that rounding decides.

@@ -41,7 +41,9 @@ fn chain_surface(material: u32, through: bool) -> ChainSurface {
 
 // Share of light that the surface reflects, and with which chance does: Fresnel's equations, which come to 1 for a mirror
 // as for glass of infinite index.
-fn chain_reflectance(surface: ChainSurface, cosine: f32) -> f32 {
+fn chain_reflectance(surface: ChainSurface, cosine_: f32) -> f32 {
+    // a mirror's equations are 0 / 0 at grazing incidence
+    let cosine = max(cosine_, SMALLEST_POSITIVE);
     let ratio = surface.inside.sine;
     let inner = ratio_cosine(surface.inside, cosine);
     let parallel = (cosine - ratio * inner) / (cosine + ratio * inner);

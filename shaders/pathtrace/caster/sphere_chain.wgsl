@@ -164,6 +164,7 @@ fn chain_density(chain: SphereChain, incidence: vec2f, sin_angle: f32) -> f32 {
     let slope = abs(turn_slope(chain, incidence.y));
     // both sines vanish together on the axis
     let sines = select(slope, sin_angle / max(incidence.x, NEAR_AXIS), incidence.x > NEAR_AXIS);
-    let near = ratio_cosine(chain.near, incidence.y) / (chain.near.sine * chain.near.sine * max(incidence.y, SMALLEST_POSITIVE));
+    let cosine = max(incidence.y, SMALLEST_POSITIVE);
+    let near = ratio_cosine(chain.near, incidence.y) / (chain.near.sine * chain.near.sine * cosine);
     return sines * slope * near * ratio_cosine(chain.far, incidence.y);
 }

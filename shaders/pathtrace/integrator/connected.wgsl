@@ -18,7 +18,11 @@ fn connect(at: Interaction, u: vec4f) {
     if path.vertices + select(1u, 2u, chain.through) >= params.limit {
         return;
     }
-    let by = connection(at.point.position, chain, sample_light(chain.center, u.z, u.xy));
+    let sample = sample_light(chain.center, u.z, u.xy);
+    if is_left_to_chance(sample) {
+        return;
+    }
+    let by = connection(at.point.position, chain, sample);
     if !by.possible || is_behind(by, at.normal) {
         return;
     }
@@ -28,6 +32,12 @@ fn connect(at: Interaction, u: vec4f) {
             receive_by(at, by, connected_ray(by, root));
         }
     }
+}
+
+// Whether a sample is of a sky that is a picture, and connections are not weighed against chance, which finds what comes
+// from everywhere better.
+fn is_left_to_chance(sample: LightSample) -> bool {
+    return ENVIRONMENT && LIGHT_SAMPLING != BY_BOTH && lights[sample.light].outline == LIGHT_ENVIRONMENT;
 }
 
 // Takes the light of a connection, if nothing stands in its way; under MIS weighted against chance.

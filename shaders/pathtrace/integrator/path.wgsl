@@ -170,7 +170,7 @@ fn segment() -> u32 {
         outcome.radiance += path.throughput * environment(weight, path.ray.direction);
         if ENVIRONMENT {
             let found = environment_look_up(path.ray.direction);
-            outcome.radiance += path.throughput * found.xyz * weight_of_endless(found.w);
+            outcome.radiance += path.throughput * found.xyz * weight_of_environment(found.w);
         }
         return PATH_ENDS;
     }
@@ -330,6 +330,14 @@ fn weight_of_endless(pdf: f32) -> f32 {
         return weight * weight_of_chain_to_sky(pdf);
     }
     return weight;
+}
+
+// The same of a sky that is a picture.
+fn weight_of_environment(pdf: f32) -> f32 {
+    if LIGHT_SAMPLING == BY_BOTH {
+        return weight_of_endless(pdf);
+    }
+    return weight_of_meeting(pdf);
 }
 
 // Survival for each unit of throughput.
