@@ -104,7 +104,10 @@ mod tests {
         for source in ["whitted", "my scene.toml", "it's/a b.toml", ""] {
             let options = vec![("technique", "path".to_owned()), ("eye", "1,-2,3".to_owned())];
             let read = made_by_command(&line("render", source, "a b.png", &options)).expect("a command");
-            assert_eq!((read.scene.as_str(), read.options.concat()), (source, "--technique=path--eye=1,-2,3".into()));
+            assert_eq!(
+                (read.scene.as_str(), read.options.concat()),
+                (source, "--technique=path--eye=1,-2,3--connections=off".into())
+            );
         }
         for none in
             ["", "visavis", "visavis reference whitted -o r.exr", "visavis render 'whitted", "visavis render w -o"]

@@ -154,8 +154,13 @@ fn settings_of(technique: TechniqueName) -> impl Iterator<Item = &'static Settin
     all_of_panes().filter(move |setting| setting.is_of(technique))
 }
 
+/// The words that say by themselves which setting they are of: not those of a switch.
 fn choices(setting: &Setting<PaneSettings>) -> &'static [&'static str] {
-    if let Kind::Choice(words) = setting.kind { words } else { &[] }
+    match setting.kind {
+        Kind::Choice(["on", "off"]) => &[],
+        Kind::Choice(words) => words,
+        _ => &[],
+    }
 }
 
 fn did_you_mean<'a>(word: &str, known: impl IntoIterator<Item = &'a str>) -> String {
