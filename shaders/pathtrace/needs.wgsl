@@ -26,8 +26,8 @@ override ENVIRONMENT: bool = true;
 // spheres of glass or of a mirror
 override CASTERS: bool = true;
 // whether there are meshes of mirror or glass that get cones, or any shapes
-override MESH_CONES: bool = true;
-override CASTER_CONES: bool = true;
+override USUAL_CONES: bool = true;
+override ALL_CONES: bool = true;
 // whether random numbers are Sobol points; independent ones if not
 override SOBOL: bool = true;
 // whether shadow rays pass glass

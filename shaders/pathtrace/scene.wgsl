@@ -31,9 +31,9 @@ struct Header {
     seen: vec4u,
     // the same of those that shadow rays may meet, which stand first in each kind
     shading: vec4u,
-    // spheres around meshes of mirror and glass, and around all such shapes: centre and radius, 0 where there are no more
-    meshes: array<vec4f, 4>,
-    casters: array<vec4f, 4>,
+    // spheres around the shapes of mirror and glass that usually get cones, and around all such shapes: centre and radius, 0 where there are no more
+    usual_cones: array<vec4f, 4>,
+    all_cones: array<vec4f, 4>,
 }
 
 // Two children lie side by side; the root's children are 0 and 1.

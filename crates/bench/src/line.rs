@@ -12,7 +12,7 @@ pub const USUAL: Technique = path(Estimator::LIGHT, SamplerKind::Sobol);
 /// Path tracing without a limit of bounces.
 pub const fn path(estimator: Estimator, sampler: SamplerKind) -> Technique {
     let roulette = Roulette::THROUGHPUT;
-    let (connections, cones, split_glass) = (true, ConesAt::Meshes, true);
+    let (connections, cones, split_glass) = (true, ConesAt::Usual, true);
     paths(PathSettings {
         estimator,
         sampler,

@@ -26,6 +26,7 @@ mod tracer;
 pub mod twins;
 mod vectors;
 
+pub use caster::cone::shapes_with_cones;
 pub use integrator::Integrator;
 pub use integrator::metropolis::MetropolisSettings;
 pub use integrator::normals::{NormalsSettings, Space};

@@ -32,7 +32,7 @@ use std::f32::consts::{FRAC_1_PI, FRAC_PI_2, TAU};
 /// Constants that stand on both sides under one name. A test holds each against what the shaders say.
 pub fn shared_constants() -> Vec<(&'static str, f64)> {
     const CONES_AT_EVERYTHING: u32 = ConesAt::Everything as u32;
-    const CONES_AT_MESHES: u32 = ConesAt::Meshes as u32;
+    const CONES_AT_USUAL: u32 = ConesAt::Usual as u32;
     const MOST_DEPTH: u32 = WhittedSettings::MOST_DEPTH;
     const STAGE_NONE: u32 = chain_state::NONE;
     const STAGE_LEFT: u32 = chain_state::LEFT;
@@ -54,7 +54,7 @@ pub fn shared_constants() -> Vec<(&'static str, f64)> {
         CONNECTION,
         CONE_DENSITY,
         CONES_AT_EVERYTHING,
-        CONES_AT_MESHES,
+        CONES_AT_USUAL,
         COUNT_SHIFT,
         CUT_SHIFT,
         FRAC_1_PI,

@@ -148,7 +148,7 @@ fn caustics_of_glass_meshes_have_less_than_half_the_noise_with_cones() {
         |shape: &&scene::Shape| matches!(shape.geometry, Geometry::Mesh(_) | Geometry::Rectangle { .. });
     scene.shapes = scene.shapes.iter().filter(of_floor_and_mesh).cloned().collect();
     let of = |cones| noise(&scene, settings(Estimator::LIGHT, cones, true));
-    let (chance, cones) = (of(ConesAt::Nothing), of(ConesAt::Meshes));
+    let (chance, cones) = (of(ConesAt::Nothing), of(ConesAt::Usual));
     assert!(cones < 0.5 * chance, "{cones} and {chance}");
 }
 

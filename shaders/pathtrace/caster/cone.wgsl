@@ -8,7 +8,7 @@
 // what gets cones; nothing by 0
 override CONES: u32 = CONES_AT_EVERYTHING;
 
-const CONES_AT_MESHES: u32 = 1u;
+const CONES_AT_USUAL: u32 = 1u;
 const CONES_AT_EVERYTHING: u32 = 2u;
 
 const TAU: f32 = 6.28318530718;
@@ -32,16 +32,16 @@ var<private> cone_share: f32;
 
 // Whether any shapes of the scene get cones: known when the pipeline is made.
 fn has_cones() -> bool {
-    return (CONES == CONES_AT_MESHES && MESH_CONES) || (CONES == CONES_AT_EVERYTHING && CASTER_CONES);
+    return (CONES == CONES_AT_USUAL && USUAL_CONES) || (CONES == CONES_AT_EVERYTHING && ALL_CONES);
 }
 
 // Looks for the cones as seen from a vertex. None from inside a sphere, nor below the surface.
 fn see_cones(at: Interaction) {
     var sum = 0.0;
     for (var i = 0u; i < MOST_CONES; i++) {
-        var sphere = header.casters[i];
-        if CONES == CONES_AT_MESHES {
-            sphere = header.meshes[i];
+        var sphere = header.all_cones[i];
+        if CONES == CONES_AT_USUAL {
+            sphere = header.usual_cones[i];
         }
         let to_center = sphere.xyz - at.point.position;
         var span = 0.0;

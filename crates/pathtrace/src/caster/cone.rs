@@ -56,7 +56,7 @@ impl Cones {
         if (0..lights.len()).all(|light| lights.is_delta(light)) {
             return Cones::default();
         }
-        let shapes = scene.shapes.iter().filter(|shape| gets_a_cone(at, shape, scene));
+        let shapes = shapes_with_cones(at, scene).into_iter();
         let mut spheres: Vec<Sphere> = shapes.map(|shape| bounding_sphere(&shape.geometry)).collect();
         spheres.sort_by(|a, b| b.radius.total_cmp(&a.radius));
         spheres.truncate(MOST_CONES);
@@ -132,13 +132,19 @@ impl<F: Float> SeenCones<F> {
     }
 }
 
-fn gets_a_cone(at: ConesAt, shape: &Shape, scene: &Scene) -> bool {
-    let chosen = match at {
+/// Shapes of mirror and glass that a part of the directions goes to.
+pub fn shapes_with_cones(at: ConesAt, scene: &Scene) -> Vec<&Shape> {
+    let is_ball = |shape: &Shape| matches!(shape.geometry, Geometry::Sphere { .. });
+    let is_specular =
+        |shape: &&Shape| matches!(scene.material_of(shape).bsdf, Bsdf::Mirror { .. } | Bsdf::Dielectric { .. });
+    let speculars: Vec<&Shape> = scene.shapes.iter().filter(is_specular).collect();
+    let several_balls = speculars.iter().filter(|shape| is_ball(shape)).count() > 1;
+    let gets_one = |shape: &&Shape| match at {
         ConesAt::Nothing => false,
-        ConesAt::Meshes => matches!(shape.geometry, Geometry::Mesh(_)),
+        ConesAt::Usual => matches!(shape.geometry, Geometry::Mesh(_)) || (several_balls && is_ball(shape)),
         ConesAt::Everything => true,
     };
-    chosen && matches!(scene.material_of(shape).bsdf, Bsdf::Mirror { .. } | Bsdf::Dielectric { .. })
+    speculars.into_iter().filter(gets_one).collect()
 }
 
 /// A sphere around a shape, not always the smallest.

@@ -81,9 +81,9 @@ pub struct SceneNeeds {
     shapes: ShapeKinds,
     lights: LightKinds,
     /// Whether there are meshes of mirror or glass that get cones ...
-    mesh_cones: bool,
+    usual_cones: bool,
     /// ... or any shapes.
-    caster_cones: bool,
+    all_cones: bool,
     /// Everything is compiled in, as if the scene had some of it.
     everything: bool,
 }
@@ -101,8 +101,8 @@ impl SceneNeeds {
             needs: scene.needs(),
             shapes,
             lights: LightKinds::of(lights),
-            mesh_cones: has_cones(ConesAt::Meshes),
-            caster_cones: has_cones(ConesAt::Everything),
+            usual_cones: has_cones(ConesAt::Usual),
+            all_cones: has_cones(ConesAt::Everything),
             everything: false,
         }
     }
@@ -140,8 +140,8 @@ impl SceneNeeds {
             ("SUN", self.flag(self.needs.sun)),
             ("ENVIRONMENT", self.flag(self.lights.environment)),
             ("CASTERS", self.flag(self.needs.casters)),
-            ("MESH_CONES", self.flag(self.mesh_cones)),
-            ("CASTER_CONES", self.flag(self.caster_cones)),
+            ("USUAL_CONES", self.flag(self.usual_cones)),
+            ("ALL_CONES", self.flag(self.all_cones)),
         ]);
         constants
     }
@@ -149,7 +149,7 @@ impl SceneNeeds {
     /// Names of the overrides that speak of the scene.
     pub(crate) fn constant_names() -> impl Iterator<Item = &'static str> {
         let (needs, shapes, lights) = (Needs::default(), ShapeKinds::default(), LightKinds::default());
-        let nothing = SceneNeeds { needs, shapes, lights, mesh_cones: false, caster_cones: false, everything: false };
+        let nothing = SceneNeeds { needs, shapes, lights, usual_cones: false, all_cones: false, everything: false };
         nothing.constants().into_iter().map(|(name, _)| name)
     }
 

@@ -48,10 +48,10 @@ pub struct Header {
     pub seen: [u32; 4],
     /// The same of those that shadow rays may meet, which stand first in each kind.
     pub shading: [u32; 4],
-    /// Spheres around meshes of mirror and glass: centre and radius, which is 0 where there are no more.
-    pub meshes: [[f32; 4]; MOST_CONES],
+    /// Spheres around the shapes that usually get cones: centre and radius, which is 0 where there are no more.
+    pub usual_cones: [[f32; 4]; MOST_CONES],
     /// The same around all shapes of mirror and glass.
-    pub casters: [[f32; 4]; MOST_CONES],
+    pub all_cones: [[f32; 4]; MOST_CONES],
 }
 
 /// Two colours of cells that fill space; `even` alone without a pattern.
@@ -175,8 +175,8 @@ pub(crate) fn header(scene: &Scene, shapes: &Shapes, lights: &Lights, casters: &
         hollow: u32::from(casters.are_hollow()),
         seen: shapes.seen,
         shading: shapes.shading,
-        meshes: Cones::new(ConesAt::Meshes, scene, lights).spheres(),
-        casters: Cones::new(ConesAt::Everything, scene, lights).spheres(),
+        usual_cones: Cones::new(ConesAt::Usual, scene, lights).spheres(),
+        all_cones: Cones::new(ConesAt::Everything, scene, lights).spheres(),
     }
 }
 

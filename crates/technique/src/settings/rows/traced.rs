@@ -6,9 +6,9 @@ use crate::settings::{Control, Kind, Look, Need, Setting, Value};
 use crate::{PaneSettings, TechniqueName};
 use pathtrace::{
     ConesAt, Directions, Estimator, GlassShadows, LightSampling, PathSettings, Roulette, SamplerKind, Space,
-    WhittedSettings,
+    WhittedSettings, shapes_with_cones,
 };
-use scene::{Bsdf, Geometry, Scene, Shape};
+use scene::Scene;
 
 /// The settings of Whitted's method and of path tracing.
 pub const ROWS: &[Setting<PaneSettings>] = &[
@@ -339,12 +339,12 @@ pub const ROWS: &[Setting<PaneSettings>] = &[
     Setting {
         name: "cones",
         of: PATH,
-        kind: Kind::Choice(&["off", "meshes", "all"]),
-        default: Some(Value::Word("meshes")),
+        kind: Kind::Choice(&["off", "auto", "all"]),
+        default: Some(Value::Word("auto")),
         before: Some(Value::Word("off")),
         needs: Need::Specular,
         acts: |pane, scene| has_cones(&pane.truth.path, scene),
-        help: "shapes of glass and mirror that get a part of the directions; balls, boxes and flat mirrors with all",
+        help: "shapes of glass and mirror that get a part of the directions; auto is meshes, and balls where there are several",
         always_recorded: true,
         get: |pane| Some(Value::Word(pane.truth.path.cones.name())),
         set: |pane, value| each(named(value, ConesAt::named), [&mut pane.truth.path.cones]),
@@ -356,7 +356,10 @@ pub const ROWS: &[Setting<PaneSettings>] = &[
             hover: "A part of the directions at a diffuse surface goes to what throws caustics on it",
             look: Look::Words(&[
                 ("off", "Caustics are found as often as a direction happens to meet what throws them"),
-                ("meshes", "A part of the directions goes to meshes of glass and mirror"),
+                (
+                    "auto",
+                    "A part of the directions goes to meshes of glass and mirror, and to balls where there are several",
+                ),
                 ("all", "A part of the directions goes to every shape of glass and mirror"),
             ]),
             more: PATH,
@@ -394,11 +397,7 @@ pub const ROWS: &[Setting<PaneSettings>] = &[
 /// Whether any shape of a scene gets directions of its own.
 fn has_cones(path: &PathSettings, scene: &Scene) -> bool {
     let drawn_well = path.estimator.directions == Directions::Cosine && path.estimator.samples_lights();
-    let gets_one = |shape: &Shape| {
-        let specular = matches!(scene.material_of(shape).bsdf, Bsdf::Mirror { .. } | Bsdf::Dielectric { .. });
-        specular && (path.cones == ConesAt::Everything || matches!(shape.geometry, Geometry::Mesh(_)))
-    };
-    drawn_well && scene.shapes.iter().any(gets_one)
+    drawn_well && !shapes_with_cones(path.cones, scene).is_empty()
 }
 
 /// Whether roulette ends paths that would still bring something. With direct light alone, sampled, and no sky to be
