@@ -48,7 +48,7 @@ pub fn angle_of_upper<F: Float>(y: F, x: F) -> F {
 }
 
 /// The angle in [0, pi / 2] with this sine and cosine: the arc sine of the smaller of the two, which is at most the
-/// root of a half, by a minimax polynomial. Without the cancellation that an arc sine near 1 has. Largest error 1.5e-7,
+/// root of a half, by a minimax polynomial. Without the cancellation that an arc sine near 1 has. Largest error 1.7e-7,
 /// of small angles relative.
 #[inline(always)]
 pub fn angle_of_sine<F: Float>(sin: F, cos: F) -> F {
