@@ -142,7 +142,9 @@ fn mirrors_of_the_path_tracer_have_the_layout_of_their_structs() {
             chains,
             hollow,
             seen,
-            shading
+            shading,
+            usual_cones,
+            all_cones
         ]
     );
     assert_same_layout!("pathtrace/scene.wgsl", Node, [low, contents, high, unused]);

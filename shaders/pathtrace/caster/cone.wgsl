@@ -64,7 +64,7 @@ fn sample_cones(u: f32, of_direction: vec2f) -> vec3f {
     var span = cone_spans[0];
     var below = span * cone_density * TAU;
     for (var i = 1u; i < MOST_CONES; i++) {
-        if u >= below {
+        if u >= below && cone_spans[i] > 0.0 {
             axis = cone_axes[i];
             span = cone_spans[i];
         }

@@ -5,7 +5,7 @@
 //#import pathtrace/integrator/connected.wgsl
 //#import pathtrace/drive/pixels.wgsl
 // One path: the tutorial's `shade`, turned from recursion into a state that moves from vertex to vertex (Task 2 d).
-// Twins: crates/pathtrace/src/integrator/path.rs, directions.rs, path_state.rs, forks.rs,
+// Twins: crates/pathtrace/src/integrator/path.rs, directions.rs, forks.rs,
 // splits.rs and roulette.rs.
 //
 // Each step is one segment: meet a surface, take its emission, sample a light, draw a direction, play roulette.
@@ -259,7 +259,9 @@ fn sample_with_cones(u: vec3f) -> BsdfSample {
     }
     let lobe = pdf_lambert(max(dot(vertex.normal, wi), 0.0));
     let pdf = pdf_with_cones(wi, lobe);
-    return BsdfSample(wi, vertex.colour * (lobe / pdf), pdf);
+    // rounding takes a direction at a rim out of its cone, and it may lie below the horizon: then neither draws it
+    let weight = lobe / max(pdf, SMALLEST_POSITIVE);
+    return BsdfSample(wi, vertex.colour * weight, pdf);
 }
 
 // A direction of the tutorial's naive tracer, whatever the surface (Task 2 b); its weight is in the throughput.

@@ -110,7 +110,7 @@ impl<F: Float> SeenCones<F> {
         let (mut axis, mut span) = (self.axes[0], self.spans[0]);
         let mut below = span * self.density * TAU;
         for i in 1..self.count {
-            let next = u.ge(below);
+            let next = u.ge(below) & self.spans[i].gt(F::splat(0.0));
             axis = Vector::select(next, self.axes[i], axis);
             span = F::select(next, self.spans[i], span);
             below = below + self.spans[i] * self.density * TAU;
@@ -167,6 +167,7 @@ fn bounding_sphere(geometry: &Geometry) -> Sphere {
 mod tests {
     use super::*;
     use crate::bsdf::materials::Materials;
+    use crate::integrator::directions::DirectionsAt;
     use crate::intersect::SurfacePoints;
     use crate::sampling::sampler::Sampler;
     use crate::sampling::warp::cosine_hemisphere;
@@ -219,6 +220,38 @@ mod tests {
             let expected = if i == 0 { 1.0 } else { f64::from(2.0 * PI * seen.spans[i - 1]) };
             assert!((mean - expected).abs() < 4.0 * error && error < 0.01, "{i}: {mean} +- {error}, not {expected}");
         }
+    }
+
+    /// A ball that is half sunk: some directions at the rim of its cone lie below the horizon, and rounding takes some of
+    /// those out of the cone.
+    #[test]
+    fn directions_at_a_rim_below_the_horizon_weigh_nothing() {
+        let at = floor_at(Vec3::new(1.0, 0.0, 2.0));
+        let bsdf = Bsdf::Diffuse { albedo: Texture::Constant(Vec3::ONE) };
+        let materials =
+            Materials::new(&[Material { name: String::new(), bsdf, emission: None, fake: FakeMaterial::default() }]);
+        let mut undrawn = 0;
+        for place in 0..40 {
+            let cones = around(&[([4.0 + 0.1 * place as f32, 0.1, 2.3], 0.7)]).seen_from(&at);
+            let directions = DirectionsAt { materials: &materials, uniform: false, cones: Some(cones) };
+            for azimuth in 0..2000 {
+                let u = [1.0 - 0.5 * f32::EPSILON, azimuth as f32 / 2000.0, 0.0];
+                let drawn = directions.sample(true, &at, Vector::along_all(1.0), u);
+                undrawn += u32::from(drawn.sample.pdf == 0.0);
+                assert!(drawn.throughput.is_finite() && drawn.throughput.x >= 0.0);
+            }
+        }
+        assert!(undrawn > 0, "none of these directions is what this is about");
+    }
+
+    /// Between running sums, as far as they are rounded, the last cone that there is.
+    #[test]
+    fn no_direction_goes_to_a_cone_that_is_not_there() {
+        let seen = around(&[([0.0, 3.0, 0.0], 1.0), ([0.0, -9.0, 0.0], 0.5)]).seen_from(&floor_at(Vec3::ZERO));
+        assert_eq!(seen.spans[1], 0.0);
+        let below = seen.share.next_down();
+        let (chosen, wi) = seen.sample(below.max(seen.spans[0] * seen.density * TAU), [0.5, 0.5]);
+        assert!(!chosen || wi.y > 0.9, "{wi:?}");
     }
 
     #[test]

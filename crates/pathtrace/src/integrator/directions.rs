@@ -93,7 +93,8 @@ impl<F: Float> Drawn<F> {
         let lobe = lambert::pdf(at.normal.dot(wi).max(F::splat(0.0)));
         let pdf = cones.pdf(wi, lobe);
         let deserved = throughput * at.colour;
-        let weight = at.colour * (lobe / pdf);
+        // rounding takes a direction at a rim out of its cone, and it may lie below the horizon: then neither draws it
+        let weight = at.colour * (lobe / pdf.max(F::splat(f32::MIN_POSITIVE)));
         Drawn { sample: BsdfSamples { wi, weight, pdf }, throughput: throughput * weight, deserved }
     }
 

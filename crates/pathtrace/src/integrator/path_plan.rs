@@ -56,7 +56,7 @@ impl<'n> Plan<'n> {
 
     /// For paths that write down what they find.
     pub fn that_teaches(settings: &PathSettings, notes: &'n Notes) -> Self {
-        Plan { notes: Some(notes), splits: false, ..Self::new(settings) }
+        Plan { notes: Some(notes), ..Self::new(settings) }
     }
 
     /// Reads the settings; without a guide, paths that ask for one are not guided.

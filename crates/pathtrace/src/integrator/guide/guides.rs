@@ -5,7 +5,7 @@ use super::cells::Cells;
 use super::training::{Notes, SAMPLES, SIDE};
 use crate::drive::lanes::{FilmJob, FilmPass};
 use crate::integrator::path_plan::Plan;
-use crate::integrator::settings::{Directions, Estimator, PathSettings};
+use crate::integrator::settings::{ConesAt, Directions, Estimator, PathSettings};
 use film::Film;
 use scene::camera::PictureFrame;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -49,7 +49,9 @@ impl Guides {
     fn learned(&self, settings: &PathSettings, job: &FilmJob) -> Option<Guide> {
         let estimator = Estimator { directions: Directions::Cosine, ..settings.estimator };
         let seed = settings.seed ^ OTHER_SEED;
-        let cosine = PathSettings { estimator, branches: 1, seed, ..*settings };
+        // what a guide learns is where the lobe's own directions lead
+        let (cones, split_glass) = (ConesAt::Nothing, false);
+        let cosine = PathSettings { estimator, branches: 1, seed, cones, split_glass, ..*settings };
         let sampler = (settings.sampler, seed);
         let pass = FilmPass { frame: job.pass.frame, size: [SIDE; 2], until: SAMPLES, sampler };
         let notes = Notes::new(self.cells);
