@@ -5,14 +5,19 @@
 //! chain stands is a pure function: its last large step, and the small steps since, each drawn by a hash. So only
 //! coordinates that a path asks for are computed, whenever it does, and what was computed is kept up to date.
 
+use crate::integrator::path_state::CONNECTION;
+use crate::integrator::settings::PathSettings;
 use crate::intersect::aggregate::lanes_of;
 use crate::sampling::rng::{pcg4d, unit_float};
 use crate::sampling::sampler::{RandomNumbers, Sampler, SamplerKind};
 use simd::{Float, MOST_LANES, Mask, Word};
 use std::cell::RefCell;
 
-/// Blocks of a path whose coordinates are kept: those of longer paths are computed from the last large step on.
-const KEPT_BLOCKS: usize = 256;
+/// Blocks whose coordinates are kept: the camera's, two of each vertex that a path may have, and behind them one of each
+/// for connections. What is not kept is computed from the last large step on, which takes as long as a chain stays there.
+const KEPT_BLOCKS: usize = CONNECTION_BLOCKS + HARD_CAP + 1;
+const CONNECTION_BLOCKS: usize = 2 * HARD_CAP + 3;
+const HARD_CAP: usize = PathSettings::HARD_CAP as usize;
 
 /// The block whose numbers decide on the mutation itself: none that a path asks for.
 const DECISION: u32 = u32::MAX;
@@ -69,7 +74,7 @@ impl Point {
     /// Coordinates as far as they are known, and whether they were kept.
     #[inline(always)]
     fn block(&self, dimension: u32) -> (Block, bool) {
-        match self.blocks.get(dimension as usize) {
+        match self.blocks.get(slot(dimension)) {
             Some(block) if block.origin == self.origins => (*block, true),
             _ => (Block { words: self.origin.words4(dimension), steps: 0, origin: self.origins }, false),
         }
@@ -78,7 +83,7 @@ impl Point {
     #[inline(always)]
     fn keep(&mut self, dimension: u32, words: [u32; 4]) {
         let (steps, origin) = (self.steps.len() as u32, self.origins);
-        if let Some(block) = self.blocks.get_mut(dimension as usize) {
+        if let Some(block) = self.blocks.get_mut(slot(dimension)) {
             *block = Block { words, steps, origin };
         }
     }
@@ -233,6 +238,13 @@ impl<F: Float> RandomNumbers<F::U> for PrimaryPoints<F> {
         let [a, b, c, d] = self.words4(self.active, dimension);
         [unit_float(a), unit_float(b), unit_float(c), unit_float(d)]
     }
+}
+
+/// The place of a block among those that are kept.
+#[inline(always)]
+fn slot(dimension: u32) -> usize {
+    let block = (dimension & !CONNECTION) as usize;
+    if dimension == block as u32 { block } else { CONNECTION_BLOCKS + block / 2 }
 }
 
 /// Where a mutation that draws all coordinates anew leads: its blocks are the words by which a small step would go.

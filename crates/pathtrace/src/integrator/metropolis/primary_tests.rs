@@ -78,3 +78,22 @@ fn a_point_is_its_start_until_it_moves_and_what_a_large_step_drew_afterwards() {
     }
     assert_eq!(points.up_to_date(true, 3), proposed, "a proposal that is not taken leaves the point");
 }
+
+/// What a path of the most vertices asks for: all of it is kept, in places of their own.
+#[test]
+fn every_block_of_a_path_is_kept() {
+    use crate::integrator::path_state::PathStates;
+    use simd::Vector;
+    let ray = crate::intersect::Rays::new(Vector::zero(), Vector::splat([0.0, 0.0, 1.0]));
+    let mut path = PathStates::<f32>::leaving_camera(&ray);
+    let mut slots = vec![slot(0)];
+    for vertices in 0..=PathSettings::HARD_CAP {
+        path.vertices = vertices;
+        slots.extend([path.direction_dimension(), path.light_dimension(), path.connection_dimension()].map(slot));
+    }
+    assert!(slots.iter().all(|slot| *slot < KEPT_BLOCKS));
+    let count = slots.len();
+    slots.sort_unstable();
+    slots.dedup();
+    assert_eq!(slots.len(), count);
+}

@@ -24,7 +24,7 @@ pub const ROWS: &[Setting<PaneSettings>] = &[
             label: "Photons a pass",
             brief: Some(|value| format!("{value} photons a pass")),
             hover: "Photons that leave the lights in each pass. Half of them are aimed at mirrors and glass",
-            look: Look::Doubling(8..=20),
+            look: Look::Doubling(8..=18),
             ..BLANK
         },
         ..PLAIN
