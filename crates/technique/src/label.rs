@@ -170,6 +170,24 @@ mod tests {
     }
 
     #[test]
+    fn how_caustics_are_found_is_told_on_both_sides() {
+        let of = |a, b| labels("whitted", TechniqueName::Path, [&[a], &[b]]);
+        let cones = |a, b| of(("cones", a), ("cones", b));
+        assert_eq!(cones("off", "auto"), ["Path tracing, no cones", "Path tracing, cones at glass"]);
+        let all = ["Path tracing, cones at all glass and mirrors", "Path tracing, cones at glass"];
+        assert_eq!(cones("all", "auto"), all);
+        let split = of(("split-glass", "off"), ("split-glass", "on"));
+        assert_eq!(split, ["Path tracing, glass not split", "Path tracing, glass split"]);
+        let connections = of(("connections", "off"), ("connections", "on"));
+        assert_eq!(connections, ["Path tracing, no connections", "Path tracing, connections"]);
+        let dull = labels("cornell", TechniqueName::Path, [&[("cones", "off")], &[]]);
+        assert_eq!(dull, ["Path tracing, light"; 2], "no glass, no mirror");
+        let naive = |cones| [("estimator", "uniform"), ("cones", cones)];
+        let naive = labels("whitted", TechniqueName::Path, [&naive("off"), &naive("auto")]);
+        assert_eq!(naive, ["Path tracing, uniform"; 2], "chance takes no part for cones");
+    }
+
+    #[test]
     fn numbers_are_rounded_unless_they_are_alike_then() {
         let phong = labels("phong", TechniqueName::Raster, [&[("specular", "0.06666667")], &[("specular", "0.5")]]);
         assert_eq!(phong, ["Fake, specular 0.067", "Fake, specular 0.5"]);
