@@ -104,9 +104,11 @@ mod tests {
         for source in ["whitted", "my scene.toml", "it's/a b.toml", ""] {
             let options = vec![("technique", "path".to_owned()), ("eye", "1,-2,3".to_owned())];
             let read = made_by_command(&line("render", source, "a b.png", &options)).expect("a command");
+            let before = ["--connections=off", "--cones=off", "--split-glass=off"];
+            let expected = [&["--technique=path", "--eye=1,-2,3"][..], &before].concat();
             assert_eq!(
-                (read.scene.as_str(), read.options.concat()),
-                (source, "--technique=path--eye=1,-2,3--connections=off".into())
+                (read.scene.as_str(), read.options),
+                (source, expected.into_iter().map(str::to_owned).collect())
             );
         }
         for none in

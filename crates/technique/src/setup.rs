@@ -154,10 +154,13 @@ fn settings_of(technique: TechniqueName) -> impl Iterator<Item = &'static Settin
     all_of_panes().filter(move |setting| setting.is_of(technique))
 }
 
-/// The words that say by themselves which setting they are of: not those of a switch.
+/// Words of which nobody knows by themselves what is on or off.
+const OF_SWITCHES: [&str; 4] = ["on", "off", "auto", "all"];
+
+/// The words that say by themselves which setting they are of: not those of a choice that has words of switches.
 fn choices(setting: &Setting<PaneSettings>) -> &'static [&'static str] {
     match setting.kind {
-        Kind::Choice(["on", "off"]) => &[],
+        Kind::Choice(words) if words.iter().any(|word| OF_SWITCHES.contains(word)) => &[],
         Kind::Choice(words) => words,
         _ => &[],
     }
@@ -244,6 +247,9 @@ mod tests {
             ("path,sampler=Sobol", "; did you mean sobol?"),
             ("path,throughput", "; did you mean roulette=throughput?"),
             ("path,off", "; did you mean roulette=off?"),
+            ("path,auto", "; did you mean cones=auto?"),
+            ("path,all", "; did you mean cones=all?"),
+            ("path,on", "; did you mean connections=on?"),
             ("path,inf", "; did you mean bounces=inf?"),
             ("whitted,traced-sun=0,7", "; numbers have a decimal point: write traced-sun=0.7"),
             ("", "a word is empty: expected a technique"),
