@@ -96,6 +96,8 @@ fn bad_values_are_wrong_usage_and_write_nothing() {
     assert_refused(&["check", "--device", "gpu", "--case", "22"], 1, &["no graphics device renders these cases"]);
     let branches = ["render", "cornell", "-o", out, "--branches", "16", "--bounces", "9"];
     assert_refused(&branches, 2, &["fewer directions or fewer bounces"]);
+    let chains = ["render", "cornell", "-o", out, "--technique", "metropolis", "--estimator", "guided"];
+    assert_refused(&chains, 2, &["--estimator guided: a guide is learned for paths, not for chains"]);
     assert_refused(&["render", "cornell", "-o", out, "--branches", "2"], 2, &["limit of bounces"]);
     assert_refused(&["render", "cornell", "-o", out, "--depth", "65"], 2, &["from 0 to 64"]);
     assert_refused(&["render", "cornell", "-o", out, "--segments", "2"], 2, &["from 3 to 512"]);

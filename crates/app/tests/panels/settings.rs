@@ -10,11 +10,17 @@ use technique::settings::{Kind, Look, OF_SCENES, Setting, Value, all_of_panes};
 use visavis::model::{Model, PaneId};
 
 /// How screen readers know the control of a row: a slider by its label, each word of a choice by itself.
-fn control_names<T>(setting: &Setting<T>, scene: &scene::Scene) -> Vec<(Role, &'static str)> {
+fn control_names<T>(
+    setting: &Setting<T>,
+    technique: Option<TechniqueName>,
+    scene: &scene::Scene,
+) -> Vec<(Role, &'static str)> {
     let one = |role| vec![(role, setting.control.label)];
     match (&setting.kind, &setting.control.look) {
         (Kind::Roulette, _) => ["Roulette: survive", "Roulette by"].map(|word| (Role::CheckBox, word)).into(),
-        (Kind::Choice(_), _) => setting.words(scene).into_iter().map(|(word, ..)| (Role::Button, word)).collect(),
+        (Kind::Choice(_), _) => {
+            setting.words(technique, scene).into_iter().map(|(word, ..)| (Role::Button, word)).collect()
+        }
         (_, Look::Typed) => one(Role::SpinButton),
         _ => one(Role::Slider),
     }
@@ -85,7 +91,8 @@ impl Panels {
     fn expect_control<T>(&mut self, setting: &Setting<T>, pane: Option<PaneId>, of: impl Fn(&Model) -> T) -> usize {
         let scene = self.model.borrow().document.scene.clone();
         let usable = setting.needs.missing_in(&scene).is_none();
-        let names = control_names(setting, &scene);
+        let technique = pane.map(|pane| self.model.borrow().session.panes[pane].technique);
+        let names = control_names(setting, technique, &scene);
         for &name in &names {
             let count = self.widgets(pane, name).len();
             assert_eq!(count, usize::from(usable), "{} has {count} controls: {name:?}", setting.name);

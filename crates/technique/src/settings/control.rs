@@ -22,8 +22,9 @@ pub struct Control {
     pub hover_in: Option<(TechniqueName, &'static str)>,
     /// The kind of control that sets the value.
     pub look: Look,
-    /// Whether this word of a choice makes sense in this scene.
-    pub offers: fn(&str, &Scene) -> bool,
+    /// Whether this word of a choice makes sense among the controls of a technique, or among those of the scene, for this
+    /// scene.
+    pub offers: fn(&str, Option<TechniqueName>, &Scene) -> bool,
     /// The techniques among whose controls it stands under "More".
     pub more: &'static [TechniqueName],
     /// Its name in the dump of widgets, where that is not the option's.
@@ -93,12 +94,14 @@ impl<T> Setting<T> {
         }
     }
 
-    /// The words that a scene offers in the window, each with its value and what it means.
-    pub fn words(&self, scene: &Scene) -> Vec<(&'static str, Value, &'static str)> {
+    /// The words that the window offers among the controls of a technique, or among those of the scene, each with its value
+    /// and what it means.
+    pub fn words(&self, technique: Option<TechniqueName>, scene: &Scene) -> Vec<(&'static str, Value, &'static str)> {
         let Look::Words(words) = self.control.look else { return Vec::new() };
         let valued = words.iter().filter_map(|(word, hover)| {
             let value = self.kind.parse(&word.replace(' ', "-")).ok()?;
-            matches!(value, Value::Word(name) if (self.control.offers)(name, scene)).then_some((*word, value, *hover))
+            matches!(value, Value::Word(name) if (self.control.offers)(name, technique, scene))
+                .then_some((*word, value, *hover))
         });
         valued.collect()
     }
@@ -156,6 +159,17 @@ mod tests {
             );
         }
         assert!(!fits(&Kind::Whole(1..=8), &Look::Doubling(0..=4)) && !fits(&Kind::Bounces, &Look::Typed));
+    }
+
+    #[test]
+    fn chains_are_offered_no_estimator_that_follows_a_guide() {
+        let scene = scene::builtin::named("whitted").expect("a built-in scene");
+        let offered = |technique| {
+            let words = crate::settings::of_panes("estimator").unwrap().words(Some(technique), &scene);
+            words.into_iter().map(|(word, ..)| word).collect::<Vec<_>>()
+        };
+        assert_eq!(offered(TechniqueName::Path), ["uniform", "cosine", "light", "mis", "guided"]);
+        assert_eq!(offered(TechniqueName::Metropolis), ["uniform", "cosine", "light", "mis"]);
     }
 
     #[test]

@@ -9,6 +9,7 @@ use crate::cli::{CliError, Command};
 use anyhow::Context;
 use image_file::{self, Kind};
 use lexopt::ValueExt;
+use pathtrace::SettingsError;
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 use technique::settings::{all_of_panes, of_panes, of_scenes};
@@ -321,7 +322,10 @@ fn parse_words(words: Vec<OsString>, scene: Option<String>) -> Result<Command, C
     if let Technique::Traced(traced) = args.pane.in_use()
         && let Err(fault) = traced.integrator.check()
     {
-        return usage(fault.to_string());
+        return usage(match fault {
+            SettingsError::GuidedChains(estimator) => format!("--estimator {estimator}: {fault}"),
+            fault => fault.to_string(),
+        });
     }
     args.chose_estimator = is_given("--estimator") || states("estimator");
     args.spp = if is_given("--spp") || states("spp") { args.pane.wished_spp() } else { None };

@@ -108,7 +108,7 @@ impl Place<'_> {
 
     fn words<T>(&mut self, setting: &Setting<T>, (name, value): (&str, Value), ui: &mut Ui) -> Option<Value> {
         self.label(setting.control.label, &self.explanation(setting), ui);
-        let words = setting.words(self.scene);
+        let words = setting.words(self.pane.map(|(_, technique)| technique), self.scene);
         let shown = words.iter().map(|(word, of_word, hover)| (word.to_string(), *hover, *of_word == value));
         let chosen = choice(name, shown, ui, self.dump).map(|index| words[index].1);
         let below = (setting.control.below)(value);

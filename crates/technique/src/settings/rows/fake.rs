@@ -234,7 +234,7 @@ pub const ROWS: &[Setting<PaneSettings>] = &[
                 ("cube faces", "What surrounds the first glass, unfolded: where refracted rays are looked up"),
                 ("shadow map", "Depths as the light sees them: white is near"),
             ]),
-            offers: |word, scene| Show::named(word).is_some_and(|show| show.available(scene)),
+            offers: |word, _, scene| Show::named(word).is_some_and(|show| show.available(scene)),
             more: RASTER,
             ..BLANK
         },

@@ -62,7 +62,7 @@ const BLANK: Control = Control {
     hover: "",
     hover_in: None,
     look: Look::Typed,
-    offers: |_, _| true,
+    offers: |_, _, _| true,
     more: &[],
     dump_name: None,
 };

@@ -148,8 +148,9 @@ pub const ROWS: &[Setting<PaneSettings>] = &[
                 ("cosine", "Directions cosine-weighted, light found by chance"),
                 ("light", "Light sampled at every vertex, indirect light cosine-weighted"),
                 ("mis", "Light sampled and met by chance, weighted; cosine-weighted directions"),
-                ("guided", "Light sampled; directions as 130 000 paths before have learned where light comes from"),
+                ("guided", "Light sampled; directions as 131,072 paths before have learned where light comes from"),
             ]),
+            offers: |word, technique, _| technique != Some(TechniqueName::Metropolis) || !is_guided(word),
             ..BLANK
         },
         ..PLAIN
@@ -306,6 +307,11 @@ pub const ROWS: &[Setting<PaneSettings>] = &[
         ..PLAIN
     },
 ];
+
+/// Whether an estimator of this name follows a guide, which chains have none of.
+fn is_guided(estimator: &str) -> bool {
+    Estimator::named(estimator).is_some_and(|estimator| estimator.directions == Directions::Guided)
+}
 
 /// Whether roulette ends paths that would still bring something. With direct light alone, sampled, and no sky to be
 /// met, none does that has left a surface; those that mirrors and glass send on end by a constant probability alone.
