@@ -2,7 +2,7 @@
 //!
 //! Twin: `shaders/pathtrace/needs.wgsl`.
 
-use crate::{Bsdf, Geometry, Scene, Texture};
+use crate::{Bsdf, Geometry, Scene, Shape, Texture};
 
 /// Which features occur in a scene.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -56,18 +56,28 @@ impl Scene {
                 Bsdf::Diffuse { albedo } => needs.checkerboard |= matches!(albedo, Texture::Checkerboard(_)),
                 Bsdf::Mirror { .. } => {
                     needs.mirror = true;
-                    needs.casters |= sphere;
-                    needs.other_speculars |= !sphere;
+                    needs.other_speculars |= !self.is_caster(shape);
                 }
                 Bsdf::RoughConductor { .. } => needs.rough_conductor = true,
-                Bsdf::Dielectric { ior } => {
+                Bsdf::Dielectric { .. } => {
                     needs.dielectric = true;
-                    let caster = sphere && ior > 1.0;
-                    needs.casters |= caster;
-                    needs.other_speculars |= !caster;
+                    needs.other_speculars |= !self.is_caster(shape);
                 }
             }
+            needs.casters |= self.is_caster(shape);
         }
         needs
+    }
+
+    /// Whether light can be aimed by way of this shape: a sphere of glass that is denser than what is around it, or of a
+    /// perfect mirror.
+    pub fn is_caster(&self, shape: &Shape) -> bool {
+        let sphere = matches!(shape.geometry, Geometry::Sphere { .. });
+        sphere
+            && match self.material_of(shape).bsdf {
+                Bsdf::Mirror { .. } => true,
+                Bsdf::Dielectric { ior } => ior > 1.0,
+                Bsdf::Diffuse { .. } | Bsdf::RoughConductor { .. } => false,
+            }
     }
 }

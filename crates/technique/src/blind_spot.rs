@@ -2,7 +2,7 @@
 
 use crate::TracedSettings;
 use pathtrace::{Estimator, Integrator, LightSampling, PathSettings};
-use scene::{Needs, Scene};
+use scene::{Bsdf, Needs, Scene, Shape};
 
 /// Light of a scene that a picture lacks, or hardly ever finds.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -15,6 +15,9 @@ pub enum BlindSpot {
     CausticOfSun(Specular),
     /// The same of point lights.
     CausticOfPointLights(Specular),
+    /// What a sun without a disc or point lights send through other glass than balls, or by other mirrors, where connections
+    /// find what goes by a ball.
+    CausticOfOthers(Specular),
     /// What a sun without a disc or point lights send by way of several spheres, where connections find what goes by one.
     LongChains,
     /// What paths of more bounces than these bring.
@@ -47,10 +50,25 @@ pub enum NoiseSource {
     ByChance,
     /// Where light is sent through glass, or by mirrors alone: light sampling cannot aim through them.
     Caustic(Specular),
+    /// The same of glass and mirrors that are no balls, where connections aim by way of balls.
+    CausticOfOthers(Specular),
+    /// Where light has come by way of several spheres: connections aim by way of one.
+    LongChains,
     /// In smooth rough metal.
     NarrowReflections,
     /// Where chains have been: their paths are alike.
     Chains,
+}
+
+/// Which of the mirrors and glass of a scene light is connected to by way of.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Connected {
+    /// None of them, or there is none.
+    Nothing,
+    /// The balls, beside which there are these.
+    BallsBut(Specular),
+    /// All.
+    All,
 }
 
 impl Specular {
@@ -75,13 +93,15 @@ impl BlindSpot {
             BlindSpot::CausticOfSun(Specular::Mirror) | BlindSpot::CausticOfPointLights(Specular::Mirror) => {
                 "light from mirrors".into()
             }
+            BlindSpot::CausticOfOthers(Specular::Glass) => "light behind glass that is no ball".into(),
+            BlindSpot::CausticOfOthers(Specular::Mirror) => "light from mirrors that are no balls".into(),
             BlindSpot::LongChains => "light by way of several spheres".into(),
             BlindSpot::LongPaths(0) => "indirect light (biased)".into(),
             BlindSpot::LongPaths(1) => "light after more than 1 bounce (biased)".into(),
             BlindSpot::LongPaths(bounces) => format!("light after more than {bounces} bounces (biased)"),
             BlindSpot::BetweenSurfaces => "light between surfaces".into(),
             BlindSpot::Caustics => "caustics".into(),
-            BlindSpot::BlurredLight => "light finer than the radius (biased)".into(),
+            BlindSpot::BlurredLight => "detail finer than the radius (biased)".into(),
             BlindSpot::InSpeculars(Specular::Glass) => "what glass and mirrors show".into(),
             BlindSpot::InSpeculars(Specular::Mirror) => "what mirrors show".into(),
             BlindSpot::NarrowReflections => "most light in narrow reflections".into(),
@@ -94,10 +114,16 @@ impl BlindSpot {
             BlindSpot::Sun => "a sun of radius 0 cannot be hit by chance: its light is missing",
             BlindSpot::PointLights => "a point light cannot be hit by chance: its light is missing",
             BlindSpot::CausticOfSun(_) => {
-                "a sun of radius 0 casts no caustic: no path can find it behind glass or mirror"
+                "a sun of radius 0 casts no caustic by chance: no path can meet it behind glass or mirror; connections find it \
+                 by way of balls"
             }
             BlindSpot::CausticOfPointLights(_) => {
-                "a point light casts no caustic: no path can find it behind glass or mirror"
+                "a point light casts no caustic by chance: no path can meet it behind glass or mirror; connections find it by \
+                 way of balls"
+            }
+            BlindSpot::CausticOfOthers(_) => {
+                "a light without extent is connected to by one ball at a time: what other glass and mirrors send on is missing, \
+                 and what goes by several balls"
             }
             BlindSpot::LongChains => {
                 "a light without extent is connected to by one sphere at a time: what goes by several of them, or more than \
@@ -128,6 +154,13 @@ impl NoiseSource {
             NoiseSource::Caustic(Specular::Mirror) => {
                 "still noisy where mirrors send light: it gets there only by chance"
             }
+            NoiseSource::CausticOfOthers(Specular::Glass) => {
+                "still noisy under glass that is no ball: light reaches it only by chance"
+            }
+            NoiseSource::CausticOfOthers(Specular::Mirror) => {
+                "still noisy where mirrors that are no balls send light: it gets there only by chance"
+            }
+            NoiseSource::LongChains => "still a few specks: light by way of several spheres",
             NoiseSource::Chains => "still noisy in blotches: a chain's paths are alike",
             NoiseSource::NarrowReflections => "still noisy in the metal: its reflections hardly ever meet a light",
         }
@@ -162,13 +195,16 @@ impl TracedSettings {
         // what has no extent is not met by chance, but missing
         let disc = scene.sun.is_some() && !self.sees_a_delta_sun(scene);
         let lights = needs.area_lights || disc || scene.environment.is_some();
-        match Specular::of(&needs) {
-            _ if lights && !path.estimator.samples_lights() => Some(NoiseSource::ByChance),
-            Some(specular) if lights && path.bounces != Some(0) && !finds_caustics(&path, &needs) => {
-                Some(NoiseSource::Caustic(specular))
-            }
-            _ if is_blind_in_metal(&path, &needs) => Some(NoiseSource::NarrowReflections),
-            _ => None,
+        if lights && !path.estimator.samples_lights() {
+            return Some(NoiseSource::ByChance);
+        }
+        let goes_on = lights && path.bounces != Some(0);
+        let metal = is_blind_in_metal(&path, &needs).then_some(NoiseSource::NarrowReflections);
+        match Connected::by(&path, scene) {
+            Connected::Nothing if goes_on => Specular::of(&needs).map(NoiseSource::Caustic).or(metal),
+            Connected::BallsBut(others) if goes_on => Some(NoiseSource::CausticOfOthers(others)),
+            Connected::All if goes_on && has_long_chains(scene) => metal.or(Some(NoiseSource::LongChains)),
+            _ => metal,
         }
     }
 }
@@ -181,9 +217,11 @@ fn of_paths(path: &PathSettings, scene: &Scene, delta_sun: bool) -> Vec<BlindSpo
         (needs.point_lights, BlindSpot::PointLights, BlindSpot::CausticOfPointLights),
     ];
     let specular = Specular::of(&needs);
-    let caustics = |of: fn(Specular) -> BlindSpot| {
-        let missing = |specular| if finds_caustics(path, &needs) { BlindSpot::LongChains } else { of(specular) };
-        specular.map(missing)
+    let connected = Connected::by(path, scene);
+    let caustics = |of: fn(Specular) -> BlindSpot| match connected {
+        Connected::Nothing => specular.map(of),
+        Connected::BallsBut(others) => Some(BlindSpot::CausticOfOthers(others)),
+        Connected::All => has_long_chains(scene).then_some(BlindSpot::LongChains),
     };
     let mut unseen: Vec<_> = sources
         .into_iter()
@@ -195,9 +233,27 @@ fn of_paths(path: &PathSettings, scene: &Scene, delta_sun: bool) -> Vec<BlindSpo
     unseen.into_iter().chain(metal).chain(path.bounces.map(BlindSpot::LongPaths)).collect()
 }
 
-/// Whether lights are connected to by way of all that is glass or a mirror.
-fn finds_caustics(path: &PathSettings, needs: &Needs) -> bool {
-    path.connections && path.estimator.samples_lights() && !needs.other_speculars
+impl Connected {
+    fn by(path: &PathSettings, scene: &Scene) -> Self {
+        let needs = scene.needs();
+        if !(path.connections && path.estimator.samples_lights() && needs.casters) {
+            return Connected::Nothing;
+        }
+        let others = scene.shapes.iter().filter(|shape| !scene.is_caster(shape));
+        let (dielectric, mirror) = others.fold((false, false), |(glass, mirror), shape| {
+            let bsdf = &scene.material_of(shape).bsdf;
+            (glass || matches!(bsdf, Bsdf::Dielectric { .. }), mirror || matches!(bsdf, Bsdf::Mirror { .. }))
+        });
+        let others = Specular::of(&Needs { dielectric, mirror, ..Needs::default() });
+        others.map_or(Connected::All, Connected::BallsBut)
+    }
+}
+
+/// Whether light goes by way of several casters, or more than once about in one of glass.
+fn has_long_chains(scene: &Scene) -> bool {
+    let mut casters = scene.shapes.iter().filter(|shape| scene.is_caster(shape));
+    let inside = |shape: &Shape| matches!(scene.material_of(shape).bsdf, Bsdf::Dielectric { .. });
+    casters.next().is_some_and(|first| inside(first) || casters.next().is_some())
 }
 
 /// What trees of rays lack whatever their settings are: rough metal is a mirror to them.
@@ -213,110 +269,4 @@ fn is_blind_in_metal(path: &PathSettings, needs: &Needs) -> bool {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::{PaneSettings, SceneChanges, Technique, TechniqueName};
-    use pathtrace::{GlassShadows, WhittedSettings};
-    use scene::builtin;
-
-    fn traced(technique: TechniqueName) -> TracedSettings {
-        match PaneSettings::of(technique).in_use() {
-            Technique::Traced(traced) => traced,
-            Technique::Fake(_) => panic!("the fake is not traced"),
-        }
-    }
-
-    fn path(estimator: Estimator, bounces: Option<u32>) -> TracedSettings {
-        let settings = PathSettings { estimator, bounces, ..PathSettings::default() };
-        TracedSettings { integrator: Integrator::Path(settings), ..traced(TechniqueName::Path) }
-    }
-
-    fn unconnected(bounces: Option<u32>) -> TracedSettings {
-        let settings = PathSettings { connections: false, bounces, ..PathSettings::default() };
-        TracedSettings { integrator: Integrator::Path(settings), ..traced(TechniqueName::Path) }
-    }
-
-    fn under_a_sun_of_radius(radius: f32) -> Scene {
-        let changes = SceneChanges { sun_radius: Some(radius), ..SceneChanges::default() };
-        changes.applied_to(&builtin::named("whitted").unwrap())
-    }
-
-    fn missing(settings: &TracedSettings, scene: &Scene) -> Vec<String> {
-        settings.blind_spots(scene).into_iter().map(BlindSpot::missing).collect()
-    }
-
-    #[test]
-    fn what_a_picture_lacks_is_said_whatever_else_it_lacks() {
-        let (wide, delta) = (under_a_sun_of_radius(2.5), under_a_sun_of_radius(0.0));
-        assert_eq!(missing(&path(Estimator::LIGHT, None), &wide), [""; 0]);
-        assert_eq!(missing(&path(Estimator::LIGHT, None), &delta), ["light by way of several spheres"]);
-        assert_eq!(missing(&unconnected(None), &delta), ["light behind glass"]);
-        assert_eq!(missing(&path(Estimator::COSINE, None), &delta), ["the sun's light"]);
-        let short = missing(&unconnected(Some(2)), &delta);
-        assert_eq!(short, ["light behind glass", "light after more than 2 bounces (biased)"]);
-        assert_eq!(missing(&path(Estimator::LIGHT, Some(0)), &wide), ["indirect light (biased)"]);
-        assert_eq!(missing(&traced(TechniqueName::Normals), &wide), [""; 0]);
-        assert_eq!(
-            missing(&traced(TechniqueName::Metropolis), &delta),
-            ["light behind glass"],
-            "it has the same paths"
-        );
-    }
-
-    #[test]
-    fn what_has_no_extent_is_named_with_all_its_words_where_light_is_met_by_chance() {
-        let light = scene::PointLight { position: scene::Vec3::Y, intensity: scene::Vec3::ONE };
-        let lamps = Scene { point_lights: vec![light], ..builtin::named("cornell").unwrap() };
-        assert_eq!(missing(&path(Estimator::COSINE, None), &lamps), ["the point lights' light"]);
-        assert_eq!(missing(&path(Estimator::LIGHT, None), &lamps), [""; 0]);
-    }
-
-    #[test]
-    fn whitteds_trees_lack_the_same_whether_or_not_glass_stops_light() {
-        let glass = builtin::named("whitted").unwrap();
-        for glass_shadows in GlassShadows::ALL {
-            let tree = WhittedSettings { glass_shadows, ..WhittedSettings::default() };
-            let trees = TracedSettings { integrator: Integrator::Whitted(tree), ..traced(TechniqueName::Whitted) };
-            assert_eq!(missing(&trees, &glass), ["light between surfaces", "caustics"], "{glass_shadows:?}");
-            let dull = missing(&trees, &builtin::named("cornell").unwrap());
-            assert_eq!(dull, ["light between surfaces"], "{glass_shadows:?}: nothing is specular there");
-        }
-    }
-
-    #[test]
-    fn photons_blur_light_and_a_pinhole_sees_them_in_no_mirror() {
-        let (delta, cornell) = (under_a_sun_of_radius(0.0), builtin::named("cornell").unwrap());
-        let mut photon = traced(TechniqueName::Photon);
-        assert_eq!(missing(&photon, &delta), ["light finer than the radius (biased)"], "its caustic is there");
-        if let Integrator::Photon(settings) = &mut photon.integrator {
-            settings.points = true;
-        }
-        assert_eq!(missing(&photon, &delta), [""; 0], "points are no light");
-        let light = traced(TechniqueName::LightTracing);
-        assert_eq!(missing(&light, &delta), ["what glass and mirrors show"]);
-        assert_eq!(missing(&light, &cornell), [""; 0]);
-        assert_eq!(light.noise_source(&delta), None);
-    }
-
-    #[test]
-    fn noise_stays_where_light_is_left_to_chance() {
-        let (wide, delta) = (under_a_sun_of_radius(2.5), under_a_sun_of_radius(0.0));
-        let cornell = builtin::named("cornell").unwrap();
-        let of = |estimator, scene: &Scene| path(estimator, None).noise_source(scene);
-        let caustic = Some(NoiseSource::Caustic(Specular::Glass));
-        assert_eq!(of(Estimator::LIGHT, &wide), None, "connections aim at it");
-        assert_eq!(unconnected(None).noise_source(&wide), caustic);
-        let block = scene::Geometry::Box { corner: scene::Vec3::ZERO, size: scene::Vec3::ONE, turn_y: 0.0 };
-        let mut blocks = wide.clone();
-        let glass = wide.materials.iter().position(|m| matches!(m.bsdf, scene::Bsdf::Dielectric { .. })).unwrap();
-        blocks.shapes =
-            wide.shapes.iter().cloned().chain([scene::Shape { geometry: block, material: glass }]).collect();
-        assert_eq!(of(Estimator::LIGHT, &blocks), caustic, "a block of glass is left to chance");
-        assert_eq!(of(Estimator::LIGHT, &delta), None, "what is missing is no noise");
-        assert_eq!(of(Estimator::LIGHT, &cornell), None);
-        assert_eq!(of(Estimator::COSINE, &cornell), Some(NoiseSource::ByChance));
-        assert_eq!(path(Estimator::LIGHT, Some(0)).noise_source(&wide), None, "direct light passes no glass");
-        assert_eq!(traced(TechniqueName::Whitted).noise_source(&wide), None);
-        assert_eq!(traced(TechniqueName::Metropolis).noise_source(&cornell), Some(NoiseSource::Chains));
-    }
-}
+mod tests;

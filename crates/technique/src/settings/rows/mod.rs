@@ -108,7 +108,8 @@ pub const OF_SCENES: &[Setting<SceneChanges>] = &[
         set: |changes, value| changes.sun_radius = number(value),
         control: Control {
             label: "Sun radius (the fake's is 0)",
-            hover: "0: hard shadows and no caustic. Larger: softer shadows",
+            hover: "0: hard shadows, and caustics that chance never finds, but connections and photons do. Larger: softer \
+                    shadows",
             look: Look::Steps { range: 0.0..=5.0, step: 0.1 },
             ..BLANK
         },

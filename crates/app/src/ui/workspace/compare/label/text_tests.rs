@@ -137,8 +137,9 @@ fn errors_stand_with_words_first_and_say_what_they_are_against() {
 #[test]
 fn a_picture_says_what_it_lacks_and_where_it_is_noisy() {
     assert_eq!(label(&path(&[("bounces", "0")], 256), None).notes, ["missing: indirect light (biased)"]);
-    let noisy = PaneView { noisy: true, ..path(&[], 256) };
-    assert_eq!(label(&noisy, None).notes, ["still noisy under the glass: light reaches it only by chance"]);
+    let noisy = |changes| label(&PaneView { noisy: true, ..path(changes, 256) }, None).notes;
+    assert_eq!(noisy(&[("connections", "off")]), ["still noisy under the glass: light reaches it only by chance"]);
+    assert_eq!(noisy(&[]), ["still a few specks: light by way of several spheres"]);
     assert!(label(&path(&[], 256), None).notes.is_empty());
 }
 
