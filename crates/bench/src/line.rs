@@ -6,7 +6,7 @@ use pathtrace::{ConesAt, Estimator, Integrator, PathSettings, Roulette, SamplerK
 use raster::Fake;
 use technique::{Device, DeviceChoice, FakeSettings, Technique, TracedSettings, TreeSettings};
 
-/// What is traced by default.
+/// What is traced by default, but in scenes with rough metal or balls of glass or mirror: here it is measured in those too.
 pub const USUAL: Technique = path(Estimator::LIGHT, SamplerKind::Sobol);
 
 /// Path tracing without a limit of bounces.

@@ -5,7 +5,7 @@ use crate::{
     TechniqueName, TracedSettings, TreeSettings, TruthSettings,
 };
 use pathtrace::Estimator;
-use scene::Scene;
+use scene::{Needs, Scene};
 
 /// What a pane is set to: a technique, and the settings of each so that coming back to one finds them again.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -75,10 +75,16 @@ impl PaneSettings {
         self.photon.photon.radius = None;
     }
 
-    /// Takes the estimator that `scene` asks for, unless another than the usual one was chosen.
+    /// Takes the estimator that `scene` asks for, unless another than a new pane's was chosen.
     pub fn take_usual_estimator(&mut self, scene: &Scene) {
+        self.take_usual_estimator_after(&Needs::default(), scene);
+    }
+
+    /// Takes the estimator that `scene` asks for, unless another was chosen than what a scene with the needs `before` asks
+    /// for.
+    pub fn take_usual_estimator_after(&mut self, before: &Needs, scene: &Scene) {
         for path in [&mut self.truth.path, &mut self.metropolis.metropolis.path] {
-            if path.estimator == Estimator::default() {
+            if path.estimator == Estimator::usual_for(before) {
                 path.estimator = Estimator::usual_for(&scene.needs());
             }
         }
@@ -90,5 +96,29 @@ impl PaneSettings {
             Technique::Fake(_) => None,
             Technique::Traced(traced) => Some(traced.spp),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_usual_estimator_goes_with_its_scene_and_one_that_was_chosen_stays() {
+        let [cornell, whitted] = ["cornell", "whitted"].map(|name| scene::builtin::named(name).unwrap());
+        let estimators = |pane: &PaneSettings| [pane.truth.path.estimator, pane.metropolis.metropolis.path.estimator];
+        let mut pane = PaneSettings::of(TechniqueName::Path);
+        pane.take_usual_estimator(&cornell);
+        assert_eq!(estimators(&pane), [Estimator::LIGHT; 2]);
+        pane.take_usual_estimator_after(&cornell.needs(), &whitted);
+        assert_eq!(estimators(&pane), [Estimator::MIS; 2], "what its spheres focus");
+        pane.take_usual_estimator_after(&whitted.needs(), &cornell);
+        assert_eq!(estimators(&pane), [Estimator::LIGHT; 2]);
+        pane.truth.path.estimator = Estimator::COSINE;
+        pane.take_usual_estimator_after(&cornell.needs(), &whitted);
+        assert_eq!(estimators(&pane), [Estimator::COSINE, Estimator::MIS]);
+        pane.truth.path.estimator = Estimator::LIGHT;
+        pane.take_usual_estimator_after(&whitted.needs(), &whitted);
+        assert_eq!(pane.truth.path.estimator, Estimator::LIGHT, "chosen, where mis is usual");
     }
 }

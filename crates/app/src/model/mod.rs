@@ -52,7 +52,7 @@ pub use view_args::ViewArgs;
 pub use view_model::{PaneView, ViewModel};
 pub use wanted::{Wanted, WantedPane};
 
-use scene::Scene;
+use scene::{Needs, Scene};
 use technique::{Adapters, DeviceChoice};
 
 /// All that the user can change.
@@ -73,7 +73,7 @@ impl Model {
     /// The first view of a scene that was opened by the name `source`.
     pub fn new(scene: Scene, source: String, theme: Theme) -> Self {
         let (document, mut session) = (Document::new(scene, source), Session::default());
-        session.forget_the_scene(&document.scene);
+        session.forget_the_scene(&Needs::default(), &document.scene);
         let history = History::new(Settings::of(&document, &session));
         Model { document, session, state: UiState::new(theme), adapters: Adapters::default(), history }
     }
@@ -89,8 +89,9 @@ impl Model {
     /// Shows another scene from its own camera. What was set against the scene before goes; techniques and their ways
     /// stay.
     pub fn open(&mut self, scene: Scene, source: String) {
+        let before = self.document.scene.needs();
         self.document.open(scene, source);
-        self.session.forget_the_scene(&self.document.scene);
+        self.session.forget_the_scene(&before, &self.document.scene);
         self.take_awaited_slide();
         self.begin_history();
     }

@@ -3,7 +3,7 @@
 use super::{CompareWith, ComparisonSettings, Line, PaneId, Panes, View, saved};
 use film::DisplayTransform;
 use raster::Show;
-use scene::Scene;
+use scene::{Needs, Scene};
 use serde::{Deserialize, Serialize};
 use technique::{DeviceChoice, PaneSettings, TechniqueName};
 
@@ -85,11 +85,11 @@ impl Session {
         self.panes.values_mut().for_each(|pane| pane.device = device);
     }
 
-    /// What was set against the scene before goes; techniques and their ways stay.
-    pub fn forget_the_scene(&mut self, scene: &Scene) {
+    /// What was set against the scene before goes, the estimator with it that it asked for; techniques and their ways stay.
+    pub fn forget_the_scene(&mut self, before: &Needs, scene: &Scene) {
         for pane in self.panes.values_mut() {
             pane.forget_the_scene(scene);
-            pane.take_usual_estimator(scene);
+            pane.take_usual_estimator_after(before, scene);
         }
     }
 
@@ -124,4 +124,23 @@ impl Session {
 /// The other one of the two panes that are compared.
 pub fn other(pane: PaneId) -> PaneId {
     if pane == PaneId::A { PaneId::B } else { PaneId::A }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::model::{Model, PaneId, Theme};
+    use pathtrace::Estimator;
+    use scene::builtin;
+
+    #[test]
+    fn a_scene_that_is_opened_brings_the_estimator_that_it_asks_for() {
+        let named = |name: &str| (builtin::named(name).unwrap(), name.to_owned());
+        let (scene, source) = named("whitted");
+        let mut model = Model::new(scene, source, Theme::Dark);
+        let estimator = |model: &Model| model.session.panes[PaneId::B].truth.path.estimator;
+        assert_eq!(estimator(&model), Estimator::MIS);
+        let (scene, source) = named("cornell");
+        model.open(scene, source);
+        assert_eq!(estimator(&model), Estimator::LIGHT);
+    }
 }

@@ -32,7 +32,7 @@ fn a_change_of_a_setting_can_be_taken_back_and_done_again() {
     let moved = slid.value("refraction ratio").to_owned();
     assert_eq!(moved, "0.55");
     user.click_nth("Path", 0);
-    user.wait_for("two path-traced pictures", |f| f.state("a")["label"] == "Path tracing, light" && both_whole(f));
+    user.wait_for("two path-traced pictures", |f| f.state("a")["label"] == "Path tracing, mis" && both_whole(f));
     user.key_with(Key::Z, Modifiers::COMMAND);
     let back = user.wait_for("the fake again", |f| f.state("a")["label"] == "Fake, fair");
     assert_eq!(back.value("undo"), "true");

@@ -133,9 +133,9 @@ pub const ROWS: &[Setting<PaneSettings>] = &[
             "guided-chance",
         ]),
         default: Some(Value::Word("light")),
-        help: "directions uniform, cosine-weighted or guided by what some paths before have found (by the processor), light found by \
-               chance, by sampling or by both, weighted; \
-               without it mis where there is rough metal",
+        help: "directions uniform, cosine-weighted or guided by what some paths before have found (path alone, by the \
+               processor), light found by chance, by sampling or by both, weighted; \
+               without it mis where there is rough metal or a ball of glass or mirror",
         always_recorded: true,
         get: |pane| Some(Value::Word(path_of(pane).estimator.name())),
         set: |pane, value| {
