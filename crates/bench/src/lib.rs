@@ -22,6 +22,7 @@ pub mod plan;
 mod plots;
 pub mod references;
 mod run;
+mod speed;
 pub mod summary;
 mod tables;
 pub mod variant;

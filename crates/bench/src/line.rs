@@ -2,54 +2,80 @@
 //! them by.
 
 use crate::variant::{MakeTracer, Variant};
-use pathtrace::{ConesAt, Estimator, Integrator, PathSettings, Roulette, SamplerKind};
+use pathtrace::{
+    ConesAt, Directions, Estimator, Integrator, LightTracingSettings, MetropolisSettings, PathSettings, PhotonSettings,
+    Roulette, SamplerKind,
+};
 use raster::Fake;
+use scene::Scene;
 use technique::{Device, DeviceChoice, FakeSettings, Technique, TracedSettings, TreeSettings};
 
+/// Samples of what more samples make better for ever: as many as the ladder of its part has.
+const LADDER: u32 = u32::MAX;
+
+/// Samples of light tracing where it is blind: its noise is far below what it lacks.
+const BLIND_SPP: u32 = 16;
+
+/// The usual paths.
+const COMPLETE: PathSettings = PathSettings {
+    estimator: Estimator::LIGHT,
+    sampler: SamplerKind::Sobol,
+    bounces: None,
+    roulette: Roulette::THROUGHPUT,
+    branches: 1,
+    connections: true,
+    cones: ConesAt::Usual,
+    split_glass: true,
+    seed: 1,
+};
+
+/// The tutorial's: nothing is aimed at, and no way taken twice.
+const TAUGHT: PathSettings = PathSettings {
+    sampler: SamplerKind::Independent,
+    connections: false,
+    cones: ConesAt::Nothing,
+    split_glass: false,
+    ..COMPLETE
+};
+
 /// What is traced by default, but in scenes with rough metal or balls of glass or mirror: here it is measured in those too.
-pub const USUAL: Technique = path(Estimator::LIGHT, SamplerKind::Sobol);
+pub const USUAL: Technique = paths(COMPLETE);
 
 /// Path tracing without a limit of bounces.
 pub const fn path(estimator: Estimator, sampler: SamplerKind) -> Technique {
-    let roulette = Roulette::THROUGHPUT;
-    let (connections, cones, split_glass) = (true, ConesAt::Usual, true);
-    paths(PathSettings {
-        estimator,
-        sampler,
-        bounces: None,
-        roulette,
-        branches: 1,
-        connections,
-        cones,
-        split_glass,
-        seed: 1,
-    })
+    paths(PathSettings { estimator, sampler, ..COMPLETE })
+}
+
+/// The usual paths, but for light by way of spheres, which is left to chance and cones.
+pub const fn unconnected() -> Technique {
+    paths(PathSettings { connections: false, ..COMPLETE })
 }
 
 /// Paths of at most so many bounces, and no roulette: the tutorial's biased loop.
 pub const fn bounded(bounces: u32) -> Technique {
-    let (estimator, sampler) = (Estimator::LIGHT, SamplerKind::Independent);
-    let (bounces, roulette) = (Some(bounces), Roulette::OFF);
-    let (connections, cones, split_glass) = (false, ConesAt::Nothing, false);
-    paths(PathSettings { estimator, sampler, bounces, roulette, branches: 1, connections, cones, split_glass, seed: 1 })
+    paths(PathSettings { bounces: Some(bounces), roulette: Roulette::OFF, ..TAUGHT })
 }
 
 /// Paths without limit that survive each vertex with a constant probability: the tutorial's roulette.
 pub const fn survived(probability: f32) -> Technique {
-    let (estimator, sampler) = (Estimator::LIGHT, SamplerKind::Independent);
-    let roulette = Roulette::constant(probability);
-    let (connections, cones, split_glass) = (false, ConesAt::Nothing, false);
-    paths(PathSettings {
-        estimator,
-        sampler,
-        bounces: None,
-        roulette,
-        branches: 1,
-        connections,
-        cones,
-        split_glass,
-        seed: 1,
-    })
+    paths(PathSettings { roulette: Roulette::constant(probability), ..TAUGHT })
+}
+
+/// Photon mapping with so many photons a pass.
+pub fn photon(photons: u32) -> Technique {
+    Technique::Traced(on_the_ladder(PhotonSettings { photons, ..PhotonSettings::default() }.into()))
+}
+
+/// Light tracing with so many photons a sample. In mirrors and glass it shows nothing: where there are such it is a level.
+pub fn light_tracing(photons: u32, scene: &Scene) -> Technique {
+    let traced = on_the_ladder(LightTracingSettings { photons, ..LightTracingSettings::default() }.into());
+    let spp = if traced.blind_spots(scene).is_empty() { LADDER } else { BLIND_SPP };
+    Technique::Traced(TracedSettings { spp, ..traced })
+}
+
+/// Chains of the usual paths.
+pub fn metropolis() -> Technique {
+    Technique::Traced(on_the_ladder(MetropolisSettings { path: COMPLETE, ..MetropolisSettings::default() }.into()))
 }
 
 /// Whitted's trees of rays, at the few samples that edges and soft shadows need.
@@ -62,16 +88,12 @@ pub fn fake(fake: Fake) -> Technique {
     Technique::Fake(FakeSettings { fake, ..FakeSettings::default() })
 }
 
-/// At as many samples as the ladder of its part has.
 const fn paths(settings: PathSettings) -> Technique {
-    let integrator = Integrator::Path(settings);
-    Technique::Traced(TracedSettings {
-        integrator,
-        device: DeviceChoice::Cpu,
-        adapter: 0,
-        spp: u32::MAX,
-        sun_radius: None,
-    })
+    Technique::Traced(on_the_ladder(Integrator::Path(settings)))
+}
+
+const fn on_the_ladder(integrator: Integrator) -> TracedSettings {
+    TracedSettings { integrator, device: DeviceChoice::Cpu, adapter: 0, spp: LADDER, sun_radius: None }
 }
 
 /// A technique in one of the variants.
@@ -112,7 +134,17 @@ impl Line {
 
     /// Whether more samples make it better for ever: the others are levels.
     pub fn converges(&self) -> bool {
-        self.path_settings().is_some()
+        matches!(self.technique, Technique::Traced(TracedSettings { spp: LADDER, .. }))
+    }
+
+    /// Whether it converges, but a sample of it takes several times as long as a path.
+    pub fn is_dear(&self) -> bool {
+        self.converges() && self.path_settings().is_none()
+    }
+
+    /// Whether each of its pictures begins with learning a guide.
+    pub fn learns(&self) -> bool {
+        self.path_settings().is_some_and(|path| path.estimator.directions == Directions::Guided)
     }
 
     /// Whether it loses light by a limit of bounces.
@@ -131,6 +163,9 @@ impl Line {
             Technique::Traced(TracedSettings { integrator: Integrator::Path(path), .. }) => {
                 let PathSettings { estimator, sampler, bounces, roulette, .. } = path;
                 let mut name = format!("path {} {}", estimator.name(), sampler.name());
+                if self.technique == unconnected() {
+                    name += NO_CONNECTIONS;
+                }
                 if let Some(bounces) = bounces {
                     name += &format!(" bounces {bounces}");
                 }
@@ -161,18 +196,42 @@ impl Line {
     }
 }
 
+/// After the names of paths that leave to chance what others connect.
+const NO_CONNECTIONS: &str = " no connections";
+
 /// A technique's name in plots.
 pub fn title(technique: &Technique) -> String {
     let path = match technique {
         Technique::Traced(TracedSettings { integrator: Integrator::Path(path), .. }) => path,
-        Technique::Traced(_) => return technique.name().title().into(),
+        Technique::Traced(_) => return technique.name().in_full().into(),
         Technique::Fake(settings) => return format!("fake, {}", settings.fake.name()),
     };
     match (path.bounces, path.roulette.probability) {
+        (None, None) if *technique == unconnected() => format!("{},{NO_CONNECTIONS}", path.estimator.name()),
         (None, None) => format!("{}, {}", path.estimator.name(), path.sampler.name()),
         (Some(0), _) => "0 bounces, direct light".into(),
         (Some(1), _) => "1 bounce".into(),
         (Some(n), _) => format!("{n} bounces"),
         (None, Some(probability)) => format!("roulette, p = {probability}"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use scene::builtin;
+
+    #[test]
+    fn the_usual_line_is_what_the_program_does_by_default() {
+        assert_eq!(USUAL, paths(PathSettings::default()));
+    }
+
+    #[test]
+    fn light_tracing_is_a_level_where_there_are_mirrors_or_glass() {
+        let line = |scene: &str| {
+            let technique = light_tracing(1, &builtin::named(scene).unwrap());
+            Line { technique, variant: &Variant::ALL[0] }
+        };
+        assert!(line("cornell").converges() && !line("whitted").converges());
     }
 }

@@ -89,6 +89,15 @@ pub struct Bias {
     pub relative: BiasTest,
 }
 
+impl Bias {
+    fn of(films: &[Film], truth: &Truth) -> Result<Self, BenchError> {
+        let absolute = BiasTest::of(films, &truth.film, truth.worth.mse)?;
+        let shares: Vec<Film> = films.iter().map(|film| as_shares(film, &truth.film)).collect();
+        let relative = BiasTest::of(&shares, &as_shares(&truth.film, &truth.film), truth.worth.rel_mse)?;
+        Ok(Bias { absolute, relative })
+    }
+}
+
 /// All pictures of one line at one number of samples.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Measurement {
@@ -100,7 +109,8 @@ pub struct Measurement {
     pub spp: u32,
     /// One for each seed.
     pub pictures: Vec<Picture>,
-    /// `None` where nothing is random.
+    /// `None` where nothing is random, and where pixels share random numbers: the test's standard error comes from pixels
+    /// that are independent.
     pub bias: Option<Bias>,
     /// What they were measured by.
     pub reference: Worth,
@@ -146,18 +156,8 @@ pub fn traced(
         pictures.push(judged(accumulation.film(), seed, seconds, accumulation.stats(), truth)?);
         films.push(accumulation.into_film());
     }
-    let absolute = BiasTest::of(&films, &truth.film, truth.worth.mse)?;
-    let shares: Vec<Film> = films.iter().map(|film| as_shares(film, &truth.film)).collect();
-    let relative = BiasTest::of(&shares, &as_shares(&truth.film, &truth.film), truth.worth.rel_mse)?;
-    let bias = Bias { absolute, relative };
-    Ok(Measurement {
-        part: part.name.clone(),
-        line: line.name(),
-        spp,
-        pictures,
-        bias: Some(bias),
-        reference: truth.worth,
-    })
+    let bias = if integrator.shares_between_pixels() { None } else { Some(Bias::of(&films, truth)?) };
+    Ok(Measurement { part: part.name.clone(), line: line.name(), spp, pictures, bias, reference: truth.worth })
 }
 
 /// Measures a fake, once its pipelines are built: as many frames as others have seeds, all of one picture.

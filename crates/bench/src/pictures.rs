@@ -33,10 +33,10 @@ pub struct PicturePair {
 
 const BAR: (u32, u32) = (256, 12);
 
-/// Samples per pixel of the path-traced picture: few, so that its noise is seen.
+/// Samples per pixel of what has noise: few, so that it is seen.
 const PATH_SPP: u32 = 16;
 
-/// The fakes, where something can draw them, Whitted's picture and a path-traced one of a part.
+/// The fakes, where something can draw them, Whitted's picture, a path-traced one and those by other light transport.
 ///
 /// # Errors
 /// [`BenchError::Memory`], [`BenchError::File`] if a picture cannot be encoded.
@@ -62,6 +62,11 @@ pub fn of(
     if let Technique::Traced(usual) = USUAL {
         let paths = traced(part, renderer, &usual.integrator, PATH_SPP)?;
         pairs.push(pair(format!("paths, {}, {PATH_SPP} samples per pixel", title(&USUAL)), &paths, truth)?);
+    }
+    for technique in part.other_transport(&scene) {
+        let Technique::Traced(settings) = technique else { continue };
+        let other = traced(part, renderer, &settings.integrator, PATH_SPP)?;
+        pairs.push(pair(format!("{}, {PATH_SPP} samples per pixel", title(&technique)), &other, truth)?);
     }
     Ok(pairs)
 }

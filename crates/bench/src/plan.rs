@@ -5,15 +5,14 @@
 //! too. The plan is kept in the journal: what is interrupted goes on by the same plan.
 
 use crate::line::{self, Line};
+pub use crate::speed::Speed;
 use crate::variant::{VARIANT_SPP, Variant};
 use crate::{BenchError, Options};
-use film::Film;
-use pathtrace::{Estimator, FEWEST_REPLICATES, Integrator, SamplerKind, Tracer};
+use pathtrace::{Directions, Estimator, FEWEST_REPLICATES, MOST_PHOTONS, SamplerKind};
 use raster::Fake;
-use reference::{Maker, SAMPLES_PER_REPLICATE};
+use reference::SAMPLES_PER_REPLICATE;
 use scene::{Scene, builtin};
 use serde::{Deserialize, Serialize};
-use std::time::Instant;
 use technique::Technique;
 
 /// Scenes that are measured.
@@ -29,7 +28,7 @@ pub const QUICK_SECONDS: f64 = 60.0;
 const REFERENCE_SHARE: f64 = 0.35;
 
 /// Each rung of the ladder of samples has this many times the samples of the one before.
-const RUNG: u32 = 4;
+pub(crate) const RUNG: u32 = 4;
 
 /// How long a bench may take.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -43,7 +42,7 @@ pub enum Effort {
 /// A scene under one sun, at one size.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Part {
-    /// "cornell", "whitted-sun-0", "whitted-sun-2.5": what files and tables call it.
+    /// "cornell", "whitted-sun-0", "whitted-sun-0.5", "whitted-sun-2.5": what files and tables call it.
     pub name: String,
     /// Name of the built-in scene.
     pub scene: String,
@@ -61,15 +60,6 @@ pub struct Part {
     pub speed: Speed,
 }
 
-/// Samples a second.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct Speed {
-    /// Of a reference.
-    pub reference: f64,
-    /// Of a part's lines, all alike.
-    pub lines: f64,
-}
-
 /// A part before it has a size.
 struct Sketch {
     name: &'static str,
@@ -81,25 +71,19 @@ struct Sketch {
     weight: f64,
 }
 
-const SKETCHES: [Sketch; 3] = [
+const SKETCHES: [Sketch; 4] = [
     Sketch { name: "cornell", scene: "cornell", sun_radius: None, full: (256, 256), quick: (96, 96), weight: 3.0 },
-    Sketch {
-        name: "whitted-sun-0",
-        scene: "whitted",
-        sun_radius: Some(0.0),
-        full: (256, 144),
-        quick: (128, 72),
-        weight: 1.0,
-    },
-    Sketch {
-        name: "whitted-sun-2.5",
-        scene: "whitted",
-        sun_radius: None,
-        full: (256, 144),
-        quick: (128, 72),
-        weight: 2.0,
-    },
+    spheres("whitted-sun-0", Some(0.0), 1.0),
+    spheres("whitted-sun-0.5", Some(0.5), 1.5),
+    spheres("whitted-sun-2.5", None, 2.0),
 ];
+
+const fn spheres(name: &'static str, sun_radius: Option<f32>, weight: f64) -> Sketch {
+    Sketch { name, scene: "whitted", sun_radius, full: (256, 144), quick: (128, 72), weight }
+}
+
+/// Radius in degrees of a sun that is too small to be met by chance: of half a degree, one in 13,000 directions meets it.
+const HARDLY_MET: f32 = 1.0;
 
 /// Names of all parts.
 pub fn part_names() -> impl Iterator<Item = &'static str> {
@@ -140,7 +124,7 @@ impl Sketch {
             height: self.full.1,
             most_spp: 1024,
             reference_seconds: 900.0,
-            speed: Speed { reference: 1.0, lines: 1.0 },
+            speed: Speed { reference: 1.0, lines: 1.0, learning: 0.0 },
         }
     }
 }
@@ -172,24 +156,21 @@ impl Part {
         std::iter::successors(Some(1), |spp| Some(spp * RUNG)).take_while(|spp| *spp <= self.most_spp).collect()
     }
 
-    /// Samples per pixel at which a line is measured.
+    /// Samples per pixel at which a line is measured: what takes several times as long as paths is spared the last rung.
     pub fn rungs(&self, line: &Line) -> Vec<u32> {
         match line.technique {
             _ if line.is_a_variant() => vec![VARIANT_SPP],
+            _ if line.is_dear() => self.ladder().into_iter().filter(|spp| spp * RUNG <= self.most_spp).collect(),
             _ if line.converges() => self.ladder(),
             Technique::Traced(traced) => vec![traced.spp],
             Technique::Fake(_) => vec![0],
         }
     }
 
-    /// Everything that is measured in this part, what needs a GPU last. By chance no path meets a sun of radius 0:
-    /// such techniques are left out there.
+    /// Everything that is measured in this part, what needs a GPU last.
     pub fn lines(&self, scene: &Scene) -> Vec<Line> {
-        let delta_sun = scene.sun.is_some_and(|sun| sun.angular_radius == 0.0);
-        let mut techniques = Vec::new();
-        for estimator in Estimator::ALL.into_iter().filter(|e| !delta_sun || e.samples_lights()) {
-            techniques.extend(SamplerKind::ALL.map(|sampler| line::path(estimator, sampler)));
-        }
+        let mut techniques = self.paths(scene);
+        techniques.extend(self.other_transport(scene));
         if self.teaches_bias() {
             techniques.extend([0, 1, 3].map(line::bounded));
             techniques.push(line::survived(0.8));
@@ -200,6 +181,38 @@ impl Part {
         let available = Variant::ALL[1..].iter().filter(|variant| variant.is_available());
         let others = available.map(|variant| Line { technique: line::USUAL, variant });
         others.chain(techniques.into_iter().map(|technique| Line { technique, variant: usual })).collect()
+    }
+
+    /// Independent paths. By chance no path meets a sun of radius 0, and hardly one a small sun: there such techniques are
+    /// left out, and under the former what finds no caustic. A guide is learned where light goes around.
+    fn paths(&self, scene: &Scene) -> Vec<Technique> {
+        let sun = scene.sun.map_or(f32::INFINITY, |sun| sun.angular_radius);
+        let finds = |estimator: &Estimator| sun >= HARDLY_MET || estimator.samples_lights();
+        let by_cosine = Estimator::ALL.into_iter().filter(|e| e.directions != Directions::Guided).filter(finds);
+        let mut paths: Vec<Technique> =
+            by_cosine.flat_map(|e| SamplerKind::ALL.map(|sampler| line::path(e, sampler))).collect();
+        if scene.needs().casters && sun > 0.0 {
+            paths.push(line::unconnected());
+        }
+        if self.teaches_bias() {
+            paths.push(line::path(Estimator::GUIDED, SamplerKind::Sobol));
+        }
+        paths
+    }
+
+    /// Other light transport than by independent paths from the camera. Photons find what a sun of radius 0 sends by way of
+    /// several spheres, which a reference lacks: nothing is known of their error there.
+    pub fn other_transport(&self, scene: &Scene) -> Vec<Technique> {
+        let delta_sun = scene.sun.is_some_and(|sun| sun.angular_radius == 0.0);
+        let photons = self.photons();
+        let by_photons = [line::photon(photons), line::light_tracing(photons, scene)];
+        by_photons.into_iter().filter(|_| !delta_sun).chain([line::metropolis()]).collect()
+    }
+
+    /// Photons of a pass, up to four for each pixel, so that a sample takes as long in a picture of any size: at the full
+    /// size of the spheres the usual number. A power of two, as Sobol points ask for.
+    fn photons(&self) -> u32 {
+        1 << (4 * self.pixels()).clamp(1, u64::from(MOST_PHOTONS)).ilog2()
     }
 
     /// Whether it has the lesson "biased against unbiased": where light goes around in a closed room.
@@ -217,9 +230,15 @@ impl Part {
         self.pixels() as f64 * f64::from(spp) * f64::from(SEEDS)
     }
 
-    /// Samples of all lines' measurements.
-    fn all_samples(&self, scene: &Scene) -> f64 {
-        let of_line = |line: &Line| self.rungs(line).iter().map(|spp| self.samples(*spp)).sum::<f64>();
+    /// Seconds of a line's measurement at `spp`, over all seeds.
+    pub fn seconds(&self, line: &Line, spp: u32) -> f64 {
+        let learning = if line.learns() { f64::from(SEEDS) * self.speed.learning } else { 0.0 };
+        learning + self.samples(spp) / self.speed.lines
+    }
+
+    /// Seconds of all lines' measurements.
+    fn all_seconds(&self, scene: &Scene) -> f64 {
+        let of_line = |line: &Line| self.rungs(line).iter().map(|spp| self.seconds(line, *spp)).sum::<f64>();
         self.lines(scene).iter().map(of_line).sum()
     }
 
@@ -247,8 +266,7 @@ impl Part {
         };
         let fits = |part: &Part| {
             let reference = part.pixels() as f64 * f64::from(part.replicates() * SAMPLES_PER_REPLICATE);
-            let (seconds, measured) = (seconds - reference_seconds, part.all_samples(scene));
-            reference <= speed.reference * reference_seconds && measured <= speed.lines * seconds
+            reference <= speed.reference * reference_seconds && part.all_seconds(scene) <= seconds - reference_seconds
         };
         let sizes =
             (2..=16).rev().flat_map(|sixteenths| [1024, 256, 64].map(|most_spp| candidate(sixteenths, most_spp)));
@@ -256,34 +274,13 @@ impl Part {
     }
 }
 
-impl Speed {
-    /// Measured in about half a second.
-    fn measured(part: &Part, scene: &Scene) -> Self {
-        let tracer = Tracer::new(scene);
-        let lines = part.lines(scene);
-        let lines: Vec<Integrator> =
-            lines.iter().filter(|line| line.converges()).filter_map(|line| line.integrator(1)).collect();
-        Speed {
-            reference: samples_per_second(&tracer, scene, &[Maker::settings(1).into()]),
-            lines: samples_per_second(&tracer, scene, &lines),
-        }
-    }
-}
-
-/// Samples a second of all these settings in turn, over at least a fifth of a second.
-fn samples_per_second(tracer: &Tracer, scene: &Scene, integrators: &[Integrator]) -> f64 {
-    const SIDE: u32 = 48;
-    const LEAST_SECONDS: f64 = 0.2;
-    let mut film = Film::new(SIDE, SIDE);
-    let mut all =
-        |spp| integrators.iter().map(|way| tracer.render(&mut film, &scene.camera, way, spp, &|| false).samples).sum();
-    // threads and caches awake before the clock runs
-    let _: u64 = all(1);
-    let (start, mut samples) = (Instant::now(), 0u64);
-    while start.elapsed().as_secs_f64() < LEAST_SECONDS {
-        samples += all(2);
-    }
-    samples as f64 / start.elapsed().as_secs_f64()
+/// All parts at their full size, with their lines.
+#[cfg(test)]
+pub(crate) fn full_parts() -> impl Iterator<Item = (Part, Vec<Line>)> {
+    SKETCHES.iter().map(Sketch::part).map(|part| {
+        let lines = part.scene().map(|scene| part.lines(&scene)).unwrap_or_default();
+        (part, lines)
+    })
 }
 
 #[cfg(test)]
@@ -293,14 +290,23 @@ mod tests {
     fn cornell_within(seconds: f64, speed: f64) -> (Part, Scene) {
         let part = SKETCHES[0].part();
         let scene = part.scene().unwrap();
-        (part.within(&scene, seconds, Speed { reference: speed, lines: 1.5 * speed }, SKETCHES[0].quick), scene)
+        let speed = Speed { reference: speed, lines: 1.5 * speed, learning: 0.02 };
+        (part.within(&scene, seconds, speed, SKETCHES[0].quick), scene)
+    }
+
+    fn part(name: &str) -> (Part, Vec<Line>) {
+        full_parts().find(|(part, _)| part.name == name).unwrap()
+    }
+
+    fn names(part: &str) -> Vec<String> {
+        self::part(part).1.iter().map(Line::name).collect()
     }
 
     #[test]
     fn a_plan_fits_its_time_at_any_speed() {
         for speed in [2e5, 1e6, 3e6, 3e7, 1e9] {
             let (part, scene) = cornell_within(30.0, speed);
-            let seconds = part.forecast_reference() + part.all_samples(&scene) / part.speed.lines;
+            let seconds = part.forecast_reference() + part.all_seconds(&scene);
             assert!(seconds <= 30.0 && part.most_spp >= 64, "{part:?}: {seconds}");
         }
         let (slow, fast) = (cornell_within(30.0, 1e6).0, cornell_within(30.0, 3e7).0);
@@ -315,19 +321,49 @@ mod tests {
 
     #[test]
     fn no_line_measures_what_cannot_be_found() {
-        let part = SKETCHES[1].part();
-        let lines = part.lines(&part.scene().unwrap());
-        assert!(lines.iter().all(|line| !line.name().contains("uniform") && !line.name().contains("cosine")));
-        assert!(lines.iter().any(|line| line.name() == "path light sobol"));
+        let delta = names("whitted-sun-0");
+        let blind = ["uniform", "cosine", "no connections", "photon", "light-tracing"];
+        assert!(delta.iter().all(|name| !blind.iter().any(|word| name.contains(word))), "{delta:?}");
+        assert!(delta.contains(&"path light sobol".into()) && delta.contains(&"metropolis".into()));
+        assert!(names("whitted-sun-0.5").iter().all(|name| !name.contains("uniform") && !name.contains("cosine")));
+        assert!(names("whitted-sun-2.5").contains(&"path cosine independent".into()));
+    }
+
+    #[test]
+    fn each_answer_to_a_caustic_has_a_line() {
+        for part in ["whitted-sun-0.5", "whitted-sun-2.5"] {
+            let names = names(part);
+            let answers =
+                ["path light sobol", "path light sobol no connections", "photon", "light-tracing", "metropolis"];
+            assert!(answers.iter().all(|answer| names.iter().any(|name| name == answer)), "{names:?}");
+        }
+        assert!(names("cornell").contains(&"path guided sobol".into()));
+        assert!(names("cornell").iter().all(|name| !name.contains("no connections")), "nothing to connect through");
+    }
+
+    #[test]
+    fn what_is_dear_has_the_ladder_but_for_its_last_rung() {
+        let (part, lines) = part("whitted-sun-2.5");
+        let rungs = |name: &str| part.rungs(lines.iter().find(|line| line.name() == name).unwrap());
+        assert_eq!(rungs("path light sobol"), [1, 4, 16, 64, 256, 1024]);
+        assert_eq!([rungs("photon"), rungs("metropolis")], [[1, 4, 16, 64, 256]; 2]);
+        assert_eq!(rungs("light-tracing"), [16]);
+    }
+
+    #[test]
+    fn a_pass_has_photons_in_proportion_to_pixels() {
+        let photons = |width, height| Part { width, height, ..SKETCHES[1].part() }.photons();
+        assert_eq!([photons(256, 144), photons(128, 72), photons(1, 1)], [pathtrace::USUAL_PHOTONS, 1 << 15, 4]);
     }
 
     #[test]
     fn names_are_unique() {
-        let part = SKETCHES[0].part();
-        let mut names: Vec<_> = part.lines(&part.scene().unwrap()).iter().map(Line::name).collect();
-        let count = names.len();
-        names.sort();
-        names.dedup();
-        assert_eq!(names.len(), count);
+        for part in part_names() {
+            let mut names = names(part);
+            let count = names.len();
+            names.sort();
+            names.dedup();
+            assert_eq!(names.len(), count, "{part}: {names:?}");
+        }
     }
 }

@@ -1,12 +1,12 @@
 //! The plots of a part: error against samples, error against seconds, and the tutorial's "Biased vs. Unbiased".
 
-use crate::line;
+use crate::line::{self, Line};
 use crate::plan::Part;
 use crate::summary::{Curve, PartSummary, Point, slope_words};
 use compare::{LogLogPlot, PlotPoint, Range, Series, Stroke};
 use pathtrace::{Estimator, Integrator, SamplerKind};
 use raster::Fake;
-use technique::{FakeSettings, Technique, TracedSettings};
+use technique::{FakeSettings, Technique};
 
 /// A plot with its name and what to see in it.
 pub struct Plot {
@@ -153,9 +153,9 @@ fn with_slope(curve: &Curve) -> String {
     curve.line.title() + &slope.unwrap_or_default()
 }
 
-/// A curve as a line of a plot: colour by estimator, stroke by sampler.
+/// A curve as a line of a plot: colour by technique and estimator, stroke by sampler.
 fn series(curve: &Curve, name: String, of: impl Fn(&Point) -> (f64, Range)) -> Series {
-    let (colour, stroke) = look(&curve.line.technique);
+    let (colour, stroke) = (colour(&curve.line.technique), stroke(&curve.line));
     let mut points: Vec<PlotPoint> = Vec::new();
     for point in &curve.points {
         let (x, y) = of(point);
@@ -164,23 +164,36 @@ fn series(curve: &Curve, name: String, of: impl Fn(&Point) -> (f64, Range)) -> S
     Series { name, points, colour, stroke }
 }
 
-/// Colours that [`look`] does not use begin here: for peers.
-const FIRST_FREE_COLOUR: usize = 8;
+/// Colours that [`colour`] does not use begin here: for peers.
+const FIRST_FREE_COLOUR: usize = 11;
 
-fn look(technique: &Technique) -> (usize, Stroke) {
-    match technique {
-        Technique::Traced(TracedSettings { integrator: Integrator::Path(path), .. }) => {
-            let colour = match Estimator::ALL.iter().position(|e| *e == path.estimator) {
-                Some(place @ ..4) => place,
-                // after those of other techniques
-                Some(_) => 7,
-                None => 0,
-            };
-            (colour, if path.sampler == SamplerKind::Sobol { Stroke::Solid } else { Stroke::Dashed })
-        }
-        Technique::Traced(_) => (5, Stroke::Level),
-        Technique::Fake(FakeSettings { fake: Fake::Fair, .. }) => (4, Stroke::Level),
-        Technique::Fake(_) => (6, Stroke::Level),
+fn colour(technique: &Technique) -> usize {
+    let integrator = match technique {
+        Technique::Traced(traced) => traced.integrator,
+        Technique::Fake(FakeSettings { fake: Fake::Fair, .. }) => return 4,
+        Technique::Fake(_) => return 6,
+    };
+    match integrator {
+        // no part has a guide and these
+        Integrator::Path(_) if *technique == line::unconnected() => 7,
+        Integrator::Path(path) => match Estimator::ALL.iter().position(|e| *e == path.estimator) {
+            Some(place @ ..4) => place,
+            // after those of other techniques
+            Some(_) => 7,
+            None => 0,
+        },
+        Integrator::Metropolis(_) => 8,
+        Integrator::Photon(_) => 9,
+        Integrator::LightTracing(_) => 10,
+        Integrator::Whitted(_) | Integrator::Normals(_) => 5,
+    }
+}
+
+fn stroke(line: &Line) -> Stroke {
+    match line.sampler() {
+        _ if !line.converges() => Stroke::Level,
+        sampler if sampler == SamplerKind::Sobol.name() => Stroke::Solid,
+        _ => Stroke::Dashed,
     }
 }
 
@@ -193,5 +206,25 @@ pub fn duration(seconds: f64) -> String {
         s if s < 10.0 => format!("{s:.2} s"),
         s if s < 600.0 => format!("{s:.0} s"),
         s => format!("{:.0} min", s / 60.0),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::plan::full_parts;
+
+    #[test]
+    fn lines_of_a_plot_are_told_apart_by_colour_or_stroke() {
+        for (part, lines) in full_parts() {
+            let plotted = lines.iter().filter(|line| !line.is_of_the_lesson() && !line.is_a_variant());
+            let look = |line: &Line| (colour(&line.technique), format!("{:?}", stroke(line)));
+            let mut looks: Vec<_> = plotted.map(look).collect();
+            assert!(looks.iter().all(|(colour, _)| *colour < FIRST_FREE_COLOUR), "{}: {looks:?}", part.name);
+            let count = looks.len();
+            looks.sort();
+            looks.dedup();
+            assert_eq!(looks.len(), count, "{}: {looks:?}", part.name);
+        }
     }
 }

@@ -159,7 +159,7 @@ fn forecast(journal: &Journal, part: &Part, lines: &[Line]) -> f64 {
 }
 
 fn forecast_of(part: &Part, line: &Line, spp: u32) -> f64 {
-    if matches!(line.technique, Technique::Fake(_)) { FAKE_SECONDS } else { part.samples(spp) / part.speed.lines }
+    if matches!(line.technique, Technique::Fake(_)) { FAKE_SECONDS } else { part.seconds(line, spp) }
 }
 
 impl Bench<'_> {

@@ -3,7 +3,7 @@
 use compare::escaped;
 
 /// Words and lines; those of estimators and samplers by their own names.
-const WORDS: [(&str, &str); 35] = [
+const WORDS: [(&str, &str); 40] = [
     ("spp", "samples per pixel: paths that were started through each pixel"),
     ("radiance", "light along a ray, linear, before exposure and the screen's curve"),
     (
@@ -41,6 +41,24 @@ const WORDS: [(&str, &str); 35] = [
         "Owen-scrambled Sobol points: well spread over each pixel, better than \u{2212}0.5 where the picture is smooth",
     ),
     ("guided", "light sampled; directions drawn where some 130 000 paths before have found that light comes from"),
+    (
+        "connections",
+        "light that is sampled also comes through a sphere of glass or off a mirroring one, by rays that are computed",
+    ),
+    ("no connections", "the same paths, where chance and cones have to find the light that spheres focus"),
+    (
+        "photon",
+        "light walks from its sources and leaves photons, which are gathered around what the camera sees: blurred within their \
+         radius, which shrinks from sample to sample (Jensen 1996, Knaus and Zwicker 2011)",
+    ),
+    (
+        "light-tracing",
+        "the same light sent on to the camera: mirrors and glass are black, so that it is a level where there are such",
+    ),
+    (
+        "metropolis",
+        "chains of paths, each a mutation of the last, that stay where light is (Kelemen et al. 2002); blotches, not grain",
+    ),
     ("roulette", "a path goes on with probability p and then counts 1 / p: no limit, and no bias (Russian roulette)"),
     ("bounces", "at most so many reflections after the first hit; 0 is direct light"),
     ("as-taught (fake)", "rasterised with the tutorial's own numbers: shadow map, cube maps, Phong"),
@@ -85,6 +103,10 @@ mod tests {
         let known = |word: &str| WORDS.iter().any(|(name, _)| *name == word);
         for estimator in pathtrace::Estimator::ALL {
             assert!(known(estimator.name()), "{}", estimator.name());
+        }
+        let lines = crate::plan::full_parts().flat_map(|(_, lines)| lines);
+        for name in lines.filter(|line| line.is_dear()).map(|line| line.name()).chain(["no connections".into()]) {
+            assert!(known(&name), "{name}");
         }
         for variant in crate::variant::Variant::ALL.iter().filter(|variant| !variant.name.is_empty()) {
             assert!(known(variant.name), "{}", variant.name);

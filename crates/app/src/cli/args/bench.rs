@@ -70,7 +70,7 @@ pub fn options() -> Vec<CommandOption<Reading>> {
             names: &["--peer"],
             value: "FILE.csv",
             help: "further lines from another renderer, may be repeated; columns name,scene,spp,seconds,relmse; scene is \
-                   cornell, whitted-sun-0 or whitted-sun-2.5",
+                   cornell, whitted-sun-0, whitted-sun-0.5 or whitted-sun-2.5",
             read: |reading, parser| {
                 reading.args.peers.push(PathBuf::from(parser.value()?));
                 Ok(())
