@@ -1,6 +1,6 @@
 //! What pictures are called beside each other: by their techniques, or by the settings in which they differ.
 
-use crate::settings::{Setting, Value, all_of_panes};
+use crate::settings::{Setting, Value, all_of_panes, grouped};
 use crate::{FakeSettings, PaneSettings, Technique};
 use pathtrace::Integrator;
 use raster::Show;
@@ -15,8 +15,8 @@ impl Technique {
                 Integrator::Path(path) => path.estimator.name().to_owned(),
                 Integrator::Whitted(tree) => format!("depth {}", tree.depth),
                 Integrator::Photon(photon) if photon.points => "points".into(),
-                Integrator::Photon(photon) => format!("{} photons a pass", photon.photons),
-                Integrator::LightTracing(light) => format!("{} photons a pass", light.photons),
+                Integrator::Photon(photon) => format!("{} photons a pass", grouped(photon.photons)),
+                Integrator::LightTracing(light) => format!("{} photons a pass", grouped(light.photons)),
                 Integrator::Metropolis(metropolis) => format!("{} chains", metropolis.chains),
                 Integrator::Normals(normals) => format!("{} axes", normals.space.name()),
             },
@@ -109,6 +109,9 @@ mod tests {
         assert_eq!(hidden, ["Photon mapping, points"; 2], "points are gathered within no radius");
         let light = with(TechniqueName::LightTracing, &[("photons", "1024")]);
         assert_eq!(light.label(), "Light tracing, 1024 photons a pass");
+        let many = labels("whitted", TechniqueName::Photon, [&[], &[("photons", "1048576")]]);
+        assert_eq!(many, ["Photon mapping, 131,072 photons a pass", "Photon mapping, 1,048,576 photons a pass"]);
+        assert_eq!(with(TechniqueName::LightTracing, &[]).label(), "Light tracing, 131,072 photons a pass");
     }
 
     #[test]

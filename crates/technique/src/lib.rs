@@ -105,14 +105,14 @@ impl TechniqueName {
         Self::ALL.into_iter().find(|t| t.name() == name)
     }
 
-    /// What a lecture calls it, in one word.
+    /// What a lecture calls it, in a word or two.
     pub fn title(self) -> &'static str {
         match self {
             TechniqueName::Raster => "Fake",
             TechniqueName::Whitted => "Whitted",
             TechniqueName::Path => "Path",
             TechniqueName::Photon => "Photons",
-            TechniqueName::LightTracing => "Light",
+            TechniqueName::LightTracing => "Light tracing",
             TechniqueName::Metropolis => "Metropolis",
             TechniqueName::Normals => "Normals",
         }
@@ -123,7 +123,6 @@ impl TechniqueName {
         match self {
             TechniqueName::Path => "Path tracing",
             TechniqueName::Photon => "Photon mapping",
-            TechniqueName::LightTracing => "Light tracing",
             other => other.title(),
         }
     }

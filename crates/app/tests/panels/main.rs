@@ -6,7 +6,7 @@ mod numbers;
 mod settings;
 mod views;
 
-use egui::accesskit::Role;
+use egui::accesskit::{Role, Toggled};
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT, Queryable};
 use std::cell::RefCell;
@@ -87,6 +87,13 @@ impl Panels {
         named
     }
 
+    /// What screen readers call the buttons of a group.
+    fn names_of_buttons(&self, group: &str) -> Vec<String> {
+        let group = self.harness.get_by_role_and_label(Role::Group, group);
+        let buttons = group.children_recursive().filter(|node| node.accesskit_node().role() == Role::Button);
+        buttons.filter_map(|node| node.accesskit_node().label()).collect()
+    }
+
     /// Unfolds the rare settings of the `nth` pane.
     fn unfold_more(&mut self, nth: usize) {
         self.harness.query_all_by_label_contains("more settings").nth(nth).expect("the title").click();
@@ -117,24 +124,24 @@ fn settings_that_cannot_apply_are_absent() {
 fn where_rays_are_traced_is_chosen_where_there_is_a_choice() {
     let mut without = Panels::of("cornell");
     without.unfold_more(1);
-    assert!(without.shows("Seed") && !without.shows("the GPU"));
+    assert!(without.shows("Seed") && !without.shows("GPU"));
     let mut panels = Panels::beside_an_adapter("cornell", DeviceChoice::Gpu);
     panels.unfold_more(1);
-    assert!(panels.shows("the GPU is an adapter, an interface"));
+    assert!(panels.shows("The GPU is an adapter, an interface"));
     let device = |panels: &Panels| [PaneId::A, PaneId::B].map(|pane| panels.model.borrow().session.panes[pane].device);
     assert_eq!(device(&panels), [DeviceChoice::Gpu; 2]);
-    panels.click("auto", 0);
+    panels.click("Rays are traced by: auto", 0);
     assert_eq!(device(&panels), [DeviceChoice::Gpu, DeviceChoice::Auto]);
-    assert!(!panels.shows("the GPU is"), "where the processor plays the adapter, auto is the processor");
+    assert!(!panels.shows("The GPU is"), "where the processor plays the adapter, auto is the processor");
     panels.click("Undo", 0);
     assert_eq!(device(&panels), [DeviceChoice::Gpu; 2]);
     panels.count_named();
     panels.click("Whitted", 1);
-    panels.click("the CPU", 0);
+    panels.click("Rays are traced by: the CPU", 0);
     assert_eq!(device(&panels), [DeviceChoice::Gpu, DeviceChoice::Cpu], "Whitted's trees are traced there too");
     panels.click("Metropolis", 1);
     assert!(
-        panels.shows("the chains of Metropolis run on the processor alone") && !panels.shows("Rays are traced by"),
+        panels.shows("The chains of Metropolis run on the processor alone") && !panels.shows("Rays are traced by"),
         "there is no choice"
     );
 }
@@ -144,12 +151,75 @@ fn every_widget_has_a_name_and_a_slider_the_one_above_it() {
     let mut panels = Panels::of("whitted");
     panels.click("Roulette: survive with P", 0);
     panels.click("Camera (both)", 0);
-    panels.click("reference", 0);
+    panels.click("Against: reference", 0);
     panels.click("Error map", 0);
     panels.click("Export", 0);
     let named = panels.count_named();
     assert!(named > 30, "{named}");
     assert!(panels.harness.query_by_role_and_label(Role::Slider, "Exposure").is_some());
+}
+
+/// Beside "on" and "off" screen readers, and who speaks to the window, need to know of what.
+#[test]
+fn no_two_buttons_of_a_pane_have_one_name() {
+    let mut panels = Panels::beside_an_adapter("whitted", DeviceChoice::Auto);
+    panels.unfold_more(0);
+    let set = |panels: &mut Panels, pane: PaneId, technique: TechniqueName| {
+        panels.model.borrow_mut().session.panes[pane].technique = technique;
+        panels.harness.run_steps(3);
+    };
+    for technique in TechniqueName::ALL {
+        set(&mut panels, PaneId::A, technique);
+        let mut names = panels.names_of_buttons("Settings of A");
+        assert!(names.len() > 2, "{technique:?}: {names:?}");
+        names.sort();
+        assert!(names.windows(2).all(|pair| pair[0] != pair[1]), "{technique:?}: {names:?}");
+    }
+    set(&mut panels, PaneId::A, TechniqueName::Path);
+    set(&mut panels, PaneId::B, TechniqueName::Raster);
+    for name in ["Connections: off", "Glass splits paths: off", "Cones at glass and mirrors: all"] {
+        panels.harness.get_by_label(name).click_accesskit();
+        panels.harness.run_steps(3);
+    }
+    let path = panels.model.borrow().session.panes[PaneId::A].truth.path;
+    assert_eq!((path.connections, path.split_glass, path.cones), (false, false, pathtrace::ConesAt::Everything));
+}
+
+/// An estimator that only an option names is lit too, and gone with the next choice.
+#[test]
+fn what_an_option_has_chosen_is_there_to_be_seen() {
+    let mut panels = Panels::of("cornell");
+    let is_lit = |panels: &Panels, word: &str| {
+        panels.harness.query_by_label(word).is_some_and(|node| node.accesskit_node().toggled() == Some(Toggled::True))
+    };
+    assert!(is_lit(&panels, "light") && !panels.shows("guided-mis"));
+    panels.model.borrow_mut().session.panes[PaneId::B].truth.path.estimator =
+        pathtrace::Estimator::named("guided-mis").expect("an estimator");
+    panels.harness.run_steps(3);
+    assert!(is_lit(&panels, "guided-mis") && !is_lit(&panels, "light"));
+    panels.click("mis", 0);
+    assert!(is_lit(&panels, "mis") && !panels.shows("guided-mis"));
+}
+
+/// At the usual height all that is chosen for a pane takes two lines, whatever the theme.
+#[test]
+fn presets_stand_beside_the_techniques() {
+    for (theme, size) in
+        [(Theme::Dark, [1280.0, 720.0]), (Theme::Dark, [1024.0, 640.0]), (Theme::Projector, [1024.0, 640.0])]
+    {
+        let whitted = scene::builtin::named("whitted").expect("a built-in scene");
+        let mut panels = Panels::showing(Model::new(whitted, "whitted".into(), theme));
+        panels.harness.set_size(size.into());
+        panels.harness.run_steps(3);
+        let row = |name: &str, nth: usize| panels.harness.get_all_by_label(name).nth(nth).expect("the button").rect();
+        for (pane, presets) in ["Presets of A", "Presets of B"].into_iter().enumerate() {
+            let presets = row(presets, 0);
+            let rows = ["Fake", "Metropolis"].map(|name| row(name, pane));
+            assert!(rows.iter().any(|row| row.y_range().contains(presets.center().y)), "{theme:?} {size:?}");
+            assert!(rows[1].top() - rows[0].bottom() < rows[0].height(), "two lines: {theme:?} {size:?}");
+            assert!(presets.right() <= size[0], "{theme:?} {size:?}");
+        }
+    }
 }
 
 #[test]
@@ -163,7 +233,7 @@ fn what_the_map_and_the_reference_need_is_there_with_them_alone() {
     assert!(!panels.shows("Hold the scale"), "the scale of FLIP is always from 0 to 1");
     panels.click("squared relative", 0);
     panels.click("Hold the scale", 0);
-    panels.click("reference", 0);
+    panels.click("Against: reference", 0);
     assert!(of_both.iter().all(|label| panels.shows(label)));
     panels.click("B - reference", 0);
     let wish = panels.wanted().map.expect("a map to draw");
@@ -179,7 +249,7 @@ fn what_the_map_and_the_reference_need_is_there_with_them_alone() {
 fn another_scene_takes_its_own_numbers_and_shows_its_picture() {
     let mut panels = Panels::of("whitted");
     panels.unfold_more(0);
-    panels.click("cube faces", 0);
+    panels.click("Show: cube faces", 0);
     panels.model.borrow_mut().session.panes[PaneId::A].fake.knobs.segments = Some(7);
     panels.harness.run_steps(2);
     let cornell = scene::builtin::named("cornell").expect("a built-in scene");

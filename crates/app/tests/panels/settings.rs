@@ -9,17 +9,21 @@ use technique::TechniqueName;
 use technique::settings::{Kind, Look, OF_SCENES, Setting, Value, all_of_panes};
 use visavis::model::{Model, PaneId};
 
-/// How screen readers know the control of a row: a slider by its label, each word of a choice by itself.
+/// How screen readers know the control of a row: a slider by its label, each word of a choice by itself and the label before it.
 fn control_names<T>(
     setting: &Setting<T>,
     technique: Option<TechniqueName>,
     scene: &scene::Scene,
-) -> Vec<(Role, &'static str)> {
-    let one = |role| vec![(role, setting.control.label)];
+) -> Vec<(Role, String)> {
+    let label = setting.control.label;
+    let one = |role| vec![(role, label.to_owned())];
+    let of_word = |word: &str| if label.is_empty() { word.to_owned() } else { format!("{label}: {word}") };
     match (&setting.kind, &setting.control.look) {
-        (Kind::Roulette, _) => ["Roulette: survive", "Roulette by"].map(|word| (Role::CheckBox, word)).into(),
+        (Kind::Roulette, _) => {
+            ["Roulette: survive", "Roulette by"].map(|word| (Role::CheckBox, word.to_owned())).into()
+        }
         (Kind::Choice(_), _) => {
-            setting.words(technique, scene).into_iter().map(|(word, ..)| (Role::Button, word)).collect()
+            setting.words(technique, scene).into_iter().map(|(word, ..)| (Role::Button, of_word(word))).collect()
         }
         (_, Look::Typed) => one(Role::SpinButton),
         _ => one(Role::Slider),
@@ -27,7 +31,7 @@ fn control_names<T>(
 }
 
 /// Moves one control of a row, `value` being what is set, and returns what it must have set.
-fn move_control(node: &Node, (look, kind): (&Look, &Kind), word: &str, value: Value) -> Value {
+fn move_control(node: &Node, (look, kind): (&Look, &Kind), name: &str, value: Value) -> Value {
     let to_other_end = |start: f64, end: f64, here: f64| {
         let target = if here == end { start } else { end };
         node.set_value_accesskit(target);
@@ -37,6 +41,12 @@ fn move_control(node: &Node, (look, kind): (&Look, &Kind), word: &str, value: Va
         (Look::Steps { range, .. }, Value::Number(number)) => {
             let [start, end, here] = [*range.start(), *range.end(), number].map(f64::from);
             Value::Number(to_other_end(start, end, here) as f32)
+        }
+        (Look::Logarithmic(range), Value::Number(number)) => {
+            let [start, end, here] = [*range.start(), *range.end(), number].map(f64::from);
+            // the slider's places are powers of ten
+            to_other_end(start.log10(), end.log10(), here.log10());
+            Value::Number(if here == end { start } else { end } as f32)
         }
         (Look::Whole(range), Value::Whole(number)) => {
             let [start, end, here] = [*range.start(), *range.end(), number].map(f64::from);
@@ -56,13 +66,14 @@ fn move_control(node: &Node, (look, kind): (&Look, &Kind), word: &str, value: Va
         }
         (_, Value::Roulette(before)) => {
             node.click_accesskit();
-            Value::Roulette(match word {
+            Value::Roulette(match name {
                 "Roulette: survive" => Roulette { probability: Some(0.8), ..before },
                 _ => Roulette { throughput: !before.throughput, ..before },
             })
         }
         (Look::Words(_), Value::Word(_)) => {
             node.click_accesskit();
+            let word = name.rsplit(": ").next().unwrap_or_default();
             kind.parse(&word.replace(' ', "-")).expect("a word of the choice")
         }
         other => panic!("no control moves {other:?}"),
@@ -93,7 +104,7 @@ impl Panels {
         let usable = setting.needs.missing_in(&scene).is_none();
         let technique = pane.map(|pane| self.model.borrow().session.panes[pane].technique);
         let names = control_names(setting, technique, &scene);
-        for &name in &names {
+        for name in names.iter().map(|(role, name)| (*role, name.as_str())) {
             let count = self.widgets(pane, name).len();
             assert_eq!(count, usize::from(usable), "{} has {count} controls: {name:?}", setting.name);
             if usable {

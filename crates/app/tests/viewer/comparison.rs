@@ -26,7 +26,7 @@ fn choose_the_reference(user: &mut User) -> Frame {
     assert!(!first.shows("text reference") && !first.shows("reference file"));
     user.click_nth("Fake", 1);
     user.wait_for("two fakes", |f| f.state("b")["label"] == "Fake, fair" && both_whole(f));
-    let chosen = user.click("reference");
+    let chosen = user.click("Against: reference");
     assert!(chosen.shows("text reference") && chosen.shows("reference file"));
     user.resize(vec2(480.0, 320.0));
     user.click("Side by side");
@@ -88,7 +88,7 @@ fn load(user: &mut User, file: &str) {
 fn a_reference_from_a_file_is_taken_if_it_fits() {
     let mut user = User::of(SCENE);
     user.wait_for("both pictures", both_whole);
-    let open = user.click("reference");
+    let open = user.click("Against: reference");
     let fitting = Reference { replicates: 64, ..almost_done(size(&open)) };
     let folder = TestFolder::new();
     let write = |name: &str, reference: &Reference, records| {

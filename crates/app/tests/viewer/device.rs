@@ -15,7 +15,7 @@ fn the_gpu_traces_b_says_so_and_is_recorded() {
     let first = user.wait_for("both pictures", both_whole);
     assert_eq!(first.state("b")["device"], "cpu", "auto, where the processor plays the adapter");
     user.unfold_more("B");
-    let chosen = user.click_in("B", "the GPU");
+    let chosen = user.click_in("B", "Rays are traced by: the GPU");
     assert_eq!(chosen.value("B device the GPU"), "true");
     let traced = user.wait_for("a picture by the GPU", |f| made_by(f, "gpu"));
     assert!(traced.value("label B").contains("on the GPU"), "{}", traced.value("label B"));

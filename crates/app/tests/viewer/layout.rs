@@ -92,7 +92,7 @@ fn pictures_are_made_at_half_the_resolution_if_asked() {
     let said = |f: &Frame, pane: &str| f.value(&format!("label {pane}")).contains("at 1/2 of the resolution");
     assert!(!said(&first, "A") && !said(&first, "B"));
     user.click("Camera (both)");
-    let half = user.click("1/2");
+    let half = user.click("Resolution: 1/2");
     assert_eq!([size(&half, 0), size(&half, 1)], [0, 1].map(|i| size(&first, i).div_ceil(2)));
     let half = user.wait_for("labels that say so", |f| both_whole(f) && said(f, "A") && said(f, "B"));
     assert!(half.state("a")["rel_mse"].is_number());

@@ -137,7 +137,7 @@ fn the_formula_of_the_highlight_stands_below_its_choice() {
     let mut user = User::of("phong");
     user.unfold_more("A");
     let [three, phong, blinn] = ["three", "phong", "blinn-phong"].map(|shading| {
-        let shown = user.click_in("A", shading);
+        let shown = user.click_in("A", &format!("Highlight: {shading}"));
         shown.value("text A shading").to_owned()
     });
     assert!(three.contains("F (p + 2)/8 (N·H)^p"), "{three}");

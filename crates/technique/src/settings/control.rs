@@ -41,6 +41,8 @@ pub enum Look {
         /// How far apart its stops are.
         step: f64,
     },
+    /// A slider over positive numbers on which equal ways are equal ratios, for what spans several powers of ten.
+    Logarithmic(RangeInclusive<f32>),
     /// A slider over whole numbers.
     Whole(RangeInclusive<u32>),
     /// The same, and behind the last number no limit.
@@ -58,11 +60,18 @@ pub enum Look {
 const DECIMALS: i32 = 3;
 
 impl Look {
-    /// The value as it is told: no more decimals than three, or than the slider's step has.
+    /// The value as it is told: no more decimals than three, or than the slider's step has; as many digits where equal ways are equal ratios.
     pub fn rounded(&self, value: Value) -> Value {
-        let Look::Steps { step, .. } = self else { return value };
-        let shift = 10f64.powi(DECIMALS.max(-step.log10().floor() as i32));
-        let rounded = |number: f32| ((f64::from(number) * shift).round() / shift) as f32;
+        let decimals = |number: f32| match self {
+            Look::Steps { step, .. } => Some(DECIMALS.max(-step.log10().floor() as i32)),
+            Look::Logarithmic(_) if number > 0.0 => Some(DECIMALS - 1 - number.log10().floor() as i32),
+            _ => None,
+        };
+        let rounded = |number: f32| {
+            let Some(decimals) = decimals(number) else { return number };
+            let shift = 10f64.powi(decimals);
+            ((f64::from(number) * shift).round() / shift) as f32
+        };
         match value {
             Value::Number(number) => Value::Number(rounded(number)),
             Value::Roulette(roulette) => {
@@ -107,9 +116,21 @@ impl<T> Setting<T> {
     }
 }
 
-fn capitalised(text: &str) -> String {
+/// The text with a capital letter, as sentences that stand alone begin.
+pub fn capitalised(text: &str) -> String {
     let mut letters = text.chars();
     letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
+}
+
+/// A number that is told, in groups of three digits from five on: "4096", "131,072".
+pub fn grouped(number: u32) -> String {
+    let digits = number.to_string();
+    if digits.len() < 5 {
+        return digits;
+    }
+    let (first, rest) = digits.split_at((digits.len() - 1) % 3 + 1);
+    let groups = (0..rest.len()).step_by(3).map(|at| format!(",{}", &rest[at..at + 3]));
+    std::iter::once(first.to_owned()).chain(groups).collect()
 }
 
 #[cfg(test)]
@@ -125,6 +146,9 @@ mod tests {
         match (kind, look) {
             (Kind::Number(accepted), Look::Steps { range, step }) => {
                 *step > 0.0 && inside(range, *accepted.start(), *accepted.end())
+            }
+            (Kind::Number(accepted), Look::Logarithmic(range)) => {
+                *range.start() > 0.0 && inside(range, *accepted.start(), *accepted.end())
             }
             (Kind::DegreesBelow(most), Look::Steps { range, step }) => {
                 *step > 0.0 && inside(range, 0.0, most.next_down())
@@ -180,9 +204,17 @@ mod tests {
         };
         assert_eq!([told("specular", 1.0 / 15.0), told("specular", 0.9)], ["0.067", "0.9"]);
         assert_eq!(told("shadow-bias", -0.00251), "-0.0025");
+        let radii = [0.012_345, 0.272_9, 10.643, 1234.5].map(|radius| told("radius", radius));
+        assert_eq!(radii, ["0.0123", "0.273", "10.6", "1230"], "three digits where equal ways are equal ratios");
         let probability = Value::Roulette(Roulette::constant(2.0 / 3.0));
         let roulette = crate::settings::of_panes("roulette").unwrap();
         assert_eq!(roulette.control.look.rounded(probability).to_string(), "0.667");
+    }
+
+    #[test]
+    fn digits_are_grouped_from_five_on() {
+        let told = [0, 999, 4096, 16_384, 131_072, 1_000_000, u32::MAX].map(grouped);
+        assert_eq!(told, ["0", "999", "4096", "16,384", "131,072", "1,000,000", "4,294,967,295"]);
     }
 
     #[test]

@@ -4,7 +4,7 @@
 mod control;
 mod rows;
 
-pub use control::{Control, Look};
+pub use control::{Control, Look, capitalised, grouped};
 pub use rows::{OF_SCENES, all_of_panes};
 
 use crate::{

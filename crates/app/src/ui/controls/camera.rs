@@ -60,6 +60,7 @@ fn resolutions(cx: &mut UiContext, ui: &mut Ui) {
                 Resolution::Half => "A pixel for two by two: done in a quarter of the time, exported as small",
                 Resolution::Quarter => "A pixel for four by four: done in a sixteenth of the time, exported as small",
             });
+            let button = button.accessible_name(format!("Resolution: {}", resolution.name()));
             if cx.dump.note(&format!("resolution {}", resolution.name()), chosen, button).clicked() {
                 cx.model.session.resolution = resolution;
             }

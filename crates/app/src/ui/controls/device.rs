@@ -4,6 +4,7 @@ use crate::model::PaneId;
 use crate::ui::UiContext;
 use crate::ui::widgets::{Explained, choice};
 use egui::{ComboBox, Ui};
+use technique::settings::capitalised;
 use technique::{Device, DeviceChoice, Technique};
 
 pub fn show(cx: &mut UiContext, pane: PaneId, ui: &mut Ui) {
@@ -12,12 +13,13 @@ pub fn show(cx: &mut UiContext, pane: PaneId, ui: &mut Ui) {
     if let Technique::Traced(traced) = settings.in_use()
         && let Some(why) = traced.integrator.needs_the_processor()
     {
-        cx.dump.note(&format!("text {pane} device"), why, ui.label(why));
+        cx.dump.note(&format!("text {pane} device"), why, ui.label(capitalised(why)));
         return;
     }
-    ui.label("Rays are traced by");
+    let label = "Rays are traced by";
+    ui.label(label);
     let words = DeviceChoice::ALL.map(|d| (title(d).to_owned(), explain(d, best.software), settings.device == d));
-    if let Some(index) = choice(&format!("{pane} device"), words, ui, cx.dump) {
+    if let Some(index) = choice((&format!("{pane} device"), label), words, ui, cx.dump) {
         settings.device = DeviceChoice::ALL[index];
     }
     if settings.device.beside(best.software) == Device::Cpu {
@@ -27,7 +29,7 @@ pub fn show(cx: &mut UiContext, pane: PaneId, ui: &mut Ui) {
     let chosen = adapters.get(usize::from(settings.adapter)).unwrap_or(best);
     let name = format!("text {pane} adapter");
     if adapters.len() == 1 {
-        let text = format!("the GPU is {}", chosen.name);
+        let text = format!("The GPU is {}", chosen.name);
         cx.dump.note(&name, &text, ui.label(&text));
         return;
     }

@@ -3,17 +3,19 @@
 mod camera;
 mod device;
 mod display;
+mod head;
 mod pane;
 mod presets;
 mod scene;
 mod setting;
 
+pub use head::head;
+
 use super::UiContext;
-use super::theme::{bold, palette};
-use super::widgets::{Explained, card, fold, note_panel, segmented};
+use super::theme::palette;
+use super::widgets::{card, fold, note_panel};
 use crate::model::PaneId;
-use egui::{Align, Button, Frame, Id, Layout, Margin, Response, RichText, TextStyle, Ui, vec2};
-use technique::TechniqueName;
+use egui::{Align, Frame, Id, Layout, Margin, Response, RichText, TextStyle, Ui, vec2};
 
 /// Width of the panel in points: as the type asks for, but never more than 28 % of the window.
 fn width(ui: &Ui) -> f32 {
@@ -94,22 +96,6 @@ pub fn group(cx: &mut UiContext, ui: &mut Ui, title: &str, open: bool, contents:
     });
 }
 
-/// The pane's letter, its technique and the presets, to be chosen.
-pub fn head(cx: &mut UiContext, pane: PaneId, ui: &mut Ui) {
-    let letter = bold(pane.name()).size(TextStyle::Heading.resolve(ui.style()).size).color(palette(ui).pane(pane));
-    let mut in_the_row = false;
-    named(letter, ui, |ui| {
-        techniques(cx, pane, ui);
-        in_the_row = presets::fits(ui);
-        if in_the_row {
-            presets::menu(cx, pane, ui);
-        }
-    });
-    if !in_the_row {
-        presets::menu(cx, pane, ui);
-    }
-}
-
 /// A row of the heads: a name, and what is chosen under it.
 pub fn named(name: RichText, ui: &mut Ui, contents: impl FnOnce(&mut Ui)) -> Response {
     let width = TextStyle::Body.resolve(ui.style()).size;
@@ -143,28 +129,4 @@ pub fn pane(cx: &mut UiContext, pane: PaneId, open: bool, ui: &mut Ui) {
         });
         cx.dump.note(&format!("group {pane}"), open, header);
     });
-}
-
-fn techniques(cx: &mut UiContext, pane: PaneId, ui: &mut Ui) {
-    segmented(ui, |ui| {
-        for technique in TechniqueName::OF_LIGHT {
-            let chosen = cx.model.session.panes[pane].technique == technique;
-            let button = ui.add(Button::selectable(chosen, technique.title())).explained(describe(technique));
-            if cx.dump.note(&format!("{pane} {}", technique.name()), chosen, button).clicked() {
-                cx.model.session.panes[pane].technique = technique;
-            }
-        }
-    });
-}
-
-fn describe(technique: TechniqueName) -> &'static str {
-    match technique {
-        TechniqueName::Raster => "Rasterised: shadow map, cube map, local shading",
-        TechniqueName::Whitted => "Whitted: trees of rays at mirrors and glass, local light elsewhere",
-        TechniqueName::Path => "Path traced: light itself, by Monte Carlo",
-        TechniqueName::Photon => "Photon mapping: photons from the lights, gathered where the camera looks",
-        TechniqueName::LightTracing => "Light tracing: photons from the lights, sent on to the camera",
-        TechniqueName::Metropolis => "Metropolis: path tracing in chains, each path a mutation of the last",
-        TechniqueName::Normals => "The normals of what is seen",
-    }
 }

@@ -8,7 +8,7 @@ use crate::ui::theme::palette;
 use crate::ui::widgets::fold;
 use egui::Ui;
 use raster::Shading;
-use technique::settings::{Setting, all_of_panes};
+use technique::settings::{Setting, all_of_panes, capitalised};
 use technique::{BlindSpot, PaneSettings, Technique, TechniqueName};
 
 /// In which order a technique's controls stand; a setting that is not named stands behind those that are.
@@ -115,10 +115,10 @@ fn rows(cx: &mut UiContext, pane: PaneId, rows: &[&Setting<PaneSettings>], ui: &
 fn faults(cx: &UiContext, pane: PaneId, ui: &mut Ui) {
     let Technique::Traced(traced) = cx.model.session.panes[pane].in_use() else { return };
     if let Err(fault) = traced.integrator.check() {
-        ui.label(fault.to_string());
+        ui.label(capitalised(&fault.to_string()));
     }
     let scene = cx.model.document.changes.applied_to(&cx.model.document.scene);
     for line in traced.blind_spots(&scene).into_iter().filter_map(BlindSpot::explanation) {
-        ui.label(line);
+        ui.label(capitalised(line));
     }
 }

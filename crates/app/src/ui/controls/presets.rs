@@ -6,18 +6,19 @@ use crate::ui::widgets::{Explained, menu as menu_of, rows_of_menu};
 use egui::{Color32, TextStyle, Ui};
 use technique::presets;
 
-const TITLE: &str = "Presets";
+/// What may stand on the menu's button, the more telling first.
+pub const TITLES: [&str; 2] = ["Presets", "…"];
 
-/// Whether the menu's button fits in what is left of a row.
-pub fn fits(ui: &Ui) -> bool {
+/// How wide the menu's button is.
+pub fn width(title: &str, ui: &Ui) -> f32 {
     let font = TextStyle::Button.resolve(ui.style());
-    let text = ui.painter().layout_no_wrap(TITLE.into(), font, Color32::PLACEHOLDER);
-    text.size().x + 2.0 * ui.spacing().button_padding.x <= ui.available_width()
+    let text = ui.painter().layout_no_wrap(title.into(), font, Color32::PLACEHOLDER);
+    text.size().x + 2.0 * ui.spacing().button_padding.x
 }
 
 /// The menu of presets of a pane.
-pub fn menu(cx: &mut UiContext, pane: PaneId, ui: &mut Ui) {
-    let (response, _) = menu_of(TITLE).ui(ui, |ui| {
+pub fn menu(cx: &mut UiContext, pane: PaneId, title: &str, ui: &mut Ui) {
+    let (response, _) = menu_of(title).ui(ui, |ui| {
         rows_of_menu(ui, |ui| {
             for preset in presets::ALL {
                 let hover = format!("{}: {}", preset.about, preset.words());

@@ -108,9 +108,14 @@ impl Place<'_> {
 
     fn words<T>(&mut self, setting: &Setting<T>, (name, value): (&str, Value), ui: &mut Ui) -> Option<Value> {
         self.label(setting.control.label, &self.explanation(setting), ui);
-        let words = setting.words(self.pane.map(|(_, technique)| technique), self.scene);
+        let mut words = setting.words(self.pane.map(|(_, technique)| technique), self.scene);
+        if let Value::Word(word) = value
+            && words.iter().all(|(_, offered, _)| *offered != value)
+        {
+            words.push((word, value, BY_OPTION));
+        }
         let shown = words.iter().map(|(word, of_word, hover)| (word.to_string(), *hover, *of_word == value));
-        let chosen = choice(name, shown, ui, self.dump).map(|index| words[index].1);
+        let chosen = choice((name, setting.control.label), shown, ui, self.dump).map(|index| words[index].1);
         let below = (setting.control.below)(value);
         if !below.is_empty() {
             let line = ui.label(below);
@@ -164,6 +169,8 @@ impl Place<'_> {
     }
 }
 
+/// Of a word that the window does not offer.
+const BY_OPTION: &str = "Chosen by an option or a preset; another word leaves it, and undo brings it back";
 const SURVIVE: &str = "Each vertex is survived with probability P and what survives is divided by P: unbiased, and noisier the smaller P. \
     With neither rule paths end by the number of bounces alone";
 const DARK: &str = "Paths that carry little light end sooner than bright ones: unbiased, and less noise for the time";
@@ -193,6 +200,7 @@ fn scale_of(look: &Look) -> Option<Scale> {
         Look::Steps { range, step } => {
             Some(Scale::Steps { range: f64::from(*range.start())..=f64::from(*range.end()), step: *step })
         }
+        Look::Logarithmic(range) => Some(Scale::Logarithmic(f64::from(*range.start())..=f64::from(*range.end()))),
         Look::Whole(range) => Some(Scale::Whole(range.clone())),
         Look::WholeOrNone(range) => Some(Scale::WholeOrNone(range.clone())),
         Look::Doubling(exponents) => Some(Scale::Doubling(exponents.clone())),

@@ -8,7 +8,7 @@ mod number;
 mod tooltip;
 
 pub use card::{card, fold};
-pub use choice::{choice, segmented};
+pub use choice::{choice, segmented, width_of_segments};
 pub use icon::{Icon, icon_and_word, icon_button};
 pub use number::{NumberRow, Scale, parse_number};
 pub use tooltip::{Explained, note_panel};

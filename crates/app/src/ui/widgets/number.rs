@@ -21,6 +21,8 @@ pub enum Scale {
         /// How far apart its stops are.
         step: f64,
     },
+    /// Positive numbers of a range, in steps of equal ratios.
+    Logarithmic(RangeInclusive<f64>),
     /// Whole numbers of a range.
     Whole(RangeInclusive<u32>),
     /// Powers of two with these exponents.
@@ -68,6 +70,7 @@ impl Scale {
     fn place_of(&self, value: f64) -> f64 {
         match self {
             Scale::Steps { .. } | Scale::Whole(_) | Scale::Typed => value,
+            Scale::Logarithmic(range) => value.max(*range.start()).log10(),
             Scale::Doubling(_) => value.max(1.0).log2().floor(),
             Scale::WholeOrNone(range) => value.min(f64::from(*range.end()) + 1.0),
         }
@@ -76,6 +79,7 @@ impl Scale {
     fn value_at(&self, place: f64) -> f64 {
         match self {
             Scale::Steps { .. } | Scale::Whole(_) | Scale::Typed => place,
+            Scale::Logarithmic(_) => in_three_digits(10f64.powf(place)),
             Scale::Doubling(_) => place.exp2(),
             Scale::WholeOrNone(range) if place > f64::from(*range.end()) => f64::INFINITY,
             Scale::WholeOrNone(_) => place,
@@ -85,6 +89,7 @@ impl Scale {
     fn range(&self) -> RangeInclusive<f64> {
         match self {
             Scale::Steps { range, .. } => range.clone(),
+            Scale::Logarithmic(range) => range.start().log10()..=range.end().log10(),
             Scale::Whole(range) => f64::from(*range.start())..=f64::from(*range.end()),
             Scale::Typed => 0.0..=1.0,
             Scale::Doubling(exponents) => f64::from(*exponents.start())..=f64::from(*exponents.end()),
@@ -93,7 +98,20 @@ impl Scale {
     }
 
     fn step(&self) -> f64 {
-        if let Scale::Steps { step, .. } = self { *step } else { 1.0 }
+        match self {
+            Scale::Steps { step, .. } => *step,
+            Scale::Logarithmic(_) => 0.01,
+            _ => 1.0,
+        }
+    }
+
+    /// How much a pixel of dragging changes the number beside the slider.
+    fn speed(&self, value: f64) -> f64 {
+        match self {
+            _ if self.is_whole() => 0.05 + 0.01 * value.min(1e6),
+            Scale::Logarithmic(_) => 0.01 * value,
+            _ => self.step(),
+        }
     }
 
     /// As it stands at the right, without unit.
@@ -101,6 +119,7 @@ impl Scale {
         match self {
             _ if value.is_infinite() => "no limit".into(),
             Scale::Steps { step, .. } => digits(value, *step),
+            Scale::Logarithmic(_) => in_three_digits(value).to_string(),
             _ => format!("{value:.0}"),
         }
     }
@@ -115,7 +134,7 @@ impl Scale {
     }
 
     fn is_whole(&self) -> bool {
-        !matches!(self, Scale::Steps { .. })
+        !matches!(self, Scale::Steps { .. } | Scale::Logarithmic(_))
     }
 }
 
@@ -194,8 +213,7 @@ impl NumberRow<'_> {
                 None
             }
         };
-        let speed = if self.scale.is_whole() { 0.05 + 0.01 * value.min(1e6) } else { self.scale.step() };
-        let suffix = self.suffix(*value, ui);
+        let (speed, suffix) = (self.scale.speed(*value), self.suffix(*value, ui));
         let drag = DragValue::new(value).speed(speed).range(self.bounds.clone()).clamp_existing_to_range(false);
         let drag = drag.update_while_editing(false).custom_parser(parse);
         let response = ui.add(drag.custom_formatter(|value, _| self.scale.text(value)).suffix(suffix));
@@ -288,6 +306,17 @@ pub fn parse_number(text: &str) -> Result<f64, String> {
     }
 }
 
+/// A positive number in as many digits as tell it from the next place of a slider: 0.273, 10.6, 1230.
+fn in_three_digits(value: f64) -> f64 {
+    let power = value.log10().floor();
+    if !power.is_finite() {
+        return value;
+    }
+    // divided by a power of ten that is whole, so that the nearest double comes out
+    let (shift, digits) = (10f64.powf((2.0 - power).abs()), 2.0 - power);
+    if digits >= 0.0 { (value * shift).round() / shift } else { (value / shift).round() * shift }
+}
+
 /// A number with as many decimals as its step has, and up to three where it stands between two steps.
 fn digits(value: f64, step: f64) -> String {
     let least = [1.0, 0.1, 0.01, 0.001].iter().filter(|&&power| step < power).count();
@@ -333,6 +362,22 @@ mod tests {
         let count = row(Scale::Doubling(0..=16), 1.0..=4e9);
         assert_eq!(count.read("2.5"), Err("2.5 is no whole number; Ratio stays".into()));
         assert_eq!(count.read("1,000"), Err("\"1,000\" is no whole number; Ratio stays".into()));
+    }
+
+    /// A radius of .27, which is usual in `whitted`, has room on both sides.
+    #[test]
+    fn equal_ways_on_a_logarithmic_slider_are_equal_ratios() {
+        let radius = Scale::Logarithmic(0.01..=20.0);
+        let (start, end) = radius.range().into_inner();
+        let share = (radius.place_of(0.273) - start) / (end - start);
+        assert!((0.4..0.5).contains(&share), "{share}");
+        assert_eq!(
+            [0.01, 0.1, 0.2732, 10.643, 20.0].map(|v| radius.value_at(radius.place_of(v))),
+            [0.01, 0.1, 0.273, 10.6, 20.0]
+        );
+        assert_eq!([0.012_345, 0.273_2, 10.643, 1234.5].map(|v| radius.text(v)), ["0.0123", "0.273", "10.6", "1230"]);
+        assert_eq!(radius.place_of(1e-6), start, "what was typed below the slider is at its end");
+        assert_eq!(radius.parse("0,25"), Ok(0.25));
     }
 
     #[test]

@@ -2,7 +2,7 @@
 
 use super::{BLANK, OF_PHOTONS, PHOTON, PLAIN, by_integrator, each, named, number, whole};
 use crate::PaneSettings;
-use crate::settings::{Control, Kind, Look, Setting, Value};
+use crate::settings::{Control, Kind, Look, Setting, Value, grouped};
 use pathtrace::{DirectLight, MOST_PHOTONS, USUAL_PHOTONS, usual_radius};
 
 /// The settings of photon mapping and of light tracing.
@@ -22,7 +22,7 @@ pub const ROWS: &[Setting<PaneSettings>] = &[
         set: |pane, value| each(whole(value), [&mut pane.photon.photon.photons, &mut pane.light.light.photons]),
         control: Control {
             label: "Photons a pass",
-            brief: Some(|value| format!("{value} photons a pass")),
+            brief: Some(|value| format!("{} photons a pass", whole(value).map_or_else(String::new, grouped))),
             hover: "Photons that leave the lights in each pass. Half of them are aimed at mirrors and glass",
             look: Look::Doubling(8..=18),
             ..BLANK
@@ -43,7 +43,7 @@ pub const ROWS: &[Setting<PaneSettings>] = &[
             label: "First radius",
             hover: "In which the first pass gathers photons, in the scene's unit. A large one blurs light and has little noise, a small \
                     one is sharp and noisy; it shrinks from pass to pass, so that the blur vanishes",
-            look: Look::Steps { range: 0.01..=20.0, step: 0.01 },
+            look: Look::Logarithmic(0.01..=20.0),
             ..BLANK
         },
         ..PLAIN

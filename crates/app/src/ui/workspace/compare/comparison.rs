@@ -9,11 +9,13 @@ use compare::ErrorMetric;
 use egui::{DragValue, RichText, Ui};
 use pathtrace::FEWEST_REPLICATES;
 use std::path::Path;
+use technique::settings::capitalised;
 
 pub fn against(cx: &mut UiContext, ui: &mut Ui) {
     let words = CompareWith::ALL.map(|a| (a.name().to_owned(), explain(a), cx.model.session.comparison.with == a));
-    let title = controls::named(RichText::new("Against").color(palette(ui).dim), ui, |ui| {
-        if let Some(index) = choice("compare with", words, ui, cx.dump) {
+    let label = "Against";
+    let title = controls::named(RichText::new(label).color(palette(ui).dim), ui, |ui| {
+        if let Some(index) = choice(("compare with", label), words, ui, cx.dump) {
             cx.model.session.comparison.with = CompareWith::ALL[index];
         }
     });
@@ -23,7 +25,7 @@ pub fn against(cx: &mut UiContext, ui: &mut Ui) {
 /// How far the reference has come, and another one from a file.
 pub fn reference(cx: &mut UiContext, ui: &mut Ui) {
     let state = reference_state(cx);
-    cx.dump.note("text reference", &state, ui.label(&state));
+    cx.dump.note("text reference", &state, ui.label(capitalised(&state)));
     load(cx, ui);
 }
 
@@ -78,12 +80,12 @@ pub fn map(cx: &mut UiContext, ui: &mut Ui) {
     if comparison.with == CompareWith::Reference {
         let panes: Vec<PaneId> = cx.model.session.panes.ids().collect();
         let words = panes.iter().map(|&pane| (format!("{pane} - reference"), whose(pane), comparison.of == pane));
-        if let Some(index) = choice("map of", words, ui, cx.dump) {
+        if let Some(index) = choice(("map of", ""), words, ui, cx.dump) {
             comparison.of = panes[index];
         }
     }
     let words = ErrorMetric::ALL.map(|map| (title(map), describe(map), comparison.metric == map));
-    if let Some(index) = choice("map", words, ui, cx.dump) {
+    if let Some(index) = choice(("map", ""), words, ui, cx.dump) {
         comparison.metric = ErrorMetric::ALL[index];
     }
     if let Some(held) = comparison.held_mut() {

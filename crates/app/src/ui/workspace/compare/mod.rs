@@ -35,7 +35,7 @@ impl Workspace for Compare {
 
     fn bar(&mut self, cx: &mut UiContext, ui: &mut Ui) {
         let words = View::ALL.map(|view| (view.name().to_owned(), explain(view), cx.model.session.view == view));
-        if let Some(index) = choice("view", words, ui, cx.dump) {
+        if let Some(index) = choice(("view", ""), words, ui, cx.dump) {
             cx.model.choose(View::ALL[index]);
         }
     }
