@@ -25,7 +25,7 @@ impl Workspace for Empty {
 
     fn ui(&mut self, cx: &mut UiContext, ui: &mut Ui) {
         controls::panel(cx, ui, |_, _| (), controls::scene);
-        egui::CentralPanel::default().show(ui, |ui| say(cx, ui, ui.max_rect(), "Nothing is shown here."));
+        egui::CentralPanel::default().show(ui, |ui| say(cx, ui, ui.max_rect(), &["Nothing is shown here."]));
     }
 
     fn wanted(&self, model: &Model) -> Wanted {

@@ -49,9 +49,9 @@ pub fn show(cx: &mut UiContext, ui: &mut Ui) {
         label::show(cx, ui, *clip, *pane);
     }
     if !cx.model.state.posing {
-        let line = if cx.model.session.view == View::Wipe { "Drag the line. " } else { "" };
-        let hint = format!("{line}T swaps A and B. Drag the picture to orbit. ? shows all keys.");
-        say(cx, ui, rect, &hint);
+        let hints = ["Drag the line.", "Drag the picture to orbit.", "T swaps A and B.", "? shows all keys."];
+        let without_a_line = usize::from(cx.model.session.view != View::Wipe);
+        say(cx, ui, rect, &hints[without_a_line..]);
     }
     let response = response.accessible_name(format!("Picture: {}", cx.model.session.view.name()));
     if response.has_focus() {

@@ -17,7 +17,10 @@ const PADDING: Vec2 = vec2(10.0, 7.0);
 /// The widest text and the narrowest, and the narrowest with figures, in sizes of its type.
 const WIDTHS: [f32; 3] = [32.0, 5.0, 12.0];
 /// How much of the height of what is seen of a picture its label may cover.
-const MOST_HEIGHT: f32 = 0.6;
+const MOST_HEIGHT: f32 = 0.5;
+
+/// Of figures and facts; notes are yellow.
+const PLAIN: Color32 = Color32::from_gray(225);
 
 pub fn show(cx: &mut UiContext, ui: &Ui, clip: Rect, pane: PaneId) {
     let Some(shown) = cx.shown.panes.get(pane).filter(|_| cx.textures.panes.get(pane).is_some()) else { return };
@@ -77,19 +80,30 @@ fn align(session: &Session, pane: PaneId) -> Align2 {
     }
 }
 
-/// As much of a text as there is room for: all of it, or its name and figures, or its name alone, or nothing.
+/// What of a text is shown beside its name.
+#[derive(Clone, Copy)]
+struct Parts {
+    details: bool,
+    facts: bool,
+    notes: bool,
+}
+
+/// As much of a text as there is room for: all of it, or without its facts and then its notes, or its name alone, or nothing.
 fn fitting(ui: &Ui, text: &LabelText, pane: PaneId, room: Vec2) -> Option<Arc<Galley>> {
     let size = theme::label_font(ui).size;
     let [widest, narrowest, with_figures] = WIDTHS.map(|width| width * size);
     let width = room.x.min(widest);
-    let candidates = [(with_figures, [true, true]), (with_figures, [true, false]), (narrowest, [false, false])];
+    let all = Parts { details: true, facts: true, notes: true };
+    let (lacking, bare) = (Parts { facts: false, ..all }, Parts { details: false, facts: false, notes: false });
+    let figures = Parts { notes: false, ..lacking };
+    let candidates = [(with_figures, all), (with_figures, lacking), (with_figures, figures), (narrowest, bare)];
     candidates.into_iter().filter(|(least, _)| width >= *least).find_map(|(_, parts)| {
         let galley = ui.painter().layout_job(job(ui, text, pane, (size, width), parts));
         (galley.size().y <= MOST_HEIGHT * room.y && galley.size().x <= width).then_some(galley)
     })
 }
 
-fn job(ui: &Ui, text: &LabelText, pane: PaneId, (size, width): (f32, f32), [details, notes]: [bool; 2]) -> LayoutJob {
+fn job(ui: &Ui, text: &LabelText, pane: PaneId, (size, width): (f32, f32), parts: Parts) -> LayoutJob {
     let format = |size, colour| TextFormat::simple(FontId::proportional(size), colour);
     let mut job = LayoutJob { wrap: TextWrapping::wrap_at_width(width), ..LayoutJob::default() };
     let bold = |colour| TextFormat::simple(FontId::new(size, theme::semi_bold()), colour);
@@ -97,7 +111,7 @@ fn job(ui: &Ui, text: &LabelText, pane: PaneId, (size, width): (f32, f32), [deta
     job.append(&text.name, 0.5 * size, bold(Color32::WHITE));
     let figures = theme::figures().resolve(ui.style()).size;
     let mut line = |text: &str, colour| job.append(&format!("\n{text}"), 0.0, format(figures, colour));
-    if details {
+    if parts.details {
         let width_of = |text: &str| {
             ui.painter()
                 .layout_job(LayoutJob::simple_singleline(text.into(), FontId::proportional(figures), Color32::WHITE))
@@ -105,9 +119,12 @@ fn job(ui: &Ui, text: &LabelText, pane: PaneId, (size, width): (f32, f32), [deta
                 .x
         };
         let lines = text.details_within(|text| width_of(text) <= width);
-        lines.iter().for_each(|text| line(text, Color32::from_gray(225)));
+        lines.iter().for_each(|text| line(text, PLAIN));
     }
-    if notes {
+    if parts.facts {
+        text.facts.iter().for_each(|fact| line(fact, PLAIN));
+    }
+    if parts.notes {
         text.notes.iter().for_each(|note| line(note, Color32::from_rgb(255, 225, 150)));
     }
     job

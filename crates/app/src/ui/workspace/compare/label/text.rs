@@ -4,8 +4,8 @@
 use crate::model::{Against, Compiling, Drawing, Effort, PaneId, PaneView};
 use crate::ruler::{brief, error_words, formulas};
 use compare::Errors;
-use pathtrace::{ChainStats, Integrator, MetropolisSettings, PathSettings, Stats};
-use technique::settings::of_panes;
+use pathtrace::{ChainStats, Integrator, PathSettings, Stats};
+use technique::settings::{capitalised, grouped, of_panes};
 use technique::{BlindSpot, Device, PaneSettings, Technique, TracedSettings};
 
 /// Between two figures of a line.
@@ -20,7 +20,9 @@ pub struct LabelText {
     pub errors: Vec<String>,
     /// The measure of that, and the cost.
     pub figures: Vec<String>,
-    /// What else has to be said of it, a line each.
+    /// How it was made, where that is worth a line: plain facts, a line each.
+    pub facts: Vec<String>,
+    /// What else has to be said of it, a line each: what is wrong, missing or unreliable.
     pub notes: Vec<String>,
     /// What the figures mean, a line each, for who asks.
     pub explanations: Vec<String>,
@@ -53,8 +55,8 @@ impl LabelText {
             text.notes.extend(missing(&traced.blind_spots(&made.shot.scene)));
             let source = traced.noise_source(&made.shot.scene).filter(|_| shown.noisy);
             text.notes.extend(source.map(|source| source.words().to_owned()));
-            text.notes.extend(branching(traced, shown, beside));
-            text.notes.extend(chains(shown).map(|stats| told_of_chains(traced, &stats)));
+            text.facts.extend(branching(traced, shown, beside));
+            text.facts.extend(chains(shown).map(|stats| told_of_chains(&stats)));
         }
         text.explanations.extend(explained(shown, beside));
         text
@@ -64,7 +66,7 @@ impl LabelText {
     pub fn whole(&self, pane: PaneId) -> String {
         let name = format!("{pane}: {}", self.name);
         let details = self.details().into_iter().map(|line| line.join(BETWEEN));
-        let lines = std::iter::once(name).chain(details).chain(self.notes.iter().cloned());
+        let lines = std::iter::once(name).chain(details).chain(self.facts.iter().chain(&self.notes).cloned());
         lines.collect::<Vec<_>>().join("\n")
     }
 
@@ -134,14 +136,15 @@ fn cost(shown: &PaneView, paused: bool) -> String {
         let compiling = matches!(shown.effort, Some(Effort::Drawn(Drawing { compiling: Compiling::Included, .. })));
         return format!("{time}{}{coarse}", if compiling { " with compiling" } else { "" });
     };
+    let samples = grouped(spp);
     if shown.rough {
-        return format!("{spp} spp{coarse}");
+        return format!("{samples} spp{coarse}");
     }
     let wished = traced(shown).map_or(spp, |(traced, _)| traced.spp);
-    let of = if wished > spp { format!(" of {wished}") } else { String::new() };
+    let of = if wished > spp { format!(" of {}", grouped(wished)) } else { String::new() };
     let by = if shown.provenance.as_ref().is_some_and(|made| made.device == Device::Gpu) { " on the GPU" } else { "" };
     let paused = if paused && shown.unfinished { ", paused" } else { "" };
-    format!("{spp}{of} spp, {time}{by}{paused}{coarse}")
+    format!("{samples}{of} spp, {time}{by}{paused}{coarse}")
 }
 
 /// Of a picture with fewer pixels than there is room for: ", at 1/4 of the resolution".
@@ -178,7 +181,7 @@ fn branching(traced: &TracedSettings, shown: &PaneView, beside: Option<Beside>) 
     let Integrator::Path(path) = &traced.integrator else { return None };
     let n = path.branches;
     let most = match branching_vertices(path) {
-        Some(vertices) => format!("at most {n}^{vertices} = {} paths a sample", n.saturating_pow(vertices)),
+        Some(vertices) => format!("at most {n}^{vertices} = {} paths a sample", grouped(n.saturating_pow(vertices))),
         None if beside.is_some_and(|(_, other)| branches(other)) => "one path a sample".into(),
         None => return None,
     };
@@ -203,17 +206,12 @@ fn chains(shown: &PaneView) -> Option<ChainStats> {
     (chains.runs > 0 && !shown.rough).then_some(chains)
 }
 
-/// "64 chains, 54 % of mutations taken, start-up scale 0.139".
-fn told_of_chains(traced: &TracedSettings, stats: &ChainStats) -> String {
-    let count = match traced.integrator {
-        Integrator::Metropolis(MetropolisSettings { chains: 1, .. }) => "1 chain, ".into(),
-        Integrator::Metropolis(MetropolisSettings { chains, .. }) => format!("{chains} chains, "),
-        _ => String::new(),
-    };
+/// "54 % of mutations taken, start-up scale 0.139".
+fn told_of_chains(stats: &ChainStats) -> String {
     let acceptance = stats.acceptance();
     let taken =
         acceptance.map_or("no light found".into(), |share| format!("{:.0} % of mutations taken", 100.0 * share));
-    format!("{count}{taken}, start-up scale {}", brief(stats.scale().unwrap_or_default()))
+    format!("{taken}, start-up scale {}", brief(stats.scale().unwrap_or_default()))
 }
 
 /// What these figures mean.
@@ -259,7 +257,7 @@ fn explained(shown: &PaneView, beside: Option<Beside>) -> Vec<String> {
             lines.extend(branching_vertices(path).map(first_vertex));
         }
         let blind_spots = traced.blind_spots(&made.shot.scene).into_iter();
-        lines.extend(blind_spots.filter_map(BlindSpot::explanation).map(str::to_owned));
+        lines.extend(blind_spots.filter_map(BlindSpot::explanation).map(capitalised));
     }
     lines
 }

@@ -43,6 +43,8 @@ fn label(shown: &PaneView, told: Option<Told>) -> LabelText {
 fn the_cost_is_that_of_the_picture_that_is_shown() {
     assert_eq!(label(&path(&[("spp", "256")], 64), None).figures, ["64 of 256 spp, 500 ms"]);
     assert_eq!(label(&path(&[("spp", "64")], 64), None).figures, ["64 spp, 500 ms"], "it has all that it shall have");
+    let many = &[("spp", "1048576")];
+    assert_eq!(label(&path(many, 65_536), None).figures, ["65,536 of 1,048,576 spp, 500 ms"]);
     assert_eq!(label(&path(&[("spp", "16")], 64), None).figures, ["64 spp, 500 ms"], "fewer are wished by now");
     assert_eq!(label(&fake(0.0041, Compiling::Apart(0.45)), None).figures, ["4.1 ms"]);
     assert_eq!(label(&fake(0.557, Compiling::Included), None).figures, ["557 ms with compiling"]);
@@ -64,11 +66,13 @@ fn chains_tell_what_they_take_and_that_their_spread_is_no_error() {
     let told = label(&PaneView { noisy: true, ..of_chains(&[], chains) }, None);
     assert_eq!(told.name, "Metropolis, 32 chains");
     let blotches = "still noisy in blotches: a chain's paths are alike";
-    assert_eq!(told.notes, [blotches, "32 chains, 54 % of mutations taken, start-up scale 0.139"]);
+    assert_eq!(told.notes, [blotches]);
+    assert_eq!(told.facts, ["54 % of mutations taken, start-up scale 0.139"]);
+    assert_eq!(told.whole(PaneId::B).matches("32 chains").count(), 1, "{told:?}");
     assert!(told.explanations.iter().any(|line| line.contains("does not tell the error")), "{told:?}");
     let dark = of_chains(&[("chains", "1")], pathtrace::ChainStats { runs: 4, ..pathtrace::ChainStats::default() });
-    assert_eq!(label(&dark, None).notes, ["1 chain, no light found, start-up scale 0"]);
-    assert_eq!(label(&PaneView { rough: true, ..of_chains(&[], chains) }, None).notes, [""; 0]);
+    assert_eq!(label(&dark, None).facts, ["no light found, start-up scale 0"]);
+    assert_eq!(label(&PaneView { rough: true, ..of_chains(&[], chains) }, None).facts, [""; 0]);
 }
 
 #[test]
@@ -147,21 +151,21 @@ fn a_picture_says_what_it_lacks_and_where_it_is_noisy() {
 fn rays_are_counted_on_the_label_where_paths_branch_and_else_where_asked() {
     let branching = label(&path(&[("branches", "4"), ("bounces", "1")], 256), None);
     let counted = "13.5 rays a sample, 27 thousand rays a second";
-    assert_eq!(branching.notes[1], format!("N = 4, at most 4^2 = 16 paths a sample: {counted}"));
+    assert_eq!(branching.facts[0], format!("N = 4, at most 4^2 = 16 paths a sample: {counted}"));
     let power = "The first hit branches too: vertices are one more than bounces, 2 here";
     assert_eq!(branching.explanations[1], power);
     let plain = label(&path(&[], 256), None);
-    assert!(plain.notes.is_empty());
+    assert!(plain.facts.is_empty());
     assert_eq!(plain.explanations, [format!("{counted}, by 2 threads")]);
 }
 
 #[test]
 fn rays_are_counted_beside_paths_that_branch_too() {
     let [straight, forked] = ["1", "4"].map(|n| path(&[("branches", n), ("bounces", "1")], 256));
-    let beside = |other| LabelText::of(PaneId::A, &straight, Some((PaneId::B, other)), None, false).notes;
+    let beside = |other| LabelText::of(PaneId::A, &straight, Some((PaneId::B, other)), None, false).facts;
     let counted = "N = 1, one path a sample: 13.5 rays a sample, 27 thousand rays a second";
-    assert_eq!(beside(&forked)[1], counted);
-    assert_eq!(beside(&straight).len(), 1, "neither branches");
+    assert_eq!(beside(&forked), [counted]);
+    assert_eq!(beside(&straight), [""; 0], "neither branches");
 }
 
 #[test]
