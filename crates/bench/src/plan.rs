@@ -184,7 +184,7 @@ impl Part {
     }
 
     /// Independent paths. By chance no path meets a sun of radius 0, and hardly one a small sun: there such techniques are
-    /// left out, and under the former what finds no caustic. A guide is learned where light goes around.
+    /// left out, and under the former what finds no caustic.
     fn paths(&self, scene: &Scene) -> Vec<Technique> {
         let sun = scene.sun.map_or(f32::INFINITY, |sun| sun.angular_radius);
         let finds = |estimator: &Estimator| sun >= HARDLY_MET || estimator.samples_lights();
@@ -194,9 +194,7 @@ impl Part {
         if scene.needs().casters && sun > 0.0 {
             paths.push(line::unconnected());
         }
-        if self.teaches_bias() {
-            paths.push(line::path(Estimator::GUIDED, SamplerKind::Sobol));
-        }
+        paths.push(line::path(Estimator::GUIDED, SamplerKind::Sobol));
         paths
     }
 

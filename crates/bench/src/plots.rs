@@ -165,7 +165,7 @@ fn series(curve: &Curve, name: String, of: impl Fn(&Point) -> (f64, Range)) -> S
 }
 
 /// Colours that [`colour`] does not use begin here: for peers.
-const FIRST_FREE_COLOUR: usize = 11;
+const FIRST_FREE_COLOUR: usize = 12;
 
 fn colour(technique: &Technique) -> usize {
     let integrator = match technique {
@@ -174,8 +174,7 @@ fn colour(technique: &Technique) -> usize {
         Technique::Fake(_) => return 6,
     };
     match integrator {
-        // no part has a guide and these
-        Integrator::Path(_) if *technique == line::unconnected() => 7,
+        Integrator::Path(_) if *technique == line::unconnected() => 11,
         Integrator::Path(path) => match Estimator::ALL.iter().position(|e| *e == path.estimator) {
             Some(place @ ..4) => place,
             // after those of other techniques

@@ -18,7 +18,7 @@ pub struct Speed {
     pub reference: f64,
     /// Of a part's lines, all alike.
     pub lines: f64,
-    /// Seconds that it takes to learn a guide, whatever the picture's size; 0 in a part where no line does.
+    /// Seconds that it takes to learn a guide, whatever the picture's size.
     pub learning: f64,
 }
 
