@@ -41,7 +41,7 @@ pub fn options() -> Vec<CommandOption<Reading>> {
         CommandOption {
             names: &["--quick"],
             value: "",
-            help: "as small as fits into a minute on an idle machine; without: half an hour on two fast cores",
+            help: "as small as fits into a minute on an idle machine; without: three quarters of an hour on two fast cores",
             read: |reading, _| {
                 reading.args.effort = Effort::Seconds(QUICK_SECONDS);
                 Ok(())
