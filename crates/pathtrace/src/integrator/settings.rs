@@ -15,7 +15,7 @@ pub enum Directions {
     /// Proportional to BSDF times cosine, which for Lambert's law is the cosine: density `cos / pi`.
     Cosine,
     /// Where a guide says that light comes from, which was learned from some paths before; see
-    /// [`crate::integrator::guide`]. On the processor alone.
+    /// `integrator/guide`. On the processor alone.
     Guided,
 }
 
@@ -278,7 +278,7 @@ impl PathSettings {
     }
 
     /// Whether these settings mean something. More than one direction at a vertex needs a limit of N bounces with
-    /// `branches ^ (N + 1)` at most [`MOST_BRANCHES`].
+    /// `branches ^ (N + 1)` at most `MOST_BRANCHES`.
     ///
     /// # Errors
     /// What is wrong, as a line for the user. [`crate::Tracer::render`] does not fail on such settings: from the vertex
@@ -297,7 +297,7 @@ impl PathSettings {
         }
     }
 
-    /// Diffuse vertices of a path that may branch before there would be more than [`MOST_BRANCHES`] paths.
+    /// Diffuse vertices of a path that may branch before there would be more than `MOST_BRANCHES` paths.
     pub fn branching_vertices(&self) -> u32 {
         if self.branches < 2 { 0 } else { MOST_BRANCHES.ilog(self.branches) }
     }
