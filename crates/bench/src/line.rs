@@ -16,7 +16,7 @@ const LADDER: u32 = u32::MAX;
 /// Samples of light tracing where it is blind: its noise is far below what it lacks.
 const BLIND_SPP: u32 = 16;
 
-/// The usual paths.
+/// Paths as they are traced where nobody asks for others.
 const COMPLETE: PathSettings = PathSettings {
     estimator: Estimator::LIGHT,
     sampler: SamplerKind::Sobol,

@@ -14,7 +14,7 @@ const SIDE: u32 = 48;
 /// How fast things go: samples a second.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Speed {
-    /// Of a reference.
+    /// Samples of a reference per second.
     pub reference: f64,
     /// Of a part's lines, all alike.
     pub lines: f64,

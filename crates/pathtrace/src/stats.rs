@@ -19,7 +19,7 @@ pub struct Stats {
 pub struct ChainStats {
     /// Sets of chains that were started.
     pub runs: u64,
-    /// Mutations proposed.
+    /// Mutations that were proposed, taken or not.
     pub mutations: u64,
     /// Those that were taken.
     pub accepted: u64,

@@ -67,7 +67,7 @@ enum Connected {
     Nothing,
     /// The balls, beside which there are these.
     BallsBut(Specular),
-    /// All.
+    /// All glass and mirrors are connected through or off.
     All,
 }
 

@@ -70,7 +70,7 @@ pub struct LightPaneSettings {
 /// The settings of a picture by Metropolis' chains.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ChainSettings {
-    /// How chains walk.
+    /// How chains walk, and how many there are.
     pub metropolis: MetropolisSettings,
     /// Runs at which rendering stops, each a sample of every pixel.
     pub spp: u32,

@@ -29,7 +29,7 @@ impl Pair {
     }
 }
 
-/// Rendered on both.
+/// A picture by these paths, rendered on both machines.
 pub fn paths(gpu: &Gpu, scene: &Scene, size: (u32, u32), spp: u32, settings: &PathSettings) -> Pair {
     let [mut on_gpu, mut on_cpu] = [(); 2].map(|()| Film::new(size.0, size.1));
     let mut tracer = GpuTracer::new(gpu, scene).unwrap();

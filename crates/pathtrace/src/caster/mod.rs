@@ -60,7 +60,7 @@ pub struct CasterMaterials {
 pub struct Chains<F: Float> {
     /// Centre of the sphere.
     pub center: Vector<F>,
-    /// Its radius.
+    /// Radius of the sphere, above 0, in world units.
     pub radius: F,
     /// What it is made of.
     pub surface: ChainSurfaces<F>,
@@ -80,7 +80,7 @@ pub struct ChainSurfaces<F: Float> {
 }
 
 impl Casters {
-    /// Collects them.
+    /// Collects the chains of all spheres of glass and mirror, with the probability of choosing each.
     pub fn new(scene: &Scene) -> Self {
         let spheres = scene.shapes.iter().filter_map(|shape| Some((sphere(shape)?, shape.material as u32)));
         let mut rows = Vec::new();
@@ -109,7 +109,7 @@ impl Casters {
         self.choice.is_empty()
     }
 
-    /// Number of chains.
+    /// Number of chains: two of each sphere of glass, one of each mirroring one.
     pub fn len(&self) -> usize {
         self.choice.len()
     }

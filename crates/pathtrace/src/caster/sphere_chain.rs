@@ -92,9 +92,9 @@ impl<F: Float> Ratio<F> {
 /// An angle of incidence.
 #[derive(Debug, Clone, Copy)]
 pub struct Incidence<F> {
-    /// Sine.
+    /// Sine of the angle, in [0, 1].
     pub sin: F,
-    /// Cosine.
+    /// Cosine of the angle, in [0, 1].
     pub cos: F,
 }
 
@@ -114,9 +114,9 @@ pub struct Root<F: Float> {
 pub struct SphereChains<F: Float> {
     /// At the end that the chain is looked for from.
     near: Ratio<F>,
-    /// At the other.
+    /// At the other end, that of the light.
     far: Ratio<F>,
-    /// Inside the sphere.
+    /// Inside the sphere; 0 for a mirror.
     inside: Ratio<F>,
     /// Through the sphere; else off its outside.
     through: F::M,

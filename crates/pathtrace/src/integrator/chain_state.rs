@@ -14,7 +14,7 @@ use simd::{Float, Mask, Vector, Word};
 pub(crate) const NONE: u32 = 0;
 /// Has left the vertex.
 pub(crate) const LEFT: u32 = 1;
-/// Inside the sphere.
+/// The path has entered a sphere of glass from its vertex.
 pub(crate) const INSIDE: u32 = 2;
 /// Has been reflected off the sphere.
 pub(crate) const OFF: u32 = 3;
@@ -42,12 +42,12 @@ pub struct SeenFromCenter<F: Float> {
     pub end: End<F>,
     /// Density per solid angle with which it is sampled from there; 0 if it is not.
     pub pdf: F,
-    /// See [`crate::caster::connect::facing`].
+    /// How the light's surface is turned, see [`crate::caster::connect::facing`].
     pub facing: F,
 }
 
 impl<F: Float> ChainStates<F> {
-    /// On no chain.
+    /// Of paths that are on no chain.
     #[inline(always)]
     pub fn none() -> Self {
         let (zero, nowhere) = (F::splat(0.0), Vector::zero());

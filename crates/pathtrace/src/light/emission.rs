@@ -35,9 +35,9 @@ pub struct Emitters {
     /// Of a sky of one colour, which light sampling leaves to chance and which is the last of the emitters.
     sky: Vec3,
     probabilities: Vec<f32>,
-    /// Their running sum.
+    /// Running sum of the probabilities, the last one 1.
     cumulative: Vec<f32>,
-    /// Around all shapes.
+    /// The box around all shapes of the scene.
     scene: Bounds,
     /// Around what focuses light, each shape or all together.
     casters: Vec<Bounds>,
@@ -46,7 +46,7 @@ pub struct Emitters {
 /// A photon as it leaves a light.
 #[derive(Debug, Clone, Copy)]
 pub struct Emitted {
-    /// Where it flies.
+    /// The ray along which the photon leaves its light.
     pub ray: Ray,
     /// Power over the density of the choices, RGB.
     pub power: Vec3,
@@ -55,7 +55,7 @@ pub struct Emitted {
 /// Numbers in [0, 1) that choose a photon.
 #[derive(Debug, Clone, Copy)]
 pub struct EmissionChoice {
-    /// A light.
+    /// The number that chooses a light, in [0, 1).
     pub light: f32,
     /// Whether to aim, and at what.
     pub aim: f32,

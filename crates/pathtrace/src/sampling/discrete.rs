@@ -11,7 +11,7 @@ pub struct Discrete {
 }
 
 impl Discrete {
-    /// Of these probabilities.
+    /// Of these probabilities, which add up to 1.
     pub fn new(probabilities: impl IntoIterator<Item = f64>) -> Self {
         let mut sum = 0.0;
         let running = probabilities.into_iter().map(|probability| {
@@ -31,7 +31,7 @@ impl Discrete {
         self.count == 0
     }
 
-    /// Among how many.
+    /// Among how many it chooses.
     pub fn len(&self) -> usize {
         self.count as usize
     }

@@ -148,7 +148,7 @@ pub struct Light {
     pub cumulative: f32,
     /// Of what its surface coincides with, or [`NO_GROUP`](crate::intersect::coincident::NO_GROUP).
     pub group: u32,
-    /// Of a caster.
+    /// Of a chain: index of its sphere's material.
     pub material: u32,
     /// Padding.
     pub unused: u32,

@@ -31,7 +31,7 @@ pub struct Finding {
     pub expected: Vec3,
 }
 
-/// Sums of findings.
+/// Sums of what all paths have found, bin by bin.
 pub struct Histograms {
     /// Of each bin: squared radiance, and how often it was looked at.
     bins: Vec<[f64; 2]>,

@@ -27,7 +27,7 @@ pub struct Notes {
 }
 
 impl Notes {
-    /// Blank.
+    /// Room for all paths' notes, with nothing noted yet.
     pub fn new(cells: Cells) -> Self {
         let count = (SIDE * SIDE * SAMPLES) as usize * VERTICES * WORDS;
         Notes { cells, words: std::iter::repeat_with(AtomicU64::default).take(count).collect() }
@@ -41,7 +41,7 @@ impl Notes {
         cell.wrapping_add(row).wrapping_add(bin::<F, COLUMNS>(u[1]))
     }
 
-    /// What they teach.
+    /// The guide that all these notes together teach.
     pub fn guide(&self) -> Guide {
         let mut histograms = Histograms::default();
         let notes = self.words.chunks_exact(WORDS);
@@ -100,7 +100,7 @@ pub struct Turn {
     pub place: [u32; MOST_LANES],
     /// What the paths have brought home.
     pub radiance: [Vec3; MOST_LANES],
-    /// Throughput before roulette.
+    /// Throughput before roulette, lane by lane.
     pub before: [Vec3; MOST_LANES],
     /// Throughput after it, of those that go on.
     pub after: [Vec3; MOST_LANES],
@@ -140,7 +140,7 @@ impl<'a> Recorder<'a> {
         self.notes
     }
 
-    /// Notes a turn.
+    /// Notes what a turn of all lanes has brought.
     #[inline(never)]
     pub fn note(&mut self, turn: &Turn) {
         let among = |bits: u32| (0..MOST_LANES).filter(move |lane| bits >> lane & 1 != 0);

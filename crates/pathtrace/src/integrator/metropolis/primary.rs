@@ -27,9 +27,9 @@ const DECISION: u32 = u32::MAX;
 enum Proposal {
     /// The candidate with which it begins.
     Start,
-    /// A point nearby.
+    /// A point nearby, by Kelemen's small step.
     Small,
-    /// A point anywhere.
+    /// A point anywhere, drawn independently of the last.
     Large,
 }
 
@@ -47,7 +47,7 @@ struct Block {
 struct Point {
     /// All coordinates at its start or after its last large step.
     origin: Sampler,
-    /// Tells origins apart.
+    /// Tells origins apart: counts the large steps.
     origins: u32,
     /// The mutations that were small steps from there.
     steps: Vec<u32>,
@@ -93,7 +93,7 @@ impl Point {
 pub struct PrimaryPoints<F: Float> {
     /// Kept up to date where a path asks.
     points: RefCell<Vec<Point>>,
-    /// Lanes that ask.
+    /// Lanes whose paths ask for numbers now.
     pub active: F::M,
     chain: [u32; MOST_LANES],
     mutation: [u32; MOST_LANES],
@@ -110,7 +110,7 @@ pub struct PrimaryPoints<F: Float> {
 }
 
 impl<F: Float> PrimaryPoints<F> {
-    /// No chain yet.
+    /// Of lanes in which no chain has begun yet.
     pub fn new(key: u32, size: f32) -> Self {
         PrimaryPoints {
             points: RefCell::new((0..F::LANES).map(|_| Point::new()).collect()),

@@ -14,7 +14,7 @@ const PARTS: f64 = 4_294_967_296.0;
 pub struct Splats(Vec<[AtomicU64; 3]>);
 
 impl Splats {
-    /// No light.
+    /// Of so many pixels, without any light.
     pub fn new(pixels: usize) -> Self {
         Splats((0..pixels).map(|_| [const { AtomicU64::new(0) }; 3]).collect())
     }

@@ -20,13 +20,13 @@ use simd::{Float, Kernel, MOST_LANES, Mask, Word};
 
 /// What all chains of a picture share.
 pub struct Walk<'a> {
-    /// Ready for rays.
+    /// The scene, made ready for rays.
     pub scene: &'a PreparedScene,
-    /// How paths walk.
+    /// How the paths of chains walk.
     pub plan: &'a Plan<'a>,
     /// What the camera sees.
     pub frame: &'a PictureFrame,
-    /// Width and height.
+    /// Width and height of the picture in pixels.
     pub size: [u32; 2],
     /// Probability that a mutation draws everything anew.
     pub large_step: f32,
@@ -52,7 +52,7 @@ pub struct Chains<'a> {
     pub luminances: &'a mut [f32],
 }
 
-/// What chains took.
+/// What chains took, and whether they came to their ends.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Tally {
     /// Mutations, samples and rays.
@@ -64,7 +64,7 @@ pub struct Tally {
 }
 
 impl Tally {
-    /// Of both.
+    /// The sum of what two groups of chains took.
     pub fn plus(self, other: Tally) -> Tally {
         Tally {
             stats: self.stats.plus(other.stats),
@@ -76,9 +76,9 @@ impl Tally {
 
 /// Chains to their ends, in lanes of some kind.
 pub struct ChainKernel<'a> {
-    /// What they share.
+    /// What these chains share with all others.
     pub walk: &'a Walk<'a>,
-    /// Their own.
+    /// What these chains have of their own.
     pub chains: Chains<'a>,
 }
 

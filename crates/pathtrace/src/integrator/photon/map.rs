@@ -9,11 +9,11 @@ use std::ops::RangeInclusive;
 /// Light that has arrived at a diffuse surface.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Photon {
-    /// World space.
+    /// Where it was left, in world space.
     pub position: Vec3,
     /// Unit normal on the side that the photon came from.
     pub normal: Vec3,
-    /// RGB.
+    /// What it carries of its light's power, RGB.
     pub power: Vec3,
 }
 

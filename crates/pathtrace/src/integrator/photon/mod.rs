@@ -110,7 +110,7 @@ impl Default for LightTracingSettings {
 /// photons lie in a disc where they lie as everywhere.
 const SHARE_OF_BOUNDS: f32 = 1.0 / 128.0;
 
-/// See [`PhotonSettings::radius`].
+/// The first radius where none is set: see [`PhotonSettings::radius`].
 pub fn usual_radius(scene: &Scene) -> f32 {
     let (lo, hi) = scene.bounds();
     let Vec3 { x, y, z } = hi - lo;

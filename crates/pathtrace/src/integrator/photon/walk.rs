@@ -33,7 +33,7 @@ const FIRST_DIMENSION: u32 = 1 << 16;
 /// Light at a pixel.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Splat {
-    /// Row-major index.
+    /// Index of the pixel, row by row from the top.
     pub pixel: u32,
     /// Radiance, or the colour of a mark.
     pub radiance: Vec3,
@@ -66,9 +66,9 @@ pub struct PhotonPass {
 /// What photons have left behind, in their order.
 #[derive(Debug, Default)]
 pub struct Traces {
-    /// At diffuse surfaces.
+    /// Those that came to diffuse surfaces.
     pub photons: Vec<Photon>,
-    /// In the picture.
+    /// What the picture's pixels receive through the pinhole.
     pub splats: Vec<Splat>,
     /// Rays and cut paths.
     pub stats: Stats,

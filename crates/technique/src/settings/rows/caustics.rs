@@ -100,7 +100,7 @@ fn may_have_cones(path: &PathSettings, scene: &Scene) -> bool {
     drawn_well && !shapes_with_cones(ConesAt::Everything, scene).is_empty()
 }
 
-/// "cones at glass".
+/// What a label calls it, such as "cones at glass".
 fn brief_cones(value: Value) -> String {
     match named(value, ConesAt::named) {
         Some(ConesAt::Usual) => "cones at glass",
