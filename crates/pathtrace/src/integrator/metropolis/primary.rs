@@ -15,7 +15,7 @@ use std::cell::RefCell;
 
 /// Blocks whose coordinates are kept: the camera's, two of each vertex that a path may have, and behind them one of each
 /// for connections. What is not kept is computed from the last large step on, which takes as long as a chain stays there.
-const KEPT_BLOCKS: usize = CONNECTION_BLOCKS + HARD_CAP + 1;
+const KEPT_BLOCKS: usize = CONNECTION_BLOCKS + HARD_CAP + 2;
 const CONNECTION_BLOCKS: usize = 2 * HARD_CAP + 3;
 const HARD_CAP: usize = PathSettings::HARD_CAP as usize;
 
