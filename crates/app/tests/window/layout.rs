@@ -143,7 +143,7 @@ fn assert_texts_are_readable(screen: &Screen, frame: &Frame, least: f64, here: &
 }
 
 fn assert_can_be_read(screen: &Screen, frame: &Frame, name: &str, least: f64, here: &str) {
-    let [left, top, right, bottom] = frame.rect(name).map(|v| v.round() as u32);
+    let [left, top, right, bottom] = frame.visible(name).map(|v| v.round() as u32);
     let ratio = contrast(&screen.pixels(left, top, right - left, bottom - top));
     assert!(ratio >= least, "{here}: the contrast of '{name}' is {ratio:.2}");
 }
