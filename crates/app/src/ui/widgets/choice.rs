@@ -29,9 +29,9 @@ pub fn choice(
 
 /// At both sides of a word.
 const PADDING: f32 = 7.0;
-/// Between two words.
+/// Points between two words of a choice.
 const GAP: f32 = 2.0;
-/// Around the words.
+/// Points of the frame around all of its words.
 const AROUND: i8 = 2;
 /// Of the line about the ground.
 const LINE: f32 = 1.0;
