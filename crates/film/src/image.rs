@@ -93,6 +93,15 @@ impl Image {
         }
     }
 
+    /// The numbers of the layer of this name; `None` if there is none, or if it has colours.
+    pub fn number_layer(&self, name: &str) -> Option<&[f32]> {
+        let layer = self.layers.iter().find(|layer| layer.name == name)?;
+        match &layer.values {
+            LayerValues::Numbers(values) => Some(values),
+            LayerValues::Rgb(_) => None,
+        }
+    }
+
     /// The same picture with another layer, which has a value for each pixel.
     pub fn with_layer(mut self, name: &'static str, values: LayerValues) -> Self {
         debug_assert_eq!(values.len(), self.radiances.len());

@@ -3,10 +3,12 @@
 
 pub mod colour;
 pub mod display;
+mod features;
 mod film;
 mod image;
 
 pub use display::DisplayTransform;
+pub use features::Features;
 pub use film::{Film, Pixel};
 pub use glam::{self, Vec3};
 pub use image::{Image, Layer, LayerValues};

@@ -13,6 +13,7 @@
 pub mod bsdf;
 pub mod caster;
 pub mod drive;
+pub mod features;
 mod gpu_tracer;
 pub mod integrator;
 pub mod intersect;
@@ -27,6 +28,7 @@ pub mod twins;
 mod vectors;
 
 pub use caster::cone::shapes_with_cones;
+pub use features::FeaturePass;
 pub use integrator::Integrator;
 pub use integrator::metropolis::MetropolisSettings;
 pub use integrator::normals::{NormalsSettings, Space};

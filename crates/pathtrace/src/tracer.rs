@@ -4,6 +4,7 @@ use crate::bsdf::materials::Materials;
 use crate::caster::Casters;
 use crate::caster::cone::Cones;
 use crate::drive::lanes::{FilmJob, FilmPass, Stop};
+use crate::features::FeaturePass;
 use crate::integrator::Integrator;
 use crate::integrator::guide::{cells::Cells, guides::Guides};
 use crate::integrator::photon::usual_radius;
@@ -16,7 +17,7 @@ use crate::intersect::contact::held_apart;
 use crate::light::{Emitters, Lights, SunDisc};
 use crate::prepared::PreparedScene;
 use crate::stats::Stats;
-use film::Film;
+use film::{Features, Film};
 use scene::stand_ins::FakeNumbers;
 use scene::{Camera, Scene, Vec3};
 use simd::Lanes;
@@ -120,6 +121,11 @@ impl Tracer {
         let pass = FilmPass::new(film, camera, samples, (integrator.sampler(), integrator.seed()));
         // not generic: kernels are large, and compiled in this crate once
         integrator.fill(film, &self.job(pass, stop))
+    }
+
+    /// What denoisers are guided by, on the current rayon pool; `None` once `stop` says so.
+    pub fn features(&self, pass: &FeaturePass, stop: &(impl Fn() -> bool + Sync)) -> Option<Features> {
+        pass.trace(&self.scene, self.lanes, stop)
     }
 
     fn job<'a>(&'a self, pass: FilmPass, stop: &'a Stop) -> FilmJob<'a> {

@@ -164,6 +164,20 @@ pub fn rays_through<F: Float>(frame: &PictureFrame, x: F, y: F) -> Rays<F> {
     Rays::new(in_all_lanes(frame.eye), through.normalize())
 }
 
+/// The rays through pixels of these columns and rows, each at its sample's place.
+#[inline(always)]
+pub fn camera_rays<F: Float>(
+    frame: &PictureFrame,
+    [width, height]: [u32; 2],
+    [column, row]: [F; 2],
+    sampler: &Sampler<F::U>,
+) -> Rays<F> {
+    let [jitter_x, jitter_y, _, _] = sampler.unit4(F::U::splat(0));
+    let x = (column + jitter_x) / width as f32 * 2.0 - 1.0;
+    let y = F::splat(1.0) - (row + jitter_y) / height as f32 * 2.0;
+    rays_through(frame, x, y)
+}
+
 /// Which pixel and sample each lane has.
 struct LaneDriver<'a, F: Float> {
     pixels: &'a mut [Pixel],
@@ -229,11 +243,7 @@ impl<'a, F: Float> LaneDriver<'a, F> {
     /// The rays through the lanes' pixels, each at its sample's place.
     #[inline(always)]
     fn camera_rays(&self, pass: &FilmPass, sampler: &Sampler<F::U>) -> Rays<F> {
-        let [jitter_x, jitter_y, _, _] = sampler.unit4(F::U::splat(0));
-        let (width, height) = (pass.size[0] as f32, pass.size[1] as f32);
-        let x = (F::load(&self.column) + jitter_x) / width * 2.0 - 1.0;
-        let y = F::splat(1.0) - (F::load(&self.row) + jitter_y) / height * 2.0;
-        rays_through(&pass.frame, x, y)
+        camera_rays(&pass.frame, pass.size, [F::load(&self.column), F::load(&self.row)], sampler)
     }
 
     /// Adds complete samples to their pixels, and moves lanes on.

@@ -1,7 +1,5 @@
 //! Light transport: [`path`], the tutorial's Monte Carlo path tracer, and [`whitted`], the step before it; [`photon`], in
-//! which light walks from its sources; and [`normals`], which shows no light at all.
-//! Light transport: [`path`], the tutorial's Monte Carlo path tracer, [`whitted`], the step before it, and [`metropolis`],
-//! chains of such paths; and [`normals`], which shows no light at all.
+//! which light walks from its sources; [`metropolis`], chains of paths; and [`normals`], which shows no light at all.
 //!
 //! A new integrator is a file here with its settings and lanes, its twin in `shaders/pathtrace/integrator/`, and a
 //! variant of [`Integrator`] with an arm in each of the matches below: all that the machines ask an integrator for.
