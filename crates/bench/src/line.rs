@@ -93,7 +93,7 @@ const fn paths(settings: PathSettings) -> Technique {
 }
 
 const fn on_the_ladder(integrator: Integrator) -> TracedSettings {
-    TracedSettings { integrator, device: DeviceChoice::Cpu, adapter: 0, spp: LADDER, sun_radius: None }
+    TracedSettings { device: DeviceChoice::Cpu, ..TracedSettings::new(integrator, LADDER) }
 }
 
 /// A technique in one of the variants.

@@ -1,6 +1,6 @@
 //! A film on its way: what is in it, what a device has added to it meanwhile, and who has.
 
-use film::{Film, Pixel};
+use film::{Features, Film, Pixel};
 use gpu::Gpu;
 use pathtrace::Stats;
 use pathtrace::gpu::{GpuFilm, GpuTraceError, GpuTracer};
@@ -17,6 +17,8 @@ pub struct Accumulation {
     pub(crate) most: u32,
     pub(crate) spent: Duration,
     on_device: Option<OnDevice>,
+    /// What its pixels show, and from how many samples of them that was made.
+    pub(crate) features: Option<(u32, Features)>,
     /// What has added to it, one after the other.
     makers: Vec<String>,
     /// How many of them have added to the film as last read.
@@ -45,6 +47,7 @@ impl Accumulation {
             most: 0,
             spent: Duration::ZERO,
             on_device: None,
+            features: None,
             makers: Vec::new(),
             resolved_by: 0,
         }

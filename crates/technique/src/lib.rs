@@ -12,8 +12,10 @@ mod accumulation;
 mod backend;
 mod blind_spot;
 mod command;
+mod denoiser;
 mod device;
 mod fake;
+mod features;
 mod label;
 mod pane;
 pub mod presets;
@@ -30,6 +32,7 @@ pub use accumulation::Accumulation;
 pub use backend::{Backend, GpuBackend};
 pub use blind_spot::{BlindSpot, NoiseSource, Specular};
 pub use command::{camera_options, made_by_command};
+pub use denoiser::Denoiser;
 pub use device::{Adapter, Adapters, Device, DeviceChoice, INSTEAD};
 pub use fake::FakeSettings;
 pub use pane::PaneSettings;
@@ -175,6 +178,14 @@ impl Technique {
                 Integrator::Metropolis(_) => TechniqueName::Metropolis,
                 Integrator::Normals(_) => TechniqueName::Normals,
             },
+        }
+    }
+
+    /// What its picture goes through before it is shown.
+    pub fn denoiser(&self) -> Denoiser {
+        match self {
+            Technique::Traced(traced) if self.shows_the_scene() => traced.denoiser,
+            Technique::Traced(_) | Technique::Fake(_) => Denoiser::Off,
         }
     }
 

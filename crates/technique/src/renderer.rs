@@ -3,9 +3,9 @@
 //! traces rays dealt with.
 
 use crate::{Accumulation, Backend, Device, Rank, Threads};
-use film::Film;
+use film::{Features, Film};
 use pathtrace::gpu::GpuTraceError;
-use pathtrace::{Integrator, Stats};
+use pathtrace::{Integrator, Stats, Tracer};
 use scene::{Camera, Scene};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -38,6 +38,8 @@ pub struct Pacing {
 pub struct Frame<'a> {
     /// Samples summed so far, pixel by pixel.
     pub film: &'a Film,
+    /// What the pixels show, where [`Watch::wants_features`]; of a rough picture it is not made.
+    pub features: Option<&'a Features>,
     /// Samples and rays that it took so far.
     pub stats: Stats,
     /// Seconds that tracing has taken so far.
@@ -64,6 +66,11 @@ pub trait Watch: Sync {
     /// Whether to end after the pass in hand, where every pixel has `spp` samples.
     fn ends_soon(&self, spp: u32) -> bool;
 
+    /// Whether frames shall come with what denoisers are guided by.
+    fn wants_features(&self) -> bool {
+        false
+    }
+
     /// Whether to wait where the film is.
     fn is_held(&self) -> bool {
         false
@@ -87,12 +94,14 @@ pub trait Watch: Sync {
 
 /// A scene on what traces it.
 pub struct Renderer {
-    scene: Arc<Scene>,
-    backend: Backend,
-    threads: Arc<Threads>,
+    pub(crate) scene: Arc<Scene>,
+    pub(crate) backend: Backend,
+    pub(crate) threads: Arc<Threads>,
     /// How urgent its passes are.
     pub rank: Rank,
     speeds: Speeds,
+    /// The scene for what only the processor traces, beside a device.
+    pub(crate) beside_the_device: Option<Box<Tracer>>,
     /// Why the graphics device does not trace, where it should.
     refusal: Option<Arc<str>>,
 }
@@ -101,7 +110,7 @@ impl Renderer {
     /// A scene on a backend that was made for it.
     pub fn new(scene: Arc<Scene>, backend: Backend, threads: Arc<Threads>) -> Self {
         let (rank, speeds) = (Rank::Refinement, Speeds::default());
-        Renderer { scene, backend, threads, rank, speeds, refusal: None }
+        Renderer { scene, backend, threads, rank, speeds, beside_the_device: None, refusal: None }
     }
 
     /// A scene on the processor.
@@ -233,14 +242,15 @@ impl Renderer {
     ) {
         let mut shown = Instant::now();
         // a film that goes on is shown at once, for its label says how far it shall go
+        let how = (camera, integrator);
         if accumulation.spp > 0 {
-            self.show(accumulation, wished, watch);
+            self.show(accumulation, how, wished, watch);
         }
         while accumulation.spp < wished {
             let before = accumulation.spp;
             // while held, a new picture still gets its first pass
             if before > 0 && watch.is_held() {
-                self.show(accumulation, wished, watch);
+                self.show(accumulation, how, wished, watch);
                 watch.wait();
             }
             if watch.ends_soon(accumulation.spp) {
@@ -258,7 +268,7 @@ impl Renderer {
             let spp = accumulation.spp;
             watch.count(spp);
             if spp > 0 && (before == 0 || spp == wished || shown.elapsed() >= pacing.show) {
-                self.show(accumulation, wished, watch);
+                self.show(accumulation, how, wished, watch);
                 shown = Instant::now();
             }
         }
@@ -271,9 +281,12 @@ impl Renderer {
         fitting.clamp(1, accumulation.spp.saturating_mul(pacing.growth).max(1))
     }
 
-    fn show(&mut self, accumulation: &mut Accumulation, wished: u32, watch: &impl Watch) {
+    fn show(&mut self, accumulation: &mut Accumulation, how: (&Camera, &Integrator), wished: u32, watch: &impl Watch) {
         if let Err(fault) = self.resolve(accumulation) {
             watch.told_of_loss(&fault, accumulation.spp);
+        }
+        if watch.wants_features() {
+            self.make_features(accumulation, how, watch);
         }
         if accumulation.spp > 0 {
             watch.show(self.frame(accumulation, [false, accumulation.spp < wished]));
@@ -284,6 +297,7 @@ impl Renderer {
     pub(crate) fn frame<'a>(&self, accumulation: &'a Accumulation, [rough, unfinished]: [bool; 2]) -> Frame<'a> {
         Frame {
             film: accumulation.film(),
+            features: accumulation.features.as_ref().map(|(_, features)| features),
             stats: accumulation.stats(),
             seconds: accumulation.spent.as_secs_f64(),
             made_by: accumulation.made_by(),
@@ -299,6 +313,8 @@ impl Renderer {
 pub struct Rendered {
     /// Samples summed so far, pixel by pixel.
     pub film: Film,
+    /// What the pixels show, where it was asked for.
+    pub features: Option<Features>,
     /// Rays and samples that it took.
     pub stats: Stats,
     /// What it was made by in the end.
@@ -327,7 +343,11 @@ impl Renderer {
                 break;
             }
         }
+        if watch.wants_features() {
+            self.make_features(&mut accumulation, (camera, wanted.0), watch);
+        }
         let (device, made_by) = (self.device(), accumulation.made_by());
-        Rendered { stats: accumulation.stats(), film: accumulation.into_film(), device, made_by }
+        let features = accumulation.features.take().map(|(_, features)| features);
+        Rendered { stats: accumulation.stats(), film: accumulation.into_film(), features, device, made_by }
     }
 }

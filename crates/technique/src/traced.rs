@@ -1,6 +1,6 @@
 //! The settings of what is traced by rays: path tracing, and Whitted's step towards it.
 
-use crate::{DeviceChoice, SceneChanges};
+use crate::{Denoiser, DeviceChoice, SceneChanges};
 use pathtrace::{
     Integrator, LightTracingSettings, MetropolisSettings, NormalsSettings, PathSettings, PhotonSettings, Roulette,
     WhittedSettings,
@@ -21,6 +21,16 @@ pub struct TracedSettings {
     pub spp: u32,
     /// Angular radius of the sun for these rays alone, in degrees; `None`: the scene's. References know nothing of it.
     pub sun_radius: Option<f32>,
+    /// What the picture goes through before it is shown.
+    pub denoiser: Denoiser,
+}
+
+impl TracedSettings {
+    /// An integrator that stops at so many samples per pixel, where the device is not chosen and the sun the scene's.
+    pub const fn new(integrator: Integrator, spp: u32) -> Self {
+        let (device, denoiser) = (DeviceChoice::Auto, Denoiser::Off);
+        TracedSettings { integrator, device, adapter: 0, spp, sun_radius: None, denoiser }
+    }
 }
 
 /// The settings of path tracing, which without limits tends to the truth.
@@ -96,13 +106,7 @@ impl Default for NormalsPaneSettings {
 
 impl From<NormalsPaneSettings> for TracedSettings {
     fn from(NormalsPaneSettings { normals, spp }: NormalsPaneSettings) -> Self {
-        TracedSettings {
-            integrator: normals.into(),
-            device: DeviceChoice::default(),
-            adapter: 0,
-            spp,
-            sun_radius: None,
-        }
+        TracedSettings::new(normals.into(), spp)
     }
 }
 
@@ -139,32 +143,31 @@ impl Default for LightPaneSettings {
 
 impl From<PhotonPaneSettings> for TracedSettings {
     fn from(PhotonPaneSettings { photon, spp, sun_radius }: PhotonPaneSettings) -> Self {
-        TracedSettings { integrator: photon.into(), device: DeviceChoice::default(), adapter: 0, spp, sun_radius }
+        TracedSettings { sun_radius, ..TracedSettings::new(photon.into(), spp) }
     }
 }
 
 impl From<LightPaneSettings> for TracedSettings {
     fn from(LightPaneSettings { light, spp, sun_radius }: LightPaneSettings) -> Self {
-        TracedSettings { integrator: light.into(), device: DeviceChoice::default(), adapter: 0, spp, sun_radius }
+        TracedSettings { sun_radius, ..TracedSettings::new(light.into(), spp) }
     }
 }
 
 impl From<TruthSettings> for TracedSettings {
     fn from(TruthSettings { path, spp, sun_radius }: TruthSettings) -> Self {
-        TracedSettings { integrator: path.into(), device: DeviceChoice::default(), adapter: 0, spp, sun_radius }
+        TracedSettings { sun_radius, ..TracedSettings::new(path.into(), spp) }
     }
 }
 
 impl From<ChainSettings> for TracedSettings {
     fn from(ChainSettings { metropolis, spp, sun_radius }: ChainSettings) -> Self {
-        let integrator = metropolis.into();
-        TracedSettings { integrator, device: DeviceChoice::default(), adapter: 0, spp, sun_radius }
+        TracedSettings { sun_radius, ..TracedSettings::new(metropolis.into(), spp) }
     }
 }
 
 impl From<TreeSettings> for TracedSettings {
     fn from(TreeSettings { tree, spp, sun_radius }: TreeSettings) -> Self {
-        TracedSettings { integrator: tree.into(), device: DeviceChoice::default(), adapter: 0, spp, sun_radius }
+        TracedSettings { sun_radius, ..TracedSettings::new(tree.into(), spp) }
     }
 }
 

@@ -170,7 +170,8 @@ fn raster(args: &RenderArgs, scene: &Scene, fake: FakeSettings) -> anyhow::Resul
     if let Some(cut) = raster::cut(scene, &scene.camera, &settings) {
         note!("note: {cut}: a scene file that states neither cuts nothing");
     }
-    let rendered = Rendered { film, stats: Stats::default(), device: Device::Gpu, made_by: gpu.describe() };
+    let (device, made_by) = (Device::Gpu, gpu.describe());
+    let rendered = Rendered { film, features: None, stats: Stats::default(), device, made_by };
     Ok(Timed { rendered, seconds })
 }
 

@@ -138,11 +138,8 @@ impl<F: Float> Seen<F> {
     ) {
         let own = Vector::select(goes_on, Vector::zero(), at.colour);
         let shining = met & scene.shines(hit);
-        let colour = if shining.any() {
-            own + Vector::select(shining, scene.emitted(hit, at.wo), Vector::zero())
-        } else {
-            own
-        };
+        let colour =
+            if shining.any() { own + Vector::select(shining, scene.emitted(hit, at.wo), Vector::zero()) } else { own };
         self.show(met, colour);
         self.normal = Vector::select(met & !goes_on, at.normal, self.normal);
     }

@@ -1,6 +1,7 @@
 //! The rows, in the order in which files keep them.
 
 mod caustics;
+mod denoise;
 mod fake;
 mod metropolis;
 mod photon;
@@ -118,7 +119,13 @@ pub const OF_SCENES: &[Setting<SceneChanges>] = &[
 
 /// What a pane is set to.
 pub fn all_of_panes() -> impl Iterator<Item = &'static Setting<PaneSettings>> {
-    traced::ROWS.iter().chain(caustics::ROWS).chain(photon::ROWS).chain(metropolis::ROWS).chain(fake::ROWS)
+    traced::ROWS
+        .iter()
+        .chain(caustics::ROWS)
+        .chain(photon::ROWS)
+        .chain(metropolis::ROWS)
+        .chain(denoise::ROWS)
+        .chain(fake::ROWS)
 }
 
 /// How the paths of the technique in use walk.
