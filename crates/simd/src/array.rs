@@ -237,6 +237,10 @@ impl<const N: usize> Float for Floats<N> {
         Floats(self.0.map(f32::sqrt))
     }
     #[inline(always)]
+    fn mul_add(self, factor: Self, term: Self) -> Self {
+        self * factor + term
+    }
+    #[inline(always)]
     fn floor(self) -> Self {
         Floats(self.0.map(f32::floor))
     }

@@ -18,7 +18,7 @@ pub struct Doubles(__m256d, __m256d);
 pub struct Floats(__m256);
 
 /// Enters a kernel with the instructions that its operations need.
-#[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt")]
+#[target_feature(enable = "avx2,fma,bmi1,bmi2,lzcnt,popcnt")]
 pub fn run<K: Kernel>(kernel: K) -> K::Output {
     kernel.run::<Floats>()
 }
@@ -298,6 +298,10 @@ impl Float for Floats {
     #[inline(always)]
     fn sqrt(self) -> Self {
         Floats(op!(_mm256_sqrt_ps(self.0)))
+    }
+    #[inline(always)]
+    fn mul_add(self, factor: Self, term: Self) -> Self {
+        Floats(op!(_mm256_fmadd_ps(self.0, factor.0, term.0)))
     }
     #[inline(always)]
     fn floor(self) -> Self {

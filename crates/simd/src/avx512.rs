@@ -320,6 +320,10 @@ impl Float for Floats {
         Floats(op!(_mm512_sqrt_ps(self.0)))
     }
     #[inline(always)]
+    fn mul_add(self, factor: Self, term: Self) -> Self {
+        Floats(op!(_mm512_fmadd_ps(self.0, factor.0, term.0)))
+    }
+    #[inline(always)]
     fn floor(self) -> Self {
         Floats(op!(_mm512_roundscale_ps::<{ _MM_FROUND_TO_NEG_INF | _MM_FROUND_NO_EXC }>(self.0)))
     }

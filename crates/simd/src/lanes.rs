@@ -9,7 +9,7 @@ use std::sync::atomic::{AtomicU8, Ordering};
 pub enum Lanes {
     /// 16 lanes, x86-64 with AVX-512 F, BW, DQ and VL.
     Avx512,
-    /// 8 lanes, x86-64 with AVX2.
+    /// 8 lanes, x86-64 with AVX2 and FMA.
     Avx2,
     /// 4 lanes in plain arrays, anywhere.
     Array,
@@ -114,6 +114,7 @@ fn has_avx512() -> bool {
 #[cfg(target_arch = "x86_64")]
 fn has_avx2() -> bool {
     is_x86_feature_detected!("avx2")
+        && is_x86_feature_detected!("fma")
         && is_x86_feature_detected!("bmi1")
         && is_x86_feature_detected!("bmi2")
         && is_x86_feature_detected!("lzcnt")

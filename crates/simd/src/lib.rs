@@ -2,7 +2,7 @@
 //! machine has: 16 with AVX-512, 8 with AVX2, 4 in plain arrays anywhere, and one, which is `f32` itself.
 //!
 //! What runs is a [`Kernel`]; [`Lanes::run`] picks its instantiation at run time. Every operation is IEEE 754's or
-//! integer arithmetic and none is fused, so all backends give the same bits.
+//! integer arithmetic and none but [`Float::mul_add`] is fused, so all backends give the same bits.
 //!
 //! Unsafe code lives in this crate alone, in two places. The x86 backends call intrinsics: their types are private,
 //! values of them exist only inside a kernel that [`Lanes::run`] started, and it starts none whose instructions the
@@ -167,6 +167,9 @@ pub trait Float:
     fn abs(self) -> Self;
     /// Square root.
     fn sqrt(self) -> Self;
+    /// `self * factor + term`, rounded once with AVX2 and AVX-512, twice elsewhere: the one operation whose bits
+    /// depend on the lanes. For what states a tolerance; never for a picture that is to be the same everywhere.
+    fn mul_add(self, factor: Self, term: Self) -> Self;
     /// The largest integer not above.
     fn floor(self) -> Self;
     /// The smallest integer not below.

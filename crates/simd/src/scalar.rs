@@ -151,6 +151,10 @@ impl Float for f32 {
         f32::sqrt(self)
     }
     #[inline(always)]
+    fn mul_add(self, factor: Self, term: Self) -> Self {
+        self * factor + term
+    }
+    #[inline(always)]
     fn floor(self) -> Self {
         f32::floor(self)
     }

@@ -212,6 +212,35 @@ fn all_backends_give_the_same_bits() {
     }
 }
 
+/// The rounding of the product is all that may be missing: half a step of it, and of the sum.
+#[test]
+fn a_product_and_a_sum_are_as_near_as_two_roundings() {
+    struct MulAdd<'a>([&'a [f32]; 3]);
+    impl Kernel for MulAdd<'_> {
+        type Output = Vec<f32>;
+
+        #[inline(always)]
+        fn run<F: Float>(self) -> Vec<f32> {
+            let mut results = vec![0.0; self.0[0].len()];
+            for start in (0..results.len()).step_by(F::LANES) {
+                let [a, b, c] = self.0.map(|values| F::load(&values[start..]));
+                a.mul_add(b, c).store(&mut results[start..]);
+            }
+            results
+        }
+    }
+    let values =
+        |seed: u32| (0..256u32).map(|i| (i.wrapping_mul(0x9e37_79b9) ^ seed) as f32 / 2e9 - 1.0).collect::<Vec<_>>();
+    let [a, b, c] = [1, 0x5555, 0x1234_5678].map(values);
+    for lanes in Lanes::available() {
+        for (i, got) in lanes.run(MulAdd([&a, &b, &c])).into_iter().enumerate() {
+            let [a, b, c] = [a[i], b[i], c[i]].map(f64::from);
+            let bound = f64::from(f32::EPSILON) * ((a * b).abs() + (a * b + c).abs());
+            assert!((f64::from(got) - (a * b + c)).abs() <= bound, "{a} {b} {c} on {}: {got}", lanes.name());
+        }
+    }
+}
+
 #[test]
 fn names_are_read_back() {
     assert!(Lanes::ALL.iter().all(|&lanes| Lanes::named(lanes.name()) == Some(lanes)));
