@@ -1,0 +1,53 @@
+//! Denoising: from a picture of few samples and what is known of its pixels to one without noise, at the price of a bias.
+//! Two filters: the U-Net of Open Image Denoise ([`Network`]), and a-trous wavelets ([`a_trous`]); and [`trust`], which
+//! goes back from either to the samples as they become many.
+//!
+//! The networks' weights are Open Image Denoise's, published under Apache-2.0 (`assets/weights`). All runs on lanes, and
+//! sums are fused where the machine can: pictures agree to rounding, not to the bit, between machines of other lanes.
+
+mod convolution;
+mod network;
+mod oidn;
+mod planes;
+mod tiles;
+mod transfer;
+pub mod tza;
+
+pub use network::{Network, WeightsError};
+pub use tiles::MOST_PIXELS;
+
+use film::{Image, Vec3};
+
+/// Asked now and then from any thread: whether to stop.
+pub type Stop<'a> = &'a (dyn Fn() -> bool + Sync);
+
+/// What is known of each pixel beside its colour: means over its samples of what the first surface has that is no mirror
+/// and no glass.
+#[derive(Debug, Clone, Copy)]
+pub struct Features<'a> {
+    /// The share of light that it throws back, in [0, 1]; where nothing is hit, the radiance up to 1.
+    pub albedo: &'a [Vec3],
+    /// Its normal, 0 where nothing is hit.
+    pub normal: &'a [Vec3],
+}
+
+impl Features<'_> {
+    fn check(&self, color: &Image) -> Result<(), DenoiseError> {
+        let pixels = color.radiances().len();
+        if self.albedo.len() == pixels && self.normal.len() == pixels { Ok(()) } else { Err(DenoiseError::Size) }
+    }
+}
+
+/// Why there is no denoised picture.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+pub enum DenoiseError {
+    /// The layers of the picture are of several sizes.
+    #[error("colour and features have not as many pixels as each other")]
+    Size,
+    /// Somebody asked for it to stop.
+    #[error("stopped before the picture was denoised")]
+    Stopped,
+    /// There is not so much memory, in bytes.
+    #[error("not enough memory to denoise: {:.1} GiB are needed", *.0 as f64 / f64::from(1 << 30))]
+    Memory(usize),
+}
