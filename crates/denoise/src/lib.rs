@@ -39,11 +39,14 @@ impl Features<'_> {
 }
 
 /// Why there is no denoised picture.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum DenoiseError {
     /// The layers of the picture are of several sizes.
     #[error("colour and features have not as many pixels as each other")]
     Size,
+    /// The weights make no network.
+    #[error(transparent)]
+    Weights(#[from] WeightsError),
     /// Somebody asked for it to stop.
     #[error("stopped before the picture was denoised")]
     Stopped,

@@ -5,19 +5,22 @@ use pathtrace::{FeaturePass, Integrator, Tracer};
 use scene::Camera;
 
 /// Samples from which features are so clean that more would change nothing that a filter sees.
-const SAMPLES_OF_FEATURES: u32 = 16;
+const ENOUGH: u32 = 16;
+
+/// Samples with which they are made first: of fewer, what glass sends on by chance would be noise.
+const FEWEST: u32 = 4;
 
 impl Renderer {
-    /// What a film's pixels show, from as many samples as it has, up to what is enough; made anew when it has four times
-    /// as many as then.
+    /// What a film's pixels show, from few samples at first, and from enough once it has so many itself or is `finished`.
     pub(crate) fn make_features(
         &mut self,
         accumulation: &mut Accumulation,
         (camera, integrator): (&Camera, &Integrator),
+        finished: bool,
         watch: &impl Watch,
     ) {
-        let samples = accumulation.spp.clamp(1, SAMPLES_OF_FEATURES);
-        if accumulation.features.as_ref().is_some_and(|(made_from, _)| made_from.saturating_mul(4) > samples) {
+        let samples = if finished || accumulation.spp >= ENOUGH { ENOUGH } else { FEWEST };
+        if accumulation.features.as_ref().is_some_and(|(made_from, _)| *made_from >= samples) {
             return;
         }
         let film = accumulation.film();

@@ -67,7 +67,11 @@ const SCENE_HASH: &str = "scene.hash";
 pub const OWN_FOV: &str = "camera.fov";
 
 /// Records that say what a picture took or where it was, and are no options of `visavis render`.
-const NO_OPTIONS: [&str; 8] = ["records", "version", "scene", SCENE_HASH, "adapter", "seconds", "command", OWN_FOV];
+const NO_OPTIONS: [&str; 9] =
+    ["records", "version", "scene", SCENE_HASH, "adapter", "seconds", "command", OWN_FOV, WEIGHTS];
+
+/// The record's name of the weights that a picture was denoised by.
+const WEIGHTS: &str = "denoise.weights";
 
 /// Records that say how far a picture is from another begin with this.
 const MEASURED: &str = "error.";
@@ -121,6 +125,7 @@ impl Provenance {
         // the fake does not see the sun's radius, but what it is compared with does
         records.extend(changes.options());
         records.extend(self.technique.options(spp));
+        records.extend(self.technique.denoiser().weights().map(|weights| (WEIGHTS, weights)));
         records.push(("exposure", exposure.to_string()));
         records.push(("command", self.command(spp, exposure, "picture.png")));
         records

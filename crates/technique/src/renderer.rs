@@ -2,7 +2,8 @@
 //! replaced by the processor, which goes on from the film as it was last read; nowhere else is the loss of a device that
 //! traces rays dealt with.
 
-use crate::{Accumulation, Backend, Device, Rank, Threads};
+use crate::{Accumulation, Backend, Denoised, Denoiser, Device, Rank, Threads};
+use denoise::DenoiseError;
 use film::{Features, Film};
 use pathtrace::gpu::GpuTraceError;
 use pathtrace::{Integrator, Stats, Tracer};
@@ -40,6 +41,8 @@ pub struct Frame<'a> {
     pub film: &'a Film,
     /// What the pixels show, where [`Watch::wants_features`]; of a rough picture it is not made.
     pub features: Option<&'a Features>,
+    /// The film as the denoiser that [`Watch::denoiser`] asks for leaves it, or why there is no memory for that.
+    pub denoised: Option<Result<Denoised, DenoiseError>>,
     /// Samples and rays that it took so far.
     pub stats: Stats,
     /// Seconds that tracing has taken so far.
@@ -68,7 +71,12 @@ pub trait Watch: Sync {
 
     /// Whether frames shall come with what denoisers are guided by.
     fn wants_features(&self) -> bool {
-        false
+        self.denoiser() != Denoiser::Off
+    }
+
+    /// What frames shall go through before they are shown.
+    fn denoiser(&self) -> Denoiser {
+        Denoiser::Off
     }
 
     /// Whether to wait where the film is.
@@ -286,10 +294,12 @@ impl Renderer {
             watch.told_of_loss(&fault, accumulation.spp);
         }
         if watch.wants_features() {
-            self.make_features(accumulation, how, watch);
+            self.make_features(accumulation, how, accumulation.spp >= wished, watch);
         }
-        if accumulation.spp > 0 {
-            watch.show(self.frame(accumulation, [false, accumulation.spp < wished]));
+        let denoised = self.denoised(accumulation, watch.denoiser(), &|| watch.ends_now());
+        if accumulation.spp > 0 && !matches!(denoised, Some(Err(DenoiseError::Stopped))) {
+            let frame = self.frame(accumulation, [false, accumulation.spp < wished]);
+            watch.show(Frame { denoised, ..frame });
         }
     }
 
@@ -298,6 +308,7 @@ impl Renderer {
         Frame {
             film: accumulation.film(),
             features: accumulation.features.as_ref().map(|(_, features)| features),
+            denoised: None,
             stats: accumulation.stats(),
             seconds: accumulation.spent.as_secs_f64(),
             made_by: accumulation.made_by(),
@@ -315,6 +326,8 @@ pub struct Rendered {
     pub film: Film,
     /// What the pixels show, where it was asked for.
     pub features: Option<Features>,
+    /// The film as a denoiser leaves it, where one was asked for, or why there is no memory for that.
+    pub denoised: Option<Result<Denoised, DenoiseError>>,
     /// Rays and samples that it took.
     pub stats: Stats,
     /// What it was made by in the end.
@@ -325,12 +338,13 @@ pub struct Rendered {
 
 impl Renderer {
     /// Makes a picture from the beginning to the end, wherever it was made in the end: what a device loses is made again,
-    /// unless it is too late. `accumulation` is blank.
+    /// unless it is too late; then it goes through a denoiser. `accumulation` is blank.
     pub fn finish(
         mut self,
         mut accumulation: Accumulation,
         camera: &Camera,
         wanted: (&Integrator, u32),
+        denoiser: Denoiser,
         watch: &impl Watch,
     ) -> Rendered {
         loop {
@@ -343,11 +357,12 @@ impl Renderer {
                 break;
             }
         }
-        if watch.wants_features() {
-            self.make_features(&mut accumulation, (camera, wanted.0), watch);
+        if denoiser != Denoiser::Off || watch.wants_features() {
+            self.make_features(&mut accumulation, (camera, wanted.0), true, watch);
         }
+        let denoised = self.denoised(&accumulation, denoiser, &|| watch.ends_now());
         let (device, made_by) = (self.device(), accumulation.made_by());
         let features = accumulation.features.take().map(|(_, features)| features);
-        Rendered { stats: accumulation.stats(), film: accumulation.into_film(), features, device, made_by }
+        Rendered { stats: accumulation.stats(), film: accumulation.into_film(), features, denoised, device, made_by }
     }
 }

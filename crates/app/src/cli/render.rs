@@ -17,8 +17,8 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 use technique::settings::{OF_SCENES, Setting, Value, all_of_panes};
 use technique::{
-    Accumulation, Backend, BlindSpot, Device, DeviceChoice, FakeSettings, Frame, INSTEAD, Made, Pacing, PaneSettings,
-    Provenance, Rendered, Renderer, Shot, Technique, Threads, TracedSettings, Watch,
+    Accumulation, Backend, BlindSpot, Denoised, Denoiser, Device, DeviceChoice, FakeSettings, Frame, INSTEAD, Made,
+    Pacing, PaneSettings, Provenance, Rendered, Renderer, Shot, Technique, Threads, TracedSettings, Watch,
 };
 
 /// Samples per pixel where neither --spp nor --time says how many.
@@ -53,12 +53,18 @@ pub fn run(args: &mut RenderArgs) -> anyhow::Result<()> {
         Technique::Fake(fake) => raster(args, &fake.applied_to(&scene), fake)?,
         Technique::Traced(traced) => trace(args, &shot, traced)?,
     };
-    let image = rendered.film.image();
-    let measured = args.errors.then(|| measure(&shot, &image)).transpose();
+    let (image, before) = match &rendered.denoised {
+        Some(Ok(denoised)) => (denoised.image.clone(), Some(rendered.film.image())),
+        Some(Err(_)) | None => (rendered.film.image(), None),
+    };
+    let measured = args.errors.then(|| measure(&shot, (&image, before.as_ref()))).transpose();
     save(args, shot, (&rendered, seconds), &image, measured.as_ref().ok().and_then(Option::as_ref))?;
     let out = image_file::shown(&args.out);
     let made = spp_made(args, rendered.film.samples_per_pixel());
     let errors = measured.with_context(|| format!("{made} are saved, without their errors: {out}"))?;
+    if let Some(Err(fault)) = &rendered.denoised {
+        anyhow::bail!("{made} are saved, not denoised ({fault}): {out}");
+    }
     if rendered.film.nonfinite > 0 {
         note!(
             "visavis: {} samples were not finite and are left out: please report this scene",
@@ -83,10 +89,17 @@ pub fn run(args: &mut RenderArgs) -> anyhow::Result<()> {
         if let Some(line) = chains(&rendered.stats.chains, args.pane.metropolis.metropolis.chains) {
             note!("{line}");
         }
-        if let Some(e) = errors {
+        if let Some(Ok(Denoised { seconds, .. })) = &rendered.denoised {
+            note!(
+                "denoised by {} in {seconds:.2} s: no truth any more, however many samples",
+                technique.denoiser().name()
+            );
+        }
+        if let Some(Measured { errors: e, before }) = errors {
             let noise = noise_line(&e).map_or_else(String::new, |line| format!(", noise {line}"));
             let (words, rel_mse, rmse) = (error_words(&e, None).join(", "), brief(e.rel_mse), brief(e.rmse));
-            note!("against the reference: {words}; relMSE {rel_mse}, RMSE {rmse}{noise}");
+            let before = before.map_or_else(String::new, |e| format!(", before denoising relMSE {}", brief(e.rel_mse)));
+            note!("against the reference: {words}; relMSE {rel_mse}, RMSE {rmse}{noise}{before}");
         }
     }
     anyhow::ensure!(!interrupt::is_asked(), "{made} are saved: {out}");
@@ -107,8 +120,17 @@ fn spp_made(args: &RenderArgs, made: u32) -> String {
 }
 
 /// How far a finished picture is from the reference of what it shows.
-fn measure(shot: &Shot, image: &Image) -> anyhow::Result<Errors> {
-    Ok(reference::obtain(shot, None)?.errors(image)?)
+struct Measured {
+    errors: Errors,
+    /// And how far before it was denoised.
+    before: Option<Errors>,
+}
+
+/// Measures a picture, and what it was before it was denoised.
+fn measure(shot: &Shot, (image, before): (&Image, Option<&Image>)) -> anyhow::Result<Measured> {
+    let reference = reference::obtain(shot, None)?;
+    let before = before.map(|before| reference.errors(before)).transpose()?;
+    Ok(Measured { errors: reference.errors(image)?, before })
 }
 
 fn save(
@@ -116,13 +138,16 @@ fn save(
     shot: Shot,
     (rendered, seconds): (&Rendered, f64),
     image: &Image,
-    errors: Option<&Errors>,
+    errors: Option<&Measured>,
 ) -> anyhow::Result<()> {
-    let provenance = Provenance { shot, technique: args.pane.in_use(), device: rendered.device };
+    let mut provenance = Provenance { shot, technique: args.pane.in_use(), device: rendered.device };
+    if let (Some(Err(_)), Technique::Traced(traced)) = (&rendered.denoised, &mut provenance.technique) {
+        traced.denoiser = Denoiser::Off;
+    }
     let made =
         Made { spp: rendered.film.samples_per_pixel(), seconds, adapter: &rendered.made_by, exposure: args.exposure };
     let mut records = provenance.records(made);
-    records.extend(errors.into_iter().flat_map(|e| error_records(e, "reference".into())));
+    records.extend(errors.into_iter().flat_map(|e| error_records(&e.errors, "reference".into())));
     let kind = Kind::of(&args.out).context("a picture's name must end in .png or .exr")?;
     let bytes = image_file::encode(kind, image, &DisplayTransform { exposure: args.exposure }, &records)?;
     Ok(image_file::write_or_keep(&args.out, &bytes)?)
@@ -171,7 +196,7 @@ fn raster(args: &RenderArgs, scene: &Scene, fake: FakeSettings) -> anyhow::Resul
         note!("note: {cut}: a scene file that states neither cuts nothing");
     }
     let (device, made_by) = (Device::Gpu, gpu.describe());
-    let rendered = Rendered { film, features: None, stats: Stats::default(), device, made_by };
+    let rendered = Rendered { film, features: None, denoised: None, stats: Stats::default(), device, made_by };
     Ok(Timed { rendered, seconds })
 }
 
@@ -197,7 +222,8 @@ fn trace(args: &RenderArgs, shot: &Shot, traced: TracedSettings) -> anyhow::Resu
         at_risk: if backend.fails_on_purpose() { Duration::ZERO } else { AT_RISK },
     };
     let renderer = Renderer::new(scene, backend, Arc::new(Threads::all()));
-    let rendered = renderer.finish(blank, &shot.camera, (&traced.integrator, spp), &watch);
+    let rendered =
+        renderer.finish(blank, &shot.camera, (&traced.integrator, spp), args.pane.in_use().denoiser(), &watch);
     watch.clear();
     Ok(Timed { rendered, seconds: start.elapsed().as_secs_f64() })
 }
@@ -261,7 +287,7 @@ fn report(
     args: &RenderArgs,
     scene: &Scene,
     (rendered, seconds): (&Rendered, f64),
-    errors: Option<&Errors>,
+    measured: Option<&Measured>,
 ) -> serde_json::Value {
     let technique = args.pane.technique;
     let per_second = |count: u64| count as f64 / seconds;
@@ -301,7 +327,13 @@ fn report(
             }
         }
     }
-    if let Some(e) = errors {
+    if let Some(Ok(Denoised { seconds, .. })) = &rendered.denoised {
+        let before = measured.and_then(|measured| measured.before).map(|e| e.rel_mse);
+        report["denoised"] = json!({
+            "by": args.pane.in_use().denoiser().name(), "seconds": seconds, "relmse_before": before,
+        });
+    }
+    if let Some(Measured { errors: e, .. }) = measured {
         report["errors"] = json!({
             "against": "reference", "rmse": e.rmse, "relmse": e.rel_mse, "mae": e.mae, "bias": e.bias,
             "relative_mae": e.relative_mae, "relative_bias": e.relative_bias, "reference_noise": e.reference_noise,

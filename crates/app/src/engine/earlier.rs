@@ -47,7 +47,9 @@ impl Earlier {
 fn is_same_picture(a: &Order, b: &Order) -> bool {
     let how = |order: &Order| match order.provenance.technique {
         Technique::Fake(_) => None,
-        Technique::Traced(traced) => Some((traced.integrator, traced.sun_radius, order.view, order.restarts)),
+        Technique::Traced(traced) => {
+            Some((traced.integrator, traced.sun_radius, traced.denoiser, order.view, order.restarts))
+        }
     };
     how(a).is_some() && how(a) == how(b)
 }
@@ -68,6 +70,7 @@ mod tests {
         let own_camera = shot.camera;
         let provenance = Arc::new(Provenance { shot, technique: settings.in_use(), device: Device::Cpu });
         Picture {
+            before: None,
             image: Image::new(1, 1, [Vec3::splat(spp as f32)]).unwrap(),
             spp: (technique != TechniqueName::Raster).then_some(spp),
             seconds: 0.0,

@@ -258,6 +258,7 @@ impl JobInHand<'_> {
         let compiling = if compiled { Compiling::Included } else { Compiling::Apart(stage.compiling) };
         let picture = Picture {
             image: film.image(),
+            before: None,
             spp: None,
             seconds,
             effort: Effort::Drawn(Drawing { compiling, kept_maps: work.kept_maps, at_rest }),

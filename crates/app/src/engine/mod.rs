@@ -39,6 +39,8 @@ use technique::{Device, Provenance};
 pub struct Picture {
     /// Smaller than asked for in a rough first picture.
     pub image: Image,
+    /// What it was before it was denoised, and how long that took; `None` where the picture is what was rendered.
+    pub before: Option<Undenoised>,
     /// Samples per pixel; `None` for a technique that does not sample.
     pub spp: Option<u32>,
     /// Seconds of rendering.
@@ -61,6 +63,15 @@ pub struct Picture {
     pub unfinished: bool,
     /// What it was made for.
     pub order: Order,
+}
+
+/// What a denoised picture was before.
+#[derive(Debug, Clone)]
+pub struct Undenoised {
+    /// The mean of the samples.
+    pub image: Image,
+    /// Seconds that the filter took.
+    pub seconds: f64,
 }
 
 /// A picture to make: how, and all the rest.

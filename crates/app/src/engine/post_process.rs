@@ -10,7 +10,7 @@ use super::{Order, Picture, Wake};
 use crate::model::{Against, Comparison, ErrorMapJob, MapWish, PaneId, Panes};
 use crate::ruler::{Noise, Pair, ReferenceImage};
 use compare::{Errors, errors};
-use film::DisplayTransform;
+use film::{DisplayTransform, Image};
 use std::sync::Arc;
 
 /// A picture ready for the screen.
@@ -22,6 +22,8 @@ pub struct DisplayFrame {
     pub rgba: Option<Vec<u8>>,
     /// What it is compared with, and how far it is from that; `None` unless that is there at the same size.
     pub errors: Option<(Against, Errors)>,
+    /// How far it was from that before it was denoised; `None` unless it was.
+    pub errors_before: Option<Errors>,
 }
 
 /// What is new for one pane.
@@ -143,11 +145,12 @@ impl Service for Latest {
     fn serve(&mut self, pending: Pending, control: &Control<Pending, PaneUpdates>) {
         let redevelop = pending.display.is_some();
         let (fresh, faults) = self.sort(pending);
-        let errors = self.errors();
+        let (errors, before) = (self.errors(|picture| Some(&picture.image)), self.errors(undenoised));
         let resolve = |(pane, picture): (PaneId, &Picture)| {
             let new = redevelop || fresh.get(pane).is_some();
             let rgba = new.then(|| self.display.rgba8_of(&picture.image));
-            (pane, DisplayFrame { picture: picture.clone(), rgba, errors: errors.get(pane).copied() })
+            let errors_before = before.get(pane).map(|(_, errors)| *errors);
+            (pane, DisplayFrame { picture: picture.clone(), rgba, errors: errors.get(pane).copied(), errors_before })
         };
         // all at once: the error of one belongs to the picture of the other
         let frames: Panes<DisplayFrame> = self.latest.iter().map(resolve).collect();
@@ -201,16 +204,17 @@ impl Latest {
         (fresh, faults)
     }
 
-    /// How far each pane is from what judges it, where both show one view at one size.
-    fn errors(&self) -> Panes<(Against, Errors)> {
+    /// How far what each pane has is from what judges it, where both show one view at one size.
+    fn errors(&self, of: impl Fn(&Picture) -> Option<&Image>) -> Panes<(Against, Errors)> {
         let measured = |comparison: &Comparison| {
             let picture = self.latest.get(comparison.of)?;
+            let image = of(picture)?;
             let errors = match comparison.against {
                 Against::Pane(judge) => {
                     let judge = self.latest.get(judge).filter(|judge| comparable(picture, judge))?;
-                    errors(&picture.image, &judge.image).ok()?
+                    errors(image, &judge.image).ok()?
                 }
-                Against::Reference => self.reference_of(picture)?.errors(&picture.image).ok()?,
+                Against::Reference => self.reference_of(picture)?.errors(image).ok()?,
             };
             Some((comparison.of, (comparison.against, errors)))
         };
@@ -278,6 +282,10 @@ fn shelve(updates: &mut PaneUpdates, pane: PaneId, mut new: DisplayFrame) {
         new.rgba = old.rgba.take();
     }
     updates.insert(pane, PaneUpdate::Picture(Box::new(new)));
+}
+
+fn undenoised(picture: &Picture) -> Option<&Image> {
+    picture.before.as_ref().map(|before| &before.image)
 }
 
 fn comparable(a: &Picture, b: &Picture) -> bool {

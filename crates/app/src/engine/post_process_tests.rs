@@ -21,6 +21,7 @@ fn picture(view: u64) -> Picture {
     let order = order(view, view);
     Picture {
         image: pixel(view as f32),
+        before: None,
         spp: None,
         seconds: 0.0,
         effort: Effort::Traced(pathtrace::Stats::default()),

@@ -2,11 +2,14 @@
 
 use super::post_process::PostProcess;
 use super::worker::{Control, Service, Worker};
-use super::{FAULT, Job, Order, Picture, step_back};
+use super::{FAULT, Job, Order, Picture, Undenoised, step_back};
 use crate::model::{Effort, PaneId};
 use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Duration;
-use technique::{Adapters, Frame, NoMemory, Pacing, ProgressiveRenderer, Request, Threads, TracedSettings, Watch};
+use technique::{
+    Adapters, Denoised, Denoiser, Frame, NoMemory, Pacing, ProgressiveRenderer, Request, Threads, TracedSettings, Watch,
+};
 
 /// A picture to make.
 pub type RayJob = Job<TracedSettings>;
@@ -88,6 +91,7 @@ impl Service for Rays {
             has_noise_source: job.settings.noise_source(job.order.scene()).is_some(),
             control,
             post_process: &self.post_process,
+            filtering: AtomicU64::new(0),
         };
         if let Err(NoMemory) = self.renderer.render(&request_of(&job), &watch) {
             let (width, height) = job.order.size();
@@ -117,6 +121,8 @@ struct PaneWatch<'a> {
     has_noise_source: bool,
     control: &'a Control<Option<RayJob>, ()>,
     post_process: &'a PostProcess,
+    /// Milliseconds that the denoiser took last.
+    filtering: AtomicU64,
 }
 
 impl Watch for PaneWatch<'_> {
@@ -136,22 +142,41 @@ impl Watch for PaneWatch<'_> {
         self.control.wait();
     }
 
+    fn denoiser(&self) -> Denoiser {
+        self.order.provenance.technique.denoiser()
+    }
+
     fn pacing(&self, spent: Duration) -> Pacing {
         let refresh = (spent / 8).clamp(REFRESH[0], REFRESH[1]);
-        Pacing { pass: refresh, show: refresh, growth: 1 }
+        // a denoiser has half of the time at most
+        let show = refresh.max(Duration::from_millis(self.filtering.load(Ordering::Relaxed)));
+        Pacing { pass: refresh, show, growth: 1 }
     }
 
     fn show(&self, frame: Frame) {
         let film = frame.film;
+        let mut refused = frame.refused;
+        let (image, before) = match frame.denoised {
+            Some(Ok(Denoised { image, seconds })) => {
+                self.filtering.store((1000.0 * seconds) as u64, Ordering::Relaxed);
+                (image, Some(Undenoised { image: film.image(), seconds }))
+            }
+            Some(Err(fault)) => {
+                refused = Some(format!("not denoised: {fault}").into());
+                (film.image(), None)
+            }
+            None => (film.image(), None),
+        };
         let picture = Picture {
-            image: film.image(),
+            image,
             spp: Some(film.samples_per_pixel()),
             seconds: frame.seconds,
             effort: Effort::Traced(frame.stats),
-            noisy: self.has_noise_source && !frame.rough && compare::is_visibly_noisy(film),
+            noisy: self.has_noise_source && !frame.rough && before.is_none() && compare::is_visibly_noisy(film),
             nonfinite: film.nonfinite,
             adapter: frame.made_by.into(),
-            refused: frame.refused,
+            refused,
+            before,
             cut: None,
             rough: frame.rough,
             unfinished: frame.unfinished,

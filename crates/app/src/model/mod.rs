@@ -49,7 +49,7 @@ pub use theme::Theme;
 pub use ui_state::{SwitchedOff, UiState};
 pub use view::{Line, View};
 pub use view_args::ViewArgs;
-pub use view_model::{PaneView, ViewModel};
+pub use view_model::{Denoising, PaneView, ViewModel};
 pub use wanted::{Wanted, WantedPane};
 
 use scene::{Needs, Scene};

@@ -39,6 +39,8 @@ pub struct PaneView {
     pub unfinished: bool,
     /// What it is compared with, and how far it is from that.
     pub errors: Option<(Against, Errors)>,
+    /// What taking out its noise took, and how far off it was before.
+    pub denoised: Option<Denoising>,
     /// How far it was from that while it was made.
     pub history: ErrorHistory,
     /// What made it: a device's name, or a number of threads.
@@ -51,6 +53,15 @@ pub struct PaneView {
     pub cut: Option<Arc<str>>,
     /// What the history is of.
     pub(crate) course: Option<Course>,
+}
+
+/// What is known of a denoised picture's denoising.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Denoising {
+    /// Seconds that the filter took.
+    pub seconds: f64,
+    /// How far the picture was before from what it is compared with.
+    pub errors_before: Option<Errors>,
 }
 
 /// What errors must have in common to be points of one curve: the picture, but for its number of samples, and what

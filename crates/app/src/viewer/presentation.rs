@@ -5,7 +5,9 @@ use crate::engine::Picture;
 use crate::engine::export::Content;
 use crate::engine::post_process::{DisplayFrame, PaneUpdate, PaneUpdates};
 use crate::engine::thumbnails::Thumbnail;
-use crate::model::{Against, ComparisonSettings, ErrorMap, Model, PaneId, PaneView, Panes, ViewModel, Wanted};
+use crate::model::{
+    Against, ComparisonSettings, Denoising, ErrorMap, Model, PaneId, PaneView, Panes, ViewModel, Wanted,
+};
 use crate::ruler::error_records;
 use crate::ui::Textures;
 use egui::{TextureFilter, TextureId};
@@ -74,7 +76,7 @@ impl Presentation {
     }
 
     fn put_up(&mut self, pane: PaneId, frame: DisplayFrame, textures: &mut impl TextureStore) {
-        let DisplayFrame { picture, rgba, errors } = frame;
+        let DisplayFrame { picture, rgba, errors, errors_before } = frame;
         let shown = self.shown.panes.entry(pane);
         if let Some(rgba) = &rgba {
             let texture = textures.upload(Place::Pane(pane), picture.image.size(), rgba, filter_of(&picture));
@@ -89,6 +91,7 @@ impl Presentation {
         (shown.rough, shown.unfinished) = (picture.rough, picture.unfinished);
         shown.shrink = picture.order.size().0.div_ceil(picture.image.width().max(1)) * picture.order.shrink;
         shown.errors = errors;
+        shown.denoised = picture.before.as_ref().map(|before| Denoising { seconds: before.seconds, errors_before });
         self.pictures.insert(pane, picture);
     }
 

@@ -30,15 +30,25 @@ fn order(technique: TechniqueName) -> &'static [&'static str] {
             "segments",
         ],
         TechniqueName::Whitted => {
-            &["depth", "glass-shadows", "ambient", "traced-sun", "spp", "shadow-rays", "sampler", "seed"]
+            &["depth", "glass-shadows", "ambient", "traced-sun", "spp", "denoise", "shadow-rays", "sampler", "seed"]
         }
-        TechniqueName::Photon => {
-            &["photon-picture", "photons", "radius", "alpha", "direct-light", "spp", "traced-sun", "sampler", "seed"]
-        }
-        TechniqueName::LightTracing => &["photons", "spp", "traced-sun", "sampler", "seed"],
+        TechniqueName::Photon => &[
+            "photon-picture",
+            "photons",
+            "radius",
+            "alpha",
+            "direct-light",
+            "spp",
+            "denoise",
+            "traced-sun",
+            "sampler",
+            "seed",
+        ],
+        TechniqueName::LightTracing => &["photons", "spp", "denoise", "traced-sun", "sampler", "seed"],
         TechniqueName::Metropolis => &[
             "estimator",
             "spp",
+            "denoise",
             "connections",
             "chains",
             "large-step",
@@ -51,7 +61,7 @@ fn order(technique: TechniqueName) -> &'static [&'static str] {
         ],
         TechniqueName::Normals => &["space", "spp", "sampler", "seed"],
         TechniqueName::Path => {
-            &["estimator", "spp", "connections", "bounces", "branches", "roulette", "sampler", "seed"]
+            &["estimator", "spp", "denoise", "connections", "bounces", "branches", "roulette", "sampler", "seed"]
         }
     }
 }
