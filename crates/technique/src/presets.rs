@@ -148,6 +148,34 @@ pub const ALL: &[Preset] = &[
         technique: Path,
         settings: &[("bounces", "inf"), ("roulette", "throughput"), ("spp", "256")],
     },
+    Preset {
+        name: "1-spp",
+        title: "Path tracing, 1 spp",
+        about: "One path of each pixel, and nothing else",
+        technique: Path,
+        settings: &[("spp", "1")],
+    },
+    Preset {
+        name: "denoised-1-spp",
+        title: "Path tracing, 1 spp, denoised",
+        about: "The same path of each pixel, and a network that has seen many pictures",
+        technique: Path,
+        settings: &[("spp", "1"), ("denoise", "unet")],
+    },
+    Preset {
+        name: "512-spp",
+        title: "Path tracing, 512 spp",
+        about: "512 paths of each pixel",
+        technique: Path,
+        settings: &[("spp", "512")],
+    },
+    Preset {
+        name: "denoised-512-spp",
+        title: "Path tracing, 512 spp, denoised",
+        about: "The same paths and a network: smoother, and no nearer to the truth",
+        technique: Path,
+        settings: &[("spp", "512"), ("denoise", "unet")],
+    },
 ];
 
 /// The tutorial's random numbers, whose error falls like 1 / sqrt(spp).

@@ -357,6 +357,24 @@ pub const POINTS: &[Point] = &[
         ],
     },
     Point {
+        name: "denoising, 1 spp",
+        ways: &[
+            Way { name: SLIDE, steps: &[Click("slides"), Click("slide denoise-1")] },
+            Way {
+                name: BY_HAND,
+                steps: &[
+                    SCENE,
+                    IN_CORNELL,
+                    Click("A path"),
+                    Type("A spp", "1"),
+                    Type("B spp", "1"),
+                    Click("B denoise unet"),
+                ],
+            },
+        ],
+        shows: &[Sign::Value("B denoise unet", "true"), Sign::Samples("a", 1), Sign::Samples("b", 1)],
+    },
+    Point {
         name: "importance sampling: MIS against the light alone",
         ways: &[Way { name: BY_HAND, steps: &[SCENE, IN_CORNELL, Click("A path"), Click("B estimator mis")] }],
         shows: &[Sign::Value("B estimator mis", "true"), Sign::Samples("b", 1), Sign::Newest],

@@ -117,6 +117,20 @@ pub const SLIDES: &[Slide] = &[
     slide("2f-1-4", "2 f) 1 and 4 spp", "Four times the samples halve the noise", "cornell", ["2f-1-spp", "2f-4-spp"]),
     slide("2f-4-16", "2 f) 4 and 16 spp", "And halve it again", "cornell", ["2f-4-spp", "2f-16-spp"]),
     slide("2f-1-16", "2 f) 1 and 16 spp", "A quarter of the noise", "cornell", ["2f-1-spp", "2f-16-spp"]),
+    slide(
+        "denoise-1",
+        "Denoising 1 spp",
+        "The same samples, raw and through a network: what it makes up, the reference tells",
+        "cornell",
+        ["1-spp", "denoised-1-spp"],
+    ),
+    slide(
+        "denoise-512",
+        "512 spp without and with a denoiser",
+        "Where there are samples enough, the filter's bias is the larger error",
+        "cornell",
+        ["512-spp", "denoised-512-spp"],
+    ),
 ];
 
 impl Slide {

@@ -4,6 +4,7 @@
 
 mod bench;
 mod changed_scenes;
+mod denoising;
 mod device;
 mod files;
 mod films;

@@ -4,6 +4,7 @@
 
 mod camera;
 mod comparison;
+mod denoising;
 mod device;
 mod export;
 mod files;

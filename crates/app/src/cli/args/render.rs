@@ -100,7 +100,7 @@ pub fn options() -> Vec<CommandOption<Reading>> {
             value: "NAME",
             help: "a technique with the settings of a slide, which other options change: as-taught, fair, phong, blinn-phong, \
                    whitted-1980, 2b-uniform, naive, naive-4, 2c-light, 2e-0-bounces, 2e-1-bounce, 2e-2-bounces, complete, \
-                   2f-1-spp, 2f-4-spp, 2f-16-spp or unlimited",
+                   2f-1-spp, 2f-4-spp, 2f-16-spp, unlimited, 1-spp, denoised-1-spp, 512-spp or denoised-512-spp",
             read: |reading, parser| {
                 let names: Vec<_> = presets::ALL.iter().map(|preset| preset.name).collect();
                 let preset = choice(parser, "--preset", Preset::named, &names.join(", "))?;

@@ -1,0 +1,32 @@
+//! A filter between a pane's film and the screen.
+
+use super::{User, both_whole};
+use technique::Denoiser;
+use visavis::model::PaneId;
+use visavis_tests::Frame;
+
+fn lines<'a>(frame: &'a Frame, pane: &str) -> Vec<&'a str> {
+    frame.value(&format!("label {pane}")).lines().collect()
+}
+
+fn denoising<'a>(frame: &'a Frame, pane: &str) -> Option<&'a str> {
+    lines(frame, pane).into_iter().find(|line| line.starts_with("denoised by "))
+}
+
+#[test]
+fn a_denoised_picture_says_so_and_how_far_off_it_was_before() {
+    let mut user = User::of("cornell");
+    user.wait_for("both pictures", both_whole);
+    user.click_nth("Path", 0);
+    user.viewer.borrow_mut().model.session.panes[PaneId::B].denoiser = Denoiser::Unet;
+    let shown = user.wait_for("a denoised picture", |f| {
+        both_whole(f) && denoising(f, "B").is_some_and(|line| line.contains("before"))
+    });
+    let line = denoising(&shown, "B").expect("a line");
+    assert!(line.starts_with("denoised by unet in ") && line.contains(" (biased), relMSE "), "{line}");
+    assert_eq!(denoising(&shown, "A"), None, "the other is not");
+    assert_eq!(lines(&shown, "B")[0], "B: Path tracing, denoised by unet (biased)");
+    // without it the same samples are there at once, and nothing is said
+    user.viewer.borrow_mut().model.session.panes[PaneId::B].denoiser = Denoiser::Off;
+    user.wait_for("the samples' mean", |f| both_whole(f) && denoising(f, "B").is_none());
+}
