@@ -1,16 +1,18 @@
 //! Denoising: from a picture of few samples and what is known of its pixels to one without noise, at the price of a bias.
-//! Two filters: the U-Net of Open Image Denoise ([`Network`]), and a-trous wavelets ([`a_trous`]); and [`trust`], which
+//! Two filters: the U-Net of Open Image Denoise ([`Network`]), and a-trous wavelets ([`mod@a_trous`]); and [`mod@trust`], which
 //! goes back from either to the samples as they become many.
 //!
 //! The networks' weights are Open Image Denoise's, published under Apache-2.0 (`assets/weights`). All runs on lanes, and
 //! sums are fused where the machine can: pictures agree to rounding, not to the bit, between machines of other lanes.
 
+pub mod a_trous;
 mod convolution;
 mod network;
 mod oidn;
 mod planes;
 mod tiles;
 mod transfer;
+pub mod trust;
 pub mod tza;
 
 pub use network::{Network, WeightsError};
