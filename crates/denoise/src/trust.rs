@@ -2,8 +2,8 @@
 //! positive-part James-Stein estimator's w. Around a pixel, in 7 x 7 pixels of three values, N - D is noise if D is right,
 //! and its square about as large as the variance of N says; what is larger is D's bias, and N is worth more.
 //!
-//! D must not know N's noise. Half of the samples give D, the other half N, both ways, and the mean of both is the
-//! picture. As samples become many w tends to 1, and the picture to the truth.
+//! D must not know N's noise. One part of the samples gives D, the other N, both ways, and the mean of both by the samples
+//! of N is the picture. As samples become many w tends to 1, and the picture to the truth.
 
 use film::{Image, Vec3};
 use rayon::prelude::*;
@@ -19,17 +19,17 @@ pub const LEAST_SAMPLES: u32 = 4;
 /// Variance below this share of a value's square is taken for this much: nothing is divided by 0.
 const LEAST_VARIANCE: f32 = 1e-12;
 
-/// Samples of a picture in two halves, and what a denoiser makes of each.
+/// Samples of a picture in two parts, best halves, and what a denoiser makes of each.
 #[derive(Debug, Clone, Copy)]
-pub struct Halves<'a> {
-    /// Means of one and of the other half of the samples.
+pub struct Parts<'a> {
+    /// Means of one and of the other part of the samples.
     pub noisy: [&'a Image; 2],
     /// Each of them denoised by itself.
     pub denoised: [&'a Image; 2],
-    /// Variance of the mean of all samples; a half's is twice that.
+    /// Variance of the mean of all samples; that of half of them is twice as much.
     pub variance: &'a [Vec3],
-    /// All samples of a pixel.
-    pub samples: u32,
+    /// Samples of a pixel in each part.
+    pub samples: [u32; 2],
 }
 
 /// What comes of it.
@@ -41,33 +41,44 @@ pub struct Trusted {
     pub weight: Vec<f32>,
 }
 
-/// The James-Stein combination of both halves.
+/// The James-Stein combination of both parts, going back to the samples by the `share` in [0, 1] of what it would.
 ///
 /// # Errors
 /// [`DenoiseError::Size`] if they are of several sizes.
-pub fn trust(halves: Halves) -> Result<Trusted, DenoiseError> {
-    let [first, second] = halves.noisy;
+pub fn trust(parts: Parts, share: f32) -> Result<Trusted, DenoiseError> {
+    let [first, second] = parts.noisy;
     let size = first.size();
-    let same = [second, halves.denoised[0], halves.denoised[1]].iter().all(|image| image.size() == size);
-    if !same || halves.variance.len() != first.radiances().len() {
+    let same = [second, parts.denoised[0], parts.denoised[1]].iter().all(|image| image.size() == size);
+    if !same || parts.variance.len() != first.radiances().len() {
         return Err(DenoiseError::Size);
     }
-    // what is denoised of one half against the other half's samples
-    let ways = [0, 1].map(|half| (halves.denoised[half].radiances(), halves.noisy[1 - half].radiances()));
-    let weights = ways.map(|(denoised, noisy)| {
-        if halves.samples < LEAST_SAMPLES {
+    let all: u32 = parts.samples.iter().sum();
+    // what is denoised of one part against the other part's samples
+    let way = |part: usize| {
+        let of_noisy = parts.samples[1 - part] as f32 / all.max(1) as f32;
+        (parts.denoised[part].radiances(), parts.noisy[1 - part].radiances(), of_noisy)
+    };
+    let ways = [way(0), way(1)];
+    let weights = ways.map(|(denoised, noisy, of_noisy)| {
+        if all < LEAST_SAMPLES || of_noisy == 0.0 {
             return vec![0.0; noisy.len()];
         }
-        let off = |pixel: usize| whitened(noisy[pixel] - denoised[pixel], noisy[pixel], 2.0 * halves.variance[pixel]);
-        weights(&squares(noisy.len(), off), size.0 as usize)
+        let off =
+            |pixel: usize| whitened(noisy[pixel] - denoised[pixel], noisy[pixel], parts.variance[pixel] / of_noisy);
+        let mut weights = weights(&squares(noisy.len(), off), size.0 as usize);
+        weights.iter_mut().for_each(|weight| *weight *= share);
+        weights
     });
     let pixel = |pixel: usize| {
-        let of = |way: usize| ways[way].0[pixel] + weights[way][pixel] * (ways[way].1[pixel] - ways[way].0[pixel]);
-        0.5 * (of(0) + of(1))
+        let of = |way: usize| {
+            let (denoised, noisy, of_noisy) = ways[way];
+            of_noisy * (denoised[pixel] + weights[way][pixel] * (noisy[pixel] - denoised[pixel]))
+        };
+        of(0) + of(1)
     };
     let radiances: Vec<Vec3> = (0..first.radiances().len()).map(pixel).collect();
     let image = Image::new(size.0, size.1, radiances).ok_or(DenoiseError::Size)?;
-    let weight = weights[0].iter().zip(&weights[1]).map(|(a, b)| 0.5 * (a + b)).collect();
+    let weight = weights[0].iter().zip(&weights[1]).map(|(a, b)| ways[0].2 * a + ways[1].2 * b).collect();
     Ok(Trusted { image, weight })
 }
 
@@ -125,7 +136,8 @@ mod tests {
     fn of(denoised: &Image, deviation: f32, samples: u32) -> Trusted {
         let [a, b] = [noisy(deviation, 1), noisy(deviation, 2)];
         let variance = vec![Vec3::splat(deviation * deviation / 2.0); a.radiances().len()];
-        trust(Halves { noisy: [&a, &b], denoised: [denoised; 2], variance: &variance, samples }).unwrap()
+        let samples = [samples / 2, samples - samples / 2];
+        trust(Parts { noisy: [&a, &b], denoised: [denoised; 2], variance: &variance, samples }, 1.0).unwrap()
     }
 
     fn mean(values: &[f32]) -> f32 {
@@ -156,8 +168,21 @@ mod tests {
     fn each_half_is_judged_by_the_other() {
         let [a, b] = [noisy(0.1, 1), noisy(0.1, 2)];
         let variance = vec![Vec3::splat(0.005); a.radiances().len()];
-        let trusted = trust(Halves { noisy: [&a, &b], denoised: [&a, &b], variance: &variance, samples: 8 }).unwrap();
+        let parts = Parts { noisy: [&a, &b], denoised: [&a, &b], variance: &variance, samples: [4, 4] };
+        let trusted = trust(parts, 1.0).unwrap();
         assert!((mean(&trusted.weight) - 0.5).abs() < 0.02, "{}", mean(&trusted.weight));
+    }
+
+    /// Where the samples alone are trusted the picture is the mean of all of them, however they are parted.
+    #[test]
+    fn parts_count_by_their_samples() {
+        let [a, b, wrong] = [1.0, 2.0, 50.0].map(flat);
+        let variance = vec![Vec3::splat(1e-6); a.radiances().len()];
+        let parts = Parts { noisy: [&a, &b], denoised: [&wrong; 2], variance: &variance, samples: [2, 6] };
+        let trusted = trust(parts, 1.0).unwrap();
+        assert!(trusted.image.radiances().iter().all(|pixel| (*pixel - Vec3::splat(1.75)).abs().max_element() < 1e-4));
+        let half = trust(parts, 0.5).unwrap();
+        assert!(half.image.radiances().iter().all(|pixel| (*pixel - Vec3::splat(25.875)).abs().max_element() < 1e-3));
     }
 
     #[test]
@@ -171,7 +196,7 @@ mod tests {
     fn layers_of_several_sizes_are_refused() {
         let (one, other) = (flat(1.0), Image::new(1, 1, vec![Vec3::ONE]).unwrap());
         let variance = vec![Vec3::ONE; one.radiances().len()];
-        let halves = Halves { noisy: [&one, &other], denoised: [&one, &one], variance: &variance, samples: 8 };
-        assert_eq!(trust(halves), Err(DenoiseError::Size));
+        let parts = Parts { noisy: [&one, &other], denoised: [&one, &one], variance: &variance, samples: [4, 4] };
+        assert_eq!(trust(parts, 1.0), Err(DenoiseError::Size));
     }
 }

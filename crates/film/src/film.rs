@@ -4,6 +4,7 @@
 //!
 //! Twin of [`Pixel::add`]: `shaders/pathtrace/drive/film.wgsl`.
 
+use crate::Image;
 use glam::Vec3;
 
 /// The sums of one pixel's samples.
@@ -105,6 +106,21 @@ impl Film {
         self.height
     }
 
+    /// The mean of the samples that came after an `earlier` state of the same film, as a picture, and how many they are of
+    /// the pixel that has fewest; `None` if that state has another size or a pixel has no more since.
+    pub fn since(&self, earlier: &Film) -> Option<(Image, u32)> {
+        let pairs = || self.pixels.iter().zip(&earlier.pixels);
+        let fewest =
+            pairs().map(|(now, then)| now.samples.saturating_sub(then.samples)).min().filter(|new| *new > 0)?;
+        let mean = |(now, then): (&Pixel, &Pixel)| {
+            let new = f64::from(now.samples - then.samples);
+            Vec3::from_array(std::array::from_fn(|c| ((now.sum[c] - then.sum[c]) / new) as f32))
+        };
+        let same_size = (self.width, self.height) == (earlier.width, earlier.height);
+        let image = same_size.then(|| Image::new(self.width, self.height, pairs().map(mean).collect::<Vec<_>>()));
+        Some((image??, fewest))
+    }
+
     /// All pixels, rows from the top.
     pub fn pixels(&self) -> &[Pixel] {
         &self.pixels
@@ -177,6 +193,18 @@ mod tests {
         let mut pixel = Pixel::default();
         (0..1_000_000).for_each(|_| pixel.add(Vec3::splat(0.1)));
         assert!((pixel.mean()[0] - f64::from(0.1f32)).abs() < 1e-12);
+    }
+
+    #[test]
+    fn what_came_since_is_the_mean_of_the_later_samples_alone() {
+        let mut film = Film::new(2, 1);
+        film.pixels_mut().iter_mut().for_each(|pixel| pixel.add(Vec3::splat(9.0)));
+        let earlier = film.clone();
+        assert_eq!(film.since(&earlier), None);
+        film.pixels_mut().iter_mut().for_each(|pixel| [1.0, 2.0].iter().for_each(|v| pixel.add(Vec3::splat(*v))));
+        let (image, samples) = film.since(&earlier).unwrap();
+        assert_eq!((image.radiances(), samples), (&[Vec3::splat(1.5); 2][..], 2));
+        assert_eq!(film.since(&Film::new(1, 2)), None);
     }
 
     #[test]
