@@ -17,12 +17,22 @@ pub struct Accumulation {
     pub(crate) most: u32,
     pub(crate) spent: Duration,
     on_device: Option<OnDevice>,
+    /// What it was before, for who keeps that.
+    earlier: Option<EarlierStates>,
     /// What its pixels show, and from how many samples of them that was made.
     pub(crate) features: Option<(u32, Features)>,
     /// What has added to it, one after the other.
     makers: Vec<String>,
     /// How many of them have added to the film as last read.
     resolved_by: usize,
+}
+
+/// A film when it had fewer samples.
+struct EarlierStates {
+    /// The latest that had at most half of the samples that there are.
+    half: Option<Film>,
+    /// The one that takes its place once there are twice its samples.
+    next: Film,
 }
 
 struct OnDevice {
@@ -47,6 +57,7 @@ impl Accumulation {
             most: 0,
             spent: Duration::ZERO,
             on_device: None,
+            earlier: None,
             features: None,
             makers: Vec::new(),
             resolved_by: 0,
@@ -102,6 +113,22 @@ impl Accumulation {
         if self.on_device.take().is_some() {
             self.spp = self.film.samples_per_pixel();
         }
+    }
+
+    /// Whether there are twice as many samples as when it was last kept for being the earlier part of a later state.
+    pub(crate) fn is_to_be_kept(&self) -> bool {
+        self.earlier.as_ref().is_none_or(|earlier| self.spp / 2 >= earlier.next.samples_per_pixel())
+    }
+
+    /// Keeps the film as last read.
+    pub(crate) fn keep(&mut self) {
+        let half = self.earlier.take().map(|earlier| earlier.next);
+        self.earlier = Some(EarlierStates { half, next: self.film.clone() });
+    }
+
+    /// The film when it had half of its samples, or somewhat fewer, where that was kept.
+    pub(crate) fn earlier_part(&self) -> Option<&Film> {
+        self.earlier.as_ref()?.half.as_ref()
     }
 
     /// Someone adds up to so many samples.

@@ -1,8 +1,11 @@
 //! What a traced picture goes through between film and display.
 
 use crate::{Accumulation, Renderer};
+use denoise::a_trous::{Guide, a_trous};
+use denoise::trust::{Parts, Trusted, trust};
 use denoise::{DenoiseError, Network, Stop, WeightsError};
-use film::{Features, Film, Image};
+use film::colour::luminance;
+use film::{Features, Film, Image, LayerValues, Vec3};
 use std::sync::LazyLock;
 use std::time::Instant;
 
@@ -54,41 +57,112 @@ impl Denoiser {
         }
     }
 
-    /// What it makes of a film, on the current rayon pool.
+    /// What it makes of means of samples, on the current rayon pool. `variance` is that of the means' luminance, where it is
+    /// known.
     ///
     /// # Errors
     /// [`DenoiseError`] if `stop` said so, or if there is not enough memory.
-    pub fn apply(self, film: &Film, features: &Features, stop: Stop) -> Result<Image, DenoiseError> {
-        let (image, guides) = (film.image(), denoise::Features { albedo: &features.albedo, normal: &features.normal });
+    pub fn apply(
+        self,
+        image: &Image,
+        features: &Features,
+        variance: Option<&[f32]>,
+        stop: Stop,
+    ) -> Result<Image, DenoiseError> {
+        let guides = denoise::Features { albedo: &features.albedo, normal: &features.normal };
         match self.network() {
-            Some(network) => network.as_ref().map_err(Clone::clone)?.denoise(&image, guides, stop),
-            None => Ok(image),
+            Some(network) => network.as_ref().map_err(Clone::clone)?.denoise(image, guides, stop),
+            None if self == Self::ATrous => {
+                a_trous(image, Guide { features: guides, depth: &features.depth, variance }, stop)
+            }
+            None => Ok(image.clone()),
         }
     }
+}
+
+/// A denoiser, and how far to go back from it to the samples.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct DenoiseSettings {
+    /// The filter.
+    pub denoiser: Denoiser,
+    /// Which share of the way to the samples that [`mod@denoise::trust`] tells is gone, in [0, 1]; at 0 it is not asked, and the
+    /// filter has all samples at once.
+    pub trust: f32,
+}
+
+impl DenoiseSettings {
+    /// The picture as it is rendered.
+    pub const OFF: Self = DenoiseSettings { denoiser: Denoiser::Off, trust: 0.0 };
+
+    /// Whether there is a filter.
+    pub fn is_on(&self) -> bool {
+        self.denoiser != Denoiser::Off
+    }
+
+    /// What becomes of a film, of which an `earlier` state is there to judge the filter by, on the current rayon pool.
+    fn apply(
+        &self,
+        film: &Film,
+        earlier: Option<&Film>,
+        features: &Features,
+        stop: Stop,
+    ) -> Result<Image, DenoiseError> {
+        let parts = earlier.filter(|_| self.trust > 0.0).and_then(|earlier| Some((earlier, film.since(earlier)?)));
+        let Some((earlier, (later, later_samples))) = parts else {
+            let variance = variances(film).map(luminance_variance);
+            let variance: Option<Vec<f32>> = (film.samples_per_pixel() > 1).then(|| variance.collect());
+            return self.denoiser.apply(&film.image(), features, variance.as_deref(), stop);
+        };
+        let (first, samples) = (earlier.image(), [earlier.samples_per_pixel(), later_samples]);
+        let variance: Vec<Vec3> = variances(film).collect();
+        let denoised = |image: &Image, samples: u32| {
+            let share = samples as f32 / film.samples_per_pixel().max(1) as f32;
+            let of_part: Vec<f32> = variance.iter().map(|v| luminance_variance(*v) / share).collect();
+            self.denoiser.apply(image, features, Some(&of_part), stop)
+        };
+        let denoised = [denoised(&first, samples[0])?, denoised(&later, samples[1])?];
+        let parts =
+            Parts { noisy: [&first, &later], denoised: [&denoised[0], &denoised[1]], variance: &variance, samples };
+        let Trusted { image, weight } = trust(parts, self.trust)?;
+        Ok(image.with_layer(TRUST, LayerValues::Numbers(weight.into())))
+    }
+}
+
+/// The layer that tells how far each pixel's samples are trusted, from 0 to 1.
+pub const TRUST: &str = "trust";
+
+/// Variances of a film's means.
+fn variances(film: &Film) -> impl Iterator<Item = Vec3> {
+    film.pixels().iter().map(|pixel| Vec3::from_array(pixel.variance_of_mean().map(|v| v as f32)))
+}
+
+/// The variance of a luminance whose colours vary together, as those of light through one path do.
+fn luminance_variance(of_colours: Vec3) -> f32 {
+    luminance(Vec3::from_array(of_colours.to_array().map(f32::sqrt))).powi(2)
 }
 
 /// A film as a denoiser leaves it.
 #[derive(Debug, Clone)]
 pub struct Denoised {
-    /// Linear radiance, with a bias.
+    /// Linear radiance, with a bias; with a layer [`TRUST`] where samples were trusted.
     pub image: Image,
     /// Seconds that the filter took.
     pub seconds: f64,
 }
 
 impl Renderer {
-    /// What a denoiser makes of a film as it was last read; `None` of [`Denoiser::Off`], or while there are no features.
+    /// What becomes of a film as it was last read; `None` without a denoiser, or while there are no features.
     pub(crate) fn denoised(
         &self,
         accumulation: &Accumulation,
-        denoiser: Denoiser,
+        settings: DenoiseSettings,
         stop: Stop,
     ) -> Option<Result<Denoised, DenoiseError>> {
-        let (_, features) = accumulation.features.as_ref().filter(|_| denoiser != Denoiser::Off)?;
-        let film = accumulation.film();
+        let (_, features) = accumulation.features.as_ref().filter(|_| settings.is_on())?;
+        let (film, earlier) = (accumulation.film(), accumulation.earlier_part());
         let apply = || {
             let start = Instant::now();
-            let image = denoiser.apply(film, features, stop)?;
+            let image = settings.apply(film, earlier, features, stop)?;
             Ok(Denoised { image, seconds: start.elapsed().as_secs_f64() })
         };
         Some(self.threads.turn_unless(stop, self.rank, apply).unwrap_or(Err(DenoiseError::Stopped)))

@@ -32,7 +32,7 @@ pub use accumulation::Accumulation;
 pub use backend::{Backend, GpuBackend};
 pub use blind_spot::{BlindSpot, NoiseSource, Specular};
 pub use command::{camera_options, made_by_command};
-pub use denoiser::{Denoised, Denoiser};
+pub use denoiser::{DenoiseSettings, Denoised, Denoiser, TRUST};
 pub use device::{Adapter, Adapters, Device, DeviceChoice, INSTEAD};
 pub use fake::FakeSettings;
 pub use pane::PaneSettings;
@@ -182,10 +182,10 @@ impl Technique {
     }
 
     /// What its picture goes through before it is shown.
-    pub fn denoiser(&self) -> Denoiser {
+    pub fn denoise(&self) -> DenoiseSettings {
         match self {
-            Technique::Traced(traced) if self.shows_the_scene() => traced.denoiser,
-            Technique::Traced(_) | Technique::Fake(_) => Denoiser::Off,
+            Technique::Traced(traced) if self.shows_the_scene() => traced.denoise,
+            Technique::Traced(_) | Technique::Fake(_) => DenoiseSettings::OFF,
         }
     }
 

@@ -1,8 +1,8 @@
 //! What a pane of the viewer or one call of `visavis render` is set to.
 
 use crate::{
-    ChainSettings, Denoiser, DeviceChoice, FakeSettings, LightPaneSettings, NormalsPaneSettings, PhotonPaneSettings,
-    Technique, TechniqueName, TracedSettings, TreeSettings, TruthSettings,
+    ChainSettings, DenoiseSettings, DeviceChoice, FakeSettings, LightPaneSettings, NormalsPaneSettings,
+    PhotonPaneSettings, Technique, TechniqueName, TracedSettings, TreeSettings, TruthSettings,
 };
 use pathtrace::Estimator;
 use scene::{Needs, Scene};
@@ -17,7 +17,7 @@ pub struct PaneSettings {
     /// By which of the adapters, where by one.
     pub adapter: u8,
     /// What pictures of rays go through before they are shown.
-    pub denoiser: Denoiser,
+    pub denoise: DenoiseSettings,
     /// The settings of the fake.
     pub fake: FakeSettings,
     /// The settings of Whitted's method.
@@ -41,7 +41,7 @@ impl PaneSettings {
             technique,
             device: DeviceChoice::default(),
             adapter: 0,
-            denoiser: Denoiser::Off,
+            denoise: DenoiseSettings::OFF,
             fake: FakeSettings::default(),
             whitted: TreeSettings::default(),
             truth: TruthSettings::default(),
@@ -66,7 +66,7 @@ impl PaneSettings {
     }
 
     fn here(&self, traced: TracedSettings) -> TracedSettings {
-        TracedSettings { device: self.device, adapter: self.adapter, denoiser: self.denoiser, ..traced }
+        TracedSettings { device: self.device, adapter: self.adapter, denoise: self.denoise, ..traced }
     }
 
     /// Takes `scene`'s own numbers again, and looks at the picture where it has no such map.

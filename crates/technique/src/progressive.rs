@@ -79,7 +79,7 @@ impl Request {
     /// Whether two requests differ in the wished number of samples alone.
     pub fn is_same_picture(&self, other: &Request) -> bool {
         let how = |of: &Request| {
-            let TracedSettings { integrator, device, adapter, spp: _, sun_radius, denoiser: _ } = of.settings;
+            let TracedSettings { integrator, device, adapter, spp: _, sun_radius, denoise: _ } = of.settings;
             (integrator, device, adapter, sun_radius)
         };
         let seen = |of: &Request| (of.shot.camera, of.shot.size, of.restarts);

@@ -125,7 +125,7 @@ impl Provenance {
         // the fake does not see the sun's radius, but what it is compared with does
         records.extend(changes.options());
         records.extend(self.technique.options(spp));
-        records.extend(self.technique.denoiser().weights().map(|weights| (WEIGHTS, weights)));
+        records.extend(self.technique.denoise().denoiser.weights().map(|weights| (WEIGHTS, weights)));
         records.push(("exposure", exposure.to_string()));
         records.push(("command", self.command(spp, exposure, "picture.png")));
         records

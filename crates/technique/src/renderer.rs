@@ -2,7 +2,7 @@
 //! replaced by the processor, which goes on from the film as it was last read; nowhere else is the loss of a device that
 //! traces rays dealt with.
 
-use crate::{Accumulation, Backend, Denoised, Denoiser, Device, Rank, Threads};
+use crate::{Accumulation, Backend, DenoiseSettings, Denoised, Device, Rank, Threads};
 use denoise::DenoiseError;
 use film::{Features, Film};
 use pathtrace::gpu::GpuTraceError;
@@ -41,7 +41,7 @@ pub struct Frame<'a> {
     pub film: &'a Film,
     /// What the pixels show, where [`Watch::wants_features`]; of a rough picture it is not made.
     pub features: Option<&'a Features>,
-    /// The film as the denoiser that [`Watch::denoiser`] asks for leaves it, or why there is no memory for that.
+    /// The film as the denoiser that [`Watch::denoise`] asks for leaves it, or why there is no memory for that.
     pub denoised: Option<Result<Denoised, DenoiseError>>,
     /// Samples and rays that it took so far.
     pub stats: Stats,
@@ -71,12 +71,17 @@ pub trait Watch: Sync {
 
     /// Whether frames shall come with what denoisers are guided by.
     fn wants_features(&self) -> bool {
-        self.denoiser() != Denoiser::Off
+        self.denoise().is_on()
     }
 
     /// What frames shall go through before they are shown.
-    fn denoiser(&self) -> Denoiser {
-        Denoiser::Off
+    fn denoise(&self) -> DenoiseSettings {
+        DenoiseSettings::OFF
+    }
+
+    /// Whether films of about half of the samples are kept, by which a denoiser is judged.
+    fn keeps_parts(&self) -> bool {
+        self.denoise().is_on()
     }
 
     /// Whether to wait where the film is.
@@ -265,7 +270,9 @@ impl Renderer {
                 break;
             }
             let pacing = watch.pacing(accumulation.spent);
-            let samples = self.samples_of_a_pass(accumulation, &pacing).min(wished - accumulation.spp);
+            let half = if watch.keeps_parts() { wished.div_ceil(2) } else { wished };
+            let until = if before < half { half } else { wished };
+            let samples = self.samples_of_a_pass(accumulation, &pacing).min(until - before);
             self.rank = if before > 0 { Rank::Refinement } else { Rank::FirstPicture };
             if let Err(fault) = self.add(accumulation, camera, integrator, samples, &|| watch.ends_now()) {
                 watch.told_of_loss(&fault, accumulation.spp);
@@ -275,6 +282,10 @@ impl Renderer {
             }
             let spp = accumulation.spp;
             watch.count(spp);
+            if spp > before && watch.keeps_parts() && accumulation.is_to_be_kept() {
+                self.read(accumulation, watch);
+                accumulation.keep();
+            }
             if spp > 0 && (before == 0 || spp == wished || shown.elapsed() >= pacing.show) {
                 self.show(accumulation, how, wished, watch);
                 shown = Instant::now();
@@ -289,14 +300,18 @@ impl Renderer {
         fitting.clamp(1, accumulation.spp.saturating_mul(pacing.growth).max(1))
     }
 
-    fn show(&mut self, accumulation: &mut Accumulation, how: (&Camera, &Integrator), wished: u32, watch: &impl Watch) {
+    fn read(&mut self, accumulation: &mut Accumulation, watch: &impl Watch) {
         if let Err(fault) = self.resolve(accumulation) {
             watch.told_of_loss(&fault, accumulation.spp);
         }
+    }
+
+    fn show(&mut self, accumulation: &mut Accumulation, how: (&Camera, &Integrator), wished: u32, watch: &impl Watch) {
+        self.read(accumulation, watch);
         if watch.wants_features() {
             self.make_features(accumulation, how, accumulation.spp >= wished, watch);
         }
-        let denoised = self.denoised(accumulation, watch.denoiser(), &|| watch.ends_now());
+        let denoised = self.denoised(accumulation, watch.denoise(), &|| watch.ends_now());
         if accumulation.spp > 0 && !matches!(denoised, Some(Err(DenoiseError::Stopped))) {
             let frame = self.frame(accumulation, [false, accumulation.spp < wished]);
             watch.show(Frame { denoised, ..frame });
@@ -344,7 +359,7 @@ impl Renderer {
         mut accumulation: Accumulation,
         camera: &Camera,
         wanted: (&Integrator, u32),
-        denoiser: Denoiser,
+        denoise: DenoiseSettings,
         watch: &impl Watch,
     ) -> Rendered {
         loop {
@@ -357,10 +372,10 @@ impl Renderer {
                 break;
             }
         }
-        if denoiser != Denoiser::Off || watch.wants_features() {
+        if denoise.is_on() || watch.wants_features() {
             self.make_features(&mut accumulation, (camera, wanted.0), true, watch);
         }
-        let denoised = self.denoised(&accumulation, denoiser, &|| watch.ends_now());
+        let denoised = self.denoised(&accumulation, denoise, &|| watch.ends_now());
         let (device, made_by) = (self.device(), accumulation.made_by());
         let features = accumulation.features.take().map(|(_, features)| features);
         Rendered { stats: accumulation.stats(), film: accumulation.into_film(), features, denoised, device, made_by }

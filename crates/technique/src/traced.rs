@@ -1,6 +1,6 @@
 //! The settings of what is traced by rays: path tracing, and Whitted's step towards it.
 
-use crate::{Denoiser, DeviceChoice, SceneChanges};
+use crate::{DenoiseSettings, DeviceChoice, SceneChanges};
 use pathtrace::{
     Integrator, LightTracingSettings, MetropolisSettings, NormalsSettings, PathSettings, PhotonSettings, Roulette,
     WhittedSettings,
@@ -22,14 +22,14 @@ pub struct TracedSettings {
     /// Angular radius of the sun for these rays alone, in degrees; `None`: the scene's. References know nothing of it.
     pub sun_radius: Option<f32>,
     /// What the picture goes through before it is shown.
-    pub denoiser: Denoiser,
+    pub denoise: DenoiseSettings,
 }
 
 impl TracedSettings {
     /// An integrator that stops at so many samples per pixel, where the device is not chosen and the sun the scene's.
     pub const fn new(integrator: Integrator, spp: u32) -> Self {
-        let (device, denoiser) = (DeviceChoice::Auto, Denoiser::Off);
-        TracedSettings { integrator, device, adapter: 0, spp, sun_radius: None, denoiser }
+        let (device, denoise) = (DeviceChoice::Auto, DenoiseSettings::OFF);
+        TracedSettings { integrator, device, adapter: 0, spp, sun_radius: None, denoise }
     }
 }
 

@@ -17,8 +17,8 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 use technique::settings::{OF_SCENES, Setting, Value, all_of_panes};
 use technique::{
-    Accumulation, Backend, BlindSpot, Denoised, Denoiser, Device, DeviceChoice, FakeSettings, Frame, INSTEAD, Made,
-    Pacing, PaneSettings, Provenance, Rendered, Renderer, Shot, Technique, Threads, TracedSettings, Watch,
+    Accumulation, Backend, BlindSpot, DenoiseSettings, Denoised, Device, DeviceChoice, FakeSettings, Frame, INSTEAD,
+    Made, Pacing, PaneSettings, Provenance, Rendered, Renderer, Shot, Technique, Threads, TracedSettings, Watch,
 };
 
 /// Samples per pixel where neither --spp nor --time says how many.
@@ -92,7 +92,7 @@ pub fn run(args: &mut RenderArgs) -> anyhow::Result<()> {
         if let Some(Ok(Denoised { seconds, .. })) = &rendered.denoised {
             note!(
                 "denoised by {} in {seconds:.2} s: no truth any more, however many samples",
-                technique.denoiser().name()
+                technique.denoise().denoiser.name()
             );
         }
         if let Some(Measured { errors: e, before }) = errors {
@@ -142,7 +142,7 @@ fn save(
 ) -> anyhow::Result<()> {
     let mut provenance = Provenance { shot, technique: args.pane.in_use(), device: rendered.device };
     if let (Some(Err(_)), Technique::Traced(traced)) = (&rendered.denoised, &mut provenance.technique) {
-        traced.denoiser = Denoiser::Off;
+        traced.denoise = DenoiseSettings::OFF;
     }
     let made =
         Made { spp: rendered.film.samples_per_pixel(), seconds, adapter: &rendered.made_by, exposure: args.exposure };
@@ -218,12 +218,13 @@ fn trace(args: &RenderArgs, shot: &Shot, traced: TracedSettings) -> anyhow::Resu
         shown: std::io::stderr().is_terminal(),
         start,
         limit: args.seconds.map(Duration::from_secs_f64),
+        trusts: traced.denoise.is_on() && traced.denoise.trust > 0.0,
         // a test does not wait for seconds
         at_risk: if backend.fails_on_purpose() { Duration::ZERO } else { AT_RISK },
     };
     let renderer = Renderer::new(scene, backend, Arc::new(Threads::all()));
     let rendered =
-        renderer.finish(blank, &shot.camera, (&traced.integrator, spp), args.pane.in_use().denoiser(), &watch);
+        renderer.finish(blank, &shot.camera, (&traced.integrator, spp), args.pane.in_use().denoise(), &watch);
     watch.clear();
     Ok(Timed { rendered, seconds: start.elapsed().as_secs_f64() })
 }
@@ -245,6 +246,8 @@ struct Terminal {
     shown: bool,
     start: Instant,
     limit: Option<Duration>,
+    /// Whether samples are trusted beside a denoiser.
+    trusts: bool,
     at_risk: Duration,
 }
 
@@ -253,6 +256,10 @@ impl Watch for Terminal {
     fn ends_soon(&self, spp: u32) -> bool {
         let late = || self.limit.is_some_and(|limit| self.start.elapsed() >= limit);
         spp > 0 && (interrupt::is_asked() || late())
+    }
+
+    fn keeps_parts(&self) -> bool {
+        self.trusts
     }
 
     /// Passes of a quarter of a second, or of what is left of the time.
@@ -330,7 +337,7 @@ fn report(
     if let Some(Ok(Denoised { seconds, .. })) = &rendered.denoised {
         let before = measured.and_then(|measured| measured.before).map(|e| e.rel_mse);
         report["denoised"] = json!({
-            "by": args.pane.in_use().denoiser().name(), "seconds": seconds, "relmse_before": before,
+            "by": args.pane.in_use().denoise().denoiser.name(), "seconds": seconds, "relmse_before": before,
         });
     }
     if let Some(Measured { errors: e, .. }) = measured {

@@ -48,7 +48,7 @@ fn is_same_picture(a: &Order, b: &Order) -> bool {
     let how = |order: &Order| match order.provenance.technique {
         Technique::Fake(_) => None,
         Technique::Traced(traced) => {
-            Some((traced.integrator, traced.sun_radius, traced.denoiser, order.view, order.restarts))
+            Some((traced.integrator, traced.sun_radius, traced.denoise, order.view, order.restarts))
         }
     };
     how(a).is_some() && how(a) == how(b)

@@ -8,7 +8,8 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Duration;
 use technique::{
-    Adapters, Denoised, Denoiser, Frame, NoMemory, Pacing, ProgressiveRenderer, Request, Threads, TracedSettings, Watch,
+    Adapters, DenoiseSettings, Denoised, Frame, NoMemory, Pacing, ProgressiveRenderer, Request, Threads,
+    TracedSettings, Watch,
 };
 
 /// A picture to make.
@@ -142,8 +143,8 @@ impl Watch for PaneWatch<'_> {
         self.control.wait();
     }
 
-    fn denoiser(&self) -> Denoiser {
-        self.order.provenance.technique.denoiser()
+    fn denoise(&self) -> DenoiseSettings {
+        self.order.provenance.technique.denoise()
     }
 
     fn pacing(&self, spent: Duration) -> Pacing {

@@ -18,7 +18,7 @@ fn a_denoised_picture_says_so_and_how_far_off_it_was_before() {
     let mut user = User::of("cornell");
     user.wait_for("both pictures", both_whole);
     user.click_nth("Path", 0);
-    user.viewer.borrow_mut().model.session.panes[PaneId::B].denoiser = Denoiser::Unet;
+    user.viewer.borrow_mut().model.session.panes[PaneId::B].denoise.denoiser = Denoiser::Unet;
     let shown = user.wait_for("a denoised picture", |f| {
         both_whole(f) && denoising(f, "B").is_some_and(|line| line.contains("before"))
     });
@@ -27,6 +27,6 @@ fn a_denoised_picture_says_so_and_how_far_off_it_was_before() {
     assert_eq!(denoising(&shown, "A"), None, "the other is not");
     assert_eq!(lines(&shown, "B")[0], "B: Path tracing, denoised by unet (biased)");
     // without it the same samples are there at once, and nothing is said
-    user.viewer.borrow_mut().model.session.panes[PaneId::B].denoiser = Denoiser::Off;
+    user.viewer.borrow_mut().model.session.panes[PaneId::B].denoise.denoiser = Denoiser::Off;
     user.wait_for("the samples' mean", |f| both_whole(f) && denoising(f, "B").is_none());
 }

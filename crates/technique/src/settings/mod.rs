@@ -333,7 +333,7 @@ impl PaneSettings {
             TechniqueName::Normals => self.normals = other.normals,
         }
         if other.in_use().shows_the_scene() && other.technique != TechniqueName::Raster {
-            self.denoiser = other.denoiser;
+            self.denoise = other.denoise;
         }
     }
 }
@@ -345,8 +345,8 @@ impl From<Technique> for PaneSettings {
         match technique {
             Technique::Fake(fake) => PaneSettings { fake, ..pane },
             Technique::Traced(traced) => {
-                let TracedSettings { integrator, device, adapter, spp, sun_radius, denoiser } = traced;
-                let pane = PaneSettings { device, adapter, denoiser, ..pane };
+                let TracedSettings { integrator, device, adapter, spp, sun_radius, denoise } = traced;
+                let pane = PaneSettings { device, adapter, denoise, ..pane };
                 match integrator {
                     Integrator::Path(path) => PaneSettings { truth: TruthSettings { path, spp, sun_radius }, ..pane },
                     Integrator::Whitted(tree) => {

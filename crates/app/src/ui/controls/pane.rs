@@ -29,9 +29,18 @@ fn order(technique: TechniqueName) -> &'static [&'static str] {
             "cube-map",
             "segments",
         ],
-        TechniqueName::Whitted => {
-            &["depth", "glass-shadows", "ambient", "traced-sun", "spp", "denoise", "shadow-rays", "sampler", "seed"]
-        }
+        TechniqueName::Whitted => &[
+            "depth",
+            "glass-shadows",
+            "ambient",
+            "traced-sun",
+            "spp",
+            "denoise",
+            "trust",
+            "shadow-rays",
+            "sampler",
+            "seed",
+        ],
         TechniqueName::Photon => &[
             "photon-picture",
             "photons",
@@ -40,15 +49,17 @@ fn order(technique: TechniqueName) -> &'static [&'static str] {
             "direct-light",
             "spp",
             "denoise",
+            "trust",
             "traced-sun",
             "sampler",
             "seed",
         ],
-        TechniqueName::LightTracing => &["photons", "spp", "denoise", "traced-sun", "sampler", "seed"],
+        TechniqueName::LightTracing => &["photons", "spp", "denoise", "trust", "traced-sun", "sampler", "seed"],
         TechniqueName::Metropolis => &[
             "estimator",
             "spp",
             "denoise",
+            "trust",
             "connections",
             "chains",
             "large-step",
@@ -60,9 +71,18 @@ fn order(technique: TechniqueName) -> &'static [&'static str] {
             "seed",
         ],
         TechniqueName::Normals => &["space", "spp", "sampler", "seed"],
-        TechniqueName::Path => {
-            &["estimator", "spp", "denoise", "connections", "bounces", "branches", "roulette", "sampler", "seed"]
-        }
+        TechniqueName::Path => &[
+            "estimator",
+            "spp",
+            "denoise",
+            "trust",
+            "connections",
+            "bounces",
+            "branches",
+            "roulette",
+            "sampler",
+            "seed",
+        ],
     }
 }
 

@@ -1,19 +1,21 @@
 //! The row of what traced pictures go through before they are shown.
 
-use super::{BLANK, LIGHT, PLAIN, each, named};
+use super::{BLANK, LIGHT, PLAIN, each, named, number};
 use crate::settings::{Control, Kind, Look, Setting, Value};
 use crate::{Denoiser, PaneSettings};
 
 /// The filter of all that is traced and shows light.
-pub const ROWS: &[Setting<PaneSettings>] = &[Setting {
+pub const ROWS: &[Setting<PaneSettings>] = &[DENOISE, TRUST];
+
+const DENOISE: Setting<PaneSettings> = Setting {
     name: "denoise",
     of: LIGHT,
     kind: Kind::Choice(&["off", "atrous", "unet", "unet-base"]),
     default: Some(Value::Word("off")),
     help: "takes the noise out of the picture, and some of the truth: wavelets guided by features, or Open Image Denoise's \
            network, small or as it is usually taken",
-    get: |pane| Some(Value::Word(pane.denoiser.name())),
-    set: |pane, value| each(named(value, Denoiser::named), [&mut pane.denoiser]),
+    get: |pane| Some(Value::Word(pane.denoise.denoiser.name())),
+    set: |pane, value| each(named(value, Denoiser::named), [&mut pane.denoise.denoiser]),
     control: Control {
         label: "Denoise",
         aside: |value| if value == Value::Word("off") { String::new() } else { " (biased)".into() },
@@ -34,4 +36,26 @@ pub const ROWS: &[Setting<PaneSettings>] = &[Setting {
         ..BLANK
     },
     ..PLAIN
-}];
+};
+
+const TRUST: Setting<PaneSettings> = Setting {
+    name: "trust",
+    of: LIGHT,
+    kind: Kind::Number(0.0..=1.0),
+    letter: "T",
+    default: Some(Value::Number(0.0)),
+    acts: |pane, _| pane.denoise.denoiser != Denoiser::Off,
+    help: "how far to go back from a denoiser's picture to the samples where they tell it is wrong (James and Stein), 0 to 1: at 1 \
+           the picture comes to the truth as samples become many; above 0 the filter runs twice, on either part of them",
+    get: |pane| Some(Value::Number(pane.denoise.trust)),
+    set: |pane, value| each(number(value), [&mut pane.denoise.trust]),
+    control: Control {
+        label: "Trust the samples",
+        brief: Some(|value| format!("samples trusted by {value}")),
+        hover: "Where the samples differ from the denoiser's picture by more than their noise it is the filter that is wrong, and \
+                this share of the way back to them is gone. At 1 the picture comes to the truth as samples become many",
+        look: Look::Steps { range: 0.0..=1.0, step: 0.05 },
+        ..BLANK
+    },
+    ..PLAIN
+};

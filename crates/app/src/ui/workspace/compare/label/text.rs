@@ -56,7 +56,7 @@ impl LabelText {
             let source = traced.noise_source(&made.shot.scene).filter(|_| shown.noisy);
             text.notes.extend(source.map(|source| source.words().to_owned()));
             text.facts.extend(branching(traced, shown, beside));
-            text.facts.extend(denoised(shown, traced.denoiser));
+            text.facts.extend(denoised(shown, traced.denoise.denoiser));
             text.facts.extend(chains(shown).map(|stats| told_of_chains(&stats)));
         }
         text.explanations.extend(explained(shown, beside));
