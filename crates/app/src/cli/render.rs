@@ -71,8 +71,8 @@ pub fn run(args: &mut RenderArgs) -> anyhow::Result<()> {
             rendered.film.nonfinite
         );
     }
-    if rendered.stats.cut_paths > 0 {
-        note!("note: {} samples were cut short and miss light: too many rays", rendered.stats.cut_paths);
+    for (count, what) in rendered.stats.cut_short() {
+        note!("note: {count} {what} were cut short and miss light: too many rays");
     }
     if args.json {
         super::print(&format!("{}\n", report(args, &scene, (&rendered, seconds), errors.as_ref())))?;
@@ -324,6 +324,9 @@ fn report(
             report["samples"] = json!(rendered.stats.samples);
             report["rays"] = json!(rendered.stats.rays);
             report["cut_paths"] = json!(rendered.stats.cut_paths);
+            if rendered.stats.photons > 0 {
+                report["cut_photons"] = json!(rendered.stats.cut_photons);
+            }
             report["standard_error"] = json!(rendered.film.standard_error());
             let reliable = rays.integrator.is_independent() && rendered.film.standard_error_is_reliable();
             report["standard_error_reliable"] = json!(reliable);
