@@ -33,7 +33,7 @@ pub use integrator::Integrator;
 pub use integrator::metropolis::MetropolisSettings;
 pub use integrator::normals::{NormalsSettings, Space};
 pub use integrator::photon::{
-    DirectLight, LightTracingSettings, MOST_PHOTONS, PhotonSettings, USUAL_PHOTONS, usual_radius,
+    DirectLight, LightTracingSettings, MOST_PHOTONS, PhotonSettings, USUAL_PHOTONS, sees_little, usual_radius,
 };
 pub use integrator::settings::{ConesAt, Directions, Estimator, LightSampling, PathSettings, Roulette, SettingsError};
 pub use integrator::whitted::{GlassShadows, WhittedSettings};

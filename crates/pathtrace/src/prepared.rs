@@ -119,6 +119,21 @@ impl PreparedScene {
         self.aggregate.occluded(&between(at, to, direction), F::U::splat(NOT_A_LIGHT), wanted, false, scratch)
     }
 
+    /// Where what the `wanted` photons have met lies behind another surface than that of the lights that they left: of those that
+    /// coincide one is there, as light sampling has it. They left along rays from `origin` in these unit directions.
+    #[inline(always)]
+    pub fn is_another_light_there<F: Float>(
+        &self,
+        (origin, direction, light): (Vector<F>, Vector<F>, F::U),
+        met: &SurfacePoints<F>,
+        wanted: F::M,
+        scratch: &mut Scratch<F>,
+    ) -> F::M {
+        let from = met.leaving_towards(-direction);
+        let back = Rays { origin: from, direction: origin - from, tmax: F::splat(SHADOW_END) };
+        self.aggregate.occluded(&back, light, wanted, false, scratch)
+    }
+
     /// Radiance that rays find where they hit nothing: the sky of one colour, and `sun_weight` times the sun's disc unless it is a
     /// delta light.
     #[inline(always)]

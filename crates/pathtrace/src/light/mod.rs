@@ -2,6 +2,7 @@
 //! picture. Task 2 c), "Sampling Area Light". One light is chosen, then a direction to it; [`Lights::pdf`] is the
 //! density of doing so, as MIS needs it.
 
+pub(crate) mod aim;
 pub(crate) mod ball;
 mod emission;
 mod environment;
@@ -10,6 +11,7 @@ mod spherical_rectangle;
 mod sun;
 mod table;
 
+pub(crate) use aim::{Aim, Bounds};
 pub use emission::{EmissionChoice, Emitted, Emitters};
 pub use environment::{Environment, EnvironmentSamples};
 pub use spherical_rectangle::SphericalRectangle;

@@ -1,13 +1,13 @@
 //! Photons of one pass where they have landed, sorted by the cells of a hashed grid: Teschner et al., "Optimized Spatial
 //! Hashing for Collision Detection of Deformable Objects" (2003).
 
-use rayon::prelude::*;
+use crate::drive::lanes::Stop;
 use scene::Vec3;
 use std::f32::consts::FRAC_1_PI;
 use std::ops::RangeInclusive;
 
 /// Light that has arrived at a diffuse surface.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Photon {
     /// Where it was left, in world space.
     pub position: Vec3,
@@ -52,6 +52,10 @@ impl Grid {
         (hash ^ (hash >> 15)) & self.mask
     }
 
+    fn bucket_of(&self, photon: &Photon) -> usize {
+        self.bucket(self.cell(photon.position)) as usize
+    }
+
     /// The buckets of all cells between two, each once: cells may share one.
     fn buckets(&self, from: [i32; 3], to: [i32; 3]) -> ([u32; MOST_CELLS], usize) {
         let along = |axis: usize| -> RangeInclusive<i32> { from[axis]..=to[axis].min(from[axis].saturating_add(2)) };
@@ -75,27 +79,36 @@ impl Grid {
 const MOST_CELLS: usize = 27;
 
 impl PhotonMap {
-    /// Sorts photons, for which the order in which they come is kept: sums do not depend on who has traced them.
-    pub fn new(photons: &[Photon], radius: f32) -> Self {
-        let origin = photons.iter().fold(Vec3::INFINITY, |least, photon| least.min(photon.position));
-        let mask = (photons.len().next_power_of_two() as u32).saturating_sub(1);
+    /// Sorts photons, for which the order in which they come is kept: sums do not depend on who has traced them. Chunks of
+    /// them go as soon as they are sorted, so that they are in memory twice at most. `None` where it was stopped.
+    pub fn new(chunks: Vec<Vec<Photon>>, radius: f32, stop: &Stop) -> Option<Self> {
+        let all = || chunks.iter().flatten();
+        let count: usize = chunks.iter().map(Vec::len).sum();
+        let origin = all().fold(Vec3::INFINITY, |least, photon| least.min(photon.position));
+        let mask = (count.next_power_of_two() as u32).saturating_sub(1);
         let grid = Grid { origin, cells_per_unit: 0.5 / radius, mask };
-        let buckets: Vec<u32> = photons.par_iter().map(|photon| grid.bucket(grid.cell(photon.position))).collect();
         let mut starts = vec![0; mask as usize + 2];
-        for bucket in &buckets {
-            starts[*bucket as usize + 1] += 1;
+        for photon in all() {
+            starts[grid.bucket_of(photon) + 1] += 1;
         }
         for i in 1..starts.len() {
             starts[i] += starts[i - 1];
         }
-        let mut next = starts.clone();
-        let mut sorted = photons.to_vec();
-        for (bucket, photon) in buckets.iter().zip(photons) {
-            let place = &mut next[*bucket as usize];
-            sorted[*place as usize] = *photon;
-            *place += 1;
+        let mut photons = vec![Photon::default(); count];
+        for chunk in chunks {
+            if stop() {
+                return None;
+            }
+            for photon in chunk {
+                let place = &mut starts[grid.bucket_of(&photon)];
+                photons[*place as usize] = photon;
+                *place += 1;
+            }
         }
-        PhotonMap { photons: sorted, starts, grid, radius }
+        // each bucket's place has moved on to where the next one begins
+        starts.rotate_right(1);
+        starts[0] = 0;
+        Some(PhotonMap { photons, starts, grid, radius })
     }
 
     /// Irradiance on the side of a surface: the power of the photons within the radius over the disc's area, a constant
@@ -142,7 +155,8 @@ mod tests {
         for around in [Vec3::ZERO, Vec3::new(-1e5, 2e4, 3e5)] {
             let photons = scattered(5000, around);
             for radius in [1e-3, 0.03, 0.2, 3.0] {
-                let map = PhotonMap::new(&photons, radius);
+                let chunks = photons.chunks(1234).map(<[Photon]>::to_vec).collect();
+                let map = PhotonMap::new(chunks, radius, &|| false).expect("nobody stops it");
                 for photon in photons.iter().step_by(97) {
                     let at = photon.position + Vec3::splat(0.3 * radius);
                     let expected = one_by_one(&photons, radius, at, Vec3::Y);
@@ -158,6 +172,7 @@ mod tests {
 
     #[test]
     fn a_map_without_photons_is_dark() {
-        assert_eq!(PhotonMap::new(&[], 0.1).irradiance(Vec3::ONE, Vec3::Y), Vec3::ZERO);
+        let map = PhotonMap::new(Vec::new(), 0.1, &|| false).expect("nobody stops it");
+        assert_eq!(map.irradiance(Vec3::ONE, Vec3::Y), Vec3::ZERO);
     }
 }

@@ -8,18 +8,23 @@
 mod eye;
 mod map;
 mod pinhole;
+mod radius;
+mod seen;
 mod walk;
 
 pub use map::{Photon, PhotonMap};
+pub use radius::{radius_of_pass, sees_little, usual_radius};
 
-use crate::drive::lanes::{FilmJob, FilmPass};
+use crate::drive::lanes::{FilmJob, FilmPass, Stop};
 use crate::integrator::settings::SettingsError;
+use crate::light::Aim;
 use crate::sampling::sampler::SamplerKind;
 use crate::stats::Stats;
 use eye::Plan;
 use film::Film;
 use pinhole::Pinhole;
-use scene::{Scene, Vec3};
+use scene::Vec3;
+use std::sync::atomic::{AtomicBool, Ordering};
 use walk::{PhotonPass, Purpose, Splat};
 
 /// How light that comes to a diffuse surface from a light directly is found.
@@ -80,7 +85,7 @@ pub struct LightTracingSettings {
     pub seed: u32,
 }
 
-/// Most photons of a pass: a map has some tens of bytes for every surface that each of them comes to.
+/// Most photons of a pass.
 pub const MOST_PHOTONS: u32 = 1 << 22;
 
 /// Photons of a pass if nobody says otherwise: a power of two, whose Sobol points fill every interval alike.
@@ -106,24 +111,6 @@ impl Default for LightTracingSettings {
     }
 }
 
-/// The radius of a scene's first pass if nobody says otherwise: this share of the root of its bounds' surface, so that some tens of
-/// photons lie in a disc where they lie as everywhere.
-const SHARE_OF_BOUNDS: f32 = 1.0 / 128.0;
-
-/// The first radius where none is set: see [`PhotonSettings::radius`].
-pub fn usual_radius(scene: &Scene) -> f32 {
-    let (lo, hi) = scene.bounds();
-    let Vec3 { x, y, z } = hi - lo;
-    let surface = 2.0 * (x * y + y * z + z * x);
-    (SHARE_OF_BOUNDS * surface.sqrt()).clamp(f32::MIN_POSITIVE.sqrt(), f32::MAX.sqrt())
-}
-
-/// The radius of a pass, counted from 0, whose first one is given: equation 15 of Knaus and Zwicker.
-pub fn radius_of_pass(first: f32, alpha: f32, pass: u32) -> f32 {
-    let shrink = |squared: f64, i: u32| squared * (f64::from(i) + f64::from(alpha)) / (f64::from(i) + 1.0);
-    (f64::from(first).powi(2) * (1..=pass).fold(1.0, shrink)).sqrt() as f32
-}
-
 impl PhotonSettings {
     /// Whether these settings mean something.
     ///
@@ -139,19 +126,28 @@ impl PhotonSettings {
     }
 
     pub(super) fn fill(&self, film: &mut Film, job: &FilmJob) -> Stats {
+        let stop = remembered(job.stop);
+        let job = &FilmJob { stop: &stop, ..*job };
         let direct = self.direct == DirectLight::Photons;
+        let aim = job.aim();
         if self.points {
             let purpose = Purpose::Marks(Pinhole::new(&job.pass));
-            let pass = PhotonPass { number: 0, photons: self.photons, purpose, direct };
-            let Some(traces) = pass.trace(job) else { return Stats::default() };
-            let marks = marks_of_pixels(film, &traces.splats);
-            return traces.stats.plus(job.fill(film, &Plan::Marks(&marks)));
+            let pass = PhotonPass { number: 0, photons: self.photons, purpose, direct, aim: &aim };
+            let mut marks = vec![Vec3::ZERO; film.pixels().len()];
+            // a point for the last photon at each pixel
+            let mut mark = |splat: &Splat| marks[splat.pixel as usize] = splat.radiance;
+            let Some(stats) = pass.trace(job, |traces| traces.splats.iter().for_each(&mut mark)) else {
+                return Stats::default();
+            };
+            return stats.plus(job.fill(film, &Plan::Marks(&marks)));
         }
         each_pass(film, job, |film, job, number| {
-            let traces = PhotonPass { number, photons: self.photons, purpose: Purpose::Map, direct }.trace(job)?;
+            let pass = PhotonPass { number, photons: self.photons, purpose: Purpose::Map, direct, aim: &aim };
+            let mut chunks = Vec::new();
+            let stats = pass.trace(job, |traces| chunks.push(traces.photons))?;
             let first = self.radius.unwrap_or(job.scene.photon_radius);
-            let map = PhotonMap::new(&traces.photons, radius_of_pass(first, self.alpha, number));
-            Some(traces.stats.plus(job.fill(film, &Plan::Map(&map, direct))))
+            let map = PhotonMap::new(chunks, radius_of_pass(first, self.alpha, number), job.stop)?;
+            Some(stats.plus(job.fill(film, &Plan::Map(&map, direct))))
         })
     }
 }
@@ -167,12 +163,16 @@ impl LightTracingSettings {
 
     /// Dutré, Lafortune and Willems, "Monte Carlo light tracing with direct computation of pixel intensities" (1993).
     pub(super) fn fill(&self, film: &mut Film, job: &FilmJob) -> Stats {
+        let stop = remembered(job.stop);
+        let job = &FilmJob { stop: &stop, ..*job };
+        let aim = job.aim();
         each_pass(film, job, |film, job, number| {
             let purpose = Purpose::Splats(Pinhole::new(&job.pass));
-            let traces = PhotonPass { number, photons: self.photons, purpose, direct: true }.trace(job)?;
+            let pass = PhotonPass { number, photons: self.photons, purpose, direct: true, aim: &aim };
             let mut radiance = vec![Vec3::ZERO; film.pixels().len()];
-            traces.splats.iter().for_each(|splat| radiance[splat.pixel as usize] += splat.radiance);
-            Some(traces.stats.plus(job.fill(film, &Plan::Splats(&radiance))))
+            let mut splat = |splat: &Splat| radiance[splat.pixel as usize] += splat.radiance;
+            let stats = pass.trace(job, |traces| traces.splats.iter().for_each(&mut splat))?;
+            Some(stats.plus(job.fill(film, &Plan::Splats(&radiance))))
         })
     }
 }
@@ -196,11 +196,23 @@ fn each_pass(film: &mut Film, job: &FilmJob, pass: impl Fn(&mut Film, &FilmJob, 
     stats
 }
 
-/// A point for the last photon at each pixel.
-fn marks_of_pixels(film: &Film, splats: &[Splat]) -> Vec<Vec3> {
-    let mut marks = vec![Vec3::ZERO; film.pixels().len()];
-    splats.iter().for_each(|splat| marks[splat.pixel as usize] = splat.radiance);
-    marks
+/// Says to stop for good once `stop` has: what it says later may differ, and a pass that has lost photons to it must end.
+fn remembered(stop: &Stop) -> impl Fn() -> bool + Sync {
+    let said = AtomicBool::new(false);
+    move || {
+        said.load(Ordering::Relaxed)
+            || (stop() && {
+                said.store(true, Ordering::Relaxed);
+                true
+            })
+    }
+}
+
+impl FilmJob<'_> {
+    /// What photons of this picture are aimed at.
+    fn aim(&self) -> Aim {
+        self.scene.emitters.aim(&seen::spheres(self.scene, &self.pass.frame))
+    }
 }
 
 #[cfg(test)]
