@@ -1,7 +1,7 @@
 //! What settings cannot see in a scene, and where their noise stays longest: to be said rather than hidden.
 
 use crate::TracedSettings;
-use pathtrace::{Estimator, Integrator, LightSampling, PathSettings};
+use pathtrace::{Estimator, Integrator, LightSampling, PathSettings, sees_little};
 use scene::{Bsdf, Needs, Scene, Shape};
 
 /// Light of a scene that a picture lacks, or hardly ever finds.
@@ -28,6 +28,8 @@ pub enum BlindSpot {
     Caustics,
     /// Photon maps: what is finer than the radius in which photons are gathered.
     BlurredLight,
+    /// Photons, where the camera sees little of the scene: what comes there by way of the rest.
+    FromAfar,
     /// Light tracing: what is seen in mirrors or through glass.
     InSpeculars(Specular),
     /// Lights in smooth rough metal, where light sampling alone has to hit the reflection.
@@ -102,6 +104,7 @@ impl BlindSpot {
             BlindSpot::BetweenSurfaces => "light between surfaces".into(),
             BlindSpot::Caustics => "caustics".into(),
             BlindSpot::BlurredLight => "detail finer than the radius (biased)".into(),
+            BlindSpot::FromAfar => "most light by way of what is far outside the picture".into(),
             BlindSpot::InSpeculars(Specular::Glass) => "what glass and mirrors show".into(),
             BlindSpot::InSpeculars(Specular::Mirror) => "what mirrors show".into(),
             BlindSpot::NarrowReflections => "most light in narrow reflections".into(),
@@ -134,6 +137,10 @@ impl BlindSpot {
             BlindSpot::Caustics => "mirrors and glass send no light on to surfaces: caustics are missing",
             BlindSpot::BlurredLight => {
                 "photons are gathered over a disc: light is blurred, and too dark at edges, less with each pass"
+            }
+            BlindSpot::FromAfar => {
+                "the camera sees little of the scene: photons are aimed there, but light that has met a surface far away hardly \
+                 ever comes"
             }
             BlindSpot::InSpeculars(_) => {
                 "mirrors and glass are black: a photon that leaves them hits the pinhole by no chance"
@@ -175,9 +182,10 @@ impl TracedSettings {
             Integrator::Metropolis(chains) => of_paths(&chains.path, scene, self.sees_a_delta_sun(scene)),
             Integrator::Whitted(_) => of_trees(&scene.needs()),
             Integrator::Photon(photon) if photon.points => Vec::new(),
-            Integrator::Photon(_) => vec![BlindSpot::BlurredLight],
+            Integrator::Photon(_) => [BlindSpot::BlurredLight].into_iter().chain(from_afar(scene)).collect(),
             Integrator::LightTracing(_) => {
-                Specular::of(&scene.needs()).map(BlindSpot::InSpeculars).into_iter().collect()
+                let speculars = Specular::of(&scene.needs()).map(BlindSpot::InSpeculars);
+                speculars.into_iter().chain(from_afar(scene)).collect()
             }
             Integrator::Normals(_) => Vec::new(),
         }
@@ -260,6 +268,10 @@ fn has_long_chains(scene: &Scene) -> bool {
 fn of_trees(needs: &Needs) -> Vec<BlindSpot> {
     let caustics = Specular::of(needs).is_some() || needs.rough_conductor;
     std::iter::once(BlindSpot::BetweenSurfaces).chain(caustics.then_some(BlindSpot::Caustics)).collect()
+}
+
+fn from_afar(scene: &Scene) -> Option<BlindSpot> {
+    sees_little(scene).then_some(BlindSpot::FromAfar)
 }
 
 fn is_blind_in_metal(path: &PathSettings, needs: &Needs) -> bool {

@@ -82,6 +82,16 @@ fn photons_blur_light_and_a_pinhole_sees_them_in_no_mirror() {
 }
 
 #[test]
+fn photons_hardly_come_from_far_outside_the_picture() {
+    let (far, near) = (builtin::named("hard/far-lamp").unwrap(), builtin::named("cornell").unwrap());
+    let by_far = "most light by way of what is far outside the picture";
+    assert_eq!(missing(&traced(TechniqueName::LightTracing), &far), [by_far]);
+    assert_eq!(missing(&traced(TechniqueName::Photon), &far), ["detail finer than the radius (biased)", by_far]);
+    assert_eq!(missing(&traced(TechniqueName::LightTracing), &near), [""; 0]);
+    assert_eq!(missing(&path(Estimator::LIGHT, None), &far), [""; 0]);
+}
+
+#[test]
 fn noise_stays_where_light_is_left_to_chance() {
     let (wide, delta) = (under_a_sun_of_radius(2.5), under_a_sun_of_radius(0.0));
     let cornell = builtin::named("cornell").unwrap();

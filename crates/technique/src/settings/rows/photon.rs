@@ -23,7 +23,8 @@ pub const ROWS: &[Setting<PaneSettings>] = &[
         control: Control {
             label: "Photons a pass",
             brief: Some(|value| format!("{} photons a pass", whole(value).map_or_else(String::new, grouped))),
-            hover: "Photons that leave the lights in each pass. Half of them are aimed at mirrors and glass",
+            hover: "Photons that leave the lights in each pass. Half of them are aimed at mirrors and glass, or at what the \
+                    camera sees of a wide scene",
             look: Look::Doubling(8..=18),
             ..BLANK
         },
@@ -41,7 +42,7 @@ pub const ROWS: &[Setting<PaneSettings>] = &[
         set: |pane, value| pane.photon.photon.radius = number(value),
         control: Control {
             label: "First radius",
-            hover: "In which the first pass gathers photons, in the scene's unit. A large one blurs light and has little noise, a small \
+            hover: "In which the first pass gathers photons, in the scene's unit; by default a tenth of the picture's height at most. A large one blurs light and has little noise, a small \
                     one is sharp and noisy; it shrinks from pass to pass, so that the blur vanishes",
             look: Look::Logarithmic(0.01..=20.0),
             ..BLANK
