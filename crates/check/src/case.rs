@@ -2,7 +2,9 @@
 
 use crate::measure::{Effort, Trial};
 use crate::row::Row;
-use crate::{area_lights, dielectrics, energy, estimators, fake, leaks, offsets, robustness, samplers, sums, surfaces};
+use crate::{
+    area_lights, caustics, dielectrics, energy, estimators, fake, leaks, offsets, robustness, samplers, sums, surfaces,
+};
 use std::sync::atomic::AtomicBool;
 
 /// A hard case.
@@ -58,6 +60,7 @@ cases! {
     28 surfaces::gallery, "Whispering gallery", "steps off a wall that turn rays inwards, reflection by reflection";
     29 surfaces::board, "Pattern in a plane between its cells", "cells found from a point's rounding";
     30 fake::planes_at_any_scale, "The fake at any scale", "constant near and far planes, shadow biases and cube cameras";
+    31 caustics::caustic, "Middle of a ball's caustic", "connections with a wrong density, power lost on its way from the sun";
 }
 
 /// Runs `cases`, one after the other. `on_rows` gets each case with its rows as soon as it is done, and says whether to

@@ -10,6 +10,7 @@
 
 mod area_lights;
 mod case;
+mod caustics;
 mod dielectrics;
 mod energy;
 mod estimators;

@@ -60,4 +60,5 @@ cases! {
     c28_whispering_gallery 28
     c29_pattern_in_a_plane_between_its_cells 29
     c30_planes_of_the_fake 30
+    c31_middle_of_a_caustic 31
 }

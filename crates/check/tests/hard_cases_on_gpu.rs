@@ -42,7 +42,7 @@ cases! {
     energy_is_kept_by_glass_mirrors_and_diffuse_walls [1, 2, 3, 14, 15];
     area_lights_light_the_floor_as_formulas_say [4, 5, 6, 7, 8];
     estimators_agree_and_errors_fall_with_the_root_of_the_samples [9, 23];
-    glass_obeys_snell_and_fresnel [10, 11, 12, 13];
+    glass_obeys_snell_and_fresnel [10, 11, 12, 13, 31];
     no_ray_leaks_and_no_surface_shadows_itself [16, 17, 18];
     nothing_depends_on_size_and_place [19, 20, 21];
     rounding_decides_nothing_where_surfaces_meet [25, 26, 27, 28, 29];

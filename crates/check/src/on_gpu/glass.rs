@@ -1,6 +1,7 @@
 //! Glass.
 
 use super::{Bench, Outcome};
+use crate::caustics::{CONNECTING, middle_of_a_caustic, through_a_ball};
 use crate::dielectrics::{
     BESIDE_THE_AXIS, CAPPED, NOWHERE, PASSES, REFLECTIONS, REFLECTIONS_OF_CAPPED, SHIFTS, THICKNESSES, after, apart,
     at_80_degrees, beside_the_axis, compare_angle, compare_exits, compare_shifts, down_to_grazing, off_the_normal,
@@ -27,6 +28,15 @@ fn slab_of_index(ior: f32) -> Scene {
 fn at_the_upper_face(cosine: f32, entering: bool) -> Ray {
     let direction = Vec3::new((1.0 - cosine * cosine).sqrt(), 0.0, if entering { -cosine } else { cosine });
     Ray::new(-direction, direction)
+}
+
+pub fn caustic(bench: &mut Bench) -> Outcome {
+    let place = middle_of_a_caustic();
+    let mut tracer = bench.tracer(&place.scene)?;
+    for estimator in CONNECTING {
+        bench.mean(&place.what, place.expected, (&mut tracer, &place.camera), through_a_ball(estimator))?;
+    }
+    Ok(())
 }
 
 pub fn fresnel(bench: &mut Bench) -> Outcome {

@@ -104,6 +104,7 @@ fn of_number(case: u32) -> Option<fn(&mut Bench) -> Outcome> {
         28 => surfaces::gallery,
         29 => surfaces::board,
         30 => fake::at_any_scale,
+        31 => glass::caustic,
         _ => return None,
     })
 }

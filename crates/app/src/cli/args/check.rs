@@ -43,7 +43,7 @@ pub fn options() -> Vec<CommandOption<CheckArgs>> {
         CommandOption {
             names: &["--device"],
             value: "auto|cpu|gpu",
-            help: "what is checked; the gpu renders 28 of the 30 cases (default auto: the cpu)",
+            help: "what is checked; the gpu renders 29 of the 31 cases (default auto: the cpu)",
             read: |args, parser| {
                 args.on_gpu = choice(parser, "--device", DeviceChoice::named, DEVICES)? == DeviceChoice::Gpu;
                 Ok(())
