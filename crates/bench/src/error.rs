@@ -20,6 +20,9 @@ pub enum BenchError {
     /// The disk is full, or the folder may not be written.
     #[error(transparent)]
     File(#[from] ImageFileError),
+    /// A filter could not do its work.
+    #[error(transparent)]
+    Denoise(#[from] denoise::DenoiseError),
     /// The journal cannot be read or written.
     #[error("cannot {what} the journal ({why}); what was measured before stays in it: {}", image_file::shown(path))]
     Journal {

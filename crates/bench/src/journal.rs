@@ -169,7 +169,7 @@ mod tests {
             height: 8,
             most_spp: 16,
             reference_seconds: 0.1,
-            speed: Speed { reference: 1.0 / 3.0, lines: 0.1, learning: 0.0 },
+            speed: Speed { reference: 1.0 / 3.0, lines: 0.1, learning: 0.0, denoising: 0.0 },
         }
     }
 

@@ -8,7 +8,9 @@ use pathtrace::{
 };
 use raster::Fake;
 use scene::Scene;
-use technique::{Device, DeviceChoice, FakeSettings, Technique, TracedSettings, TreeSettings};
+use technique::{
+    DenoiseSettings, Denoiser, Device, DeviceChoice, FakeSettings, Technique, TracedSettings, TreeSettings,
+};
 
 /// Samples of what more samples make better for ever: as many as the ladder of its part has.
 const LADDER: u32 = u32::MAX;
@@ -49,6 +51,12 @@ pub const fn path(estimator: Estimator, sampler: SamplerKind) -> Technique {
 /// The usual paths, but for light by way of spheres, which is left to chance and cones.
 pub const fn unconnected() -> Technique {
     paths(PathSettings { connections: false, ..COMPLETE })
+}
+
+/// The usual paths through a filter, which brings an error of its own that no samples take away.
+pub const fn denoised(denoiser: Denoiser) -> Technique {
+    let traced = on_the_ladder(Integrator::Path(COMPLETE));
+    Technique::Traced(TracedSettings { denoise: DenoiseSettings { denoiser, trust: 0.0 }, ..traced })
 }
 
 /// Paths of at most so many bounces, and no roulette: the tutorial's biased loop.
@@ -142,6 +150,11 @@ impl Line {
         self.converges() && self.path_settings().is_none()
     }
 
+    /// Whether its pictures go through a filter.
+    pub fn is_denoised(&self) -> bool {
+        self.technique.denoise().is_on()
+    }
+
     /// Whether each of its pictures begins with learning a guide.
     pub fn learns(&self) -> bool {
         self.path_settings().is_some_and(|path| path.estimator.directions == Directions::Guided)
@@ -165,6 +178,9 @@ impl Line {
                 let mut name = format!("path {} {}", estimator.name(), sampler.name());
                 if self.technique == unconnected() {
                     name += NO_CONNECTIONS;
+                }
+                if self.is_denoised() {
+                    name += &format!(" denoised {}", self.technique.denoise().denoiser.name());
                 }
                 if let Some(bounces) = bounces {
                     name += &format!(" bounces {bounces}");
@@ -206,6 +222,9 @@ pub fn title(technique: &Technique) -> String {
         Technique::Traced(_) => return technique.name().in_full().into(),
         Technique::Fake(settings) => return format!("fake, {}", settings.fake.name()),
     };
+    if technique.denoise().is_on() {
+        return format!("{}, denoised {}", path.estimator.name(), technique.denoise().denoiser.name());
+    }
     match (path.bounces, path.roulette.probability) {
         (None, None) if *technique == unconnected() => format!("{},{NO_CONNECTIONS}", path.estimator.name()),
         (None, None) => format!("{}, {}", path.estimator.name(), path.sampler.name()),

@@ -13,7 +13,7 @@ use raster::Raster;
 use scene::Scene;
 use serde::{Deserialize, Serialize};
 use std::time::Instant;
-use technique::{Accumulation, Backend, Device, FakeSettings};
+use technique::{Accumulation, Backend, Device, FakeSettings, features_of};
 
 /// Standard errors beyond which a bias is believed.
 pub const SIGMAS: f64 = 4.0;
@@ -143,7 +143,10 @@ pub fn traced(
         let seconds = start.elapsed().as_secs_f64();
         let seconds = backend.take_device_seconds().unwrap_or(seconds);
         backend.resolve(&mut accumulation)?;
-        Ok::<_, BenchError>((accumulation, seconds))
+        let start = Instant::now();
+        let denoised = denoised(line, backend, accumulation.film(), (scene, seed))?;
+        let seconds = if denoised.is_some() { seconds + start.elapsed().as_secs_f64() } else { seconds };
+        Ok::<_, BenchError>((denoised.unwrap_or_else(|| accumulation.film().clone()), accumulation.stats(), seconds))
     };
     if line.device() == Device::Gpu {
         trace(0, 1)?;
@@ -152,12 +155,30 @@ pub fn traced(
     let (mut pictures, mut films) = (Vec::new(), Vec::new());
     for i in 0..SEEDS {
         let seed = seed(rung, i);
-        let (accumulation, seconds) = trace(seed, spp)?;
-        pictures.push(judged(accumulation.film(), seed, seconds, accumulation.stats(), truth)?);
-        films.push(accumulation.into_film());
+        let (film, stats, seconds) = trace(seed, spp)?;
+        pictures.push(judged(&film, seed, seconds, stats, truth)?);
+        films.push(film);
     }
     let bias = if integrator.shares_between_pixels() { None } else { Some(Bias::of(&films, truth)?) };
     Ok(Measurement { part: part.name.clone(), line: line.name(), spp, pictures, bias, reference: truth.worth })
+}
+
+/// A line's film as its filter leaves it, with the features that guides it; `None` without a filter.
+fn denoised(
+    line: &Line,
+    backend: &Backend,
+    film: &Film,
+    (scene, seed): (&Scene, u32),
+) -> Result<Option<Film>, BenchError> {
+    let denoise = line.technique.denoise();
+    let (Backend::Cpu(tracer), Some(integrator)) = (backend, line.integrator(seed)) else { return Ok(None) };
+    if !denoise.is_on() {
+        return Ok(None);
+    }
+    let never = || false;
+    let Some(features) = features_of(tracer, film, (&scene.camera, &integrator), &never) else { return Ok(None) };
+    let image = denoise.apply(film, None, &features, &never)?;
+    Ok(Film::from_radiances(film.width(), film.height(), image.radiances().iter().copied()))
 }
 
 /// Measures a fake, once its pipelines are built: as many frames as others have seeds, all of one picture.

@@ -13,7 +13,7 @@ use raster::Fake;
 use reference::SAMPLES_PER_REPLICATE;
 use scene::{Scene, builtin};
 use serde::{Deserialize, Serialize};
-use technique::Technique;
+use technique::{Denoiser, Technique};
 
 /// Scenes that are measured.
 pub const SCENES: [&str; 2] = ["cornell", "whitted"];
@@ -26,6 +26,9 @@ pub const QUICK_SECONDS: f64 = 60.0;
 
 /// Share of the time that goes into references.
 const REFERENCE_SHARE: f64 = 0.35;
+
+/// Samples beyond which a filter's own error is all that is left of a picture.
+const MOST_DENOISED: u32 = 64;
 
 /// Each rung of the ladder of samples has this many times the samples of the one before.
 pub(crate) const RUNG: u32 = 4;
@@ -124,7 +127,7 @@ impl Sketch {
             height: self.full.1,
             most_spp: 1024,
             reference_seconds: 900.0,
-            speed: Speed { reference: 1.0, lines: 1.0, learning: 0.0 },
+            speed: Speed { reference: 1.0, lines: 1.0, learning: 0.0, denoising: 0.0 },
         }
     }
 }
@@ -160,6 +163,7 @@ impl Part {
     pub fn rungs(&self, line: &Line) -> Vec<u32> {
         match line.technique {
             _ if line.is_a_variant() => vec![VARIANT_SPP],
+            _ if line.is_denoised() => self.ladder().into_iter().filter(|spp| *spp <= MOST_DENOISED).collect(),
             _ if line.is_dear() => self.ladder().into_iter().filter(|spp| spp * RUNG <= self.most_spp).collect(),
             _ if line.converges() => self.ladder(),
             Technique::Traced(traced) => vec![traced.spp],
@@ -171,6 +175,7 @@ impl Part {
     pub fn lines(&self, scene: &Scene) -> Vec<Line> {
         let mut techniques = self.paths(scene);
         techniques.extend(self.other_transport(scene));
+        techniques.extend([Denoiser::Unet, Denoiser::ATrous].map(line::denoised));
         if self.teaches_bias() {
             techniques.extend([0, 1, 3].map(line::bounded));
             techniques.push(line::survived(0.8));
@@ -231,7 +236,8 @@ impl Part {
     /// Seconds of a line's measurement at `spp`, over all seeds.
     pub fn seconds(&self, line: &Line, spp: u32) -> f64 {
         let learning = if line.learns() { f64::from(SEEDS) * self.speed.learning } else { 0.0 };
-        learning + self.samples(spp) / self.speed.lines
+        let filter = if line.is_denoised() { self.samples(1) * self.speed.denoising } else { 0.0 };
+        learning + filter + self.samples(spp) / self.speed.lines
     }
 
     /// Seconds of all lines' measurements.
@@ -288,7 +294,7 @@ mod tests {
     fn cornell_within(seconds: f64, speed: f64) -> (Part, Scene) {
         let part = SKETCHES[0].part();
         let scene = part.scene().unwrap();
-        let speed = Speed { reference: speed, lines: 1.5 * speed, learning: 0.02 };
+        let speed = Speed { reference: speed, lines: 1.5 * speed, learning: 0.02, denoising: 1e-6 };
         (part.within(&scene, seconds, speed, SKETCHES[0].quick), scene)
     }
 
@@ -346,6 +352,16 @@ mod tests {
         assert_eq!(rungs("path light sobol"), [1, 4, 16, 64, 256, 1024]);
         assert_eq!([rungs("photon"), rungs("metropolis")], [[1, 4, 16, 64, 256]; 2]);
         assert_eq!(rungs("light-tracing"), [16]);
+    }
+
+    #[test]
+    fn what_is_denoised_is_measured_where_it_may_pay() {
+        for name in part_names() {
+            let (part, lines) = part(name);
+            let denoised: Vec<_> = lines.iter().filter(|line| line.is_denoised()).collect();
+            assert_eq!(denoised.len(), 2, "{name}");
+            assert!(denoised.iter().all(|line| part.rungs(line) == [1, 4, 16, 64]), "{name}");
+        }
     }
 
     #[test]

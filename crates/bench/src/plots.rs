@@ -6,7 +6,7 @@ use crate::summary::{Curve, PartSummary, Point, slope_words};
 use compare::{LogLogPlot, PlotPoint, Range, Series, Stroke};
 use pathtrace::{Estimator, Integrator, SamplerKind};
 use raster::Fake;
-use technique::{FakeSettings, Technique};
+use technique::{Denoiser, FakeSettings, Technique};
 
 /// A plot with its name and what to see in it.
 pub struct Plot {
@@ -165,9 +165,14 @@ fn series(curve: &Curve, name: String, of: impl Fn(&Point) -> (f64, Range)) -> S
 }
 
 /// Colours that [`colour`] does not use begin here: for peers.
-const FIRST_FREE_COLOUR: usize = 12;
+const FIRST_FREE_COLOUR: usize = 14;
 
 fn colour(technique: &Technique) -> usize {
+    match technique.denoise().denoiser {
+        Denoiser::Off => {}
+        Denoiser::Unet | Denoiser::UnetBase => return 12,
+        Denoiser::ATrous => return 13,
+    }
     let integrator = match technique {
         Technique::Traced(traced) => traced.integrator,
         Technique::Fake(FakeSettings { fake: Fake::Fair, .. }) => return 4,

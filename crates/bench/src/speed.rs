@@ -1,12 +1,13 @@
 //! How fast this machine is, measured before a bench is planned.
 
 use crate::plan::{Part, RUNG};
-use film::Film;
+use film::{Features, Film, Image, Vec3};
 use pathtrace::{Integrator, Tracer};
 use reference::Maker;
 use scene::Scene;
 use serde::{Deserialize, Serialize};
 use std::time::Instant;
+use technique::Denoiser;
 
 /// Side of the picture by which speeds are measured.
 const SIDE: u32 = 48;
@@ -20,6 +21,8 @@ pub struct Speed {
     pub lines: f64,
     /// Seconds that it takes to learn a guide, whatever the picture's size.
     pub learning: f64,
+    /// Seconds that a pixel takes in the slowest filter.
+    pub denoising: f64,
 }
 
 impl Speed {
@@ -37,6 +40,7 @@ impl Speed {
             reference: samples_per_second(&tracer, scene, &[(Maker::settings(1).into(), RUNG)]),
             lines: samples_per_second(&tracer, scene, &shares),
             learning: learning.map_or(0.0, |guided| seconds_of_one_sample(&tracer, scene, &guided)),
+            denoising: seconds_of_a_filtered_pixel(),
         }
     }
 }
@@ -58,6 +62,24 @@ fn samples_per_second(tracer: &Tracer, scene: &Scene, shares: &[(Integrator, u32
         samples += all();
     }
     samples as f64 / start.elapsed().as_secs_f64()
+}
+
+/// The network's, whatever the picture; no time at all where it has no memory.
+fn seconds_of_a_filtered_pixel() -> f64 {
+    let pixels = (SIDE * SIDE) as usize;
+    let black = vec![Vec3::ZERO; pixels];
+    let picture = Image::new(SIDE, SIDE, black.clone());
+    let features = Features::new((SIDE, SIDE), black.clone(), black, vec![0.0; pixels]);
+    let (Some(picture), Some(features)) = (picture, features) else { return 0.0 };
+    let mut seconds = f64::INFINITY;
+    // the first reads the weights too
+    for _ in 0..2 {
+        let start = Instant::now();
+        // one that fails tells so where its picture is wanted
+        drop(Denoiser::Unet.apply(&picture, &features, None, &|| false));
+        seconds = seconds.min(start.elapsed().as_secs_f64());
+    }
+    seconds / pixels as f64
 }
 
 fn seconds_of_one_sample(tracer: &Tracer, scene: &Scene, integrator: &Integrator) -> f64 {

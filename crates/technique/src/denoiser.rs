@@ -100,7 +100,10 @@ impl DenoiseSettings {
     }
 
     /// What becomes of a film, of which an `earlier` state is there to judge the filter by, on the current rayon pool.
-    fn apply(
+    ///
+    /// # Errors
+    /// As [`Denoiser::apply`].
+    pub fn apply(
         &self,
         film: &Film,
         earlier: Option<&Film>,

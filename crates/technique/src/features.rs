@@ -1,6 +1,7 @@
 //! What the pixels of a film show, beside its light: made when a denoiser asks, and seldom again.
 
 use crate::{Accumulation, Backend, Renderer, Watch};
+use film::{Features, Film};
 use pathtrace::{FeaturePass, Integrator, Tracer};
 use scene::Camera;
 
@@ -9,6 +10,21 @@ const ENOUGH: u32 = 16;
 
 /// Samples with which they are made first: of fewer, what glass sends on by chance would be noise.
 const FEWEST: u32 = 4;
+
+/// What a finished film's pixels show, on the current rayon pool; `None` once `stop` says so.
+pub fn features_of(
+    tracer: &Tracer,
+    film: &Film,
+    (camera, integrator): (&Camera, &Integrator),
+    stop: &(impl Fn() -> bool + Sync),
+) -> Option<Features> {
+    tracer.features(&pass_of(film, (camera, integrator), ENOUGH), stop)
+}
+
+fn pass_of(film: &Film, (camera, integrator): (&Camera, &Integrator), samples: u32) -> FeaturePass {
+    let sampler = (integrator.sampler(), integrator.seed());
+    FeaturePass::new(camera, (film.width(), film.height()), samples, sampler)
+}
 
 impl Renderer {
     /// What a film's pixels show, from few samples at first, and from enough once it has so many itself or is `finished`.
@@ -23,9 +39,7 @@ impl Renderer {
         if accumulation.features.as_ref().is_some_and(|(made_from, _)| *made_from >= samples) {
             return;
         }
-        let film = accumulation.film();
-        let sampler = (integrator.sampler(), integrator.seed());
-        let pass = FeaturePass::new(camera, (film.width(), film.height()), samples, sampler);
+        let pass = pass_of(accumulation.film(), (camera, integrator), samples);
         let (scene, beside) = (&self.scene, &mut self.beside_the_device);
         let tracer = match &self.backend {
             Backend::Cpu(tracer) => tracer,

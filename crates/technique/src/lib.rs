@@ -35,6 +35,7 @@ pub use command::{camera_options, made_by_command};
 pub use denoiser::{DenoiseSettings, Denoised, Denoiser, TRUST};
 pub use device::{Adapter, Adapters, Device, DeviceChoice, INSTEAD};
 pub use fake::FakeSettings;
+pub use features::features_of;
 pub use pane::PaneSettings;
 pub use presets::Preset;
 pub use progressive::{NoMemory, ProgressiveRenderer, Request};

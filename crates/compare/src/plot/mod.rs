@@ -69,9 +69,9 @@ pub struct PlotPoint {
 }
 
 /// Okabe and Ito's colours that stand out from white, told apart by the colour-blind too, and a few more.
-pub const COLOURS: [&str; 14] = [
+pub const COLOURS: [&str; 16] = [
     "#0072b2", "#d55e00", "#009e73", "#cc79a7", "#000000", "#8a6d00", "#6b6b6b", "#7b3fa0", "#a00000", "#2f9fe0",
-    "#6aa500", "#5d3a1a", "#e0218a", "#0e6f6f",
+    "#6aa500", "#5d3a1a", "#e0218a", "#0e6f6f", "#5566cc", "#c08a2a",
 ];
 
 const WIDTH: f64 = 1280.0;
