@@ -42,8 +42,9 @@ pub const ROWS: &[Setting<PaneSettings>] = &[
         set: |pane, value| pane.photon.photon.radius = number(value),
         control: Control {
             label: "First radius",
-            hover: "In which the first pass gathers photons, in the scene's unit; by default a tenth of the picture's height at most. A large one blurs light and has little noise, a small \
-                    one is sharp and noisy; it shrinks from pass to pass, so that the blur vanishes",
+            hover: "In which the first pass gathers photons, in the scene's unit; by default a tenth of the picture's height at \
+                    most. A large one blurs light and has little noise, a small one is sharp and noisy; it shrinks from pass to \
+                    pass, so that the blur vanishes",
             look: Look::Logarithmic(0.01..=20.0),
             ..BLANK
         },

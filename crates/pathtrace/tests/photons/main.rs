@@ -3,66 +3,18 @@
 
 #![expect(clippy::expect_used, reason = "a scene that does not load is a failure")]
 
+mod lamps;
+mod pictures;
+
 use film::Film;
-use pathtrace::{
-    ConesAt, DirectLight, Integrator, Lanes, LightTracingSettings, PathSettings, PhotonSettings, SamplerKind, Stats,
-};
+use pathtrace::{ConesAt, DirectLight, Integrator, Lanes, PathSettings, PhotonSettings, SamplerKind};
 use pathtrace::{Estimator, Tracer};
+use pictures::{
+    assert_mean, everything, light_tracing, mean_and_error, mean_of_seeds, photon_maps, render, scene, traced,
+};
 use scene::{Scene, Vec3, builtin};
 use std::f64::consts::PI;
-use std::path::Path;
 use std::sync::atomic::{AtomicU32, Ordering};
-
-fn scene(text: &str) -> Scene {
-    scene::parse(text, "test", Path::new("test.toml")).expect("a scene")
-}
-
-fn everything() -> Scene {
-    scene(include_str!("../../../tests/tests/scenes/everything-more.toml"))
-}
-
-fn traced(tracer: &Tracer, scene: &Scene, side: u32, spp: u32, integrator: &Integrator) -> (Film, Stats) {
-    let mut film = Film::new(side, side);
-    let stats = tracer.render(&mut film, &scene.camera, integrator, spp, &|| false);
-    assert_eq!(film.nonfinite, 0);
-    (film, stats)
-}
-
-fn render(scene: &Scene, side: u32, spp: u32, integrator: impl Into<Integrator>) -> Film {
-    traced(&Tracer::new(scene), scene, side, spp, &integrator.into()).0
-}
-
-/// Both ways to find direct light.
-fn photon_maps(photons: u32, radius: f32) -> [Integrator; 2] {
-    let settings = PhotonSettings { photons, radius: Some(radius), ..PhotonSettings::default() };
-    DirectLight::ALL.map(|direct| PhotonSettings { direct, ..settings }.into())
-}
-
-fn light_tracing(photons: u32) -> Integrator {
-    LightTracingSettings { photons, ..LightTracingSettings::default() }.into()
-}
-
-/// Mean and standard error over all pixels and channels of pictures of several seeds: pixels of one share photons.
-fn mean_of_seeds(scene: &Scene, side: u32, spp: u32, integrator: &Integrator) -> (f64, f64) {
-    let tracer = Tracer::new(scene);
-    let of_seed = |seed| traced(&tracer, scene, side, spp, &integrator.with_seed(seed)).0.mean();
-    mean_and_error(&(1..=8).map(|seed| of_seed(seed).iter().sum::<f64>() / 3.0).collect::<Vec<_>>())
-}
-
-fn mean_and_error(values: &[f64]) -> (f64, f64) {
-    let n = values.len() as f64;
-    let mean = values.iter().sum::<f64>() / n;
-    let variance = values.iter().map(|value| (value - mean).powi(2)).sum::<f64>() / (n * (n - 1.0));
-    (mean, variance.sqrt())
-}
-
-/// The mean is `expected` but for a known bias and five standard errors (of eight values; rarer than one in a thousand), and these are
-/// small enough to notice `power` of it.
-fn assert_mean((mean, error): (f64, f64), expected: f64, (bias, power): (f64, f64), what: &str) {
-    assert!(error <= power * expected, "{what}: a standard error of {error} proves nothing");
-    let most = 5.0 * error + bias * expected + 1e-6 * expected;
-    assert!((mean - expected).abs() <= most, "{what}: {mean} +- {error}, expected {expected}");
-}
 
 /// Means of 4 x 4 parts of a picture, with their standard errors from the spread of pictures of several seeds.
 fn blocks(scene: &Scene, spp: u32, integrator: &Integrator) -> Vec<(f64, f64)> {
@@ -100,125 +52,6 @@ fn both_find_in_a_cornell_box_what_paths_find() {
     for photons in photon_maps(1 << 14, 10.0) {
         // a disc of 10 of the box's 555 that hangs over an edge
         assert_alike(&blocks(&cornell, 8, &photons), &paths, (0.04, 0.04), &format!("{photons:?}"));
-    }
-}
-
-/// A floor under lamps of radiance 1, seen from the side, with the lamps in the picture.
-fn under_lamps(lamps: &str) -> Scene {
-    scene(&format!(
-        "[camera]\neye = [0, -6, 3]\ntarget = [0, 0, 1]\nup = [0, 0, 1]\nfov_y = 45\n\
-         [material.floor]\ndiffuse = {{ albedo = [0.5, 0.5, 0.5] }}\n\
-         [material.lamp]\nemissive = {{ radiance = [1, 1, 1] }}\n\
-         [material.bright]\nemissive = {{ radiance = [3, 3, 3], two_sided = true }}\n\
-         [material.glass]\ndielectric = {{ ior = 1.5 }}\n\
-         [[rectangle]]\ncorner = [-9, -9, 0]\nedge_u = [18, 0, 0]\nedge_v = [0, 18, 0]\nmaterial = 'floor'\n{lamps}"
-    ))
-}
-
-fn square_lamp(corner: [f32; 3], side: f32, material: &str) -> String {
-    format!(
-        "[[rectangle]]\ncorner = {corner:?}\nedge_u = [0, {side:?}, 0]\nedge_v = [{side:?}, 0, 0]\nmaterial = '{material}'\n"
-    )
-}
-
-fn ball(radius: f32, material: &str) -> String {
-    format!("[[sphere]]\ncenter = [0, 0, 2]\nradius = {radius:?}\nmaterial = '{material}'\n")
-}
-
-/// Of lamps that lie in one another the first one shines, by its own radiance, to photons as to paths; others that meet shine
-/// both.
-#[test]
-fn lamps_that_coincide_shine_once() {
-    let small = square_lamp([-0.25, -0.25, 2.0], 0.5, "bright");
-    let large = square_lamp([-1.0, -1.0, 2.0], 2.0, "lamp");
-    let beside = square_lamp([1.0, -1.0, 2.0], 2.0, "lamp");
-    let tilted = |[x, z]: [f32; 2]| {
-        format!(
-            "[[rectangle]]\ncorner = [{x:?}, -1, {z:?}]\nedge_u = [0, 2, 0]\nedge_v = [1.5, 0, 0.9]\nmaterial = 'lamp'\n"
-        )
-    };
-    let cases = [
-        ("twice", large.repeat(2)),
-        ("a small one over a large one", format!("{small}{large}")),
-        ("a small one under a large one", format!("{large}{small}")),
-        ("beside each other", format!("{large}{beside}")),
-        ("tilted, in one plane", format!("{}{}", tilted([-1.0, 2.0]), tilted([-0.625, 2.225]))),
-        ("a ball twice", ball(0.5, "lamp") + &ball(0.5, "bright")),
-        ("a ball in a ball", ball(0.5, "lamp") + &ball(0.4, "bright")),
-        ("on a board", square_lamp([-2.0, -2.0, 2.0], 4.0, "floor") + &large),
-        ("behind glass", large.repeat(2) + "[[box]]\ncorner = [-2, -2, 1]\nsize = [4, 4, 0.1]\nmaterial = 'glass'\n"),
-    ];
-    for (what, lamps) in cases {
-        let scene = under_lamps(&lamps);
-        let (paths, _) = mean_of_seeds(
-            &scene,
-            24,
-            256,
-            &PathSettings { estimator: Estimator::MIS, ..PathSettings::default() }.into(),
-        );
-        let [_, gathered] = photon_maps(1 << 13, 0.1);
-        assert_mean(mean_of_seeds(&scene, 24, 16, &gathered), paths, (0.01, 0.01), &format!("{what}, photon map"));
-        if what != "behind glass" {
-            let traced = mean_of_seeds(&scene, 24, 16, &light_tracing(1 << 13));
-            assert_mean(traced, paths, (0.003, 0.01), &format!("{what}, light tracing"));
-        }
-    }
-}
-
-/// The mean of each hard scene, where a map is dark at edges by up to a twentieth. Light tracing is left out where mirrors or glass
-/// are to be seen, which it does not show.
-#[test]
-fn in_hard_scenes_photons_find_what_paths_find() {
-    for name in builtin::hard_names() {
-        let scene = builtin::named(name).expect("a built-in scene");
-        let paths = PathSettings { estimator: Estimator::MIS, ..PathSettings::default() };
-        let (expected, error) = mean_of_seeds(&scene, 16, 256, &paths.into());
-        let [_, gathered] = photon_maps(1 << 12, 0.02);
-        let specular = scene.needs().mirror || scene.needs().dielectric;
-        let light = (!specular).then(|| (light_tracing(1 << 12), 0.003));
-        for (integrator, bias) in [(gathered, 0.05)].into_iter().chain(light) {
-            let (found, own_error) = mean_of_seeds(&scene, 16, 32, &integrator);
-            println!("{name}, {}: {found:.5} +- {own_error:.5}, {expected:.5} +- {error:.5}", integrator.name());
-            assert_mean((found, own_error.hypot(error)), expected, (bias, 0.03), name);
-        }
-    }
-}
-
-/// A floor of thousands of units, of which the camera sees a few: under a sun, a sky, a small lamp and a large one.
-#[test]
-fn of_a_wide_floor_is_lit_what_the_camera_sees() {
-    let floor = |light: &str| {
-        scene(&format!(
-            "[camera]\neye = [0, 3, 3]\ntarget = [0, 0, 0]\nfov_y = 20\n\
-             [material.floor]\ndiffuse = {{ albedo = [0.5, 0.5, 0.5] }}\n\
-             [material.lamp]\nemissive = {{ radiance = [1, 1, 1] }}\n\
-             [[rectangle]]\ncorner = [-3000, 0, -3000]\nedge_u = [0, 0, 6000]\nedge_v = [6000, 0, 0]\nmaterial = 'floor'\n{light}"
-        ))
-    };
-    let lamp = |half: f32, height: f32| {
-        let (low, side) = (-half, 2.0 * half);
-        format!(
-            "[[rectangle]]\ncorner = [{low:?}, {height:?}, {low:?}]\nedge_u = [{side:?}, 0, 0]\nedge_v = [0, 0, {side:?}]\nmaterial = 'lamp'\n"
-        )
-    };
-    let lights = [
-        "[sun]\ntowards = [1, 2, 0]\nangular_radius = 0\nirradiance = [2, 2, 2]\n".to_owned(),
-        "[sky]\nradiance = [1, 1, 1]\n".to_owned(),
-        "[[point_light]]\nposition = [100, 500, 0]\nintensity = [1e6, 1e6, 1e6]\n".to_owned(),
-        lamp(2.0, 300.0),
-        lamp(2000.0, 1000.0),
-    ];
-    for light in lights {
-        let floor = floor(&light);
-        let (paths, _) = mean_of_seeds(&floor, 8, 1024, &PathSettings::default().into());
-        for integrator in photon_maps(1 << 13, 0.1).into_iter().chain([light_tracing(1 << 13)]) {
-            assert_mean(
-                mean_of_seeds(&floor, 8, 16, &integrator),
-                paths,
-                (0.01, 0.02),
-                &format!("{light}{integrator:?}"),
-            );
-        }
     }
 }
 
@@ -405,7 +238,7 @@ fn at_an_edge_as_much_is_missing_as_the_disc_hangs_over() {
 #[test]
 fn far_from_the_origin_photons_find_the_same() {
     let near = builtin::named("hard/closed-box").expect("a built-in scene");
-    let text = include_str!("../../../assets/scenes/hard/closed-box.toml");
+    let text = include_str!("../../../../assets/scenes/hard/closed-box.toml");
     let moved = |text: &str| {
         text.replace("corner = [0, 0, 0]", "corner = [9000, 0, 0]")
             .replace("corner = [1, 0, 0]", "corner = [9001, 0, 0]")
