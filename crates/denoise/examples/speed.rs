@@ -13,7 +13,7 @@ fn main() {
     let color = noise(width, height, 1);
     let [albedo, normal] = [noise(width, height, 2), noise(width, height, 3)];
     let features = Features { albedo: albedo.radiances(), normal: normal.radiances() };
-    println!("{width} x {height}, {} threads", rayon::current_num_threads());
+    println!("{width} x {height}, {} threads, pictures of {:.0} MiB", rayon::current_num_threads(), peak_memory());
     for network in [Network::small(), Network::base()].into_iter().flatten() {
         let work = network.operations_per_pixel() * f64::from(width) * f64::from(height);
         for lanes in Lanes::available().filter(|lanes| *lanes != Lanes::Scalar) {
@@ -28,6 +28,7 @@ fn main() {
                 lanes.name()
             );
         }
+        println!("{:24} at most {:.0} MiB", network.name(), peak_memory());
     }
 }
 
@@ -52,6 +53,13 @@ fn processor_seconds() -> f64 {
         .nth(11)
         .and_then(|ticks| ticks.parse().ok())
         .map_or(f64::NAN, |ticks: f64| ticks / 100.0)
+}
+
+/// The most memory that this process has had so far, in MiB: Linux tells (proc(5)).
+fn peak_memory() -> f64 {
+    let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:")).unwrap_or_default();
+    line.split_whitespace().next().and_then(|kib| kib.parse().ok()).map_or(f64::NAN, |kib: f64| kib / 1024.0)
 }
 
 /// Numbers in [0, 1).

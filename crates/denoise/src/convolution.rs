@@ -1,7 +1,8 @@
 //! Convolutions of 3 x 3 with a bias and without what is negative (ReLU), over blocks of channels. A lane is an output
 //! channel: a tile of neighbouring pixels and two vectors of outputs stay in registers while one input channel after the
 //! other is added to all of them, so that each weight that is fetched serves a row of pixels and each input two vectors.
-//! Input channels come from one or two layers; one that was halved before is read as if each of its pixels were four.
+//! Input channels come from one or two layers; one that was halved before is read as if each of its pixels stood for four
+//! (nearest upsampling), with the kernel's weights summed where they meet the same one: 4 products instead of 9.
 //!
 //! Sums are fused where lanes can: another width rounds otherwise, and a picture differs in its last bits.
 
@@ -19,15 +20,6 @@ const TILE: usize = 6;
 /// Rows of a strip, the work of one thread at a time.
 const STRIP: usize = 4;
 
-/// A layer whose output a convolution reads.
-#[derive(Clone, Copy)]
-pub struct Input<'a> {
-    /// Its values.
-    pub planes: &'a Planes,
-    /// Whether each of its pixels stands for four (nearest upsampling).
-    pub doubled: bool,
-}
-
 /// What becomes of the output.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Then {
@@ -37,14 +29,22 @@ pub enum Then {
     Pool,
 }
 
+/// Channels of a layer that a convolution reads.
+#[derive(Debug, Clone, Copy)]
+pub struct Channels {
+    /// How many.
+    pub count: usize,
+    /// Whether each pixel stands for four.
+    pub doubled: bool,
+}
+
 /// Weights in the order in which a tile needs them: for each block of outputs, for each block of inputs, row and column
 /// of the kernel and input channel, the weights of the outputs side by side. Channels that pad a block have zeros.
 #[derive(Debug)]
 pub struct Convolution {
     /// How many channels it gives.
     pub outputs: usize,
-    /// How many channels of each layer it reads.
-    inputs: Vec<usize>,
+    inputs: Vec<Channels>,
     bias: Vec<Pixel>,
     weights: Vec<Vec<Pixel>>,
 }
@@ -52,30 +52,31 @@ pub struct Convolution {
 impl Convolution {
     /// Of a kernel whose inputs are the channels of these layers, one behind the other. `None` if the tensors are no
     /// kernel of 3 x 3 of so many channels and its bias.
-    pub fn new(kernel: &Tensor, bias: &Tensor, inputs: &[usize]) -> Option<Self> {
+    pub fn new(kernel: &Tensor, bias: &Tensor, inputs: &[Channels]) -> Option<Self> {
         let [outputs, of_kernel, 3, 3] = *kernel.dimensions else { return None };
-        if of_kernel != inputs.iter().sum::<usize>() || bias.dimensions != [outputs] {
+        if of_kernel != inputs.iter().map(|input| input.count).sum::<usize>() || bias.dimensions != [outputs] {
             return None;
         }
-        let weight = |output: usize, input: usize, place: usize| {
-            if output < outputs { kernel.values[(output * of_kernel + input) * 9 + place] } else { 0.0 }
+        let weight = |output: usize, Taps { input, places }: &Taps| {
+            let of = |place: &usize| kernel.values[(output * of_kernel + input) * 9 + place];
+            if output < outputs { places.iter().map(of).sum() } else { 0.0 }
         };
         let order = order(inputs);
         let blocks = (0..outputs.div_ceil(BLOCK)).map(|block| block * BLOCK);
-        let weights = blocks.clone().map(|first| {
-            order.iter().map(|&(input, place)| from_fn(|lane| weight(first + lane, input, place))).collect()
-        });
-        let bias = blocks.clone().map(|first| from_fn(|lane| bias.values.get(first + lane).copied().unwrap_or(0.0)));
-        Some(Convolution { outputs, inputs: inputs.to_vec(), bias: bias.collect(), weights: weights.collect() })
+        let of_block = |first: usize| order.iter().map(|taps| from_fn(|lane| weight(first + lane, taps))).collect();
+        let bias_of_block = |first: usize| from_fn(|lane| bias.values.get(first + lane).copied().unwrap_or(0.0));
+        let (weights, bias) = (blocks.clone().map(of_block).collect(), blocks.map(bias_of_block).collect());
+        Some(Convolution { outputs, inputs: inputs.to_vec(), bias, weights })
     }
 
     /// Multiplications and additions for each pixel, those of channels that pad a block included.
     pub fn operations(&self) -> usize {
-        2 * BLOCK * self.weights.iter().map(Vec::len).sum::<usize>()
+        let of = |input: &Channels| input.count * if input.doubled { 4 } else { 9 };
+        2 * BLOCK * self.weights.len() * self.inputs.iter().map(of).sum::<usize>()
     }
 
     /// Fills `output`, which has its shape. Stops early if `stop` says so, and then leaves it as it is.
-    pub fn run(&self, inputs: &[Input], then: Then, output: &mut Planes, lanes: Lanes, stop: Stop) {
+    pub fn run(&self, inputs: &[&Planes], then: Then, output: &mut Planes, lanes: Lanes, stop: Stop) {
         let shape = output.shape;
         let tasks = self.tasks(output, lanes);
         tasks.into_par_iter().for_each(|(block, first_row, planes)| {
@@ -110,16 +111,46 @@ impl Convolution {
     }
 }
 
-/// Which input channel and which place of the kernel come one after the other.
-fn order(inputs: &[usize]) -> Vec<(usize, usize)> {
+/// An input channel and the places of the kernel that meet the same pixel of it: one, or of a layer that is doubled those
+/// that come to lie on one of its pixels.
+struct Taps {
+    input: usize,
+    places: Vec<usize>,
+}
+
+/// Rows, or columns, of the kernel that come to lie on the first and on the second pixel of a doubled layer, at an even
+/// and at an odd row.
+const DOUBLED: [[&[usize]; 2]; 2] = [[&[0], &[1, 2]], [&[0, 1], &[2]]];
+
+/// What comes one after the other.
+fn order(inputs: &[Channels]) -> Vec<Taps> {
     let mut order = Vec::new();
     let mut first = 0;
-    for &channels in inputs {
-        for block in (first..first + channels).step_by(BLOCK) {
-            let block = block..(block + BLOCK).min(first + channels);
-            order.extend((0..9).flat_map(|place| block.clone().map(move |input| (input, place))));
+    for &Channels { count, doubled } in inputs {
+        for block in (first..first + count).step_by(BLOCK) {
+            let block = block..(block + BLOCK).min(first + count);
+            let places = if doubled { places_of_doubled() } else { (0..9).map(|place| vec![place]).collect() };
+            order.extend(
+                places
+                    .into_iter()
+                    .flat_map(|places| block.clone().map(move |input| Taps { input, places: places.clone() })),
+            );
         }
-        first += channels;
+        first += count;
+    }
+    order
+}
+
+/// For even and odd rows, each of the two rows that they see, the left and the right column, even and odd columns.
+fn places_of_doubled() -> Vec<Vec<usize>> {
+    let mut order = Vec::new();
+    for rows in DOUBLED.iter().flatten() {
+        for side in 0..2 {
+            for of_parity in DOUBLED {
+                let columns = of_parity[side];
+                order.push(rows.iter().flat_map(|row| columns.iter().map(move |column| 3 * row + column)).collect());
+            }
+        }
     }
     order
 }
@@ -127,7 +158,7 @@ fn order(inputs: &[usize]) -> Vec<(usize, usize)> {
 /// Some rows of some blocks of a layer's output.
 struct Strip<'a, 'p> {
     layer: &'a Convolution,
-    inputs: &'a [Input<'a>],
+    inputs: &'a [&'a Planes],
     then: Then,
     shape: Shape,
     block: usize,
@@ -210,19 +241,14 @@ impl Strip<'_, '_> {
             *sums = [F::load(&self.layer.bias[block][lane..]); P];
             *weights = Weights { lane, rest: &self.layer.weights[block] };
         }
-        for (input, &channels) in self.inputs.iter().zip(&self.layer.inputs) {
-            let stride = input.planes.shape.stride();
-            for block in 0..channels.div_ceil(BLOCK) {
-                let plane = input.planes.starting_at(block);
-                let used = BLOCK.min(channels - block * BLOCK);
-                for y in y..y + 3 {
-                    if input.doubled {
-                        // rows and columns of the border included, and of what is doubled the border twice
-                        let row = &plane[y.div_ceil(2) * stride + x / 2..][..P / 2 + 2];
-                        add_row::<F, P, V, true>(&mut sums, row, &mut weights, used);
-                    } else {
-                        add_row::<F, P, V, false>(&mut sums, &plane[y * stride + x..][..P + 2], &mut weights, used);
-                    }
+        for (input, &Channels { count, doubled }) in self.inputs.iter().zip(&self.layer.inputs) {
+            for block in 0..count.div_ceil(BLOCK) {
+                let (plane, stride) = (input.starting_at(block), input.shape.stride());
+                let used = BLOCK.min(count - block * BLOCK);
+                if doubled {
+                    add_doubled::<F, P, V>(&mut sums, (plane, stride), (x, y), &mut weights, used);
+                } else {
+                    add::<F, P, V>(&mut sums, (plane, stride), (x, y), &mut weights, used);
                 }
             }
         }
@@ -237,43 +263,103 @@ struct Weights<'a> {
     rest: &'a [Pixel],
 }
 
-/// Adds what a row of the kernel makes of a row of pixels, which begins one to the left of the tile.
+/// Adds what the kernel makes of a block of inputs. Rows and columns count from those of the border.
 #[inline(always)]
-fn add_row<F: Float, const P: usize, const V: usize, const DOUBLED: bool>(
+fn add<F: Float, const P: usize, const V: usize>(
     sums: &mut [[F; P]; V],
-    row: &[Pixel],
+    (plane, stride): (&[Pixel], usize),
+    (x, y): (usize, usize),
     weights: &mut [Weights; V],
     used: usize,
 ) {
-    add_column::<F, P, V, DOUBLED, 0>(sums, row, weights, used);
-    add_column::<F, P, V, DOUBLED, 1>(sums, row, weights, used);
-    add_column::<F, P, V, DOUBLED, 2>(sums, row, weights, used);
+    for y in y..y + 3 {
+        let row = &plane[y * stride + x..][..P + 2];
+        add_column::<F, P, V, 0>(sums, row, weights, used);
+        add_column::<F, P, V, 1>(sums, row, weights, used);
+        add_column::<F, P, V, 2>(sums, row, weights, used);
+    }
 }
 
 /// One place of the kernel: the column is a constant, so that the pixels' places are.
 #[inline(always)]
-fn add_column<F: Float, const P: usize, const V: usize, const DOUBLED: bool, const COLUMN: usize>(
+#[expect(clippy::needless_range_loop, reason = "it goes over weights and pixels alike")]
+fn add_column<F: Float, const P: usize, const V: usize, const COLUMN: usize>(
     sums: &mut [[F; P]; V],
     row: &[Pixel],
     weights: &mut [Weights; V],
     used: usize,
 ) {
-    let row = &row[..if DOUBLED { P / 2 + 2 } else { P + 2 }];
-    let mut these: [&[Pixel]; V] = [&[]; V];
-    for (these, weights) in these.iter_mut().zip(weights.iter_mut()) {
-        (*these, weights.rest) = weights.rest.split_at(used);
-    }
+    let row = &row[..P + 2];
+    let these = next(weights, used);
     for input in 0..used {
-        let mut of_input = [F::splat(0.0); V];
-        for (weight, (these, Weights { lane, .. })) in of_input.iter_mut().zip(these.iter().zip(weights.iter())) {
-            *weight = F::load(&these[input][*lane..]);
-        }
+        let weight = loaded::<F, V>(&these, weights, input);
         for p in 0..P {
-            let place = if DOUBLED { (p + COLUMN).div_ceil(2) } else { p + COLUMN };
-            let value = F::splat(row[place][input]);
-            for (sums, weight) in sums.iter_mut().zip(of_input) {
+            let value = F::splat(row[p + COLUMN][input]);
+            for (sums, weight) in sums.iter_mut().zip(weight) {
                 sums[p] = value.mul_add(weight, sums[p]);
             }
         }
     }
+}
+
+/// As [`add`], of a layer whose pixels stand for four: of the nine that the kernel covers no more than four differ, and
+/// which of its weights they share depends on row and column being even or odd. `x` is even.
+#[inline(always)]
+fn add_doubled<F: Float, const P: usize, const V: usize>(
+    sums: &mut [[F; P]; V],
+    (plane, stride): (&[Pixel], usize),
+    (x, y): (usize, usize),
+    weights: &mut [Weights; V],
+    used: usize,
+) {
+    let of_a_parity = 8 * used;
+    next(weights, of_a_parity * (y % 2));
+    for y in [y.div_ceil(2), y.div_ceil(2) + 1] {
+        let row = &plane[y * stride + x / 2..][..P / 2 + 2];
+        add_side::<F, P, V, 0>(sums, row, weights, used);
+        add_side::<F, P, V, 1>(sums, row, weights, used);
+    }
+    next(weights, of_a_parity * (1 - y % 2));
+}
+
+/// The left or the right one of the two pixels that each pixel sees in a row.
+#[inline(always)]
+#[expect(clippy::needless_range_loop, reason = "it goes over weights and pixels alike")]
+fn add_side<F: Float, const P: usize, const V: usize, const SIDE: usize>(
+    sums: &mut [[F; P]; V],
+    row: &[Pixel],
+    weights: &mut [Weights; V],
+    used: usize,
+) {
+    let row = &row[..P / 2 + 2];
+    let (of_even, of_odd) = (next(weights, used), next(weights, used));
+    for input in 0..used {
+        let (of_even, of_odd) = (loaded::<F, V>(&of_even, weights, input), loaded::<F, V>(&of_odd, weights, input));
+        for p in 0..P {
+            let value = F::splat(row[p.div_ceil(2) + SIDE][input]);
+            for (sums, weight) in sums.iter_mut().zip(if p % 2 == 0 { of_even } else { of_odd }) {
+                sums[p] = value.mul_add(weight, sums[p]);
+            }
+        }
+    }
+}
+
+/// The next `count` weights of each vector.
+#[inline(always)]
+fn next<'a, const V: usize>(weights: &mut [Weights<'a>; V], count: usize) -> [&'a [Pixel]; V] {
+    let mut these: [&[Pixel]; V] = [&[]; V];
+    for (these, weights) in these.iter_mut().zip(weights) {
+        (*these, weights.rest) = weights.rest.split_at(count);
+    }
+    these
+}
+
+/// Those of an input channel.
+#[inline(always)]
+fn loaded<F: Float, const V: usize>(these: &[&[Pixel]; V], weights: &[Weights; V], input: usize) -> [F; V] {
+    let mut loaded = [F::splat(0.0); V];
+    for (loaded, (these, Weights { lane, .. })) in loaded.iter_mut().zip(these.iter().zip(weights)) {
+        *loaded = F::load(&these[input][*lane..]);
+    }
+    loaded
 }

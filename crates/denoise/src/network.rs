@@ -2,7 +2,7 @@
 //! the first, which at each level reads what the encoder left there. The graph is a table; names are those of the weights.
 
 use crate::Stop;
-use crate::convolution::{Convolution, Input, Then};
+use crate::convolution::{Channels, Convolution, Then};
 use crate::planes::{Planes, Shape};
 use crate::tza::{self, Tensor, TzaError};
 use simd::Lanes;
@@ -114,7 +114,8 @@ impl Network {
         channels[Place::Input as usize] = INPUTS;
         let mut layers = Vec::new();
         for layer in &GRAPH {
-            let inputs: Vec<usize> = layer.reads.iter().map(|(place, _)| channels[*place as usize]).collect();
+            let read = |&(place, doubled): &(Place, bool)| Channels { count: channels[place as usize], doubled };
+            let inputs: Vec<Channels> = layer.reads.iter().map(read).collect();
             let convolution = convolution(&tensors, layer.name, &inputs)?;
             channels[layer.writes as usize] = convolution.outputs;
             layers.push(convolution);
@@ -191,14 +192,13 @@ impl Network {
         // a layer never reads where it writes
         let mut output = std::mem::take(memory.at(layer.writes));
         output.reshape(shape);
-        let input = |&(place, doubled): &(Place, bool)| Input { planes: &memory.planes[place as usize], doubled };
-        let inputs: Vec<Input> = layer.reads.iter().map(input).collect();
+        let inputs: Vec<&Planes> = layer.reads.iter().map(|(place, _)| &memory.planes[*place as usize]).collect();
         convolution.run(&inputs, layer.then, &mut output, lanes, stop);
         *memory.at(layer.writes) = output;
     }
 }
 
-fn convolution(tensors: &[Tensor], name: &str, inputs: &[usize]) -> Result<Convolution, WeightsError> {
+fn convolution(tensors: &[Tensor], name: &str, inputs: &[Channels]) -> Result<Convolution, WeightsError> {
     let named = |part: &str| {
         let name = format!("{name}.{part}");
         tensors.iter().find(|tensor| tensor.name == name).ok_or(WeightsError::OtherNetwork(name))
