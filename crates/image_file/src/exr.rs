@@ -1,18 +1,24 @@
 //! EXR: linear radiance, and records as text attributes `visavis.name`.
 
 mod channels;
+mod layers;
 mod read;
 
+pub use layers::{Layers, layers};
 pub use read::{layer, load};
 
-use super::{ImageFileError, Records};
+use super::ImageFileError;
 use ::exr::meta::header::Header;
 use exr::prelude as exr;
 use film::{Layer, LayerValues};
 use std::path::Path;
 
 /// A file of these layers, each with its own channels of 32-bit floats.
-pub fn bytes((width, height): (u32, u32), layers: &[Layer], records: &Records) -> Result<Vec<u8>, ImageFileError> {
+pub fn bytes(
+    (width, height): (u32, u32),
+    layers: &[Layer],
+    records: &[(impl AsRef<str>, String)],
+) -> Result<Vec<u8>, ImageFileError> {
     use exr::WritableImage as _;
     let size = exr::Vec2(width as usize, height as usize);
     let channel = |name: &str, values: Vec<f32>| exr::AnyChannel::new(name, exr::FlatSamples::F32(values));
@@ -40,11 +46,11 @@ pub fn bytes((width, height): (u32, u32), layers: &[Layer], records: &Records) -
 }
 
 /// A layer's name, and the records, which stand with every layer.
-fn attributes(name: &str, records: &Records) -> exr::LayerAttributes {
+fn attributes(name: &str, records: &[(impl AsRef<str>, String)]) -> exr::LayerAttributes {
     let mut attributes = exr::LayerAttributes::named(name);
     attributes.software_name = exr::Text::new_or_none(concat!("Visavis ", env!("CARGO_PKG_VERSION")));
     for (name, value) in records {
-        attributes.other.insert(text(&format!("visavis.{name}")), exr::AttributeValue::Text(text(value)));
+        attributes.other.insert(text(&format!("visavis.{}", name.as_ref())), exr::AttributeValue::Text(text(value)));
     }
     attributes
 }

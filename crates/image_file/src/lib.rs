@@ -11,6 +11,7 @@ mod png;
 mod primaries;
 mod whole;
 
+pub use self::exr::Layers;
 pub use error::{ImageFileError, escaped, shown};
 pub use folders::{cache_folder, default_folder, home_folder, state_folder};
 pub use lock::hold;
@@ -88,6 +89,28 @@ pub fn encode(
     display: &DisplayTransform,
     records: &Records,
 ) -> Result<Vec<u8>, ImageFileError> {
+    with_records(kind, image, display, records)
+}
+
+/// As [`encode`], with what was read by [`records`] of another picture.
+///
+/// # Errors
+/// If the picture cannot be encoded.
+pub fn encode_with_read(
+    kind: Kind,
+    image: &Image,
+    display: &DisplayTransform,
+    records: &[(String, String)],
+) -> Result<Vec<u8>, ImageFileError> {
+    with_records(kind, image, display, records)
+}
+
+fn with_records(
+    kind: Kind,
+    image: &Image,
+    display: &DisplayTransform,
+    records: &[(impl AsRef<str>, String)],
+) -> Result<Vec<u8>, ImageFileError> {
     match kind {
         Kind::Png => png::bytes(image.width(), image.height(), &display.rgba8_of(image), records),
         Kind::Exr => {
@@ -120,6 +143,14 @@ pub fn encode_layers(size: (u32, u32), layers: &[Layer], records: &Records) -> R
 /// [`ImageFileError`]: one line that says why and names the path.
 pub fn load_layer(path: &Path, name: &str, size: (u32, u32)) -> Result<Option<LayerValues>, ImageFileError> {
     exr::layer(path, name, size)
+}
+
+/// The layers of an .exr beside its picture, which is of this size.
+///
+/// # Errors
+/// [`ImageFileError`]: one line that says why and names the path.
+pub fn load_layers(path: &Path, size: (u32, u32)) -> Result<Layers, ImageFileError> {
+    exr::layers(path, size)
 }
 
 /// A picture that was read.

@@ -4,7 +4,7 @@
 
 use exr::prelude as exr;
 use film::Vec3;
-use image_file::{Loaded, load_layer, read};
+use image_file::{Loaded, load_layer, load_layers, read};
 use std::path::PathBuf;
 use visavis_tests::TestFolder;
 
@@ -236,4 +236,38 @@ fn alpha_and_oblong_pixels_are_told_of() {
 fn a_display_window_without_end_is_refused_before_memory_is_taken() {
     let said = written(window((0, 0), (1 << 20, 1 << 20)), [grey((1, 1), &[1.0])]).unwrap_err();
     assert!(said.contains("1048576x1048576 pixels are more than"), "{said}");
+}
+
+/// As the house, as a renderer with one part, and as Blender with one part for each view layer.
+#[test]
+fn features_are_read_by_the_names_that_renderers_give_them() {
+    let [a, b, c]: [&[f32]; 3] = [&[1.0, 2.0], &[3.0, 4.0], &[5.0, 6.0]];
+    let size = (2, 1);
+    let colour = [("R", c), ("G", b), ("B", a)];
+    let other = part("small", (1, 1), &[("albedo.R", &[0.0]), ("albedo.G", &[0.0]), ("albedo.B", &[0.0])]);
+    let in_parts = vec![
+        other,
+        part("radiance", size, &colour),
+        part("albedo", size, &[("R", a), ("G", b), ("B", c)]),
+        part("normal", size, &[("X", a), ("Y", b), ("Z", c)]),
+        part("depth", size, &[("Y", a)]),
+    ];
+    let layers = [("albedo.R", a), ("albedo.G", b), ("albedo.B", c), ("normal.X", a), ("normal.Y", b), ("normal.Z", c)];
+    let in_one = vec![part("picture", size, &[&colour[..], &layers, &[("Z", a)]].concat())];
+    let of_blender = ["R", "G", "B"].map(|name| format!("ViewLayer.Denoising Albedo.{name}"));
+    let normals = ["X", "Y", "Z"].map(|name| format!("ViewLayer.Denoising Normal.{name}"));
+    let names: Vec<(&str, &[f32])> =
+        of_blender.iter().chain(&normals).map(String::as_str).zip([a, b, c, a, b, c]).collect();
+    let blenders = vec![part("ViewLayer", size, &[&names[..], &[("ViewLayer.Depth.Z", a)]].concat())];
+    let folder = TestFolder::new();
+    let expected = vec![Vec3::new(1.0, 3.0, 5.0), Vec3::new(2.0, 4.0, 6.0)];
+    for parts in [in_parts, in_one, blenders] {
+        let layers = load_layers(&write(&folder, window((0, 0), size), parts), (2, 1)).unwrap();
+        assert_eq!(layers.triples("albedo"), Some(expected.clone()));
+        assert_eq!(layers.triples("normal"), Some(expected.clone()));
+        assert_eq!(layers.depth(), Some(a.to_vec()));
+        assert_eq!(layers.triples("half0"), None);
+    }
+    let layers = load_layers(&write(&folder, window((0, 0), size), [part("radiance", size, &colour)]), (2, 1)).unwrap();
+    assert_eq!((layers.triples("albedo"), layers.depth()), (None, None));
 }

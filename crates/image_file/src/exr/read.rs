@@ -60,7 +60,7 @@ pub fn layer(path: &Path, name: &str, size: (u32, u32)) -> Result<Option<LayerVa
 }
 
 /// Refuses a file before memory is taken for any of its layers.
-fn headers(path: &Path) -> Result<Headers, ImageFileError> {
+pub(super) fn headers(path: &Path) -> Result<Headers, ImageFileError> {
     let meta = exr::MetaData::read_from_file(path, false).map_err(|e| ImageFileError::read(path, e))?;
     for header in &meta.headers {
         for size in [header.layer_size, header.shared_attributes.display_window.size] {
