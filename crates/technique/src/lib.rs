@@ -39,7 +39,9 @@ pub use features::features_of;
 pub use pane::PaneSettings;
 pub use presets::Preset;
 pub use progressive::{NoMemory, ProgressiveRenderer, Request};
-pub use provenance::{Made, OWN_FOV, Provenance, Recorded, made_from, scene_hash};
+pub use provenance::{
+    DENOISE, Made, OWN_FOV, Provenance, Recorded, denoised_by, is_of_its_pixels, made_from, scene_hash,
+};
 pub use renderer::{Frame, Pacing, Rendered, Renderer, Watch};
 pub use setup::PaneSetup;
 pub use shot::{SceneChanges, Shot};

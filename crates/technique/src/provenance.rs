@@ -76,7 +76,21 @@ const WEIGHTS: &str = "denoise.weights";
 /// Records that say how far a picture is from another begin with this.
 const MEASURED: &str = "error.";
 
-/// What makes a picture with these records again. `None` if they are not those of one pane's picture.
+/// The record's name of the filter that took a picture's noise away, and with a dot behind it the beginning of what more is
+/// said of that.
+pub const DENOISE: &str = "denoise";
+
+/// The filter that took a picture's noise away, if one did.
+pub fn denoised_by(records: &[(String, String)]) -> Option<&str> {
+    records.iter().find(|(name, _)| name == DENOISE).map(|(_, filter)| filter.as_str())
+}
+
+/// Whether a record says something of the noisy picture that does not hold once it is denoised, or of denoising itself.
+pub fn is_of_its_pixels(name: &str) -> bool {
+    name.starts_with(MEASURED) || name.starts_with(DENOISE)
+}
+
+/// What makes a picture with these records again, without its noise being taken away. `None` if they are not those of one pane's picture.
 ///
 /// # Errors
 /// If the records are of a later version, or damaged.
@@ -90,7 +104,7 @@ pub fn made_from(records: &[(String, String)]) -> anyhow::Result<Option<Recorded
     // only rays traced on the graphics device ask for it: the fake has no other, and the processor is the usual one
     let asks_for_gpu = value("device") == Some("gpu") && value("technique") != Some(TechniqueName::Raster.name());
     let says_nothing = |name: &str| NO_OPTIONS.contains(&name) || (name == "device" && !asks_for_gpu);
-    let is_option = |name: &str| !says_nothing(name) && !name.starts_with(MEASURED);
+    let is_option = |name: &str| !says_nothing(name) && !is_of_its_pixels(name);
     let options = records.iter().filter(|(name, _)| is_option(name));
     let words = options.map(|(name, value)| format!("--{name}={value}")).collect();
     Ok(Some(Recorded::new(scene.to_owned(), scene_hash(records)?, words)))

@@ -29,6 +29,7 @@ pub fn run(args: &CompareArgs) -> anyhow::Result<()> {
         refuse_to_overwrite(args, out)?;
         image_file::check_writable(out)?;
     }
+    tell_of_denoising(args);
     let r = match &args.reference {
         Some(file) => {
             tell_of_two_scenes(&args.film, file);
@@ -60,6 +61,22 @@ pub fn run(args: &CompareArgs) -> anyhow::Result<()> {
 /// What of the files is not compared.
 fn tell(notes: &[String]) {
     notes.iter().for_each(|line| note!("note: {line}"));
+}
+
+/// Errors of a denoised picture are its bias as much as its noise, and one that is taken for the truth is none.
+fn tell_of_denoising(args: &CompareArgs) {
+    if let Some(filter) = denoised_by(&args.film) {
+        note!("note: A is denoised ({filter}): its errors are a bias too: {}", image_file::shown(&args.film));
+    }
+    if let Some((file, filter)) = args.reference.as_deref().and_then(|file| Some((file, denoised_by(file)?))) {
+        note!("note: B is denoised ({filter}) and biased: it is no reference: {}", image_file::shown(file));
+    }
+}
+
+/// By the picture's own records, where it has any.
+fn denoised_by(file: &Path) -> Option<String> {
+    // a file that cannot be read is told by who reads the picture
+    technique::denoised_by(&image_file::records(file).ok()?).map(image_file::escaped)
 }
 
 /// A map must not take the place of what it is a map of.
@@ -158,6 +175,7 @@ fn report(args: &CompareArgs, pair: &Pair, found: &Comparison, map: Option<&Heat
         "reference_noise": e.reference_noise, "below_reference_noise": e.below_reference_noise(),
         "flip": found.flip, "hdr_flip": found.hdr_flip,
         "nonfinite": e.nonfinite,
+        "denoised": denoised_by(&args.film),
     });
     if let Some(HeatMap { label, scale, .. }) = map {
         report["map"] = json!({

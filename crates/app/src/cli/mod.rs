@@ -5,13 +5,14 @@ mod args;
 mod bench;
 mod check;
 mod compare;
+mod denoise;
 mod info;
 mod interrupt;
 mod original;
 mod reference;
 mod render;
 
-pub use args::{BenchArgs, CheckArgs, CompareArgs, ReferenceArgs, RenderArgs, Seen};
+pub use args::{BenchArgs, CheckArgs, CompareArgs, DenoiseArgs, ReferenceArgs, RenderArgs, Seen};
 
 use crate::model::ViewArgs;
 use std::process::ExitCode;
@@ -25,6 +26,8 @@ pub enum Command {
     Render(Box<RenderArgs>),
     /// The distance between two pictures, or of one from its reference.
     Compare(CompareArgs),
+    /// A picture without its noise.
+    Denoise(DenoiseArgs),
     /// Speed against error of all techniques on the built-in scenes.
     Bench(BenchArgs),
     /// References: made, kept, thrown away.
@@ -94,6 +97,7 @@ impl Command {
             Command::View(args) => crate::window::open(&args, interrupt::heed_when_woken),
             Command::Render(mut args) => render::run(&mut args),
             Command::Compare(args) => compare::run(&args),
+            Command::Denoise(args) => denoise::run(&args),
             Command::Bench(args) => bench::run(&args),
             Command::Reference(args) => reference::run(&args),
             Command::Check(args) => check::run(&args),

@@ -5,6 +5,7 @@
 mod bench;
 mod changed_scenes;
 mod denoising;
+mod denoise;
 mod device;
 mod files;
 mod films;

@@ -1,7 +1,7 @@
 //! The text of `--help`, made from the tables of options and of settings: what is in none of them is no option.
 
 use super::options::CommandOption;
-use super::{bench, check, compare, reference, render, view};
+use super::{bench, check, compare, denoise, reference, render, view};
 use technique::TechniqueName;
 use technique::settings::{OF_SCENES, Setting, all_of_panes};
 
@@ -151,6 +151,12 @@ fn commands() -> Vec<Block> {
              where it is a reference of this program; without B against the reference of what A's records say that it shows, \
              unless its scene has changed since",
             &compare::options(),
+        ),
+        Block::new(
+            "visavis denoise A -o OUT",
+            "take the noise out of A, an .exr with the layers albedo (R, G, B) and normal (X, Y, Z); the result is biased, which \
+             its records and compare say, and render --from makes A again",
+            &denoise::options(),
         ),
         Block::new(
             "visavis reference SCENE -o OUT",

@@ -3,6 +3,7 @@
 pub mod bench;
 pub mod check;
 pub mod compare;
+pub mod denoise;
 mod help;
 pub mod options;
 pub mod reference;
@@ -14,6 +15,7 @@ pub mod view;
 pub use bench::BenchArgs;
 pub use check::CheckArgs;
 pub use compare::CompareArgs;
+pub use denoise::DenoiseArgs;
 pub use reference::ReferenceArgs;
 pub use render::{RenderArgs, made_by};
 pub use seen::Seen;
@@ -44,6 +46,7 @@ impl Command {
         let named: fn(lexopt::Parser) -> Result<Self, CliError> = match command.as_str() {
             "render" => render::parse,
             "compare" => compare::parse,
+            "denoise" => denoise::parse,
             "bench" => bench::parse,
             "info" => parse_info,
             "check" => check::parse,

@@ -1,0 +1,104 @@
+//! `visavis denoise`: a picture without its noise, and with a bias, of which its records tell.
+
+use super::args::denoise::Filter;
+use super::{DenoiseArgs, interrupt};
+use anyhow::{Context, ensure};
+use denoise::a_trous::{Guide, a_trous};
+use denoise::{DenoiseError, Features, Network};
+use film::colour::luminance;
+use film::{DisplayTransform, Image, Vec3};
+use image_file::{Kind, Layers, Loaded};
+use std::path::Path;
+use std::time::Instant;
+use technique::{DENOISE, denoised_by, is_of_its_pixels};
+
+/// What a filter made, and what says which weights it did it with.
+struct Denoised {
+    image: Image,
+    weights: Option<(&'static str, String)>,
+}
+
+pub fn run(args: &DenoiseArgs) -> anyhow::Result<()> {
+    let Loaded { image, notes } = image_file::read(&args.picture)?;
+    notes.iter().for_each(|line| note!("note: {line}"));
+    ensure!(
+        !image_file::is_same_file(&args.picture, &args.out),
+        "-o would overwrite the noisy picture; give another name: {}",
+        image_file::shown(&args.out)
+    );
+    let records = image_file::records(&args.picture)?;
+    if let Some(filter) = denoised_by(&records) {
+        let filter = image_file::escaped(filter);
+        note!("note: this picture was denoised before ({filter}): {}", image_file::shown(&args.picture));
+    }
+    let layers = image_file::load_layers(&args.picture, image.size())?;
+    image_file::check_writable(&args.out)?;
+    let start = Instant::now();
+    let denoised = filtered(args, &image, &layers)?;
+    let seconds = start.elapsed().as_secs_f64();
+    save(args, &denoised, records, seconds)?;
+    let (name, out) = (args.filter.name(), image_file::shown(&args.out));
+    note!("denoised by {name} in {seconds:.2} s, which leaves a bias: {out}");
+    Ok(())
+}
+
+fn filtered(args: &DenoiseArgs, image: &Image, layers: &Layers) -> anyhow::Result<Denoised> {
+    let (albedo, normal) = (layers.triples("albedo"), layers.triples("normal"));
+    let depth = layers.depth();
+    let needs_depth = args.filter == Filter::ATrous;
+    let there = [
+        ("albedo (R, G, B)", albedo.is_some()),
+        ("normal (X, Y, Z)", normal.is_some()),
+        ("depth (Z)", depth.is_some() || !needs_depth),
+    ];
+    let missing: Vec<&str> = there.into_iter().filter(|(_, there)| !there).map(|(name, _)| name).collect();
+    let (Some(albedo), Some(normal), true) = (albedo, normal, missing.is_empty()) else {
+        anyhow::bail!("{}", missing_layers(&args.picture, args.filter, &missing));
+    };
+    let features = Features { albedo: &albedo, normal: &normal };
+    let network = match args.filter {
+        Filter::Unet => Network::small()?,
+        Filter::UnetBase => Network::base()?,
+        Filter::ATrous => {
+            let variance = variance_by_halves(layers);
+            let guide = Guide { features, depth: &depth.unwrap_or_default(), variance: variance.as_deref() };
+            return Ok(Denoised { image: told(a_trous(image, guide, &interrupt::is_asked))?, weights: None });
+        }
+    };
+    let image = told(network.denoise(image, features, &interrupt::is_asked))?;
+    Ok(Denoised { image, weights: Some((network.name(), network.hash())) })
+}
+
+fn told(outcome: Result<Image, DenoiseError>) -> anyhow::Result<Image> {
+    outcome.context("cannot denoise the picture")
+}
+
+fn missing_layers(picture: &Path, filter: Filter, missing: &[&str]) -> String {
+    let (missing, picture) = (missing.join(" and "), image_file::shown(picture));
+    format!(
+        "cannot denoise by {}, which needs layers of the picture's size that are not there, {missing}: {picture}",
+        filter.name()
+    )
+}
+
+/// The variance of the luminance of the mean of two halves, which are independent; `None` if they are not there.
+fn variance_by_halves(layers: &Layers) -> Option<Vec<f32>> {
+    let (a, b) = (layers.triples("half0")?, layers.triples("half1")?);
+    let variance = |(a, b): (&Vec3, &Vec3)| (0.5 * luminance(*a - *b)).powi(2);
+    Some(a.iter().zip(&b).map(variance).collect())
+}
+
+/// With the noisy picture's records, those excepted that tell of its errors.
+fn save(args: &DenoiseArgs, denoised: &Denoised, records: Vec<(String, String)>, seconds: f64) -> anyhow::Result<()> {
+    let mut records: Vec<_> = records.into_iter().filter(|(name, _)| !is_of_its_pixels(name)).collect();
+    records.push((DENOISE.into(), args.filter.name().into()));
+    if let Some((name, hash)) = &denoised.weights {
+        records.push((format!("{DENOISE}.network"), (*name).into()));
+        records.push((format!("{DENOISE}.weights"), hash.clone()));
+    }
+    records.push((format!("{DENOISE}.seconds"), seconds.to_string()));
+    let kind = Kind::of(&args.out).context("a picture's name must end in .png or .exr")?;
+    let display = DisplayTransform { exposure: args.exposure };
+    let bytes = image_file::encode_with_read(kind, &denoised.image, &display, &records)?;
+    Ok(image_file::write_or_keep(&args.out, &bytes)?)
+}
