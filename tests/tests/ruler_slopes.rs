@@ -35,7 +35,7 @@ fn subject(scene: &str, sun_radius: Option<f32>, (width, height): (u32, u32)) ->
         height,
         most_spp: 64,
         reference_seconds: f64::INFINITY,
-        speed: Speed { reference: 1.0, lines: 1.0, learning: 0.0 },
+        speed: Speed { reference: 1.0, lines: 1.0, learning: 0.0, denoising: 0.0 },
     };
     let scene = part.scene().unwrap();
     let mut renderer = Renderer::on_the_processor(Arc::new(scene.clone()), Arc::new(Threads::all()));

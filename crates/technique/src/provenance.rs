@@ -67,8 +67,7 @@ const SCENE_HASH: &str = "scene.hash";
 pub const OWN_FOV: &str = "camera.fov";
 
 /// Records that say what a picture took or where it was, and are no options of `visavis render`.
-const NO_OPTIONS: [&str; 9] =
-    ["records", "version", "scene", SCENE_HASH, "adapter", "seconds", "command", OWN_FOV, WEIGHTS];
+const NO_OPTIONS: [&str; 8] = ["records", "version", "scene", SCENE_HASH, "adapter", "seconds", "command", OWN_FOV];
 
 /// The record's name of the weights that a picture was denoised by.
 const WEIGHTS: &str = "denoise.weights";
@@ -76,13 +75,13 @@ const WEIGHTS: &str = "denoise.weights";
 /// Records that say how far a picture is from another begin with this.
 const MEASURED: &str = "error.";
 
-/// The record's name of the filter that took a picture's noise away, and with a dot behind it the beginning of what more is
-/// said of that.
+/// The record's name of the filter that took a picture's noise away, which is an option of `visavis render` too; with a dot behind
+/// it the beginning of what more is said of that.
 pub const DENOISE: &str = "denoise";
 
 /// The filter that took a picture's noise away, if one did.
 pub fn denoised_by(records: &[(String, String)]) -> Option<&str> {
-    records.iter().find(|(name, _)| name == DENOISE).map(|(_, filter)| filter.as_str())
+    records.iter().find(|(name, filter)| name == DENOISE && filter != "off").map(|(_, filter)| filter.as_str())
 }
 
 /// Whether a record says something of the noisy picture that does not hold once it is denoised, or of denoising itself.
@@ -90,7 +89,7 @@ pub fn is_of_its_pixels(name: &str) -> bool {
     name.starts_with(MEASURED) || name.starts_with(DENOISE)
 }
 
-/// What makes a picture with these records again, without its noise being taken away. `None` if they are not those of one pane's picture.
+/// What makes a picture with these records again. `None` if they are not those of one pane's picture.
 ///
 /// # Errors
 /// If the records are of a later version, or damaged.
@@ -104,7 +103,7 @@ pub fn made_from(records: &[(String, String)]) -> anyhow::Result<Option<Recorded
     // only rays traced on the graphics device ask for it: the fake has no other, and the processor is the usual one
     let asks_for_gpu = value("device") == Some("gpu") && value("technique") != Some(TechniqueName::Raster.name());
     let says_nothing = |name: &str| NO_OPTIONS.contains(&name) || (name == "device" && !asks_for_gpu);
-    let is_option = |name: &str| !says_nothing(name) && !is_of_its_pixels(name);
+    let is_option = |name: &str| !says_nothing(name) && (name == DENOISE || !is_of_its_pixels(name));
     let options = records.iter().filter(|(name, _)| is_option(name));
     let words = options.map(|(name, value)| format!("--{name}={value}")).collect();
     Ok(Some(Recorded::new(scene.to_owned(), scene_hash(records)?, words)))

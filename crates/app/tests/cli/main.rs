@@ -4,8 +4,8 @@
 
 mod bench;
 mod changed_scenes;
-mod denoising;
 mod denoise;
+mod denoising;
 mod device;
 mod files;
 mod films;
