@@ -129,7 +129,8 @@ impl PhotonSettings {
         let stop = remembered(job.stop);
         let job = &FilmJob { stop: &stop, ..*job };
         let direct = self.direct == DirectLight::Photons;
-        let aim = job.aim();
+        let first = self.radius.unwrap_or(job.scene.photon_radius);
+        let aim = job.aim(first);
         if self.points {
             let purpose = Purpose::Marks(Pinhole::new(&job.pass));
             let pass = PhotonPass { number: 0, photons: self.photons, purpose, direct, aim: &aim };
@@ -145,7 +146,6 @@ impl PhotonSettings {
             let pass = PhotonPass { number, photons: self.photons, purpose: Purpose::Map, direct, aim: &aim };
             let mut chunks = Vec::new();
             let stats = pass.trace(job, |traces| chunks.push(traces.photons))?;
-            let first = self.radius.unwrap_or(job.scene.photon_radius);
             let map = PhotonMap::new(chunks, radius_of_pass(first, self.alpha, number), job.stop)?;
             Some(stats.plus(job.fill(film, &Plan::Map(&map, direct))))
         })
@@ -165,7 +165,7 @@ impl LightTracingSettings {
     pub(super) fn fill(&self, film: &mut Film, job: &FilmJob) -> Stats {
         let stop = remembered(job.stop);
         let job = &FilmJob { stop: &stop, ..*job };
-        let aim = job.aim();
+        let aim = job.aim(0.0);
         each_pass(film, job, |film, job, number| {
             let purpose = Purpose::Splats(Pinhole::new(&job.pass));
             let pass = PhotonPass { number, photons: self.photons, purpose, direct: true, aim: &aim };
@@ -209,9 +209,9 @@ fn remembered(stop: &Stop) -> impl Fn() -> bool + Sync {
 }
 
 impl FilmJob<'_> {
-    /// What photons of this picture are aimed at.
-    fn aim(&self) -> Aim {
-        self.scene.emitters.aim(&seen::spheres(self.scene, &self.pass.frame))
+    /// What photons of this picture are aimed at, which count within `reach` of what is seen.
+    fn aim(&self, reach: f32) -> Aim {
+        self.scene.emitters.aim(&seen::spheres(self.scene, &self.pass.frame, reach))
     }
 }
 

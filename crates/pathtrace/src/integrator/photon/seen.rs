@@ -33,9 +33,12 @@ struct Seen {
 
 /// Spheres around what is seen, its halves, theirs and so on: what lies between two of one level lies within one of
 /// another. None where they would fill much of the scene.
-pub fn spheres(scene: &PreparedScene, frame: &PictureFrame) -> Vec<Bounds> {
+/// `reach` is how far from what is seen photons count.
+pub fn spheres(scene: &PreparedScene, frame: &PictureFrame, reach: f32) -> Vec<Bounds> {
     let (mut spheres, mut smallest) = (Vec::new(), Vec::new());
-    halve(&mut places(scene, frame), LEVELS, &mut spheres, &mut smallest);
+    let mut places = places(scene, frame);
+    places.iter_mut().for_each(|seen| seen.room += reach);
+    halve(&mut places, LEVELS, &mut spheres, &mut smallest);
     let middle = smallest.len() / 2;
     smallest.sort_unstable_by(f32::total_cmp);
     let is_small = smallest.get(middle).is_some_and(|radius| *radius < SMALL * scene.emitters.scene().radius);

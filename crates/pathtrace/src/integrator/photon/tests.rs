@@ -16,7 +16,7 @@ fn with_first_pass<T>(scene: &Scene, photons: u32, of: impl FnOnce(&PhotonPass, 
     let (ready, stand_ins) = (tracer.prepared(), &scene.fake);
     let guides = &Guides::new(Cells::new(scene.bounds()));
     let job = FilmJob { scene: ready, stand_ins, guides, lanes: tracer.lanes(), pass, stop: &|| false };
-    let aim = job.aim();
+    let aim = job.aim(0.0);
     of(&PhotonPass { number: 0, photons, purpose: Purpose::Map, direct: true, aim: &aim }, &job)
 }
 
@@ -102,7 +102,7 @@ fn a_pass_leaves_no_more_than_a_map_holds() {
 }
 
 fn seen_in(scene: &Scene) -> Vec<Bounds> {
-    with_first_pass(scene, 1, |_, job| seen::spheres(job.scene, &job.pass.frame))
+    with_first_pass(scene, 1, |_, job| seen::spheres(job.scene, &job.pass.frame, 0.0))
 }
 
 /// What is seen of a wide floor lies in the spheres, whatever is between two of them; of a room that fills the picture there are none.
