@@ -58,7 +58,9 @@ pub fn layers(path: &Path, size: (u32, u32)) -> Result<Layers, ImageFileError> {
     let size = exr::Vec2(size.0 as usize, size.1 as usize);
     let mut channels = Vec::new();
     for layer in image.layer_data.iter().filter(|layer| layer.size == size) {
-        let part = layer.attributes.layer_name.as_ref().map(ToString::to_string).unwrap_or_default();
+        // the name of the only part is that of the whole file
+        let named = layer.attributes.layer_name.as_ref().filter(|_| image.layer_data.len() > 1);
+        let part = named.map(ToString::to_string).unwrap_or_default();
         for channel in layer.channel_data.list.iter().filter(|channel| channel.sampling == exr::Vec2(1, 1)) {
             let (layer, name) = names(&part, &channel.name.to_string());
             channels.push(Channel { layer, name, values: channel.sample_data.values_as_f32().collect() });
