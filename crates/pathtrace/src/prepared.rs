@@ -14,7 +14,7 @@ use crate::intersect::{Intersections, NO_LIGHT, Rays, SHADOW_END, SurfacePoints}
 use crate::light::{Emitters, LightSamples, Lights, SunDisc};
 use crate::vectors::in_all_lanes;
 use scene::Vec3;
-use simd::{Float, Vector, Word};
+use simd::{Float, Vector};
 
 /// What a path walks through.
 pub struct PreparedScene {
@@ -44,12 +44,19 @@ pub struct PreparedScene {
 /// light.
 pub(crate) const NOT_A_LIGHT: u32 = NO_LIGHT - 1;
 
-/// Shadow rays between points, both ends off their surfaces.
+/// Shadow rays between points, which lie in these unit directions from each other, both ends off their surfaces.
 #[inline(always)]
-fn between<F: Float>(at: &SurfacePoints<F>, to: &SurfacePoints<F>, direction: Vector<F>) -> Rays<F> {
+pub fn between<F: Float>(at: &SurfacePoints<F>, to: &SurfacePoints<F>, direction: Vector<F>) -> Rays<F> {
     let from = at.leaving_towards(direction);
     let to = to.leaving_towards(-direction);
     Rays { origin: from, direction: to - from, tmax: F::splat(SHADOW_END) }
+}
+
+/// Shadow rays from points to what shines on them.
+#[inline(always)]
+pub fn towards<F: Float>(at: &SurfacePoints<F>, sample: &LightSamples<F>) -> Rays<F> {
+    let between = between(at, &sample.point, sample.wi);
+    Rays::select(sample.endless, Rays::new(between.origin, sample.wi), between)
 }
 
 /// What the samples in the lanes have brought home so far.
@@ -101,22 +108,7 @@ impl PreparedScene {
         opaque: bool,
         scratch: &mut Scratch<F>,
     ) -> F::M {
-        let between = between(at, &sample.point, sample.wi);
-        let rays = Rays::select(sample.endless, Rays::new(between.origin, sample.wi), between);
-        self.aggregate.occluded(&rays, sample.light, wanted, opaque, scratch)
-    }
-
-    /// Where anything stands between the `wanted` points and others, which lie in these unit directions.
-    #[inline(always)]
-    pub fn blocked<F: Float>(
-        &self,
-        at: &SurfacePoints<F>,
-        to: &SurfacePoints<F>,
-        direction: Vector<F>,
-        wanted: F::M,
-        scratch: &mut Scratch<F>,
-    ) -> F::M {
-        self.aggregate.occluded(&between(at, to, direction), F::U::splat(NOT_A_LIGHT), wanted, false, scratch)
+        self.aggregate.occluded(&towards(at, sample), sample.light, wanted, opaque, scratch)
     }
 
     /// Where what the `wanted` photons have met lies behind another surface than that of the lights that they left: of those that

@@ -3,7 +3,7 @@
 
 use super::materials::Kinds;
 use crate::intersect::SurfacePoints;
-use simd::{Float, Vector};
+use simd::{Float, Vector, Word};
 
 /// A surface as it is met, in each lane.
 #[derive(Clone, Copy)]
@@ -45,6 +45,26 @@ impl<F: Float> Interactions<F> {
             colour: Vector::select(here, albedo, self.colour),
             kinds: self.kinds.or_diffuse(here),
             ..*self
+        }
+    }
+
+    /// Of no surface.
+    #[inline(always)]
+    pub fn none() -> Self {
+        let (zero, point) = (Vector::zero(), SurfacePoints::in_the_air(Vector::zero()));
+        Interactions { point, normal: zero, wo: zero, colour: zero, kinds: Kinds::none(), material: F::U::splat(0) }
+    }
+
+    /// `mask ? yes : no`.
+    #[inline(always)]
+    pub fn select(mask: F::M, yes: Self, no: Self) -> Self {
+        Interactions {
+            point: SurfacePoints::select(mask, yes.point, no.point),
+            normal: Vector::select(mask, yes.normal, no.normal),
+            wo: Vector::select(mask, yes.wo, no.wo),
+            colour: Vector::select(mask, yes.colour, no.colour),
+            kinds: Kinds::select(mask, yes.kinds, no.kinds),
+            material: F::U::select(mask, yes.material, no.material),
         }
     }
 }

@@ -81,6 +81,18 @@ impl<U: Word> Kinds<U> {
         self.has(DELTA)
     }
 
+    /// Nothing known.
+    #[inline(always)]
+    pub fn none() -> Self {
+        Kinds(U::splat(0))
+    }
+
+    /// `mask ? yes : no`.
+    #[inline(always)]
+    pub fn select(mask: U::M, yes: Self, no: Self) -> Self {
+        Kinds(U::select(mask, yes.0, no.0))
+    }
+
     /// Scatters by Lambert's law instead where `here` says so.
     #[inline(always)]
     pub fn or_diffuse(self, here: U::M) -> Self {

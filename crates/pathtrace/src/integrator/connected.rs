@@ -3,7 +3,6 @@
 //!
 //! Twin: `shaders/pathtrace/integrator/connected.wgsl`.
 
-use crate::bsdf::Interactions;
 use crate::caster::connect::{ConnectedRays, Connections, End, facing};
 use crate::caster::sphere_chain::MOST_ROOTS;
 use crate::integrator::chain_state::SeenFromCenter;
@@ -11,26 +10,61 @@ use crate::integrator::directions::DirectionsAt;
 use crate::integrator::path::PathLanes;
 use crate::integrator::path_state::balance;
 use crate::integrator::settings::LightSampling;
-use crate::intersect::{Intersections, SurfacePoints};
+use crate::integrator::waiting::ConnectingVertices;
+use crate::intersect::{Intersections, Rays, SurfacePoints};
 use crate::light::LightSamples;
+use crate::prepared::{NOT_A_LIGHT, between, towards};
 use simd::{Float, Mask, Vector, Word};
+
+/// The straight parts of a connection.
+#[derive(Clone, Copy)]
+enum Leg {
+    /// From the vertex to where the ray meets the sphere.
+    ToSphere,
+    /// Inside the sphere.
+    Chord,
+    /// From where the ray leaves the sphere.
+    ToLight,
+}
+
+const LEGS: [Leg; 3] = [Leg::ToSphere, Leg::Chord, Leg::ToLight];
+
+impl Leg {
+    /// The shadow rays of it, and which light may be at their ends.
+    #[inline(always)]
+    fn rays<F: Float>(self, at: &SurfacePoints<F>, by: &Connections<F>, ray: &ConnectedRays<F>) -> (Rays<F>, F::U) {
+        match self {
+            Leg::ToSphere => (between(at, &ray.first, ray.wi), F::U::splat(NOT_A_LIGHT)),
+            Leg::Chord => {
+                let chord = (ray.last.position - ray.first.position).normalize();
+                (between(&ray.first, &ray.last, chord), F::U::splat(NOT_A_LIGHT))
+            }
+            Leg::ToLight => {
+                let light = LightSamples { wi: ray.arriving, ..by.light };
+                (towards(&ray.last, &light), light.light)
+            }
+        }
+    }
+}
 
 impl<F: Float> PathLanes<'_, F> {
     /// Takes the light of one sample of the lights by way of one sphere: of every ray that goes there. Its specular
     /// vertices count against the limit of bounces as they do by chance.
     #[inline(always)]
-    pub(super) fn connect(&mut self, here: F::M, at: &Interactions<F>, directions: &DirectionsAt<F>, u: [F; 4]) {
+    pub(super) fn connect(&mut self, from: &ConnectingVertices<F>, u: [F; 4]) {
+        let at = &from.at;
+        let directions = self.directions(from.here, at);
         let chain = self.scene.casters.choose(u[3]);
         let specular = F::U::select(chain.through, F::U::splat(2), F::U::splat(1));
-        let fits = self.path.vertices.wrapping_add(specular).lt(F::U::splat(self.plan.limit));
+        let fits = from.vertices.wrapping_add(specular).lt(F::U::splat(self.plan.limit));
         let light = self.scene.lights.table().sample(chain.center, u[2], [u[0], u[1]]);
         let connections = Connections::new(at.point.position, chain, light);
         let fits = fits & !self.is_left_to_chance(&connections.light);
-        let wanted = here & fits & connections.possible & !connections.is_behind(at.normal);
+        let wanted = from.here & fits & connections.possible & !connections.is_behind(at.normal);
         for index in 0..MOST_ROOTS {
             let root = connections.root(index, wanted);
             if root.found.any() {
-                self.receive_by(root.found, (at, directions), &connections, &connections.ray(&root));
+                self.receive_by(root.found, (from, &directions), &connections, &connections.ray(&root));
             }
         }
     }
@@ -52,10 +86,11 @@ impl<F: Float> PathLanes<'_, F> {
     fn receive_by(
         &mut self,
         here: F::M,
-        (at, directions): (&Interactions<F>, &DirectionsAt<F>),
+        (from, directions): (&ConnectingVertices<F>, &DirectionsAt<F>),
         by: &Connections<F>,
         ray: &ConnectedRays<F>,
     ) {
+        let at = &from.at;
         let (zero, cosine) = (F::splat(0.0), at.normal.dot(ray.wi));
         let arrives = self.arrives(here & cosine.gt(zero) & ray.density.gt(zero), &at.point, by, ray);
         if !arrives.any() {
@@ -69,30 +104,29 @@ impl<F: Float> PathLanes<'_, F> {
         }
         let colour = Vector::select(by.chain.through, Vector::along_all(F::splat(1.0)), surface.colour);
         let bsdf = self.scene.materials.eval(at, ray.wi);
-        self.receive(arrives, bsdf.times(by.light.radiance_over_pdf * colour * (cosine * ray.passes / density)));
+        let radiance = bsdf.times(by.light.radiance_over_pdf * colour * (cosine * ray.passes / density));
+        let found = self.waiting.found;
+        self.waiting.found = Vector::select(arrives, found + from.throughput * radiance, found);
     }
 
     /// Where nothing stands in a connection's way.
     #[inline(always)]
     fn arrives(&mut self, here: F::M, at: &SurfacePoints<F>, by: &Connections<F>, ray: &ConnectedRays<F>) -> F::M {
-        self.rays += u64::from(here.count());
-        if !here.any() {
-            return here;
+        let mut free = here;
+        // one loop rather than one after the other, or the code that meets shapes would be there three times
+        for leg in LEGS {
+            let wanted = match leg {
+                Leg::Chord if self.scene.casters.are_hollow() => continue,
+                Leg::Chord => free & by.chain.through,
+                Leg::ToSphere | Leg::ToLight => free,
+            };
+            if wanted.any() {
+                self.rays += u64::from(wanted.count());
+                let (rays, light) = leg.rays(at, by, ray);
+                free = free & !self.scene.aggregate.occluded(&rays, light, wanted, false, &mut self.scratch);
+            }
         }
-        let (scene, scratch) = (self.scene, &mut self.scratch);
-        let mut free = here & !scene.blocked(at, &ray.first, ray.wi, here, scratch);
-        let inside = free & by.chain.through;
-        if !scene.casters.are_hollow() && inside.any() {
-            self.rays += u64::from(inside.count());
-            let chord = (ray.last.position - ray.first.position).normalize();
-            free = free & !scene.blocked(&ray.first, &ray.last, chord, inside, scratch);
-        }
-        self.rays += u64::from(free.count());
-        if !free.any() {
-            return free;
-        }
-        let last = LightSamples { wi: ray.arriving, ..by.light };
-        free & !scene.in_shadow(&ray.last, &last, free, false, scratch)
+        free
     }
 
     /// How much light that a ray finds where it hits nothing counts by its chain, beside connections to the same light,

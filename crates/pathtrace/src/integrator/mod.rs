@@ -18,6 +18,7 @@ pub mod photon;
 pub(crate) mod roulette;
 pub mod settings;
 pub(crate) mod splits;
+mod waiting;
 pub mod whitted;
 
 use crate::drive::gpu::{PipelineKey, film_data::RenderParams};

@@ -22,6 +22,7 @@ use crate::integrator::path_state::{ALREADY_COUNTED, DiffuseVertices, MET_BY_CHA
 use crate::integrator::roulette::{SPARED_VERTICES, survivors};
 use crate::integrator::settings::{Directions, LightSampling};
 use crate::integrator::splits::{ALWAYS_REFRACTED, Splits};
+use crate::integrator::waiting::WaitingVertices;
 use crate::intersect::shape_list::Scratch;
 use crate::intersect::{Intersections, NO_LIGHT, Rays, SurfacePoints};
 use crate::prepared::{Outcomes, PreparedScene};
@@ -37,6 +38,7 @@ pub struct PathLanes<'a, F: Float> {
     /// Whether there is what connections go by, and light to connect to.
     pub(super) connecting: bool,
     pub(super) chain: ChainStates<F>,
+    pub(super) waiting: WaitingVertices<F>,
     /// Where a path comes back to a vertex that waits for more branches, and to which.
     resumed: F::M,
     vertex: DiffuseVertices<F>,
@@ -45,7 +47,7 @@ pub struct PathLanes<'a, F: Float> {
     pub(super) from_camera: F::M,
     pub(super) splits: Splits<F>,
     pub(super) scratch: Scratch<F>,
-    outcome: Outcomes<F>,
+    pub(super) outcome: Outcomes<F>,
     guidance: Guidance<'a, F>,
     /// Rays traced.
     pub(super) rays: u64,
@@ -67,7 +69,7 @@ impl<'a, F: Float, S: RandomNumbers<F::U>> LaneIntegrator<F, S> for PathLanes<'a
     /// One segment of the paths in the lanes `taken`; where these, and all their branches, have come to their ends.
     #[inline(always)]
     fn segment(&mut self, taken: F::M, sampler: &S) -> F::M {
-        let walking = taken & !self.resumed;
+        let walking = self.walking(taken);
         self.rays += u64::from(walking.count());
         let hit = self.scene.closest(&self.path.rays, walking, &mut self.scratch);
         let missed = walking & !hit.met;
@@ -108,18 +110,15 @@ impl<'a, F: Float, S: RandomNumbers<F::U>> LaneIntegrator<F, S> for PathLanes<'a
         let before = self.path.throughput;
         let alive = self.goes_on(scattering, delta, deserved, u[2]);
         let ended = taken & !alive;
+        let carried = [before, self.path.throughput];
+        let mut complete = ended & !self.next_part(ended);
+        if self.connecting {
+            complete = self.connect_waiting(complete, sampler);
+        }
         if self.guidance.learns() {
-            let carried = [before, self.path.throughput];
-            self.guidance.note([scattering, ended], carried, self.outcome.radiance, sampler.pixel_and_sample());
+            self.guidance.note([scattering, ended], carried, self.brought_home(), sampler.pixel_and_sample());
         }
-        if self.splits_glass() {
-            return ended & !self.next_split(ended);
-        }
-        if self.plan.branching_vertices > 0 {
-            self.resumed = self.forks.next(ended, self.plan.branches, &mut self.vertex, &mut self.path);
-            return ended & !self.resumed;
-        }
-        ended
+        complete
     }
 
     #[inline(always)]
@@ -142,6 +141,7 @@ impl<'a, F: Float> PathLanes<'a, F> {
             plan,
             connecting: plan.connections && !scene.casters.is_empty() && !scene.lights.is_empty(),
             chain: ChainStates::none(),
+            waiting: WaitingVertices::none(),
             path: PathStates::leaving_camera(&Rays::new(zero, Vector::splat([0.0, 0.0, 1.0]))),
             resumed: F::M::splat(false),
             vertex: DiffuseVertices { point: SurfacePoints::in_the_air(zero), normal: zero, albedo: zero },
@@ -153,6 +153,39 @@ impl<'a, F: Float> PathLanes<'a, F> {
             guidance: Guidance::new(plan.guide.as_deref(), plan.notes),
             rays: 0,
         }
+    }
+
+    /// Whether what paths find is guided, or guides.
+    #[inline(always)]
+    pub(super) fn is_guided(&self) -> bool {
+        self.plan.guide.is_some() || self.plan.notes.is_some()
+    }
+
+    /// The lanes whose paths are on their way.
+    #[inline(always)]
+    fn walking(&self, taken: F::M) -> F::M {
+        let walking = taken & !self.resumed;
+        if self.connecting { walking & !self.waiting.lingering() } else { walking }
+    }
+
+    /// Goes on with other parts of paths that have `ended`, and says where there is one.
+    #[inline(always)]
+    fn next_part(&mut self, ended: F::M) -> F::M {
+        if self.splits_glass() {
+            return self.next_split(ended);
+        }
+        if self.plan.branching_vertices > 0 {
+            self.resumed = self.forks.next(ended, self.plan.branches, &mut self.vertex, &mut self.path);
+            return self.resumed;
+        }
+        F::M::splat(false)
+    }
+
+    /// What samples have brought home so far.
+    #[inline(always)]
+    fn brought_home(&self) -> Vector<F> {
+        let radiance = self.outcome.radiance;
+        if self.connecting { radiance + self.waiting.found } else { radiance }
     }
 
     /// Adds radiance that came along the path, where `here` says so.
@@ -204,7 +237,7 @@ impl<'a, F: Float> PathLanes<'a, F> {
         if self.plan.light != LightSampling::BsdfOnly && !self.scene.lights.is_empty() && choosing.any() {
             self.sample_lights(choosing, at, &directions, sampler.unit4(self.path.light_dimension()));
             if self.connecting {
-                self.connect(choosing, at, &directions, sampler.unit4(self.path.connection_dimension()));
+                self.waiting.arrive(choosing, at, &self.path);
             }
         }
         let splitting = self.splitting(here, at);
@@ -236,7 +269,7 @@ impl<'a, F: Float> PathLanes<'a, F> {
 
     /// How directions are drawn at these vertices, of which those that leave a choice are `choosing`.
     #[inline(always)]
-    fn directions(&self, choosing: F::M, at: &Interactions<F>) -> DirectionsAt<'a, F> {
+    pub(super) fn directions(&self, choosing: F::M, at: &Interactions<F>) -> DirectionsAt<'a, F> {
         let cones = &self.scene.cones[self.plan.cones as usize];
         let some = !cones.is_empty() && choosing.any();
         DirectionsAt {
