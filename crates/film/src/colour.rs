@@ -18,6 +18,19 @@ pub fn luminance(rgb: Vec3) -> f32 {
     rgb.dot(Vec3::new(0.2126, 0.7152, 0.0722))
 }
 
+/// Linear grey of the farthest depth: .3 of the way from black to white as a display shows it.
+pub const DARKEST: f32 = 0.073_239;
+
+/// Linear grey of a depth: white at the nearest, [`DARKEST`] at the farthest, even steps of display brightness; black where
+/// nothing is, infinitely far.
+pub fn grey_of_depth(depth: f32, [nearest, farthest]: [f32; 2]) -> f32 {
+    if depth == f32::INFINITY {
+        return 0.0;
+    }
+    let far = (depth - nearest) / (farthest - nearest).max(f32::MIN_POSITIVE);
+    srgb_decode(1.0 + (srgb_encode(DARKEST) - 1.0) * far)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -34,5 +47,13 @@ mod tests {
             let code = f32::from(byte) / 255.0;
             assert_eq!((srgb_encode(srgb_decode(code)) * 255.0).round(), f32::from(byte));
         }
+    }
+
+    #[test]
+    fn depths_are_grey_from_white_to_darkest() {
+        assert_eq!(grey_of_depth(f32::INFINITY, [0.2, 0.4]), 0.0);
+        assert!((grey_of_depth(0.2, [0.2, 0.4]) - 1.0).abs() < 1e-6);
+        assert!((grey_of_depth(0.4, [0.2, 0.4]) - DARKEST).abs() < 1e-6);
+        assert!((grey_of_depth(0.3, [0.3, 0.3]) - 1.0).abs() < 1e-6);
     }
 }

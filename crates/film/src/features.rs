@@ -1,7 +1,38 @@
 //! What is seen of surfaces at each pixel, without any light: what denoisers are guided by ("auxiliary features").
 
-use crate::{Image, Layer, LayerValues, Vec3};
+use crate::colour::grey_of_depth;
+use crate::{Film, Image, Layer, LayerValues, Pixel, Vec3};
 use std::sync::Arc;
+
+/// What of a surface is looked at.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Feature {
+    /// [`Features::albedo`].
+    Albedo,
+    /// [`Features::normal`].
+    Normal,
+    /// [`Features::depth`].
+    Depth,
+}
+
+impl Feature {
+    /// All of them.
+    pub const ALL: [Feature; 3] = [Feature::Albedo, Feature::Normal, Feature::Depth];
+
+    /// The name on the command line, and of its layer in a file.
+    pub fn name(self) -> &'static str {
+        match self {
+            Feature::Albedo => Features::ALBEDO,
+            Feature::Normal => Features::NORMAL,
+            Feature::Depth => Features::DEPTH,
+        }
+    }
+
+    /// The one of that name.
+    pub fn named(name: &str) -> Option<Feature> {
+        Feature::ALL.into_iter().find(|feature| feature.name() == name)
+    }
+}
 
 /// Means over each pixel of a picture, rows from the top.
 #[derive(Debug, Clone, PartialEq)]
@@ -46,9 +77,39 @@ impl Features {
     pub fn layers(&self) -> [Layer; 3] {
         [
             Layer { name: Self::ALBEDO, values: LayerValues::Rgb(self.albedo.clone()) },
-            Layer { name: Self::NORMAL, values: LayerValues::Rgb(self.normal.clone()) },
-            Layer { name: Self::DEPTH, values: LayerValues::Numbers(self.depth.clone()) },
+            Layer { name: Self::NORMAL, values: LayerValues::Directions(self.normal.clone()) },
+            Layer { name: Self::DEPTH, values: LayerValues::Depths(self.depth.clone()) },
         ]
+    }
+
+    /// A film to look at one of them, as [`Features::fill`] shows it; `None` where there is no memory for it.
+    pub fn film(&self, feature: Feature, samples: u32) -> Option<Film> {
+        let mut film = Film::try_new(self.width, self.height)?;
+        self.fill(&mut film, feature, samples);
+        Some(film)
+    }
+
+    /// Makes a film of as many pixels one of them, of so many samples a pixel: albedo as light of its colour; normals as
+    /// colours, -1 to 1 along each axis as 0 to 1, and black where nothing is met; depths as [`grey_of_depth`] between the
+    /// nearest and the farthest one.
+    pub fn fill(&self, film: &mut Film, feature: Feature, samples: u32) {
+        let range = self.range_of_depths();
+        for (index, pixel) in film.pixels_mut().iter_mut().enumerate() {
+            let depth = self.depth[index];
+            let colour = match feature {
+                Feature::Albedo => self.albedo[index],
+                Feature::Normal if depth == f32::INFINITY => Vec3::ZERO,
+                Feature::Normal => 0.5 * self.normal[index] + 0.5,
+                Feature::Depth => Vec3::splat(grey_of_depth(depth, range)),
+            };
+            *pixel = Pixel::steady(colour, samples);
+        }
+    }
+
+    /// The nearest and the farthest depth of what is met.
+    fn range_of_depths(&self) -> [f32; 2] {
+        let met = || self.depth.iter().copied().filter(|depth| depth.is_finite());
+        [met().fold(f32::INFINITY, f32::min), met().fold(0.0, f32::max)]
     }
 
     /// Those that a picture has as layers; `None` if it lacks any.
@@ -62,6 +123,7 @@ impl Features {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::colour::{DARKEST, srgb_encode};
 
     #[test]
     fn features_come_back_from_a_pictures_layers() {
@@ -72,5 +134,26 @@ mod tests {
         image.layers.extend(features.layers());
         assert_eq!(Features::of(&image), Some(features));
         assert_eq!(Features::new((2, 2), vec![Vec3::X; 4], vec![Vec3::X; 4], vec![0.0; 3]), None);
+    }
+
+    #[test]
+    fn features_are_looked_at_as_colours_and_depths_as_even_steps_of_grey() {
+        let depth = vec![2.0, 3.0, 4.0, f32::INFINITY];
+        let albedo = vec![Vec3::X, Vec3::Y, Vec3::Z, Vec3::ONE];
+        let features = Features::new((4, 1), albedo.clone(), vec![-Vec3::Z, Vec3::Y, Vec3::ZERO, Vec3::ZERO], depth);
+        let shown = |feature| {
+            let film = features.as_ref().unwrap().film(feature, 3).unwrap();
+            assert_eq!(film.samples_per_pixel(), 3);
+            film.radiances().collect::<Vec<_>>()
+        };
+        assert_eq!(shown(Feature::Albedo), albedo);
+        let half = Vec3::splat(0.5);
+        let normals = [Vec3::new(0.5, 0.5, 0.0), Vec3::new(0.5, 1.0, 0.5), half, Vec3::ZERO];
+        assert_eq!(shown(Feature::Normal), normals);
+        let codes = shown(Feature::Depth).iter().map(|grey| srgb_encode(grey.x)).collect::<Vec<_>>();
+        let darkest = srgb_encode(DARKEST);
+        for (code, expected) in codes.iter().zip([1.0, 0.5 + 0.5 * darkest, darkest, 0.0]) {
+            assert!((code - expected).abs() < 1e-5, "{codes:?}");
+        }
     }
 }

@@ -28,6 +28,13 @@ impl Pixel {
         pixel
     }
 
+    /// A pixel of so many samples of one value.
+    pub fn steady(radiance: Vec3, samples: u32) -> Self {
+        let Pixel { sum, sum_of_squares, largest, .. } = Pixel::exact(radiance);
+        let times = |sums: [f64; 3]| sums.map(|sum| sum * f64::from(samples));
+        Pixel { sum: times(sum), sum_of_squares: times(sum_of_squares), samples, largest }
+    }
+
     /// Adds one sample.
     pub fn add(&mut self, radiance: Vec3) {
         for (channel, value) in radiance.to_array().into_iter().enumerate() {

@@ -27,15 +27,19 @@ pub struct Layer {
 pub enum LayerValues {
     /// Red, green and blue.
     Rgb(Arc<[Vec3]>),
+    /// Along x, y and z.
+    Directions(Arc<[Vec3]>),
     /// One number a pixel.
     Numbers(Arc<[f32]>),
+    /// One distance from the camera a pixel; infinite where nothing is.
+    Depths(Arc<[f32]>),
 }
 
 impl LayerValues {
     fn len(&self) -> usize {
         match self {
-            LayerValues::Rgb(values) => values.len(),
-            LayerValues::Numbers(values) => values.len(),
+            LayerValues::Rgb(values) | LayerValues::Directions(values) => values.len(),
+            LayerValues::Numbers(values) | LayerValues::Depths(values) => values.len(),
         }
     }
 }
@@ -84,21 +88,21 @@ impl Image {
         Layer { name, values: LayerValues::Rgb(self.radiances.clone()) }
     }
 
-    /// The colours of the layer of this name; `None` if there is none, or if it has one number a pixel.
+    /// The colours or directions of the layer of this name; `None` if there is none, or if it has one number a pixel.
     pub fn rgb_layer(&self, name: &str) -> Option<&[Vec3]> {
         let layer = self.layers.iter().find(|layer| layer.name == name)?;
         match &layer.values {
-            LayerValues::Rgb(values) => Some(values),
-            LayerValues::Numbers(_) => None,
+            LayerValues::Rgb(values) | LayerValues::Directions(values) => Some(values),
+            LayerValues::Numbers(_) | LayerValues::Depths(_) => None,
         }
     }
 
-    /// The numbers of the layer of this name; `None` if there is none, or if it has colours.
+    /// The numbers or depths of the layer of this name; `None` if there is none, or if it has three values a pixel.
     pub fn number_layer(&self, name: &str) -> Option<&[f32]> {
         let layer = self.layers.iter().find(|layer| layer.name == name)?;
         match &layer.values {
-            LayerValues::Numbers(values) => Some(values),
-            LayerValues::Rgb(_) => None,
+            LayerValues::Numbers(values) | LayerValues::Depths(values) => Some(values),
+            LayerValues::Rgb(_) | LayerValues::Directions(_) => None,
         }
     }
 

@@ -8,7 +8,7 @@ mod film;
 mod image;
 
 pub use display::DisplayTransform;
-pub use features::Features;
+pub use features::{Feature, Features};
 pub use film::{Film, Pixel};
 pub use glam::{self, Vec3};
 pub use image::{Image, Layer, LayerValues};

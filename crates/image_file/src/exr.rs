@@ -10,8 +10,17 @@ pub use read::{layer, load};
 use super::ImageFileError;
 use ::exr::meta::header::Header;
 use exr::prelude as exr;
-use film::{Layer, LayerValues};
+use film::{Layer, LayerValues, Vec3};
 use std::path::Path;
+
+/// The channels of a colour.
+const COLOUR: [&str; 3] = ["R", "G", "B"];
+/// Those of a direction.
+const DIRECTION: [&str; 3] = ["X", "Y", "Z"];
+/// That of a number, as of luminance.
+const NUMBER: &str = "Y";
+/// That of a distance from the camera.
+const DEPTH: &str = "Z";
 
 /// A file of these layers, each with its own channels of 32-bit floats.
 pub fn bytes(
@@ -21,28 +30,30 @@ pub fn bytes(
 ) -> Result<Vec<u8>, ImageFileError> {
     use exr::WritableImage as _;
     let size = exr::Vec2(width as usize, height as usize);
-    let channel = |name: &str, values: Vec<f32>| exr::AnyChannel::new(name, exr::FlatSamples::F32(values));
     let layers = layers.iter().map(|layer| {
-        let channels = match &layer.values {
-            LayerValues::Rgb(pixels) => ["R", "G", "B"]
-                .into_iter()
-                .enumerate()
-                .map(|(axis, name)| channel(name, pixels.iter().map(|p| p[axis]).collect()))
-                .collect(),
-            LayerValues::Numbers(values) => std::iter::once(channel("Y", values.to_vec())).collect(),
-        };
-        exr::Layer::new(
-            size,
-            attributes(layer.name, records),
-            exr::Encoding::FAST_LOSSLESS,
-            exr::AnyChannels::sort(channels),
-        )
+        let channels = exr::AnyChannels::sort(channels_of(&layer.values).into());
+        exr::Layer::new(size, attributes(layer.name, records), exr::Encoding::FAST_LOSSLESS, channels)
     });
     let window = exr::IntegerBounds::new((0, 0), size);
     let image = exr::Image::from_layers(exr::ImageAttributes::new(window), layers.collect::<exr::Layers<_>>());
     let mut bytes = std::io::Cursor::new(Vec::new());
     image.write().to_buffered(&mut bytes).map_err(|e| ImageFileError::Encode("EXR", e.to_string()))?;
     Ok(bytes.into_inner())
+}
+
+/// Under the names that OpenEXR's documentation gives to what they are.
+fn channels_of(values: &LayerValues) -> Vec<exr::AnyChannel<exr::FlatSamples>> {
+    let channel = |name: &str, values: Vec<f32>| exr::AnyChannel::new(name, exr::FlatSamples::F32(values));
+    let three = |names: [&str; 3], values: &[Vec3]| {
+        let axes = names.into_iter().enumerate();
+        axes.map(|(axis, name)| channel(name, values.iter().map(|value| value[axis]).collect())).collect()
+    };
+    match values {
+        LayerValues::Rgb(colours) => three(COLOUR, colours),
+        LayerValues::Directions(directions) => three(DIRECTION, directions),
+        LayerValues::Numbers(numbers) => vec![channel(NUMBER, numbers.to_vec())],
+        LayerValues::Depths(depths) => vec![channel(DEPTH, depths.to_vec())],
+    }
 }
 
 /// A layer's name, and the records, which stand with every layer.

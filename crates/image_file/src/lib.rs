@@ -137,7 +137,8 @@ pub fn encode_layers(size: (u32, u32), layers: &[Layer], records: &Records) -> R
     exr::bytes(size, layers, records)
 }
 
-/// The red, green and blue of the layer of this name in an .exr; `None` if there is none of `size` pixels.
+/// The values of the layer of this name in an .exr, which its channels tell the kind of: R, G and B; X, Y and Z; Z, of depths;
+/// or Y. `None` if there is none of `size` pixels.
 ///
 /// # Errors
 /// [`ImageFileError`]: one line that says why and names the path.

@@ -3,8 +3,8 @@
 #![expect(clippy::unwrap_used, reason = "a test stops at the first thing that is not as it must be")]
 
 use exr::prelude as exr;
-use film::Vec3;
-use image_file::{Loaded, load_layer, load_layers, read};
+use film::{DisplayTransform, Image, LayerValues, Vec3};
+use image_file::{Kind, Loaded, load_layer, load_layers, read};
 use std::path::PathBuf;
 use visavis_tests::TestFolder;
 
@@ -158,7 +158,38 @@ fn a_layer_is_read_by_the_name_of_its_part() {
     let value = |name, value: &[f32; 1]| part(name, (1, 1), &[("R", value), ("G", value), ("B", value)]);
     let folder = TestFolder::new();
     let path = write(&folder, window((0, 0), (1, 1)), [value("one", &[1.0]), value("two", &[2.0])]);
-    assert_eq!(load_layer(&path, "two", (1, 1)).unwrap(), Some(film::LayerValues::Rgb([Vec3::splat(2.0)].into())));
+    assert_eq!(load_layer(&path, "two", (1, 1)).unwrap(), Some(LayerValues::Rgb([Vec3::splat(2.0)].into())));
+}
+
+#[test]
+fn layers_come_back_as_what_they_are_beside_the_picture() {
+    let image = Image::new(2, 1, vec![Vec3::splat(4.0), Vec3::ONE]).unwrap();
+    let layers = [
+        ("albedo", LayerValues::Rgb([Vec3::X, Vec3::splat(0.5)].into()), vec!["B", "G", "R"]),
+        ("normal", LayerValues::Directions([Vec3::NEG_Y, Vec3::ZERO].into()), vec!["X", "Y", "Z"]),
+        ("depth", LayerValues::Depths([2.5, f32::INFINITY].into()), vec!["Z"]),
+        ("weight", LayerValues::Numbers([0.25, 1.0].into()), vec!["Y"]),
+    ];
+    let with_layers =
+        layers.iter().fold(image.clone(), |image, (name, values, _)| image.with_layer(name, values.clone()));
+    let records = vec![("scene", "cornell".to_owned())];
+    let bytes = image_file::encode(Kind::Exr, &with_layers, &DisplayTransform::default(), &records).unwrap();
+    let folder = TestFolder::new();
+    let path = folder.file("layers.exr");
+    std::fs::write(&path, bytes).unwrap();
+    assert_eq!(
+        read(&path).unwrap(),
+        Loaded { image, notes: Vec::new() },
+        "the picture is the radiance, and nothing is told"
+    );
+    let meta = exr::MetaData::read_from_file(&path, true).unwrap();
+    for (name, values, channels) in layers {
+        assert_eq!(load_layer(&path, name, (2, 1)).unwrap(), Some(values), "{name}");
+        let part = meta.headers.iter().find(|part| part.own_attributes.layer_name.as_ref().unwrap().eq(name)).unwrap();
+        let named: Vec<_> = part.channels.list.iter().map(|channel| channel.name.to_string()).collect();
+        assert_eq!(named, channels, "{name}");
+    }
+    assert_eq!(load_layer(&path, "depth", (1, 1)).unwrap(), None, "of another size");
 }
 
 #[test]

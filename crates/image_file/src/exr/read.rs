@@ -1,7 +1,7 @@
 //! The picture of an EXR: over its display window, in the colours of Rec. 709.
 
 use super::channels::{self, Choice, Colours, listed};
-use super::{exr, text};
+use super::{COLOUR, DEPTH, DIRECTION, NUMBER, exr, text};
 use crate::primaries::{Primaries, REC_709, converted};
 use crate::{ImageFileError, Loaded, check_pixels, image_of};
 use ::exr::image::read::layers::ReadChannels;
@@ -11,6 +11,7 @@ use ::exr::meta::header::Header;
 use film::glam::DVec3;
 use film::{LayerValues, Vec3};
 use std::path::Path;
+use std::sync::Arc;
 
 /// Whole pixels of a plane: a data or a display window.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -41,7 +42,7 @@ struct Stored {
     translucent: bool,
 }
 
-/// The layer of this name, if it has red, green and blue and is of this size.
+/// The layer of this name, if it is of this size: colours, directions, depths or numbers, as its channels are called.
 pub fn layer(path: &Path, name: &str, size: (u32, u32)) -> Result<Option<LayerValues>, ImageFileError> {
     use exr::{ReadChannels as _, ReadLayers as _};
     headers(path)?;
@@ -53,10 +54,24 @@ pub fn layer(path: &Path, name: &str, size: (u32, u32)) -> Result<Option<LayerVa
     if layer.size != exr::Vec2(size.0 as usize, size.1 as usize) {
         return Ok(None);
     }
-    let channel = |name: &str| layer.channel_data.list.iter().find(|channel| channel.name.eq(name));
-    let (Some(r), Some(g), Some(b)) = (channel("R"), channel("G"), channel("B")) else { return Ok(None) };
-    let [r, g, b] = [r, g, b].map(|channel| channel.sample_data.values_as_f32());
-    Ok(Some(LayerValues::Rgb(r.zip(g).zip(b).map(|((r, g), b)| Vec3::new(r, g, b)).collect())))
+    let of_three = |names| three(&layer.channel_data, names);
+    let of_one = |name| channel(&layer.channel_data, name).map(Iterator::collect);
+    let colours = || of_three(COLOUR).map(LayerValues::Rgb);
+    let directions = || of_three(DIRECTION).map(LayerValues::Directions);
+    let depths = || of_one(DEPTH).map(LayerValues::Depths);
+    let numbers = || of_one(NUMBER).map(LayerValues::Numbers);
+    Ok(colours().or_else(directions).or_else(depths).or_else(numbers))
+}
+
+/// What the channel of this name holds.
+fn channel<'a>(channels: &'a exr::AnyChannels<exr::FlatSamples>, name: &str) -> Option<impl Iterator<Item = f32> + 'a> {
+    let found = channels.list.iter().find(|channel| channel.name.eq(name))?;
+    Some(found.sample_data.values_as_f32())
+}
+
+fn three(channels: &exr::AnyChannels<exr::FlatSamples>, names: [&str; 3]) -> Option<Arc<[Vec3]>> {
+    let [x, y, z] = names.map(|name| channel(channels, name));
+    Some(x?.zip(y?).zip(z?).map(|((x, y), z)| Vec3::new(x, y, z)).collect())
 }
 
 /// Refuses a file before memory is taken for any of its layers.
