@@ -28,7 +28,7 @@ pub mod twins;
 mod vectors;
 
 pub use caster::cone::shapes_with_cones;
-pub use features::FeaturePass;
+pub use features::{FeatureFilm, FeaturePass};
 pub use integrator::Integrator;
 pub use integrator::metropolis::MetropolisSettings;
 pub use integrator::normals::{NormalsSettings, Space};

@@ -4,7 +4,7 @@ use crate::bsdf::materials::Materials;
 use crate::caster::Casters;
 use crate::caster::cone::Cones;
 use crate::drive::lanes::{FilmJob, FilmPass, Stop};
-use crate::features::FeaturePass;
+use crate::features::{FeatureFilm, FeaturePass};
 use crate::integrator::Integrator;
 use crate::integrator::guide::{cells::Cells, guides::Guides};
 use crate::integrator::photon::usual_radius;
@@ -125,7 +125,15 @@ impl Tracer {
 
     /// What denoisers are guided by, on the current rayon pool; `None` once `stop` says so.
     pub fn features(&self, pass: &FeaturePass, stop: &(impl Fn() -> bool + Sync)) -> Option<Features> {
-        pass.trace(&self.scene, self.lanes, stop)
+        let mut film = FeatureFilm::new(pass.size());
+        self.add_features(&mut film, pass, stop);
+        film.features().filter(|_| !stop())
+    }
+
+    /// Adds samples to what is known of pixels, which are of the pass's size, on the current rayon pool; once `stop` says so
+    /// some are left without, which the next pass completes.
+    pub fn add_features(&self, film: &mut FeatureFilm, pass: &FeaturePass, stop: &(impl Fn() -> bool + Sync)) -> Stats {
+        pass.trace(&self.scene, self.lanes, film, stop)
     }
 
     fn job<'a>(&'a self, pass: FilmPass, stop: &'a Stop) -> FilmJob<'a> {

@@ -1,9 +1,12 @@
 //! Albedo, normal and depth of what pixels show, against what the scenes say.
 
+#![expect(clippy::expect_used, reason = "a test stops at the first thing that is not as it must be")]
+
 use film::{Features, Vec3};
-use pathtrace::{FeaturePass, Lanes, SamplerKind, Tracer};
+use pathtrace::{FeatureFilm, FeaturePass, Lanes, SamplerKind, Tracer};
 use scene::{Scene, builtin};
 use std::path::Path;
+use std::sync::atomic::{AtomicU32, Ordering};
 
 /// A mirror before the camera, and a wall behind it, which is all that the mirror shows.
 const MIRROR_AND_WALL: &str = "
@@ -94,4 +97,26 @@ fn what_is_stopped_has_no_features() {
     let scene = parse(MIRROR_AND_WALL);
     let pass = FeaturePass::new(&scene.camera, (5, 3), 1, (SamplerKind::Sobol, 1));
     assert_eq!(Tracer::new(&scene).features(&pass, &|| true), None);
+}
+
+/// A pass that is stopped leaves pixels without samples, and the next one brings them.
+#[test]
+fn samples_that_come_in_passes_are_those_of_one_pass() {
+    let scene = builtin::named("whitted").expect("a built-in scene");
+    let (tracer, size) = (Tracer::new(&scene), (67, 37));
+    let mut film = FeatureFilm::new(size);
+    let mut add = |samples, stop: &(dyn Fn() -> bool + Sync)| {
+        let pass = FeaturePass::new(&scene.camera, size, samples, (SamplerKind::Sobol, 1));
+        let stats = tracer.add_features(&mut film, &pass, &stop);
+        (stats.samples, film.samples_per_pixel(), film.features())
+    };
+    let pixels = 67 * 37;
+    assert_eq!(add(1, &|| true), (0, 0, None));
+    assert!(matches!(add(1, &|| false), (taken, 1, Some(_)) if taken == pixels));
+    let asked = AtomicU32::new(0);
+    let (taken, least, _) = add(3, &|| asked.fetch_add(1, Ordering::Relaxed) > 0);
+    assert!(least == 1 && 0 < taken && taken < 2 * pixels, "{taken} of {pixels}, and {least}");
+    let (rest, least, features) = add(3, &|| false);
+    assert_eq!((taken + rest, least), (2 * pixels, 3));
+    assert!(features == Some(traced(&scene, size, 3, Lanes::best())));
 }

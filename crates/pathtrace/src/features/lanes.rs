@@ -8,6 +8,7 @@ use crate::intersect::shape_list::Scratch;
 use crate::intersect::{Intersections, Rays};
 use crate::prepared::PreparedScene;
 use crate::sampling::sampler::Sampler;
+use crate::stats::Stats;
 use crate::vectors::each_lane;
 use scene::Vec3;
 use simd::{Float, Kernel, MOST_LANES, Mask, Vector, Word};
@@ -23,6 +24,8 @@ pub struct Sums {
     distance: f32,
     /// Samples that met anything.
     met: u32,
+    /// All of them.
+    pub samples: u32,
 }
 
 impl Sums {
@@ -42,25 +45,31 @@ pub struct ChunkKernel<'a> {
 }
 
 impl Kernel for ChunkKernel<'_> {
-    type Output = ();
+    type Output = Stats;
 
     #[inline(always)]
-    fn run<F: Float>(self) {
+    fn run<F: Float>(self) -> Stats {
         let ChunkKernel { pass, scene, first, sums } = self;
         let mut scratch = Scratch::new(scene.aggregate.shape_list());
+        let mut stats = Stats::default();
         for (index, group) in sums.chunks_mut(F::LANES).enumerate() {
             let pixels: [u32; MOST_LANES] = std::array::from_fn(|lane| first + (index * F::LANES + lane) as u32);
             let here = F::M::from_bits(u32::MAX >> (u32::BITS - group.len() as u32));
-            for sample in 0..pass.samples {
+            let there = group.first().map_or(0, |sums| sums.samples);
+            for sample in there..pass.samples {
                 let (kind, seed) = pass.sampler;
                 let sampler = Sampler { kind, pixel: F::U::load(&pixels), sample: F::U::splat(sample), seed };
                 let column = pixels.map(|pixel| (pixel % pass.size[0]) as f32);
                 let row = pixels.map(|pixel| (pixel / pass.size[0]) as f32);
                 let place = [F::load(&column), F::load(&row)];
                 let rays = camera_rays(&pass.frame, pass.size, place, &sampler);
-                Seen::along(rays, here, scene, &sampler, &mut scratch).add_to(group);
+                let seen = Seen::along(rays, here, scene, &sampler, &mut scratch);
+                seen.add_to(group);
+                stats.samples += group.len() as u64;
+                stats.rays += u64::from(seen.rays);
             }
         }
+        stats
     }
 }
 
@@ -72,6 +81,7 @@ struct Seen<F: Float> {
     normal: Vector<F>,
     distance: F,
     met: F::M,
+    rays: u32,
 }
 
 impl<F: Float> Seen<F> {
@@ -85,10 +95,12 @@ impl<F: Float> Seen<F> {
     ) -> Self {
         let (zero, nowhere) = (Vector::zero(), F::M::splat(false));
         let one = Vector::along_all(F::splat(1.0));
-        let mut seen = Seen { throughput: one, albedo: zero, normal: zero, distance: F::splat(0.0), met: nowhere };
+        let mut seen =
+            Seen { throughput: one, albedo: zero, normal: zero, distance: F::splat(0.0), met: nowhere, rays: 0 };
         let mut walking = here;
         for vertex in 0..=MOST_SPECULARS {
             let hit = scene.closest(&rays, walking, scratch);
+            seen.rays += walking.count();
             let met = walking & hit.met;
             let wo = -rays.direction;
             if vertex == 0 {
@@ -160,6 +172,7 @@ impl<F: Float> Seen<F> {
         for (lane, sum) in sums.iter_mut().enumerate() {
             sum.albedo += albedo[lane].min(Vec3::ONE);
             sum.normal += normal[lane];
+            sum.samples += 1;
         }
         for lane in lanes_of(self.met) {
             sums[lane].distance += distance[lane];

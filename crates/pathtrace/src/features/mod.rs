@@ -9,6 +9,7 @@ mod lanes;
 use crate::drive::lanes::Stop;
 use crate::prepared::PreparedScene;
 use crate::sampling::sampler::SamplerKind;
+use crate::stats::Stats;
 use film::Features;
 use film::Vec3;
 use lanes::{ChunkKernel, Sums};
@@ -34,25 +35,54 @@ pub struct FeaturePass {
 }
 
 impl FeaturePass {
-    /// Of a picture of this size, from as many `samples` of each pixel, at least one.
+    /// Of a picture of this size, until there are so many `samples` of each pixel, at least one.
     pub fn new(camera: &Camera, (width, height): (u32, u32), samples: u32, sampler: (SamplerKind, u32)) -> Self {
         let frame = camera.frame(width as f32 / height as f32);
         FeaturePass { frame, size: [width, height], samples: samples.max(1), sampler }
     }
 
-    /// Traces them on the current rayon pool; `None` where it was stopped.
-    pub(crate) fn trace(&self, scene: &PreparedScene, lanes: Lanes, stop: &Stop) -> Option<Features> {
-        let pixels = self.size[0] as usize * self.size[1] as usize;
-        let mut sums = vec![Sums::default(); pixels];
-        sums.par_chunks_mut(CHUNK).enumerate().for_each(|(index, sums)| {
-            if !stop() {
-                lanes.run(ChunkKernel { pass: self, scene, first: (index * CHUNK) as u32, sums });
+    pub(crate) fn size(&self) -> (u32, u32) {
+        self.size.into()
+    }
+
+    /// Adds samples until each pixel has as many as are asked for, on the current rayon pool; once `stop` says so some are
+    /// left without, which the next pass completes.
+    pub(crate) fn trace(&self, scene: &PreparedScene, lanes: Lanes, film: &mut FeatureFilm, stop: &Stop) -> Stats {
+        let chunks = film.sums.par_chunks_mut(CHUNK).enumerate();
+        let taken = chunks.map(|(index, sums)| {
+            if stop() {
+                return Stats::default();
             }
+            lanes.run(ChunkKernel { pass: self, scene, first: (index * CHUNK) as u32, sums })
         });
-        let share = 1.0 / self.samples as f32;
-        let means = |of: fn(&Sums) -> Vec3| sums.iter().map(|sum| of(sum) * share).collect::<Vec<_>>();
-        let depth: Vec<f32> = sums.iter().map(Sums::depth).collect();
-        let whole = !stop();
-        Features::new(self.size.into(), means(|sum| sum.albedo), means(|sum| sum.normal), depth).filter(|_| whole)
+        taken.reduce(Stats::default, Stats::plus)
+    }
+}
+
+/// Sums of samples of what pixels show.
+#[derive(Debug, Clone)]
+pub struct FeatureFilm {
+    size: [u32; 2],
+    sums: Vec<Sums>,
+}
+
+impl FeatureFilm {
+    /// One without samples.
+    pub fn new((width, height): (u32, u32)) -> Self {
+        FeatureFilm { size: [width, height], sums: vec![Sums::default(); width as usize * height as usize] }
+    }
+
+    /// Fewest samples that any pixel has.
+    pub fn samples_per_pixel(&self) -> u32 {
+        self.sums.iter().map(|sums| sums.samples).min().unwrap_or(0)
+    }
+
+    /// The means; `None` while any pixel has no sample.
+    pub fn features(&self) -> Option<Features> {
+        let means =
+            |of: fn(&Sums) -> Vec3| self.sums.iter().map(|sums| of(sums) / sums.samples as f32).collect::<Vec<_>>();
+        let depth: Vec<f32> = self.sums.iter().map(Sums::depth).collect();
+        let features = || Features::new(self.size.into(), means(|sum| sum.albedo), means(|sum| sum.normal), depth);
+        if self.samples_per_pixel() > 0 { features() } else { None }
     }
 }
