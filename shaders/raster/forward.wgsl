@@ -1,5 +1,5 @@
 //#import raster/view.wgsl
-//#import shared/checkerboard.wgsl
+//#import raster/object.wgsl
 //#import raster/refraction.wgsl
 //#import raster/shading.wgsl
 //#import raster/shadow.wgsl
@@ -44,25 +44,6 @@ struct Lights {
     sky: vec3f,
     // 0: the sun's; 1 to 6: the area light's, +x, -x, +y, -y, +z, -z
     shadow_views: array<View, 7>,
-}
-
-struct Object {
-    even: vec3f,
-    refraction_ratio: f32,
-    odd: vec3f,
-    reflectivity: f32,
-    origin: vec3f,
-    specular: f32,
-    cells_per_unit: vec3f,
-    shininess: f32,
-    emission: vec3f,
-    emitting_sides: u32,
-    kind: u32,
-    has_cube_map: u32,
-    // texels by which the shape's own depth may differ within the shadow kernel
-    slack: f32,
-    // what Lambert's term takes of the colour
-    diffuse: f32,
 }
 
 @group(0) @binding(0) var<uniform> view: View;
@@ -131,8 +112,7 @@ fn radiance(in: Varying, front: bool) -> vec3f {
         return glass(in);
     }
     let n = normalize(in.normal) * select(-1.0, 1.0, front);
-    let shines = (object.emitting_sides == 2u) | ((object.emitting_sides == 1u) & front);
-    return surface(in.position, n) + select(vec3f(0.0), object.emission, shines);
+    return surface(in.position, n) + emitted(object, front);
 }
 
 // Only back faces of glass are drawn: the normal that faces the viewer is the inner one.
@@ -149,13 +129,8 @@ fn glass(in: Varying) -> vec3f {
     return mix(vec3f(1.0), select(lights.sky, seen, sees), object.reflectivity);
 }
 
-// By which interpolated positions may be off, relative. Here alone: rays know the error of each point.
-const SIDE_ROUNDING: f32 = 1.0 / 1048576.0;
-
 fn surface(p: vec3f, n: vec3f) -> vec3f {
-    // a surface in the side between two cells belongs to the upper one, wherever its points are rounded to
-    let upper = p + abs(n) * (abs(p) + abs(object.origin)) * SIDE_ROUNDING;
-    let colour = checkerboard(Checkerboard(object.even, object.odd, object.origin, object.cells_per_unit), upper);
+    let colour = colour_of(object, p, n);
     let kd = object.diffuse * colour;
     let v = normalize(view.eye - p);
     var sum = colour * lights.ambient;

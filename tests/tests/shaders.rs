@@ -101,7 +101,7 @@ fn mirrors_have_the_layout_of_their_structs() {
         ]
     );
     assert_same_layout!(
-        "raster/forward.wgsl",
+        "raster/object.wgsl",
         Object,
         [
             even,

@@ -1,6 +1,6 @@
 //! Whether the planes that a camera states cut what it would see. Fitted planes never do.
 
-use crate::settings::{RasterSettings, Show};
+use crate::settings::RasterSettings;
 use crate::tessellation;
 use scene::glam::Mat4;
 use scene::{Bsdf, Camera, Scene, Shape, Vec3};
@@ -30,7 +30,7 @@ impl fmt::Display for Cut {
 
 /// What the camera's stated planes cut of a picture of `scene`.
 pub fn cut(scene: &Scene, camera: &Camera, settings: &RasterSettings) -> Option<Cut> {
-    if settings.show != Show::Picture || (camera.near, camera.far) == (None, None) || camera.fault().is_some() {
+    if settings.show.is_map() || (camera.near, camera.far) == (None, None) || camera.fault().is_some() {
         return None;
     }
     let frustum = Frustum {

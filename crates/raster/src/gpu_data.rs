@@ -1,5 +1,5 @@
-//! Mirrors of the structs that the shaders read; field for field the ones in `shaders/raster/view.wgsl` and
-//! `forward.wgsl`. A test compares every offset with the shader compiler's. Padding is spelled out as `unused*`.
+//! Mirrors of the structs that the shaders read; field for field the ones in `shaders/raster/view.wgsl`,
+//! `object.wgsl` and `forward.wgsl`. A test compares every offset with the shader compiler's. Padding is spelled out as `unused*`.
 
 use bytemuck::{Pod, Zeroable};
 use scene::Vec3;
@@ -86,7 +86,7 @@ pub struct Lights {
     pub shadow_views: [View; 7],
 }
 
-/// `Object` in `shaders/raster/forward.wgsl`: what one shape looks like.
+/// `Object` in `shaders/raster/object.wgsl`: what one shape looks like.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
 pub struct Object {

@@ -10,6 +10,8 @@
 //! sRGB display. [`Fake::Fair`] is the same fake on the truth's data: linear, unclamped `f32`, sun, area light and
 //! ambient light in the truth's units, the mean of 4 passes a pixel.
 //!
+//! What light falls on can be seen without it ([`Raster::features`]): one more pass, in place of all three.
+//!
 //! A picture may take its own numbers instead of the scene's ([`FakeKnobs`]), and the maps of passes 1 and 2 can be
 //! looked at in place of the picture ([`Show`]).
 //!
@@ -24,6 +26,7 @@ mod clearance;
 mod cube;
 mod cut;
 mod error;
+mod features;
 pub mod gpu_data;
 mod knobs;
 pub mod lights;
@@ -45,7 +48,7 @@ pub use plan::MOST_CUBE_MAPS;
 pub use settings::{Fake, RasterSettings, Shading, Show};
 
 use film::Pixel;
-use film::{Film, colour};
+use film::{Features, Film, colour};
 use gpu::{Gpu, GpuError};
 use passes::{Maps, Uniforms};
 use pipelines::Pipelines;
@@ -96,13 +99,12 @@ impl Raster {
     /// geometry are too large for the device, or if it fails; [`RasterError::Memory`] if the film is too large for this
     /// computer.
     pub fn render(&mut self, scene: &Scene, camera: &Camera, settings: &RasterSettings) -> Result<Film, RasterError> {
-        if let Some(why) = camera.fault() {
-            return Err(RasterError::Camera(why));
+        if let Some(feature) = settings.show.feature() {
+            let &RasterSettings { width, height, .. } = settings;
+            let film = self.features(scene, camera, settings)?.film(feature, 1);
+            return film.ok_or(RasterError::Memory { width, height });
         }
-        if let Some(why) = settings.knobs.fault() {
-            return Err(RasterError::Knob(why));
-        }
-        self.check_size(settings)?;
+        self.check(camera, settings)?;
         let scene = &settings.knobs.applied(scene);
         let plan = Plan::new(scene, camera, settings);
         maps::check(settings.show, &plan)?;
@@ -123,6 +125,43 @@ impl Raster {
         }
         let bytes = self.gpu.read_texture("the picture", targets.picture.resolved.texture())?;
         resolve(&bytes, settings)
+    }
+
+    /// What is seen of surfaces from `camera`, without light: of the first one, be it glass or mirror, for either fake the
+    /// mean of four places in each pixel. Waits until it is there.
+    ///
+    /// # Errors
+    /// As [`Raster::render`].
+    pub fn features(
+        &mut self,
+        scene: &Scene,
+        camera: &Camera,
+        settings: &RasterSettings,
+    ) -> Result<Features, RasterError> {
+        // whose samples are passes
+        let settings = &RasterSettings { fake: Fake::Fair, ..*settings };
+        self.check(camera, settings)?;
+        let scene = &settings.knobs.applied(scene);
+        let plan = Plan::new(scene, camera, settings);
+        let world = World::current(&mut self.world, &self.gpu, scene)?;
+        let targets = self.targets.of_features(&self.gpu, [settings.width, settings.height])?;
+        self.work = Work { compiled: self.pipelines.prepare_features(&self.gpu)?, kept_maps: false };
+        self.uniforms.write(&self.gpu, &plan)?;
+        self.gpu.checked("what is seen of surfaces", || {
+            features::draw(&self.gpu, &self.pipelines, &self.uniforms, world, targets, &plan)
+        })?;
+        features::read(&self.gpu, targets)
+    }
+
+    /// Refuses what no frame can be drawn of.
+    fn check(&self, camera: &Camera, settings: &RasterSettings) -> Result<(), RasterError> {
+        if let Some(why) = camera.fault() {
+            return Err(RasterError::Camera(why));
+        }
+        if let Some(why) = settings.knobs.fault() {
+            return Err(RasterError::Knob(why));
+        }
+        Ok(self.check_size(settings)?)
     }
 
     /// What the last frame took beside drawing its picture.

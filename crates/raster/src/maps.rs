@@ -14,18 +14,18 @@ use crate::lights;
 use crate::plan::Plan;
 use crate::settings::{Fake, RasterSettings, Show};
 use crate::targets::{Layers, Targets};
+use film::Film;
 use film::Pixel;
-use film::{Film, colour};
+use film::colour::grey_of_depth;
 use gpu::upload::TexturePlan;
 use gpu::{Gpu, GpuError};
 use scene::Vec3;
 use wgpu::TextureUsages;
 
+pub use film::colour::DARKEST;
+
 /// Linear grey around an unfolded map.
 pub const BACKGROUND: f32 = 0.03;
-
-/// Linear grey of the farthest depth in a shadow map: .3 of the way from black to white as a display shows it.
-pub const DARKEST: f32 = 0.073_239;
 
 /// Faces of a cross by column and row, as axes: +x, -x, +y, -y, +z, -z.
 const CROSS: [[Option<usize>; 4]; 3] =
@@ -85,25 +85,16 @@ pub(crate) fn film(
     let layers = if with_sun { 0..1 } else { plan.shadow_layers.clone() };
     let faces = faces(gpu, &targets.shadow.map, layers)?;
     let faces: Vec<_> = faces.iter().map(|face| face.decoded(depth)).collect();
-    let drawn = || faces.iter().flat_map(|face| &face.texels).copied().filter(|depth| *depth < 1.0);
-    let (nearest, farthest) = (drawn().fold(1.0, f32::min), drawn().fold(0.0, f32::max));
+    let drawn = || faces.iter().flat_map(|face| &face.texels).copied().filter(|depth| depth.is_finite());
+    let range = [drawn().fold(1.0, f32::min), drawn().fold(0.0, f32::max)];
     let reach = if with_sun { 1.0 } else { lights::area_light_reach(plan.shadow_size) };
-    let faces = faces.into_iter().map(|face| face.map(|depth| Vec3::splat(grey(depth, nearest, farthest)))).collect();
+    let faces = faces.into_iter().map(|face| face.map(|depth| Vec3::splat(grey_of_depth(depth, range)))).collect();
     let map = Map { faces, reach };
     if with_sun {
         unfolded(settings, (1.0, 1.0), |x, y| map.square(x, y))
     } else {
         unfolded(settings, CROSS_SHAPE, |x, y| map.cross(x, y, |axis| axis))
     }
-}
-
-/// White at the nearest depth, [`DARKEST`] at the farthest, black where nothing was drawn.
-fn grey(depth: f32, nearest: f32, farthest: f32) -> f32 {
-    if depth >= 1.0 {
-        return 0.0;
-    }
-    let far = (depth - nearest) / (farthest - nearest).max(f32::MIN_POSITIVE);
-    colour::srgb_decode(1.0 + (colour::srgb_encode(DARKEST) - 1.0) * far)
 }
 
 /// One layer of a map on the CPU.
@@ -206,8 +197,10 @@ fn faces(gpu: &Gpu, map: &Layers, layers: std::ops::Range<usize>) -> Result<Vec<
     layers.map(copied).collect()
 }
 
+/// Infinite where nothing was drawn, which the map keeps as 1.
 fn depth(texel: &[u8]) -> f32 {
-    texel.first_chunk().map_or(1.0, |bytes| f32::from_le_bytes(*bytes))
+    let kept = texel.first_chunk().map_or(1.0, |bytes| f32::from_le_bytes(*bytes));
+    if kept < 1.0 { kept } else { f32::INFINITY }
 }
 
 /// Bytes or half floats, by the length of a texel.
@@ -256,13 +249,5 @@ mod tests {
             ("-y", 1.0, 2.0),
         ];
         assert_eq!(faces, names.map(|(name, x, y)| (name, at(x, y))));
-    }
-
-    #[test]
-    fn depths_are_grey_from_white_to_darkest() {
-        assert_eq!(grey(1.0, 0.2, 0.4), 0.0);
-        assert!((grey(0.2, 0.2, 0.4) - 1.0).abs() < 1e-6);
-        assert!((grey(0.4, 0.2, 0.4) - DARKEST).abs() < 1e-6);
-        assert!((grey(0.3, 0.3, 0.3) - 1.0).abs() < 1e-6);
     }
 }

@@ -8,11 +8,12 @@ use crate::knobs::ShadowFilter;
 use crate::pipelines::{Forward, ForwardPasses, Pipelines};
 use crate::plan::{Casting, Plan};
 use crate::settings::{Fake, Show};
-use crate::targets::Targets;
+use crate::targets::{Layers, Targets};
 use crate::tessellation::World;
 use bytemuck::Pod;
 use gpu::{Gpu, GpuError};
 use scene::Vec3;
+use scene::glam::Vec4;
 use wgpu::{BindGroup, BindGroupLayout, BindingResource, BufferUsages, CommandEncoder, RenderPass, TextureView};
 
 /// Distance of uniforms that dynamic offsets choose from: every device allows this one.
@@ -21,9 +22,11 @@ const STRIDE: usize = 256;
 /// The uniform buffers; they grow with the scene.
 #[derive(Debug)]
 pub struct Uniforms {
-    views: wgpu::Buffer,
+    /// Of all cameras.
+    pub views: wgpu::Buffer,
     lights: wgpu::Buffer,
-    objects: wgpu::Buffer,
+    /// Of all shapes.
+    pub objects: wgpu::Buffer,
 }
 
 impl Uniforms {
@@ -116,7 +119,7 @@ pub fn draw(
     let cube_maps = match plan.show {
         Show::Picture => plan.cube_maps.len(),
         Show::CubeFaces => 1,
-        Show::ShadowMap => 0,
+        Show::ShadowMap | Show::Feature(_) => 0,
     };
     if !maps_stay {
         for (index, &glass) in plan.cube_maps.iter().enumerate().take(cube_maps) {
@@ -130,7 +133,7 @@ pub fn draw(
     if plan.show == Show::Picture {
         frame.picture(&mut encoder);
         if plan.fake == Fake::Fair {
-            frame.resolve(gpu, &mut encoder);
+            resolve(gpu, &mut encoder, pipelines, (&targets.picture.passes, &targets.picture.resolved));
         }
     }
     gpu.queue.submit([encoder.finish()]);
@@ -166,12 +169,14 @@ impl Groups {
     }
 }
 
-fn sized<T>(buffer: &wgpu::Buffer) -> BindingResource<'_> {
+/// One `T` of a buffer that has many.
+pub fn sized<T>(buffer: &wgpu::Buffer) -> BindingResource<'_> {
     let size = std::num::NonZeroU64::new(size_of::<T>() as u64);
     BindingResource::Buffer(wgpu::BufferBinding { buffer, offset: 0, size })
 }
 
-fn bind(gpu: &Gpu, layout: &BindGroupLayout, resources: &[BindingResource<'_>]) -> BindGroup {
+/// A group of bindings 0, 1, 2 ...
+pub fn bind(gpu: &Gpu, layout: &BindGroupLayout, resources: &[BindingResource<'_>]) -> BindGroup {
     let numbered = (0..).zip(resources);
     let entries: Vec<_> =
         numbered.map(|(binding, resource)| wgpu::BindGroupEntry { binding, resource: resource.clone() }).collect();
@@ -198,7 +203,7 @@ impl Frame<'_> {
                 clear: bits(Vec3::ONE),
             };
             let mut pass = target.begin(encoder);
-            self.bind_world(&mut pass);
+            bind_world(self.world, &mut pass);
             pass.set_bind_group(0, &self.groups.shadow, &[offset(layer)]);
             for (shape, &casting) in self.plan.casting.iter().enumerate().filter(|(shape, _)| without != Some(*shape)) {
                 if let Some(pipeline) = self.pipelines.casting(casting) {
@@ -235,21 +240,10 @@ impl Frame<'_> {
         }
     }
 
-    fn resolve(&self, gpu: &Gpu, encoder: &mut CommandEncoder) {
-        let target =
-            Target { colour: &self.targets.picture.resolved, resolved: None, depth: None, clear: wgpu::Color::BLACK };
-        let passes = BindingResource::TextureView(&self.targets.picture.passes.all);
-        let group = bind(gpu, &self.pipelines.resolve_layout, &[passes]);
-        let mut pass = target.begin(encoder);
-        pass.set_pipeline(&self.pipelines.resolve);
-        pass.set_bind_group(0, &group, &[]);
-        pass.draw(0..3, 0..1);
-    }
-
     /// Every shape but `without`, as `view` sees it. In a cube map no glass has a cube map of its own, least of all the
     /// one that is being drawn.
     fn shapes(&self, pass: &mut RenderPass<'_>, forward: &Forward, view: usize, without: Option<usize>) {
-        self.bind_world(pass);
+        bind_world(self.world, pass);
         pass.set_bind_group(0, &self.groups.frame, &[offset(view)]);
         for (shape, object) in self.plan.objects.iter().enumerate().filter(|(shape, _)| without != Some(*shape)) {
             let cube_map = self.plan.cube_maps.iter().position(|&glass| glass == shape).filter(|_| without.is_none());
@@ -258,11 +252,6 @@ impl Frame<'_> {
             pass.set_bind_group(1, group, &[offset(shape)]);
             pass.draw_indexed(self.world.ranges[shape].clone(), 0, 0..1);
         }
-    }
-
-    fn bind_world(&self, pass: &mut RenderPass<'_>) {
-        pass.set_vertex_buffer(0, self.world.vertices.slice(..));
-        pass.set_index_buffer(self.world.indices.slice(..), wgpu::IndexFormat::Uint32);
     }
 
     fn sky(&self) -> wgpu::Color {
@@ -278,13 +267,39 @@ impl Frame<'_> {
     }
 }
 
-/// The colour that clears a target of f32 bits.
-fn bits(colour: Vec3) -> wgpu::Color {
-    let [r, g, b] = colour.to_array().map(|channel| f64::from(channel.to_bits()));
-    wgpu::Color { r, g, b, a: f64::from(1f32.to_bits()) }
+/// The mean of all passes.
+pub fn resolve(
+    gpu: &Gpu,
+    encoder: &mut CommandEncoder,
+    pipelines: &Pipelines,
+    (passes, resolved): (&Layers, &TextureView),
+) {
+    let target = Target { colour: resolved, resolved: None, depth: None, clear: wgpu::Color::BLACK };
+    let group = bind(gpu, &pipelines.resolve_layout, &[BindingResource::TextureView(&passes.all)]);
+    let mut pass = target.begin(encoder);
+    pass.set_pipeline(&pipelines.resolve);
+    pass.set_bind_group(0, &group, &[]);
+    pass.draw(0..3, 0..1);
 }
 
-fn offset(slot: usize) -> u32 {
+/// Corners and triangles of all shapes.
+pub fn bind_world(world: &World, pass: &mut RenderPass<'_>) {
+    pass.set_vertex_buffer(0, world.vertices.slice(..));
+    pass.set_index_buffer(world.indices.slice(..), wgpu::IndexFormat::Uint32);
+}
+
+fn bits(colour: Vec3) -> wgpu::Color {
+    bits_of(colour.extend(1.0))
+}
+
+/// The colour that clears a target of f32 bits.
+pub fn bits_of(colour: Vec4) -> wgpu::Color {
+    let [r, g, b, a] = colour.to_array().map(|channel| f64::from(channel.to_bits()));
+    wgpu::Color { r, g, b, a }
+}
+
+/// Where the uniforms of this number begin.
+pub fn offset(slot: usize) -> u32 {
     (slot * STRIDE) as u32
 }
 

@@ -6,7 +6,7 @@ use crate::knobs::ShadowFilter;
 use crate::plan::Casting;
 use crate::settings::Fake;
 use crate::shaders;
-use crate::targets::{Colours, DEPTH, SHADOW};
+use crate::targets::{Colours, DEPTH, FEATURES, SHADOW};
 use crate::tessellation::Vertex;
 use gpu::{Gpu, GpuError};
 use scene::Vec3;
@@ -81,6 +81,10 @@ pub struct Pipelines {
     pub sampler: wgpu::Sampler,
     /// Mean of the picture's passes.
     pub resolve: RenderPipeline,
+    /// Group 1 of the features' pass: object.
+    pub surface_layout: BindGroupLayout,
+    /// Of both sides of everything, once [`Pipelines::prepare_features`] has compiled it.
+    pub features: Option<RenderPipeline>,
     forward_module: wgpu::ShaderModule,
     /// Of each choice that was asked for.
     forward: Vec<(Choice, ForwardPasses)>,
@@ -111,6 +115,21 @@ impl Pipelines {
         Ok(true)
     }
 
+    /// Sees to it that the features' pass is compiled; returns whether it was not.
+    ///
+    /// # Errors
+    /// [`RasterError::Gpu`] if the device can't take it.
+    pub fn prepare_features(&mut self, gpu: &Gpu) -> Result<bool, RasterError> {
+        if self.features.is_some() {
+            return Ok(false);
+        }
+        let module = shaders::compose("raster/features.wgsl")?.create(gpu)?;
+        let groups: &[_] = &[&self.shadow_layout, &self.surface_layout];
+        let build = Build { targets: 2, ..Build::of(groups, &module, FEATURES) };
+        self.features = Some(gpu.checked("the fake's pipelines", || build.pipeline(gpu))?);
+        Ok(true)
+    }
+
     /// The forward passes of a choice, once [`Pipelines::prepare`] has compiled them.
     pub fn of(&self, choice: Choice) -> Option<&ForwardPasses> {
         self.forward.iter().find(|(compiled, _)| *compiled == choice).map(|(_, passes)| passes)
@@ -121,7 +140,7 @@ impl Pipelines {
         let into = |format, samples| {
             let module = &self.forward_module;
             let build = |cull_mode, constants: &[_]| {
-                Build { groups, module, format, samples, cull_mode, full_screen: false, constants }.pipeline(gpu)
+                Build { samples, cull_mode, constants, ..Build::of(groups, module, format) }.pipeline(gpu)
             };
             Forward {
                 surface: build(None, &choice.constants(false)),
@@ -159,17 +178,16 @@ fn compile(
     let frame_layout = layout(gpu, &frame);
     let object = [uniform::<crate::gpu_data::Object>(true), cube, sampler];
     let object_layout = layout(gpu, &object);
+    let surface_layout = layout(gpu, &object[..1]);
     let resolve_layout = layout(gpu, &[array]);
 
     let casting = |cull_mode| {
         let groups: &[_] = &[&shadow_layout];
-        Build { groups, module: shadow, format: SHADOW, samples: 1, cull_mode, full_screen: false, constants: &[] }
-            .pipeline(gpu)
+        Build { cull_mode, ..Build::of(groups, shadow, SHADOW) }.pipeline(gpu)
     };
     let format = Colours::of(Fake::Fair, gpu).picture;
     let groups: &[_] = &[&resolve_layout];
-    let resolve =
-        Build { groups, module: resolve, format, samples: 1, cull_mode: None, full_screen: true, constants: &[] };
+    let resolve = Build { full_screen: true, ..Build::of(groups, resolve, format) };
     Pipelines {
         sampler: gpu.device.create_sampler(&wgpu::SamplerDescriptor {
             mag_filter: wgpu::FilterMode::Linear,
@@ -177,6 +195,8 @@ fn compile(
             ..wgpu::SamplerDescriptor::default()
         }),
         resolve: resolve.pipeline(gpu),
+        surface_layout,
+        features: None,
         forward_module: forward,
         forward: Vec::new(),
         both_sides: casting(None),
@@ -215,6 +235,8 @@ struct Build<'a> {
     groups: &'a [&'a BindGroupLayout],
     module: &'a wgpu::ShaderModule,
     format: TextureFormat,
+    /// How many of that format.
+    targets: usize,
     samples: u32,
     cull_mode: Option<Face>,
     /// One triangle without corners and depth.
@@ -223,7 +245,12 @@ struct Build<'a> {
     constants: &'a [(&'a str, f64)],
 }
 
-impl Build<'_> {
+impl<'a> Build<'a> {
+    /// Both sides of corners in space, one sample into one target.
+    fn of(groups: &'a [&'a BindGroupLayout], module: &'a wgpu::ShaderModule, format: TextureFormat) -> Self {
+        Build { groups, module, format, targets: 1, samples: 1, cull_mode: None, full_screen: false, constants: &[] }
+    }
+
     fn fragment(&self, gpu: &Gpu) -> &'static str {
         let bits = self.format == TextureFormat::Rgba32Uint;
         let with_depth = gpu.adapter.get_info().backend == wgpu::Backend::Gl;
@@ -274,7 +301,7 @@ impl Build<'_> {
                 module: self.module,
                 entry_point: Some(self.fragment(gpu)),
                 compilation_options: options(),
-                targets: &[Some(self.format.into())],
+                targets: &vec![Some(self.format.into()); self.targets],
             }),
             multiview_mask: None,
             cache: None,

@@ -2,6 +2,7 @@
 
 use crate::knobs::FakeKnobs;
 use crate::lights;
+use film::Feature;
 use scene::Scene;
 
 /// Size and manner of a picture.
@@ -17,7 +18,7 @@ pub struct RasterSettings {
     pub shading: Shading,
     /// Numbers in place of the scene's.
     pub knobs: FakeKnobs,
-    /// What is shown: the picture, or a map that it is made from.
+    /// What is shown: the picture, what of surfaces it is made from, or a map.
     pub show: Show,
 }
 
@@ -48,11 +49,20 @@ pub enum Show {
     /// What the shadow map keeps, of the sun or else of the area light as a cross: grey from white (nearest to the
     /// light) to [`crate::maps::DARKEST`] (farthest), even steps of display brightness; black where nothing was drawn.
     ShadowMap,
+    /// What [`crate::Raster::features`] gives of the scene, as [`film::Features::fill`] shows it.
+    Feature(Feature),
 }
 
 impl Show {
     /// All of them, the default first.
-    pub const ALL: [Show; 3] = [Show::Picture, Show::CubeFaces, Show::ShadowMap];
+    pub const ALL: [Show; 6] = [
+        Show::Picture,
+        Show::Feature(Feature::Albedo),
+        Show::Feature(Feature::Normal),
+        Show::Feature(Feature::Depth),
+        Show::CubeFaces,
+        Show::ShadowMap,
+    ];
 
     /// The name on the command line.
     pub fn name(self) -> &'static str {
@@ -60,6 +70,7 @@ impl Show {
             Show::Picture => "picture",
             Show::CubeFaces => "cube-faces",
             Show::ShadowMap => "shadow-map",
+            Show::Feature(feature) => feature.name(),
         }
     }
 
@@ -68,10 +79,20 @@ impl Show {
         Show::ALL.into_iter().find(|show| show.name() == name)
     }
 
+    /// What of surfaces it shows, if not their light or a map.
+    pub fn feature(self) -> Option<Feature> {
+        if let Show::Feature(feature) = self { Some(feature) } else { None }
+    }
+
+    /// Whether it is a map, which the camera does not see.
+    pub fn is_map(self) -> bool {
+        matches!(self, Show::CubeFaces | Show::ShadowMap)
+    }
+
     /// Whether `scene` has it: there are no cube maps without glass and no shadow map without sun and area light.
     pub fn available(self, scene: &Scene) -> bool {
         match self {
-            Show::Picture => true,
+            Show::Picture | Show::Feature(_) => true,
             Show::CubeFaces => {
                 scene.shapes.iter().any(|s| matches!(scene.material_of(s).bsdf, scene::Bsdf::Dielectric { .. }))
             }

@@ -9,7 +9,9 @@ use gpu::wgsl::{self, Composed, Source, WgslError};
 
 /// One line a file.
 pub const SOURCES: &[Source<'static>] = gpu::wgsl_sources![
+    "raster/features.wgsl",
     "raster/forward.wgsl",
+    "raster/object.wgsl",
     "raster/refraction.wgsl",
     "raster/shading.wgsl",
     "raster/shadow.wgsl",

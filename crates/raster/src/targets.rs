@@ -11,6 +11,9 @@ pub const DEPTH: TextureFormat = TextureFormat::Depth32Float;
 /// The shadow map's texels: bits of f32, because integers can be drawn by every backend, floats not through OpenGL.
 pub const SHADOW: TextureFormat = TextureFormat::R32Uint;
 
+/// The features' texels, bits of f32 as well.
+pub const FEATURES: TextureFormat = TextureFormat::Rgba32Uint;
+
 /// What is drawn and then looked up.
 const LOOKED_UP: TextureUsages = TextureUsages::RENDER_ATTACHMENT.union(TextureUsages::TEXTURE_BINDING);
 
@@ -135,12 +138,24 @@ pub struct PictureTargets {
     pub resolved: TextureView,
 }
 
+/// What is seen of surfaces without light.
+#[derive(Debug)]
+pub struct FeatureTargets {
+    /// The passes of either colour.
+    pub passes: [Layers; 2],
+    /// Their depth buffer.
+    pub depth: TextureView,
+    /// Both when finished.
+    pub resolved: [TextureView; 2],
+}
+
 /// The parts that the last frame had.
 #[derive(Debug, Default)]
 pub struct Kept {
     shadow: Option<(ShadowPlan, ShadowTargets)>,
     cubes: Option<(CubePlan, CubeTargets)>,
     picture: Option<(PicturePlan, PictureTargets)>,
+    features: Option<([u32; 2], FeatureTargets)>,
 }
 
 /// The targets of a frame.
@@ -162,6 +177,11 @@ impl Kept {
             cubes: fitting(&mut self.cubes, plan.cubes, |plan| cube_targets(gpu, plan))?,
             picture: fitting(&mut self.picture, plan.picture, |plan| picture_targets(gpu, plan))?,
         })
+    }
+
+    /// Those of features of so many pixels.
+    pub fn of_features(&mut self, gpu: &Gpu, size: [u32; 2]) -> Result<&FeatureTargets, GpuError> {
+        fitting(&mut self.features, size, |size| feature_targets(gpu, size))
     }
 }
 
@@ -220,6 +240,20 @@ fn picture_targets(gpu: &Gpu, plan: PicturePlan) -> Result<PictureTargets, GpuEr
     let depth = gpu.texture("a picture", &depth)?;
     let dimension = if colours.passes > 1 { TextureViewDimension::D2Array } else { TextureViewDimension::D2 };
     Ok(PictureTargets { passes: layers(&passes, dimension), depth: whole(&depth), resolved: whole(&resolved) })
+}
+
+fn feature_targets(gpu: &Gpu, [width, height]: [u32; 2]) -> Result<FeatureTargets, GpuError> {
+    let usage = TextureUsages::RENDER_ATTACHMENT | TextureUsages::COPY_SRC;
+    let one = TexturePlan { width, height, layers: 1, samples: 1, format: FEATURES, usage };
+    let depth = TexturePlan { format: DEPTH, usage: TextureUsages::RENDER_ATTACHMENT, ..one };
+    let all = TexturePlan { layers: Colours::of(Fake::Fair, gpu).passes, usage: LOOKED_UP, ..one };
+    let texture = |plan: &TexturePlan| gpu.texture("what is seen of surfaces", plan);
+    let passes = || Ok::<_, GpuError>(layers(&texture(&all)?, TextureViewDimension::D2Array));
+    Ok(FeatureTargets {
+        passes: [passes()?, passes()?],
+        depth: whole(&texture(&depth)?),
+        resolved: [whole(&texture(&one)?), whole(&texture(&one)?)],
+    })
 }
 
 fn whole(texture: &wgpu::Texture) -> TextureView {

@@ -1,0 +1,38 @@
+//#import shared/checkerboard.wgsl
+// What one shape looks like, whatever the pass. Mirror of the struct:
+// crates/raster/src/gpu_data.rs, which has those of all passes.
+
+struct Object {
+    even: vec3f,
+    refraction_ratio: f32,
+    odd: vec3f,
+    reflectivity: f32,
+    origin: vec3f,
+    specular: f32,
+    cells_per_unit: vec3f,
+    shininess: f32,
+    emission: vec3f,
+    emitting_sides: u32,
+    kind: u32,
+    has_cube_map: u32,
+    // texels by which the shape's own depth may differ within the shadow kernel
+    slack: f32,
+    // what Lambert's term takes of the colour
+    diffuse: f32,
+}
+
+// By which interpolated positions may be off, relative. Here alone: rays know the error of each point.
+const SIDE_ROUNDING: f32 = 1.0 / 1048576.0;
+
+// The colour of its surface at p, of unit normal n.
+fn colour_of(object: Object, p: vec3f, n: vec3f) -> vec3f {
+    // a surface in the side between two cells belongs to the upper one, wherever its points are rounded to
+    let upper = p + abs(n) * (abs(p) + abs(object.origin)) * SIDE_ROUNDING;
+    return checkerboard(Checkerboard(object.even, object.odd, object.origin, object.cells_per_unit), upper);
+}
+
+// The radiance that one of its sides sends out.
+fn emitted(object: Object, front: bool) -> vec3f {
+    let shines = (object.emitting_sides == 2u) | ((object.emitting_sides == 1u) & front);
+    return select(vec3f(0.0), object.emission, shines);
+}
