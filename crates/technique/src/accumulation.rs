@@ -2,8 +2,8 @@
 
 use film::{Features, Film, Pixel};
 use gpu::Gpu;
-use pathtrace::Stats;
 use pathtrace::gpu::{GpuFilm, GpuTraceError, GpuTracer};
+use pathtrace::{FeatureFilm, Stats};
 use std::time::Duration;
 
 /// A film, and what a device has added to it.
@@ -21,6 +21,8 @@ pub struct Accumulation {
     earlier: Option<EarlierStates>,
     /// What its pixels show, and from how many samples of them that was made.
     pub(crate) features: Option<(u32, Features)>,
+    /// The samples of a film that shows them in place of light.
+    pub(crate) feature_film: Option<FeatureFilm>,
     /// What has added to it, one after the other.
     makers: Vec<String>,
     /// How many of them have added to the film as last read.
@@ -59,6 +61,7 @@ impl Accumulation {
             on_device: None,
             earlier: None,
             features: None,
+            feature_film: None,
             makers: Vec::new(),
             resolved_by: 0,
         }

@@ -115,9 +115,7 @@ impl Backend {
         let until = accumulation.spp.saturating_add(samples);
         match self {
             Backend::Cpu(tracer) => {
-                let threads = rayon::current_num_threads();
-                let threads = if threads == 1 { "1 thread".into() } else { format!("{threads} threads") };
-                accumulation.begin_pass(threads, until);
+                accumulation.begin_pass(threads_name(), until);
                 // what has said so once may not say so again: a hold that ended meanwhile
                 let stopped = AtomicBool::new(false);
                 let stop = || {
@@ -165,6 +163,12 @@ impl Backend {
             std::mem::forget(self);
         }
     }
+}
+
+/// What the current pool is called.
+pub(crate) fn threads_name() -> String {
+    let threads = rayon::current_num_threads();
+    if threads == 1 { "1 thread".into() } else { format!("{threads} threads") }
 }
 
 impl From<Tracer> for Backend {

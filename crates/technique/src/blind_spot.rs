@@ -177,6 +177,9 @@ impl NoiseSource {
 impl TracedSettings {
     /// What these settings cannot see in this scene.
     pub fn blind_spots(&self, scene: &Scene) -> Vec<BlindSpot> {
+        if self.feature.is_some() {
+            return Vec::new();
+        }
         match self.integrator {
             Integrator::Path(path) => of_paths(&path, scene, self.sees_a_delta_sun(scene)),
             Integrator::Metropolis(chains) => of_paths(&chains.path, scene, self.sees_a_delta_sun(scene)),
@@ -194,6 +197,7 @@ impl TracedSettings {
     /// Where a picture by these settings stays noisy longest, if they leave light to chance.
     pub fn noise_source(&self, scene: &Scene) -> Option<NoiseSource> {
         let path = match self.integrator {
+            _ if self.feature.is_some() => return None,
             Integrator::Path(path) => path,
             Integrator::Metropolis(_) => return Some(NoiseSource::Chains),
             Integrator::Photon(_) | Integrator::LightTracing(_) => return None,

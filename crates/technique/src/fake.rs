@@ -14,7 +14,7 @@ pub struct FakeSettings {
     pub reflectivity: Option<f32>,
     /// The other numbers that may be turned.
     pub knobs: FakeKnobs,
-    /// The picture, or one of the maps that it is made from.
+    /// The picture, what is seen without its light, or one of the maps that it is made from.
     pub show: Show,
 }
 
@@ -42,7 +42,7 @@ impl FakeSettings {
         RasterSettings { width, height, fake: self.fake, shading: self.shading, knobs: self.knobs, show: self.show }
     }
 
-    /// Whether it shows the scene rather than one of its maps.
+    /// Whether it shows the scene's light, rather than what it falls on or a map.
     pub fn shows_the_scene(&self) -> bool {
         self.show == Show::Picture
     }

@@ -1,7 +1,8 @@
 //! What pictures are called beside each other: by their techniques, or by the settings in which they differ.
 
 use crate::settings::{Setting, Value, all_of_panes, grouped};
-use crate::{FakeSettings, PaneSettings, Technique};
+use crate::{FakeSettings, PaneSettings, Technique, TracedSettings};
+use film::Feature;
 use pathtrace::Integrator;
 use raster::Show;
 use scene::Scene;
@@ -9,6 +10,9 @@ use scene::Scene;
 impl Technique {
     /// Its name with the setting that says most: "Fake, fair", "Path tracing, light", "Whitted, depth 8".
     pub fn label(&self) -> String {
+        if self.feature().is_some() {
+            return self.title();
+        }
         let says_most = match self {
             Technique::Fake(fake) => fake.fake.name().to_owned(),
             Technique::Traced(traced) => match traced.integrator {
@@ -34,9 +38,13 @@ impl Technique {
         format!("{}, {}", self.title(), differing.join(", "))
     }
 
-    /// Its name, and of the fake which of its pictures it is.
+    /// Its name; or what it shows in place of the scene's light.
     fn title(&self) -> String {
         match self {
+            Technique::Fake(FakeSettings { show: Show::Feature(feature), .. }) => {
+                format!("{} of the fake", titled(*feature))
+            }
+            Technique::Traced(TracedSettings { feature: Some(feature), .. }) => format!("{} by rays", titled(*feature)),
             Technique::Fake(FakeSettings { show: Show::CubeFaces, .. }) => "Cube faces of the fake".into(),
             Technique::Fake(FakeSettings { show: Show::ShadowMap, .. }) => "Shadow map of the fake".into(),
             Technique::Fake(_) | Technique::Traced(_) => self.name().in_full().into(),
@@ -46,13 +54,20 @@ impl Technique {
     /// Its values of the settings that change its picture of `scene` and have another value in `other`.
     fn settings_unlike(&self, other: &Technique, scene: &Scene) -> Vec<String> {
         let panes @ [own, _] = [self, other].map(|technique| PaneSettings::from(*technique));
-        let used = all_of_panes()
-            .filter(|row| row.is_of(self.name()) && row.needs.missing_in(scene).is_none() && (row.acts)(&own, scene));
+        let used = all_of_panes().filter(|row| own.is_changed_by(row, scene));
         let unlike = used.filter_map(|row| {
             let [own, others] = panes.map(|pane| (row.get)(&pane).or_else(|| (row.own)(scene)));
             own.filter(|_| own != others).map(|own| told_apart(row, own, others))
         });
         unlike.collect()
+    }
+}
+
+fn titled(feature: Feature) -> &'static str {
+    match feature {
+        Feature::Albedo => "Albedo",
+        Feature::Normal => "Normals",
+        Feature::Depth => "Depths",
     }
 }
 
@@ -210,6 +225,14 @@ mod tests {
         assert_eq!(maps("shadow-map", highlights), ["Shadow map of the fake, fair"; 2]);
         let faces = maps("cube-faces", [&[("cube-map", "64")], &[("cube-map", "512")]]);
         assert_eq!(faces, ["Cube faces of the fake, cube map 64", "Cube faces of the fake, cube map 512"]);
+        let traced = with(TechniqueName::Path, &[("show", "albedo")]);
+        let fake = with(TechniqueName::Raster, &[("show", "albedo"), ("fake", "as-taught")]);
+        assert_eq!([traced.label(), fake.label()], ["Albedo by rays", "Albedo of the fake"]);
+        let coarse: [&[(&str, &str)]; 2] = [&[("segments", "8"), ("shading", "phong"), ("fake", "as-taught")], &[]];
+        assert_eq!(maps("normal", coarse), ["Normals of the fake, segments 8", "Normals of the fake, segments 100"]);
+        let shown = [("show", "depth"), ("estimator", "uniform"), ("bounces", "0"), ("spp", "4")];
+        let rays = labels("whitted", TechniqueName::Path, [&shown, &shown[..1]]);
+        assert_eq!(rays, ["Depths by rays, 4 spp", "Depths by rays, 256 spp"], "light tells them not apart");
         let picture = labels("whitted", TechniqueName::Raster, [&[("show", "shadow-map"), ("shininess", "5")], &[]]);
         assert_eq!(picture, ["Shadow map of the fake, fair", "Fake, fair"]);
     }

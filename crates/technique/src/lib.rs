@@ -51,6 +51,7 @@ pub use traced::{
     TruthSettings, bounces_name, roulette_name,
 };
 
+use film::Feature;
 use pathtrace::Integrator;
 
 /// A way to turn a scene into a film, by the name on the command line.
@@ -192,10 +193,19 @@ impl Technique {
         }
     }
 
+    /// What of surfaces it shows in place of their light.
+    pub fn feature(&self) -> Option<Feature> {
+        match self {
+            Technique::Fake(fake) => fake.show.feature(),
+            Technique::Traced(traced) => traced.feature,
+        }
+    }
+
     /// Whether it shows the scene's light, so that its error means something; a shadow map does not, nor do points.
     pub fn shows_the_scene(&self) -> bool {
         match self {
             Technique::Fake(fake) => fake.shows_the_scene(),
+            Technique::Traced(TracedSettings { feature: Some(_), .. }) => false,
             Technique::Traced(traced) => match traced.integrator {
                 Integrator::Photon(photon) => !photon.points,
                 Integrator::Path(_)

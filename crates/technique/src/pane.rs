@@ -4,6 +4,7 @@ use crate::{
     ChainSettings, DenoiseSettings, DeviceChoice, FakeSettings, LightPaneSettings, NormalsPaneSettings,
     PhotonPaneSettings, Technique, TechniqueName, TracedSettings, TreeSettings, TruthSettings,
 };
+use film::Feature;
 use pathtrace::Estimator;
 use scene::{Needs, Scene};
 
@@ -18,6 +19,8 @@ pub struct PaneSettings {
     pub adapter: u8,
     /// What pictures of rays go through before they are shown.
     pub denoise: DenoiseSettings,
+    /// What pictures of rays show in place of light, as in [`TracedSettings`].
+    pub feature: Option<Feature>,
     /// The settings of the fake.
     pub fake: FakeSettings,
     /// The settings of Whitted's method.
@@ -42,6 +45,7 @@ impl PaneSettings {
             device: DeviceChoice::default(),
             adapter: 0,
             denoise: DenoiseSettings::OFF,
+            feature: None,
             fake: FakeSettings::default(),
             whitted: TreeSettings::default(),
             truth: TruthSettings::default(),
@@ -61,12 +65,16 @@ impl PaneSettings {
             TechniqueName::Photon => Technique::Traced(self.here(self.photon.into())),
             TechniqueName::LightTracing => Technique::Traced(self.here(self.light.into())),
             TechniqueName::Metropolis => Technique::Traced(self.here(self.metropolis.into())),
-            TechniqueName::Normals => Technique::Traced(self.here(self.normals.into())),
+            // which show nothing else
+            TechniqueName::Normals => {
+                Technique::Traced(TracedSettings { feature: None, ..self.here(self.normals.into()) })
+            }
         }
     }
 
     fn here(&self, traced: TracedSettings) -> TracedSettings {
-        TracedSettings { device: self.device, adapter: self.adapter, denoise: self.denoise, ..traced }
+        let &PaneSettings { device, adapter, denoise, feature, .. } = self;
+        TracedSettings { device, adapter, denoise, feature, ..traced }
     }
 
     /// Takes `scene`'s own numbers again, and looks at the picture where it has no such map.

@@ -79,8 +79,8 @@ impl Request {
     /// Whether two requests differ in the wished number of samples alone.
     pub fn is_same_picture(&self, other: &Request) -> bool {
         let how = |of: &Request| {
-            let TracedSettings { integrator, device, adapter, spp: _, sun_radius, denoise: _ } = of.settings;
-            (integrator, device, adapter, sun_radius)
+            let TracedSettings { integrator, device, adapter, spp: _, sun_radius, denoise: _, feature } = of.settings;
+            (integrator, device, adapter, sun_radius, feature)
         };
         let seen = |of: &Request| (of.shot.camera, of.shot.size, of.restarts);
         how(self) == how(other) && seen(self) == seen(other) && Arc::ptr_eq(&self.shot.scene, &other.shot.scene)
@@ -112,6 +112,7 @@ impl ProgressiveRenderer {
         let kept = self.best_kept(request);
         let mut rough = kept.is_none();
         let mut renderer = self.make_ready(request, &mut rough, watch);
+        renderer.feature = request.settings.feature;
         if rough {
             self.rough_by_whoever_is_ready(&mut renderer, request, watch);
         }

@@ -2,9 +2,10 @@
 //! replaced by the processor, which goes on from the film as it was last read; nowhere else is the loss of a device that
 //! traces rays dealt with.
 
+use crate::features::on_the_processor;
 use crate::{Accumulation, Backend, DenoiseSettings, Denoised, Device, Rank, Threads};
 use denoise::DenoiseError;
-use film::{Features, Film};
+use film::{Feature, Features, Film};
 use pathtrace::gpu::GpuTraceError;
 use pathtrace::{Integrator, Stats, Tracer};
 use scene::{Camera, Scene};
@@ -112,6 +113,8 @@ pub struct Renderer {
     pub(crate) threads: Arc<Threads>,
     /// How urgent its passes are.
     pub rank: Rank,
+    /// What of surfaces its films show, in place of the integrator's light: on the processor alone.
+    pub feature: Option<Feature>,
     speeds: Speeds,
     /// The scene for what only the processor traces, beside a device.
     pub(crate) beside_the_device: Option<Box<Tracer>>,
@@ -123,7 +126,7 @@ impl Renderer {
     /// A scene on a backend that was made for it.
     pub fn new(scene: Arc<Scene>, backend: Backend, threads: Arc<Threads>) -> Self {
         let (rank, speeds) = (Rank::Refinement, Speeds::default());
-        Renderer { scene, backend, threads, rank, speeds, beside_the_device: None, refusal: None }
+        Renderer { scene, backend, threads, rank, feature: None, speeds, beside_the_device: None, refusal: None }
     }
 
     /// A scene on the processor.
@@ -201,13 +204,20 @@ impl Renderer {
         samples: u32,
         stop: &(impl Fn() -> bool + Sync),
     ) -> Result<(), GpuTraceError> {
-        let (threads, rank, backend) = (&*self.threads, self.rank, &mut self.backend);
-        let on_device = backend.device() == Device::Gpu;
+        let Renderer { scene, backend, threads, rank, feature, beside_the_device, .. } = self;
+        let (threads, rank) = (&**threads, *rank);
+        let on_device = backend.device() == Device::Gpu && feature.is_none();
         let gives_up: &dyn Fn() -> bool = stop;
         let stop = || stop() || (!on_device && threads.are_wanted_by_more_than(rank));
         let mut timed = || {
             let start = Instant::now();
-            let added = backend.accumulate(accumulation, camera, integrator, samples, &stop);
+            let added = match feature {
+                Some(feature) => {
+                    let tracer = on_the_processor(backend, beside_the_device, scene);
+                    Ok(accumulation.add_features(tracer, (camera, integrator), (*feature, samples), &stop))
+                }
+                None => backend.accumulate(accumulation, camera, integrator, samples, &stop),
+            };
             (added, start.elapsed())
         };
         // what is no longer wanted while it waits for its turn has taken nothing

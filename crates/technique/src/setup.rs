@@ -71,8 +71,8 @@ impl PaneSetup {
             let meant = did_you_mean(name, known.iter().copied());
             format!("{name} is no setting of {}: expected {}{meant}", technique.name(), known.join(", "))
         })?;
-        let value = setting.kind.parse(value).map_err(|expected| {
-            let meant = did_you_mean(value, choices(setting).iter().copied());
+        let value = setting.kind_in(technique).parse(value).map_err(|expected| {
+            let meant = did_you_mean(value, choices(setting, technique).iter().copied());
             format!("{name}={value}: expected {expected}{meant}")
         })?;
         self.values.push((setting.name, value));
@@ -81,7 +81,7 @@ impl PaneSetup {
 
     /// Takes the setting whose choice this word is.
     fn choose(&mut self, word: &str, may_name: bool) -> Result<&'static str, String> {
-        let owner = settings_of(self.technique).find(|setting| choices(setting).contains(&word));
+        let owner = settings_of(self.technique).find(|setting| choices(setting, self.technique).contains(&word));
         match owner {
             Some(setting) => self.take_value(setting.name, word),
             None => Err(self.no_choice(word, may_name)),
@@ -91,6 +91,7 @@ impl PaneSetup {
     /// What was expected in a word's place.
     fn no_choice(&self, word: &str, may_name: bool) -> String {
         let technique = self.technique.name();
+        let choices = |setting| choices(setting, self.technique);
         let known: Vec<_> = settings_of(self.technique).flat_map(choices).copied().collect();
         let names = TechniqueName::ALL.map(TechniqueName::name);
         let presets = || presets::ALL.iter().map(|preset| preset.name);
@@ -116,7 +117,7 @@ impl PaneSetup {
     /// The setting that is no choice between words, but may be this one: "off", "inf".
     fn owner_of(&self, word: &str) -> Option<&'static Setting<PaneSettings>> {
         let is_word = word.starts_with(char::is_alphabetic);
-        settings_of(self.technique).find(|setting| is_word && setting.kind.parse(word).is_ok())
+        settings_of(self.technique).find(|setting| is_word && setting.kind_in(self.technique).parse(word).is_ok())
     }
 
     /// Whether such a picture can be made.
@@ -158,8 +159,8 @@ fn settings_of(technique: TechniqueName) -> impl Iterator<Item = &'static Settin
 const OF_SWITCHES: [&str; 4] = ["on", "off", "auto", "all"];
 
 /// The words that say by themselves which setting they are of: not those of a choice that has words of switches.
-fn choices(setting: &Setting<PaneSettings>) -> &'static [&'static str] {
-    match setting.kind {
+fn choices(setting: &Setting<PaneSettings>, technique: TechniqueName) -> &'static [&'static str] {
+    match setting.kind_in(technique) {
         Kind::Choice(words) if words.iter().any(|word| OF_SWITCHES.contains(word)) => &[],
         Kind::Choice(words) => words,
         _ => &[],

@@ -1,6 +1,7 @@
 //! The settings of what is traced by rays: path tracing, and Whitted's step towards it.
 
 use crate::{DenoiseSettings, DeviceChoice, SceneChanges};
+use film::Feature;
 use pathtrace::{
     Integrator, LightTracingSettings, MetropolisSettings, NormalsSettings, PathSettings, PhotonSettings, Roulette,
     WhittedSettings,
@@ -23,13 +24,15 @@ pub struct TracedSettings {
     pub sun_radius: Option<f32>,
     /// What the picture goes through before it is shown.
     pub denoise: DenoiseSettings,
+    /// What of the surfaces that rays come to is shown, in place of their light.
+    pub feature: Option<Feature>,
 }
 
 impl TracedSettings {
     /// An integrator that stops at so many samples per pixel, where the device is not chosen and the sun the scene's.
     pub const fn new(integrator: Integrator, spp: u32) -> Self {
         let (device, denoise) = (DeviceChoice::Auto, DenoiseSettings::OFF);
-        TracedSettings { integrator, device, adapter: 0, spp, sun_radius: None, denoise }
+        TracedSettings { integrator, device, adapter: 0, spp, sun_radius: None, denoise, feature: None }
     }
 }
 
@@ -184,7 +187,15 @@ impl TracedSettings {
 
     /// The wish for a device, of what one can trace; else the processor.
     pub fn device_choice(&self) -> DeviceChoice {
-        if self.integrator.needs_the_processor().is_some() { DeviceChoice::Cpu } else { self.device }
+        if self.needs_the_processor().is_some() { DeviceChoice::Cpu } else { self.device }
+    }
+
+    /// Why no graphics device can trace it, as a line for the user; `None` if one can.
+    pub fn needs_the_processor(&self) -> Option<&'static str> {
+        match self.feature {
+            Some(_) => Some("albedo, normal and depth are traced by the processor"),
+            None => self.integrator.needs_the_processor(),
+        }
     }
 
     /// Whether these rays see a sun without a disc.

@@ -95,7 +95,7 @@ fn reference_of(file: &Path, picture: &Image) -> anyhow::Result<Reference> {
     let made = made_by(file)?;
     ensure!(
         made.pane.in_use().shows_the_scene(),
-        "this is a map of the fake, not a picture of the scene: {}",
+        "this shows no light of the scene, but a map of the fake, or albedo, normals or depths: {}",
         image_file::shown(file)
     );
     ensure!(

@@ -45,7 +45,7 @@ pub fn run(args: &mut RenderArgs) -> anyhow::Result<()> {
     let technique = args.pane.in_use();
     anyhow::ensure!(
         !args.errors || technique.shows_the_scene(),
-        "a map has no errors: --errors needs a picture of the scene's light (--show picture, and not --technique normals)"
+        "what shows no light has no errors: --errors needs a picture of it (--show picture, and not --technique normals)"
     );
     image_file::check_writable(&args.out)?;
     let _heeded = interrupt::heed();
@@ -222,7 +222,8 @@ fn trace(args: &RenderArgs, shot: &Shot, traced: TracedSettings) -> anyhow::Resu
         // a test does not wait for seconds
         at_risk: if backend.fails_on_purpose() { Duration::ZERO } else { AT_RISK },
     };
-    let renderer = Renderer::new(scene, backend, Arc::new(Threads::all()));
+    let mut renderer = Renderer::new(scene, backend, Arc::new(Threads::all()));
+    renderer.feature = traced.feature;
     let rendered =
         renderer.finish(blank, &shot.camera, (&traced.integrator, spp), args.pane.in_use().denoise(), &watch);
     watch.clear();
@@ -328,7 +329,9 @@ fn report(
                 report["cut_photons"] = json!(rendered.stats.cut_photons);
             }
             report["standard_error"] = json!(rendered.film.standard_error());
-            let reliable = rays.integrator.is_independent() && rendered.film.standard_error_is_reliable();
+            let shows_light = args.pane.in_use().shows_the_scene();
+            let reliable =
+                shows_light && rays.integrator.is_independent() && rendered.film.standard_error_is_reliable();
             report["standard_error_reliable"] = json!(reliable);
             if let Some(scale) = rendered.stats.chains.scale() {
                 report["mutations"] = json!(rendered.stats.chains.mutations);

@@ -53,11 +53,14 @@ impl SavedPane {
         let mut pane =
             PaneSettings { device, adapter: self.adapter, ..PaneSettings::of(technique_of(&self.technique)?) };
         for (name, words) in &self.settings {
-            let mut told = PaneSettings::of(technique_of(name)?);
+            let technique = technique_of(name)?;
+            let mut told = PaneSettings::of(technique);
             for (name, word) in words {
                 let setting = of_panes(name).ok_or_else(|| format!("{name} is no setting"))?;
-                let value =
-                    setting.kind.parse(word).map_err(|expected| format!("{name} {word}: expected {expected}"))?;
+                let value = setting
+                    .kind_in(technique)
+                    .parse(word)
+                    .map_err(|expected| format!("{name} {word}: expected {expected}"))?;
                 (setting.set)(&mut told, value);
             }
             pane.take_settings_in_use(&told);

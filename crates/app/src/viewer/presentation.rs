@@ -197,7 +197,7 @@ fn records_of_comparison(comparison: &ComparisonSettings) -> Records {
 /// A picture that stands for a finer one until that has come is smooth, as that will be; and so is a map, which is seen
 /// at any size. All others are shown as they are, pixel by pixel.
 fn filter_of(picture: &Picture) -> TextureFilter {
-    let is_map = matches!(picture.order.provenance.technique, Technique::Fake(fake) if !fake.shows_the_scene());
+    let is_map = matches!(picture.order.provenance.technique, Technique::Fake(fake) if fake.show.is_map());
     if picture.rough || is_map { TextureFilter::Linear } else { TextureFilter::Nearest }
 }
 

@@ -367,7 +367,7 @@ fn every_technique_and_option_renders() {
     let folder = TestFolder::new();
     let out = folder.file("out.png");
     let out = out.to_str().expect("a plain path");
-    let options: [&[&str]; 9] = [
+    let options: [&[&str]; 13] = [
         &[
             "--technique",
             "whitted",
@@ -388,6 +388,10 @@ fn every_technique_and_option_renders() {
         &["--technique", "raster", "--shadow-filter", "hard", "--shadow-bias", "-0.001", "--shadow-map", "64"],
         &["--technique", "raster", "--show", "cube-faces", "--cube-map", "16", "--reflectivity", "0.5"],
         &["--technique", "raster", "--show", "shadow-map", "--fake", "as-taught"],
+        &["--technique", "raster", "--show", "albedo", "--fake", "as-taught"],
+        &["--show", "depth", "--spp", "4"],
+        &["--technique", "photon", "--show", "normal", "--spp", "4"],
+        &["--technique", "metropolis", "--show", "albedo", "--spp", "4"],
     ];
     for extra in options {
         let common = ["render", "whitted", "-o", out, "--size", "48x27", "--json"];

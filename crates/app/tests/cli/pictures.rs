@@ -4,11 +4,25 @@ use super::{assert_refused, json, visavis};
 use visavis_tests::TestFolder;
 
 #[test]
+fn what_cannot_be_shown_without_light_is_refused() {
+    let refused = |words: &[&str], code, told: &[&str]| {
+        assert_refused(&[&["render", "whitted", "-o", "none.png"], words].concat(), code, told);
+    };
+    refused(&["--show", "glass"], 2, &["expected picture, albedo, normal, depth, cube-faces or shadow-map"]);
+    refused(&["--show", "shadow-map"], 2, &["--show shadow-map", "only the fake has maps", "--technique path"]);
+    refused(&["--technique", "photon", "--show", "cube-faces"], 2, &["only the fake has maps", "--technique photon"]);
+    refused(&["--show", "albedo", "--device", "gpu"], 2, &["--device gpu: albedo, normal and depth are traced by the"]);
+    refused(&["--show", "depth", "--errors"], 1, &["--errors needs a picture", "--show picture"]);
+}
+
+#[test]
 fn a_picture_is_made_again_from_its_own_records() {
     let folder = TestFolder::new();
     let file = |name: &str| folder.file(name).to_str().expect("a plain path").to_owned();
     let (first, again, other) = (file("first.exr"), file("again.exr"), file("other.png"));
-    let options: [&[&str]; 3] = [
+    let options: [&[&str]; 5] = [
+        &["--show", "normal", "--spp", "3", "--seed", "7"],
+        &["--technique", "raster", "--show", "depth", "--segments", "12"],
         &["--estimator", "mis", "--bounces", "3", "--roulette", "0.8+throughput", "--spp", "5", "--seed", "7"],
         &["--technique", "whitted", "--depth", "4", "--glass-shadows", "clear", "--refraction-ratio", "0.8"],
         &["--technique", "raster", "--fake", "as-taught", "--segments", "12", "--shadow-filter", "pcf", "--fov", "50"],

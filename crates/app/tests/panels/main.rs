@@ -45,7 +45,7 @@ impl Panels {
         let workspaces = Rc::new(RefCell::new(workspaces));
         let requests = Rc::new(RefCell::new(Vec::new()));
         let (shared, offered, asked) = (model.clone(), workspaces.clone(), requests.clone());
-        let harness = Harness::builder().with_size([1280.0, 720.0]).with_step_dt(1.0 / 60.0).build_ui(move |ui| {
+        let harness = Harness::builder().with_size([1280.0, 800.0]).with_step_dt(1.0 / 60.0).build_ui(move |ui| {
             let mut cx = UiContext {
                 model: &mut shared.borrow_mut(),
                 shown: &ViewModel::default(),

@@ -28,6 +28,8 @@ pub struct Setting<T> {
     pub of: &'static [TechniqueName],
     /// What it may be.
     pub kind: Kind,
+    /// Techniques that have fewer choices, and those.
+    pub fewer_in: Option<(&'static [TechniqueName], &'static [&'static str])>,
     /// The letter that stands for its value in --help; empty where the choices do.
     pub letter: &'static str,
     /// What it is where nobody says otherwise; `None` for the scene's own.
@@ -202,6 +204,14 @@ impl<T> Setting<T> {
         }
     }
 
+    /// What it may be among the settings of a technique.
+    pub fn kind_in(&self, technique: TechniqueName) -> Kind {
+        match self.fewer_in {
+            Some((techniques, words)) if techniques.contains(&technique) => Kind::Choice(words),
+            _ => self.kind.clone(),
+        }
+    }
+
     /// What it does, its bounds and its default.
     pub fn description(&self) -> String {
         let range = self.kind.range().map_or_else(String::new, |range| format!(", {range}"));
@@ -306,7 +316,16 @@ fn set_again<'a, T: 'a>(mut fresh: T, settings: impl Iterator<Item = &'a Setting
     fresh
 }
 
+/// Rows of what is shown in place of light: all others change light alone.
+const OF_FEATURES: [&str; 6] = ["show", "spp", "sampler", "seed", "segments", "traced-sun"];
+
 impl PaneSettings {
+    /// Whether a row changes the picture of `scene` beside the other settings.
+    pub fn is_changed_by(&self, row: &Setting<PaneSettings>, scene: &Scene) -> bool {
+        let acts = self.in_use().feature().is_none() || OF_FEATURES.contains(&row.name);
+        row.is_of(self.technique) && row.needs.missing_in(scene).is_none() && acts && (row.acts)(self, scene)
+    }
+
     /// Makes a setting of the technique in use what a new pane has, or the scene's own.
     pub fn reset(&mut self, setting: &Setting<PaneSettings>) {
         let others = all_of_panes().filter(|other| other.name != setting.name && other.is_of(self.technique));
@@ -332,8 +351,8 @@ impl PaneSettings {
             TechniqueName::Metropolis => self.metropolis = other.metropolis,
             TechniqueName::Normals => self.normals = other.normals,
         }
-        if other.in_use().shows_the_scene() && other.technique != TechniqueName::Raster {
-            self.denoise = other.denoise;
+        if rows::LIGHT.contains(&other.technique) {
+            (self.denoise, self.feature) = (other.denoise, other.feature);
         }
     }
 }
@@ -345,8 +364,8 @@ impl From<Technique> for PaneSettings {
         match technique {
             Technique::Fake(fake) => PaneSettings { fake, ..pane },
             Technique::Traced(traced) => {
-                let TracedSettings { integrator, device, adapter, spp, sun_radius, denoise } = traced;
-                let pane = PaneSettings { device, adapter, denoise, ..pane };
+                let TracedSettings { integrator, device, adapter, spp, sun_radius, denoise, feature } = traced;
+                let pane = PaneSettings { device, adapter, denoise, feature, ..pane };
                 match integrator {
                     Integrator::Path(path) => PaneSettings { truth: TruthSettings { path, spp, sun_radius }, ..pane },
                     Integrator::Whitted(tree) => {

@@ -8,11 +8,12 @@ fn what_a_setting_says_is_what_it_takes() {
     for technique in TechniqueName::ALL {
         let mut pane = PaneSettings::of(technique);
         for setting in all_of_panes().filter(|setting| setting.is_of(technique)) {
-            for word in examples(&setting.kind) {
-                let value = setting.kind.parse(&word).unwrap_or_else(|e| panic!("{} {word}: {e}", setting.name));
+            for word in examples(&setting.kind_in(technique)) {
+                let value =
+                    setting.kind_in(technique).parse(&word).unwrap_or_else(|e| panic!("{} {word}: {e}", setting.name));
                 (setting.set)(&mut pane, value);
                 assert_eq!((setting.get)(&pane), Some(value), "{} {word}", setting.name);
-                assert_eq!(setting.kind.parse(&value.to_string()), Ok(value), "{}", setting.name);
+                assert_eq!(setting.kind_in(technique).parse(&value.to_string()), Ok(value), "{}", setting.name);
             }
             assert!(setting.kind.parse("nonsense").is_err(), "{}", setting.name);
         }
@@ -46,8 +47,8 @@ fn what_is_reset_is_a_new_panes_or_the_scenes_and_all_else_stays() {
         for setting in all_of_panes().filter(|setting| setting.is_of(technique)) {
             let mut pane = PaneSettings::of(technique);
             for other in all_of_panes().filter(|other| other.is_of(technique)) {
-                let word = examples(&other.kind).pop().unwrap();
-                (other.set)(&mut pane, other.kind.parse(&word).unwrap());
+                let word = examples(&other.kind_in(technique)).pop().unwrap();
+                (other.set)(&mut pane, other.kind_in(technique).parse(&word).unwrap());
             }
             let before = pane;
             pane.reset(setting);

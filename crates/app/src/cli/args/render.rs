@@ -310,10 +310,16 @@ fn parse_words(words: Vec<OsString>, scene: Option<String>) -> Result<Command, C
         return usage(format!("--technique {} runs on the gpu only", technique.name()));
     }
     if let Technique::Traced(traced) = args.pane.in_use()
-        && let Some(why) = traced.integrator.needs_the_processor()
+        && let Some(why) = traced.needs_the_processor()
         && args.device == DeviceChoice::Gpu
     {
         return usage(format!("--device gpu: {why}"));
+    }
+    if technique != TechniqueName::Raster && args.pane.fake.show.is_map() {
+        let (map, technique) = (args.pane.fake.show.name(), technique.name());
+        return usage(format!(
+            "--show {map}: only the fake has maps; expected picture, albedo, normal or depth with --technique {technique}"
+        ));
     }
     // only the processor has lanes
     if args.device == DeviceChoice::Auto && is_given("--lanes") {

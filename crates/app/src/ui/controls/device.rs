@@ -11,7 +11,7 @@ pub fn show(cx: &mut UiContext, pane: PaneId, ui: &mut Ui) {
     let Some(best) = cx.model.adapters.0.first() else { return };
     let settings = &mut cx.model.session.panes[pane];
     if let Technique::Traced(traced) = settings.in_use()
-        && let Some(why) = traced.integrator.needs_the_processor()
+        && let Some(why) = traced.needs_the_processor()
     {
         cx.dump.note(&format!("text {pane} device"), why, ui.label(capitalised(why)));
         return;

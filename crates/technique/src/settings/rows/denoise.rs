@@ -14,6 +14,7 @@ const DENOISE: Setting<PaneSettings> = Setting {
     default: Some(Value::Word("off")),
     help: "takes the noise out of the picture, and some of the truth: wavelets guided by features, or Open Image Denoise's \
            network, small or as it is usually taken",
+    acts: |pane, _| pane.in_use().shows_the_scene(),
     get: |pane| Some(Value::Word(pane.denoise.denoiser.name())),
     set: |pane, value| each(named(value, Denoiser::named), [&mut pane.denoise.denoiser]),
     control: Control {
@@ -44,7 +45,7 @@ const TRUST: Setting<PaneSettings> = Setting {
     kind: Kind::Number(0.0..=1.0),
     letter: "T",
     default: Some(Value::Number(0.0)),
-    acts: |pane, _| pane.denoise.denoiser != Denoiser::Off,
+    acts: |pane, _| pane.in_use().denoise().is_on(),
     help: "how far to go back from a denoiser's picture to the samples where they tell it is wrong (James and Stein), 0 to 1: at 1 \
            the picture comes to the truth as samples become many; above 0 the filter runs twice, on either part of them",
     get: |pane| Some(Value::Number(pane.denoise.trust)),

@@ -219,28 +219,6 @@ pub const ROWS: &[Setting<PaneSettings>] = &[
         ..PLAIN
     },
     Setting {
-        name: "show",
-        of: RASTER,
-        kind: Kind::Choice(&["picture", "cube-faces", "shadow-map"]),
-        default: Some(Value::Word("picture")),
-        help: "the picture, or a map that it is made from",
-        get: |pane| Some(Value::Word(pane.fake.show.name())),
-        set: |pane, value| each(named(value, Show::named), [&mut pane.fake.show]),
-        control: Control {
-            label: "Show",
-            brief: Some(|value| value.to_string().replace('-', " ")),
-            look: Look::Words(&[
-                ("picture", "The scene"),
-                ("cube faces", "What surrounds the first glass, unfolded: where refracted rays are looked up"),
-                ("shadow map", "Depths as the light sees them: white is near"),
-            ]),
-            offers: |word, _, scene| Show::named(word).is_some_and(|show| show.available(scene)),
-            more: RASTER,
-            ..BLANK
-        },
-        ..PLAIN
-    },
-    Setting {
         name: "diffuse",
         of: RASTER,
         kind: Kind::Number(FakeKnobs::COEFFICIENT),

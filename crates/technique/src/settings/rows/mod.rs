@@ -5,6 +5,7 @@ mod denoise;
 mod fake;
 mod metropolis;
 mod photon;
+mod show;
 mod traced;
 
 use super::{Control, Kind, Look, Need, Setting, Value};
@@ -27,13 +28,15 @@ const TRACED: &[TechniqueName] = &[
     TechniqueName::Metropolis,
     TechniqueName::Normals,
 ];
-const LIGHT: &[TechniqueName] = &[
+/// What shows light and is traced.
+pub const LIGHT: &[TechniqueName] = &[
     TechniqueName::Whitted,
     TechniqueName::Path,
     TechniqueName::Photon,
     TechniqueName::LightTracing,
     TechniqueName::Metropolis,
 ];
+const ALL_OF_LIGHT: &[TechniqueName] = &TechniqueName::OF_LIGHT;
 const LOCAL: &[TechniqueName] = &[TechniqueName::Raster, TechniqueName::Whitted];
 
 /// What each row begins from.
@@ -41,6 +44,7 @@ const PLAIN: Setting<PaneSettings> = Setting {
     name: "",
     of: &[],
     kind: Kind::Bounces,
+    fewer_in: None,
     letter: "",
     default: None,
     before: None,
@@ -74,6 +78,7 @@ pub const OF_SCENES: &[Setting<SceneChanges>] = &[
         name: "refraction-ratio",
         of: &TechniqueName::ALL,
         kind: Kind::Number(0.001..=1000.0),
+        fewer_in: None,
         letter: "R",
         default: None,
         before: None,
@@ -97,6 +102,7 @@ pub const OF_SCENES: &[Setting<SceneChanges>] = &[
         name: "sun-radius",
         of: TRACED,
         kind: Kind::DegreesBelow(90.0),
+        fewer_in: None,
         letter: "DEG",
         default: None,
         before: None,
@@ -126,6 +132,7 @@ pub fn all_of_panes() -> impl Iterator<Item = &'static Setting<PaneSettings>> {
         .chain(metropolis::ROWS)
         .chain(denoise::ROWS)
         .chain(fake::ROWS)
+        .chain(show::ROWS)
 }
 
 /// How the paths of the technique in use walk.

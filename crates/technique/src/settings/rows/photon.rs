@@ -102,7 +102,7 @@ pub const ROWS: &[Setting<PaneSettings>] = &[
         get: |pane| Some(Value::Word(if pane.photon.photon.points { "points" } else { "light" })),
         set: |pane, value| pane.photon.photon.points = value == Value::Word("points"),
         control: Control {
-            label: "Show",
+            label: "Photons are shown as",
             brief: Some(|value| value.to_string()),
             look: Look::Words(&[
                 ("light", "The light that is gathered"),

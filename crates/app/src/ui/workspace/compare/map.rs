@@ -48,7 +48,7 @@ fn why_not(cx: &UiContext) -> String {
             return format!("{pane}: {fault}");
         }
         if shown.provenance.as_ref().is_some_and(|provenance| !provenance.technique.shows_the_scene()) {
-            return format!("{pane} shows a map, not the scene: it has no errors");
+            return format!("{pane} does not show the light of the scene: it has no errors");
         }
     }
     match against {

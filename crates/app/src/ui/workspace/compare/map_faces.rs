@@ -8,10 +8,10 @@ use raster::Show;
 use raster::maps::faces_of_cross;
 use technique::Technique;
 
-/// The map that a pane's picture shows; `None` if it shows the scene.
+/// The map that a pane's picture shows; `None` if it shows what the camera sees.
 pub fn map_of(cx: &UiContext, pane: PaneId) -> Option<Show> {
     match cx.shown.panes.get(pane)?.provenance.as_ref()?.technique {
-        Technique::Fake(fake) if !fake.shows_the_scene() => Some(fake.show),
+        Technique::Fake(fake) if fake.show.is_map() => Some(fake.show),
         _ => None,
     }
 }
