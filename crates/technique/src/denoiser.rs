@@ -134,6 +134,9 @@ impl DenoiseSettings {
 /// The layer that tells how far each pixel's samples are trusted, from 0 to 1.
 pub const TRUST: &str = "trust";
 
+/// The layer of a denoised picture that is what it was before.
+pub const NOISY: &str = "noisy";
+
 /// Variances of a film's means.
 fn variances(film: &Film) -> impl Iterator<Item = Vec3> {
     film.pixels().iter().map(|pixel| Vec3::from_array(pixel.variance_of_mean().map(|v| v as f32)))

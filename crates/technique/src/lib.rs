@@ -32,7 +32,7 @@ pub use accumulation::Accumulation;
 pub use backend::{Backend, GpuBackend};
 pub use blind_spot::{BlindSpot, NoiseSource, Specular};
 pub use command::{camera_options, made_by_command};
-pub use denoiser::{DenoiseSettings, Denoised, Denoiser, TRUST};
+pub use denoiser::{DenoiseSettings, Denoised, Denoiser, NOISY, TRUST};
 pub use device::{Adapter, Adapters, Device, DeviceChoice, INSTEAD};
 pub use fake::FakeSettings;
 pub use features::features_of;

@@ -4,7 +4,7 @@ use super::{RenderArgs, interrupt, reference};
 use crate::ruler::{brief, error_records, error_words, noise_line};
 use anyhow::Context;
 use compare::Errors;
-use film::{DisplayTransform, Image};
+use film::{DisplayTransform, Features, Image};
 use gpu::Gpu;
 use image_file::{self, Kind};
 use pathtrace::gpu::GpuTraceError;
@@ -18,7 +18,7 @@ use std::time::{Duration, Instant};
 use technique::settings::{OF_SCENES, Setting, Value, all_of_panes};
 use technique::{
     Accumulation, Backend, BlindSpot, DenoiseSettings, Denoised, Device, DeviceChoice, FakeSettings, Frame, INSTEAD,
-    Made, Pacing, PaneSettings, Provenance, Rendered, Renderer, Shot, Technique, Threads, TracedSettings, Watch,
+    Made, NOISY, Pacing, PaneSettings, Provenance, Rendered, Renderer, Shot, Technique, Threads, TracedSettings, Watch,
 };
 
 /// Samples per pixel where neither --spp nor --time says how many.
@@ -53,10 +53,14 @@ pub fn run(args: &mut RenderArgs) -> anyhow::Result<()> {
         Technique::Fake(fake) => raster(args, &fake.applied_to(&scene), fake)?,
         Technique::Traced(traced) => trace(args, &shot, traced)?,
     };
-    let (image, before) = match &rendered.denoised {
+    let (mut image, before) = match &rendered.denoised {
         Some(Ok(denoised)) => (denoised.image.clone(), Some(rendered.film.image())),
         Some(Err(_)) | None => (rendered.film.image(), None),
     };
+    if args.layers {
+        image.layers.extend(rendered.features.iter().flat_map(Features::layers));
+        image.layers.extend(before.iter().map(|before| before.as_layer(NOISY)));
+    }
     let measured = args.errors.then(|| measure(&shot, (&image, before.as_ref()))).transpose();
     save(args, shot, (&rendered, seconds), &image, measured.as_ref().ok().and_then(Option::as_ref))?;
     let out = image_file::shown(&args.out);
@@ -192,11 +196,12 @@ fn raster(args: &RenderArgs, scene: &Scene, fake: FakeSettings) -> anyhow::Resul
     let settings = fake.sized(args.seen.size.0, args.seen.size.1);
     let film = raster.render(scene, &scene.camera, &settings)?;
     let seconds = start.elapsed().as_secs_f64();
+    let features = args.layers.then(|| raster.features(scene, &scene.camera, &settings)).transpose()?;
     if let Some(cut) = raster::cut(scene, &scene.camera, &settings) {
         note!("note: {cut}: a scene file that states neither cuts nothing");
     }
     let (device, made_by) = (Device::Gpu, gpu.describe());
-    let rendered = Rendered { film, features: None, denoised: None, stats: Stats::default(), device, made_by };
+    let rendered = Rendered { film, features, denoised: None, stats: Stats::default(), device, made_by };
     Ok(Timed { rendered, seconds })
 }
 
@@ -217,6 +222,7 @@ fn trace(args: &RenderArgs, shot: &Shot, traced: TracedSettings) -> anyhow::Resu
         spp,
         shown: std::io::stderr().is_terminal(),
         start,
+        layers: args.layers,
         limit: args.seconds.map(Duration::from_secs_f64),
         trusts: traced.denoise.is_on() && traced.denoise.trust > 0.0,
         // a test does not wait for seconds
@@ -245,6 +251,7 @@ fn backend(gpu: Option<&Gpu>, scene: &Scene, choice: DeviceChoice) -> anyhow::Re
 struct Terminal {
     spp: u32,
     shown: bool,
+    layers: bool,
     start: Instant,
     limit: Option<Duration>,
     /// Whether samples are trusted beside a denoiser.
@@ -261,6 +268,10 @@ impl Watch for Terminal {
 
     fn keeps_parts(&self) -> bool {
         self.trusts
+    }
+
+    fn wants_features(&self) -> bool {
+        self.layers
     }
 
     /// Passes of a quarter of a second, or of what is left of the time.

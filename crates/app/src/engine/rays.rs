@@ -8,7 +8,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Duration;
 use technique::{
-    Adapters, DenoiseSettings, Denoised, Frame, NoMemory, Pacing, ProgressiveRenderer, Request, Threads,
+    Adapters, DenoiseSettings, Denoised, Frame, NOISY, NoMemory, Pacing, ProgressiveRenderer, Request, Threads,
     TracedSettings, Watch,
 };
 
@@ -157,7 +157,7 @@ impl Watch for PaneWatch<'_> {
     fn show(&self, frame: Frame) {
         let film = frame.film;
         let mut refused = frame.refused;
-        let (image, before) = match frame.denoised {
+        let (mut image, before) = match frame.denoised {
             Some(Ok(Denoised { image, seconds })) => {
                 self.filtering.store((1000.0 * seconds) as u64, Ordering::Relaxed);
                 (image, Some(Undenoised { image: film.image(), seconds }))
@@ -168,6 +168,9 @@ impl Watch for PaneWatch<'_> {
             }
             None => (film.image(), None),
         };
+        // an EXR of the pane keeps them
+        image.layers.extend(frame.features.iter().flat_map(|features| features.layers()));
+        image.layers.extend(before.iter().map(|before| before.image.as_layer(NOISY)));
         let picture = Picture {
             image,
             spp: Some(film.samples_per_pixel()),

@@ -1,7 +1,41 @@
 //! Pictures that are read: made again, compared, broken.
 
 use super::{assert_refused, json, visavis};
+use film::{Features, LayerValues, Vec3};
+use std::path::Path;
 use visavis_tests::TestFolder;
+
+/// Beside a picture of either kind, and beside one that shows them itself; the picture is what it is without them.
+#[test]
+fn layers_keep_what_is_seen_without_light() {
+    let folder = TestFolder::new();
+    let file = |name: &str| folder.file(name).to_str().expect("a plain path").to_owned();
+    let kinds: [&[&str]; 3] =
+        [&["--technique", "raster"], &["--spp", "2", "--estimator", "mis"], &["--spp", "4", "--show", "normal"]];
+    for options in kinds {
+        let (plain, layered) = (file("plain.exr"), file("layered.exr"));
+        for (out, layers) in [(&plain, &[][..]), (&layered, &["--layers"][..])] {
+            let common = ["render", "phong", "-o", out, "--size", "48x27"];
+            let made = visavis(&[&common, options, layers].concat());
+            assert!(made.status.success(), "{}", String::from_utf8_lossy(&made.stderr));
+        }
+        let load = |path: &str| image_file::load(Path::new(path)).expect("an EXR");
+        assert!(load(&plain) == load(&layered), "{options:?}");
+        let layer = |path: &str, name| image_file::load_layer(Path::new(path), name, (48, 27)).expect("an EXR");
+        let names = [Features::ALBEDO, Features::NORMAL, Features::DEPTH];
+        assert_eq!(names.map(|name| layer(&plain, name)), [None, None, None]);
+        let [Some(LayerValues::Rgb(albedo)), Some(LayerValues::Directions(normal)), Some(LayerValues::Depths(depth))] =
+            names.map(|name| layer(&layered, name))
+        else {
+            panic!("layers of other channels")
+        };
+        assert!(albedo.iter().all(|albedo| albedo.min_element() >= 0.0 && albedo.max_element() <= 1.0));
+        assert!(normal.iter().any(|normal| normal.y > 0.99), "the floor");
+        let nothing = |at: usize| depth[at] == f32::INFINITY;
+        assert!((0..depth.len()).all(|at| nothing(at) == (normal[at] == Vec3::ZERO)), "{options:?}");
+        assert!(depth.iter().any(|depth| depth.is_finite()), "{options:?}");
+    }
+}
 
 #[test]
 fn what_cannot_be_shown_without_light_is_refused() {
@@ -12,6 +46,7 @@ fn what_cannot_be_shown_without_light_is_refused() {
     refused(&["--show", "shadow-map"], 2, &["--show shadow-map", "only the fake has maps", "--technique path"]);
     refused(&["--technique", "photon", "--show", "cube-faces"], 2, &["only the fake has maps", "--technique photon"]);
     refused(&["--show", "albedo", "--device", "gpu"], 2, &["--device gpu: albedo, normal and depth are traced by the"]);
+    refused(&["--layers"], 2, &["--layers needs a file that has layers", "-o OUT.exr: none.png"]);
     refused(&["--show", "depth", "--errors"], 1, &["--errors needs a picture", "--show picture"]);
 }
 

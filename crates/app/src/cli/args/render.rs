@@ -32,6 +32,7 @@ pub struct RenderArgs {
     pub seconds: Option<f64>,
     pub exposure: f32,
     pub errors: bool,
+    pub layers: bool,
     pub json: bool,
     /// Options given that this technique ignores.
     pub without_effect: Vec<String>,
@@ -136,6 +137,15 @@ pub fn options() -> Vec<CommandOption<Reading>> {
             help: "measure the picture against the scene's reference, which is made if it is not there",
             read: |reading, _| {
                 reading.args.errors = true;
+                Ok(())
+            },
+        },
+        CommandOption {
+            names: &["--layers"],
+            value: "",
+            help: "write albedo, normal and depth of what is seen beside the picture, as layers of these names; EXR only",
+            read: |reading, _| {
+                reading.args.layers = true;
                 Ok(())
             },
         },
@@ -275,6 +285,7 @@ fn parse_words(words: Vec<OsString>, scene: Option<String>) -> Result<Command, C
         seconds: None,
         exposure: 0.0,
         errors: false,
+        layers: false,
         json: false,
         without_effect: Vec::new(),
         chose_estimator: false,
@@ -295,6 +306,9 @@ fn parse_words(words: Vec<OsString>, scene: Option<String>) -> Result<Command, C
     let Some(out) = out else { return usage("render needs a file to write: -o OUT.png or -o OUT.exr") };
     if Kind::of(&out).is_none() {
         return usage(format!("-o must end in .png or .exr: {}", image_file::shown(&out)));
+    }
+    if args.layers && Kind::of(&out) != Some(Kind::Exr) {
+        return usage(format!("--layers needs a file that has layers, -o OUT.exr: {}", image_file::shown(&out)));
     }
     let is_given = |option: &str| given.iter().any(|(given, _)| given == option);
     if let Some(preset) = preset {
