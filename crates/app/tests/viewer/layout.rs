@@ -2,6 +2,7 @@
 
 use super::{User, both_whole};
 use egui::{Key, Modifiers, TextureFilter};
+use film::Feature;
 use technique::DeviceChoice;
 use visavis::model::PaneId;
 use visavis::viewer::Place;
@@ -75,6 +76,20 @@ fn a_cube_map_is_whole_on_its_side_of_the_wipe_and_its_faces_are_named() {
     assert!((below[1] - above[1] - 2.0 / 3.0 * (line - top)).abs() < 2.0, "{above:?} {below:?}");
     user.viewer.borrow_mut().model.session.panes[PaneId::A].fake.show = raster::Show::ShadowMap;
     user.wait_for("the sun's shadow map, which has no faces", |f| !f.shows("label A face +x"));
+}
+
+/// It is no picture of the scene's light, whichever technique it is of, and comes and goes like any.
+#[test]
+fn what_is_seen_without_light_has_its_own_name_and_no_errors() {
+    let mut user = User::of("whitted");
+    let has_errors = |f: &Frame| f.state("a")["rel_mse"].is_number();
+    user.wait_for("both pictures and their errors", |f| both_whole(f) && has_errors(f));
+    let shown = |user: &User, feature| user.viewer.borrow_mut().model.session.panes[PaneId::B].feature = feature;
+    shown(&user, Some(Feature::Albedo));
+    let named = |f: &Frame| f.value("label B").contains("Albedo by rays");
+    user.wait_for("the albedo, without errors", |f| both_whole(f) && named(f) && !has_errors(f));
+    shown(&user, None);
+    user.wait_for("the errors again", |f| both_whole(f) && !named(f) && has_errors(f));
 }
 
 /// Widgets that are not the picture and not on it.
