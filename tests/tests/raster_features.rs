@@ -59,8 +59,10 @@ fn alike_within_antialiasing(a: &[Vec3], b: &[Vec3]) -> f32 {
 
 #[test]
 fn where_nothing_is_specular_fake_and_rays_see_the_same_surfaces() {
-    for name in ["phong", "cornell"] {
-        let scene = builtin::named(name).unwrap();
+    let [phong, cornell] = ["phong", "cornell"].map(|name| builtin::named(name).unwrap());
+    let mut from_below = phong.clone();
+    from_below.camera.eye.y *= -1.0;
+    for (name, scene) in [("phong", phong), ("cornell", cornell), ("the back of its floor", from_below)] {
         let (drawn, traced) = (drawn(&scene, FakeKnobs::default()), traced(&scene));
         let (albedo, normal) = ([&*drawn.albedo, &*traced.albedo], [&*drawn.normal, &*traced.normal]);
         for [drawn, traced] in [albedo, normal] {

@@ -83,13 +83,13 @@ fn a_cube_map_is_whole_on_its_side_of_the_wipe_and_its_faces_are_named() {
 fn what_is_seen_without_light_has_its_own_name_and_no_errors() {
     let mut user = User::of("whitted");
     let has_errors = |f: &Frame| f.state("a")["rel_mse"].is_number();
-    user.wait_for("both pictures and their errors", |f| both_whole(f) && has_errors(f));
+    user.wait_for("errors", has_errors);
     let shown = |user: &User, feature| user.viewer.borrow_mut().model.session.panes[PaneId::B].feature = feature;
     shown(&user, Some(Feature::Albedo));
     let named = |f: &Frame| f.value("label B").contains("Albedo by rays");
-    user.wait_for("the albedo, without errors", |f| both_whole(f) && named(f) && !has_errors(f));
+    user.wait_for("the albedo, without errors", |f| named(f) && !has_errors(f));
     shown(&user, None);
-    user.wait_for("the errors again", |f| both_whole(f) && !named(f) && has_errors(f));
+    user.wait_for("the errors again", |f| !named(f) && has_errors(f));
 }
 
 /// Widgets that are not the picture and not on it.
