@@ -60,7 +60,8 @@ impl DirectLight {
 pub struct PhotonSettings {
     /// Photons that leave the lights in each pass, 1 to [`MOST_PHOTONS`].
     pub photons: u32,
-    /// Of the discs in which the first pass gathers, in the scene's unit; `None` for [`usual_radius`].
+    /// Of the discs in which the first pass gathers, in the scene's unit; `None` for [`usual_radius`], which the scene's own
+    /// camera tells, not one that has moved: pictures of a camera in motion are blurred alike.
     pub radius: Option<f32>,
     /// How much of the photons in a disc the next pass keeps, in (0, 1): larger shrinks the radius more slowly.
     pub alpha: f32,

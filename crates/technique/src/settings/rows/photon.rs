@@ -37,14 +37,15 @@ pub const ROWS: &[Setting<PaneSettings>] = &[
         letter: "R",
         own: |scene| Some(Value::Number(usual_radius(scene))),
         acts: |pane, _| !pane.photon.photon.points,
-        help: "in which the first pass gathers photons, in the scene's unit; it shrinks from pass to pass",
+        help: "in which the first pass gathers photons, in the scene's unit; it shrinks from pass to pass. The default goes by the \
+               scene's size and by what its camera sees as loaded or by --eye, not as moved in the window",
         get: |pane| pane.photon.photon.radius.map(Value::Number),
         set: |pane, value| pane.photon.photon.radius = number(value),
         control: Control {
             label: "First radius",
-            hover: "In which the first pass gathers photons, in the scene's unit; by default a tenth of the picture's height at \
-                    most. A large one blurs light and has little noise, a small one is sharp and noisy; it shrinks from pass to \
-                    pass, so that the blur vanishes",
+            hover: "In which the first pass gathers photons, in the scene's unit; by default at most a tenth of the height of what \
+                    the scene's camera sees before it is moved. A large one blurs light and has little noise, a \
+                    small one is sharp and noisy; it shrinks from pass to pass, so that the blur vanishes",
             look: Look::Logarithmic(0.01..=20.0),
             ..BLANK
         },
