@@ -2,6 +2,7 @@
 
 use gpu::wgsl::{self, Composed, Source, WgslError};
 use pathtrace::gpu::film_data::{PictureFrame, Pixel, RenderParams};
+use pathtrace::gpu::photon_data::{EmissionHeader, Grid, Photon, PhotonParams};
 use pathtrace::gpu::rays::{RayAnswer, RayQuery};
 use pathtrace::gpu::scene_data::{Checkerboard, Header, Light, Material};
 use pathtrace::gpu::shape_data::{FewShape as Shape, Node, ShapeData as Primitive, Surface};
@@ -120,6 +121,18 @@ fn mirrors_have_the_layout_of_their_structs() {
             diffuse
         ]
     );
+}
+
+#[test]
+fn mirrors_of_photons_have_the_layout_of_their_structs() {
+    assert_same_layout!("pathtrace/light/emission.wgsl", EmissionHeader, [center, radius, sky, emitters, casters]);
+    assert_same_layout!(
+        "pathtrace/integrator/photon/map.wgsl",
+        PhotonParams,
+        [first, end, number, photons, seed, capacity]
+    );
+    assert_same_layout!("pathtrace/integrator/photon/map.wgsl", Photon, [position, normal, power, order]);
+    assert_same_layout!("pathtrace/integrator/photon/map.wgsl", Grid, [origin, cells_per_unit, radius, mask, photons]);
 }
 
 #[test]

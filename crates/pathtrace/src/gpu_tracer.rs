@@ -7,13 +7,16 @@
 use crate::caster::Casters;
 use crate::drive::gpu::dispatch::Dispatcher;
 use crate::drive::gpu::film_data::RenderParams;
+use crate::drive::gpu::photon_maps::{PhotonMaps, PhotonSources, PhotonWork};
 use crate::drive::gpu::pipelines::{PipelineKey, Pipelines, SceneNeeds};
 use crate::drive::gpu::shape_data::{FewShape, MOST_SHAPES, Shapes};
+use crate::drive::gpu::slices::Slices;
 use crate::drive::gpu::timing::{BUDGET_SECONDS, Pace, Stopwatch};
 use crate::drive::gpu::{GpuFilm, GpuTraceError, environment_data, scene_data};
 use crate::integrator::Integrator;
+use crate::integrator::photon::{PhotonSettings, usual_radius};
 use crate::intersect::contact::held_apart;
-use crate::light::Lights;
+use crate::light::{Emitters, Lights};
 use crate::stats::Stats;
 use bytemuck::Zeroable;
 use film::Film;
@@ -30,6 +33,9 @@ pub struct GpuTracer {
     scene: wgpu::BindGroup,
     leaves: Leaves,
     stand_ins: FakeNumbers,
+    sources: PhotonSources,
+    /// Once photons were asked for.
+    pub(crate) photon_maps: Option<PhotonMaps>,
     stopwatch: Stopwatch,
     paces: Vec<(PipelineKey, RenderParams, Pace)>,
     budget: f64,
@@ -72,6 +78,8 @@ impl GpuTracer {
             pipelines,
             leaves,
             stand_ins: scene.fake,
+            sources: made.sources(scene),
+            photon_maps: None,
             stopwatch: Stopwatch::new(gpu),
             paces: Vec::new(),
             budget: BUDGET_SECONDS,
@@ -90,12 +98,13 @@ impl GpuTracer {
         if made.needs != self.pipelines.needs() {
             let pipelines = Pipelines::new(&self.gpu, made.needs)?;
             self.scene = made.upload(&self.gpu, &pipelines.scene_layout, scene)?;
-            (self.pipelines, self.paces) = (pipelines, Vec::new());
+            (self.pipelines, self.paces, self.photon_maps) = (pipelines, Vec::new(), None);
         } else {
             self.scene = made.upload(&self.gpu, &self.pipelines.scene_layout, scene)?;
             self.paces.iter_mut().for_each(|(.., pace)| pace.doubt());
+            self.photon_maps.iter_mut().for_each(PhotonMaps::forget);
         }
-        self.stand_ins = scene.fake;
+        (self.stand_ins, self.sources) = (scene.fake, made.sources(scene));
         Ok(())
     }
 
@@ -119,7 +128,10 @@ impl GpuTracer {
     /// seconds.
     pub fn has_compiled(&self, integrator: &Integrator) -> bool {
         let key = integrator.pipeline_key(self.pipelines.needs().everything());
-        key.is_ok_and(|key| self.pipelines.has_compiled(&key))
+        let photons = integrator
+            .gathers()
+            .is_none_or(|settings| self.photon_maps.is_some() && self.pipelines.has_compiled(&settings.walk_key()));
+        photons && key.is_ok_and(|key| self.pipelines.has_compiled(&key))
     }
 
     /// Whether all dispatches so far were timed by the device's own clock. Some are not even if it has one: those of
@@ -156,6 +168,54 @@ impl GpuTracer {
         until: u32,
         stop: &impl Fn() -> bool,
     ) -> Result<(), GpuTraceError> {
+        let Some(settings) = integrator.gathers() else {
+            return self.add_samples(film, camera, integrator, None, until, stop);
+        };
+        for number in film.samples_done..until {
+            let Some(map) = self.map_photons(film, settings, number, stop)? else { break };
+            self.add_samples(film, camera, integrator, Some(&map), number + 1, stop)?;
+            if film.samples_done <= number {
+                break;
+            }
+        }
+        Ok(())
+    }
+
+    /// The photons of a pass; `None` where it was stopped. One that is made again is the same.
+    fn map_photons(
+        &mut self,
+        film: &mut GpuFilm,
+        settings: &PhotonSettings,
+        number: u32,
+        stop: &impl Fn() -> bool,
+    ) -> Result<Option<wgpu::BindGroup>, GpuTraceError> {
+        let walk = self.pipelines.prepare(&self.gpu, &settings.walk_key())?;
+        let maps = match &mut self.photon_maps {
+            Some(maps) => maps,
+            none => none.insert(PhotonMaps::new(&self.gpu)?),
+        };
+        let (gpu, budget, what) = (&self.gpu, self.budget, "a part of a pass of photons");
+        let slices = Slices { gpu, stopwatch: &mut self.stopwatch, budget, seconds: &mut self.seconds, what };
+        let layouts = [&self.pipelines.photon_layout, &self.pipelines.map_layout];
+        let (scene, sources) = (&self.scene, &self.sources);
+        let made =
+            maps.make(&mut PhotonWork { walk: &walk, scene, layouts, sources, settings, number, slices }, stop)?;
+        Ok(made.map(|(map, counts)| {
+            film.count(counts.all_rays(), u64::from(counts.cut_paths));
+            map
+        }))
+    }
+
+    /// Brings each pixel to `until` samples, of which all gather from one map if there is one.
+    fn add_samples(
+        &mut self,
+        film: &mut GpuFilm,
+        camera: &Camera,
+        integrator: &Integrator,
+        map: Option<&wgpu::BindGroup>,
+        until: u32,
+        stop: &impl Fn() -> bool,
+    ) -> Result<(), GpuTraceError> {
         let key = integrator.pipeline_key(self.pipelines.needs().everything());
         let key = key.map_err(GpuTraceError::ForTheProcessor)?;
         let pipeline = self.pipelines.prepare(&self.gpu, &key)?;
@@ -173,6 +233,7 @@ impl GpuTracer {
             gpu: &self.gpu,
             pipeline: &pipeline,
             scene: &self.scene,
+            map,
             stopwatch: &mut self.stopwatch,
             pace,
             budget: self.budget,
@@ -236,6 +297,11 @@ impl Made {
         let needs = SceneNeeds::of(scene, &lights, shapes.kinds());
         let needs = if leaves.nothing_out { needs.with_everything() } else { needs };
         Ok(Made { lights, casters: Casters::new(scene), shapes, needs })
+    }
+
+    fn sources(&self, scene: &Scene) -> PhotonSources {
+        let emitters = Emitters::new(scene, &self.lights);
+        PhotonSources { emitters, radius: usual_radius(scene), origin: scene.bounds().0 }
     }
 
     fn upload(

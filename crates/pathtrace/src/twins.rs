@@ -15,6 +15,7 @@ use crate::integrator::forks::MOST_FORKS;
 use crate::integrator::normals::NormalsSettings;
 use crate::integrator::path_plan::{BY_BOTH, BY_CHANCE, BY_SAMPLING};
 use crate::integrator::path_state::{ALREADY_COUNTED, CONNECTION, MET_BY_CHANCE};
+use crate::integrator::photon::{FIRST_DIMENSION, MOST_CELLS, ONE_SURFACE, PhotonSettings};
 use crate::integrator::roulette::{ROULETTE_SLOPE, SPARED_VERTICES, STEPS};
 use crate::integrator::settings::{ConesAt, PathSettings};
 use crate::integrator::splits::{ALWAYS_REFRACTED, SPLITTING_VERTICES};
@@ -33,6 +34,7 @@ use std::f32::consts::{FRAC_1_PI, FRAC_PI_2, TAU};
 pub fn shared_constants() -> Vec<(&'static str, f64)> {
     const CONES_AT_EVERYTHING: u32 = ConesAt::Everything as u32;
     const CONES_AT_USUAL: u32 = ConesAt::Usual as u32;
+    const HARD_CAP: u32 = PathSettings::HARD_CAP;
     const MOST_DEPTH: u32 = WhittedSettings::MOST_DEPTH;
     const STAGE_NONE: u32 = chain_state::NONE;
     const STAGE_LEFT: u32 = chain_state::LEFT;
@@ -57,9 +59,11 @@ pub fn shared_constants() -> Vec<(&'static str, f64)> {
         CONES_AT_USUAL,
         COUNT_SHIFT,
         CUT_SHIFT,
+        FIRST_DIMENSION,
         FRAC_1_PI,
         FRAC_PI_2,
         GROUP,
+        HARD_CAP,
         HAS_INDEX,
         KIND_DISK,
         KIND_SHIFT,
@@ -79,6 +83,7 @@ pub fn shared_constants() -> Vec<(&'static str, f64)> {
         LOBE_ROUGH_CONDUCTOR,
         MET_BY_CHANCE,
         MOST_BRANCHES,
+        MOST_CELLS,
         MOST_DEPTH,
         MOST_CONES,
         MOST_FORKS,
@@ -93,6 +98,7 @@ pub fn shared_constants() -> Vec<(&'static str, f64)> {
         NOT_A_LIGHT,
         NO_LIGHT,
         NO_GROUP,
+        ONE_SURFACE,
         ROULETTE_SLOPE,
         SHADOW_END,
         SPARED_VERTICES,
@@ -113,10 +119,15 @@ pub fn shared_constants() -> Vec<(&'static str, f64)> {
 
 /// Names of the overrides that pipelines are compiled with: what scenes ask for, and the settings of any integrator.
 pub fn override_names() -> Vec<&'static str> {
-    let integrators: [Integrator; 3] =
-        [PathSettings::default().into(), WhittedSettings::default().into(), NormalsSettings::default().into()];
-    let keys = integrators.map(|integrator| integrator.pipeline_key(false));
+    let photons = PhotonSettings::default();
+    let integrators: [Integrator; 4] = [
+        PathSettings::default().into(),
+        WhittedSettings::default().into(),
+        NormalsSettings::default().into(),
+        photons.into(),
+    ];
+    let keys = integrators.map(|integrator| integrator.pipeline_key(false)).into_iter().flatten();
     // they share some
-    let of_settings: BTreeSet<_> = keys.into_iter().flatten().flat_map(PipelineKey::constant_names).collect();
+    let of_settings: BTreeSet<_> = keys.chain([photons.walk_key()]).flat_map(PipelineKey::constant_names).collect();
     SceneNeeds::constant_names().chain(of_settings).collect()
 }

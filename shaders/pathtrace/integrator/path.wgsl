@@ -3,10 +3,11 @@
 //#import pathtrace/caster/cone.wgsl
 //#import pathtrace/integrator/path_state.wgsl
 //#import pathtrace/integrator/connected.wgsl
+//#import pathtrace/integrator/roulette.wgsl
 //#import pathtrace/drive/pixels.wgsl
 // One path: the tutorial's `shade`, turned from recursion into a state that moves from vertex to vertex (Task 2 d).
-// Twins: crates/pathtrace/src/integrator/path.rs, directions.rs, forks.rs,
-// splits.rs and roulette.rs.
+// Twins: crates/pathtrace/src/integrator/path.rs, directions.rs, forks.rs
+// and splits.rs.
 //
 // Each step is one segment: meet a surface, take its emission, sample a light, draw a direction, play roulette.
 
@@ -342,25 +343,14 @@ fn weight_of_environment(pdf: f32) -> f32 {
     return weight_of_meeting(pdf);
 }
 
-// Survival for each unit of throughput.
-const ROULETTE_SLOPE: f32 = 4.0;
-
-// Random numbers are multiples of 2^-24: a probability is one as well, or the survivors would be too many by up to
-// that.
-const STEPS: f32 = 16777216.0;
-
-// Vertices of a path up to which throughput does not count at mirrors and glass.
-const SPARED_VERTICES: u32 = 64u;
-
 // Russian roulette by what a path has `deserved`; the survivor carries the light of those that did not. `branches` paths
 // share what one would carry; one that is `spared` does not end for what it has deserved.
 fn survives(deserved: vec3f, branches: f32, spared: bool, u: f32) -> bool {
     var probability = params.probability;
     if params.by_throughput == 1u && !spared {
-        let largest = max(deserved.x, max(deserved.y, deserved.z));
-        probability *= min(ROULETTE_SLOPE * branches * largest, 1.0);
+        probability *= survival(deserved, branches);
     }
-    probability = ceil(probability * STEPS) / STEPS;
+    probability = in_steps(probability);
     // nothing is left to carry: the product has underflowed, or the surface was black
     if probability == 0.0 || all(path.throughput == vec3f(0.0)) {
         return false;

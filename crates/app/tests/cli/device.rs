@@ -101,20 +101,36 @@ fn a_missing_runtime_folder_is_no_error_of_any_command() {
     }
 }
 
+const FEW_PHOTONS: [&str; 6] = ["--spp", "2", "--photons", "1024", "--sampler", "independent"];
+
 #[test]
 fn what_the_processor_alone_follows_is_traced_by_it_and_refused_for_a_device() {
     let folder = TestFolder::new();
-    for technique in ["photon", "light-tracing"] {
-        let options = ["--technique", technique, "--spp", "2", "--photons", "1024", "--sampler", "independent"];
+    let alone: [(&[&str], &str); 2] = [
+        (&["--technique", "light-tracing"], "light tracing runs on the processor alone"),
+        (
+            &["--technique", "photon", "--photon-picture", "points"],
+            "photons are shown as points by the processor alone",
+        ),
+    ];
+    for (technique, why) in alone {
+        let options = [technique, &FEW_PHOTONS].concat();
         let report = json(&render(&folder, None, &options));
         assert_eq!((&report["device"], &report["spp"], &report["photons"]), (&"cpu".into(), &2.into(), &1024.into()));
-        assert_eq!(report["standard_error_reliable"], false, "pixels share photons");
         let refused = render(&folder, None, &[&options[..], &["--device", "gpu"]].concat());
         let told = String::from_utf8_lossy(&refused.stderr).into_owned();
-        assert!(
-            !refused.status.success() && told.contains("--device gpu: photons are followed by the processor alone"),
-            "{told}"
-        );
+        assert!(refused.status.code() == Some(2) && told.contains(&format!("--device gpu: {why}")), "{told}");
+    }
+}
+
+#[test]
+fn photon_maps_are_made_where_rays_are_traced() {
+    let folder = TestFolder::new();
+    for device in ["cpu", "gpu"] {
+        let options = [&["--technique", "photon", "--device", device], &FEW_PHOTONS[..]].concat();
+        let report = json(&render(&folder, None, &options));
+        assert_eq!((&report["device"], &report["spp"], &report["photons"]), (&device.into(), &2.into(), &1024.into()));
+        assert_eq!(report["standard_error_reliable"], false, "pixels share photons");
     }
 }
 

@@ -154,9 +154,18 @@ impl Integrator {
         match self {
             Integrator::Path(settings) => settings.pipeline_key(everything),
             Integrator::Whitted(settings) => Ok(settings.pipeline_key()),
-            Integrator::Photon(_) | Integrator::LightTracing(_) => Err("photons are followed by the processor alone"),
+            Integrator::Photon(settings) => settings.pipeline_key(),
+            Integrator::LightTracing(_) => Err("light tracing runs on the processor alone"),
             Integrator::Metropolis(_) => Err("the chains of Metropolis run on the processor alone"),
             Integrator::Normals(settings) => Ok(settings.pipeline_key()),
+        }
+    }
+
+    /// Whose photons each sample of all pixels gathers, if it does.
+    pub(crate) fn gathers(&self) -> Option<&PhotonSettings> {
+        match self {
+            Integrator::Photon(settings) => Some(settings),
+            _ => None,
         }
     }
 

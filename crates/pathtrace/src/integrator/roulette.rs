@@ -1,6 +1,6 @@
 //! Russian roulette: paths that carry little end early, and those that go on carry their light.
 //!
-//! Twin: `shaders/pathtrace/integrator/path.wgsl`.
+//! Twin: `shaders/pathtrace/integrator/roulette.wgsl`.
 
 use crate::integrator::settings::Roulette;
 use simd::{Float, Vector};

@@ -1,5 +1,7 @@
 //! Light as it leaves what shines, for walks that begin there (pbrt-v3, 16.1.2): a light, a point of it or of the
 //! scene's disc, and a direction, with the power that goes along.
+//!
+//! Twin: `shaders/pathtrace/light/emission.wgsl`.
 
 use super::aim::{Aim, Bounds, around_each};
 use super::ball::ALL_DIRECTIONS;
@@ -93,6 +95,21 @@ impl Emitters {
     /// The sphere around all shapes of the scene.
     pub fn scene(&self) -> Bounds {
         self.scene
+    }
+
+    /// Radiance of a sky of one colour.
+    pub(crate) fn sky(&self) -> Vec3 {
+        self.sky
+    }
+
+    /// Of each emitter the running sum of the probabilities, and its probability.
+    pub(crate) fn chances(&self) -> impl ExactSizeIterator<Item = (f32, f32)> {
+        self.cumulative.iter().copied().zip(self.probabilities.iter().copied())
+    }
+
+    /// Centre and radius of the spheres around what focuses light.
+    pub(crate) fn aims(&self) -> impl ExactSizeIterator<Item = (Vec3, f32)> {
+        self.casters.iter().map(|caster| (caster.center, caster.radius))
     }
 
     /// A photon; `None` where nothing leaves that way.

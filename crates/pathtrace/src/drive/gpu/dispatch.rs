@@ -23,6 +23,8 @@ pub(crate) struct Dispatcher<'a> {
     pub gpu: &'a Gpu,
     pub pipeline: &'a wgpu::ComputePipeline,
     pub scene: &'a wgpu::BindGroup,
+    /// What is bound behind the film, if anything is.
+    pub map: Option<&'a wgpu::BindGroup>,
     pub stopwatch: &'a mut Stopwatch,
     pub pace: &'a mut Pace,
     /// Seconds that a dispatch may take.
@@ -152,6 +154,9 @@ impl Dispatcher<'_> {
             pass.set_pipeline(self.pipeline);
             pass.set_bind_group(0, self.scene, &[]);
             pass.set_bind_group(1, &band.group, &[]);
+            if let Some(map) = self.map {
+                pass.set_bind_group(2, map, &[]);
+            }
             pass.dispatch_workgroups(tile.columns.div_ceil(GROUP), tile.rows.div_ceil(GROUP), 1);
         }
         self.stopwatch.collect(&mut encoder, slot);

@@ -32,6 +32,18 @@ pub enum GpuTraceError {
         /// How many it takes.
         needs: u32,
     },
+    /// More photons at surfaces than a map on the device can hold.
+    #[error(
+        "a pass leaves {found} photons at surfaces, and {adapter} has room for {limit}: ask for fewer photons, or render on the CPU"
+    )]
+    Photons {
+        /// How many there are.
+        found: u32,
+        /// Most that fit.
+        limit: u32,
+        /// Name and interface.
+        adapter: String,
+    },
     /// What no device can follow.
     #[error("{0}: render it on the CPU")]
     ForTheProcessor(&'static str),

@@ -9,10 +9,13 @@ pub(crate) mod environment_data;
 mod error;
 mod film;
 pub mod film_data;
+pub mod photon_data;
+pub(crate) mod photon_maps;
 pub(crate) mod pipelines;
 pub mod rays;
 pub mod scene_data;
 pub mod shape_data;
+pub(crate) mod slices;
 pub(crate) mod timing;
 
 pub use error::GpuTraceError;

@@ -17,19 +17,36 @@ use scene::{Needs, Scene};
 use std::num::NonZeroU64;
 use wgpu::{BindGroupLayout, BindingType, BufferBindingType, ComputePipeline};
 
+/// What a pipeline is bound to beside the scene.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Bound {
+    /// A film.
+    Film,
+    /// A film, and a map of photons.
+    FilmAndMap,
+    /// A list of photons.
+    Photons,
+}
+
 /// The shader of a pipeline, and what of an integrator's settings is compiled into it: those of its overrides that
 /// differ from the shader's own values.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PipelineKey {
     shader: &'static str,
     constants: Vec<(&'static str, f64)>,
+    bound: Bound,
 }
 
 impl PipelineKey {
     /// Of a file under `shaders/`, with these values of the overrides that the integrator alone knows.
     pub fn new(shader: &'static str, sampler: SamplerKind, constants: &[(&'static str, f64)]) -> Self {
         let sobol = ("SOBOL", flag(sampler == SamplerKind::Sobol));
-        PipelineKey { shader, constants: [&[sobol], constants].concat() }
+        PipelineKey { shader, constants: [&[sobol], constants].concat(), bound: Bound::Film }
+    }
+
+    /// The same shader, bound to something else than a film alone.
+    pub(crate) fn bound_to(self, bound: Bound) -> Self {
+        PipelineKey { bound, ..self }
     }
 
     /// Names of the overrides that speak of the settings.
@@ -165,6 +182,10 @@ pub struct Pipelines {
     pub scene_layout: BindGroupLayout,
     /// Group 1: what is asked for, and the film.
     pub film_layout: BindGroupLayout,
+    /// Group 1 of what traces photons: what is asked for, what sends them out, and their list.
+    pub photon_layout: BindGroupLayout,
+    /// Group 2 of what gathers photons: their map.
+    pub map_layout: BindGroupLayout,
     needs: SceneNeeds,
     compiled: Vec<(PipelineKey, ComputePipeline)>,
 }
@@ -175,24 +196,22 @@ impl Pipelines {
     /// # Errors
     /// [`GpuTraceError::Unable`] if the device has too few bindings for storage or no compute shaders.
     pub fn new(gpu: &Gpu, needs: SceneNeeds) -> Result<Self, GpuTraceError> {
-        let limits = gpu.device.limits();
-        let enough = |what, has: u32, needs: u32| {
-            if has >= needs { Ok(()) } else { Err(GpuTraceError::Unable { adapter: gpu.describe(), what, has, needs }) }
-        };
-        enough("storage buffers in a shader", limits.max_storage_buffers_per_shader_stage, 7)?;
-        enough("threads in a group", limits.max_compute_invocations_per_workgroup, 64)?;
-        let (scene_layout, film_layout) = gpu.checked("the path tracer's bindings", || {
-            let read = BufferBindingType::Storage { read_only: true };
-            let mut scene = vec![buffer(BufferBindingType::Uniform, size_of::<Header>())];
-            scene.extend([buffer(read, 0); 6]);
-            scene.push(buffer(BufferBindingType::Uniform, MOST_SHAPES * size_of::<FewShape>()));
-            // the sky's
-            scene.extend([TEXTURE; 2]);
-            let written = buffer(BufferBindingType::Storage { read_only: false }, 0);
-            let film = [buffer(BufferBindingType::Uniform, size_of::<RenderParams>()), written];
-            (layout(gpu, &scene), layout(gpu, &film))
-        })?;
-        Ok(Pipelines { scene_layout, film_layout, needs, compiled: Vec::new() })
+        enough_storage(gpu, 7)?;
+        enough(gpu, "threads in a group", gpu.device.limits().max_compute_invocations_per_workgroup, 64)?;
+        let [scene_layout, film_layout, photon_layout, map_layout] =
+            gpu.checked("the path tracer's bindings", || {
+                let read = BufferBindingType::Storage { read_only: true };
+                let mut scene = vec![buffer(BufferBindingType::Uniform, size_of::<Header>())];
+                scene.extend([buffer(read, 0); 6]);
+                scene.push(buffer(BufferBindingType::Uniform, MOST_SHAPES * size_of::<FewShape>()));
+                // the sky's
+                scene.extend([TEXTURE; 2]);
+                let written = buffer(BufferBindingType::Storage { read_only: false }, 0);
+                let film = [buffer(BufferBindingType::Uniform, size_of::<RenderParams>()), written];
+                let photons = [BufferKind::Uniform, BufferKind::Read, BufferKind::Written];
+                [layout(gpu, &scene), layout(gpu, &film), layout_of(gpu, &photons), layout_of(gpu, &[BufferKind::Read])]
+            })?;
+        Ok(Pipelines { scene_layout, film_layout, photon_layout, map_layout, needs, compiled: Vec::new() })
     }
 
     /// What they are compiled for.
@@ -215,10 +234,19 @@ impl Pipelines {
         }
         let module = shaders::compose(key.shader)?.create(gpu)?;
         let constants = [self.needs.constants(), key.constants.clone()].concat();
+        if key.bound != Bound::Film {
+            enough_storage(gpu, 8)?;
+        }
+        let own = match key.bound {
+            Bound::Film => vec![&self.film_layout],
+            Bound::FilmAndMap => vec![&self.film_layout, &self.map_layout],
+            Bound::Photons => vec![&self.photon_layout],
+        };
+        let groups: Vec<_> = [&self.scene_layout].into_iter().chain(own).map(Some).collect();
         let pipeline = gpu.checked("the path tracer's pipeline", || {
             let layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
                 label: None,
-                bind_group_layouts: &[Some(&self.scene_layout), Some(&self.film_layout)],
+                bind_group_layouts: &groups,
                 immediate_size: 0,
             });
             gpu.device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
@@ -236,6 +264,54 @@ impl Pipelines {
         self.compiled.push((key.clone(), pipeline.clone()));
         Ok(pipeline)
     }
+}
+
+/// Whether a shader can be bound to so many storage buffers.
+fn enough_storage(gpu: &Gpu, needs: u32) -> Result<(), GpuTraceError> {
+    enough(gpu, "storage buffers in a shader", gpu.device.limits().max_storage_buffers_per_shader_stage, needs)
+}
+
+fn enough(gpu: &Gpu, what: &'static str, has: u32, needs: u32) -> Result<(), GpuTraceError> {
+    if has >= needs { Ok(()) } else { Err(GpuTraceError::Unable { adapter: gpu.describe(), what, has, needs }) }
+}
+
+/// What a shader does with a buffer.
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum BufferKind {
+    /// Reads it, a small one.
+    Uniform,
+    /// Reads it.
+    Read,
+    /// Reads and writes it.
+    Written,
+}
+
+/// Buffers at bindings 0, 1, 2 ... of a group.
+pub(crate) fn layout_of(gpu: &Gpu, kinds: &[BufferKind]) -> BindGroupLayout {
+    let of_kind = |kind: &BufferKind| match kind {
+        BufferKind::Uniform => BufferBindingType::Uniform,
+        BufferKind::Read => BufferBindingType::Storage { read_only: true },
+        BufferKind::Written => BufferBindingType::Storage { read_only: false },
+    };
+    let bindings: Vec<_> = kinds.iter().map(|kind| buffer(of_kind(kind), 0)).collect();
+    layout(gpu, &bindings)
+}
+
+/// A group of whole buffers at bindings 0, 1, 2 ...
+///
+/// # Errors
+/// [`gpu::GpuError::Refused`] if the device can't take it.
+pub(crate) fn group(
+    gpu: &Gpu,
+    what: &str,
+    layout: &BindGroupLayout,
+    buffers: &[&wgpu::Buffer],
+) -> Result<wgpu::BindGroup, GpuTraceError> {
+    let resources = buffers.iter().map(|buffer| buffer.as_entire_binding());
+    let entries: Vec<_> =
+        (0..).zip(resources).map(|(binding, resource)| wgpu::BindGroupEntry { binding, resource }).collect();
+    let descriptor = wgpu::BindGroupDescriptor { label: Some(what), layout, entries: &entries };
+    Ok(gpu.checked(what, || gpu.device.create_bind_group(&descriptor))?)
 }
 
 /// A buffer of at least so many bytes.

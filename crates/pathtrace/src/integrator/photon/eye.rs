@@ -3,6 +3,8 @@
 //! For a photon map they go through mirrors, metal and glass to the first diffuse surface, and gather there; metal that is
 //! rough weighs its lights as `mis` does. For light tracing they end at the first surface, whose light the photons
 //! have brought to the pixel.
+//!
+//! Twin: `shaders/pathtrace/integrator/photon/eye.wgsl`, for photon maps.
 
 use super::map::PhotonMap;
 use crate::bsdf::Interactions;

@@ -1,5 +1,7 @@
 //! Photons of one pass where they have landed, sorted by the cells of a hashed grid: Teschner et al., "Optimized Spatial
 //! Hashing for Collision Detection of Deformable Objects" (2003).
+//!
+//! Twins: `shaders/pathtrace/integrator/photon/map.wgsl`, sort.wgsl, where threads sort together, and eye.wgsl, which gathers.
 
 use crate::drive::lanes::Stop;
 use scene::Vec3;
@@ -19,7 +21,7 @@ pub struct Photon {
 
 /// Cosine between two normals below which their surfaces are not one: photons of the next wall of a corner, or of the
 /// other side of a thin one, are left out.
-const ONE_SURFACE: f32 = 0.5;
+pub(crate) const ONE_SURFACE: f32 = 0.5;
 
 /// The photons of a pass, with the radius in which they are gathered.
 pub struct PhotonMap {
@@ -76,7 +78,7 @@ impl Grid {
 }
 
 /// Two along each axis; where coordinates are rounded to the size of cells, three.
-const MOST_CELLS: usize = 27;
+pub(crate) const MOST_CELLS: usize = 27;
 
 impl PhotonMap {
     /// Sorts photons, for which the order in which they come is kept: sums do not depend on who has traced them. Chunks of

@@ -12,9 +12,12 @@ mod radius;
 mod seen;
 mod walk;
 
+pub(crate) use map::{MOST_CELLS, ONE_SURFACE};
 pub use map::{Photon, PhotonMap};
 pub use radius::{radius_of_pass, sees_little, usual_radius};
+pub(crate) use walk::FIRST_DIMENSION;
 
+use crate::drive::gpu::{PipelineKey, flag, pipelines::Bound};
 use crate::drive::lanes::{FilmJob, FilmPass, Stop};
 use crate::integrator::settings::SettingsError;
 use crate::light::Aim;
@@ -126,6 +129,26 @@ impl PhotonSettings {
         radius.map_or(Ok(()), |radius| Err(SettingsError::Radius(radius)))
     }
 
+    /// What gathers on the graphics device.
+    ///
+    /// # Errors
+    /// Where photons are shown as points.
+    pub(super) fn pipeline_key(&self) -> Result<PipelineKey, &'static str> {
+        if self.points {
+            return Err("photons are shown as points by the processor alone");
+        }
+        let constants = [("DIRECT_GATHERED", flag(self.direct == DirectLight::Photons))];
+        let key = PipelineKey::new("pathtrace/integrator/photon/eye.wgsl", self.sampler, &constants);
+        Ok(key.bound_to(Bound::FilmAndMap))
+    }
+
+    /// What traces photons there.
+    pub(crate) fn walk_key(&self) -> PipelineKey {
+        let constants = [("DIRECT_PHOTONS", flag(self.direct == DirectLight::Photons))];
+        let key = PipelineKey::new("pathtrace/integrator/photon/walk.wgsl", self.sampler, &constants);
+        key.bound_to(Bound::Photons)
+    }
+
     pub(super) fn fill(&self, film: &mut Film, job: &FilmJob) -> Stats {
         let stop = remembered(job.stop);
         let job = &FilmJob { stop: &stop, ..*job };
@@ -217,4 +240,4 @@ impl FilmJob<'_> {
 }
 
 #[cfg(test)]
-mod tests;
+pub(crate) mod tests;

@@ -10,18 +10,28 @@ use scene::{Scene, builtin};
 
 /// Does something to the first pass that keeps photons, with all that came from lights directly.
 fn with_first_pass<T>(scene: &Scene, photons: u32, of: impl FnOnce(&PhotonPass, &FilmJob) -> T) -> T {
-    let tracer = &Tracer::new(scene);
+    let direct = DirectLight::Photons;
+    with_first_pass_of(&Tracer::new(scene), scene, (photons, direct), of)
+}
+
+fn with_first_pass_of<T>(
+    tracer: &Tracer,
+    scene: &Scene,
+    (photons, direct): (u32, DirectLight),
+    of: impl FnOnce(&PhotonPass, &FilmJob) -> T,
+) -> T {
     let film = Film::new(1, 1);
     let pass = FilmPass::new(&film, &scene.camera, 1, (SamplerKind::Sobol, 1));
     let (ready, stand_ins) = (tracer.prepared(), &scene.fake);
     let guides = &Guides::new(Cells::new(scene.bounds()));
     let job = FilmJob { scene: ready, stand_ins, guides, lanes: tracer.lanes(), pass, stop: &|| false };
-    let aim = job.aim(0.0);
-    of(&PhotonPass { number: 0, photons, purpose: Purpose::Map, direct: true, aim: &aim }, &job)
+    let (aim, direct) = (job.aim(0.0), direct == DirectLight::Photons);
+    of(&PhotonPass { number: 0, photons, purpose: Purpose::Map, direct, aim: &aim }, &job)
 }
 
-fn photons_of(scene: &Scene, photons: u32) -> Vec<Photon> {
-    with_first_pass(scene, photons, |pass, job| {
+/// The photons of the first pass.
+pub fn photons_of(tracer: &Tracer, scene: &Scene, photons: u32, direct: DirectLight) -> Vec<Photon> {
+    with_first_pass_of(tracer, scene, (photons, direct), |pass, job| {
         let mut all = Vec::new();
         pass.trace(job, |traces| all.extend(traces.photons)).expect("nobody stops it");
         all
@@ -33,7 +43,7 @@ fn photons_of(scene: &Scene, photons: u32) -> Vec<Photon> {
 #[test]
 fn a_closed_box_keeps_all_the_power_that_its_walls_send_out() {
     let closed = builtin::named("hard/closed-box").expect("a built-in scene");
-    let photons = photons_of(&closed, 1 << 16);
+    let photons = photons_of(&Tracer::new(&closed), &closed, 1 << 16, DirectLight::Photons);
     let stored: f64 = photons.iter().map(|photon| f64::from(photon.power.x)).sum();
     let expected = 6.0 * 0.5 * std::f64::consts::PI / (1.0 - 0.5);
     // roulette's share: a standard error of a two hundredth of the photons' root

@@ -3,6 +3,8 @@
 //!
 //! Chunks of photons have one length, and what they leave is put into the order of photons: pictures depend on neither
 //! threads nor lanes.
+//!
+//! Twin: `shaders/pathtrace/integrator/photon/walk.wgsl`.
 
 use super::map::Photon;
 use super::pinhole::Pinhole;
@@ -44,7 +46,7 @@ const MOST_AT_ONCE: f64 = (1 << 22) as f64;
 const KEPT_KEY: u32 = 0x9407_0b17;
 
 /// Blocks of random numbers of photons begin here, behind all of a camera path's: two for the light, and one at each surface.
-const FIRST_DIMENSION: u32 = 1 << 16;
+pub(crate) const FIRST_DIMENSION: u32 = 1 << 16;
 
 /// Light at a pixel.
 #[derive(Debug, Clone, Copy, PartialEq)]

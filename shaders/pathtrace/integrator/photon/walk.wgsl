@@ -1,0 +1,117 @@
+//#import pathtrace/prepared.wgsl
+//#import pathtrace/bsdf/bsdf.wgsl
+//#import pathtrace/light/emission.wgsl
+//#import pathtrace/integrator/roulette.wgsl
+//#import pathtrace/integrator/photon/map.wgsl
+//#import pathtrace/sampling/sampler.wgsl
+// Photons on their way from the lights: as paths from the camera, but backwards, and what they leave at diffuse surfaces.
+// A thread is a photon. They are written as they arrive, which differs from run to run; sort.wgsl puts them in order. Twin:
+// crates/pathtrace/src/integrator/photon/walk.rs.
+
+// whether photons are kept that come from a light directly
+override DIRECT_PHOTONS: bool = false;
+
+// Blocks of random numbers of photons begin here: two for the light, and one at each surface.
+const FIRST_DIMENSION: u32 = 65536u;
+
+// Bits of a photon's order that tell where on its way it was left. Here alone: the processor has pairs.
+const VERTEX_BITS: u32 = 10u;
+
+struct PhotonList {
+    // how many were found, be there room for them or not
+    found: atomic<u32>,
+    cut_paths: atomic<u32>,
+    // rays traced, and above them what overflowed
+    rays: atomic<u32>,
+    rays_high: atomic<u32>,
+    photons: array<Photon>,
+}
+
+@group(1) @binding(0) var<uniform> asked: PhotonParams;
+@group(1) @binding(2) var<storage, read_write> list: PhotonList;
+
+var<private> sampler_: Sampler;
+var<private> ray: Ray;
+// at the light
+var<private> power: vec3f;
+var<private> throughput: vec3f;
+// at which the photon has scattered
+var<private> vertices: u32;
+
+@compute @workgroup_size(64)
+fn trace(@builtin(global_invocation_id) id: vec3u) {
+    let index = asked.first + id.x;
+    if index >= asked.end {
+        return;
+    }
+    sampler_ = Sampler(asked.number, index, asked.seed);
+    let emitted = emit(choice_of_photon());
+    if max(emitted.power.x, max(emitted.power.y, emitted.power.z)) <= 0.0 {
+        return;
+    }
+    ray = emitted.ray;
+    power = emitted.power / f32(asked.photons);
+    throughput = vec3f(1.0);
+    vertices = 0u;
+    var rays = 1u;
+    while segment() {
+        rays += 1u;
+    }
+    let before = atomicAdd(&list.rays, rays);
+    if before + rays < before {
+        atomicAdd(&list.rays_high, 1u);
+    }
+}
+
+// Place and direction are one point of four dimensions.
+fn choice_of_photon() -> EmissionChoice {
+    let point = unit4(sampler_, FIRST_DIMENSION);
+    let chosen = unit4(sampler_, FIRST_DIMENSION + 1u);
+    return EmissionChoice(chosen.x, chosen.y, chosen.z, point.xy, point.zw);
+}
+
+// One segment; false where the photon has come to its end.
+fn segment() -> bool {
+    let nearest = closest(ray);
+    if nearest.index == NOTHING {
+        return false;
+    }
+    let vertex = interaction_of(hit_of(nearest, ray), -ray.direction);
+    if all(vertex.colour == vec3f(0.0)) {
+        return false;
+    }
+    if is_diffuse(vertex) && (DIRECT_PHOTONS || vertices > 0u) {
+        keep(vertex);
+    }
+    let u = unit4(sampler_, FIRST_DIMENSION + 2u + vertices);
+    let sample = sample_bsdf(vertex, u.xyw);
+    let spared = is_delta(vertex) && vertices < SPARED_VERTICES;
+    throughput = surviving(throughput * sample.weight, spared, u.z);
+    if DIELECTRIC && dot(vertex.normal, sample.wi) < 0.0 {
+        power *= basic(vertex);
+    }
+    ray = Ray(leaving_towards(vertex.point, sample.wi), sample.wi, FAR);
+    vertices += 1u;
+    let survives = any(throughput != vec3f(0.0));
+    if survives && vertices == HARD_CAP {
+        atomicAdd(&list.cut_paths, 1u);
+    }
+    return survives && vertices < HARD_CAP;
+}
+
+// What refraction does to power over the square of the index.
+fn basic(vertex: Interaction) -> f32 {
+    let ior = materials[vertex.material].ior;
+    let squared = ior * ior;
+    return select(squared, 1.0 / squared, dot(vertex.point.normal, vertex.wo) >= 0.0);
+}
+
+// Keeps the photon where it has arrived, if there is room.
+fn keep(vertex: Interaction) {
+    let place = atomicAdd(&list.found, 1u);
+    if place < asked.capacity {
+        let order = (sampler_.sample << VERTEX_BITS) | vertices;
+        list.photons[place] =
+            Photon(vertex.point.position, packed_normal(vertex.normal), power * throughput, order);
+    }
+}
