@@ -1,6 +1,7 @@
 //! How many paths and rays a second each graphics device traces, and the processor: in the Cornell box, among the
 //! spheres, and over a mesh of a million triangles. A path is complete: light is sampled at every vertex, roulette goes
-//! by the throughput, and there is no limit of bounces.
+//! by the throughput, and there is no limit of bounces. And photon maps, of which each sample has one: their rays are
+//! those of photons too.
 //!
 //!     cargo run --release -p pathtrace --example device_rates [WIDTH HEIGHT SPP]
 //!
@@ -14,7 +15,7 @@ use film::Film;
 use gpu::{Gpu, wgpu};
 use meshes::hills_and_sphere;
 use pathtrace::gpu::{GpuTraceError, GpuTracer};
-use pathtrace::{PathSettings, Stats, Tracer};
+use pathtrace::{Integrator, PathSettings, PhotonSettings, Stats, Tracer};
 use scene::{Scene, Shape};
 use std::error::Error;
 use std::path::Path;
@@ -40,35 +41,36 @@ fn main() -> Result<(), Box<dyn Error>> {
     };
     let scenes = [scene::builtin::named("cornell")?, scene::builtin::named("whitted")?, mesh()?];
     println!("{width} x {height}, {spp} spp");
-    println!("{:10} {:60} {:>9} {:>9}", "scene", "traced by", "Mpaths/s", "Mrays/s");
-    for scene in &scenes {
+    println!("{:10} {:8} {:60} {:>9} {:>9}", "scene", "what", "traced by", "Mpaths/s", "Mrays/s");
+    let film = || Film::try_new(width, height).ok_or("not enough memory");
+    let integrators: [Integrator; 2] = [PathSettings::default().into(), PhotonSettings::default().into()];
+    for (scene, integrator) in scenes.iter().flat_map(|scene| integrators.map(|integrator| (scene, integrator))) {
         for through in [wgpu::Backends::VULKAN, wgpu::Backends::METAL, wgpu::Backends::DX12, wgpu::Backends::GL] {
             let Ok(gpu) = Gpu::headless_through(through) else { continue };
-            let film = || Film::try_new(width, height).ok_or("not enough memory");
             for (way, make) in WAYS {
                 let mut tracer = make(&gpu, scene)?;
                 tracer.set_budget(BUDGET);
-                let settings = PathSettings::default();
-                tracer.render(&mut film()?, &scene.camera, &settings.into(), spp.div_ceil(4), &|| false)?;
+                tracer.render(&mut film()?, &scene.camera, &integrator, spp.div_ceil(4), &|| false)?;
                 tracer.take_seconds();
-                let stats = tracer.render(&mut film()?, &scene.camera, &settings.into(), spp, &|| false)?;
+                let stats = tracer.render(&mut film()?, &scene.camera, &integrator, spp, &|| false)?;
                 let clock = if tracer.has_a_clock() { "" } else { " (by the wall's clock)" };
-                tell(&scene.name, &format!("{}{way}{clock}", gpu.describe()), stats, tracer.take_seconds());
+                let by = format!("{}{way}{clock}", gpu.describe());
+                tell((&scene.name, integrator.name()), &by, stats, tracer.take_seconds());
             }
         }
         let tracer = Tracer::new(scene);
-        let mut film = Film::try_new(width, height).ok_or("not enough memory")?;
+        let mut film = film()?;
         let start = Instant::now();
-        let stats = tracer.render(&mut film, &scene.camera, &PathSettings::default().into(), spp, &|| false);
+        let stats = tracer.render(&mut film, &scene.camera, &integrator, spp, &|| false);
         let threads = std::thread::available_parallelism().map_or(1, usize::from);
-        tell(&scene.name, &format!("{threads} threads"), stats, start.elapsed().as_secs_f64());
+        tell((&scene.name, integrator.name()), &format!("{threads} threads"), stats, start.elapsed().as_secs_f64());
     }
     Ok(())
 }
 
-fn tell(scene: &str, by: &str, stats: Stats, seconds: f64) {
+fn tell((scene, what): (&str, &str), by: &str, stats: Stats, seconds: f64) {
     let rate = |count: u64| count as f64 / seconds / 1e6;
-    println!("{scene:10} {by:60} {:9.2} {:9.2}", rate(stats.samples), rate(stats.rays));
+    println!("{scene:10} {what:8} {by:60} {:9.2} {:9.2}", rate(stats.samples), rate(stats.rays));
 }
 
 /// The mesh under a bright sky and an area light.

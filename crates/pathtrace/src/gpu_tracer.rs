@@ -37,7 +37,7 @@ pub struct GpuTracer {
     /// Once photons were asked for.
     pub(crate) photon_maps: Option<PhotonMaps>,
     stopwatch: Stopwatch,
-    paces: Vec<(PipelineKey, RenderParams, Pace)>,
+    paces: Vec<(PipelineKey, Effort, Pace)>,
     budget: f64,
     /// What dispatches have taken.
     seconds: f64,
@@ -220,7 +220,7 @@ impl GpuTracer {
         let key = key.map_err(GpuTraceError::ForTheProcessor)?;
         let pipeline = self.pipelines.prepare(&self.gpu, &key)?;
         let params = integrator.render_params(params(film, camera), &self.stand_ins);
-        let effort = params.effort();
+        let effort = Effort { params: params.effort(), photons: integrator.gathers().map(PhotonSettings::effort) };
         let known = self.paces.iter().position(|(known, ..)| *known == key).unwrap_or_else(|| {
             self.paces.push((key, effort, Pace::default()));
             self.paces.len() - 1
@@ -269,6 +269,13 @@ impl GpuTracer {
 fn params(film: &GpuFilm, camera: &Camera) -> RenderParams {
     let (width, height) = (film.width(), film.height());
     RenderParams::of(&camera.frame(width as f32 / height as f32), (width, height))
+}
+
+/// What a sample's cost depends on, beside the scene and what is seen of it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Effort {
+    params: RenderParams,
+    photons: Option<PhotonSettings>,
 }
 
 /// What is left out of what any scene can ask for.

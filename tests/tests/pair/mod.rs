@@ -3,7 +3,7 @@
 use film::Film;
 use gpu::Gpu;
 use pathtrace::gpu::GpuTracer;
-use pathtrace::{PathSettings, Stats, Tracer};
+use pathtrace::{Integrator, Stats, Tracer};
 use scene::{Scene, Vec3};
 
 pub struct Pair {
@@ -30,7 +30,7 @@ impl Pair {
 }
 
 /// A picture by these paths, rendered on both machines.
-pub fn paths(gpu: &Gpu, scene: &Scene, size: (u32, u32), spp: u32, settings: &PathSettings) -> Pair {
+pub fn paths(gpu: &Gpu, scene: &Scene, size: (u32, u32), spp: u32, settings: &(impl Into<Integrator> + Copy)) -> Pair {
     let [mut on_gpu, mut on_cpu] = [(); 2].map(|()| Film::new(size.0, size.1));
     let mut tracer = GpuTracer::new(gpu, scene).unwrap();
     let gpu = tracer.render(&mut on_gpu, &scene.camera, &(*settings).into(), spp, &|| false).unwrap();

@@ -41,6 +41,8 @@ pub(crate) struct PhotonMaps {
     steps: Vec<ComputePipeline>,
     /// Of tracing, and of each step of sorting.
     paces: [Pace; 1 + STEPS.len()],
+    /// What the paces were learned of.
+    effort: Option<PhotonSettings>,
     room: Option<Room>,
     /// The last map, and what it is of.
     made: Option<(PhotonSettings, u32, BindGroup)>,
@@ -62,6 +64,8 @@ pub(crate) struct PhotonWork<'a> {
 /// Buffers for so many photons.
 #[derive(Debug)]
 struct Room {
+    /// Of passes that send out as many.
+    of_photons: u32,
     capacity: u32,
     asked: Buffer,
     list: Buffer,
@@ -100,7 +104,7 @@ impl PhotonMaps {
             let steps = STEPS.map(pipeline).into();
             (sort_layout, steps)
         })?;
-        Ok(PhotonMaps { sort_layout, steps, paces: Default::default(), room: None, made: None })
+        Ok(PhotonMaps { sort_layout, steps, paces: Default::default(), effort: None, room: None, made: None })
     }
 
     /// Photons of another scene are others, and may take longer.
@@ -119,34 +123,51 @@ impl PhotonMaps {
         work: &mut PhotonWork,
         stop: &impl Fn() -> bool,
     ) -> Result<Option<(BindGroup, PhotonCounts)>, GpuTraceError> {
-        if let Some((settings, number, map)) = self.made.take()
-            && (&settings, number) == (work.settings, work.number)
-        {
-            self.made = Some((settings, number, map.clone()));
+        if let Some(map) = self.recalled(work) {
             return Ok(Some((map, PhotonCounts::zeroed())));
         }
+        self.made = None;
+        let effort = Some(work.settings.effort());
+        if self.effort != effort {
+            (self.effort, self.paces) = (effort, Default::default());
+        }
+        let Some((room, counts)) = self.traced(work, stop)? else { return Ok(None) };
         let gpu = work.slices.gpu;
-        let usual = work.settings.photons.saturating_mul(USUAL_SHARE).min(most_photons(gpu));
-        let mut room = match self.room.take() {
-            Some(room) if room.capacity >= usual => room,
-            _ => Room::new(gpu, usual)?,
-        };
-        let counts = loop {
-            let Some(counts) = self.trace(work, &room, stop)? else {
-                self.room = Some(room);
-                return Ok(None);
-            };
-            if counts.found <= room.capacity {
-                break counts;
-            }
-            drop(room);
-            room = Room::new(gpu, with_reserve(gpu, counts.found)?)?;
-        };
         let sorted = self.sort(work, &room, counts.found, stop)?;
         let map = group(gpu, WHAT, work.layouts[1], &[&room.map])?;
         self.room = Some(room);
         self.made = sorted.then(|| (*work.settings, work.number, map.clone()));
         Ok(sorted.then_some((map, counts)))
+    }
+
+    /// The last map, if it is the one that is asked for: samples that were stopped go on with it.
+    fn recalled(&self, work: &PhotonWork) -> Option<BindGroup> {
+        let (settings, number, map) = self.made.as_ref()?;
+        ((settings, *number) == (work.settings, work.number)).then(|| map.clone())
+    }
+
+    /// The photons of a pass in a list that is long enough for all of them; `None` where it was stopped.
+    fn traced(
+        &mut self,
+        work: &mut PhotonWork,
+        stop: &impl Fn() -> bool,
+    ) -> Result<Option<(Room, PhotonCounts)>, GpuTraceError> {
+        let (gpu, photons) = (work.slices.gpu, work.settings.photons);
+        let mut room = match self.room.take() {
+            Some(room) if room.of_photons == photons => room,
+            _ => Room::new(gpu, photons, photons.saturating_mul(USUAL_SHARE).min(most_photons(gpu)))?,
+        };
+        loop {
+            let Some(counts) = self.trace(work, &room, stop)? else {
+                self.room = Some(room);
+                return Ok(None);
+            };
+            if counts.found <= room.capacity {
+                return Ok(Some((room, counts)));
+            }
+            drop(room);
+            room = Room::new(gpu, photons, with_reserve(gpu, counts.found)?)?;
+        }
     }
 
     /// Traces the photons of a pass into a list.
@@ -183,7 +204,8 @@ impl PhotonMaps {
         let buffers = [&room.asked, &room.list, &room.map, &room.buckets, &room.entries];
         let bound = group(gpu, WHAT, &self.sort_layout, &buffers)?;
         let params = work.params(room.capacity);
-        let items = [found, (grid.mask + 1) / 2, found, found];
+        // two buckets in each word before the photons
+        let items = [found, grid.photons, found, found];
         for ((pipeline, pace), items) in self.steps.iter().zip(&mut self.paces[1..]).zip(items) {
             let ask = |first, end| room.ask(gpu, PhotonParams { first, end, ..params });
             if !work.slices.run((pipeline, &[&bound]), pace, items, ask, stop)? {
@@ -207,7 +229,7 @@ impl PhotonWork<'_> {
 }
 
 impl Room {
-    fn new(gpu: &Gpu, capacity: u32) -> Result<Self, GpuTraceError> {
+    fn new(gpu: &Gpu, of_photons: u32, capacity: u32) -> Result<Self, GpuTraceError> {
         let buckets = u64::from(capacity.next_power_of_two().max(2));
         let (photons, words) = (u64::from(capacity) * size_of::<Photon>() as u64, buckets * 8);
         let buffer = |size: u64, usage| {
@@ -219,6 +241,7 @@ impl Room {
         let counts = size_of::<PhotonCounts>() as u64;
         let of_all = || -> Result<Self, GpuError> {
             Ok(Room {
+                of_photons,
                 capacity,
                 // uniforms come in 16 bytes
                 asked: buffer((size_of::<PhotonParams>() as u64).next_multiple_of(16), uniform)?,

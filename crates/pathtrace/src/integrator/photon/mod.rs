@@ -142,6 +142,11 @@ impl PhotonSettings {
         Ok(key.bound_to(Bound::FilmAndMap))
     }
 
+    /// What of it a pass's cost depends on: not its number.
+    pub(crate) fn effort(&self) -> Self {
+        PhotonSettings { seed: 0, ..*self }
+    }
+
     /// What traces photons there.
     pub(crate) fn walk_key(&self) -> PipelineKey {
         let constants = [("DIRECT_PHOTONS", flag(self.direct == DirectLight::Photons))];
