@@ -1,5 +1,5 @@
-//! Mirrors of the structs in `shaders/pathtrace/integrator/photon/` and of that in `shaders/pathtrace/light/`, field for field. A
-//! test compares every offset with the shader compiler's. Padding is spelled out as `unused*`.
+//! Mirrors of the structs in `shaders/pathtrace/integrator/photon/map.wgsl` and `shaders/pathtrace/light/emission.wgsl`, field for
+//! field. A test compares every offset with the shader compiler's. Padding is spelled out as `unused*`.
 
 use crate::light::{Bounds, Emitters};
 use bytemuck::{Pod, Zeroable};
