@@ -45,7 +45,17 @@ pub(crate) struct PhotonMaps {
     effort: Option<PhotonSettings>,
     room: Option<Room>,
     /// The last map, and what it is of.
-    made: Option<(PhotonSettings, u32, BindGroup)>,
+    made: Option<(PassKey, BindGroup)>,
+}
+
+/// What photons of a pass are a function of, beside the shapes of a scene.
+#[derive(Debug, PartialEq)]
+struct PassKey {
+    settings: PhotonSettings,
+    number: u32,
+    radius: f32,
+    /// What sends them out, as the device reads it.
+    emission: Vec<u8>,
 }
 
 /// One pass.
@@ -123,33 +133,34 @@ impl PhotonMaps {
         work: &mut PhotonWork,
         stop: &impl Fn() -> bool,
     ) -> Result<Option<(BindGroup, PhotonCounts)>, GpuTraceError> {
-        if let Some(map) = self.recalled(work) {
-            return Ok(Some((map, PhotonCounts::zeroed())));
+        let key = work.key();
+        // samples that were stopped go on with the map that they had
+        if let Some((_, map)) = self.made.as_ref().filter(|(made, _)| *made == key) {
+            return Ok(Some((map.clone(), PhotonCounts::zeroed())));
         }
         self.made = None;
-        let effort = Some(work.settings.effort());
-        if self.effort != effort {
-            (self.effort, self.paces) = (effort, Default::default());
-        }
-        let Some((room, counts)) = self.traced(work, stop)? else { return Ok(None) };
+        self.begin(work.settings.effort());
+        let Some((room, counts)) = self.traced(work, &key.emission, stop)? else { return Ok(None) };
         let gpu = work.slices.gpu;
         let sorted = self.sort(work, &room, counts.found, stop)?;
         let map = group(gpu, WHAT, work.layouts[1], &[&room.map])?;
         self.room = Some(room);
-        self.made = sorted.then(|| (*work.settings, work.number, map.clone()));
+        self.made = sorted.then(|| (key, map.clone()));
         Ok(sorted.then_some((map, counts)))
     }
 
-    /// The last map, if it is the one that is asked for: samples that were stopped go on with it.
-    fn recalled(&self, work: &PhotonWork) -> Option<BindGroup> {
-        let (settings, number, map) = self.made.as_ref()?;
-        ((settings, *number) == (work.settings, work.number)).then(|| map.clone())
+    /// Learns the paces anew where passes cost something else.
+    fn begin(&mut self, effort: PhotonSettings) {
+        if self.effort != Some(effort) {
+            (self.effort, self.paces) = (Some(effort), Default::default());
+        }
     }
 
     /// The photons of a pass in a list that is long enough for all of them; `None` where it was stopped.
     fn traced(
         &mut self,
         work: &mut PhotonWork,
+        emission: &[u8],
         stop: &impl Fn() -> bool,
     ) -> Result<Option<(Room, PhotonCounts)>, GpuTraceError> {
         let (gpu, photons) = (work.slices.gpu, work.settings.photons);
@@ -158,7 +169,7 @@ impl PhotonMaps {
             _ => Room::new(gpu, photons, photons.saturating_mul(USUAL_SHARE).min(most_photons(gpu)))?,
         };
         loop {
-            let Some(counts) = self.trace(work, &room, stop)? else {
+            let Some(counts) = self.trace(work, &room, emission, stop)? else {
                 self.room = Some(room);
                 return Ok(None);
             };
@@ -175,11 +186,11 @@ impl PhotonMaps {
         &mut self,
         work: &mut PhotonWork,
         room: &Room,
+        emission: &[u8],
         stop: &impl Fn() -> bool,
     ) -> Result<Option<PhotonCounts>, GpuTraceError> {
         let gpu = work.slices.gpu;
-        let emission =
-            gpu.buffer("what sends out photons", &emission(&work.sources.emitters), BufferUsages::STORAGE)?;
+        let emission = gpu.buffer("what sends out photons", emission, BufferUsages::STORAGE)?;
         let bound = group(gpu, WHAT, work.layouts[0], &[&room.asked, &emission, &room.list])?;
         gpu.queue.write_buffer(&room.list, 0, &[0; size_of::<PhotonCounts>()]);
         let (walk, groups) = (work.walk, [work.scene, &bound]);
@@ -217,6 +228,11 @@ impl PhotonMaps {
 }
 
 impl PhotonWork<'_> {
+    fn key(&self) -> PassKey {
+        let (settings, number, radius) = (*self.settings, self.number, self.radius());
+        PassKey { settings, number, radius, emission: emission(&self.sources.emitters) }
+    }
+
     fn params(&self, capacity: u32) -> PhotonParams {
         let PhotonSettings { photons, seed, .. } = *self.settings;
         PhotonParams { first: 0, end: 0, number: self.number, photons, seed, capacity }
