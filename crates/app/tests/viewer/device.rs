@@ -2,7 +2,8 @@
 
 use super::export::export;
 use super::{User, both_whole};
-use technique::DeviceChoice;
+use technique::{DeviceChoice, TechniqueName};
+use visavis::model::PaneId;
 use visavis_tests::Frame;
 
 fn made_by(frame: &Frame, device: &str) -> bool {
@@ -47,4 +48,23 @@ fn an_adapter_is_chosen_by_its_name() {
     user.wait_for("its picture", |f| {
         made_by(f, "gpu") && f.state("b")["adapter"].as_str().is_some_and(|adapter| adapter.ends_with("OpenGL"))
     });
+}
+
+/// Each sample has a photon map of its own, on the device that is asked for; the photons' points are not for it, and the
+/// pane says so.
+#[test]
+fn the_gpu_makes_photon_maps_and_the_processor_shows_their_points() {
+    let mut user = User::beside("cornell", egui::vec2(1280.0, 720.0), 1.0, DeviceChoice::Gpu);
+    user.change(|model| {
+        let pane = &mut model.session.panes[PaneId::B];
+        pane.technique = TechniqueName::Photon;
+        (pane.photon.spp, pane.photon.photon.photons) = (2, 1 << 12);
+    });
+    let of_photons = |f: &Frame| f.value("label B").to_lowercase().contains("photon");
+    let traced = user.wait_for("photons by the GPU", |f| made_by(f, "gpu") && of_photons(f));
+    assert!(traced.state("b")["refused"].is_null() && traced.value("label B").contains("on the GPU"));
+    user.change(|model| model.session.panes[PaneId::B].photon.photon.points = true);
+    user.wait_for("their points by the processor", |f| made_by(f, "cpu"));
+    let more = user.unfold_more("B");
+    assert_eq!(more.value("text B device"), "photons are shown as points by the processor alone");
 }
