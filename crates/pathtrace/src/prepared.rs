@@ -7,13 +7,14 @@ use crate::bsdf::interaction::facing;
 use crate::bsdf::materials::Materials;
 use crate::caster::Casters;
 use crate::caster::cone::Cones;
+use crate::integrator::photon::usual_radius;
 use crate::integrator::settings::ConesAt;
 use crate::intersect::aggregate::Aggregate;
 use crate::intersect::shape_list::Scratch;
 use crate::intersect::{Intersections, NO_LIGHT, Rays, SHADOW_END, SurfacePoints};
 use crate::light::{Emitters, LightSamples, Lights, SunDisc};
 use crate::vectors::in_all_lanes;
-use scene::Vec3;
+use scene::{Scene, Vec3};
 use simd::{Float, Vector};
 
 /// What a path walks through.
@@ -70,6 +71,23 @@ pub struct Outcomes<F: Float> {
 }
 
 impl PreparedScene {
+    /// Of a scene whose shapes are held apart.
+    pub fn new(scene: &Scene) -> Self {
+        let lights = Lights::new(scene);
+        PreparedScene {
+            aggregate: Aggregate::new(scene, lights.light_of_shape()),
+            materials: Materials::new(&scene.materials),
+            sky: if scene.environment.is_some() { Vec3::ZERO } else { scene.sky },
+            sun_disc: scene.sun.as_ref().and_then(SunDisc::new),
+            sun_pdf: lights.sun_pdf(),
+            casters: Casters::new(scene),
+            emitters: Emitters::new(scene, &lights),
+            photon_radius: usual_radius(scene),
+            cones: ConesAt::ALL.map(|at| Cones::new(at, scene, &lights)),
+            lights,
+        }
+    }
+
     /// What the `wanted` rays meet first.
     #[inline(always)]
     pub fn closest<F: Float>(&self, rays: &Rays<F>, wanted: F::M, scratch: &mut Scratch<F>) -> Intersections<F> {

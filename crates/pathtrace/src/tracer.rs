@@ -1,25 +1,20 @@
 //! From rays to a film: progressive, parallel over chunks of pixels, cancelled at once.
 
-use crate::bsdf::materials::Materials;
-use crate::caster::Casters;
-use crate::caster::cone::Cones;
 use crate::drive::lanes::{FilmJob, FilmPass, Stop};
 use crate::features::{FeatureFilm, FeaturePass};
 use crate::integrator::Integrator;
 use crate::integrator::guide::{cells::Cells, guides::Guides};
-use crate::integrator::photon::usual_radius;
-use crate::integrator::settings::ConesAt;
 #[cfg(test)]
 use crate::integrator::{guide::Guide, path_plan::Plan, settings::PathSettings};
 use crate::intersect::Accel;
 use crate::intersect::aggregate::Aggregate;
 use crate::intersect::contact::held_apart;
-use crate::light::{Emitters, Lights, SunDisc};
+use crate::light::Lights;
 use crate::prepared::PreparedScene;
 use crate::stats::Stats;
 use film::{Features, Film};
 use scene::stand_ins::FakeNumbers;
-use scene::{Camera, Scene, Vec3};
+use scene::{Camera, Scene};
 use simd::Lanes;
 
 /// A scene made ready for rays. Camera and settings come with each call, so that moving them costs no rebuild.
@@ -34,20 +29,8 @@ impl Tracer {
     /// Builds the acceleration structure and the list of lights.
     pub fn new(scene: &Scene) -> Self {
         let scene = &*held_apart(scene);
-        let lights = Lights::new(scene);
         Tracer {
-            scene: PreparedScene {
-                aggregate: Aggregate::new(scene, lights.light_of_shape()),
-                materials: Materials::new(&scene.materials),
-                sky: if scene.environment.is_some() { Vec3::ZERO } else { scene.sky },
-                sun_disc: scene.sun.as_ref().and_then(SunDisc::new),
-                sun_pdf: lights.sun_pdf(),
-                casters: Casters::new(scene),
-                emitters: Emitters::new(scene, &lights),
-                photon_radius: usual_radius(scene),
-                cones: ConesAt::ALL.map(|at| Cones::new(at, scene, &lights)),
-                lights,
-            },
+            scene: PreparedScene::new(scene),
             stand_ins: scene.fake,
             guides: Guides::new(Cells::new(scene.bounds())),
             lanes: Lanes::best(),
