@@ -125,7 +125,7 @@ fn mirrors_have_the_layout_of_their_structs() {
 
 #[test]
 fn mirrors_of_photons_have_the_layout_of_their_structs() {
-    assert_same_layout!("pathtrace/light/emission.wgsl", EmissionHeader, [center, radius, sky, emitters, casters]);
+    assert_same_layout!("pathtrace/light/aim.wgsl", EmissionHeader, [center, radius, sky, emitters, targets]);
     assert_same_layout!(
         "pathtrace/integrator/photon/map.wgsl",
         PhotonParams,

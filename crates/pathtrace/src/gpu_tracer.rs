@@ -7,21 +7,22 @@
 use crate::caster::Casters;
 use crate::drive::gpu::dispatch::Dispatcher;
 use crate::drive::gpu::film_data::RenderParams;
-use crate::drive::gpu::photon_maps::{PhotonMaps, PhotonSources, PhotonWork};
+use crate::drive::gpu::photon_maps::{PhotonMaps, PhotonWork};
+use crate::drive::gpu::photon_sources::{PhotonScene, PhotonSources};
 use crate::drive::gpu::pipelines::{PipelineKey, Pipelines, SceneNeeds};
 use crate::drive::gpu::shape_data::{FewShape, MOST_SHAPES, Shapes};
 use crate::drive::gpu::slices::Slices;
 use crate::drive::gpu::timing::{BUDGET_SECONDS, Pace, Stopwatch};
 use crate::drive::gpu::{GpuFilm, GpuTraceError, environment_data, scene_data};
 use crate::integrator::Integrator;
-use crate::integrator::photon::{PhotonSettings, usual_radius};
+use crate::integrator::photon::PhotonSettings;
 use crate::intersect::contact::held_apart;
-use crate::light::{Emitters, Lights};
+use crate::light::Lights;
 use crate::stats::Stats;
 use bytemuck::Zeroable;
 use film::Film;
 use gpu::{Gpu, GpuError, wgpu};
-use scene::stand_ins::FakeNumbers;
+use scene::camera::PictureFrame;
 use scene::{Camera, Scene};
 use wgpu::BufferUsages;
 
@@ -32,8 +33,10 @@ pub struct GpuTracer {
     pub(crate) pipelines: Pipelines,
     scene: wgpu::BindGroup,
     leaves: Leaves,
-    stand_ins: FakeNumbers,
-    sources: PhotonSources,
+    /// The scene on the processor, its shapes held apart.
+    here: Scene,
+    /// Once photons were asked for.
+    photon_scene: Option<PhotonScene>,
     /// Once photons were asked for.
     pub(crate) photon_maps: Option<PhotonMaps>,
     stopwatch: Stopwatch,
@@ -77,8 +80,8 @@ impl GpuTracer {
             scene: made.upload(gpu, &pipelines.scene_layout, scene)?,
             pipelines,
             leaves,
-            stand_ins: scene.fake,
-            sources: made.sources(scene),
+            here: scene.clone(),
+            photon_scene: None,
             photon_maps: None,
             stopwatch: Stopwatch::new(gpu),
             paces: Vec::new(),
@@ -104,7 +107,7 @@ impl GpuTracer {
             self.paces.iter_mut().for_each(|(.., pace)| pace.doubt());
             self.photon_maps.iter_mut().for_each(PhotonMaps::forget);
         }
-        (self.stand_ins, self.sources) = (scene.fake, made.sources(scene));
+        (self.here, self.photon_scene) = (scene.clone(), None);
         Ok(())
     }
 
@@ -171,8 +174,10 @@ impl GpuTracer {
         let Some(settings) = integrator.gathers() else {
             return self.add_samples(film, camera, integrator, None, until, stop);
         };
+        let photon_scene = self.photon_scene.get_or_insert_with(|| PhotonScene::new(&self.here));
+        let sources = photon_scene.sources(&frame(film, camera), settings.radius);
         for number in film.samples_done..until {
-            let Some(map) = self.map_photons(film, settings, number, stop)? else { break };
+            let Some(map) = self.map_photons(film, &sources, settings, number, stop)? else { break };
             self.add_samples(film, camera, integrator, Some(&map), number + 1, stop)?;
             if film.samples_done <= number {
                 break;
@@ -185,6 +190,7 @@ impl GpuTracer {
     fn map_photons(
         &mut self,
         film: &mut GpuFilm,
+        sources: &PhotonSources,
         settings: &PhotonSettings,
         number: u32,
         stop: &impl Fn() -> bool,
@@ -197,9 +203,9 @@ impl GpuTracer {
         let (gpu, budget, what) = (&self.gpu, self.budget, "a part of a pass of photons");
         let slices = Slices { gpu, stopwatch: &mut self.stopwatch, budget, seconds: &mut self.seconds, what };
         let layouts = [&self.pipelines.photon_layout, &self.pipelines.map_layout];
-        let (scene, sources) = (&self.scene, &self.sources);
-        let made =
-            maps.make(&mut PhotonWork { walk: &walk, scene, layouts, sources, settings, number, slices }, stop)?;
+        let scene = &self.scene;
+        let mut work = PhotonWork { walk: &walk, scene, layouts, sources, settings, number, slices };
+        let made = maps.make(&mut work, stop)?;
         Ok(made.map(|(map, counts)| {
             film.count(counts.all_rays(), u64::from(counts.cut_paths));
             map
@@ -219,7 +225,7 @@ impl GpuTracer {
         let key = integrator.pipeline_key(self.pipelines.needs().everything());
         let key = key.map_err(GpuTraceError::ForTheProcessor)?;
         let pipeline = self.pipelines.prepare(&self.gpu, &key)?;
-        let params = integrator.render_params(params(film, camera), &self.stand_ins);
+        let params = integrator.render_params(params(film, camera), &self.here.fake);
         let effort = Effort { params: params.effort(), photons: integrator.gathers().map(PhotonSettings::effort) };
         let known = self.paces.iter().position(|(known, ..)| *known == key).unwrap_or_else(|| {
             self.paces.push((key, effort, Pace::default()));
@@ -267,8 +273,11 @@ impl GpuTracer {
 }
 
 fn params(film: &GpuFilm, camera: &Camera) -> RenderParams {
-    let (width, height) = (film.width(), film.height());
-    RenderParams::of(&camera.frame(width as f32 / height as f32), (width, height))
+    RenderParams::of(&frame(film, camera), (film.width(), film.height()))
+}
+
+fn frame(film: &GpuFilm, camera: &Camera) -> PictureFrame {
+    camera.frame(film.width() as f32 / film.height() as f32)
 }
 
 /// What a sample's cost depends on, beside the scene and what is seen of it.
@@ -304,11 +313,6 @@ impl Made {
         let needs = SceneNeeds::of(scene, &lights, shapes.kinds());
         let needs = if leaves.nothing_out { needs.with_everything() } else { needs };
         Ok(Made { lights, casters: Casters::new(scene), shapes, needs })
-    }
-
-    fn sources(&self, scene: &Scene) -> PhotonSources {
-        let emitters = Emitters::new(scene, &self.lights);
-        PhotonSources { emitters, radius: usual_radius(scene), origin: scene.bounds().0 }
     }
 
     fn upload(

@@ -40,6 +40,7 @@ pub const SOURCES: &[Source<'static>] = gpu::wgsl_sources![
     "pathtrace/intersect/sphere.wgsl",
     "pathtrace/intersect/surface_point.wgsl",
     "pathtrace/intersect/triangle.wgsl",
+    "pathtrace/light/aim.wgsl",
     "pathtrace/light/ball.wgsl",
     "pathtrace/light/emission.wgsl",
     "pathtrace/light/environment.wgsl",

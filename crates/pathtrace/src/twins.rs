@@ -23,6 +23,7 @@ use crate::integrator::whitted::{MOST_BRANCHES, MOST_LIGHTS, WhittedSettings};
 use crate::intersect::coincident::NO_GROUP;
 use crate::intersect::ray::BEHIND_THE_END;
 use crate::intersect::{NO_LIGHT, SHADOW_END};
+use crate::light::aim::NARROWEST_AIM;
 use crate::light::ball::ALL_DIRECTIONS;
 use crate::light::flat::SMALLEST_SOLID_ANGLE;
 use crate::prepared::NOT_A_LIGHT;
@@ -94,6 +95,7 @@ pub fn shared_constants() -> Vec<(&'static str, f64)> {
         MOST_STEPS,
         MOST_WAITING,
         NARROWEST,
+        NARROWEST_AIM,
         NEAR_AXIS,
         NOT_A_LIGHT,
         NO_LIGHT,

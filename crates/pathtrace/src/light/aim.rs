@@ -4,6 +4,8 @@
 //!
 //! The density is that of the mixture of all spheres and of no aim at all: power is bounded by the share that is not
 //! aimed.
+//!
+//! Twin: `shaders/pathtrace/light/aim.wgsl`.
 
 use crate::sampling;
 use scene::{Geometry, Vec3};
@@ -42,7 +44,7 @@ struct Part<T> {
 const MOST_CASTERS: usize = 64;
 
 /// `1 - cos` of the narrowest cone that is aimed at: rounding of its directions is a hundredth of its width.
-const NARROWEST: f32 = 2e-11;
+pub(crate) const NARROWEST_AIM: f32 = 2e-11;
 
 impl Aim {
     /// At casters and at what is seen. Each kind that there is has as many photons as fly without aim, and in each all
@@ -54,6 +56,11 @@ impl Aim {
             spheres.iter().map(move |bounds| Target { bounds: *bounds, share: share / spheres.len() as f32 })
         });
         Aim { targets: targets.collect() }
+    }
+
+    /// The spheres, each with the share of the photons that are aimed at it.
+    pub(crate) fn targets(&self) -> impl ExactSizeIterator<Item = (Bounds, f32)> {
+        self.targets.iter().map(|target| (target.bounds, target.share))
     }
 
     /// A direction from a point of a surface with this normal, or from a point in the air, with its density: one that is
@@ -153,6 +160,6 @@ impl Bounds {
         let cos = ((distance - self.radius) * (distance + self.radius)).sqrt() / distance;
         let sin = self.radius / distance;
         let one_minus_cos = sin * sin / (1.0 + cos);
-        (one_minus_cos > NARROWEST).then_some((to_center / distance, one_minus_cos))
+        (one_minus_cos > NARROWEST_AIM).then_some((to_center / distance, one_minus_cos))
     }
 }

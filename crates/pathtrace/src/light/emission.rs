@@ -107,11 +107,6 @@ impl Emitters {
         self.cumulative.iter().copied().zip(self.probabilities.iter().copied())
     }
 
-    /// Centre and radius of the spheres around what focuses light.
-    pub(crate) fn aims(&self) -> impl ExactSizeIterator<Item = (Vec3, f32)> {
-        self.casters.iter().map(|caster| (caster.center, caster.radius))
-    }
-
     /// A photon; `None` where nothing leaves that way.
     pub fn emit(&self, aim: &Aim, choice: &EmissionChoice) -> Option<Emitted> {
         let (index, probability) = self.choose(choice.light)?;

@@ -37,6 +37,9 @@ var<private> power: vec3f;
 var<private> throughput: vec3f;
 // at which the photon has scattered
 var<private> vertices: u32;
+// index into the lights of the one that it has left
+var<private> light: u32;
+var<private> rays: u32;
 
 @compute @workgroup_size(64)
 fn trace(@builtin(global_invocation_id) id: vec3u) {
@@ -51,12 +54,11 @@ fn trace(@builtin(global_invocation_id) id: vec3u) {
     }
     ray = emitted.ray;
     power = emitted.power / f32(asked.photons);
+    light = emitted.light;
     throughput = vec3f(1.0);
     vertices = 0u;
-    var rays = 1u;
-    while segment() {
-        rays += 1u;
-    }
+    rays = 0u;
+    while segment() {}
     let before = atomicAdd(&list.rays, rays);
     if before + rays < before {
         atomicAdd(&list.rays_high, 1u);
@@ -72,12 +74,13 @@ fn choice_of_photon() -> EmissionChoice {
 
 // One segment; false where the photon has come to its end.
 fn segment() -> bool {
+    rays += 1u;
     let nearest = closest(ray);
     if nearest.index == NOTHING {
         return false;
     }
     let vertex = interaction_of(hit_of(nearest, ray), -ray.direction);
-    if all(vertex.colour == vec3f(0.0)) {
+    if all(vertex.colour == vec3f(0.0)) || has_left_another_light(vertex) {
         return false;
     }
     if is_diffuse(vertex) && (DIRECT_PHOTONS || vertices > 0u) {
@@ -97,6 +100,17 @@ fn segment() -> bool {
         atomicAdd(&list.cut_paths, 1u);
     }
     return survives && vertices < HARD_CAP;
+}
+
+// Whether a photon that has met its first surface comes from where another light is, which coincides with its own: of
+// those one is there, as light sampling has it.
+fn has_left_another_light(vertex: Interaction) -> bool {
+    if !COINCIDENT || vertices > 0u || light >= header.lights || lights[light].group == NO_GROUP {
+        return false;
+    }
+    rays += 1u;
+    let start = leaving_towards(vertex.point, -ray.direction);
+    return occluded(Ray(start, ray.origin - start, SHADOW_END), light);
 }
 
 // What refraction does to power over the square of the index.

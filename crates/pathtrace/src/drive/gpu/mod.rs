@@ -11,6 +11,7 @@ mod film;
 pub mod film_data;
 pub mod photon_data;
 pub(crate) mod photon_maps;
+pub(crate) mod photon_sources;
 pub(crate) mod pipelines;
 pub mod rays;
 pub mod scene_data;

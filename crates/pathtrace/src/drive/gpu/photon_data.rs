@@ -1,7 +1,7 @@
-//! Mirrors of the structs in `shaders/pathtrace/integrator/photon/map.wgsl` and `shaders/pathtrace/light/emission.wgsl`, field for
+//! Mirrors of the structs in `shaders/pathtrace/integrator/photon/map.wgsl` and `shaders/pathtrace/light/aim.wgsl`, field for
 //! field. A test compares every offset with the shader compiler's. Padding is spelled out as `unused*`.
 
-use crate::light::{Bounds, Emitters};
+use crate::light::{Aim, Bounds, Emitters};
 use bytemuck::{Pod, Zeroable};
 use scene::Vec3;
 
@@ -81,8 +81,8 @@ pub struct EmissionHeader {
     pub sky: Vec3,
     /// How many rows tell of what shines.
     pub emitters: u32,
-    /// How many rows behind them tell of what photons are aimed at.
-    pub casters: u32,
+    /// How many spheres photons are aimed at, with two rows each behind them.
+    pub targets: u32,
     /// Padding.
     pub unused: [u32; 3],
 }
@@ -101,14 +101,15 @@ impl Grid {
     }
 }
 
-/// All that sends out light, as `shaders/pathtrace/light/emission.wgsl` reads it.
-pub(crate) fn emission(emitters: &Emitters) -> Vec<u8> {
+/// All that sends out photons, and what they are aimed at, as `shaders/pathtrace/light/aim.wgsl` has it.
+pub(crate) fn emission(emitters: &Emitters, aim: &Aim) -> Vec<u8> {
     let (Bounds { center, radius }, sky) = (emitters.scene(), emitters.sky());
-    let [of_light, of_casters] = [emitters.chances().len() as u32, emitters.aims().len() as u32];
-    let header = EmissionHeader { center, radius, sky, emitters: of_light, casters: of_casters, unused: [0; 3] };
+    let [of_light, targets] = [emitters.chances().len() as u32, aim.targets().len() as u32];
+    let header = EmissionHeader { center, radius, sky, emitters: of_light, targets, unused: [0; 3] };
     let chances = emitters.chances().map(|(cumulative, probability)| [cumulative, probability, 0.0, 0.0]);
-    let mut rows: Vec<[f32; 4]> = chances.collect();
-    rows.extend(emitters.aims().map(|(center, radius)| center.extend(radius).to_array()));
+    let target =
+        |(bounds, share): (Bounds, f32)| [bounds.center.extend(bounds.radius).to_array(), [share, 0.0, 0.0, 0.0]];
+    let mut rows: Vec<[f32; 4]> = chances.chain(aim.targets().flat_map(target)).collect();
     // a list without rows has one that nobody reads
     rows.resize(rows.len().max(1), [0.0; 4]);
     [bytemuck::bytes_of(&header), bytemuck::cast_slice(&rows)].concat()

@@ -4,16 +4,15 @@
 //! The kernels are those of `shaders/pathtrace/integrator/photon/`.
 
 use super::GpuTraceError;
-use super::photon_data::{Grid, Photon, PhotonCounts, PhotonParams, emission};
+use super::photon_data::{Grid, Photon, PhotonCounts, PhotonParams};
+use super::photon_sources::PhotonSources;
 use super::pipelines::{BufferKind, group, layout_of};
 use super::slices::Slices;
 use super::timing::Pace;
 use crate::integrator::photon::{PhotonSettings, radius_of_pass};
-use crate::light::Emitters;
 use crate::shaders;
 use bytemuck::Zeroable;
 use gpu::{Gpu, GpuError, wgpu};
-use scene::Vec3;
 use wgpu::{BindGroup, BindGroupLayout, Buffer, BufferUsages, ComputePipeline};
 
 const WHAT: &str = "a pass of photons";
@@ -23,16 +22,6 @@ const USUAL_SHARE: u32 = 4;
 
 /// Entry points of `sort.wgsl`, in their order.
 const STEPS: [&str; 4] = ["count", "allot", "collect", "order"];
-
-/// What of a scene photons are made of.
-#[derive(Debug)]
-pub(crate) struct PhotonSources {
-    pub emitters: Emitters,
-    /// Of the first pass, if nobody says otherwise.
-    pub radius: f32,
-    /// From where cells are counted.
-    pub origin: Vec3,
-}
 
 /// Where photons are traced and sorted.
 #[derive(Debug)]
@@ -54,7 +43,7 @@ struct PassKey {
     settings: PhotonSettings,
     number: u32,
     radius: f32,
-    /// What sends them out, as the device reads it.
+    /// What sends them out and what they are aimed at, as the device reads it.
     emission: Vec<u8>,
 }
 
@@ -140,7 +129,7 @@ impl PhotonMaps {
         }
         self.made = None;
         self.begin(work.settings.effort());
-        let Some((room, counts)) = self.traced(work, &key.emission, stop)? else { return Ok(None) };
+        let Some((room, counts)) = self.traced(work, stop)? else { return Ok(None) };
         let gpu = work.slices.gpu;
         let sorted = self.sort(work, &room, counts.found, stop)?;
         let map = group(gpu, WHAT, work.layouts[1], &[&room.map])?;
@@ -160,7 +149,6 @@ impl PhotonMaps {
     fn traced(
         &mut self,
         work: &mut PhotonWork,
-        emission: &[u8],
         stop: &impl Fn() -> bool,
     ) -> Result<Option<(Room, PhotonCounts)>, GpuTraceError> {
         let (gpu, photons) = (work.slices.gpu, work.settings.photons);
@@ -169,7 +157,7 @@ impl PhotonMaps {
             _ => Room::new(gpu, photons, photons.saturating_mul(USUAL_SHARE).min(most_photons(gpu)))?,
         };
         loop {
-            let Some(counts) = self.trace(work, &room, emission, stop)? else {
+            let Some(counts) = self.trace(work, &room, stop)? else {
                 self.room = Some(room);
                 return Ok(None);
             };
@@ -186,11 +174,10 @@ impl PhotonMaps {
         &mut self,
         work: &mut PhotonWork,
         room: &Room,
-        emission: &[u8],
         stop: &impl Fn() -> bool,
     ) -> Result<Option<PhotonCounts>, GpuTraceError> {
         let gpu = work.slices.gpu;
-        let emission = gpu.buffer("what sends out photons", emission, BufferUsages::STORAGE)?;
+        let emission = gpu.buffer("what sends out photons", &work.sources.emission, BufferUsages::STORAGE)?;
         let bound = group(gpu, WHAT, work.layouts[0], &[&room.asked, &emission, &room.list])?;
         gpu.queue.write_buffer(&room.list, 0, &[0; size_of::<PhotonCounts>()]);
         let (walk, groups) = (work.walk, [work.scene, &bound]);
@@ -230,7 +217,7 @@ impl PhotonMaps {
 impl PhotonWork<'_> {
     fn key(&self) -> PassKey {
         let (settings, number, radius) = (*self.settings, self.number, self.radius());
-        PassKey { settings, number, radius, emission: emission(&self.sources.emitters) }
+        PassKey { settings, number, radius, emission: self.sources.emission.clone() }
     }
 
     fn params(&self, capacity: u32) -> PhotonParams {
@@ -239,8 +226,7 @@ impl PhotonWork<'_> {
     }
 
     fn radius(&self) -> f32 {
-        let first = self.settings.radius.unwrap_or(self.sources.radius);
-        radius_of_pass(first, self.settings.alpha, self.number)
+        radius_of_pass(self.sources.radius, self.settings.alpha, self.number)
     }
 }
 

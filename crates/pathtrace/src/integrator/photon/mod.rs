@@ -21,12 +21,14 @@ use crate::drive::gpu::{PipelineKey, flag, pipelines::Bound};
 use crate::drive::lanes::{FilmJob, FilmPass, Stop};
 use crate::integrator::settings::SettingsError;
 use crate::light::Aim;
+use crate::prepared::PreparedScene;
 use crate::sampling::sampler::SamplerKind;
 use crate::stats::Stats;
 use eye::Plan;
 use film::Film;
 use pinhole::Pinhole;
 use scene::Vec3;
+use scene::camera::PictureFrame;
 use std::sync::atomic::{AtomicBool, Ordering};
 use walk::{PhotonPass, Purpose, Splat};
 
@@ -240,8 +242,13 @@ fn remembered(stop: &Stop) -> impl Fn() -> bool + Sync {
 impl FilmJob<'_> {
     /// What photons of this picture are aimed at, which count within `reach` of what is seen.
     fn aim(&self, reach: f32) -> Aim {
-        self.scene.emitters.aim(&seen::spheres(self.scene, &self.pass.frame, reach))
+        aim(self.scene, &self.pass.frame, reach)
     }
+}
+
+/// What photons are aimed at in a picture that shows this of a scene, if they count within `reach` of what is seen.
+pub(crate) fn aim(scene: &PreparedScene, frame: &PictureFrame, reach: f32) -> Aim {
+    scene.emitters.aim(&seen::spheres(scene, frame, reach))
 }
 
 #[cfg(test)]

@@ -25,7 +25,7 @@ fn with_first_pass_of<T>(
     let (ready, stand_ins) = (tracer.prepared(), &scene.fake);
     let guides = &Guides::new(Cells::new(scene.bounds()));
     let job = FilmJob { scene: ready, stand_ins, guides, lanes: tracer.lanes(), pass, stop: &|| false };
-    let (aim, direct) = (job.aim(0.0), direct == DirectLight::Photons);
+    let (aim, direct) = (job.aim(ready.photon_radius), direct == DirectLight::Photons);
     of(&PhotonPass { number: 0, photons, purpose: Purpose::Map, direct, aim: &aim }, &job)
 }
 
