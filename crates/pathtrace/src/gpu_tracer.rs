@@ -206,8 +206,8 @@ impl GpuTracer {
         let scene = &self.scene;
         let mut work = PhotonWork { walk: &walk, scene, layouts, sources, settings, number, slices };
         let made = maps.make(&mut work, stop)?;
-        Ok(made.map(|(map, counts)| {
-            film.count(counts.all_rays(), u64::from(counts.cut_paths));
+        Ok(made.map(|(map, took)| {
+            film.count(took);
             map
         }))
     }

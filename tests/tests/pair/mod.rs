@@ -25,6 +25,7 @@ impl Pair {
     pub fn rays(&self) -> f64 {
         let [gpu, cpu] = self.stats;
         assert_eq!((gpu.samples, gpu.cut_paths), (cpu.samples, cpu.cut_paths));
+        assert_eq!((gpu.photons, gpu.cut_photons), (cpu.photons, cpu.cut_photons));
         gpu.rays as f64 / cpu.rays as f64
     }
 }

@@ -6,7 +6,7 @@
 
 struct PhotonList {
     found: u32,
-    cut_paths: u32,
+    cut_photons: u32,
     rays: u32,
     rays_high: u32,
     photons: array<Photon>,

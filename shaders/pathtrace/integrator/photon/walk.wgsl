@@ -20,7 +20,7 @@ const VERTEX_BITS: u32 = 10u;
 struct PhotonList {
     // how many were found, be there room for them or not
     found: atomic<u32>,
-    cut_paths: atomic<u32>,
+    cut_photons: atomic<u32>,
     // rays traced, and above them what overflowed
     rays: atomic<u32>,
     rays_high: atomic<u32>,
@@ -97,7 +97,7 @@ fn segment() -> bool {
     vertices += 1u;
     let survives = any(throughput != vec3f(0.0));
     if survives && vertices == HARD_CAP {
-        atomicAdd(&list.cut_paths, 1u);
+        atomicAdd(&list.cut_photons, 1u);
     }
     return survives && vertices < HARD_CAP;
 }

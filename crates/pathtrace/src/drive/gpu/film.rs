@@ -98,9 +98,8 @@ impl GpuFilm {
     }
 
     /// Counts what was traced for the film beside its samples.
-    pub(crate) fn count(&mut self, rays: u64, cut_paths: u64) {
-        self.stats.rays += rays;
-        self.stats.cut_paths += cut_paths;
+    pub(crate) fn count(&mut self, took: Stats) {
+        self.stats = self.stats.plus(took);
     }
 
     /// The film as it is once all work handed in so far is done, and what it took. Waits for that.

@@ -30,7 +30,7 @@ pub struct PhotonCounts {
     /// How many were found, be there room for them or not.
     pub found: u32,
     /// Photons that were cut short.
-    pub cut_paths: u32,
+    pub cut_photons: u32,
     /// Rays traced ...
     pub rays: u32,
     /// ... and above them what overflowed.

@@ -11,7 +11,7 @@ use super::slices::Slices;
 use super::timing::Pace;
 use crate::integrator::photon::{PhotonSettings, radius_of_pass};
 use crate::shaders;
-use bytemuck::Zeroable;
+use crate::stats::Stats;
 use gpu::{Gpu, GpuError, wgpu};
 use wgpu::{BindGroup, BindGroupLayout, Buffer, BufferUsages, ComputePipeline};
 
@@ -121,11 +121,11 @@ impl PhotonMaps {
         &mut self,
         work: &mut PhotonWork,
         stop: &impl Fn() -> bool,
-    ) -> Result<Option<(BindGroup, PhotonCounts)>, GpuTraceError> {
+    ) -> Result<Option<(BindGroup, Stats)>, GpuTraceError> {
         let key = work.key();
         // samples that were stopped go on with the map that they had
         if let Some((_, map)) = self.made.as_ref().filter(|(made, _)| *made == key) {
-            return Ok(Some((map.clone(), PhotonCounts::zeroed())));
+            return Ok(Some((map.clone(), Stats::default())));
         }
         self.made = None;
         self.begin(work.settings.effort());
@@ -135,7 +135,7 @@ impl PhotonMaps {
         let map = group(gpu, WHAT, work.layouts[1], &[&room.map])?;
         self.room = Some(room);
         self.made = sorted.then(|| (key, map.clone()));
-        Ok(sorted.then_some((map, counts)))
+        Ok(sorted.then(|| (map, work.took(&counts))))
     }
 
     /// Learns the paces anew where passes cost something else.
@@ -218,6 +218,11 @@ impl PhotonWork<'_> {
     fn key(&self) -> PassKey {
         let (settings, number, radius) = (*self.settings, self.number, self.radius());
         PassKey { settings, number, radius, emission: self.sources.emission.clone() }
+    }
+
+    fn took(&self, counts: &PhotonCounts) -> Stats {
+        let (photons, cut_photons) = (self.settings.photons.into(), counts.cut_photons.into());
+        Stats { photons, cut_photons, rays: counts.all_rays(), ..Stats::default() }
     }
 
     fn params(&self, capacity: u32) -> PhotonParams {
