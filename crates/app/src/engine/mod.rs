@@ -40,7 +40,7 @@ pub struct Picture {
     /// Smaller than asked for in a rough first picture.
     pub image: Image,
     /// What it was before it was denoised, and how long that took; `None` where the picture is what was rendered.
-    pub before: Option<Undenoised>,
+    pub before: Option<Box<Undenoised>>,
     /// Samples per pixel; `None` for a technique that does not sample.
     pub spp: Option<u32>,
     /// Seconds of rendering.

@@ -160,7 +160,7 @@ impl Watch for PaneWatch<'_> {
         let (mut image, before) = match frame.denoised {
             Some(Ok(Denoised { image, seconds })) => {
                 self.filtering.store((1000.0 * seconds) as u64, Ordering::Relaxed);
-                (image, Some(Undenoised { image: film.image(), seconds }))
+                (image, Some(Box::new(Undenoised { image: film.image(), seconds })))
             }
             Some(Err(fault)) => {
                 refused = Some(format!("not denoised: {fault}").into());
