@@ -4,6 +4,7 @@
 //! Twins: `shaders/pathtrace/integrator/photon/map.wgsl`, sort.wgsl, where threads sort together, and eye.wgsl, which gathers.
 
 use crate::drive::lanes::Stop;
+use rayon::prelude::*;
 use scene::Vec3;
 use std::f32::consts::FRAC_1_PI;
 use std::ops::RangeInclusive;
@@ -54,8 +55,8 @@ impl Grid {
         (hash ^ (hash >> 15)) & self.mask
     }
 
-    fn bucket_of(&self, photon: &Photon) -> usize {
-        self.bucket(self.cell(photon.position)) as usize
+    fn buckets_of(&self, photons: &[Photon]) -> Vec<u32> {
+        photons.iter().map(|photon| self.bucket(self.cell(photon.position))).collect()
     }
 
     /// The buckets of all cells between two, each once: cells may share one.
@@ -84,25 +85,25 @@ impl PhotonMap {
     /// Sorts photons, for which the order in which they come is kept: sums do not depend on who has traced them. Chunks of
     /// them go as soon as they are sorted, so that they are in memory twice at most. `None` where it was stopped.
     pub fn new(chunks: Vec<Vec<Photon>>, radius: f32, stop: &Stop) -> Option<Self> {
-        let all = || chunks.iter().flatten();
         let count: usize = chunks.iter().map(Vec::len).sum();
-        let origin = all().fold(Vec3::INFINITY, |least, photon| least.min(photon.position));
+        let origin = chunks.iter().flatten().fold(Vec3::INFINITY, |least, photon| least.min(photon.position));
         let mask = (count.next_power_of_two() as u32).saturating_sub(1);
         let grid = Grid { origin, cells_per_unit: 0.5 / radius, mask };
+        let buckets: Vec<Vec<u32>> = chunks.par_iter().map(|chunk| grid.buckets_of(chunk)).collect();
         let mut starts = vec![0; mask as usize + 2];
-        for photon in all() {
-            starts[grid.bucket_of(photon) + 1] += 1;
+        for bucket in buckets.iter().flatten() {
+            starts[*bucket as usize + 1] += 1;
         }
         for i in 1..starts.len() {
             starts[i] += starts[i - 1];
         }
         let mut photons = vec![Photon::default(); count];
-        for chunk in chunks {
+        for (chunk, buckets) in chunks.into_iter().zip(buckets) {
             if stop() {
                 return None;
             }
-            for photon in chunk {
-                let place = &mut starts[grid.bucket_of(&photon)];
+            for (photon, bucket) in chunk.into_iter().zip(buckets) {
+                let place = &mut starts[bucket as usize];
                 photons[*place as usize] = photon;
                 *place += 1;
             }
