@@ -18,7 +18,7 @@ impl Provenance {
         if exposure != 0.0 {
             options.push(("exposure", exposure.to_string()));
         }
-        options.extend(technique.options(spp));
+        options.extend(technique.stated_for(&shot.scene).options(spp));
         line("render", &shot.source, out, &options)
     }
 }

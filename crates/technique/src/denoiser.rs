@@ -124,8 +124,7 @@ impl DenoiseSettings {
             self.denoiser.apply(image, features, Some(&of_part), stop)
         };
         let denoised = [denoised(&first, samples[0])?, denoised(&later, samples[1])?];
-        let parts =
-            Parts { noisy: [&first, &later], denoised: [&denoised[0], &denoised[1]], variance: &variance, samples };
+        let parts = Parts { noisy: [&first, &later], denoised: [&denoised[0], &denoised[1]], samples };
         let Trusted { image, weight } = trust(parts, self.trust)?;
         Ok(image.with_layer(TRUST, LayerValues::Numbers(weight.into())))
     }

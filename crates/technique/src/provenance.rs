@@ -137,7 +137,7 @@ impl Provenance {
         records.extend(camera_options(camera));
         // the fake does not see the sun's radius, but what it is compared with does
         records.extend(changes.options());
-        records.extend(self.technique.options(spp));
+        records.extend(self.technique.stated_for(&self.shot.scene).options(spp));
         records.extend(self.technique.denoise().denoiser.weights().map(|weights| (WEIGHTS, weights)));
         records.push(("exposure", exposure.to_string()));
         records.push(("command", self.command(spp, exposure, "picture.png")));

@@ -269,3 +269,18 @@ fn planes_that_a_scene_states_are_told_where_they_cut_the_fake() {
     assert!(cut.contains("note: the camera's near (4.5) and far (8) cut parts of the scene"), "{cut}");
     assert!(!said("fov_y = 40\nnear = 4.5", "whitted").contains("cut"), "rays know no planes");
 }
+
+/// The radius that a picture leaves to the scene goes by the scene's own camera, which its record replaces by the picture's.
+#[test]
+fn photons_of_another_camera_are_gathered_in_the_same_radius_again() {
+    let folder = TestFolder::new();
+    let [first, again] =
+        ["first.exr", "again.exr"].map(|name| folder.file(name).to_str().expect("a plain path").to_owned());
+    let common = ["render", "whitted", "-o", &first, "--size", "24x14", "--spp", "2", "--technique", "photon"];
+    assert!(visavis(&[&common[..], &["--photons", "4096", "--eye", "5,2.6,-4.2"]].concat()).status.success());
+    let records = image_file::records(std::path::Path::new(&first)).expect("records");
+    assert!(records.iter().any(|(name, value)| name == "radius" && value.parse::<f32>().is_ok_and(|r| r < 0.25)));
+    assert!(visavis(&["render", "--from", &first, "-o", &again]).status.success());
+    let film = |path: &str| image_file::load(std::path::Path::new(path)).expect("an EXR");
+    assert!(film(&first) == film(&again));
+}

@@ -21,7 +21,12 @@ const SIDE: u16 = 8;
 pub fn usual_radius(scene: &Scene) -> f32 {
     let by_bounds = SHARE_OF_BOUNDS * root_of_bounds(scene);
     let by_picture = picture_height(scene).map_or(by_bounds, |height| SHARE_OF_PICTURE * height);
-    by_bounds.min(by_picture).clamp(f32::MIN_POSITIVE.sqrt(), f32::MAX.sqrt())
+    rounded(by_bounds.min(by_picture).clamp(f32::MIN_POSITIVE.sqrt(), f32::MAX.sqrt()))
+}
+
+/// To three digits, which a person can type, and which do not tell shapes that touch from those held apart.
+fn rounded(radius: f32) -> f32 {
+    format!("{radius:.2e}").parse().unwrap_or(radius)
 }
 
 /// The root of the surface of the box around all shapes.

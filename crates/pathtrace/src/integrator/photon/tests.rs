@@ -168,7 +168,8 @@ fn scene_of(text: &str) -> Scene {
 fn the_usual_radius_goes_by_what_is_seen() {
     let of = |name: &str| usual_radius(&builtin::named(name).expect("a built-in scene"));
     for (name, by_bounds) in [("cornell", 10.61), ("phong", 0.1976), ("hard/closed-box", 0.01914)] {
-        assert!((of(name) / by_bounds - 1.0).abs() < 1e-3, "{name}: {}", of(name));
+        // it is told in three digits
+        assert!((of(name) / by_bounds - 1.0).abs() < 5e-3, "{name}: {}", of(name));
     }
     let wide = usual_radius(&wide_floor(""));
     // the picture is some 3 units high where the floor is
