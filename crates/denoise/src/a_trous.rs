@@ -18,8 +18,12 @@ use simd::Lanes;
 /// Levels; the taps of the last are 2 and 4 times 8 pixels apart.
 const LEVELS: u32 = 5;
 
-/// Albedo below which light is not divided by it: a lamp or a black body.
-const DARKEST_ALBEDO: f32 = 1e-3;
+/// Light is divided by this albedo at least: a channel that a surface nearly swallows must not count a hundred times what its
+/// neighbours have, and one that is divided by 1 instead would be of another unit than theirs.
+const LEAST_ALBEDO: f32 = 0.05;
+
+/// Light above this counts as this much: squares of it are still finite.
+const MOST_LIGHT: f32 = 1e15;
 
 /// What else is known of each pixel.
 #[derive(Debug, Clone, Copy)]
@@ -52,10 +56,10 @@ pub fn a_trous_on(lanes: Lanes, color: &Image, guide: Guide, stop: Stop) -> Resu
     }
     let size = [color.width() as usize, color.height() as usize];
     let albedo: Vec<Vec3> = guide.features.albedo.iter().map(|albedo| divisor(*albedo)).collect();
-    let guides = Guides::new(size, guide.features.normal, guide.depth);
+    let guides = Guides::new(size, guide.features, guide.depth);
     let mut light = Light::new(size, |pixel| {
         let variance = guide.variance.map_or(0.0, |variance| variance[pixel]);
-        let light = sanitized(color.radiances()[pixel]) / albedo[pixel];
+        let light = (sanitized(color.radiances()[pixel]) / albedo[pixel]).min(Vec3::splat(MOST_LIGHT));
         let variance = variance / luminance(albedo[pixel]).powi(2);
         (light, if variance.is_finite() { variance.max(0.0) } else { 0.0 })
     });
@@ -76,8 +80,7 @@ pub fn a_trous_on(lanes: Lanes, color: &Image, guide: Guide, stop: Stop) -> Resu
 
 /// What light is divided by.
 fn divisor(albedo: Vec3) -> Vec3 {
-    let of = |value: f32| if value.is_finite() && value > DARKEST_ALBEDO { value } else { 1.0 };
-    Vec3::from_array(albedo.to_array().map(of))
+    sanitized(albedo).max(Vec3::splat(LEAST_ALBEDO))
 }
 
 /// A row of what comes out, and which.
@@ -164,6 +167,39 @@ mod tests {
         let filtered = Corner::new().filtered(&picture, Some(&[0.0; PIXELS]), Lanes::best());
         for (got, expected) in filtered.radiances().iter().zip(picture.radiances()) {
             assert!((*got - *expected).abs().max_element() < 1e-5, "{got} {expected}");
+        }
+    }
+
+    /// Every second column is red and shows a little blue that is no light of its own, the others are white; a lamp's column is in
+    /// the ceiling. All have one normal and one depth, and variance enough to be mixed.
+    #[test]
+    fn neighbours_of_another_albedo_lend_no_light() {
+        let column = |pixel: usize| pixel % SIZE.0 as usize;
+        let is_lamp = |pixel: usize| column(pixel) == 30;
+        let surface = |pixel: usize| match column(pixel) % 2 {
+            _ if is_lamp(pixel) => (Vec3::ONE, Vec3::splat(10.0)),
+            0 => (Vec3::X, Vec3::new(1.0, 0.0, 0.04)),
+            _ => (Vec3::splat(0.7), Vec3::splat(0.1)),
+        };
+        let albedo = (0..PIXELS).map(|pixel| surface(pixel).0).collect();
+        let corner = Corner { albedo, normal: vec![Vec3::Z; PIXELS], depth: vec![4.0; PIXELS] };
+        let picture: Vec<Vec3> = (0..PIXELS).map(|pixel| surface(pixel).1).collect();
+        let picture = Image::new(SIZE.0, SIZE.1, picture).unwrap();
+        let filtered = corner.filtered(&picture, Some(&[100.0; PIXELS]), Lanes::best());
+        for (pixel, (got, expected)) in filtered.radiances().iter().zip(picture.radiances()).enumerate() {
+            assert!(
+                (*got - *expected).abs().max_element() < 0.01 * expected.max_element(),
+                "{pixel}: {got} {expected}"
+            );
+        }
+    }
+
+    #[test]
+    fn one_pixel_of_any_value_leaves_the_others_finite() {
+        for value in [f32::MAX, 1e20, f32::INFINITY, f32::NAN] {
+            let picture = image(|pixel| if pixel == 100 { value } else { 1.0 });
+            let filtered = Corner::new().filtered(&picture, None, Lanes::best());
+            assert!(filtered.radiances().iter().all(|pixel| pixel.is_finite()), "{value}");
         }
     }
 

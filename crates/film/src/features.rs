@@ -1,7 +1,7 @@
 //! What is seen of surfaces at each pixel, without any light: what denoisers are guided by ("auxiliary features").
 
 use crate::colour::grey_of_depth;
-use crate::{Film, Image, Layer, LayerValues, Pixel, Vec3};
+use crate::{Film, Layer, LayerValues, Pixel, Vec3};
 use std::sync::Arc;
 
 /// What of a surface is looked at.
@@ -111,13 +111,6 @@ impl Features {
         let met = || self.depth.iter().copied().filter(|depth| depth.is_finite());
         [met().fold(f32::INFINITY, f32::min), met().fold(0.0, f32::max)]
     }
-
-    /// Those that a picture has as layers; `None` if it lacks any.
-    pub fn of(image: &Image) -> Option<Self> {
-        let colours = |name| Some(Arc::from(image.rgb_layer(name)?));
-        let depth: Arc<[f32]> = image.number_layer(Self::DEPTH)?.into();
-        Features::new(image.size(), colours(Self::ALBEDO)?, colours(Self::NORMAL)?, depth)
-    }
 }
 
 #[cfg(test)]
@@ -126,14 +119,9 @@ mod tests {
     use crate::colour::{DARKEST, srgb_encode};
 
     #[test]
-    fn features_come_back_from_a_pictures_layers() {
-        let features = Features::new((2, 1), vec![Vec3::X, Vec3::Y], vec![Vec3::Z; 2], vec![1.0, f32::INFINITY]);
-        let features = features.unwrap();
-        let mut image = Image::new(2, 1, vec![Vec3::ONE; 2]).unwrap();
-        assert_eq!(Features::of(&image), None);
-        image.layers.extend(features.layers());
-        assert_eq!(Features::of(&image), Some(features));
-        assert_eq!(Features::new((2, 2), vec![Vec3::X; 4], vec![Vec3::X; 4], vec![0.0; 3]), None);
+    fn features_have_a_value_of_each_kind_for_each_pixel() {
+        let of = |pixels| Features::new((2, 1), vec![Vec3::X; pixels], vec![Vec3::Z; 2], vec![1.0, f32::INFINITY]);
+        assert!(of(2).is_some_and(|features| features.layers().len() == 3) && of(3).is_none());
     }
 
     #[test]

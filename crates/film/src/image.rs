@@ -97,15 +97,6 @@ impl Image {
         }
     }
 
-    /// The numbers or depths of the layer of this name; `None` if there is none, or if it has three values a pixel.
-    pub fn number_layer(&self, name: &str) -> Option<&[f32]> {
-        let layer = self.layers.iter().find(|layer| layer.name == name)?;
-        match &layer.values {
-            LayerValues::Numbers(values) | LayerValues::Depths(values) => Some(values),
-            LayerValues::Rgb(_) | LayerValues::Directions(_) => None,
-        }
-    }
-
     /// The same picture with another layer, which has a value for each pixel.
     pub fn with_layer(mut self, name: &'static str, values: LayerValues) -> Self {
         debug_assert_eq!(values.len(), self.radiances.len());

@@ -94,6 +94,11 @@ impl DenoiseSettings {
     /// The picture as it is rendered.
     pub const OFF: Self = DenoiseSettings { denoiser: Denoiser::Off, trust: 0.0 };
 
+    /// Whether samples are trusted beside a filter.
+    pub fn trusts(&self) -> bool {
+        self.is_on() && self.trust > 0.0
+    }
+
     /// Whether there is a filter.
     pub fn is_on(&self) -> bool {
         self.denoiser != Denoiser::Off
@@ -110,7 +115,7 @@ impl DenoiseSettings {
         features: &Features,
         stop: Stop,
     ) -> Result<Image, DenoiseError> {
-        let parts = earlier.filter(|_| self.trust > 0.0).and_then(|earlier| Some((earlier, film.since(earlier)?)));
+        let parts = earlier.filter(|_| self.trusts()).and_then(|earlier| Some((earlier, film.since(earlier)?)));
         let Some((earlier, (later, later_samples))) = parts else {
             let variance = variances(film).map(luminance_variance);
             let variance: Option<Vec<f32>> = (film.samples_per_pixel() > 1).then(|| variance.collect());

@@ -40,7 +40,7 @@ pub use pane::PaneSettings;
 pub use presets::Preset;
 pub use progressive::{NoMemory, ProgressiveRenderer, Request};
 pub use provenance::{
-    DENOISE, Made, OWN_FOV, Provenance, Recorded, denoised_by, is_of_its_pixels, made_from, scene_hash,
+    DENOISE, FILTER, Made, OWN_FOV, Provenance, Recorded, denoised_by, is_of_its_pixels, made_from, scene_hash,
 };
 pub use renderer::{Frame, Pacing, Rendered, Renderer, Watch};
 pub use setup::PaneSetup;

@@ -79,8 +79,9 @@ impl Request {
     /// Whether two requests differ in the wished number of samples alone.
     pub fn is_same_picture(&self, other: &Request) -> bool {
         let how = |of: &Request| {
-            let TracedSettings { integrator, device, adapter, spp: _, sun_radius, denoise: _, feature } = of.settings;
-            (integrator, device, adapter, sun_radius, feature)
+            let TracedSettings { integrator, device, adapter, spp: _, sun_radius, denoise, feature } = of.settings;
+            // to be judged by its parts a film has to be made in parts
+            (integrator, device, adapter, sun_radius, feature, denoise.trusts())
         };
         let seen = |of: &Request| (of.shot.camera, of.shot.size, of.restarts);
         how(self) == how(other) && seen(self) == seen(other) && Arc::ptr_eq(&self.shot.scene, &other.shot.scene)

@@ -79,14 +79,23 @@ const MEASURED: &str = "error.";
 /// it the beginning of what more is said of that.
 pub const DENOISE: &str = "denoise";
 
+/// The option that says how far samples are trusted beside that.
+const TRUST: &str = "trust";
+
+/// The record of a filter that cannot be asked for again: of a picture that was denoised before, or that no light was traced for.
+pub const FILTER: &str = "denoise.filter";
+
 /// The filter that took a picture's noise away, if one did.
 pub fn denoised_by(records: &[(String, String)]) -> Option<&str> {
-    records.iter().find(|(name, filter)| name == DENOISE && filter != "off").map(|(_, filter)| filter.as_str())
+    records
+        .iter()
+        .find(|(name, filter)| [DENOISE, FILTER].contains(&name.as_str()) && filter != "off")
+        .map(|(_, filter)| filter.as_str())
 }
 
 /// Whether a record says something of the noisy picture that does not hold once it is denoised, or of denoising itself.
 pub fn is_of_its_pixels(name: &str) -> bool {
-    name.starts_with(MEASURED) || name.starts_with(DENOISE)
+    name.starts_with(MEASURED) || name.starts_with(DENOISE) || name == TRUST
 }
 
 /// What makes a picture with these records again. `None` if they are not those of one pane's picture.
@@ -103,7 +112,7 @@ pub fn made_from(records: &[(String, String)]) -> anyhow::Result<Option<Recorded
     // only rays traced on the graphics device ask for it: the fake has no other, and the processor is the usual one
     let asks_for_gpu = value("device") == Some("gpu") && value("technique") != Some(TechniqueName::Raster.name());
     let says_nothing = |name: &str| NO_OPTIONS.contains(&name) || (name == "device" && !asks_for_gpu);
-    let is_option = |name: &str| !says_nothing(name) && (name == DENOISE || !is_of_its_pixels(name));
+    let is_option = |name: &str| !says_nothing(name) && ([DENOISE, TRUST].contains(&name) || !is_of_its_pixels(name));
     let options = records.iter().filter(|(name, _)| is_option(name));
     let words = options.map(|(name, value)| format!("--{name}={value}")).collect();
     Ok(Some(Recorded::new(scene.to_owned(), scene_hash(records)?, words)))

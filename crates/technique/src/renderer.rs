@@ -80,9 +80,14 @@ pub trait Watch: Sync {
         DenoiseSettings::OFF
     }
 
+    /// Whether a filter in hand is to end, and the picture to go without it.
+    fn skips_filters(&self) -> bool {
+        self.ends_now()
+    }
+
     /// Whether films of about half of the samples are kept, by which a denoiser is judged.
     fn keeps_parts(&self) -> bool {
-        self.denoise().is_on()
+        self.denoise().trusts()
     }
 
     /// Whether to wait where the film is.
@@ -385,7 +390,7 @@ impl Renderer {
         if denoise.is_on() || watch.wants_features() {
             self.make_features(&mut accumulation, (camera, wanted.0), true, watch);
         }
-        let denoised = self.denoised(&accumulation, denoise, &|| watch.ends_now());
+        let denoised = self.denoised(&accumulation, denoise, &|| watch.skips_filters());
         let (device, made_by) = (self.device(), accumulation.made_by());
         let features = accumulation.features.take().map(|(_, features)| features);
         Rendered { stats: accumulation.stats(), film: accumulation.into_film(), features, denoised, device, made_by }

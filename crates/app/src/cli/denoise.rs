@@ -1,7 +1,8 @@
 //! `visavis denoise`: a picture without its noise, and with a bias, of which its records tell.
 
 use super::args::denoise::Filter;
-use super::{DenoiseArgs, interrupt};
+use super::args::made_by;
+use super::{DenoiseArgs, RenderArgs, interrupt};
 use anyhow::{Context, ensure};
 use denoise::a_trous::{Guide, a_trous};
 use denoise::{DenoiseError, Features, Network};
@@ -10,7 +11,7 @@ use film::{DisplayTransform, Image, Vec3};
 use image_file::{Kind, Layers, Loaded};
 use std::path::Path;
 use std::time::Instant;
-use technique::{DENOISE, denoised_by, is_of_its_pixels};
+use technique::{DENOISE, FILTER, Technique, denoised_by, is_of_its_pixels};
 
 /// What a filter made, and what says which weights it did it with.
 struct Denoised {
@@ -33,6 +34,7 @@ pub fn run(args: &DenoiseArgs) -> anyhow::Result<()> {
     }
     let layers = image_file::load_layers(&args.picture, image.size())?;
     image_file::check_writable(&args.out)?;
+    let _heeded = interrupt::heed();
     let start = Instant::now();
     let denoised = filtered(args, &image, &layers)?;
     let seconds = start.elapsed().as_secs_f64();
@@ -81,6 +83,17 @@ fn missing_layers(picture: &Path, filter: Filter, missing: &[&str]) -> String {
     )
 }
 
+/// Whether `render --denoise` comes to the same: of light that was traced and not denoised before, and by a network, for which the
+/// variance of samples is nothing.
+fn is_made_again(args: &DenoiseArgs, records: &[(String, String)]) -> bool {
+    let of_traced_light = |made: RenderArgs| match made.pane.in_use() {
+        technique @ Technique::Traced(_) => technique.shows_the_scene(),
+        Technique::Fake(_) => false,
+    };
+    let new = denoised_by(records).is_none() && args.filter != Filter::ATrous;
+    new && made_by(&args.picture).is_ok_and(of_traced_light)
+}
+
 /// The variance of the luminance of the mean of two halves, which are independent; `None` if they are not there.
 fn variance_by_halves(layers: &Layers) -> Option<Vec<f32>> {
     let (a, b) = (layers.triples("half0")?, layers.triples("half1")?);
@@ -88,10 +101,13 @@ fn variance_by_halves(layers: &Layers) -> Option<Vec<f32>> {
     Some(a.iter().zip(&b).map(variance).collect())
 }
 
-/// With the noisy picture's records, those excepted that tell of its errors.
+/// With the noisy picture's records, those excepted that tell of its errors and the command that makes it. The filter is the option of
+/// `render` where that makes this picture again.
 fn save(args: &DenoiseArgs, denoised: &Denoised, records: Vec<(String, String)>, seconds: f64) -> anyhow::Result<()> {
-    let mut records: Vec<_> = records.into_iter().filter(|(name, _)| !is_of_its_pixels(name)).collect();
-    records.push((DENOISE.into(), args.filter.name().into()));
+    let name = if is_made_again(args, &records) { DENOISE } else { FILTER };
+    let stays = |(name, _): &(String, String)| !is_of_its_pixels(name) && name != "command";
+    let mut records: Vec<_> = records.into_iter().filter(stays).collect();
+    records.push((name.into(), args.filter.name().into()));
     if let Some((name, hash)) = &denoised.weights {
         records.push((format!("{DENOISE}.network"), (*name).into()));
         records.push((format!("{DENOISE}.weights"), hash.clone()));

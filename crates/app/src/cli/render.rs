@@ -94,10 +94,12 @@ pub fn run(args: &mut RenderArgs) -> anyhow::Result<()> {
             note!("{line}");
         }
         if let Some(Ok(Denoised { seconds, .. })) = &rendered.denoised {
-            note!(
-                "denoised by {} in {seconds:.2} s: no truth any more, however many samples",
-                technique.denoise().denoiser.name()
-            );
+            let bias = if technique.denoise().trusts() {
+                "biased, the less the more samples"
+            } else {
+                "biased, however many samples"
+            };
+            note!("denoised by {} in {seconds:.2} s: {bias}", technique.denoise().denoiser.name());
         }
         if let Some(Measured { errors: e, before }) = errors {
             let noise = noise_line(&e).map_or_else(String::new, |line| format!(", noise {line}"));
@@ -224,7 +226,7 @@ fn trace(args: &RenderArgs, shot: &Shot, traced: TracedSettings) -> anyhow::Resu
         start,
         layers: args.layers,
         limit: args.seconds.map(Duration::from_secs_f64),
-        trusts: traced.denoise.is_on() && traced.denoise.trust > 0.0,
+        trusts: args.pane.in_use().denoise().trusts(),
         // a test does not wait for seconds
         at_risk: if backend.fails_on_purpose() { Duration::ZERO } else { AT_RISK },
     };
@@ -268,6 +270,10 @@ impl Watch for Terminal {
 
     fn keeps_parts(&self) -> bool {
         self.trusts
+    }
+
+    fn skips_filters(&self) -> bool {
+        interrupt::is_asked()
     }
 
     fn wants_features(&self) -> bool {
@@ -341,8 +347,8 @@ fn report(
             }
             report["standard_error"] = json!(rendered.film.standard_error());
             let shows_light = args.pane.in_use().shows_the_scene();
-            let reliable =
-                shows_light && rays.integrator.is_independent() && rendered.film.standard_error_is_reliable();
+            let is_a_mean = shows_light && !rays.denoise.is_on();
+            let reliable = is_a_mean && rays.integrator.is_independent() && rendered.film.standard_error_is_reliable();
             report["standard_error_reliable"] = json!(reliable);
             if let Some(scale) = rendered.stats.chains.scale() {
                 report["mutations"] = json!(rendered.stats.chains.mutations);

@@ -22,7 +22,7 @@ pub struct DisplayFrame {
     pub rgba: Option<Vec<u8>>,
     /// What it is compared with, and how far it is from that; `None` unless that is there at the same size.
     pub errors: Option<(Against, Errors)>,
-    /// How far it was from that before it was denoised; `None` unless it was.
+    /// How far it was from the reference before it was denoised; `None` unless it was, and is held against that.
     pub errors_before: Option<Errors>,
 }
 
@@ -149,7 +149,9 @@ impl Service for Latest {
         let resolve = |(pane, picture): (PaneId, &Picture)| {
             let new = redevelop || fresh.get(pane).is_some();
             let rgba = new.then(|| self.display.rgba8_of(&picture.image));
-            let errors_before = before.get(pane).map(|(_, errors)| *errors);
+            // of two noisy pictures of the same samples it would say how alike they are
+            let told = before.get(pane).filter(|(against, _)| *against == Against::Reference);
+            let errors_before = told.map(|(_, errors)| *errors);
             (pane, DisplayFrame { picture: picture.clone(), rgba, errors: errors.get(pane).copied(), errors_before })
         };
         // all at once: the error of one belongs to the picture of the other

@@ -1,6 +1,6 @@
 //! The tutorial's slides as they are shown: each a scene and two presets side by side, in the order of the lecture.
 
-use super::{Model, PaneId, View};
+use super::{CompareWith, Model, PaneId, View};
 use film::DisplayTransform;
 use technique::{Preset, SceneChanges};
 
@@ -17,6 +17,8 @@ pub struct Slide {
     pub scene: &'static str,
     /// The presets of A and B by their names.
     pub presets: [&'static str; 2],
+    /// Whether it is the reference that judges both.
+    pub against_reference: bool,
     /// How both are seen: under the line, but side by side where each must be seen whole.
     pub view: View,
 }
@@ -28,7 +30,7 @@ const fn slide(
     scene: &'static str,
     presets: [&'static str; 2],
 ) -> Slide {
-    Slide { name, title, about, scene, presets, view: View::Wipe }
+    Slide { name, title, about, scene, presets, against_reference: false, view: View::Wipe }
 }
 
 /// All slides that two pictures tell.
@@ -117,20 +119,26 @@ pub const SLIDES: &[Slide] = &[
     slide("2f-1-4", "2 f) 1 and 4 spp", "Four times the samples halve the noise", "cornell", ["2f-1-spp", "2f-4-spp"]),
     slide("2f-4-16", "2 f) 4 and 16 spp", "And halve it again", "cornell", ["2f-4-spp", "2f-16-spp"]),
     slide("2f-1-16", "2 f) 1 and 16 spp", "A quarter of the noise", "cornell", ["2f-1-spp", "2f-16-spp"]),
-    slide(
-        "denoise-1",
-        "Denoising 1 spp",
-        "The same samples, raw and through a network: what it makes up, the reference tells",
-        "cornell",
-        ["1-spp", "denoised-1-spp"],
-    ),
-    slide(
-        "denoise-512",
-        "512 spp without and with a denoiser",
-        "Where there are samples enough, the filter's bias is the larger error",
-        "cornell",
-        ["512-spp", "denoised-512-spp"],
-    ),
+    Slide {
+        against_reference: true,
+        ..slide(
+            "denoise-1",
+            "Denoising 1 spp",
+            "The same samples, raw and through a network: what it makes up, the reference tells",
+            "cornell",
+            ["1-spp", "denoised-1-spp"],
+        )
+    },
+    Slide {
+        against_reference: true,
+        ..slide(
+            "denoise-512",
+            "512 spp without and with a denoiser",
+            "Where there are samples enough, the filter's bias is the larger error",
+            "cornell",
+            ["512-spp", "denoised-512-spp"],
+        )
+    },
 ];
 
 impl Slide {
@@ -162,6 +170,9 @@ impl Model {
             }
         }
         self.session.view = slide.view;
+        if slide.against_reference {
+            self.session.comparison.with = CompareWith::Reference;
+        }
         // what was played with before is not on the slide
         self.document.changes = SceneChanges::default();
         self.document.camera = self.document.scene.camera;

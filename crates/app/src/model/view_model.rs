@@ -60,7 +60,7 @@ pub struct PaneView {
 pub struct Denoising {
     /// Seconds that the filter took.
     pub seconds: f64,
-    /// How far the picture was before from what it is compared with.
+    /// How far the picture was before from the reference, where that judges it.
     pub errors_before: Option<Errors>,
 }
 

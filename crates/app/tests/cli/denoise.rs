@@ -78,7 +78,10 @@ fn a_picture_is_denoised_with_its_layers_and_says_by_what() {
     }
     pictures.denoise("out.png", &["--filter", "atrous"]);
     let record = |name| pictures.record("out.png", name);
-    assert_eq!((record("denoise").as_deref(), record("denoise.weights")), (Some("atrous"), None));
+    assert_eq!(
+        (record("denoise"), record("denoise.filter").as_deref(), record("denoise.weights")),
+        (None, Some("atrous"), None)
+    );
 }
 
 #[test]

@@ -2,7 +2,7 @@
 
 use super::{User, both_whole};
 use technique::Denoiser;
-use visavis::model::PaneId;
+use visavis::model::{CompareWith, PaneId};
 use visavis_tests::Frame;
 
 fn lines<'a>(frame: &'a Frame, pane: &str) -> Vec<&'a str> {
@@ -19,9 +19,11 @@ fn a_denoised_picture_says_so_and_how_far_off_it_was_before() {
     user.wait_for("both pictures", both_whole);
     user.click_nth("Path", 0);
     user.viewer.borrow_mut().model.session.panes[PaneId::B].denoise.denoiser = Denoiser::Unet;
-    let shown = user.wait_for("a denoised picture", |f| {
-        both_whole(f) && denoising(f, "B").is_some_and(|line| line.contains("before"))
-    });
+    let beside = user.wait_for("a denoised picture", |f| both_whole(f) && denoising(f, "B").is_some());
+    assert!(denoising(&beside, "B").is_some_and(|line| line.ends_with(" (biased)")), "held against A it has no error");
+    user.viewer.borrow_mut().model.session.comparison.with = CompareWith::Reference;
+    let shown =
+        user.wait_for("an error", |f| both_whole(f) && denoising(f, "B").is_some_and(|line| line.contains("before")));
     let line = denoising(&shown, "B").expect("a line");
     assert!(line.starts_with("denoised by unet in ") && line.contains(" (biased), relMSE "), "{line}");
     assert_eq!(denoising(&shown, "A"), None, "the other is not");

@@ -1,13 +1,15 @@
 //! One level of the filter, and the variance where nobody knows it: a lane is a pixel.
 
 use super::Rows;
-use super::picture::{DEPTH, Guides, Light, MARGIN, MISS, NORMAL, RGB, SLOPES, VARIANCE};
+use super::picture::{ALBEDO, DEPTH, Guides, Light, MARGIN, MISS, NORMAL, RGB, SLOPES, VARIANCE};
 use simd::{Float, Kernel, Vector, Word};
 
 /// How fast a tap's weight falls with depth, luminance and (an exponent of 2) the normal: the paper's values, section 4.4.
 const SIGMA_DEPTH: f32 = 1.0;
 const SIGMA_LUMINANCE: f32 = 4.0;
 const LOG2_SIGMA_NORMAL: u32 = 7;
+/// And, beyond the paper, with albedo: a lamp and what it is set in have one normal and one depth, and light of another kind.
+const SIGMA_ALBEDO: f32 = 0.15;
 
 /// So that nothing is divided by 0: of a depth a share, of a luminance' deviation an amount.
 const LEAST_DEPTH: f32 = 1e-4;
@@ -25,6 +27,7 @@ struct Place<'a, F> {
     miss: F,
     depth: F,
     slopes: [F; 2],
+    albedo: Vector<F>,
 }
 
 impl<'a, F: Float> Place<'a, F> {
@@ -32,7 +35,9 @@ impl<'a, F: Float> Place<'a, F> {
     fn new(guides: &'a Guides, x: usize, y: usize) -> Self {
         let at = |kind: usize| F::load(&guides.row(y, kind)[MARGIN + x..]);
         let normal = Vector::new(at(NORMAL[0]), at(NORMAL[1]), at(NORMAL[2]));
-        Place { guides, x, y, normal, miss: at(MISS), depth: at(DEPTH), slopes: [at(SLOPES[0]), at(SLOPES[1])] }
+        let albedo = Vector::new(at(ALBEDO[0]), at(ALBEDO[1]), at(ALBEDO[2]));
+        let slopes = [at(SLOPES[0]), at(SLOPES[1])];
+        Place { guides, x, y, normal, miss: at(MISS), depth: at(DEPTH), slopes, albedo }
     }
 
     /// Where a tap lies, if its row is in the picture.
@@ -42,7 +47,7 @@ impl<'a, F: Float> Place<'a, F> {
         Some(((MARGIN + self.x).wrapping_add_signed(dx), row))
     }
 
-    /// How alike the normals are (equation 4), and how unlike the depths (3), as a negative exponent.
+    /// How alike the normals are (equation 4), and how unlike the depths (3) and the albedos, as a negative exponent.
     #[inline(always)]
     fn likeness(&self, (column, row): (usize, usize), dx: isize, dy: isize) -> (F, F) {
         let at = |kind: usize| F::load(&self.guides.row(row, kind)[column..]);
@@ -53,7 +58,9 @@ impl<'a, F: Float> Place<'a, F> {
         }
         let expected = self.slopes[0] * (dx.unsigned_abs() as f32) + self.slopes[1] * (dy.unsigned_abs() as f32);
         let least = self.depth.abs() * LEAST_DEPTH + F::splat(f32::MIN_POSITIVE);
-        (alike, -(at(DEPTH) - self.depth).abs() / (expected * SIGMA_DEPTH + least))
+        let albedo = Vector::new(at(ALBEDO[0]), at(ALBEDO[1]), at(ALBEDO[2])) - self.albedo;
+        let unlike = (at(DEPTH) - self.depth).abs() / (expected * SIGMA_DEPTH + least);
+        (alike, -unlike - albedo.length_squared() * (SIGMA_ALBEDO * SIGMA_ALBEDO).recip())
     }
 }
 

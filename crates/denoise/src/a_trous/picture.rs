@@ -1,6 +1,8 @@
 //! Values of pixels as lanes read them: numbers of one kind side by side in a row, with a margin at both ends in which
 //! nothing is like anything.
 
+use crate::Features;
+use crate::transfer::sanitized;
 use film::Vec3;
 use rayon::prelude::*;
 use simd::MOST_LANES;
@@ -8,12 +10,13 @@ use simd::MOST_LANES;
 /// As far as the taps of the last level reach.
 pub const MARGIN: usize = 32;
 
-/// Kinds of numbers of what guides: the normal, whether nothing was hit, depth and its slopes.
+/// Kinds of numbers of what guides: the normal, whether nothing was hit, depth and its slopes, and the albedo.
 pub const NORMAL: [usize; 3] = [0, 1, 2];
 pub const MISS: usize = 3;
 pub const DEPTH: usize = 4;
 pub const SLOPES: [usize; 2] = [5, 6];
-const GUIDES: usize = 7;
+pub const ALBEDO: [usize; 3] = [7, 8, 9];
+const GUIDES: usize = 10;
 
 /// Kinds of numbers of light: red, green, blue, and the variance of the luminance.
 pub const RGB: [usize; 3] = [0, 1, 2];
@@ -70,8 +73,8 @@ impl<const KINDS: usize> Table<KINDS> {
 
 impl Guides {
     /// Depth and normals need not be finite.
-    pub fn new(size: [usize; 2], normals: &[Vec3], depths: &[f32]) -> Self {
-        let hit = |pixel: usize| normals[pixel].try_normalize();
+    pub fn new(size: [usize; 2], features: Features, depths: &[f32]) -> Self {
+        let hit = |pixel: usize| features.normal[pixel].try_normalize();
         let depth = |pixel: usize| if hit(pixel).is_some() && depths[pixel].is_finite() { depths[pixel] } else { 0.0 };
         let width = size[0];
         Table::filled(size, |pixel| {
@@ -79,7 +82,10 @@ impl Guides {
             let (x, y) = (pixel % width, pixel / width);
             let across = slope(depth, pixel, 1, x > 0, x + 1 < width);
             let down = slope(depth, pixel, width, y > 0, y + 1 < size[1]);
-            [normal.x, normal.y, normal.z, f32::from(u8::from(hit(pixel).is_none())), depth(pixel), across, down]
+            let missed = f32::from(u8::from(hit(pixel).is_none()));
+            let albedo = sanitized(features.albedo[pixel]);
+            let [r, g, b] = albedo.to_array();
+            [normal.x, normal.y, normal.z, missed, depth(pixel), across, down, r, g, b]
         })
     }
 }

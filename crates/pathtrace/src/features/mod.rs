@@ -18,9 +18,6 @@ use scene::Camera;
 use scene::camera::PictureFrame;
 use simd::Lanes;
 
-/// Samples from which features are clean enough that more would change nothing that a filter sees.
-pub const ENOUGH_SAMPLES: u32 = 32;
-
 /// Pixels that one thread takes at a time: whole groups of all kinds of lanes.
 const CHUNK: usize = 1024;
 

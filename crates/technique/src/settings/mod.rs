@@ -372,7 +372,8 @@ impl From<Technique> for PaneSettings {
         match technique {
             Technique::Fake(fake) => PaneSettings { fake, ..pane },
             Technique::Traced(traced) => {
-                let TracedSettings { integrator, device, adapter, spp, sun_radius, denoise, feature } = traced;
+                let TracedSettings { integrator, device, adapter, spp, sun_radius, denoise: _, feature } = traced;
+                let denoise = technique.denoise();
                 let pane = PaneSettings { device, adapter, denoise, feature, ..pane };
                 match integrator {
                     Integrator::Path(path) => PaneSettings { truth: TruthSettings { path, spp, sun_radius }, ..pane },

@@ -155,7 +155,7 @@ fn commands() -> Vec<Block> {
         Block::new(
             "visavis denoise A -o OUT",
             "take the noise out of A, an .exr with the layers albedo (R, G, B) and normal (X, Y, Z); the result is biased, which \
-             its records and compare say, and render --from makes A again",
+             its records and compare say, and render --from makes it again where it can",
             &denoise::options(),
         ),
         Block::new(

@@ -52,7 +52,10 @@ const TRUST: Setting<PaneSettings> = Setting {
     set: |pane, value| each(number(value), [&mut pane.denoise.trust]),
     control: Control {
         label: "Trust the samples",
-        brief: Some(|value| format!("samples trusted by {value}")),
+        brief: Some(|value| match number(value) {
+            Some(0.0) => "samples not trusted".into(),
+            _ => format!("samples trusted by {value}"),
+        }),
         hover: "Where the samples differ from the denoiser's picture by more than their noise it is the filter that is wrong, and \
                 this share of the way back to them is gone. At 1 the picture comes to the truth as samples become many",
         look: Look::Steps { range: 0.0..=1.0, step: 0.05 },
