@@ -129,7 +129,7 @@ impl BlindSpot {
                  and what goes by several balls"
             }
             BlindSpot::LongChains => {
-                "a light without extent is connected to by one sphere at a time: what goes by several of them, or more than \
+                "a light without extent is connected to by one sphere at a time: what goes by several of them, from within one, or more than \
                  once about in one, is missing"
             }
             BlindSpot::LongPaths(_) => return None,

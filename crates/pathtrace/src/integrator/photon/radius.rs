@@ -21,7 +21,17 @@ const SIDE: u16 = 8;
 pub fn usual_radius(scene: &Scene) -> f32 {
     let by_bounds = SHARE_OF_BOUNDS * root_of_bounds(scene);
     let by_picture = picture_height(scene).map_or(by_bounds, |height| SHARE_OF_PICTURE * height);
-    rounded(by_bounds.min(by_picture).clamp(f32::MIN_POSITIVE.sqrt(), f32::MAX.sqrt()))
+    let least = ULPS * f32::EPSILON * farthest_coordinate(scene);
+    rounded(by_bounds.min(by_picture).max(least).clamp(f32::MIN_POSITIVE.sqrt(), f32::MAX.sqrt()))
+}
+
+/// Photons and the points that gather them lie where f32 can: discs that are no wider than a few such steps hold many
+/// of them or none.
+const ULPS: f32 = 64.0;
+
+fn farthest_coordinate(scene: &Scene) -> f32 {
+    let (lo, hi) = scene.bounds();
+    lo.abs().max(hi.abs()).max_element()
 }
 
 /// To three digits, which a person can type, and which do not tell shapes that touch from those held apart.

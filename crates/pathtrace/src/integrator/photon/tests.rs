@@ -174,5 +174,8 @@ fn the_usual_radius_goes_by_what_is_seen() {
     let wide = usual_radius(&wide_floor(""));
     // the picture is some 3 units high where the floor is
     assert!((0.25..0.35).contains(&wide), "{wide}");
+    // of a floor of 1e8 units f32 knows places to some 8: a disc must hold many of them
+    let ball = "[[sphere]]\ncenter = [1e8, 1, 0]\nradius = 1\nmaterial = 'floor'\n";
+    assert!(usual_radius(&wide_floor(ball)) > 500.0);
     assert!(sees_little(&wide_floor("")) && !sees_little(&builtin::named("whitted").expect("a built-in scene")));
 }

@@ -34,7 +34,7 @@ const CHUNK: u32 = 4096;
 /// Photons that tell how much a pass will leave.
 const FEW: u32 = 256;
 
-/// Photons that a map holds, but for a few in a hundred: 36 bytes each, and as much again and the number of a bucket while it is
+/// Photons that a map holds, as far as the first few photons are like the others: 36 bytes each, and as much again and the number of a bucket while it is
 /// sorted, which is 1.4 GB with the buckets. In a bright closed room each photon comes to many surfaces. Of a pass that would
 /// leave more, each is kept with a probability, and its power is over it: that is unbiased, with more noise.
 const MOST_LEFT: f64 = (1 << 24) as f64;
