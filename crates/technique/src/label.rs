@@ -119,7 +119,7 @@ mod tests {
         assert_eq!(shown, ["Photon mapping, points", "Photon mapping, light"]);
         assert_eq!(with(TechniqueName::Photon, &[points]).label(), "Photon mapping, points");
         let radii = labels("whitted", TechniqueName::Photon, [&[("radius", "0.1")], &[("alpha", "0.5")]]);
-        assert_eq!(radii, ["Photon mapping, radius 0.1, alpha 0.667", "Photon mapping, radius 0.273, alpha 0.5"]);
+        assert_eq!(radii, ["Photon mapping, radius 0.1, alpha 0.667", "Photon mapping, radius 0.266, alpha 0.5"]);
         let hidden = labels("whitted", TechniqueName::Photon, [&[points, ("radius", "0.1")], &[points]]);
         assert_eq!(hidden, ["Photon mapping, points"; 2], "points are gathered within no radius");
         let light = with(TechniqueName::LightTracing, &[("photons", "1024")]);

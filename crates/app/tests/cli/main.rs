@@ -93,7 +93,7 @@ fn bad_values_are_wrong_usage_and_write_nothing() {
     assert_refused(&["reference", "cornell", "-o", "o.exr", "--spp", "4"], 2, &["--spp"]);
     assert_refused(&["render", "whitted", "-o", out, "--size", "1\n2"], 2, &["WIDTHxHEIGHT"]);
     assert_refused(&["render", "whitted", "-o", out, "--time", "1e30"], 2, &["at most 1e9"]);
-    assert_refused(&["check", "--case", "99"], 2, &["--case 99", "from 1 to 30"]);
+    assert_refused(&["check", "--case", "99"], 2, &["--case 99", "from 1 to 31"]);
     assert_refused(&["check", "--device", "tpu"], 2, &["auto, cpu or gpu"]);
     assert_refused(&["check", "--device", "gpu", "--case", "22"], 1, &["no graphics device renders these cases"]);
     let branches = ["render", "cornell", "-o", out, "--branches", "16", "--bounces", "9"];

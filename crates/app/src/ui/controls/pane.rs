@@ -96,9 +96,6 @@ pub fn show(cx: &mut UiContext, pane: PaneId, ui: &mut Ui) {
     let scene = &cx.model.document.scene;
     let mut usable: Vec<_> =
         all_of_panes().filter(|row| row.is_of(technique) && row.needs.missing_in(scene).is_none()).collect();
-    // there is nothing to trust beside where nothing is denoised
-    let denoises = cx.model.session.panes[pane].in_use().denoise().is_on();
-    usable.retain(|row| row.name != "trust" || denoises);
     let order = order(technique);
     usable.sort_by_key(|row| order.iter().position(|name| *name == row.name).unwrap_or(order.len()));
     let settings = &cx.model.session.panes[pane];
