@@ -2,10 +2,11 @@
 
 use crate::command::{camera_options, size_option};
 use crate::settings::unsaid_of_old;
-use crate::{Device, Shot, Technique, TechniqueName};
+use crate::{Device, Shot, Technique, TechniqueName, TracedSettings};
 use anyhow::Context;
 use image_file::Records;
-use scene::SceneHash;
+use pathtrace::{Integrator, usual_radius};
+use scene::{Scene, SceneHash};
 
 /// All that a picture depends on.
 #[derive(Debug, Clone, PartialEq)]
@@ -151,6 +152,16 @@ impl Provenance {
         records.push(("exposure", exposure.to_string()));
         records.push(("command", self.command(spp, exposure, "picture.png")));
         records
+    }
+}
+
+impl Technique {
+    /// The same with what it leaves to `scene` and its camera stated, where another camera would say something else.
+    pub(crate) fn stated_for(mut self, scene: &Scene) -> Self {
+        if let Technique::Traced(TracedSettings { integrator: Integrator::Photon(photon), .. }) = &mut self {
+            photon.radius.get_or_insert_with(|| usual_radius(scene));
+        }
+        self
     }
 }
 

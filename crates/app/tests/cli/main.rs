@@ -298,18 +298,6 @@ fn both_fakes_render_and_a_png_is_near_its_exr() {
 }
 
 #[test]
-fn time_stops_a_render() {
-    let folder = TestFolder::new();
-    let out = folder.file("t.png");
-    let output =
-        visavis(&["render", "cornell", "--size", "64x64", "--time", "1", "--json", "-o", out.to_str().unwrap()]);
-    let report = json(&output);
-    let seconds = report["seconds"].as_f64().unwrap();
-    assert!((0.9..6.0).contains(&seconds), "{seconds}");
-    assert!(report["spp"].as_u64() > Some(1));
-}
-
-#[test]
 fn help_lists_every_option_and_exits_well() {
     let output = visavis(&["--help"]);
     let text = String::from_utf8_lossy(&output.stdout);

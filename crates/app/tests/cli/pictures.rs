@@ -284,3 +284,24 @@ fn photons_of_another_camera_are_gathered_in_the_same_radius_again() {
     let film = |path: &str| image_file::load(std::path::Path::new(path)).expect("an EXR");
     assert!(film(&first) == film(&again));
 }
+
+#[test]
+fn time_stops_a_render() {
+    let folder = TestFolder::new();
+    let out = folder.file("t.png");
+    let output = visavis(&[
+        "render",
+        "cornell",
+        "--size",
+        "64x64",
+        "--time",
+        "1",
+        "--json",
+        "-o",
+        out.to_str().expect("a plain path"),
+    ]);
+    let report = json(&output);
+    let seconds = report["seconds"].as_f64().expect("seconds");
+    assert!((0.9..6.0).contains(&seconds), "{seconds}");
+    assert!(report["spp"].as_u64() > Some(1));
+}

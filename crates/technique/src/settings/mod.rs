@@ -13,7 +13,7 @@ use crate::{
 };
 use crate::{PaneSettings, SceneChanges, Technique, TechniqueName, roulette_name};
 use image_file::Records;
-use pathtrace::{Integrator, Roulette, usual_radius};
+use pathtrace::{Integrator, Roulette};
 use raster::Show;
 use scene::Scene;
 use std::fmt;
@@ -270,14 +270,6 @@ impl Technique {
     /// The options of `visavis render` that say how, by their names without dashes.
     pub fn options(&self, spp: u32) -> Records {
         self.values(spp).into_iter().map(|(name, value)| (name, value.to_string())).collect()
-    }
-
-    /// The same with what it leaves to `scene` and its camera stated, where another camera would say something else.
-    pub(crate) fn stated_for(mut self, scene: &Scene) -> Self {
-        if let Technique::Traced(TracedSettings { integrator: Integrator::Photon(photon), .. }) = &mut self {
-            photon.radius.get_or_insert_with(|| usual_radius(scene));
-        }
-        self
     }
 
     fn with_spp(mut self, wished: u32) -> Self {
