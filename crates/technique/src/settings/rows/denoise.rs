@@ -59,6 +59,7 @@ const TRUST: Setting<PaneSettings> = Setting {
         hover: "Where the samples differ from the denoiser's picture by more than their noise it is the filter that is wrong, and \
                 this share of the way back to them is gone. At 1 the picture comes to the truth as samples become many",
         look: Look::Steps { range: 0.0..=1.0, step: 0.05 },
+        more: LIGHT,
         ..BLANK
     },
     ..PLAIN
