@@ -28,7 +28,7 @@ const MOST_LIGHT: f32 = 1e15;
 /// What else is known of each pixel.
 #[derive(Debug, Clone, Copy)]
 pub struct Guide<'a> {
-    /// Albedo and normal.
+    /// Albedo and normal, each of as many pixels as the picture.
     pub features: Features<'a>,
     /// How far away the surface is; any number where nothing is hit.
     pub depth: &'a [f32],

@@ -23,7 +23,7 @@ const STRIP: usize = 4;
 /// What becomes of the output.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Then {
-    /// It is stored.
+    /// Each value is stored as it is.
     Keep,
     /// Of each 2 x 2 pixels the largest is stored.
     Pool,
@@ -32,7 +32,7 @@ pub enum Then {
 /// Channels of a layer that a convolution reads.
 #[derive(Debug, Clone, Copy)]
 pub struct Channels {
-    /// How many.
+    /// How many there are, without those that pad a block.
     pub count: usize,
     /// Whether each pixel stands for four.
     pub doubled: bool,

@@ -220,7 +220,7 @@ fn written_shape(layer: &Layer, read: Shape, channels: usize) -> Shape {
     Shape { channels, width: read.width / divisor, height: read.height / divisor }
 }
 
-/// Values between layers.
+/// Values between layers, one place for each that is held at once.
 #[derive(Debug)]
 pub(crate) struct Memory {
     planes: Vec<Planes>,

@@ -56,7 +56,7 @@ impl Network {
 
 /// What is between a picture and the network.
 pub(crate) struct Work<'a> {
-    /// Columns and rows.
+    /// Columns and rows of the whole picture.
     pub size: [usize; 2],
     pub color: &'a [Vec3],
     pub features: Features<'a>,

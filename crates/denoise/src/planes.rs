@@ -23,7 +23,7 @@ pub struct Shape {
 }
 
 impl Shape {
-    /// Blocks of channels.
+    /// Blocks of channels, the last one padded.
     pub fn blocks(self) -> usize {
         self.channels.div_ceil(BLOCK)
     }
@@ -86,7 +86,7 @@ impl Planes {
         self.starting_at(block)[stride..].chunks_exact(stride).take(self.shape.height)
     }
 
-    /// All planes.
+    /// The planes of all blocks, to be filled.
     pub fn planes_mut(&mut self) -> impl Iterator<Item = &mut [Pixel]> {
         let (plane, used) = (self.shape.plane(), self.shape.blocks() * self.shape.plane());
         self.memory[..used].chunks_exact_mut(plane)

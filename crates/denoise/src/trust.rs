@@ -39,7 +39,7 @@ pub struct Parts<'a> {
 /// What comes of it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Trusted {
-    /// The picture.
+    /// The mixture, in linear radiance.
     pub image: Image,
     /// How far each pixel's samples are trusted: 0 is the denoiser's picture, 1 the samples' own.
     pub weight: Vec<f32>,

@@ -32,9 +32,9 @@ pub enum TzaError {
     /// It ends before what it says it holds.
     #[error("the archive of tensors is cut short: it has {length} bytes, and {what} ends at byte {end}")]
     CutShort {
-        /// What lies there.
+        /// What of the archive lies there.
         what: String,
-        /// Where that ends.
+        /// The byte at which that would end.
         end: u128,
         /// How long the archive is.
         length: usize,
@@ -42,7 +42,7 @@ pub enum TzaError {
     /// A tensor of another kind than this program knows.
     #[error("the tensor {name} has the layout {layout} and the type {kind}, and is not read")]
     Kind {
-        /// The tensor.
+        /// The tensor's name in the archive.
         name: String,
         /// Its layout: `x` and `oihw` are read.
         layout: String,

@@ -50,7 +50,7 @@ fn vectors(numbers: impl Iterator<Item = f32>) -> Vec<Vec3> {
     numbers.collect::<Vec<_>>().chunks_exact(3).map(Vec3::from_slice).collect()
 }
 
-/// Relative L2 distance.
+/// L2 distance over the length of what is expected.
 fn distance(picture: &[Vec3], expected: &[Vec3]) -> f64 {
     let square = |v: Vec3| v.as_dvec3().length_squared();
     let apart: f64 = picture.iter().zip(expected).map(|(a, b)| square(*a - *b)).sum();

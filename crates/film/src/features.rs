@@ -7,16 +7,16 @@ use std::sync::Arc;
 /// What of a surface is looked at.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Feature {
-    /// [`Features::albedo`].
+    /// What share of light surfaces send back, [`Features::albedo`].
     Albedo,
-    /// [`Features::normal`].
+    /// Which way surfaces face, [`Features::normal`].
     Normal,
-    /// [`Features::depth`].
+    /// How far away they are, [`Features::depth`].
     Depth,
 }
 
 impl Feature {
-    /// All of them.
+    /// All of them, in the order of menus.
     pub const ALL: [Feature; 3] = [Feature::Albedo, Feature::Normal, Feature::Depth];
 
     /// The name on the command line, and of its layer in a file.

@@ -62,7 +62,7 @@ fn begin<'e>(encoder: &'e mut CommandEncoder, targets: &FeatureTargets, pass: us
     })
 }
 
-/// Reads them back.
+/// Brings both passes from the device as features.
 pub fn read(gpu: &Gpu, targets: &FeatureTargets) -> Result<Features, RasterError> {
     let [albedo, normal] = &targets.resolved;
     let (albedo, normal) = (texels(gpu, albedo)?, texels(gpu, normal)?);

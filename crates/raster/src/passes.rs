@@ -22,10 +22,10 @@ const STRIDE: usize = 256;
 /// The uniform buffers; they grow with the scene.
 #[derive(Debug)]
 pub struct Uniforms {
-    /// Of all cameras.
+    /// The uniform buffer of all cameras.
     pub views: wgpu::Buffer,
     lights: wgpu::Buffer,
-    /// Of all shapes.
+    /// The uniform buffer of all shapes.
     pub objects: wgpu::Buffer,
 }
 

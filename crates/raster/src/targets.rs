@@ -143,9 +143,9 @@ pub struct PictureTargets {
 pub struct FeatureTargets {
     /// The passes of either colour.
     pub passes: [Layers; 2],
-    /// Their depth buffer.
+    /// The depth buffer that both targets share.
     pub depth: TextureView,
-    /// Both when finished.
+    /// Both passes as they are read back, their samples put together.
     pub resolved: [TextureView; 2],
 }
 

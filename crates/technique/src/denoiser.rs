@@ -83,7 +83,7 @@ impl Denoiser {
 /// A denoiser, and how far to go back from it to the samples.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct DenoiseSettings {
-    /// The filter.
+    /// The filter that the picture goes through.
     pub denoiser: Denoiser,
     /// Which share of the way to the samples that [`mod@denoise::trust`] tells is gone, in [0, 1]; at 0 it is not asked, and the
     /// filter has all samples at once.

@@ -48,7 +48,7 @@ impl<F: Float> Interactions<F> {
         }
     }
 
-    /// Of no surface.
+    /// What stands in lanes that are at no surface.
     #[inline(always)]
     pub fn none() -> Self {
         let (zero, point) = (Vector::zero(), SurfacePoints::in_the_air(Vector::zero()));

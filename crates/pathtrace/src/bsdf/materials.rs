@@ -81,7 +81,7 @@ impl<U: Word> Kinds<U> {
         self.has(DELTA)
     }
 
-    /// Nothing known.
+    /// Of no material: none of the bits is set.
     #[inline(always)]
     pub fn none() -> Self {
         Kinds(U::splat(0))

@@ -24,7 +24,7 @@ pub struct Sums {
     distance: f32,
     /// Samples that met anything.
     met: u32,
-    /// All of them.
+    /// Samples taken, those that met nothing among them.
     pub samples: u32,
 }
 

@@ -64,7 +64,7 @@ pub struct FeatureFilm {
 }
 
 impl FeatureFilm {
-    /// One without samples.
+    /// Of `width` x `height` pixels, none of which has a sample.
     pub fn new((width, height): (u32, u32)) -> Self {
         FeatureFilm { size: [width, height], sums: vec![Sums::default(); width as usize * height as usize] }
     }

@@ -21,7 +21,7 @@ use simd::{Float, Mask, Vector, Word};
 enum Leg {
     /// From the vertex to where the ray meets the sphere.
     ToSphere,
-    /// Inside the sphere.
+    /// Through the sphere, from one face to the other.
     Chord,
     /// From where the ray leaves the sphere.
     ToLight,

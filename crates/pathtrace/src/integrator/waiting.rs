@@ -56,7 +56,7 @@ impl<F: Float> ConnectingVertices<F> {
 }
 
 impl<F: Float> WaitingVertices<F> {
-    /// None yet.
+    /// As before the first vertex: nothing waits.
     #[inline(always)]
     pub fn none() -> Self {
         let none = ConnectingVertices::none();

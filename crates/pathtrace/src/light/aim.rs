@@ -14,9 +14,9 @@ use std::f32::consts::FRAC_1_PI;
 /// A sphere around something.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Bounds {
-    /// Its middle.
+    /// The sphere's middle, in world space.
     pub center: Vec3,
-    /// At least 0.
+    /// The sphere's radius, at least 0.
     pub radius: f32,
 }
 
@@ -136,7 +136,7 @@ pub fn around_each(shapes: Vec<&Geometry>) -> Vec<Bounds> {
 }
 
 impl Bounds {
-    /// Around a box.
+    /// The smallest sphere around a box.
     pub fn of((lo, hi): (Vec3, Vec3)) -> Self {
         // centre and half diagonal are rounded; a photon at the very rim shall not miss what is there
         let rounding = 1.0 + 16.0 * f32::EPSILON;

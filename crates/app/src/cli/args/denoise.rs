@@ -26,9 +26,9 @@ pub enum Filter {
     /// Open Image Denoise's small network.
     #[default]
     Unet,
-    /// Its larger one.
+    /// The usual one of Open Image Denoise, three times as large.
     UnetBase,
-    /// Edge-avoiding a-trous wavelets.
+    /// Edge-avoiding a-trous wavelets, which need the depth too.
     ATrous,
 }
 

@@ -23,7 +23,7 @@ pub enum GpuTraceError {
     /// A device without compute shaders, or with too few bindings.
     #[error("{adapter} can't path trace: it has {has} {what}, and {needs} are needed; render on the CPU")]
     Unable {
-        /// Name and interface.
+        /// The adapter's name and interface.
         adapter: String,
         /// Of what there is too little.
         what: &'static str,
@@ -39,9 +39,9 @@ pub enum GpuTraceError {
     Photons {
         /// How many there are.
         found: u32,
-        /// Most that fit.
+        /// The most photons that fit into one binding.
         limit: u32,
-        /// Name and interface.
+        /// The adapter's name and interface.
         adapter: String,
     },
     /// What no device can follow.

@@ -13,11 +13,11 @@ pub struct PhotonParams {
     pub first: u32,
     /// ... up to before this one.
     pub end: u32,
-    /// Of the pass.
+    /// The number of the pass, from 0.
     pub number: u32,
     /// That leave the lights in it.
     pub photons: u32,
-    /// The picture's seed.
+    /// The seed of the picture's random numbers.
     pub seed: u32,
     /// Most that the list holds.
     pub capacity: u32,
@@ -31,7 +31,7 @@ pub struct PhotonCounts {
     pub found: u32,
     /// Photons that were cut short.
     pub cut_photons: u32,
-    /// Rays traced ...
+    /// Rays traced, the lower 32 bits of their number ...
     pub rays: u32,
     /// ... and above them what overflowed.
     pub rays_high: u32,
@@ -41,7 +41,7 @@ pub struct PhotonCounts {
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
 pub struct Photon {
-    /// World space.
+    /// Where it has met a surface, in world space.
     pub position: Vec3,
     /// On the side that it came from, in 32 bits.
     pub normal: u32,
@@ -65,7 +65,7 @@ pub struct Grid {
     pub mask: u32,
     /// Where the photons begin behind the buckets, in words of 16 bytes.
     pub photons: u32,
-    /// Padding.
+    /// Padding to the alignment that the shader has.
     pub unused: u32,
 }
 
@@ -75,7 +75,7 @@ pub struct Grid {
 pub struct EmissionHeader {
     /// Middle of the sphere around the scene.
     pub center: Vec3,
-    /// Its radius.
+    /// The radius of the sphere around all shapes.
     pub radius: f32,
     /// Radiance of a sky of one colour.
     pub sky: Vec3,
@@ -83,7 +83,7 @@ pub struct EmissionHeader {
     pub emitters: u32,
     /// How many spheres photons are aimed at, with two rows each behind them.
     pub targets: u32,
-    /// Padding.
+    /// Padding to the alignment that the shader has.
     pub unused: [u32; 3],
 }
 

@@ -47,7 +47,7 @@ struct PassKey {
     emission: Vec<u8>,
 }
 
-/// One pass.
+/// What one pass of photons works with.
 pub(crate) struct PhotonWork<'a> {
     pub walk: &'a ComputePipeline,
     pub scene: &'a BindGroup,
@@ -76,7 +76,7 @@ struct Room {
 }
 
 impl PhotonMaps {
-    /// Compiles what sorts.
+    /// Compiles the kernels that sort photons into buckets.
     ///
     /// # Errors
     /// [`GpuError::Refused`] if the device can't take it.

@@ -20,7 +20,7 @@ use wgpu::{BindGroupLayout, BindingType, BufferBindingType, ComputePipeline};
 /// What a pipeline is bound to beside the scene.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Bound {
-    /// A film.
+    /// A film, to which samples are added.
     Film,
     /// A film, and a map of photons.
     FilmAndMap,
@@ -280,7 +280,7 @@ fn enough(gpu: &Gpu, what: &'static str, has: u32, needs: u32) -> Result<(), Gpu
 pub(crate) enum BufferKind {
     /// Reads it, a small one.
     Uniform,
-    /// Reads it.
+    /// A storage buffer that shaders only read.
     Read,
     /// Reads and writes it.
     Written,
