@@ -46,6 +46,16 @@ impl Pixel {
         self.largest = self.largest.max(radiance.max_element());
     }
 
+    /// Adds the samples of another pixel.
+    pub fn add_all(&mut self, other: &Pixel) {
+        for channel in 0..3 {
+            self.sum[channel] += other.sum[channel];
+            self.sum_of_squares[channel] += other.sum_of_squares[channel];
+        }
+        self.samples += other.samples;
+        self.largest = self.largest.max(other.largest);
+    }
+
     /// The mean of the samples; zero before the first.
     pub fn mean(&self) -> [f64; 3] {
         self.sum.map(|sum| if self.samples == 0 { 0.0 } else { sum / f64::from(self.samples) })
@@ -111,6 +121,13 @@ impl Film {
     /// Height in pixels.
     pub fn height(&self) -> u32 {
         self.height
+    }
+
+    /// Adds the samples of another film of the same size, pixel by pixel.
+    pub fn add_all(&mut self, other: &Film) {
+        debug_assert_eq!((self.width, self.height), (other.width, other.height));
+        self.pixels.iter_mut().zip(&other.pixels).for_each(|(pixel, other)| pixel.add_all(other));
+        self.nonfinite += other.nonfinite;
     }
 
     /// The mean of the samples that came after an `earlier` state of the same film, as a picture, and how many they are of
@@ -212,6 +229,18 @@ mod tests {
         let (image, samples) = film.since(&earlier).unwrap();
         assert_eq!((image.radiances(), samples), (&[Vec3::splat(1.5); 2][..], 2));
         assert_eq!(film.since(&Film::new(1, 2)), None);
+    }
+
+    #[test]
+    fn two_films_together_are_the_film_of_all_their_samples() {
+        let film = |values: &[f32]| {
+            let mut film = Film::new(2, 1);
+            film.pixels_mut().iter_mut().for_each(|pixel| values.iter().for_each(|v| pixel.add(Vec3::splat(*v))));
+            film
+        };
+        let mut both = film(&[1.0, 4.0]);
+        both.add_all(&film(&[2.0]));
+        assert_eq!(both, film(&[1.0, 4.0, 2.0]));
     }
 
     #[test]

@@ -11,6 +11,8 @@ pub enum Binding {
     Read,
     /// A storage buffer that is written.
     Written,
+    /// A uniform buffer.
+    Uniform,
     /// Layers of a texture of words.
     WordTexture,
 }
@@ -22,8 +24,8 @@ pub struct Compute {
     pipeline: wgpu::ComputePipeline,
     /// Of the shader's own group.
     layout: wgpu::BindGroupLayout,
-    /// In a workgroup, along x.
-    threads: u32,
+    /// In a workgroup, along x, y and z.
+    threads: [u32; 3],
 }
 
 impl Compute {
@@ -42,7 +44,7 @@ impl Compute {
     ) -> Result<Compute, GpuError> {
         let what = format!("{entry_point} of shaders/{}", shader.name);
         let entry = shader.module.entry_points.iter().find(|entry| entry.name == entry_point);
-        let threads = entry.map_or(1, |entry| entry.workgroup_size[0]);
+        let threads = entry.map_or([1; 3], |entry| entry.workgroup_size);
         let module = shader.create(gpu)?;
         let (pipeline, layout) = gpu.checked(&what, || {
             let entries: Vec<_> = (0..).zip(bindings).map(layout_entry).collect();
@@ -79,34 +81,48 @@ impl Compute {
         items: usize,
     ) -> Result<(), GpuError> {
         gpu.checked(&self.what, || {
-            let bound = (0..).zip(resources);
-            let entries: Vec<_> =
-                bound.map(|(binding, resource)| wgpu::BindGroupEntry { binding, resource: resource.clone() }).collect();
-            let own = wgpu::BindGroupDescriptor { label: None, layout: &self.layout, entries: &entries };
-            let own = gpu.device.create_bind_group(&own);
+            let own = self.bind(gpu, resources);
             let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-            {
-                let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
-                pass.set_pipeline(&self.pipeline);
-                for (index, group) in (0..).zip(shared.into_iter().chain([&own])) {
-                    pass.set_bind_group(index, group, &[]);
-                }
-                pass.dispatch_workgroups(items.div_ceil(self.threads as usize) as u32, 1, 1);
-            }
+            let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
+            self.record(&mut pass, shared, &own, [items as u32, 1, 1]);
+            drop(pass);
             gpu.queue.submit([encoder.finish()]);
         })
+    }
+
+    /// What stands at its own bindings, 0, 1, 2 ...; within [`Gpu::checked`].
+    pub fn bind(&self, gpu: &Gpu, resources: &[BindingResource<'_>]) -> wgpu::BindGroup {
+        let bound = (0..).zip(resources);
+        let entries: Vec<_> =
+            bound.map(|(binding, resource)| wgpu::BindGroupEntry { binding, resource: resource.clone() }).collect();
+        let own = wgpu::BindGroupDescriptor { label: Some(&self.what), layout: &self.layout, entries: &entries };
+        gpu.device.create_bind_group(&own)
+    }
+
+    /// Adds to a pass that it runs over so many items along x, y and z: for several shaders, one after the other, in one
+    /// submission. Within [`Gpu::checked`].
+    pub fn record(
+        &self,
+        pass: &mut wgpu::ComputePass<'_>,
+        shared: Option<&wgpu::BindGroup>,
+        own: &wgpu::BindGroup,
+        items: [u32; 3],
+    ) {
+        pass.set_pipeline(&self.pipeline);
+        for (index, group) in (0..).zip(shared.into_iter().chain([own])) {
+            pass.set_bind_group(index, group, &[]);
+        }
+        let [x, y, z] = std::array::from_fn(|axis| items[axis].div_ceil(self.threads[axis].max(1)));
+        pass.dispatch_workgroups(x, y, z);
     }
 }
 
 fn layout_entry((binding, kind): (u32, &Binding)) -> wgpu::BindGroupLayoutEntry {
-    let storage = |read_only| BindingType::Buffer {
-        ty: BufferBindingType::Storage { read_only },
-        has_dynamic_offset: false,
-        min_binding_size: None,
-    };
+    let buffer = |ty| BindingType::Buffer { ty, has_dynamic_offset: false, min_binding_size: None };
     let ty = match kind {
-        Binding::Read => storage(true),
-        Binding::Written => storage(false),
+        Binding::Read => buffer(BufferBindingType::Storage { read_only: true }),
+        Binding::Written => buffer(BufferBindingType::Storage { read_only: false }),
+        Binding::Uniform => buffer(BufferBindingType::Uniform),
         Binding::WordTexture => BindingType::Texture {
             sample_type: wgpu::TextureSampleType::Uint,
             view_dimension: wgpu::TextureViewDimension::D2Array,

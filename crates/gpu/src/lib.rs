@@ -20,8 +20,9 @@ pub use wgpu;
 
 use std::sync::{Arc, Mutex, PoisonError};
 
-/// What is used where an adapter has it, and done without where it has not: times of passes.
-const WELCOME: wgpu::Features = wgpu::Features::TIMESTAMP_QUERY;
+/// What is used where an adapter has it, and done without where it has not: times of passes, and numbers of half the
+/// size.
+const WELCOME: wgpu::Features = wgpu::Features::TIMESTAMP_QUERY.union(wgpu::Features::SHADER_F16);
 
 /// A graphics device with its queue. Clones share it.
 #[derive(Debug, Clone)]
@@ -30,7 +31,7 @@ pub struct Gpu {
     pub instance: wgpu::Instance,
     /// The physical or software device.
     pub adapter: wgpu::Adapter,
-    /// The logical device, with every limit that the adapter offers, and a clock for passes if it has one.
+    /// The logical device, with every limit that the adapter offers, and what else is welcome.
     pub device: wgpu::Device,
     /// Where work is submitted.
     pub queue: wgpu::Queue,

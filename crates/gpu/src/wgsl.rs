@@ -155,7 +155,9 @@ fn validated(source: &str, lines: &[(String, usize)]) -> Result<naga::Module, Wg
         wrong(fault.location(source), format!("{}{detail}", fault.message()))
     })?;
     let flags = naga::valid::ValidationFlags::all();
-    let mut validator = naga::valid::Validator::new(flags, naga::valid::Capabilities::default());
+    // what devices lack of it they say themselves
+    let capabilities = naga::valid::Capabilities::default() | naga::valid::Capabilities::SHADER_FLOAT16;
+    let mut validator = naga::valid::Validator::new(flags, capabilities);
     validator.validate(&module).map_err(|fault| {
         let chain = std::iter::successors(Some(fault.as_inner() as &dyn std::error::Error), |e| e.source());
         let message = chain.map(ToString::to_string).collect::<Vec<_>>().join(": ");

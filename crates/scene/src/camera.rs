@@ -130,6 +130,16 @@ impl PictureFrame {
         let (x, y) = (2.0 * point.x - 1.0, 1.0 - 2.0 * point.y);
         (self.forward + self.right * x + self.up * y).normalize()
     }
+
+    /// Where a point of the scene lies in the picture, in [0, 1]^2 from the top left corner, or beyond: the inverse of
+    /// [`PictureFrame::direction`]. `None` for what is not before the pinhole.
+    pub fn project(&self, point: Vec3) -> Option<Vec2> {
+        let arm = point - self.eye;
+        let along = |axis: Vec3| arm.dot(axis) / axis.length_squared();
+        let distance = arm.dot(self.forward);
+        let seen = Vec2::new(along(self.right), -along(self.up)) / distance;
+        (distance > 0.0 && seen.is_finite()).then_some(0.5 + 0.5 * seen)
+    }
 }
 
 #[cfg(test)]
@@ -153,7 +163,11 @@ mod tests {
             let clip = CAMERA.clip_from_world(1.5).project_point3(seen);
             let landed = Vec2::new(0.5 + 0.5 * clip.x, 0.5 - 0.5 * clip.y);
             assert!((landed - point).length() < 1e-5, "{point} landed at {landed}");
+            let projected = frame.project(seen).expect("it lies before the camera");
+            assert!((projected - point).length() < 1e-5, "{point} is projected to {projected}");
         }
+        assert_eq!(frame.project(frame.eye - frame.forward), None);
+        assert_eq!(frame.project(frame.eye), None);
     }
 
     #[test]
