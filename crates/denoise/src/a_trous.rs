@@ -7,7 +7,7 @@ mod pass;
 mod picture;
 
 use crate::transfer::sanitized;
-use crate::{DenoiseError, Features, Stop};
+use crate::{DenoiseError, Features, Stop, check_memory};
 use film::colour::luminance;
 use film::{Image, Vec3};
 use pass::{Filter, Moments};
@@ -39,7 +39,7 @@ pub struct Guide<'a> {
 /// The picture with its noise spread over what looks alike. What is not finite counts as 0.
 ///
 /// # Errors
-/// [`DenoiseError`] if a layer is of another size, or `stop` said so.
+/// [`DenoiseError`] if a layer is of another size, if there is not enough memory, or if `stop` said so.
 pub fn a_trous(color: &Image, guide: Guide, stop: Stop) -> Result<Image, DenoiseError> {
     a_trous_on(Lanes::best(), color, guide, stop)
 }
@@ -55,6 +55,7 @@ pub fn a_trous_on(lanes: Lanes, color: &Image, guide: Guide, stop: Stop) -> Resu
         return Err(DenoiseError::Size);
     }
     let size = [color.width() as usize, color.height() as usize];
+    check_memory(memory(size))?;
     let albedo: Vec<Vec3> = guide.features.albedo.iter().map(|albedo| divisor(*albedo)).collect();
     let guides = Guides::new(size, guide.features, guide.depth);
     let mut light = Light::new(size, |pixel| {
@@ -76,6 +77,12 @@ pub fn a_trous_on(lanes: Lanes, color: &Image, guide: Guide, stop: Stop) -> Resu
     }
     let denoised: Vec<Vec3> = light.pixels().zip(&albedo).map(|(light, albedo)| light * *albedo).collect();
     Image::new(color.width(), color.height(), denoised).ok_or(DenoiseError::Size)
+}
+
+/// Bytes that it takes beside its input: guides, light of two levels, divisors, and what comes out.
+fn memory([width, height]: [usize; 2]) -> usize {
+    let of_pixels = 2 * size_of::<Vec3>() * width * height;
+    of_pixels + Guides::memory([width, height]) + 2 * Light::memory([width, height])
 }
 
 /// What light is divided by.

@@ -20,6 +20,15 @@ pub use tiles::MOST_PIXELS;
 
 use film::{Image, Vec3};
 
+/// Whether there is memory for so many bytes beside what is in use: asked once, before the many lists that a filter fills, each of
+/// which would end the program.
+///
+/// # Errors
+/// [`DenoiseError::Memory`] where there is not.
+pub fn check_memory(bytes: usize) -> Result<(), DenoiseError> {
+    Vec::<u8>::new().try_reserve_exact(bytes).map_err(|_| DenoiseError::Memory(bytes))
+}
+
 /// Asked now and then from any thread: whether to stop.
 pub type Stop<'a> = &'a (dyn Fn() -> bool + Sync);
 
@@ -55,4 +64,17 @@ pub enum DenoiseError {
     /// There is not so much memory, in bytes.
     #[error("not enough memory to denoise: {:.1} GiB are needed", *.0 as f64 / f64::from(1 << 30))]
     Memory(usize),
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn more_memory_than_there_can_be_is_refused_with_how_much_it_is() {
+        assert_eq!(check_memory(1 << 20), Ok(()));
+        let bytes = isize::MAX as usize;
+        let fault = check_memory(bytes).expect_err("more than the addresses that there are");
+        assert_eq!(fault.to_string(), "not enough memory to denoise: 8589934592.0 GiB are needed");
+    }
 }

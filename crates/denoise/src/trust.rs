@@ -14,13 +14,16 @@
 use film::{Image, Vec3};
 use rayon::prelude::*;
 
-use crate::DenoiseError;
+use crate::{DenoiseError, check_memory};
 
 /// To each side of a pixel.
 const REACH: usize = 3;
 
 /// Samples of a pixel below which nobody knows their variance, and nothing is trusted.
 pub const LEAST_SAMPLES: u32 = 4;
+
+/// Bytes for each pixel: a mixture and its weight, two weights, and at most four lists of sums over squares at a time.
+const MEMORY: usize = size_of::<Vec3>() + 7 * size_of::<f32>();
 
 /// Added to what squares are taken relative to.
 const RELATIVE_FLOOR: f32 = 0.01;
@@ -56,7 +59,7 @@ struct Way<'a> {
 /// The James-Stein combination of both parts, going back to the samples by the `share` in [0, 1] of what it would.
 ///
 /// # Errors
-/// [`DenoiseError::Size`] if they are of several sizes.
+/// [`DenoiseError::Size`] if they are of several sizes, [`DenoiseError::Memory`] if there is not so much.
 pub fn trust(parts: Parts, share: f32) -> Result<Trusted, DenoiseError> {
     let [first, second] = parts.noisy;
     let size = first.size();
@@ -70,6 +73,7 @@ pub fn trust(parts: Parts, share: f32) -> Result<Trusted, DenoiseError> {
         share: parts.samples[1 - part] as f32 / all.max(1) as f32,
     });
     let pixels = first.radiances().len();
+    check_memory(MEMORY * pixels)?;
     let weights = ways.each_ref().map(|way| {
         if all < LEAST_SAMPLES {
             return vec![0.0; pixels];

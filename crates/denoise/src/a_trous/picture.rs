@@ -35,9 +35,14 @@ pub struct Table<const KINDS: usize> {
 pub type Guides = Table<GUIDES>;
 pub type Light = Table<LIGHT>;
 
+/// Numbers of one kind in a row, with its margins.
+fn stride(width: usize) -> usize {
+    width.next_multiple_of(MOST_LANES) + 2 * MARGIN
+}
+
 impl<const KINDS: usize> Table<KINDS> {
     fn filled([width, height]: [usize; 2], of: impl Fn(usize) -> [f32; KINDS] + Sync) -> Self {
-        let stride = width.next_multiple_of(MOST_LANES) + 2 * MARGIN;
+        let stride = stride(width);
         let mut values = vec![0.0; stride * KINDS * height];
         values.par_chunks_mut(stride * KINDS).enumerate().for_each(|(y, row)| {
             for x in 0..width {
@@ -47,6 +52,11 @@ impl<const KINDS: usize> Table<KINDS> {
             }
         });
         Table { width, height, stride, values }
+    }
+
+    /// Bytes that a table of this size takes.
+    pub fn memory([width, height]: [usize; 2]) -> usize {
+        size_of::<f32>() * stride(width) * KINDS * height
     }
 
     /// Numbers of one kind in a row, from the beginning of its margin.
