@@ -17,7 +17,7 @@ struct Side {
     overrides: Vec<&'static str>,
 }
 
-fn sides() -> [Side; 2] {
+fn sides() -> [Side; 3] {
     [
         Side {
             library: pathtrace::shaders::LIBRARY,
@@ -28,6 +28,11 @@ fn sides() -> [Side; 2] {
             library: raster::shaders::LIBRARY,
             constants: raster::shaders::shared_constants(),
             overrides: raster::shaders::override_names(),
+        },
+        Side {
+            library: denoise::gpu::LIBRARY,
+            constants: denoise::gpu::shared_constants(),
+            overrides: denoise::gpu::override_names(),
         },
     ]
 }

@@ -4,7 +4,8 @@
 //! Input channels come from one or two layers; one that was halved before is read as if each of its pixels stood for four
 //! (nearest upsampling), with the kernel's weights summed where they meet the same one: 4 products instead of 9.
 //!
-//! Sums are fused where lanes can: another width rounds otherwise, and a picture differs in its last bits.
+//! Sums are fused where lanes can: another width rounds otherwise, and a picture differs in its last bits. On the device:
+//! `shaders/denoise/unet/convolution.wgsl`, layer.wgsl.
 
 use crate::Stop;
 use crate::planes::{BLOCK, Pixel, Planes, Shape, strips};
@@ -19,6 +20,11 @@ const TILE: usize = 6;
 
 /// Rows of a strip, the work of one thread at a time.
 const STRIP: usize = 4;
+
+/// Places of a kernel.
+pub const TAPS: usize = 9;
+/// Sums of them where a layer is doubled.
+pub const TAPS_OF_DOUBLED: usize = 16;
 
 /// What becomes of the output.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -67,6 +73,27 @@ impl Convolution {
         let bias_of_block = |first: usize| from_fn(|lane| bias.values.get(first + lane).copied().unwrap_or(0.0));
         let (weights, bias) = (blocks.clone().map(of_block).collect(), blocks.map(bias_of_block).collect());
         Some(Convolution { outputs, inputs: inputs.to_vec(), bias, weights })
+    }
+
+    /// What it reads.
+    pub fn inputs(&self) -> &[Channels] {
+        &self.inputs
+    }
+
+    /// What an output begins with; 0 of one that pads a block.
+    pub fn bias(&self, output: usize) -> f32 {
+        self.bias.get(output / BLOCK).map_or(0.0, |block| block[output % BLOCK])
+    }
+
+    /// The weight of an input channel of one of the layers, at a tap: a place of the kernel, or of a layer that is doubled
+    /// a sum of those that come to lie on one pixel, for row and column even or odd. 0 of channels that pad a block.
+    pub fn weight(&self, layer: usize, channel: usize, tap: usize, output: usize) -> f32 {
+        let Channels { count, doubled } = self.inputs[layer];
+        let (Some(weights), true) = (self.weights.get(output / BLOCK), channel < count) else { return 0.0 };
+        let before: usize = self.inputs[..layer].iter().map(|input| input.count * taps(input.doubled)).sum();
+        let first = channel / BLOCK * BLOCK;
+        let block = BLOCK.min(count - first);
+        weights[before + first * taps(doubled) + tap * block + channel - first][output % BLOCK]
     }
 
     /// Multiplications and additions for each pixel, those of channels that pad a block included.
@@ -139,6 +166,11 @@ fn order(inputs: &[Channels]) -> Vec<Taps> {
         first += count;
     }
     order
+}
+
+/// How many weights an input channel has for each output.
+pub const fn taps(doubled: bool) -> usize {
+    if doubled { TAPS_OF_DOUBLED } else { TAPS }
 }
 
 /// For even and odd rows, each of the two rows that they see, the left and the right column, even and odd columns.

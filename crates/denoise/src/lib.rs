@@ -7,6 +7,7 @@
 
 pub mod a_trous;
 mod convolution;
+pub mod gpu;
 mod network;
 mod oidn;
 mod planes;
@@ -64,6 +65,9 @@ pub enum DenoiseError {
     /// There is not so much memory, in bytes.
     #[error("not enough memory to denoise: {:.1} GiB are needed", *.0 as f64 / f64::from(1 << 30))]
     Memory(usize),
+    /// The graphics device failed, or does not take it.
+    #[error("{0}")]
+    Device(String),
 }
 
 #[cfg(test)]

@@ -17,7 +17,7 @@ pub const ALIGNMENT: usize = 16;
 /// Where values lie between layers: the input and what the decoder comes back to have places of their own, all else one
 /// of two, from the one to the other.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Place {
+pub(crate) enum Place {
     Input,
     Pool1,
     Pool2,
@@ -26,22 +26,22 @@ enum Place {
     Pong,
 }
 
-const PLACES: usize = 6;
+pub(crate) const PLACES: usize = 6;
 
 /// A row of the table.
-struct Layer {
-    name: &'static str,
+pub(crate) struct Layer {
+    pub name: &'static str,
     /// What it reads, and whether each pixel of that stands for four.
-    reads: &'static [(Place, bool)],
-    then: Then,
-    writes: Place,
+    pub reads: &'static [(Place, bool)],
+    pub then: Then,
+    pub writes: Place,
 }
 
 const fn layer(name: &'static str, reads: &'static [(Place, bool)], then: Then, writes: Place) -> Layer {
     Layer { name, reads, then, writes }
 }
 
-const GRAPH: [Layer; 16] = {
+pub(crate) const GRAPH: [Layer; 16] = {
     use Place::{Input, Ping, Pong, Pool1, Pool2, Pool3};
     use Then::{Keep, Pool};
     [
@@ -83,7 +83,7 @@ pub enum WeightsError {
 pub struct Network {
     name: &'static str,
     hash: u128,
-    layers: Vec<Convolution>,
+    pub(crate) layers: Vec<Convolution>,
 }
 
 impl Network {
@@ -208,14 +208,14 @@ fn convolution(tensors: &[Tensor], name: &str, inputs: &[Channels]) -> Result<Co
 }
 
 /// Over how many pixels a layer goes.
-fn read_shape(layer: &Layer, at: &[Shape; PLACES]) -> Shape {
+pub(crate) fn read_shape(layer: &Layer, at: &[Shape; PLACES]) -> Shape {
     let (place, doubled) = layer.reads[0];
     let shape = at[place as usize];
     let factor = if doubled { 2 } else { 1 };
     Shape { width: factor * shape.width, height: factor * shape.height, ..shape }
 }
 
-fn written_shape(layer: &Layer, read: Shape, channels: usize) -> Shape {
+pub(crate) fn written_shape(layer: &Layer, read: Shape, channels: usize) -> Shape {
     let divisor = if layer.then == Then::Pool { 2 } else { 1 };
     Shape { channels, width: read.width / divisor, height: read.height / divisor }
 }

@@ -1,5 +1,6 @@
 //! What Open Image Denoise does (filter RT, HDR, features not prefiltered), with its networks: one exposure and a transfer
 //! curve in front of the network, their inverse behind. Checked against that program's own pictures in `tests/oidn.rs`.
+//! On the device: `shaders/denoise/unet/input.wgsl`, output.wgsl.
 
 use crate::network::{Memory, Network};
 use crate::planes::{BLOCK, Pixel, Planes, Shape, strips};

@@ -1,6 +1,6 @@
 //! What the network sees of radiance: brought to one exposure, through a curve of equal steps for the eye, between 0
 //! and 1. The numbers are those that the published networks were trained with (Open Image Denoise, `core/color.h`,
-//! `core/autoexposure.h`).
+//! `core/autoexposure.h`). On the device: `shaders/denoise/unet/transfer.wgsl`.
 
 use film::Vec3;
 
@@ -51,48 +51,47 @@ pub fn sanitized(rgb: Vec3) -> Vec3 {
     Vec3::from_array(rgb.to_array().map(|value| if value.is_finite() { value.max(0.0) } else { 0.0 }))
 }
 
-/// A fit to the PU2 curve (Aydin, Mantiuk and Seidel, "Extending Quality Metrics to Full Luminance Range Images", 2008),
-/// normalised at 100 cd/m^2: linear below `Y0`, a power up to `Y1`, then logarithmic.
-mod pu {
-    pub const A: f32 = 1.412_837_65e3;
-    pub const B: f32 = 1.645_931_72;
-    pub const C: f32 = 4.313_849_81e-1;
-    pub const D: f32 = -2.941_396_09e-3;
-    pub const E: f32 = 1.926_532_54e-1;
-    pub const F: f32 = 6.260_260_94e-3;
-    pub const G: f32 = 9.986_201_52e-1;
-    pub const Y0: f32 = 1.579_457_60e-6;
-    pub const Y1: f32 = 3.220_876_31e-2;
-    pub const X0: f32 = 2.231_517_11e-3;
-    pub const X1: f32 = 3.709_747_49e-1;
-}
+// A fit to the PU2 curve (Aydin, Mantiuk and Seidel, "Extending Quality Metrics to Full Luminance Range Images", 2008),
+// normalised at 100 cd/m^2: linear below `PU_Y0`, a power up to `PU_Y1`, then logarithmic.
+pub const PU_A: f32 = 1.412_837_65e3;
+pub const PU_B: f32 = 1.645_931_72;
+pub const PU_C: f32 = 4.313_849_81e-1;
+pub const PU_D: f32 = -2.941_396_09e-3;
+pub const PU_E: f32 = 1.926_532_54e-1;
+pub const PU_F: f32 = 6.260_260_94e-3;
+pub const PU_G: f32 = 9.986_201_52e-1;
+pub const PU_Y0: f32 = 1.579_457_60e-6;
+pub const PU_Y1: f32 = 3.220_876_31e-2;
+pub const PU_X0: f32 = 2.231_517_11e-3;
+pub const PU_X1: f32 = 3.709_747_49e-1;
 
 fn curve(y: f32) -> f32 {
-    if y <= pu::Y0 {
-        pu::A * y
-    } else if y <= pu::Y1 {
-        pu::B * y.powf(pu::C) + pu::D
+    if y <= PU_Y0 {
+        PU_A * y
+    } else if y <= PU_Y1 {
+        PU_B * y.powf(PU_C) + PU_D
     } else {
-        pu::E * (y + pu::F).ln() + pu::G
+        PU_E * (y + PU_F).ln() + PU_G
     }
 }
 
 fn inverse_curve(x: f32) -> f32 {
-    if x <= pu::X0 {
-        x / pu::A
-    } else if x <= pu::X1 {
-        ((x - pu::D) / pu::B).powf(1.0 / pu::C)
+    if x <= PU_X0 {
+        x / PU_A
+    } else if x <= PU_X1 {
+        ((x - PU_D) / PU_B).powf(1.0 / PU_C)
     } else {
-        ((x - pu::G) / pu::E).exp() - pu::F
+        ((x - PU_G) / PU_E).exp() - PU_F
     }
 }
 
 /// Radiance to what the network sees and back.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Transfer {
-    exposure: f32,
+    /// The factor that brings radiance to the exposure that the network knows.
+    pub exposure: f32,
     /// The curve at the largest number of half precision, which becomes 1.
-    white: f32,
+    pub white: f32,
 }
 
 impl Transfer {
@@ -120,7 +119,7 @@ mod tests {
 
     #[test]
     fn the_curve_has_no_step_where_its_pieces_meet() {
-        for (y, x) in [(pu::Y0, pu::X0), (pu::Y1, pu::X1)] {
+        for (y, x) in [(PU_Y0, PU_X0), (PU_Y1, PU_X1)] {
             let above = curve(f32::from_bits(y.to_bits() + 1));
             assert!((curve(y) - x).abs() < 1e-6 && (above - x).abs() < 1e-6, "{y}: {} {above} {x}", curve(y));
         }

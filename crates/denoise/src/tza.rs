@@ -102,7 +102,7 @@ fn singles(bytes: &[u8]) -> Vec<f32> {
 }
 
 /// A number of half precision (IEEE 754 binary16), exactly.
-fn from_half(bits: u16) -> f32 {
+pub(crate) fn from_half(bits: u16) -> f32 {
     let sign = u32::from(bits >> 15) << 31;
     let (exponent, fraction) = (u32::from(bits >> 10 & 31), u32::from(bits & 1023));
     let size = match exponent {
