@@ -3,6 +3,7 @@
 //! `core/autoexposure.h`). On the device: `shaders/denoise/unet/transfer.wgsl`.
 
 use film::Vec3;
+use rayon::prelude::*;
 
 /// The luminance that a picture's mean is brought to.
 const KEY: f32 = 0.18;
@@ -17,15 +18,17 @@ pub fn exposure(radiances: &[Vec3], width: usize) -> f32 {
     let height = radiances.len() / width.max(1);
     let bins = [width.div_ceil(BIN), height.div_ceil(BIN)];
     let range = |bin: usize, bins: usize, side: usize| bin * side / bins..(bin + 1) * side / bins;
+    let means = |row: usize| {
+        let rows = range(row, bins[1], height);
+        let of = move |column: usize| mean_luminance(radiances, width, range(column, bins[0], width), rows.clone());
+        (0..bins[0]).map(of).collect::<Vec<f64>>()
+    };
+    let rows: Vec<Vec<f64>> = (0..bins[1]).into_par_iter().map(means).collect();
+    // one after the other, so that no sum depends on the threads
     let (mut sum, mut count) = (0.0, 0.0);
-    for row in 0..bins[1] {
-        for column in 0..bins[0] {
-            let mean = mean_luminance(radiances, width, range(column, bins[0], width), range(row, bins[1], height));
-            if mean > DARKEST {
-                sum += mean.log2();
-                count += 1.0;
-            }
-        }
+    for mean in rows.into_iter().flatten().filter(|mean| *mean > DARKEST) {
+        sum += mean.log2();
+        count += 1.0;
     }
     if count > 0.0 { (f64::from(KEY) / (sum / count).exp2()) as f32 } else { 1.0 }
 }
