@@ -2,8 +2,10 @@
 //! Two filters: the U-Net of Open Image Denoise ([`Network`]), and a-trous wavelets ([`mod@a_trous`]); and [`mod@trust`], which
 //! goes back from either to the samples as they become many.
 //!
-//! The networks' weights are Open Image Denoise's, published under Apache-2.0 (`assets/weights`). All runs on lanes, and
-//! sums are fused where the machine can: pictures agree to rounding, not to the bit, between machines of other lanes.
+//! The networks also run on graphics devices ([`gpu::unet`]).
+//!
+//! The networks' weights are Open Image Denoise's, published under Apache-2.0 (`assets/weights`). On lanes sums
+//! are fused where the machine can: pictures agree to rounding, not to the bit, between machines of other lanes.
 
 pub mod a_trous;
 mod convolution;

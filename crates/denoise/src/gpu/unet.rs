@@ -3,7 +3,10 @@
 //! sums of single.
 
 mod places;
+mod timing;
 pub(crate) mod weights;
+
+pub use timing::LayerTime;
 
 use crate::network::{ALIGNMENT, Network, Place};
 use crate::tiles::{Tile, tiles};
@@ -200,8 +203,7 @@ impl GpuUnet {
     /// Floating-point operations for each pixel, those of channels that pad a block included.
     pub fn operations_per_pixel(&self) -> f64 {
         let (_, layers) = weights::sized(&self.layers, [ALIGNMENT, ALIGNMENT]);
-        let of = |layer: &Layer| layer.operations() * f64::from(layer.size[0] * layer.size[1]);
-        layers.iter().map(of).sum::<f64>() / (ALIGNMENT * ALIGNMENT) as f64
+        layers.iter().map(timing::operations).sum::<f64>() / (ALIGNMENT * ALIGNMENT) as f64
     }
 
     /// What the network says of the pixels of a tile.
