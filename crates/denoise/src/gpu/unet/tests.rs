@@ -2,13 +2,15 @@ use super::*;
 use crate::convolution::Then;
 use crate::network::GRAPH;
 use crate::tza::{self, Tensor, from_half};
-use std::sync::OnceLock;
 use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{MutexGuard, OnceLock};
 
-/// The small network on every device, with every kind of numbers that it has: compiled once for all tests.
-fn everywhere() -> &'static [GpuUnet] {
-    static ALL: OnceLock<Vec<GpuUnet>> = OnceLock::new();
-    ALL.get_or_init(|| on_each_device(&Network::small().unwrap()))
+/// The small network on every device, with every kind of numbers that it has: compiled once for all tests. For one test
+/// at a time: wgpu panics where a context of OpenGL is busy for seconds, as it is while a software device compiles.
+fn everywhere() -> MutexGuard<'static, Vec<GpuUnet>> {
+    static ALL: OnceLock<Mutex<Vec<GpuUnet>>> = OnceLock::new();
+    let all = ALL.get_or_init(|| Mutex::new(on_each_device(&Network::small().unwrap())));
+    all.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 fn on_each_device(network: &Network) -> Vec<GpuUnet> {
@@ -87,12 +89,13 @@ fn tolerance(numbers: Numbers) -> f64 {
 
 #[test]
 fn every_device_makes_the_picture_of_the_processor() {
-    for network in [Network::small().unwrap(), Network::base().unwrap()] {
-        let devices = on_each_device(&network);
+    let networks = [Network::small().unwrap(), Network::base().unwrap()];
+    let (of_small, of_base) = (everywhere(), on_each_device(&networks[1]));
+    for (network, devices) in networks.iter().zip([&of_small[..], &of_base[..]]) {
         for (width, height) in [(64, 48), (33, 17), (7, 3), (1, 1)] {
             let case = Case::noisy(width, height);
             let expected = network.denoise(&case.color, case.features(), &|| false).unwrap();
-            for unet in &devices {
+            for unet in devices {
                 let distance = distance(&case.denoised(unet), &expected);
                 let what = format!("{width} x {height} {} {}", network.name(), described(unet));
                 println!("{what}: {distance:.1e}");
@@ -224,7 +227,7 @@ fn every_layer_is_the_convolution_that_its_weights_say() {
         let with_factors: Vec<_> = reads.iter().zip(convolution.inputs().iter().map(|input| input.doubled)).collect();
         let whole = defined(kernel, bias, &with_factors, SIZE);
         let expected = if row.then == Then::Pool { pooled(&whole) } else { whole };
-        for unet in everywhere() {
+        for unet in everywhere().iter() {
             let got = convolved(unet, index, &reads, expected.channels.len());
             assert_eq!(got.size, expected.size);
             let most = expected.channels.iter().flatten().fold(1.0, |most: f32, value| most.max(*value));
@@ -245,7 +248,7 @@ fn tiles_make_the_picture_of_the_whole_to_the_bit() {
     // longer than what a pixel sees, so that tiles have something to leave out
     for (width, height) in [(250, 13), (13, 250)] {
         let case = Case::noisy(width, height);
-        for unet in everywhere() {
+        for unet in everywhere().iter() {
             let tiled = unet.denoise_in_tiles(&case.color, case.features(), 224 * 16, &|| false).unwrap();
             assert!(tiled == case.denoised(unet), "{width} x {height} {}", described(unet));
         }
@@ -255,7 +258,7 @@ fn tiles_make_the_picture_of_the_whole_to_the_bit() {
 #[test]
 fn memory_is_kept_from_picture_to_picture_and_changes_none() {
     let [case, other] = [Case::noisy(40, 30), Case::noisy(16, 16)];
-    for unet in everywhere() {
+    for unet in everywhere().iter() {
         let first = case.denoised(unet);
         assert!(first == case.denoised(unet), "{}", described(unet));
         other.denoised(unet);
@@ -265,7 +268,7 @@ fn memory_is_kept_from_picture_to_picture_and_changes_none() {
 
 #[test]
 fn what_is_not_finite_counts_as_black_and_features_as_what_they_are_next_to() {
-    for unet in everywhere() {
+    for unet in everywhere().iter() {
         let with = |color: f32, feature: f32| {
             let mut case = Case::noisy(20, 20);
             let mut colors = case.color.radiances().to_vec();
@@ -287,7 +290,7 @@ fn what_is_not_finite_counts_as_black_and_features_as_what_they_are_next_to() {
 #[test]
 fn black_stays_black_and_one_colour_is_the_processors() {
     let network = Network::small().unwrap();
-    for unet in everywhere() {
+    for unet in everywhere().iter() {
         // the network's own answer to black: Open Image Denoise gives .00014 at most
         let black = Case::one_colour(Vec3::ZERO, (32, 24)).denoised(unet);
         assert!(black.radiances().iter().all(|pixel| pixel.max_element() < 2e-4), "{}", described(unet));
@@ -303,7 +306,7 @@ fn black_stays_black_and_one_colour_is_the_processors() {
 #[test]
 fn it_stops_between_layers_and_goes_on_with_the_next_picture() {
     let case = Case::noisy(16, 16);
-    for unet in everywhere() {
+    for unet in everywhere().iter() {
         let asked = AtomicUsize::new(0);
         let stop = || asked.fetch_add(1, Ordering::Relaxed) == 5;
         assert_eq!(unet.denoise(&case.color, case.features(), &stop), Err(DenoiseError::Stopped));
