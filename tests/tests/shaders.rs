@@ -11,7 +11,8 @@ use std::mem::offset_of;
 use std::path::{Path, PathBuf};
 
 /// The crates that bring shaders, with the folders under `shaders/` that are theirs.
-const LISTS: [(&[Source<'static>], &[&str]); 3] = [
+const LISTS: [(&[Source<'static>], &[&str]); 4] = [
+    (denoise::gpu::shaders::SOURCES, &["denoise/"]),
     (pathtrace::shaders::SOURCES, &["pathtrace/"]),
     (raster::shaders::SOURCES, &["raster/"]),
     (gpu::shared_shaders::SOURCES, &["shared/", "film/"]),
@@ -45,6 +46,8 @@ fn files_under(folder: &Path, root: &Path) -> Vec<String> {
 fn every_shader_file_is_listed_once_and_by_the_crate_whose_tree_it_mirrors() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shaders");
     let mut found = files_under(&folder, &folder);
+    // it stands in for another file where a device has halves
+    found.retain(|path| path != "denoise/unet/number_half.wgsl");
     found.sort();
     let mut listed: Vec<_> = LISTS.into_iter().flat_map(|(sources, _)| sources).map(|source| source.path).collect();
     listed.sort_unstable();

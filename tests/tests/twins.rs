@@ -20,6 +20,11 @@ struct Side {
 fn sides() -> [Side; 3] {
     [
         Side {
+            library: denoise::gpu::shaders::LIBRARY,
+            constants: denoise::gpu::shaders::shared_constants(),
+            overrides: denoise::gpu::shaders::override_names(),
+        },
+        Side {
             library: pathtrace::shaders::LIBRARY,
             constants: pathtrace::twins::shared_constants(),
             overrides: pathtrace::twins::override_names(),
@@ -28,11 +33,6 @@ fn sides() -> [Side; 3] {
             library: raster::shaders::LIBRARY,
             constants: raster::shaders::shared_constants(),
             overrides: raster::shaders::override_names(),
-        },
-        Side {
-            library: denoise::gpu::LIBRARY,
-            constants: denoise::gpu::shared_constants(),
-            overrides: denoise::gpu::override_names(),
         },
     ]
 }

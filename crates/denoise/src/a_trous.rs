@@ -2,6 +2,8 @@
 //! they see differs. The spatial half of spatiotemporal variance-guided filtering (Schied et al., "Spatiotemporal
 //! Variance-Guided Filtering", 2017), equations 1 to 5: on light without the surfaces' albedo, guided by normals, by depth
 //! against its slope, and by luminance against its own variance. What has no variance stays as it is.
+//!
+//! Twins: `shaders/denoise/a_trous/prepare.wgsl`, `finish.wgsl`.
 
 mod pass;
 mod picture;
@@ -16,7 +18,7 @@ use rayon::prelude::*;
 use simd::Lanes;
 
 /// Levels; the taps of the last are 2 and 4 times 8 pixels apart.
-const LEVELS: u32 = 5;
+pub(crate) const LEVELS: u32 = 5;
 
 /// Light is divided by this albedo at least: a channel that a surface nearly swallows must not count a hundred times what its
 /// neighbours have, and one that is divided by 1 instead would be of another unit than theirs.
@@ -36,6 +38,14 @@ pub struct Guide<'a> {
     pub variance: Option<&'a [f32]>,
 }
 
+impl Guide<'_> {
+    pub(crate) fn check(&self, color: &Image) -> Result<(), DenoiseError> {
+        let fits = |numbers: &[f32]| numbers.len() == color.radiances().len();
+        self.features.check(color)?;
+        if fits(self.depth) && self.variance.is_none_or(fits) { Ok(()) } else { Err(DenoiseError::Size) }
+    }
+}
+
 /// The picture with its noise spread over what looks alike. What is not finite counts as 0.
 ///
 /// # Errors
@@ -49,11 +59,7 @@ pub fn a_trous(color: &Image, guide: Guide, stop: Stop) -> Result<Image, Denoise
 /// # Errors
 /// As [`a_trous`].
 pub fn a_trous_on(lanes: Lanes, color: &Image, guide: Guide, stop: Stop) -> Result<Image, DenoiseError> {
-    guide.features.check(color)?;
-    let pixels = color.radiances().len();
-    if guide.depth.len() != pixels || guide.variance.is_some_and(|variance| variance.len() != pixels) {
-        return Err(DenoiseError::Size);
-    }
+    guide.check(color)?;
     let size = [color.width() as usize, color.height() as usize];
     check_memory(memory(size))?;
     let albedo: Vec<Vec3> = guide.features.albedo.iter().map(|albedo| divisor(*albedo)).collect();
@@ -83,6 +89,11 @@ pub fn a_trous_on(lanes: Lanes, color: &Image, guide: Guide, stop: Stop) -> Resu
 fn memory([width, height]: [usize; 2]) -> usize {
     let of_pixels = 2 * size_of::<Vec3>() * width * height;
     of_pixels + Guides::memory([width, height]) + 2 * Light::memory([width, height])
+}
+
+/// Constants that stand on both sides under one name. A test holds each against what the shaders say.
+pub(crate) fn shared_constants() -> Vec<(&'static str, f64)> {
+    [gpu::named_values![LEAST_ALBEDO, MOST_LIGHT], pass::shared_constants()].concat()
 }
 
 /// What light is divided by.

@@ -1,8 +1,6 @@
 //! Denoising: from a picture of few samples and what is known of its pixels to one without noise, at the price of a bias.
 //! Two filters: the U-Net of Open Image Denoise ([`Network`]), and a-trous wavelets ([`mod@a_trous`]); and [`mod@trust`], which
-//! goes back from either to the samples as they become many.
-//!
-//! The networks also run on graphics devices ([`gpu::unet`]).
+//! goes back from either to the samples as they become many. [`mod@gpu`] has what of it runs on graphics devices.
 //!
 //! The networks' weights are Open Image Denoise's, published under Apache-2.0 (`assets/weights`). On lanes sums
 //! are fused where the machine can: pictures agree to rounding, not to the bit, between machines of other lanes.
@@ -67,9 +65,15 @@ pub enum DenoiseError {
     /// There is not so much memory, in bytes.
     #[error("not enough memory to denoise: {:.1} GiB are needed", *.0 as f64 / f64::from(1 << 30))]
     Memory(usize),
-    /// The graphics device failed, or does not take it.
+    /// The graphics device did not do it, in its own words.
     #[error("{0}")]
     Device(String),
+}
+
+impl From<::gpu::GpuError> for DenoiseError {
+    fn from(fault: ::gpu::GpuError) -> Self {
+        DenoiseError::Device(fault.to_string())
+    }
 }
 
 #[cfg(test)]

@@ -1,4 +1,5 @@
 //! One level of the filter, and the variance where nobody knows it: a lane is a pixel.
+//! Twin: `shaders/denoise/a_trous/pass.wgsl`.
 
 use super::Rows;
 use super::picture::{ALBEDO, DEPTH, Guides, Light, MARGIN, MISS, NORMAL, RGB, SLOPES, VARIANCE};
@@ -11,12 +12,32 @@ const LOG2_SIGMA_NORMAL: u32 = 7;
 /// And, beyond the paper, with albedo: a lamp and what it is set in have one normal and one depth, and light of another kind.
 const SIGMA_ALBEDO: f32 = 0.15;
 
-/// So that nothing is divided by 0: of a depth a share, of a luminance' deviation an amount.
+/// So that nothing is divided by 0: of a depth a share and an amount, of a luminance' deviation an amount.
 const LEAST_DEPTH: f32 = 1e-4;
+const LEAST_DIFFERENCE: f32 = 1e-30;
 const LEAST_DEVIATION: f32 = 1e-6;
 
 /// A cubic B-spline's values, half of the kernel.
-const SPLINE: [f32; 3] = [3.0 / 8.0, 1.0 / 4.0, 1.0 / 16.0];
+const SPLINE_0: f32 = 3.0 / 8.0;
+const SPLINE_1: f32 = 1.0 / 4.0;
+const SPLINE_2: f32 = 1.0 / 16.0;
+const SPLINE: [f32; 3] = [SPLINE_0, SPLINE_1, SPLINE_2];
+
+/// See [`super::shared_constants`].
+pub fn shared_constants() -> Vec<(&'static str, f64)> {
+    gpu::named_values![
+        LEAST_DEPTH,
+        LEAST_DEVIATION,
+        LEAST_DIFFERENCE,
+        LOG2_SIGMA_NORMAL,
+        SIGMA_ALBEDO,
+        SIGMA_DEPTH,
+        SIGMA_LUMINANCE,
+        SPLINE_0,
+        SPLINE_1,
+        SPLINE_2,
+    ]
+}
 
 /// Pixels of a row, as many as there are lanes.
 struct Place<'a, F> {
@@ -57,7 +78,7 @@ impl<'a, F: Float> Place<'a, F> {
             alike = alike * alike;
         }
         let expected = self.slopes[0] * (dx.unsigned_abs() as f32) + self.slopes[1] * (dy.unsigned_abs() as f32);
-        let least = self.depth.abs() * LEAST_DEPTH + F::splat(f32::MIN_POSITIVE);
+        let least = self.depth.abs() * LEAST_DEPTH + F::splat(LEAST_DIFFERENCE);
         let albedo = Vector::new(at(ALBEDO[0]), at(ALBEDO[1]), at(ALBEDO[2])) - self.albedo;
         let unlike = (at(DEPTH) - self.depth).abs() / (expected * SIGMA_DEPTH + least);
         (alike, -unlike - albedo.length_squared() * (SIGMA_ALBEDO * SIGMA_ALBEDO).recip())

@@ -1,5 +1,7 @@
 //! Values of pixels as lanes read them: numbers of one kind side by side in a row, with a margin at both ends in which
 //! nothing is like anything.
+//!
+//! Twins: `shaders/denoise/a_trous/picture.wgsl`, `prepare.wgsl`.
 
 use crate::Features;
 use crate::transfer::sanitized;
@@ -82,7 +84,7 @@ impl<const KINDS: usize> Table<KINDS> {
 }
 
 impl Guides {
-    /// Depth and normals need not be finite.
+    /// Depth and normals need not be finite; albedos above 1 guide as 1 does.
     pub fn new(size: [usize; 2], features: Features, depths: &[f32]) -> Self {
         let hit = |pixel: usize| features.normal[pixel].try_normalize();
         let depth = |pixel: usize| if hit(pixel).is_some() && depths[pixel].is_finite() { depths[pixel] } else { 0.0 };
@@ -93,7 +95,7 @@ impl Guides {
             let across = slope(depth, pixel, 1, x > 0, x + 1 < width);
             let down = slope(depth, pixel, width, y > 0, y + 1 < size[1]);
             let missed = f32::from(u8::from(hit(pixel).is_none()));
-            let albedo = sanitized(features.albedo[pixel]);
+            let albedo = sanitized(features.albedo[pixel]).min(Vec3::ONE);
             let [r, g, b] = albedo.to_array();
             [normal.x, normal.y, normal.z, missed, depth(pixel), across, down, r, g, b]
         })

@@ -1,55 +1,30 @@
-//! Denoising on the graphics device.
+//! Filters on a graphics device: the same as the processor's but for rounding. All that a picture goes through is one
+//! submission.
 
+mod a_trous;
+pub mod shaders;
 pub mod unet;
 
-use crate::DenoiseError;
-use ::gpu::wgsl::Source;
-use ::gpu::{GpuError, named_values, shared_shaders, wgsl_sources};
+pub use a_trous::{DevicePicture, GpuATrous};
 
-/// Every file under `shaders/denoise/` but for that of halves, one line each.
-pub const SOURCES: &[Source<'static>] = wgsl_sources![
-    "denoise/unet/convolution.wgsl",
-    "denoise/unet/input.wgsl",
-    "denoise/unet/layer.wgsl",
-    "denoise/unet/number.wgsl",
-    "denoise/unet/output.wgsl",
-    "denoise/unet/transfer.wgsl",
-];
+use crate::{DenoiseError, Stop};
+use gpu::waiting::PATIENCE;
+use gpu::{Gpu, wgpu};
+use std::time::{Duration, Instant};
 
-/// [`SOURCES`], and what they import from beyond `shaders/denoise/`.
-pub const LIBRARY: [&[Source<'static>]; 2] = [SOURCES, shared_shaders::SOURCES];
+/// How long the device is waited for before `stop` is asked again.
+const TURN: Duration = Duration::from_millis(10);
 
-/// Constants that stand on both sides under one name. A test holds each against what the shaders say.
-pub fn shared_constants() -> Vec<(&'static str, f64)> {
-    use crate::convolution::{TAPS, TAPS_OF_DOUBLED};
-    use crate::transfer::*;
-    use unet::weights::{BLOCKS_OF_A_GROUP, TILE};
-    named_values![
-        BLOCKS_OF_A_GROUP,
-        PU_A,
-        PU_B,
-        PU_C,
-        PU_D,
-        PU_E,
-        PU_F,
-        PU_G,
-        PU_X0,
-        PU_X1,
-        PU_Y0,
-        PU_Y1,
-        TAPS,
-        TAPS_OF_DOUBLED,
-        TILE,
-    ]
-}
-
-/// Names of the overrides that pipelines are compiled with.
-pub fn override_names() -> Vec<&'static str> {
-    unet::ONE_BLOCK.map(|(name, _)| name).to_vec()
-}
-
-impl From<GpuError> for DenoiseError {
-    fn from(why: GpuError) -> Self {
-        DenoiseError::Device(why.to_string())
+/// Waits for a filter; what is stopped goes on there, and nobody reads it.
+fn wait(gpu: &Gpu, what: &str, until: &wgpu::SubmissionIndex, stop: Stop) -> Result<(), DenoiseError> {
+    let begun = Instant::now();
+    while !gpu.wait(what, Some(until), TURN)? {
+        if stop() {
+            return Err(DenoiseError::Stopped);
+        }
+        if begun.elapsed() > PATIENCE {
+            return Err(gpu.lost(what, format!("there was no answer in {} seconds", PATIENCE.as_secs())).into());
+        }
     }
+    Ok(())
 }

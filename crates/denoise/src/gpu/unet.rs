@@ -8,6 +8,7 @@ pub(crate) mod weights;
 
 pub use timing::LayerTime;
 
+use super::shaders::LIBRARY;
 use crate::network::{ALIGNMENT, Network, Place};
 use crate::tiles::{Tile, tiles};
 use crate::transfer::{Transfer, exposure, sanitized};
@@ -64,8 +65,8 @@ impl Numbers {
 
     fn library(self) -> Vec<&'static [Source<'static>]> {
         match self {
-            Numbers::Half => [&[HALF][..], &super::LIBRARY].concat(),
-            Numbers::Single => super::LIBRARY.to_vec(),
+            Numbers::Half => [&[HALF][..], &LIBRARY].concat(),
+            Numbers::Single => LIBRARY.to_vec(),
         }
     }
 }
