@@ -13,7 +13,7 @@ use raster::Raster;
 use scene::Scene;
 use serde::{Deserialize, Serialize};
 use std::time::Instant;
-use technique::{Accumulation, Backend, Device, FakeSettings, features_of};
+use technique::{Accumulation, Backend, Device, FakeSettings, Filters, features_of};
 
 /// Standard errors beyond which a bias is believed.
 pub const SIGMAS: f64 = 4.0;
@@ -177,7 +177,7 @@ fn denoised(
     }
     let never = || false;
     let Some(features) = features_of(tracer, film, (&scene.camera, &integrator), &never) else { return Ok(None) };
-    let image = denoise.apply(film, None, &features, &never)?;
+    let image = denoise.apply(film, None, &features, &Filters::on_the_processor(), &never)?;
     Ok(Film::from_radiances(film.width(), film.height(), image.radiances().iter().copied()))
 }
 

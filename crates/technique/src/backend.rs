@@ -1,6 +1,6 @@
 //! What traces: the processor or a graphics device, each with a scene made ready for rays.
 
-use crate::{Accumulation, Device};
+use crate::{Accumulation, Device, DeviceFilters};
 use gpu::{FaultInjection, Gpu};
 use pathtrace::gpu::{GpuTraceError, GpuTracer};
 use pathtrace::{Integrator, Tracer};
@@ -26,6 +26,8 @@ pub struct GpuBackend {
     /// What the adapter is called among all of them.
     name: String,
     tracer: GpuTracer,
+    /// `None` where the processor filters faster.
+    pub(crate) filters: Option<DeviceFilters>,
     fault: Option<FaultInjection>,
 }
 
@@ -53,8 +55,7 @@ impl Backend {
         let gpu = Gpu::headless_on(adapter)?;
         let mut tracer = GpuTracer::new(&gpu, scene)?;
         tracer.set_budget(if gpu.is_software() { BUDGET_OF_SOFTWARE } else { BUDGET });
-        let backend = GpuBackend { name: adapter.to_owned(), tracer, fault: FaultInjection::of_rays() };
-        Ok(Backend::Gpu(Box::new(backend)))
+        Ok(GpuBackend::new(adapter.to_owned(), tracer).into())
     }
 
     /// The device that it adds samples on.
@@ -179,12 +180,27 @@ impl From<Tracer> for Backend {
 
 impl From<GpuTracer> for Backend {
     fn from(tracer: GpuTracer) -> Self {
-        let (name, fault) = (tracer.gpu().describe(), FaultInjection::of_rays());
-        Backend::Gpu(Box::new(GpuBackend { name, tracer, fault }))
+        GpuBackend::new(tracer.gpu().describe(), tracer).into()
+    }
+}
+
+impl From<GpuBackend> for Backend {
+    fn from(backend: GpuBackend) -> Self {
+        Backend::Gpu(Box::new(backend))
     }
 }
 
 impl GpuBackend {
+    fn new(name: String, tracer: GpuTracer) -> Self {
+        let (filters, fault) = (DeviceFilters::of(tracer.gpu()), FaultInjection::of_rays());
+        GpuBackend { name, tracer, filters, fault }
+    }
+
+    /// Filters that run on it; `None` where the processor filters faster.
+    pub fn filters(&self) -> Option<&DeviceFilters> {
+        self.filters.as_ref()
+    }
+
     /// What the adapter is called among all of them.
     pub fn name(&self) -> &str {
         &self.name

@@ -1,12 +1,12 @@
 //! What a traced picture goes through between film and display.
 
-use crate::{Accumulation, Renderer};
+use crate::{Accumulation, Filters, Renderer};
 use denoise::a_trous::{Guide, a_trous};
 use denoise::trust::{Parts, Trusted, trust};
 use denoise::{DenoiseError, Network, Stop, WeightsError};
 use film::colour::luminance;
 use film::{Features, Film, Image, LayerValues, Vec3};
-use std::sync::LazyLock;
+use std::sync::{Arc, LazyLock};
 use std::time::Instant;
 
 /// A filter that takes the noise out of a picture, and some of the truth: all but [`Denoiser::Off`] are biased.
@@ -57,7 +57,7 @@ impl Denoiser {
         }
     }
 
-    /// What it makes of means of samples, on the current rayon pool. `variance` is that of the means' luminance, where it is
+    /// What it makes of means of samples, by `filters`; what is the processor's runs on the current rayon pool. `variance` is that of the means' luminance, where it is
     /// known.
     ///
     /// # Errors
@@ -67,13 +67,15 @@ impl Denoiser {
         image: &Image,
         features: &Features,
         variance: Option<&[f32]>,
+        filters: &Filters,
         stop: Stop,
     ) -> Result<Image, DenoiseError> {
         let guides = denoise::Features { albedo: &features.albedo, normal: &features.normal };
         match self.network() {
             Some(network) => network.as_ref().map_err(Clone::clone)?.denoise(image, guides, stop),
             None if self == Self::ATrous => {
-                a_trous(image, Guide { features: guides, depth: &features.depth, variance }, stop)
+                let guide = Guide { features: guides, depth: &features.depth, variance };
+                filters.run(|device| device.a_trous()?.apply(image, guide, stop), || a_trous(image, guide, stop))
             }
             None => Ok(image.clone()),
         }
@@ -104,7 +106,7 @@ impl DenoiseSettings {
         self.denoiser != Denoiser::Off
     }
 
-    /// What becomes of a film, of which an `earlier` state is there to judge the filter by, on the current rayon pool.
+    /// What becomes of a film, of which an `earlier` state is there to judge the filter by; as [`Denoiser::apply`] does it.
     ///
     /// # Errors
     /// As [`Denoiser::apply`].
@@ -113,20 +115,21 @@ impl DenoiseSettings {
         film: &Film,
         earlier: Option<&Film>,
         features: &Features,
+        filters: &Filters,
         stop: Stop,
     ) -> Result<Image, DenoiseError> {
         let parts = earlier.filter(|_| self.trusts()).and_then(|earlier| Some((earlier, film.since(earlier)?)));
         let Some((earlier, (later, later_samples))) = parts else {
             let variance = variances(film).map(luminance_variance);
             let variance: Option<Vec<f32>> = (film.samples_per_pixel() > 1).then(|| variance.collect());
-            return self.denoiser.apply(&film.image(), features, variance.as_deref(), stop);
+            return self.denoiser.apply(&film.image(), features, variance.as_deref(), filters, stop);
         };
         let (first, samples) = (earlier.image(), [earlier.samples_per_pixel(), later_samples]);
         let variance: Vec<Vec3> = variances(film).collect();
         let denoised = |image: &Image, samples: u32| {
             let share = samples as f32 / film.samples_per_pixel().max(1) as f32;
             let of_part: Vec<f32> = variance.iter().map(|v| luminance_variance(*v) / share).collect();
-            self.denoiser.apply(image, features, Some(&of_part), stop)
+            self.denoiser.apply(image, features, Some(&of_part), filters, stop)
         };
         let denoised = [denoised(&first, samples[0])?, denoised(&later, samples[1])?];
         let parts = Parts { noisy: [&first, &later], denoised: [&denoised[0], &denoised[1]], samples };
@@ -158,6 +161,10 @@ pub struct Denoised {
     pub image: Image,
     /// Seconds that the filter took.
     pub seconds: f64,
+    /// What has filtered: an adapter's name, or how many threads.
+    pub made_by: String,
+    /// Why the graphics device has not, where it should: one line.
+    pub refused: Option<Arc<str>>,
 }
 
 impl Renderer {
@@ -170,10 +177,12 @@ impl Renderer {
     ) -> Option<Result<Denoised, DenoiseError>> {
         let (_, features) = accumulation.features.as_ref().filter(|_| settings.is_on())?;
         let (film, earlier) = (accumulation.film(), accumulation.earlier_part());
+        let device = self.device_filters();
         let apply = || {
-            let start = Instant::now();
-            let image = settings.apply(film, earlier, features, stop)?;
-            Ok(Denoised { image, seconds: start.elapsed().as_secs_f64() })
+            let (start, filters) = (Instant::now(), Filters::first_on(device));
+            let image = settings.apply(film, earlier, features, &filters, stop)?;
+            let (made_by, refused) = (filters.made_by(), filters.refusal().cloned());
+            Ok(Denoised { image, seconds: start.elapsed().as_secs_f64(), made_by, refused })
         };
         Some(self.threads.turn_unless(stop, self.rank, apply).unwrap_or(Err(DenoiseError::Stopped)))
     }

@@ -28,6 +28,8 @@ pub struct Made<'a> {
     pub seconds: f64,
     /// What made it: a GPU's name, or a number of threads.
     pub adapter: &'a str,
+    /// What denoised it, likewise; `None` of a picture as it is rendered. Machines filter alike but for rounding.
+    pub denoised_by: Option<&'a str>,
     /// Exposure of the display transform, in stops.
     pub exposure: f32,
 }
@@ -72,6 +74,9 @@ const NO_OPTIONS: [&str; 8] = ["records", "version", "scene", SCENE_HASH, "adapt
 
 /// The record's name of the weights that a picture was denoised by.
 const WEIGHTS: &str = "denoise.weights";
+
+/// The record's name of what denoised a picture, as `adapter` says what traced it.
+const DENOISED_BY: &str = "denoise.adapter";
 
 /// Records that say how far a picture is from another begin with this.
 const MEASURED: &str = "error.";
@@ -131,7 +136,7 @@ pub fn scene_hash(records: &[(String, String)]) -> anyhow::Result<Option<SceneHa
 impl Provenance {
     /// What a file keeps of it, with the command that makes it as a PNG.
     pub fn records(&self, made: Made) -> Records {
-        let Made { spp, seconds, adapter, exposure } = made;
+        let Made { spp, seconds, adapter, denoised_by, exposure } = made;
         let Shot { source, changes, scene: _, camera, size } = &self.shot;
         let mut records = vec![
             ("records", RECORDS_VERSION.to_string()),
@@ -149,6 +154,7 @@ impl Provenance {
         records.extend(changes.options());
         records.extend(self.technique.stated_for(&self.shot.scene).options(spp));
         records.extend(self.technique.denoise().denoiser.weights().map(|weights| (WEIGHTS, weights)));
+        records.extend(denoised_by.map(|by| (DENOISED_BY, by.to_owned())));
         records.push(("exposure", exposure.to_string()));
         records.push(("command", self.command(spp, exposure, "picture.png")));
         records

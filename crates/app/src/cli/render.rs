@@ -69,6 +69,9 @@ pub fn run(args: &mut RenderArgs) -> anyhow::Result<()> {
     if let Some(Err(fault)) = &rendered.denoised {
         anyhow::bail!("{made} are saved, not denoised ({fault}): {out}");
     }
+    if let Some(Ok(Denoised { refused: Some(why), .. })) = &rendered.denoised {
+        note!("note: denoised by the processor, the graphics device failed: {why}");
+    }
     if rendered.film.nonfinite > 0 {
         note!(
             "visavis: {} samples were not finite and are left out: please report this scene",
@@ -150,8 +153,13 @@ fn save(
     if let (Some(Err(_)), Technique::Traced(traced)) = (&rendered.denoised, &mut provenance.technique) {
         traced.denoise = DenoiseSettings::OFF;
     }
-    let made =
-        Made { spp: rendered.film.samples_per_pixel(), seconds, adapter: &rendered.made_by, exposure: args.exposure };
+    let made = Made {
+        spp: rendered.film.samples_per_pixel(),
+        seconds,
+        adapter: &rendered.made_by,
+        denoised_by: rendered.denoised.as_ref().and_then(|denoised| Some(denoised.as_ref().ok()?.made_by.as_str())),
+        exposure: args.exposure,
+    };
     let mut records = provenance.records(made);
     records.extend(errors.into_iter().flat_map(|e| error_records(&e.errors, "reference".into())));
     let kind = Kind::of(&args.out).context("a picture's name must end in .png or .exr")?;
@@ -357,10 +365,11 @@ fn report(
             }
         }
     }
-    if let Some(Ok(Denoised { seconds, .. })) = &rendered.denoised {
+    if let Some(Ok(Denoised { seconds, made_by, .. })) = &rendered.denoised {
         let before = measured.and_then(|measured| measured.before).map(|e| e.rel_mse);
         report["denoised"] = json!({
-            "by": args.pane.in_use().denoise().denoiser.name(), "seconds": seconds, "relmse_before": before,
+            "by": args.pane.in_use().denoise().denoiser.name(), "adapter": made_by, "seconds": seconds,
+            "relmse_before": before,
         });
     }
     if let Some(Measured { errors: e, .. }) = measured {

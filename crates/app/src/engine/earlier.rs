@@ -79,6 +79,7 @@ mod tests {
             nonfinite: 0,
             adapter: "none".into(),
             refused: None,
+            filter_fault: None,
             cut: None,
             rough: false,
             unfinished: true,

@@ -266,6 +266,7 @@ impl JobInHand<'_> {
             nonfinite: film.nonfinite,
             adapter: stage.adapter.clone(),
             refused: None,
+            filter_fault: None,
             cut: self.cut.clone(),
             rough: shrink > 1,
             unfinished: shrink > 1 || compiled,

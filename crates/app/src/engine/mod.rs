@@ -55,6 +55,8 @@ pub struct Picture {
     pub adapter: Arc<str>,
     /// Why it was not made where it should be: one line.
     pub refused: Option<Arc<str>>,
+    /// Why it is not denoised, or not where it should be: one line.
+    pub filter_fault: Option<Arc<str>>,
     /// What the camera's planes cut of the fake: one line.
     pub cut: Option<Arc<str>>,
     /// Whether this is a rough picture at a lower resolution.
@@ -72,6 +74,8 @@ pub struct Undenoised {
     pub image: Image,
     /// Seconds that the filter took.
     pub seconds: f64,
+    /// What has filtered: a GPU's name, or a number of threads.
+    pub by: Arc<str>,
 }
 
 /// A picture to make: how, and all the rest.

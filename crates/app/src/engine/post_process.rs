@@ -44,7 +44,7 @@ pub struct PostProcess(Worker<Pending, PaneUpdates>);
 /// What a worker brings.
 #[derive(Debug)]
 enum Arrival {
-    Picture(Picture),
+    Picture(Box<Picture>),
     Fault(Order, String),
     /// The pane is no longer wanted.
     Gone,
@@ -90,7 +90,7 @@ impl PostProcess {
 
     /// A new picture of one pane.
     pub fn deliver(&self, pane: PaneId, picture: Picture) {
-        self.arrive(pane, Arrival::Picture(picture));
+        self.arrive(pane, Arrival::Picture(Box::new(picture)));
     }
 
     /// A pane has no picture, for a reason to be shown.
@@ -191,7 +191,7 @@ impl Latest {
                     if let Some(earlier) = Earlier::follow(self.earlier.remove(pane), &picture) {
                         self.earlier.insert(pane, earlier);
                     }
-                    self.latest.insert(pane, picture);
+                    self.latest.insert(pane, *picture);
                     fresh.insert(pane, ());
                 }
                 Arrival::Fault(order, fault) if still_wanted(&order, oldest_view, *newest) => {

@@ -29,6 +29,7 @@ fn picture(view: u64) -> Picture {
         nonfinite: 0,
         adapter: "none".into(),
         refused: None,
+        filter_fault: None,
         cut: None,
         rough: false,
         unfinished: false,

@@ -156,14 +156,15 @@ impl Watch for PaneWatch<'_> {
 
     fn show(&self, frame: Frame) {
         let film = frame.film;
-        let mut refused = frame.refused;
+        let mut filter_fault = None;
         let (mut image, before) = match frame.denoised {
-            Some(Ok(Denoised { image, seconds })) => {
+            Some(Ok(Denoised { image, seconds, made_by, refused })) => {
                 self.filtering.store((1000.0 * seconds) as u64, Ordering::Relaxed);
-                (image, Some(Box::new(Undenoised { image: film.image(), seconds })))
+                filter_fault = refused.map(|why| format!("denoised on the CPU: the GPU failed: {why}").into());
+                (image, Some(Box::new(Undenoised { image: film.image(), seconds, by: made_by.into() })))
             }
             Some(Err(fault)) => {
-                refused = Some(format!("not denoised: {fault}").into());
+                filter_fault = Some(format!("not denoised: {fault}").into());
                 (film.image(), None)
             }
             None => (film.image(), None),
@@ -179,7 +180,8 @@ impl Watch for PaneWatch<'_> {
             noisy: self.has_noise_source && !frame.rough && before.is_none() && compare::is_visibly_noisy(film),
             nonfinite: film.nonfinite,
             adapter: frame.made_by.into(),
-            refused,
+            refused: frame.refused,
+            filter_fault,
             before,
             cut: None,
             rough: frame.rough,

@@ -229,7 +229,7 @@ mod tests {
     fn a_panes_picture_is_set_up_in_a_as_it_was_made() {
         let folder = TestFolder::new();
         for (name, picture) in ["fake.png", "truth.exr"].into_iter().zip(pictures()) {
-            let made = Made { spp: 5, seconds: 1.0, adapter: "", exposure: 1.5 };
+            let made = Made { spp: 5, seconds: 1.0, adapter: "", denoised_by: None, exposure: 1.5 };
             let model = restored(&written(&folder, name, &picture.records(made)));
             let technique = model.session.panes[PaneId::A].in_use();
             assert_eq!((technique, model.document.camera), (picture.technique, picture.shot.camera), "{name}");
@@ -277,7 +277,7 @@ mod tests {
         let folder = TestFolder::new();
         let image = Image::new(1, 1, [Vec3::ONE]).expect("a pixel");
         let [picture, _] = pictures();
-        let made = Made { spp: 1, seconds: 1.0, adapter: "", exposure: 0.0 };
+        let made = Made { spp: 1, seconds: 1.0, adapter: "", denoised_by: None, exposure: 0.0 };
         let mut damaged = picture.records(made);
         damaged.iter_mut().filter(|(name, _)| *name == "eye").for_each(|(_, value)| *value = "here".into());
         for (records, said) in [(Records::new(), None), (damaged, Some("here is no number"))] {

@@ -49,6 +49,8 @@ pub struct PaneView {
     pub fault: Option<String>,
     /// Why it was not made where it should be.
     pub refused: Option<Arc<str>>,
+    /// Why it is not denoised, or not where it should be.
+    pub filter_fault: Option<Arc<str>>,
     /// What the camera's planes cut of the fake: one line.
     pub cut: Option<Arc<str>>,
     /// What the history is of.

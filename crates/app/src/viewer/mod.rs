@@ -230,6 +230,7 @@ fn dump_of(pane: &PaneView, ready: bool) -> Value {
         "adapter": pane.adapter.as_deref(),
         "device": pane.provenance.as_ref().map(|p| p.device.name()),
         "refused": pane.refused.as_deref(),
+        "filter_fault": pane.filter_fault.as_deref(),
         "cut": pane.cut.as_deref(),
     })
 }

@@ -87,6 +87,7 @@ impl Presentation {
         (shown.spp, shown.seconds, shown.nonfinite) = (picture.spp, picture.seconds, picture.nonfinite);
         (shown.effort, shown.noisy) = (Some(picture.effort), picture.noisy);
         (shown.refused, shown.cut) = (picture.refused.clone(), picture.cut.clone());
+        shown.filter_fault = picture.filter_fault.clone();
         shown.adapter = Some(picture.adapter.clone());
         (shown.rough, shown.unfinished) = (picture.rough, picture.unfinished);
         shown.shrink = picture.order.size().0.div_ceil(picture.image.width().max(1)) * picture.order.shrink;
@@ -137,6 +138,7 @@ impl Presentation {
             spp: picture.spp.unwrap_or(1),
             seconds: picture.seconds,
             adapter: &picture.adapter,
+            denoised_by: picture.before.as_ref().map(|before| &*before.by),
             exposure: display.exposure,
         };
         let mut records = picture.order.provenance.records(made);

@@ -31,6 +31,8 @@ fn a_denoised_picture_is_nearer_to_the_truth_says_by_what_and_is_made_again() {
         let records = image_file::records(std::path::Path::new(&first)).expect("records");
         let value = |name: &str| records.iter().find(|(known, _)| known == name).map(|(_, value)| value.as_str());
         assert_eq!(value("denoise"), Some(denoiser));
+        assert!(value("denoise.adapter").is_some_and(|by| by.contains("thread")), "{records:?}");
+        assert_eq!(report["denoised"]["adapter"].as_str(), value("denoise.adapter"));
         assert!(value("denoise.weights").is_some_and(|hash| hash.len() >= 32), "{records:?}");
         assert!(visavis(&["render", "--from", &first, "-o", &again]).status.success());
         assert!(film(&first) == film(&again), "{denoiser}");

@@ -167,7 +167,8 @@ fn troubles(shown: &PaneView) -> Vec<String> {
     let refused = shown.refused.as_ref().map(|why| format!("on the CPU: the GPU failed: {why}"));
     let cut = shown.cut.as_ref().map(|cut| cut.to_string());
     let left_out = format!("{} samples were not finite and are left out", shown.nonfinite);
-    refused.into_iter().chain(cut).chain((shown.nonfinite > 0).then_some(left_out)).collect()
+    let filter_fault = shown.filter_fault.as_ref().map(|fault| fault.to_string());
+    refused.into_iter().chain(filter_fault).chain(cut).chain((shown.nonfinite > 0).then_some(left_out)).collect()
 }
 
 /// "missing: light behind glass, indirect light (biased)".

@@ -56,6 +56,15 @@ fn the_cost_is_that_of_the_picture_that_is_shown() {
 }
 
 #[test]
+fn a_filter_that_failed_is_no_loss_of_what_traces() {
+    let fault = "denoised on the CPU: the GPU failed: it was unplugged";
+    let shown = PaneView { filter_fault: Some(fault.into()), ..path(&[], 16) };
+    assert_eq!(label(&shown, None).notes, [fault]);
+    let lost = PaneView { refused: Some("it was unplugged".into()), ..shown };
+    assert_eq!(label(&lost, None).notes, ["on the CPU: the GPU failed: it was unplugged", fault]);
+}
+
+#[test]
 fn chains_tell_what_they_take_and_that_their_spread_is_no_error() {
     let chains = pathtrace::ChainStats { runs: 4, mutations: 4000, accepted: 2160, scales: 0.556 };
     let of_chains = |changes: &[(&str, &str)], chains| PaneView {
