@@ -72,7 +72,13 @@ impl Denoiser {
     ) -> Result<Image, DenoiseError> {
         let guides = denoise::Features { albedo: &features.albedo, normal: &features.normal };
         match self.network() {
-            Some(network) => network.as_ref().map_err(Clone::clone)?.denoise(image, guides, stop),
+            Some(network) => {
+                let network = network.as_ref().map_err(Clone::clone)?;
+                filters.run(
+                    |device| device.unet(network)?.denoise(image, guides, stop),
+                    || network.denoise(image, guides, stop),
+                )
+            }
             None if self == Self::ATrous => {
                 let guide = Guide { features: guides, depth: &features.depth, variance };
                 filters.run(|device| device.a_trous()?.apply(image, guide, stop), || a_trous(image, guide, stop))

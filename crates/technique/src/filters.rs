@@ -3,33 +3,46 @@
 
 use crate::backend::threads_name;
 use crate::{Backend, Renderer};
-use denoise::DenoiseError;
 use denoise::gpu::GpuATrous;
+use denoise::gpu::unet::GpuUnet;
+use denoise::{DenoiseError, Network};
 use film::Image;
 use gpu::Gpu;
 use std::cell::OnceCell;
-use std::sync::{Arc, OnceLock};
+use std::collections::HashMap;
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 /// Filters on a graphics device: compiled when they are first asked for, by whoever asks, and kept as long as the device.
 pub struct DeviceFilters {
     gpu: Gpu,
     a_trous: OnceLock<Result<GpuATrous, DenoiseError>>,
+    /// The networks that have been asked for, by the hash of their weights.
+    networks: Mutex<HashMap<String, Result<Arc<GpuUnet>, DenoiseError>>>,
 }
 
 impl DeviceFilters {
     /// Those of any device, even of one that the processor plays.
     pub fn on(gpu: &Gpu) -> Self {
-        DeviceFilters { gpu: gpu.clone(), a_trous: OnceLock::new() }
+        DeviceFilters { gpu: gpu.clone(), a_trous: OnceLock::new(), networks: Mutex::default() }
     }
 
     /// Those of a device that is faster than the processor: which plays no device as fast as it filters by itself (a-trous
-    /// five times slower).
+    /// five times slower, the networks more).
     pub fn of(gpu: &Gpu) -> Option<Self> {
         (!gpu.is_software()).then(|| DeviceFilters::on(gpu))
     }
 
     pub(crate) fn a_trous(&self) -> Result<&GpuATrous, DenoiseError> {
         self.a_trous.get_or_init(|| GpuATrous::new(&self.gpu)).as_ref().map_err(Clone::clone)
+    }
+
+    pub(crate) fn unet(&self, network: &Network) -> Result<Arc<GpuUnet>, DenoiseError> {
+        let mut networks = self.networks.lock().unwrap_or_else(PoisonError::into_inner);
+        let compiled = networks.entry(network.hash()).or_insert_with(|| {
+            let unet = GpuUnet::new(&self.gpu, network)?;
+            Ok(Arc::new(unet))
+        });
+        compiled.clone()
     }
 }
 
