@@ -56,7 +56,7 @@ pub const fn unconnected() -> Technique {
 /// The usual paths through a filter, which brings an error of its own that no samples take away.
 pub const fn denoised(denoiser: Denoiser) -> Technique {
     let traced = on_the_ladder(Integrator::Path(COMPLETE));
-    Technique::Traced(TracedSettings { denoise: DenoiseSettings { denoiser, trust: 0.0 }, ..traced })
+    Technique::Traced(TracedSettings { denoise: DenoiseSettings { denoiser, ..DenoiseSettings::OFF }, ..traced })
 }
 
 /// Paths of at most so many bounces, and no roulette: the tutorial's biased loop.

@@ -123,15 +123,21 @@ impl Accumulation {
         self.earlier.as_ref().is_none_or(|earlier| self.spp / 2 >= earlier.next.samples_per_pixel())
     }
 
-    /// Keeps the film as last read.
+    /// Keeps the film as last read, if there is memory for one more.
     pub(crate) fn keep(&mut self) {
+        let Some(next) = copy_of(&self.film) else { return };
         let half = self.earlier.take().map(|earlier| earlier.next);
-        self.earlier = Some(EarlierStates { half, next: self.film.clone() });
+        self.earlier = Some(EarlierStates { half, next });
     }
 
     /// The film when it had half of its samples, or somewhat fewer, where that was kept.
     pub(crate) fn earlier_part(&self) -> Option<&Film> {
         self.earlier.as_ref()?.half.as_ref()
+    }
+
+    /// Takes that film, and forgets the other states.
+    pub(crate) fn take_earlier_part(&mut self) -> Option<Film> {
+        self.earlier.take()?.half
     }
 
     /// Someone adds up to so many samples.
@@ -168,4 +174,12 @@ impl Accumulation {
         }
         Ok(())
     }
+}
+
+/// `None` if there is no memory for it.
+pub(crate) fn copy_of(film: &Film) -> Option<Film> {
+    let mut copy = Film::try_new(film.width(), film.height())?;
+    copy.pixels_mut().copy_from_slice(film.pixels());
+    copy.nonfinite = film.nonfinite;
+    Some(copy)
 }

@@ -4,7 +4,7 @@ use crate::{Accumulation, Filters, Renderer};
 use denoise::a_trous::{Guide, a_trous};
 use denoise::trust::{Parts, Trusted, trust};
 use denoise::{DenoiseError, Network, Stop, WeightsError};
-use film::colour::luminance;
+use film::colour::{luminance, srgb_decode};
 use film::{Features, Film, Image, LayerValues, Vec3};
 use std::sync::{Arc, LazyLock};
 use std::time::Instant;
@@ -45,6 +45,11 @@ impl Denoiser {
     /// The weights that it goes by, as a hash in hexadecimal digits; `None` if it has none.
     pub fn weights(self) -> Option<String> {
         self.network()?.as_ref().ok().map(Network::hash)
+    }
+
+    /// What its network is called among those of Open Image Denoise; `None` if it is none.
+    pub fn network_name(self) -> Option<&'static str> {
+        self.network()?.as_ref().ok().map(Network::name)
     }
 
     fn network(self) -> Option<&'static Result<Network, WeightsError>> {
@@ -96,15 +101,22 @@ pub struct DenoiseSettings {
     /// Which share of the way to the samples that [`mod@denoise::trust`] tells is gone, in [0, 1]; at 0 it is not asked, and the
     /// filter has all samples at once.
     pub trust: f32,
+    /// Whether that share is shown, pixel by pixel, in place of the picture.
+    pub shows_trust: bool,
 }
 
 impl DenoiseSettings {
     /// The picture as it is rendered.
-    pub const OFF: Self = DenoiseSettings { denoiser: Denoiser::Off, trust: 0.0 };
+    pub const OFF: Self = DenoiseSettings { denoiser: Denoiser::Off, trust: 0.0, shows_trust: false };
 
     /// Whether samples are trusted beside a filter.
     pub fn trusts(&self) -> bool {
         self.is_on() && self.trust > 0.0
+    }
+
+    /// Whether [`mod@denoise::trust`]'s weight is what is shown: where none is asked for it is the picture.
+    pub fn shows_the_weight(&self) -> bool {
+        self.shows_trust && self.trusts()
     }
 
     /// Whether there is a filter.
@@ -112,11 +124,24 @@ impl DenoiseSettings {
         self.denoiser != Denoiser::Off
     }
 
-    /// What becomes of a film, of which an `earlier` state is there to judge the filter by; as [`Denoiser::apply`] does it.
+    /// What becomes of a film, of which an `earlier` state is there to judge the filter by, as [`Denoiser::apply`] does it; or how far
+    /// its samples are trusted.
     ///
     /// # Errors
     /// As [`Denoiser::apply`].
     pub fn apply(
+        &self,
+        film: &Film,
+        earlier: Option<&Film>,
+        features: &Features,
+        filters: &Filters,
+        stop: Stop,
+    ) -> Result<Image, DenoiseError> {
+        let image = self.filtered(film, earlier, features, filters, stop)?;
+        Ok(if self.shows_the_weight() { weight_of(&image) } else { image })
+    }
+
+    fn filtered(
         &self,
         film: &Film,
         earlier: Option<&Film>,
@@ -149,6 +174,19 @@ pub const TRUST: &str = "trust";
 
 /// The layer of a denoised picture that is what it was before.
 pub const NOISY: &str = "noisy";
+
+/// How far samples are trusted, as a picture in even steps of grey; nowhere if that was not asked.
+fn weight_of(image: &Image) -> Image {
+    let Some(LayerValues::Numbers(weight)) =
+        image.layers.iter().find(|layer| layer.name == TRUST).map(|layer| &layer.values)
+    else {
+        return image.map(|_| Vec3::ZERO);
+    };
+    let mut weights = weight.iter();
+    let mut grey = image.map(|_| Vec3::splat(srgb_decode(weights.next().copied().unwrap_or_default())));
+    grey.layers.clone_from(&image.layers);
+    grey
+}
 
 /// Variances of a film's means.
 fn variances(film: &Film) -> impl Iterator<Item = Vec3> {

@@ -10,7 +10,7 @@ use scene::Scene;
 impl Technique {
     /// Its name with the setting that says most: "Fake, fair", "Path tracing, light", "Whitted, depth 8".
     pub fn label(&self) -> String {
-        if self.feature().is_some() {
+        if self.feature().is_some() || self.denoise().shows_the_weight() {
             return self.title();
         }
         let says_most = match self {
@@ -45,6 +45,9 @@ impl Technique {
                 format!("{} of the fake", titled(*feature))
             }
             Technique::Traced(TracedSettings { feature: Some(feature), .. }) => format!("{} by rays", titled(*feature)),
+            Technique::Traced(traced) if self.denoise().shows_the_weight() => {
+                format!("Trust in the samples beside {}", traced.denoise.denoiser.name())
+            }
             Technique::Fake(FakeSettings { show: Show::CubeFaces, .. }) => "Cube faces of the fake".into(),
             Technique::Fake(FakeSettings { show: Show::ShadowMap, .. }) => "Shadow map of the fake".into(),
             Technique::Fake(_) | Technique::Traced(_) => self.name().in_full().into(),
@@ -185,6 +188,21 @@ mod tests {
         assert_eq!(sky_light, ["Fake, fair"; 2], "fair scales the light of a sky that is black there");
         let point = |rays| [("traced-sun", "0"), ("shadow-rays", rays)];
         assert_eq!(labels("whitted", Whitted, [&point("1"), &point("4")]), ["Whitted, depth 8"; 2]);
+    }
+
+    #[test]
+    fn means_of_runs_and_a_view_of_trust_are_called_so() {
+        let denoised = ("denoise", "unet");
+        let runs = labels("cornell", TechniqueName::Path, [&[denoised, ("runs", "8")], &[denoised]]);
+        assert_eq!(runs, ["Path tracing, mean of 8 runs", "Path tracing, one run"]);
+        let view = [denoised, ("trust", "0.5"), ("show", "trust")];
+        let shown = with(TechniqueName::Path, &view);
+        assert_eq!((shown.label().as_str(), shown.shows_the_scene()), ("Trust in the samples beside unet", false));
+        let nothing = with(TechniqueName::Path, &[denoised, ("show", "trust")]);
+        assert_eq!((nothing.label().as_str(), nothing.shows_the_scene()), ("Path tracing, light", true));
+        let albedo =
+            labels("cornell", TechniqueName::Path, [&[("show", "albedo"), ("runs", "8")], &[("show", "albedo")]]);
+        assert_eq!(albedo, ["Albedo by rays"; 2], "of which there is no mean");
     }
 
     #[test]

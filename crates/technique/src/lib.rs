@@ -17,15 +17,18 @@ mod device;
 mod fake;
 mod features;
 mod filters;
+mod halves;
 mod label;
 mod pane;
 pub mod presets;
 mod progressive;
 mod provenance;
 mod renderer;
+mod runs;
 pub mod settings;
 mod setup;
 mod shot;
+mod speeds;
 mod threads;
 mod traced;
 
@@ -38,6 +41,7 @@ pub use device::{Adapter, Adapters, Device, DeviceChoice, INSTEAD};
 pub use fake::FakeSettings;
 pub use features::features_of;
 pub use filters::{DeviceFilters, Filters};
+pub use halves::{HALVES, Halves};
 pub use pane::PaneSettings;
 pub use presets::Preset;
 pub use progressive::{NoMemory, ProgressiveRenderer, Request};
@@ -45,6 +49,7 @@ pub use provenance::{
     DENOISE, FILTER, Made, OWN_FOV, Provenance, Recorded, denoised_by, is_of_its_pixels, made_from, scene_hash,
 };
 pub use renderer::{Frame, Pacing, Rendered, Renderer, Watch};
+pub use runs::Runs;
 pub use setup::PaneSetup;
 pub use shot::{SceneChanges, Shot};
 pub use threads::{Rank, Threads};
@@ -190,9 +195,25 @@ impl Technique {
     /// What its picture goes through before it is shown.
     pub fn denoise(&self) -> DenoiseSettings {
         match self {
-            Technique::Traced(traced) if self.shows_the_scene() => traced.denoise,
+            Technique::Traced(traced) if self.traces_light() => traced.denoise,
             Technique::Traced(_) | Technique::Fake(_) => DenoiseSettings::OFF,
         }
+    }
+
+    /// Of how many pictures of one seed after the other it is the mean.
+    pub fn runs(&self) -> u32 {
+        match self {
+            Technique::Traced(traced) if self.traces_light() => traced.runs,
+            Technique::Traced(_) | Technique::Fake(_) => 1,
+        }
+    }
+
+    /// The same, as the mean of so many.
+    pub fn with_runs(mut self, runs: u32) -> Self {
+        if let Technique::Traced(traced) = &mut self {
+            traced.runs = runs;
+        }
+        self
     }
 
     /// What of surfaces it shows in place of their light.
@@ -207,7 +228,14 @@ impl Technique {
     pub fn shows_the_scene(&self) -> bool {
         match self {
             Technique::Fake(fake) => fake.shows_the_scene(),
-            Technique::Traced(TracedSettings { feature: Some(_), .. }) => false,
+            Technique::Traced(traced) => self.traces_light() && !traced.denoise.shows_the_weight(),
+        }
+    }
+
+    /// Whether rays gather the scene's light, whatever is shown of that.
+    pub fn traces_light(&self) -> bool {
+        match self {
+            Technique::Fake(_) | Technique::Traced(TracedSettings { feature: Some(_), .. }) => false,
             Technique::Traced(traced) => match traced.integrator {
                 Integrator::Photon(photon) => !photon.points,
                 Integrator::Path(_)

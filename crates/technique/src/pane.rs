@@ -19,6 +19,8 @@ pub struct PaneSettings {
     pub adapter: u8,
     /// What pictures of rays go through before they are shown.
     pub denoise: DenoiseSettings,
+    /// Pictures of rays whose mean is shown, as in [`TracedSettings`].
+    pub runs: u32,
     /// What pictures of rays show in place of light, as in [`TracedSettings`].
     pub feature: Option<Feature>,
     /// The settings of the fake.
@@ -45,6 +47,7 @@ impl PaneSettings {
             device: DeviceChoice::default(),
             adapter: 0,
             denoise: DenoiseSettings::OFF,
+            runs: 1,
             feature: None,
             fake: FakeSettings::default(),
             whitted: TreeSettings::default(),
@@ -73,8 +76,8 @@ impl PaneSettings {
     }
 
     fn here(&self, traced: TracedSettings) -> TracedSettings {
-        let &PaneSettings { device, adapter, denoise, feature, .. } = self;
-        TracedSettings { device, adapter, denoise, feature, ..traced }
+        let &PaneSettings { device, adapter, denoise, runs, feature, .. } = self;
+        TracedSettings { device, adapter, denoise, runs, feature, ..traced }
     }
 
     /// Takes `scene`'s own numbers again, and looks at the picture where it has no such map.

@@ -176,6 +176,13 @@ pub const ALL: &[Preset] = &[
         technique: Path,
         settings: &[("spp", "512"), ("denoise", "unet")],
     },
+    Preset {
+        name: "denoise-bias",
+        title: "Path tracing, 8 times 4 spp, each denoised",
+        about: "The mean of eight denoised pictures: what is wrong with it is the network's bias",
+        technique: Path,
+        settings: &[("spp", "4"), ("denoise", "unet"), ("runs", "8")],
+    },
 ];
 
 /// The tutorial's random numbers, whose error falls like 1 / sqrt(spp).

@@ -2,8 +2,9 @@
 //! wished number or a new request. The last films are kept: a request that differs only in the wished number goes on
 //! where one of them stopped, and a view that was left for a moment is there again.
 
-use crate::renderer::{Renderer, Speeds, Watch};
-use crate::{Accumulation, Adapters, Backend, Device, Rank, Shot, Threads, TracedSettings};
+use crate::renderer::{Renderer, Watch};
+use crate::speeds::Speeds;
+use crate::{Accumulation, Adapters, Backend, Device, Rank, Runs, Shot, Technique, Threads, TracedSettings};
 use scene::{Geometry, Scene, Shape};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -51,6 +52,8 @@ struct Seen {
 /// A film and the request that it belongs to, whose wished number of samples may grow.
 struct CachedFilm {
     accumulation: Accumulation,
+    /// What came before it, where it is one of several.
+    runs: Option<Runs>,
     request: Request,
 }
 
@@ -76,15 +79,50 @@ pub struct ProgressiveRenderer {
 pub struct NoMemory;
 
 impl Request {
-    /// Whether two requests differ in the wished number of samples alone.
+    /// Whether two requests differ in the wished number of samples, or of runs, alone.
     pub fn is_same_picture(&self, other: &Request) -> bool {
         let how = |of: &Request| {
-            let TracedSettings { integrator, device, adapter, spp: _, sun_radius, denoise, feature } = of.settings;
+            let TracedSettings { integrator, device, adapter, spp: _, runs: _, sun_radius, denoise, feature } =
+                of.settings;
             // to be judged by its parts a film has to be made in parts
             (integrator, device, adapter, sun_radius, feature, denoise.trusts())
         };
         let seen = |of: &Request| (of.shot.camera, of.shot.size, of.restarts);
         how(self) == how(other) && seen(self) == seen(other) && Arc::ptr_eq(&self.shot.scene, &other.shot.scene)
+    }
+}
+
+/// What was kept of a request, or else a film without light.
+fn films_for(request: &Request, kept: Option<CachedFilm>) -> Result<CachedFilm, NoMemory> {
+    let TracedSettings { spp, runs, denoise, .. } = request.settings;
+    let (accumulation, before) = match kept {
+        Some(kept) => (kept.accumulation, kept.runs.filter(|runs| runs.go_on_to(&request.settings))),
+        None => (Accumulation::blank(request.shot.size).ok_or(NoMemory)?, None),
+    };
+    let runs = match before {
+        None if runs > 1 => Some(Runs::blank(request.shot.size, spp, denoise).ok_or(NoMemory)?),
+        before => before.filter(|_| runs > 1),
+    };
+    Ok(CachedFilm { accumulation, runs, request: request.clone() })
+}
+
+impl CachedFilm {
+    /// How many runs are done, and what the one in hand has.
+    fn progress(&self) -> (u32, u32) {
+        (self.runs.as_ref().map_or(0, Runs::done), self.accumulation.spp())
+    }
+
+    fn has_samples(&self) -> bool {
+        self.progress() > (0, 0)
+    }
+
+    fn refine(&mut self, renderer: &mut Renderer, watch: &impl Watch) {
+        let CachedFilm { accumulation, runs, request } = self;
+        let (camera, TracedSettings { integrator, spp, runs: wanted, .. }) = (&request.shot.camera, &request.settings);
+        match runs {
+            Some(runs) => renderer.refine_runs((accumulation, runs), camera, (integrator, *wanted), watch),
+            None => renderer.refine(accumulation, camera, (integrator, *spp), watch),
+        }
     }
 }
 
@@ -111,23 +149,19 @@ impl ProgressiveRenderer {
         self.begun = Instant::now();
         let request = &self.as_seen(request);
         let kept = self.best_kept(request);
-        let mut rough = kept.is_none();
+        // a picture without a weight is no rough one of the weight
+        let mut rough = kept.is_none() && !request.settings.denoise.shows_the_weight();
         let mut renderer = self.make_ready(request, &mut rough, watch);
         renderer.feature = request.settings.feature;
         if rough {
             self.rough_by_whoever_is_ready(&mut renderer, request, watch);
         }
-        let accumulation = match kept {
-            Some(kept) => Ok(kept.accumulation),
-            None => Accumulation::blank(request.shot.size).ok_or(NoMemory),
-        };
-        let refined = accumulation.map(|mut accumulation| {
-            if accumulation.spp() > 0 || !watch.ends_now() {
-                let TracedSettings { integrator, spp, .. } = &request.settings;
-                renderer.refine(&mut accumulation, &request.shot.camera, (integrator, *spp), watch);
+        let refined = films_for(request, kept).map(|mut film| {
+            if film.has_samples() || !watch.ends_now() {
+                film.refine(&mut renderer, watch);
             }
-            if accumulation.spp() > 0 {
-                self.kept.push(CachedFilm { accumulation, request: request.clone() });
+            if film.has_samples() {
+                self.kept.push(film);
             }
         });
         self.take_note_of(&renderer, request);
@@ -149,7 +183,10 @@ impl ProgressiveRenderer {
         });
         let scene = seen.scene.clone();
         self.seen = Some(seen);
-        Request { shot: Shot { scene, ..shot.clone() }, ..request.clone() }
+        // where no light is traced there is nothing to take a mean of
+        let technique = Technique::Traced(*settings);
+        let settings = TracedSettings { runs: technique.runs(), denoise: technique.denoise(), ..*settings };
+        Request { shot: Shot { scene, ..shot.clone() }, settings, ..*request }
     }
 
     /// The scene on the device that is asked for, or on the processor.
@@ -250,10 +287,12 @@ impl ProgressiveRenderer {
     /// The kept film that is nearest to what is asked for, of the same picture.
     fn best_kept(&mut self, request: &Request) -> Option<CachedFilm> {
         let serves = |kept: &CachedFilm| {
-            kept.request.is_same_picture(request) && kept.accumulation.most() <= request.settings.spp
+            kept.request.is_same_picture(request)
+                && kept.accumulation.most() <= request.settings.spp
+                && kept.runs.as_ref().is_none_or(|runs| runs.done() == 0 || runs.go_on_to(&request.settings))
         };
         let serving = self.kept.iter().enumerate().filter(|(_, kept)| serves(kept));
-        let (index, _) = serving.max_by_key(|(_, kept)| kept.accumulation.spp())?;
+        let (index, _) = serving.max_by_key(|(_, kept)| kept.progress())?;
         Some(self.kept.remove(index))
     }
 

@@ -2,7 +2,7 @@
 
 use crate::command::{camera_options, size_option};
 use crate::settings::unsaid_of_old;
-use crate::{Device, Shot, Technique, TechniqueName, TracedSettings};
+use crate::{Device, HALVES, Shot, Technique, TechniqueName, TracedSettings};
 use anyhow::Context;
 use image_file::Records;
 use pathtrace::{Integrator, usual_radius};
@@ -19,10 +19,17 @@ pub struct Provenance {
     pub device: Device,
 }
 
+impl Provenance {
+    /// The same of a picture that is the mean of so many, where more may have been asked for.
+    pub fn of_runs(&self, runs: u32) -> Self {
+        Provenance { technique: self.technique.with_runs(runs), ..self.clone() }
+    }
+}
+
 /// What a picture took, and how it is shown.
 #[derive(Debug, Clone, Copy)]
 pub struct Made<'a> {
-    /// Samples per pixel; 1 for a technique that does not sample.
+    /// Samples per pixel, of one run where there are several; 1 for a technique that does not sample.
     pub spp: u32,
     /// Seconds that rendering took.
     pub seconds: f64,
@@ -101,7 +108,8 @@ pub fn denoised_by(records: &[(String, String)]) -> Option<&str> {
 
 /// Whether a record says something of the noisy picture that does not hold once it is denoised, or of denoising itself.
 pub fn is_of_its_pixels(name: &str) -> bool {
-    name.starts_with(MEASURED) || name.starts_with(DENOISE) || name == TRUST
+    let is_of_halves = HALVES.iter().any(|half| name.starts_with(half));
+    name.starts_with(MEASURED) || name.starts_with(DENOISE) || name == TRUST || is_of_halves
 }
 
 /// What makes a picture with these records again. `None` if they are not those of one pane's picture.

@@ -3,6 +3,7 @@
 //! traces rays dealt with.
 
 use crate::features::on_the_processor;
+use crate::speeds::Speeds;
 use crate::{Accumulation, Backend, DenoiseSettings, Denoised, Device, Rank, Threads};
 use denoise::DenoiseError;
 use film::{Feature, Features, Film};
@@ -11,19 +12,6 @@ use pathtrace::{Integrator, Stats, Tracer};
 use scene::{Camera, Scene};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
-
-/// Seconds that one sample of one pixel takes, by device, as measured on the last passes; a guess at first.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Speeds([f64; 2]);
-
-impl Default for Speeds {
-    fn default() -> Self {
-        Speeds([1e-6; 2])
-    }
-}
-
-/// Samples below which a pass says nothing about its speed.
-const TOO_FEW_TO_MEASURE: u64 = 1000;
 
 /// How long things may take from one look at a picture to the next.
 #[derive(Debug, Clone, Copy)]
@@ -40,6 +28,10 @@ pub struct Pacing {
 pub struct Frame<'a> {
     /// Samples summed so far, pixel by pixel.
     pub film: &'a Film,
+    /// Pictures of which it is the mean, each of as many samples.
+    pub runs: u32,
+    /// The film when it had half of its samples or fewer, where [`Watch::keeps_parts`].
+    pub earlier: Option<&'a Film>,
     /// What the pixels show, where [`Watch::wants_features`]; of a rough picture it is not made.
     pub features: Option<&'a Features>,
     /// The film as the denoiser that [`Watch::denoise`] asks for leaves it, or why there is no memory for that.
@@ -80,12 +72,17 @@ pub trait Watch: Sync {
         DenoiseSettings::OFF
     }
 
+    /// Whether to end where one of several runs is done.
+    fn ends_after_run(&self) -> bool {
+        self.ends_soon(1)
+    }
+
     /// Whether a filter in hand is to end, and the picture to go without it.
     fn skips_filters(&self) -> bool {
         self.ends_now()
     }
 
-    /// Whether films of about half of the samples are kept, by which a denoiser is judged.
+    /// Whether a film of half of the samples is kept, or of somewhat fewer, by which a denoiser is judged.
     fn keeps_parts(&self) -> bool {
         self.denoise().trusts()
     }
@@ -193,7 +190,7 @@ impl Renderer {
 
     /// Seconds that so many samples of one pixel take, by the speed of the last pass.
     pub fn forecast(&self, samples: f64) -> f64 {
-        samples * self.speeds.0[self.device() as usize]
+        samples * self.speeds.of(self.device())
     }
 
     /// Adds `samples` to every pixel, unless `stop` says so. Where someone of a higher rank waits for the threads it
@@ -233,11 +230,10 @@ impl Renderer {
         };
         accumulation.spent += spent;
         match added {
-            Ok(taken) if taken > TOO_FEW_TO_MEASURE => {
-                self.speeds.0[self.device() as usize] = spent.as_secs_f64() / taken as f64;
+            Ok(taken) => {
+                self.speeds.note(self.device(), taken, spent);
                 Ok(())
             }
-            Ok(_) => Ok(()),
             Err(fault) => Err(self.replace(accumulation, fault)),
         }
     }
@@ -285,7 +281,7 @@ impl Renderer {
                 break;
             }
             let pacing = watch.pacing(accumulation.spent);
-            let half = if watch.keeps_parts() { wished.div_ceil(2) } else { wished };
+            let half = if watch.keeps_parts() { wished / 2 } else { wished };
             let until = if before < half { half } else { wished };
             let samples = self.samples_of_a_pass(accumulation, &pacing).min(until - before);
             self.rank = if before > 0 { Rank::Refinement } else { Rank::FirstPicture };
@@ -297,7 +293,7 @@ impl Renderer {
             }
             let spp = accumulation.spp;
             watch.count(spp);
-            if spp > before && watch.keeps_parts() && accumulation.is_to_be_kept() {
+            if spp > before && watch.keeps_parts() && (spp == half || accumulation.is_to_be_kept()) {
                 self.read(accumulation, watch);
                 accumulation.keep();
             }
@@ -315,7 +311,7 @@ impl Renderer {
         fitting.clamp(1, accumulation.spp.saturating_mul(pacing.growth).max(1))
     }
 
-    fn read(&mut self, accumulation: &mut Accumulation, watch: &impl Watch) {
+    pub(crate) fn read(&mut self, accumulation: &mut Accumulation, watch: &impl Watch) {
         if let Err(fault) = self.resolve(accumulation) {
             watch.told_of_loss(&fault, accumulation.spp);
         }
@@ -337,6 +333,8 @@ impl Renderer {
     pub(crate) fn frame<'a>(&self, accumulation: &'a Accumulation, [rough, unfinished]: [bool; 2]) -> Frame<'a> {
         Frame {
             film: accumulation.film(),
+            runs: 1,
+            earlier: accumulation.earlier_part(),
             features: accumulation.features.as_ref().map(|(_, features)| features),
             denoised: None,
             stats: accumulation.stats(),
@@ -354,6 +352,10 @@ impl Renderer {
 pub struct Rendered {
     /// Samples summed so far, pixel by pixel.
     pub film: Film,
+    /// Pictures of which it is the mean, each of as many samples.
+    pub runs: u32,
+    /// The film when it had half of its samples or fewer, where [`Watch::keeps_parts`] and there was memory for it.
+    pub earlier: Option<Film>,
     /// What the pixels show, where it was asked for.
     pub features: Option<Features>,
     /// The film as a denoiser leaves it, where one was asked for, or why there is no memory for that.
@@ -393,6 +395,7 @@ impl Renderer {
         let denoised = self.denoised(&accumulation, denoise, &|| watch.skips_filters());
         let (device, made_by) = (self.device(), accumulation.made_by());
         let features = accumulation.features.take().map(|(_, features)| features);
-        Rendered { stats: accumulation.stats(), film: accumulation.into_film(), features, denoised, device, made_by }
+        let (stats, earlier) = (accumulation.stats(), accumulation.take_earlier_part());
+        Rendered { stats, film: accumulation.into_film(), runs: 1, earlier, features, denoised, device, made_by }
     }
 }

@@ -20,6 +20,8 @@ pub struct TracedSettings {
     pub adapter: u8,
     /// Samples per pixel at which rendering stops.
     pub spp: u32,
+    /// Pictures of so many samples each, of one seed after the other, whose mean is shown.
+    pub runs: u32,
     /// Angular radius of the sun for these rays alone, in degrees; `None`: the scene's. References know nothing of it.
     pub sun_radius: Option<f32>,
     /// What the picture goes through before it is shown.
@@ -32,7 +34,7 @@ impl TracedSettings {
     /// An integrator that stops at so many samples per pixel, where the device is not chosen and the sun the scene's.
     pub const fn new(integrator: Integrator, spp: u32) -> Self {
         let (device, denoise) = (DeviceChoice::Auto, DenoiseSettings::OFF);
-        TracedSettings { integrator, device, adapter: 0, spp, sun_radius: None, denoise, feature: None }
+        TracedSettings { integrator, device, adapter: 0, spp, runs: 1, sun_radius: None, denoise, feature: None }
     }
 }
 

@@ -1,13 +1,15 @@
 //! `visavis render`: a picture to a file, without a window.
 
+mod terminal;
+
+use self::terminal::Terminal;
 use super::{RenderArgs, interrupt, reference};
-use crate::ruler::{brief, error_records, error_words, noise_line};
+use crate::ruler::{bias_words, brief, error_records, error_words, noise_line};
 use anyhow::Context;
 use compare::Errors;
 use film::{DisplayTransform, Features, Image};
 use gpu::Gpu;
 use image_file::{self, Kind};
-use pathtrace::gpu::GpuTraceError;
 use pathtrace::{ChainStats, Stats};
 use raster::Raster;
 use scene::{Scene, builtin};
@@ -17,8 +19,8 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 use technique::settings::{OF_SCENES, Setting, Value, all_of_panes};
 use technique::{
-    Accumulation, Backend, BlindSpot, DenoiseSettings, Denoised, Device, DeviceChoice, FakeSettings, Frame, INSTEAD,
-    Made, NOISY, Pacing, PaneSettings, Provenance, Rendered, Renderer, Shot, Technique, Threads, TracedSettings, Watch,
+    Accumulation, Backend, BlindSpot, DenoiseSettings, Denoised, Device, DeviceChoice, FakeSettings, Halves, INSTEAD,
+    Made, NOISY, PaneSettings, Provenance, Rendered, Renderer, Runs, Shot, Technique, Threads, TracedSettings,
 };
 
 /// Samples per pixel where neither --spp nor --time says how many.
@@ -61,10 +63,13 @@ pub fn run(args: &mut RenderArgs) -> anyhow::Result<()> {
         image.layers.extend(rendered.features.iter().flat_map(Features::layers));
         image.layers.extend(before.iter().map(|before| before.as_layer(NOISY)));
     }
+    let halves = halves(args, &rendered);
+    image.layers.extend(halves.iter().flat_map(Halves::layers));
     let measured = args.errors.then(|| measure(&shot, (&image, before.as_ref()))).transpose();
-    save(args, shot, (&rendered, seconds), &image, measured.as_ref().ok().and_then(Option::as_ref))?;
+    let told = measured.as_ref().ok().and_then(Option::as_ref);
+    save(args, shot, (&rendered, seconds), (&image, halves.map(|halves| halves.samples)), told)?;
     let out = image_file::shown(&args.out);
-    let made = spp_made(args, rendered.film.samples_per_pixel());
+    let made = spp_made(args, &rendered);
     let errors = measured.with_context(|| format!("{made} are saved, without their errors: {out}"))?;
     if let Some(Err(fault)) = &rendered.denoised {
         anyhow::bail!("{made} are saved, not denoised ({fault}): {out}");
@@ -104,25 +109,46 @@ pub fn run(args: &mut RenderArgs) -> anyhow::Result<()> {
             };
             note!("denoised by {} in {seconds:.2} s: {bias}", technique.denoise().denoiser.name());
         }
+        if technique.runs() > 1 {
+            note!("the mean of {} of {} runs of {} spp", rendered.runs, technique.runs(), spp_of_run(&rendered));
+        }
         if let Some(Measured { errors: e, before }) = errors {
             let noise = noise_line(&e).map_or_else(String::new, |line| format!(", noise {line}"));
-            let (words, rel_mse, rmse) = (error_words(&e, None).join(", "), brief(e.rel_mse), brief(e.rmse));
+            let [off, brightness] = error_words(&e, None);
+            let brightness = if rendered.runs > 1 { bias_words(&e, &runs_words(&rendered)) } else { brightness };
+            let (rel_mse, rmse) = (brief(e.rel_mse), brief(e.rmse));
             let before = before.map_or_else(String::new, |e| format!(", before denoising relMSE {}", brief(e.rel_mse)));
-            note!("against the reference: {words}; relMSE {rel_mse}, RMSE {rmse}{noise}{before}");
+            note!("against the reference: {off}, {brightness}; relMSE {rel_mse}, RMSE {rmse}{noise}{before}");
         }
     }
     anyhow::ensure!(!interrupt::is_asked(), "{made} are saved: {out}");
     Ok(())
 }
 
-/// `u32::MAX` where the time alone decides.
+/// `u32::MAX` where the time alone decides, which it does not within one of several runs.
 fn spp_wanted(args: &RenderArgs) -> u32 {
-    args.spp.unwrap_or(if args.seconds.is_some() { u32::MAX } else { DEFAULT_SPP })
+    let the_time_decides = args.seconds.is_some() && args.pane.in_use().runs() == 1;
+    args.spp.unwrap_or(if the_time_decides { u32::MAX } else { DEFAULT_SPP })
 }
 
-/// `12 of 64 spp`.
-fn spp_made(args: &RenderArgs, made: u32) -> String {
+/// Samples per pixel of each run.
+fn spp_of_run(rendered: &Rendered) -> u32 {
+    rendered.film.samples_per_pixel() / rendered.runs.max(1)
+}
+
+/// "8 denoised runs".
+fn runs_words(rendered: &Rendered) -> String {
+    let denoised = if matches!(rendered.denoised, Some(Ok(_))) { "denoised " } else { "" };
+    format!("{} {denoised}runs", rendered.runs)
+}
+
+/// `12 of 64 spp`, `2 of 8 runs of 64 spp`.
+fn spp_made(args: &RenderArgs, rendered: &Rendered) -> String {
+    let (made, runs) = (spp_of_run(rendered), args.pane.in_use().runs());
     match (args.pane.in_use(), spp_wanted(args)) {
+        (Technique::Traced(_), wanted) if runs > 1 && made == wanted => {
+            format!("{} of {runs} runs of {made} spp", rendered.runs)
+        }
         (Technique::Traced(_), u32::MAX) | (Technique::Fake(_), _) => format!("{made} spp"),
         (Technique::Traced(_), wanted) => format!("{made} of {wanted} spp"),
     }
@@ -142,25 +168,42 @@ fn measure(shot: &Shot, (image, before): (&Image, Option<&Image>)) -> anyhow::Re
     Ok(Measured { errors: reference.errors(image)?, before })
 }
 
+/// The halves of the samples, where the layers of a traced picture are wanted.
+fn halves(args: &RenderArgs, rendered: &Rendered) -> Option<Halves> {
+    let halves = rendered.earlier.as_ref().filter(|_| args.layers).and_then(|half| Halves::of(&rendered.film, half));
+    if keeps_halves(args) && halves.is_none() && rendered.film.samples_per_pixel() > 1 {
+        note!(
+            "note: the halves of the samples are no layers: there was not enough memory for another film, or not enough time"
+        );
+    }
+    halves
+}
+
+fn keeps_halves(args: &RenderArgs) -> bool {
+    args.layers && args.pane.in_use().traces_light()
+}
+
 fn save(
     args: &RenderArgs,
     shot: Shot,
     (rendered, seconds): (&Rendered, f64),
-    image: &Image,
+    (image, halves): (&Image, Option<[u32; 2]>),
     errors: Option<&Measured>,
 ) -> anyhow::Result<()> {
-    let mut provenance = Provenance { shot, technique: args.pane.in_use(), device: rendered.device };
+    let technique = args.pane.in_use().with_runs(rendered.runs);
+    let mut provenance = Provenance { shot, technique, device: rendered.device };
     if let (Some(Err(_)), Technique::Traced(traced)) = (&rendered.denoised, &mut provenance.technique) {
         traced.denoise = DenoiseSettings::OFF;
     }
     let made = Made {
-        spp: rendered.film.samples_per_pixel(),
+        spp: spp_of_run(rendered),
         seconds,
         adapter: &rendered.made_by,
         denoised_by: rendered.denoised.as_ref().and_then(|denoised| Some(denoised.as_ref().ok()?.made_by.as_str())),
         exposure: args.exposure,
     };
     let mut records = provenance.records(made);
+    records.extend(halves.into_iter().flat_map(Halves::records));
     records.extend(errors.into_iter().flat_map(|e| error_records(&e.errors, "reference".into())));
     let kind = Kind::of(&args.out).context("a picture's name must end in .png or .exr")?;
     let bytes = image_file::encode(kind, image, &DisplayTransform { exposure: args.exposure }, &records)?;
@@ -197,6 +240,23 @@ fn tell_what_has_no_effect(args: &RenderArgs, scene: &Scene) {
             note!("note: --{name} has no effect: {} has no {missing}", scene.name);
         }
     }
+    tell_what_others_undo(args, scene);
+}
+
+/// What was given and changes nothing beside the other settings: of features no light is traced.
+fn tell_what_others_undo(args: &RenderArgs, scene: &Scene) {
+    let others = match args.pane.in_use().feature() {
+        Some(feature) => format!("with --show {}", feature.name()),
+        None => "beside the other settings".into(),
+    };
+    let is_given = |setting: &&Setting<PaneSettings>| args.given.iter().any(|given| given == setting.name);
+    let of_technique = |setting: &&Setting<PaneSettings>| setting.is_of(args.pane.technique);
+    let there = |setting: &&Setting<PaneSettings>| setting.needs.missing_in(scene).is_none();
+    for setting in all_of_panes().filter(is_given).filter(of_technique).filter(there) {
+        if !args.pane.is_changed_by(setting, scene) {
+            note!("note: --{} has no effect {others}", setting.name);
+        }
+    }
 }
 
 fn raster(args: &RenderArgs, scene: &Scene, fake: FakeSettings) -> anyhow::Result<Timed> {
@@ -211,7 +271,8 @@ fn raster(args: &RenderArgs, scene: &Scene, fake: FakeSettings) -> anyhow::Resul
         note!("note: {cut}: a scene file that states neither cuts nothing");
     }
     let (device, made_by) = (Device::Gpu, gpu.describe());
-    let rendered = Rendered { film, features, denoised: None, stats: Stats::default(), device, made_by };
+    let (stats, runs, earlier) = (Stats::default(), 1, None);
+    let rendered = Rendered { film, runs, earlier, features, denoised: None, stats, device, made_by };
     Ok(Timed { rendered, seconds })
 }
 
@@ -221,27 +282,34 @@ fn trace(args: &RenderArgs, shot: &Shot, traced: TracedSettings) -> anyhow::Resu
     }
     let spp = spp_wanted(args);
     let (width, height) = shot.size;
-    let blank = Accumulation::blank(shot.size)
-        .with_context(|| format!("not enough memory for {width}x{height} pixels; ask for a smaller --size"))?;
+    let no_memory = || format!("not enough memory for {width}x{height} pixels; ask for a smaller --size");
+    let blank = Accumulation::blank(shot.size).with_context(no_memory)?;
+    let (denoise, runs) = (args.pane.in_use().denoise(), args.pane.in_use().runs());
+    let of_runs = (runs > 1).then(|| Runs::blank(shot.size, spp, denoise).with_context(no_memory)).transpose()?;
     let device = TracedSettings { device: args.device, ..traced }.device_choice();
-    let gpu = device.open(u64::from(width) * u64::from(height) * u64::from(spp))?;
+    let samples = u64::from(spp).saturating_mul(runs.into());
+    let gpu = device.open((u64::from(width) * u64::from(height)).saturating_mul(samples))?;
     let start = Instant::now();
     let scene = traced.applied_to(&shot.scene);
     let backend = backend(gpu.as_ref(), &scene, device)?;
     let watch = Terminal {
-        spp,
+        spp: spp.saturating_mul(runs),
+        has_runs: runs > 1,
         shown: std::io::stderr().is_terminal(),
         start,
         layers: args.layers,
         limit: args.seconds.map(Duration::from_secs_f64),
-        trusts: args.pane.in_use().denoise().trusts(),
+        keeps_parts: denoise.trusts() || keeps_halves(args),
         // a test does not wait for seconds
         at_risk: if backend.fails_on_purpose() { Duration::ZERO } else { AT_RISK },
     };
     let mut renderer = Renderer::new(scene, backend, Arc::new(Threads::all()));
     renderer.feature = traced.feature;
-    let rendered =
-        renderer.finish(blank, &shot.camera, (&traced.integrator, spp), args.pane.in_use().denoise(), &watch);
+    let (camera, integrator) = (&shot.camera, &traced.integrator);
+    let rendered = match of_runs {
+        Some(of_runs) => renderer.finish_runs((blank, of_runs), camera, (integrator, runs), &watch),
+        None => renderer.finish(blank, camera, (integrator, spp), denoise, &watch),
+    };
     watch.clear();
     Ok(Timed { rendered, seconds: start.elapsed().as_secs_f64() })
 }
@@ -255,65 +323,6 @@ fn backend(gpu: Option<&Gpu>, scene: &Scene, choice: DeviceChoice) -> anyhow::Re
         None => {}
     }
     Ok(Backend::on_the_processor(scene))
-}
-
-/// Watches the time, and counts samples on stderr where someone can see it.
-struct Terminal {
-    spp: u32,
-    shown: bool,
-    layers: bool,
-    start: Instant,
-    limit: Option<Duration>,
-    /// Whether samples are trusted beside a denoiser.
-    trusts: bool,
-    at_risk: Duration,
-}
-
-impl Watch for Terminal {
-    /// One sample of every pixel is made however late it is.
-    fn ends_soon(&self, spp: u32) -> bool {
-        let late = || self.limit.is_some_and(|limit| self.start.elapsed() >= limit);
-        spp > 0 && (interrupt::is_asked() || late())
-    }
-
-    fn keeps_parts(&self) -> bool {
-        self.trusts
-    }
-
-    fn skips_filters(&self) -> bool {
-        interrupt::is_asked()
-    }
-
-    fn wants_features(&self) -> bool {
-        self.layers
-    }
-
-    /// Passes of a quarter of a second, or of what is left of the time.
-    fn pacing(&self, _spent: Duration) -> Pacing {
-        let left = self.limit.map_or(Duration::MAX, |limit| limit.saturating_sub(self.start.elapsed()));
-        Pacing { pass: left.min(Duration::from_millis(250)), show: self.at_risk, growth: 3 }
-    }
-
-    fn show(&self, _frame: Frame) {}
-
-    fn count(&self, spp: u32) {
-        if self.shown {
-            let of = if self.spp == u32::MAX { String::new() } else { format!(" of {}", self.spp) };
-            crate::console::to_stderr(format_args!("\r{spp}{of} spp, {:.1} s ", self.start.elapsed().as_secs_f64()));
-        }
-    }
-
-    fn told_of_loss(&self, fault: &GpuTraceError, spp: u32) {
-        note!("note: the processor goes on from {spp} spp, the graphics device failed: {fault}");
-    }
-}
-
-impl Terminal {
-    fn clear(&self) {
-        if self.shown {
-            crate::console::to_stderr(format_args!("\r\x1b[K"));
-        }
-    }
 }
 
 fn report(
@@ -331,7 +340,8 @@ fn report(
         "adapter": rendered.made_by,
         "width": args.seen.size.0,
         "height": args.seen.size.1,
-        "spp": rendered.film.samples_per_pixel(),
+        "spp": spp_of_run(rendered),
+        "runs": rendered.runs,
         "seconds": seconds,
         "samples_per_second": per_second(rendered.stats.samples),
         "rays_per_second": per_second(rendered.stats.rays),
@@ -341,7 +351,8 @@ fn report(
     match args.pane.in_use() {
         Technique::Fake(fake) => report["fake"] = json!(fake.fake.name()),
         Technique::Traced(rays) => {
-            for (name, value) in args.pane.in_use().values(rendered.film.samples_per_pixel()).into_iter().skip(1) {
+            let made = args.pane.in_use().with_runs(rendered.runs);
+            for (name, value) in made.values(spp_of_run(rendered)).into_iter().skip(1) {
                 report[name.replace('-', "_")] = match value {
                     Value::Whole(number) => json!(number),
                     other => json!(other.to_string()),

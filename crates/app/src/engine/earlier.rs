@@ -48,7 +48,9 @@ fn is_same_picture(a: &Order, b: &Order) -> bool {
     let how = |order: &Order| match order.provenance.technique {
         Technique::Fake(_) => None,
         Technique::Traced(traced) => {
-            Some((traced.integrator, traced.sun_radius, traced.denoise, order.view, order.restarts))
+            // a mean of runs is another sum than one of the first with more samples
+            let runs = order.provenance.technique.runs();
+            Some((traced.integrator, traced.sun_radius, traced.denoise, runs, order.view, order.restarts))
         }
     };
     how(a).is_some() && how(a) == how(b)
@@ -72,6 +74,7 @@ mod tests {
         Picture {
             before: None,
             image: Image::new(1, 1, [Vec3::splat(spp as f32)]).unwrap(),
+            runs: 1,
             spp: (technique != TechniqueName::Raster).then_some(spp),
             seconds: 0.0,
             effort: crate::model::Effort::Traced(pathtrace::Stats::default()),

@@ -259,6 +259,7 @@ impl JobInHand<'_> {
         let picture = Picture {
             image: film.image(),
             before: None,
+            runs: 1,
             spp: None,
             seconds,
             effort: Effort::Drawn(Drawing { compiling, kept_maps: work.kept_maps, at_rest }),

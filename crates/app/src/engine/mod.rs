@@ -41,8 +41,10 @@ pub struct Picture {
     pub image: Image,
     /// What it was before it was denoised, and how long that took; `None` where the picture is what was rendered.
     pub before: Option<Box<Undenoised>>,
-    /// Samples per pixel; `None` for a technique that does not sample.
+    /// Samples per pixel, of all runs; `None` for a technique that does not sample.
     pub spp: Option<u32>,
+    /// Pictures of which it is the mean, each of as many samples.
+    pub runs: u32,
     /// Seconds of rendering.
     pub seconds: f64,
     /// How they were spent.
@@ -76,6 +78,15 @@ pub struct Undenoised {
     pub seconds: f64,
     /// What has filtered: a GPU's name, or a number of threads.
     pub by: Arc<str>,
+    /// Samples per pixel of the picture's layers [`technique::HALVES`], where it has those.
+    pub halves: Option<[u32; 2]>,
+}
+
+impl Picture {
+    /// What makes it, with the samples and runs that it has and not those that were asked for.
+    pub fn made(&self) -> (Provenance, u32) {
+        (self.order.provenance.of_runs(self.runs), self.spp.unwrap_or(1) / self.runs.max(1))
+    }
 }
 
 /// A picture to make: how, and all the rest.

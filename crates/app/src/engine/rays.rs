@@ -8,7 +8,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Duration;
 use technique::{
-    Adapters, DenoiseSettings, Denoised, Frame, NOISY, NoMemory, Pacing, ProgressiveRenderer, Request, Threads,
+    Adapters, DenoiseSettings, Denoised, Frame, Halves, NOISY, NoMemory, Pacing, ProgressiveRenderer, Request, Threads,
     TracedSettings, Watch,
 };
 
@@ -157,11 +157,13 @@ impl Watch for PaneWatch<'_> {
     fn show(&self, frame: Frame) {
         let film = frame.film;
         let mut filter_fault = None;
+        let halves = frame.earlier.and_then(|earlier| Halves::of(film, earlier));
         let (mut image, before) = match frame.denoised {
             Some(Ok(Denoised { image, seconds, made_by, refused })) => {
                 self.filtering.store((1000.0 * seconds) as u64, Ordering::Relaxed);
                 filter_fault = refused.map(|why| format!("denoised on the CPU: the GPU failed: {why}").into());
-                (image, Some(Box::new(Undenoised { image: film.image(), seconds, by: made_by.into() })))
+                let halves = halves.as_ref().map(|halves| halves.samples);
+                (image, Some(Box::new(Undenoised { image: film.image(), seconds, by: made_by.into(), halves })))
             }
             Some(Err(fault)) => {
                 filter_fault = Some(format!("not denoised: {fault}").into());
@@ -172,9 +174,11 @@ impl Watch for PaneWatch<'_> {
         // an EXR of the pane keeps them
         image.layers.extend(frame.features.iter().flat_map(|features| features.layers()));
         image.layers.extend(before.iter().map(|before| before.image.as_layer(NOISY)));
+        image.layers.extend(halves.iter().filter(|_| before.is_some()).flat_map(Halves::layers));
         let picture = Picture {
             image,
             spp: Some(film.samples_per_pixel()),
+            runs: frame.runs,
             seconds: frame.seconds,
             effort: Effort::Traced(frame.stats),
             noisy: self.has_noise_source && !frame.rough && before.is_none() && compare::is_visibly_noisy(film),

@@ -21,8 +21,10 @@ pub struct ViewModel {
 pub struct PaneView {
     /// What its picture was made from; `None` while there is none.
     pub provenance: Option<Arc<Provenance>>,
-    /// Samples per pixel, where the technique samples.
+    /// Samples per pixel, of all runs, where the technique samples.
     pub spp: Option<u32>,
+    /// Pictures of which it is the mean, each of as many samples.
+    pub runs: u32,
     /// Seconds that rendering has taken so far.
     pub seconds: f64,
     /// How they were spent.

@@ -37,6 +37,13 @@ pub fn error_words(errors: &Errors, judge: Option<&str>) -> [String; 2] {
     [off, brightness]
 }
 
+/// The mean difference of what is the mean of several pictures, whose noise is mostly gone: "bias -2.1 % (mean of 8 denoised runs)".
+pub fn bias_words(errors: &Errors, runs: &str) -> String {
+    let share = errors.relative_bias;
+    let sign = if share < 0.0 { "-" } else { "+" };
+    format!("bias {sign}{} % (mean of {runs})", percent(share.abs()))
+}
+
 /// A share in percent, with two figures and no more decimals than are worth reading; "0" below a hundredth of a percent.
 fn percent(share: f64) -> String {
     match 100.0 * share {
@@ -99,6 +106,13 @@ mod tests {
         assert_eq!(words(0.5, 0.02, Some("B")), ["differs from B by 50 % on average", "2.0 % brighter overall"]);
         assert_eq!(words(2.0, -0.02, Some("B")), ["differs from B by 200 % on average", "2.0 % darker overall"]);
         assert_eq!(words(0.0, 0.0, Some("A")), ["differs from A by 0 % on average", "as bright overall"]);
+    }
+
+    #[test]
+    fn what_is_left_of_several_runs_is_told_as_a_bias_with_its_sign() {
+        let of = |relative_bias| bias_words(&Errors { relative_bias, ..Errors::default() }, "8 denoised runs");
+        assert_eq!(of(-0.0213), "bias -2.1 % (mean of 8 denoised runs)");
+        assert_eq!(of(0.121), "bias +12 % (mean of 8 denoised runs)");
     }
 
     #[test]

@@ -143,9 +143,12 @@ fn typed_file(typed: &str, proposal: PathBuf) -> PathBuf {
 fn command(model: &Model, pane: PaneId, shown: &PaneView) -> Option<String> {
     let provenance = shown.provenance.as_ref()?;
     let wished = model.session.panes[pane].wished_spp().unwrap_or(1);
-    let spp = shown.spp.filter(|_| !shown.rough).unwrap_or(wished);
+    let (spp, runs) = match shown.spp.filter(|_| !shown.rough) {
+        Some(spp) => (spp / shown.runs.max(1), shown.runs),
+        None => (wished, provenance.technique.runs()),
+    };
     let out = format!("{}.png", stem(model, ExportSubject::Pane(pane)));
-    Some(provenance.command(spp, model.session.display.exposure, &out))
+    Some(provenance.of_runs(runs).command(spp, model.session.display.exposure, &out))
 }
 
 #[cfg(test)]

@@ -14,7 +14,7 @@ use egui::{TextureFilter, TextureId};
 use film::DisplayTransform;
 use image_file::Records;
 use std::sync::Arc;
-use technique::{Made, OWN_FOV, Technique, camera_options};
+use technique::{Halves, Made, OWN_FOV, Technique, camera_options};
 
 /// All panes and the map.
 #[derive(Default)]
@@ -85,6 +85,7 @@ impl Presentation {
         }
         shown.provenance = Some(picture.order.provenance.clone());
         (shown.spp, shown.seconds, shown.nonfinite) = (picture.spp, picture.seconds, picture.nonfinite);
+        shown.runs = picture.runs;
         (shown.effort, shown.noisy) = (Some(picture.effort), picture.noisy);
         (shown.refused, shown.cut) = (picture.refused.clone(), picture.cut.clone());
         shown.filter_fault = picture.filter_fault.clone();
@@ -134,14 +135,17 @@ impl Presentation {
     pub fn pane(&self, pane: PaneId, model: &Model) -> Option<(Content, Records)> {
         let display = model.session.display;
         let picture = self.pictures.get(pane).filter(|picture| !picture.rough)?;
+        let (provenance, spp) = picture.made();
         let made = Made {
-            spp: picture.spp.unwrap_or(1),
+            spp,
             seconds: picture.seconds,
             adapter: &picture.adapter,
             denoised_by: picture.before.as_ref().map(|before| &*before.by),
             exposure: display.exposure,
         };
-        let mut records = picture.order.provenance.records(made);
+        let mut records = provenance.records(made);
+        let halves = picture.before.as_ref().and_then(|before| before.halves);
+        records.extend(halves.into_iter().flat_map(Halves::records));
         let own = &picture.order.own_camera;
         if own.fov_y != picture.order.camera().fov_y {
             records.push((OWN_FOV, own.fov_y.to_string()));
@@ -158,7 +162,8 @@ impl Presentation {
     fn name_of_what_judges(&self, against: Against, display: DisplayTransform) -> Option<String> {
         let Against::Pane(judge) = against else { return Some(against.name().into()) };
         let picture = self.pictures.get(judge)?;
-        let command = picture.order.provenance.command(picture.spp.unwrap_or(1), display.exposure, &file_of(judge));
+        let (provenance, spp) = picture.made();
+        let command = provenance.command(spp, display.exposure, &file_of(judge));
         Some(format!("{judge}: {command}"))
     }
 
@@ -178,7 +183,8 @@ impl Presentation {
             records.extend(camera_options(&shown.order.own_camera));
         }
         for (pane, picture) in self.pictures.iter() {
-            let command = picture.order.provenance.command(picture.spp.unwrap_or(1), exposure, &file_of(pane));
+            let (provenance, spp) = picture.made();
+            let command = provenance.command(spp, exposure, &file_of(pane));
             records.push((pane.name(), if picture.rough { format!("rough, in full: {command}") } else { command }));
         }
         records

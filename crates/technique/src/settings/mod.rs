@@ -29,7 +29,7 @@ pub struct Setting<T> {
     /// What it may be.
     pub kind: Kind,
     /// Techniques that have fewer choices, and those.
-    pub fewer_in: Option<(&'static [TechniqueName], &'static [&'static str])>,
+    pub fewer_in: &'static [(&'static [TechniqueName], &'static [&'static str])],
     /// The letter that stands for its value in --help; empty where the choices do.
     pub letter: &'static str,
     /// What it is where nobody says otherwise; `None` for the scene's own.
@@ -206,10 +206,8 @@ impl<T> Setting<T> {
 
     /// What it may be among the settings of a technique.
     pub fn kind_in(&self, technique: TechniqueName) -> Kind {
-        match self.fewer_in {
-            Some((techniques, words)) if techniques.contains(&technique) => Kind::Choice(words),
-            _ => self.kind.clone(),
-        }
+        let fewer = self.fewer_in.iter().find(|(techniques, _)| techniques.contains(&technique));
+        fewer.map_or_else(|| self.kind.clone(), |(_, words)| Kind::Choice(words))
     }
 
     /// What it does, its bounds and its default.
@@ -352,7 +350,7 @@ impl PaneSettings {
             TechniqueName::Normals => self.normals = other.normals,
         }
         if rows::LIGHT.contains(&other.technique) {
-            (self.denoise, self.feature) = (other.denoise, other.feature);
+            (self.denoise, self.runs, self.feature) = (other.denoise, other.runs, other.feature);
         }
     }
 }
@@ -364,9 +362,9 @@ impl From<Technique> for PaneSettings {
         match technique {
             Technique::Fake(fake) => PaneSettings { fake, ..pane },
             Technique::Traced(traced) => {
-                let TracedSettings { integrator, device, adapter, spp, sun_radius, denoise: _, feature } = traced;
-                let denoise = technique.denoise();
-                let pane = PaneSettings { device, adapter, denoise, feature, ..pane };
+                let TracedSettings { integrator, device, adapter, spp, sun_radius, feature, .. } = traced;
+                let (denoise, runs) = (technique.denoise(), technique.runs());
+                let pane = PaneSettings { device, adapter, denoise, runs, feature, ..pane };
                 match integrator {
                     Integrator::Path(path) => PaneSettings { truth: TruthSettings { path, spp, sun_radius }, ..pane },
                     Integrator::Whitted(tree) => {

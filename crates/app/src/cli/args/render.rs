@@ -36,6 +36,8 @@ pub struct RenderArgs {
     pub json: bool,
     /// Options given that this technique ignores.
     pub without_effect: Vec<String>,
+    /// The names of the settings that were given.
+    pub given: Vec<String>,
     /// Whether the estimator was chosen; if not it is the one that the scene asks for.
     pub chose_estimator: bool,
 }
@@ -101,7 +103,7 @@ pub fn options() -> Vec<CommandOption<Reading>> {
             value: "NAME",
             help: "a technique with the settings of a slide, which other options change: as-taught, fair, phong, blinn-phong, \
                    whitted-1980, 2b-uniform, naive, naive-4, 2c-light, 2e-0-bounces, 2e-1-bounce, 2e-2-bounces, complete, \
-                   2f-1-spp, 2f-4-spp, 2f-16-spp, unlimited, 1-spp, denoised-1-spp, 512-spp or denoised-512-spp",
+                   2f-1-spp, 2f-4-spp, 2f-16-spp, unlimited, 1-spp, denoised-1-spp, 512-spp, denoised-512-spp or denoise-bias",
             read: |reading, parser| {
                 let names: Vec<_> = presets::ALL.iter().map(|preset| preset.name).collect();
                 let preset = choice(parser, "--preset", Preset::named, &names.join(", "))?;
@@ -143,7 +145,8 @@ pub fn options() -> Vec<CommandOption<Reading>> {
         CommandOption {
             names: &["--layers"],
             value: "",
-            help: "write albedo, normal and depth of what is seen beside the picture, as layers of these names; EXR only",
+            help: "write albedo, normal and depth of what is seen beside the picture, as layers of these names, and half0 and half1, the \
+                   means of either half of the samples of traced light; EXR only",
             read: |reading, _| {
                 reading.args.layers = true;
                 Ok(())
@@ -223,6 +226,7 @@ pub fn parse(mut parser: lexopt::Parser) -> Result<Command, CliError> {
     if let Command::Render(render) = &mut command {
         // what a picture says of itself was not asked for just now
         render.without_effect.retain(|option| !before.without_effect.contains(option));
+        render.given.retain(|setting| !before.given.contains(setting));
         render.original = before.original;
     }
     Ok(command)
@@ -288,6 +292,7 @@ fn parse_words(words: Vec<OsString>, scene: Option<String>) -> Result<Command, C
         layers: false,
         json: false,
         without_effect: Vec::new(),
+        given: Vec::new(),
         chose_estimator: false,
     };
     let mut options = options();
@@ -332,8 +337,13 @@ fn parse_words(words: Vec<OsString>, scene: Option<String>) -> Result<Command, C
     if technique != TechniqueName::Raster && args.pane.fake.show.is_map() {
         let (map, technique) = (args.pane.fake.show.name(), technique.name());
         return usage(format!(
-            "--show {map}: only the fake has maps; expected picture, albedo, normal or depth with --technique {technique}"
+            "--show {map}: only the fake has maps; expected picture, albedo, normal, depth or trust with --technique {technique}"
         ));
+    }
+    if technique == TechniqueName::Raster && args.pane.denoise.shows_trust {
+        return usage(
+            "--show trust: the fake has no samples to trust; expected picture, albedo, normal, depth, cube-faces or shadow-map",
+        );
     }
     // only the processor has lanes
     if args.device == DeviceChoice::Auto && is_given("--lanes") {
@@ -349,6 +359,7 @@ fn parse_words(words: Vec<OsString>, scene: Option<String>) -> Result<Command, C
     }
     args.chose_estimator = is_given("--estimator") || states("estimator");
     args.spp = if is_given("--spp") || states("spp") { args.pane.wished_spp() } else { None };
+    args.given = given.iter().filter_map(|(option, _)| Some(option.strip_prefix("--")?.to_owned())).collect();
     let ignored = given.into_iter().filter(|(_, of)| !of.contains(&technique));
     args.without_effect = ignored.map(|(option, _)| option).collect();
     Ok(Command::Render(Box::new(RenderArgs { scene, out, ..args })))

@@ -1,11 +1,11 @@
-//! The row of what traced pictures go through before they are shown.
+//! The rows of what traced pictures go through before they are shown, and of how many they are the mean.
 
-use super::{BLANK, LIGHT, PLAIN, each, named, number};
+use super::{BLANK, LIGHT, PLAIN, each, named, number, whole};
 use crate::settings::{Control, Kind, Look, Setting, Value};
 use crate::{Denoiser, PaneSettings};
 
-/// The filter of all that is traced and shows light.
-pub const ROWS: &[Setting<PaneSettings>] = &[DENOISE, TRUST];
+/// Those of all that is traced and shows light.
+pub const ROWS: &[Setting<PaneSettings>] = &[DENOISE, TRUST, RUNS];
 
 const DENOISE: Setting<PaneSettings> = Setting {
     name: "denoise",
@@ -14,7 +14,7 @@ const DENOISE: Setting<PaneSettings> = Setting {
     default: Some(Value::Word("off")),
     help: "takes the noise out of the picture, and some of the truth: wavelets guided by features, or Open Image Denoise's \
            network, small or as it is usually taken",
-    acts: |pane, _| pane.in_use().shows_the_scene(),
+    acts: |pane, _| pane.in_use().traces_light(),
     get: |pane| Some(Value::Word(pane.denoise.denoiser.name())),
     set: |pane, value| each(named(value, Denoiser::named), [&mut pane.denoise.denoiser]),
     control: Control {
@@ -59,6 +59,32 @@ const TRUST: Setting<PaneSettings> = Setting {
         hover: "Where the samples differ from the denoiser's picture by more than their noise it is the filter that is wrong, and \
                 this share of the way back to them is gone. At 1 the picture comes to the truth as samples become many",
         look: Look::Steps { range: 0.0..=1.0, step: 0.05 },
+        more: LIGHT,
+        ..BLANK
+    },
+    ..PLAIN
+};
+
+const RUNS: Setting<PaneSettings> = Setting {
+    name: "runs",
+    of: LIGHT,
+    kind: Kind::Whole(1..=64),
+    letter: "K",
+    default: Some(Value::Whole(1)),
+    acts: |pane, _| pane.in_use().traces_light(),
+    help: "the mean of so many pictures of --spp samples each, of the seeds from --seed on, and each denoised by itself: of their \
+           noise 1 / sqrt(K) is left, of a denoiser's bias all",
+    get: |pane| Some(Value::Whole(pane.runs)),
+    set: |pane, value| each(whole(value), [&mut pane.runs]),
+    control: Control {
+        label: "Runs",
+        brief: Some(|value| match value {
+            Value::Whole(1) => "one run".into(),
+            value => format!("mean of {value} runs"),
+        }),
+        hover: "The mean of so many independent pictures, each of as many samples and denoised by itself. What noise they have \
+                becomes less, and what they have in common is left: with a denoiser, held against the reference, its bias",
+        look: Look::Doubling(0..=6),
         more: LIGHT,
         ..BLANK
     },

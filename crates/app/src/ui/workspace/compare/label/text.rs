@@ -2,11 +2,11 @@
 //! shown, never of settings whose picture is still to come.
 
 use crate::model::{Against, Compiling, Denoising, Drawing, Effort, PaneId, PaneView};
-use crate::ruler::{brief, error_words, formulas};
+use crate::ruler::{bias_words, brief, error_words, formulas};
 use compare::Errors;
 use pathtrace::{ChainStats, Integrator, PathSettings, Stats};
 use technique::settings::{capitalised, grouped, of_panes};
-use technique::{BlindSpot, Denoiser, Device, PaneSettings, Technique, TracedSettings};
+use technique::{BlindSpot, DenoiseSettings, Device, PaneSettings, Technique, TracedSettings};
 
 /// Between two figures of a line.
 const BETWEEN: &str = " · ";
@@ -47,7 +47,8 @@ impl LabelText {
     pub fn of(pane: PaneId, shown: &PaneView, beside: Option<Beside>, told: Option<Told>, paused: bool) -> Self {
         let mut text = LabelText { name: name(shown, beside), ..LabelText::default() };
         if let Some(told) = told {
-            text.tell(pane, told);
+            let of = if told.of == pane { Some(shown) } else { beside.map(|(_, other)| other) };
+            text.tell(pane, told, of.and_then(several_runs));
         }
         text.figures.push(cost(shown, paused));
         text.notes.extend(troubles(shown));
@@ -56,7 +57,8 @@ impl LabelText {
             let source = traced.noise_source(&made.shot.scene).filter(|_| shown.noisy);
             text.notes.extend(source.map(|source| source.words().to_owned()));
             text.facts.extend(branching(traced, shown, beside));
-            text.facts.extend(denoised(shown, traced.denoise.denoiser));
+            text.facts.extend(denoised(shown, made.technique.denoise()));
+            text.notes.extend(weightless(&traced.denoise));
             text.facts.extend(chains(shown).map(|stats| told_of_chains(&stats)));
         }
         text.explanations.extend(explained(shown, beside));
@@ -94,7 +96,8 @@ impl LabelText {
         [&*self.errors, &*self.figures].into_iter().filter(|line| !line.is_empty()).collect()
     }
 
-    fn tell(&mut self, pane: PaneId, Told { of, against, errors }: Told) {
+    /// `runs` names those that the picture is the mean of, where there are several.
+    fn tell(&mut self, pane: PaneId, Told { of, against, errors }: Told, runs: Option<String>) {
         let judge = match against {
             Against::Pane(judge) => Some(judge.name()),
             Against::Reference => None,
@@ -102,6 +105,11 @@ impl LabelText {
         let [off, brightness] = error_words(&errors, judge);
         // on another picture's label it has to be said whose they are
         let off = if of == pane { off } else { format!("{of} {off}") };
+        // what their noise hides in one of them
+        let brightness = match runs.filter(|_| judge.is_none()) {
+            Some(runs) => bias_words(&errors, &runs),
+            None => brightness,
+        };
         let measure = format!("relMSE {}", brief(errors.rel_mse));
         let measure = if judge.is_none() { format!("{measure} against the reference") } else { measure };
         self.errors.extend([off, brightness]);
@@ -137,15 +145,30 @@ fn cost(shown: &PaneView, paused: bool) -> String {
         let compiling = matches!(shown.effort, Some(Effort::Drawn(Drawing { compiling: Compiling::Included, .. })));
         return format!("{time}{}{coarse}", if compiling { " with compiling" } else { "" });
     };
+    let spp = spp / shown.runs.max(1);
     let samples = grouped(spp);
     if shown.rough {
         return format!("{samples} spp{coarse}");
     }
     let wished = traced(shown).map_or(spp, |(traced, _)| traced.spp);
     let of = if wished > spp { format!(" of {}", grouped(wished)) } else { String::new() };
+    let mean = mean_of_runs(shown).map_or_else(String::new, |mean| format!(", {mean}"));
     let by = if shown.provenance.as_ref().is_some_and(|made| made.device == Device::Gpu) { " on the GPU" } else { "" };
     let paused = if paused && shown.unfinished { ", paused" } else { "" };
-    format!("{samples}{of} spp, {time}{by}{paused}{coarse}")
+    format!("{samples}{of} spp{mean}, {time}{by}{paused}{coarse}")
+}
+
+/// "mean of 8 runs", "mean of 3 of 8 runs".
+fn mean_of_runs(shown: &PaneView) -> Option<String> {
+    let wished = shown.provenance.as_ref()?.technique.runs();
+    let of = if shown.runs < wished { format!("{} of ", shown.runs) } else { String::new() };
+    (wished > 1).then(|| format!("mean of {of}{} runs", wished.max(shown.runs)))
+}
+
+/// "8 denoised runs" of a picture that is the mean of several.
+fn several_runs(shown: &PaneView) -> Option<String> {
+    let denoised = if shown.denoised.is_some() { "denoised " } else { "" };
+    (shown.runs > 1).then(|| format!("{} {denoised}runs", shown.runs))
 }
 
 /// Of a picture with fewer pixels than there is room for: ", at 1/4 of the resolution".
@@ -202,11 +225,25 @@ fn branches(shown: &PaneView) -> bool {
     matches!(integrator, Some(Integrator::Path(PathSettings { branches: 2.., .. })))
 }
 
-/// "denoised by unet in 0.4 s (biased), relMSE 0.107 before".
-fn denoised(shown: &PaneView, by: Denoiser) -> Option<String> {
+/// "denoised by unet in 0.4 s (biased), relMSE 0.107 before"; or what is shown of that in its place.
+fn denoised(shown: &PaneView, settings: DenoiseSettings) -> Option<String> {
     let Denoising { seconds, errors_before } = shown.denoised?;
+    let by = settings.denoiser;
+    if settings.shows_the_weight() {
+        return Some(format!(
+            "black is the picture of {}, white that of the samples, in {}",
+            by.name(),
+            duration(seconds)
+        ));
+    }
     let before = errors_before.map_or_else(String::new, |errors| format!(", relMSE {} before", brief(errors.rel_mse)));
     Some(format!("denoised by {} in {} (biased){before}", by.name(), duration(seconds)))
+}
+
+/// Why there is no weight to be seen, where that is asked for.
+fn weightless(settings: &DenoiseSettings) -> Option<String> {
+    let lacks = settings.shows_trust && !settings.trusts();
+    lacks.then(|| "no trust to show: it needs a denoiser, and trust in the samples above 0".into())
 }
 
 /// What Metropolis' chains did.

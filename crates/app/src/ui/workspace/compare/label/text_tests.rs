@@ -148,6 +148,34 @@ fn errors_stand_with_words_first_and_say_what_they_are_against() {
 }
 
 #[test]
+fn a_mean_of_runs_says_of_how_many_and_that_what_is_left_of_its_error_is_bias() {
+    let settings = &[("spp", "4"), ("runs", "8"), ("denoise", "unet")];
+    let denoised = Some(Denoising { seconds: 0.25, errors_before: None });
+    let of = |runs| PaneView { runs, denoised, ..path(settings, 4 * runs) };
+    let errors = Errors { relative_mae: 0.31, relative_bias: -0.021, ..Errors::default() };
+    let told = |against| label(&of(8), Some(Told { of: PaneId::B, against, errors }));
+    let held = told(Against::Reference);
+    assert_eq!(held.errors, ["31 % off on average", "bias -2.1 % (mean of 8 denoised runs)"]);
+    assert_eq!(held.figures[1], "4 spp, mean of 8 runs, 500 ms");
+    assert_eq!(held.facts, ["denoised by unet in 250 ms (biased)"]);
+    assert_eq!(told(Against::Pane(PaneId::A)).errors[1], "2.1 % darker overall", "another picture is no truth");
+    assert_eq!(label(&of(3), None).figures, ["4 spp, mean of 3 of 8 runs, 500 ms"]);
+    let begun = PaneView { runs: 1, ..path(settings, 2) };
+    assert_eq!(label(&begun, None).figures, ["2 of 4 spp, mean of 1 of 8 runs, 500 ms"]);
+}
+
+#[test]
+fn a_view_of_trust_says_what_is_black_and_white_or_why_there_is_none() {
+    let denoised = Some(Denoising { seconds: 0.25, errors_before: None });
+    let of = |changes| label(&PaneView { denoised, ..path(changes, 8) }, None);
+    let view = of(&[("denoise", "unet"), ("trust", "1"), ("show", "trust")]);
+    assert_eq!(view.facts, ["black is the picture of unet, white that of the samples, in 250 ms"]);
+    assert!(view.notes.is_empty());
+    let without = of(&[("denoise", "unet"), ("show", "trust")]);
+    assert_eq!(without.notes, ["no trust to show: it needs a denoiser, and trust in the samples above 0"]);
+}
+
+#[test]
 fn a_picture_says_what_it_lacks_and_where_it_is_noisy() {
     assert_eq!(label(&path(&[("bounces", "0")], 256), None).notes, ["missing: indirect light (biased)"]);
     let noisy = |changes| label(&PaneView { noisy: true, ..path(changes, 256) }, None).notes;

@@ -1,0 +1,80 @@
+//! Who waits for a picture at a terminal.
+
+use crate::cli::interrupt;
+use pathtrace::gpu::GpuTraceError;
+use std::time::{Duration, Instant};
+use technique::{Frame, Pacing, Watch};
+
+/// Watches the time, and counts samples on stderr where someone can see it.
+pub struct Terminal {
+    /// Of all runs.
+    pub spp: u32,
+    /// Whether there are several.
+    pub has_runs: bool,
+    /// Whether someone sees the count.
+    pub shown: bool,
+    /// Whether what pixels show is wanted beside the picture.
+    pub layers: bool,
+    pub start: Instant,
+    pub limit: Option<Duration>,
+    /// Whether half of the samples are wanted by themselves.
+    pub keeps_parts: bool,
+    /// How long a device may work on what nobody has read yet.
+    pub at_risk: Duration,
+}
+
+impl Watch for Terminal {
+    /// One sample of every pixel is made however late it is, and of several runs the one in hand.
+    fn ends_soon(&self, spp: u32) -> bool {
+        spp > 0 && (interrupt::is_asked() || (!self.has_runs && self.is_late()))
+    }
+
+    fn ends_after_run(&self) -> bool {
+        interrupt::is_asked() || self.is_late()
+    }
+
+    fn keeps_parts(&self) -> bool {
+        self.keeps_parts
+    }
+
+    fn skips_filters(&self) -> bool {
+        interrupt::is_asked()
+    }
+
+    fn wants_features(&self) -> bool {
+        self.layers
+    }
+
+    /// Passes of a quarter of a second, or of what is left of the time.
+    fn pacing(&self, _spent: Duration) -> Pacing {
+        let limit = self.limit.filter(|_| !self.has_runs);
+        let left = limit.map_or(Duration::MAX, |limit| limit.saturating_sub(self.start.elapsed()));
+        Pacing { pass: left.min(Duration::from_millis(250)), show: self.at_risk, growth: 3 }
+    }
+
+    fn show(&self, _frame: Frame) {}
+
+    fn count(&self, spp: u32) {
+        if self.shown {
+            let of = if self.spp == u32::MAX { String::new() } else { format!(" of {}", self.spp) };
+            crate::console::to_stderr(format_args!("\r{spp}{of} spp, {:.1} s ", self.start.elapsed().as_secs_f64()));
+        }
+    }
+
+    fn told_of_loss(&self, fault: &GpuTraceError, spp: u32) {
+        note!("note: the processor goes on from {spp} spp, the graphics device failed: {fault}");
+    }
+}
+
+impl Terminal {
+    fn is_late(&self) -> bool {
+        self.limit.is_some_and(|limit| self.start.elapsed() >= limit)
+    }
+
+    /// Takes the count away.
+    pub fn clear(&self) {
+        if self.shown {
+            crate::console::to_stderr(format_args!("\r\x1b[K"));
+        }
+    }
+}
