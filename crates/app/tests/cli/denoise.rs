@@ -127,3 +127,39 @@ fn what_cannot_be_denoised_is_refused_in_one_line() {
     assert_refused(&["denoise", "missing.exr", "-o", &out], 1, &["missing.exr"]);
     assert_eq!(pictures.folder.names(), ["features.exr", "noisy.exr"], "nothing is written");
 }
+
+/// Two parts of 1 and 3 samples differ by a variance that is 4 / 3 of one sample's, of which the mean has a quarter.
+#[test]
+fn halves_tell_the_variance_by_the_samples_that_they_have() {
+    let pictures = Pictures::new();
+    let [albedo, normal] = &pictures.features;
+    let depth = vec![1.0; 40 * 24];
+    let half = |bright: f32| pictures.noisy.map(|radiance| bright * radiance).radiances().to_vec();
+    let write = |name: &str, samples: Option<[u32; 2]>| {
+        let mut image = pictures.noisy.clone();
+        for (name, values) in [("albedo", albedo), ("normal", normal), ("half0", &half(0.5)), ("half1", &half(1.5))] {
+            image = image.with_layer(name, LayerValues::Rgb(values.clone().into()));
+        }
+        let image = image.with_layer("depth", LayerValues::Depths(depth.clone().into()));
+        let records = samples.into_iter().flat_map(technique::Halves::records);
+        let records: Vec<_> = records.map(|(name, value)| (name.to_owned(), value)).collect();
+        let bytes = image_file::encode_with_read(Kind::Exr, &image, &DisplayTransform::default(), &records);
+        std::fs::write(pictures.path(name), bytes.expect("an EXR")).expect("a file");
+    };
+    let features = film::Features::new((40, 24), albedo.clone(), normal.clone(), depth.clone()).expect("features");
+    for (samples, share) in [(None, 0.25), (Some([1, 3]), 3.0 / 16.0), (Some([2, 2]), 0.25)] {
+        write("features.exr", samples);
+        pictures.denoise("out.exr", &["--filter", "atrous"]);
+        let difference = |radiance: &Vec3| film::colour::luminance(0.5 * *radiance - 1.5 * *radiance);
+        let variance: Vec<f32> =
+            pictures.noisy.radiances().iter().map(|radiance| share * difference(radiance).powi(2)).collect();
+        let expected = technique::Denoiser::ATrous
+            .apply(&pictures.noisy, &features, Some(&variance), &|| false)
+            .expect("a picture");
+        let made = image_file::load(&pictures.path("out.exr")).expect("an EXR");
+        let off =
+            made.radiances().iter().zip(expected.radiances()).map(|(a, b)| (*a - *b).length() / (1.0 + b.length()));
+        assert!(off.fold(0.0, f32::max) < 1e-4, "{samples:?}");
+        assert!(pictures.record("out.exr", "half0.samples").is_none(), "it has no halves");
+    }
+}

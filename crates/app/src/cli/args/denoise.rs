@@ -6,6 +6,7 @@ use super::values::{choice, number};
 use crate::cli::{CliError, Command};
 use image_file::Kind;
 use std::path::PathBuf;
+use technique::Denoiser;
 
 /// `visavis denoise A -o OUT ...`.
 #[derive(Debug, Clone, PartialEq)]
@@ -15,43 +16,20 @@ pub struct DenoiseArgs {
     /// The file to write.
     pub out: PathBuf,
     /// What takes the noise away.
-    pub filter: Filter,
+    pub filter: Denoiser,
     /// Stops added where a .png is written.
     pub exposure: f32,
 }
 
-/// What takes a picture's noise away.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Filter {
-    /// Open Image Denoise's small network.
-    #[default]
-    Unet,
-    /// The usual one of Open Image Denoise, three times as large.
-    UnetBase,
-    /// Edge-avoiding a-trous wavelets, which need the depth too.
-    ATrous,
-}
-
-impl Filter {
-    /// The name on the command line and in records.
-    pub fn name(self) -> &'static str {
-        match self {
-            Filter::Unet => "unet",
-            Filter::UnetBase => "unet-base",
-            Filter::ATrous => "atrous",
-        }
-    }
-
-    fn named(name: &str) -> Option<Self> {
-        [Filter::Unet, Filter::UnetBase, Filter::ATrous].into_iter().find(|filter| filter.name() == name)
-    }
+/// A filter by its name.
+fn named(name: &str) -> Option<Denoiser> {
+    Denoiser::named(name).filter(|filter| *filter != Denoiser::Off)
 }
 
 /// The words on their way.
-#[derive(Default)]
 pub struct Reading {
     out: Option<PathBuf>,
-    filter: Filter,
+    filter: Denoiser,
     exposure: f32,
 }
 
@@ -70,9 +48,10 @@ pub fn options() -> Vec<CommandOption<Reading>> {
             names: &["--filter"],
             value: "unet|unet-base|atrous",
             help: "a network of Open Image Denoise, the small or the larger one (default unet), or a-trous wavelets as in SVGF, \
-                   which need the layer depth (Z) too and know the noise by half0 and half1 (R, G, B), if they are there",
+                   which need the layer depth (Z) too and know the noise by half0 and half1 (R, G, B), if they are there, \
+                   and by how many samples those have, if the records say so",
             read: |args, parser| {
-                args.filter = choice(parser, "--filter", Filter::named, "unet, unet-base or atrous")?;
+                args.filter = choice(parser, "--filter", named, "unet, unet-base or atrous")?;
                 Ok(())
             },
         },
@@ -89,7 +68,8 @@ pub fn options() -> Vec<CommandOption<Reading>> {
 }
 
 pub fn parse(parser: lexopt::Parser) -> Result<Command, CliError> {
-    let (Reading { out, filter, exposure }, words) = match read(parser, Reading::default(), &options(), 1, no_more)? {
+    let usual = Reading { out: None, filter: Denoiser::Unet, exposure: 0.0 };
+    let (Reading { out, filter, exposure }, words) = match read(parser, usual, &options(), 1, no_more)? {
         Typed::Words(reading, words) => (reading, words),
         Typed::Print(text) => return Ok(Command::Print(text)),
     };
