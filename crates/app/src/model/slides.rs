@@ -1,6 +1,7 @@
 //! The tutorial's slides as they are shown: each a scene and two presets side by side, in the order of the lecture.
 
 use super::{CompareWith, Model, PaneId, View};
+use compare::ErrorMetric;
 use film::DisplayTransform;
 use technique::{Preset, SceneChanges};
 
@@ -19,7 +20,7 @@ pub struct Slide {
     pub presets: [&'static str; 2],
     /// Whether it is the reference that judges both.
     pub against_reference: bool,
-    /// How both are seen: under the line, but side by side where each must be seen whole.
+    /// How both are seen: under the line, but side by side where each must be seen whole; or where A's errors are.
     pub view: View,
 }
 
@@ -139,6 +140,17 @@ pub const SLIDES: &[Slide] = &[
             ["512-spp", "denoised-512-spp"],
         )
     },
+    Slide {
+        against_reference: true,
+        view: View::ErrorMap,
+        ..slide(
+            "denoise-bias",
+            "The bias of a denoiser",
+            "What eight denoised pictures have in common and the truth has not: too bright or too dark, however many there are",
+            "cornell",
+            ["denoise-bias", "denoised-1-spp"],
+        )
+    },
 ];
 
 impl Slide {
@@ -172,6 +184,9 @@ impl Model {
         self.session.view = slide.view;
         if slide.against_reference {
             self.session.comparison.with = CompareWith::Reference;
+        }
+        if slide.view == View::ErrorMap {
+            (self.session.comparison.of, self.session.comparison.metric) = (PaneId::A, ErrorMetric::Signed);
         }
         // what was played with before is not on the slide
         self.document.changes = SceneChanges::default();

@@ -58,7 +58,7 @@ fn of_a_lecture() -> Vec<CommandOption<Reading>> {
             value: "NAME",
             help: "a slide of the tutorial with its scene, A, B and view, of which --a, --b and --view change their part: phong, \
                    whitted, 1a, 1b, 1d, 1d-whitted, 2b, naive-n, 2c, 2e-0-1, 2e-1-2, roulette, 2f-1-4, 2f-4-16, 2f-1-16, \
-                   denoise-1 or denoise-512",
+                   denoise-1, denoise-512 or denoise-bias",
             read: |reading, parser| {
                 let names: Vec<_> = SLIDES.iter().map(|slide| slide.name).collect();
                 let slide = choice(parser, "--slide", Slide::named, &names.join(", "))?;
