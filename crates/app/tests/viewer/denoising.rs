@@ -32,3 +32,21 @@ fn a_denoised_picture_says_so_and_how_far_off_it_was_before() {
     user.viewer.borrow_mut().model.session.panes[PaneId::B].denoise.denoiser = Denoiser::Off;
     user.wait_for("the samples' mean", |f| both_whole(f) && denoising(f, "B").is_none());
 }
+
+#[test]
+fn a_mean_of_denoised_runs_is_held_against_the_reference_as_its_bias() {
+    let mut user = User::of("cornell");
+    user.wait_for("both pictures", both_whole);
+    user.click_nth("Path", 0);
+    {
+        let session = &mut user.viewer.borrow_mut().model.session;
+        let pane = &mut session.panes[PaneId::B];
+        (pane.denoise.denoiser, pane.runs, pane.truth.spp) = (Denoiser::Unet, 3, 2);
+        session.comparison.with = CompareWith::Reference;
+    }
+    let biased =
+        |f: &Frame| lines(f, "B").iter().any(|line| line.contains("bias ") && line.contains("3 denoised runs"));
+    let shown = user.wait_for("a bias", |f| both_whole(f) && biased(f));
+    assert!(lines(&shown, "B").iter().any(|line| line.contains("2 spp, mean of 3 runs, ")), "{:?}", lines(&shown, "B"));
+    assert_eq!(shown.state("b")["spp"], 6, "the samples of all");
+}
