@@ -13,11 +13,18 @@ fn denoising<'a>(frame: &'a Frame, pane: &str) -> Option<&'a str> {
     lines(frame, pane).into_iter().find(|line| line.starts_with("denoised by "))
 }
 
+/// The reference waits for both pictures.
+fn few_samples(user: &mut User) {
+    let mut viewer = user.viewer.borrow_mut();
+    [PaneId::A, PaneId::B].into_iter().for_each(|pane| viewer.model.session.panes[pane].truth.spp = 4);
+}
+
 #[test]
 fn a_denoised_picture_says_so_and_how_far_off_it_was_before() {
     let mut user = User::of("cornell");
     user.wait_for("both pictures", both_whole);
     user.click_nth("Path", 0);
+    few_samples(&mut user);
     user.viewer.borrow_mut().model.session.panes[PaneId::B].denoise.denoiser = Denoiser::Unet;
     let beside = user.wait_for("a denoised picture", |f| both_whole(f) && denoising(f, "B").is_some());
     assert!(denoising(&beside, "B").is_some_and(|line| line.ends_with(" (biased)")), "held against A it has no error");
@@ -38,6 +45,7 @@ fn a_mean_of_denoised_runs_is_held_against_the_reference_as_its_bias() {
     let mut user = User::of("cornell");
     user.wait_for("both pictures", both_whole);
     user.click_nth("Path", 0);
+    few_samples(&mut user);
     {
         let session = &mut user.viewer.borrow_mut().model.session;
         let pane = &mut session.panes[PaneId::B];
