@@ -42,7 +42,7 @@ fn what_cannot_be_shown_without_light_is_refused() {
     let refused = |words: &[&str], code, told: &[&str]| {
         assert_refused(&[&["render", "whitted", "-o", "none.png"], words].concat(), code, told);
     };
-    refused(&["--show", "glass"], 2, &["expected picture, albedo, normal, depth, cube-faces or shadow-map"]);
+    refused(&["--show", "glass"], 2, &["expected picture, albedo, normal, depth, trust, cube-faces or shadow-map"]);
     refused(&["--show", "shadow-map"], 2, &["--show shadow-map", "only the fake has maps", "--technique path"]);
     refused(&["--technique", "photon", "--show", "cube-faces"], 2, &["only the fake has maps", "--technique photon"]);
     refused(&["--show", "albedo", "--device", "gpu"], 2, &["--device gpu: albedo, normal and depth are traced by the"]);
