@@ -1,6 +1,8 @@
 //! Every shader that ships is valid WGSL, and every struct that Rust and WGSL share has the same layout on both sides.
 
 use gpu::wgsl::{self, Composed, Source, WgslError};
+use pathtrace::features::gpu::FeatureParams;
+use pathtrace::features::sums::Sums;
 use pathtrace::gpu::film_data::{PictureFrame, Pixel, RenderParams};
 use pathtrace::gpu::photon_data::{EmissionHeader, Grid, Photon, PhotonParams};
 use pathtrace::gpu::rays::{RayAnswer, RayQuery};
@@ -136,6 +138,12 @@ fn mirrors_of_photons_have_the_layout_of_their_structs() {
     );
     assert_same_layout!("pathtrace/integrator/photon/map.wgsl", Photon, [position, normal, power, order]);
     assert_same_layout!("pathtrace/integrator/photon/map.wgsl", Grid, [origin, cells_per_unit, radius, mask, photons]);
+}
+
+#[test]
+fn mirrors_of_features_have_the_layout_of_their_structs() {
+    assert_same_layout!("pathtrace/features.wgsl", FeatureParams, [frame, size, start, first, end, until, seed]);
+    assert_same_layout!("pathtrace/features.wgsl", Sums, [albedo, samples, normal, distance, met, rays]);
 }
 
 #[test]

@@ -14,6 +14,7 @@ use crate::drive::gpu::shape_data::{FewShape, MOST_SHAPES, Shapes};
 use crate::drive::gpu::slices::Slices;
 use crate::drive::gpu::timing::{BUDGET_SECONDS, Pace, Stopwatch};
 use crate::drive::gpu::{GpuFilm, GpuTraceError, environment_data, scene_data};
+use crate::features::{self, gpu::FeatureWork};
 use crate::integrator::Integrator;
 use crate::integrator::photon::PhotonSettings;
 use crate::intersect::contact::held_apart;
@@ -39,6 +40,8 @@ pub struct GpuTracer {
     photon_scene: Option<PhotonScene>,
     /// Once photons were asked for.
     pub(crate) photon_maps: Option<PhotonMaps>,
+    /// In samples of pixels.
+    feature_pace: Pace,
     stopwatch: Stopwatch,
     paces: Vec<(PipelineKey, Effort, Pace)>,
     budget: f64,
@@ -83,6 +86,7 @@ impl GpuTracer {
             here: scene.clone(),
             photon_scene: None,
             photon_maps: None,
+            feature_pace: Pace::default(),
             stopwatch: Stopwatch::new(gpu),
             paces: Vec::new(),
             budget: BUDGET_SECONDS,
@@ -102,10 +106,12 @@ impl GpuTracer {
             let pipelines = Pipelines::new(&self.gpu, made.needs)?;
             self.scene = made.upload(&self.gpu, &pipelines.scene_layout, scene)?;
             (self.pipelines, self.paces, self.photon_maps) = (pipelines, Vec::new(), None);
+            self.feature_pace = Pace::default();
         } else {
             self.scene = made.upload(&self.gpu, &self.pipelines.scene_layout, scene)?;
             self.paces.iter_mut().for_each(|(.., pace)| pace.doubt());
             self.photon_maps.iter_mut().for_each(PhotonMaps::forget);
+            self.feature_pace.doubt();
         }
         (self.here, self.photon_scene) = (scene.clone(), None);
         Ok(())
@@ -249,6 +255,15 @@ impl GpuTracer {
             learning: true,
         };
         dispatcher.run(film, params, until, stop)
+    }
+
+    /// What a pass of features works with.
+    pub(crate) fn feature_work(&mut self, key: &PipelineKey) -> Result<FeatureWork<'_>, GpuTraceError> {
+        let pipeline = self.pipelines.prepare(&self.gpu, key)?;
+        let (gpu, budget, what) = (&self.gpu, self.budget, features::gpu::WHAT);
+        let slices = Slices { gpu, stopwatch: &mut self.stopwatch, budget, seconds: &mut self.seconds, what };
+        let (scene, layout) = (&self.scene, &self.pipelines.feature_layout);
+        Ok(FeatureWork { pipeline, scene, layout, pace: &mut self.feature_pace, slices })
     }
 
     /// Adds `samples` to every pixel of `film`, as [`crate::Tracer::render`] does, and waits for them.

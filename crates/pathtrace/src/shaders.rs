@@ -19,6 +19,7 @@ pub const SOURCES: &[Source<'static>] = gpu::wgsl_sources![
     "pathtrace/drive/pixels.wgsl",
     "pathtrace/drive/rays.wgsl",
     "pathtrace/exact.wgsl",
+    "pathtrace/features.wgsl",
     "pathtrace/integrator/chain_state.wgsl",
     "pathtrace/integrator/connected.wgsl",
     "pathtrace/integrator/normals.wgsl",

@@ -9,6 +9,7 @@ use crate::drive::gpu::film_data::CUT_SHIFT;
 use crate::drive::gpu::scene_data::*;
 use crate::drive::gpu::shape_data::*;
 use crate::drive::gpu::{PipelineKey, SceneNeeds};
+use crate::features::lanes::MOST_SPECULARS;
 use crate::integrator::Integrator;
 use crate::integrator::chain_state;
 use crate::integrator::forks::MOST_FORKS;
@@ -92,6 +93,7 @@ pub fn shared_constants() -> Vec<(&'static str, f64)> {
         MOST_ROOTS,
         MOST_SHAPES,
         MOST_SHARE,
+        MOST_SPECULARS,
         MOST_STEPS,
         MOST_WAITING,
         NARROWEST,

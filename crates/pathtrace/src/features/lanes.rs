@@ -1,6 +1,8 @@
 //! Rays to what pixels show, one in each lane. Chains of mirrors and glass are short, so that lanes wait for each other.
+//! Twin: `shaders/pathtrace/features.wgsl`.
 
 use super::FeaturePass;
+use super::sums::Sums;
 use crate::bsdf::Interactions;
 use crate::drive::lanes::camera_rays;
 use crate::intersect::aggregate::lanes_of;
@@ -14,26 +16,7 @@ use scene::Vec3;
 use simd::{Float, Kernel, MOST_LANES, Mask, Vector, Word};
 
 /// Mirrors and faces of glass that are looked through, before light that is trapped is taken for a surface.
-const MOST_SPECULARS: u32 = 32;
-
-/// Of one pixel's samples.
-#[derive(Debug, Clone, Copy, Default)]
-pub struct Sums {
-    pub albedo: Vec3,
-    pub normal: Vec3,
-    distance: f32,
-    /// Samples that met anything.
-    met: u32,
-    /// Samples taken, those that met nothing among them.
-    pub samples: u32,
-}
-
-impl Sums {
-    /// Mean distance to the first surface; infinite where there is none.
-    pub fn depth(&self) -> f32 {
-        if self.met == 0 { f32::INFINITY } else { self.distance / self.met as f32 }
-    }
-}
+pub(crate) const MOST_SPECULARS: u32 = 32;
 
 /// Pixels in a row of the film's order.
 pub struct ChunkKernel<'a> {

@@ -4,19 +4,23 @@
 //! ways through mirrors and glass are those of the path tracer's samples of the same numbers, so that an edge
 //! in a reflection lies where the picture has it.
 
-mod lanes;
+pub mod gpu;
+pub(crate) mod lanes;
+pub mod sums;
 
 use crate::drive::lanes::Stop;
 use crate::prepared::PreparedScene;
 use crate::sampling::sampler::SamplerKind;
 use crate::stats::Stats;
+use bytemuck::Zeroable;
 use film::Features;
 use film::Vec3;
-use lanes::{ChunkKernel, Sums};
+use lanes::ChunkKernel;
 use rayon::prelude::*;
 use scene::Camera;
 use scene::camera::PictureFrame;
 use simd::Lanes;
+use sums::Sums;
 
 /// Pixels that one thread takes at a time: whole groups of all kinds of lanes.
 const CHUNK: usize = 1024;
@@ -66,12 +70,17 @@ pub struct FeatureFilm {
 impl FeatureFilm {
     /// Of `width` x `height` pixels, none of which has a sample.
     pub fn new((width, height): (u32, u32)) -> Self {
-        FeatureFilm { size: [width, height], sums: vec![Sums::default(); width as usize * height as usize] }
+        FeatureFilm { size: [width, height], sums: vec![Sums::zeroed(); width as usize * height as usize] }
     }
 
     /// Fewest samples that any pixel has.
     pub fn samples_per_pixel(&self) -> u32 {
         self.sums.iter().map(|sums| sums.samples).min().unwrap_or(0)
+    }
+
+    /// Samples of all pixels.
+    pub fn samples(&self) -> u64 {
+        self.sums.iter().map(|sums| u64::from(sums.samples)).sum()
     }
 
     /// The means; `None` while any pixel has no sample.

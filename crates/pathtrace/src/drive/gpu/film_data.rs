@@ -119,12 +119,17 @@ impl Pixel {
     }
 }
 
+impl From<&camera::PictureFrame> for PictureFrame {
+    fn from(frame: &camera::PictureFrame) -> Self {
+        let camera::PictureFrame { eye, forward, right, up } = *frame;
+        PictureFrame { eye, forward, right, up, ..PictureFrame::zeroed() }
+    }
+}
+
 impl RenderParams {
     /// Of a picture of `size` seen through a frame.
     pub fn of(frame: &camera::PictureFrame, size: (u32, u32)) -> Self {
-        let camera::PictureFrame { eye, forward, right, up } = *frame;
-        let frame = PictureFrame { eye, forward, right, up, ..PictureFrame::zeroed() };
-        RenderParams { frame, size: [size.0 as f32, size.1 as f32], ..RenderParams::zeroed() }
+        RenderParams { frame: frame.into(), size: [size.0 as f32, size.1 as f32], ..RenderParams::zeroed() }
     }
 
     /// What of it a sample's cost depends on, beside what is seen: not a picture's number, nor how bright something is.

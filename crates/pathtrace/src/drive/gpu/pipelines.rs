@@ -26,6 +26,8 @@ pub(crate) enum Bound {
     FilmAndMap,
     /// A list of photons.
     Photons,
+    /// Sums of what pixels show.
+    Features,
 }
 
 /// The shader of a pipeline, and what of an integrator's settings is compiled into it: those of its overrides that
@@ -186,6 +188,8 @@ pub struct Pipelines {
     pub photon_layout: BindGroupLayout,
     /// Group 2 of what gathers photons: their map.
     pub map_layout: BindGroupLayout,
+    /// Group 1 of what traces features: what is asked for, and sums of what pixels show.
+    pub(crate) feature_layout: BindGroupLayout,
     needs: SceneNeeds,
     compiled: Vec<(PipelineKey, ComputePipeline)>,
 }
@@ -198,7 +202,7 @@ impl Pipelines {
     pub fn new(gpu: &Gpu, needs: SceneNeeds) -> Result<Self, GpuTraceError> {
         enough_storage(gpu, 7)?;
         enough(gpu, "threads in a group", gpu.device.limits().max_compute_invocations_per_workgroup, 64)?;
-        let [scene_layout, film_layout, photon_layout, map_layout] =
+        let [scene_layout, film_layout, photon_layout, map_layout, feature_layout] =
             gpu.checked("the path tracer's bindings", || {
                 let read = BufferBindingType::Storage { read_only: true };
                 let mut scene = vec![buffer(BufferBindingType::Uniform, size_of::<Header>())];
@@ -209,9 +213,13 @@ impl Pipelines {
                 let written = buffer(BufferBindingType::Storage { read_only: false }, 0);
                 let film = [buffer(BufferBindingType::Uniform, size_of::<RenderParams>()), written];
                 let photons = [BufferKind::Uniform, BufferKind::Read, BufferKind::Written];
-                [layout(gpu, &scene), layout(gpu, &film), layout_of(gpu, &photons), layout_of(gpu, &[BufferKind::Read])]
+                let features = [BufferKind::Uniform, BufferKind::Written];
+                let own = [&photons[..], &[BufferKind::Read], &features].map(|kinds| layout_of(gpu, kinds));
+                let [photons, map, features] = own;
+                [layout(gpu, &scene), layout(gpu, &film), photons, map, features]
             })?;
-        Ok(Pipelines { scene_layout, film_layout, photon_layout, map_layout, needs, compiled: Vec::new() })
+        let compiled = Vec::new();
+        Ok(Pipelines { scene_layout, film_layout, photon_layout, map_layout, feature_layout, needs, compiled })
     }
 
     /// What they are compiled for.
@@ -234,10 +242,11 @@ impl Pipelines {
         }
         let module = shaders::compose(key.shader)?.create(gpu)?;
         let constants = [self.needs.constants(), key.constants.clone()].concat();
-        if key.bound != Bound::Film {
+        if matches!(key.bound, Bound::FilmAndMap | Bound::Photons) {
             enough_storage(gpu, 8)?;
         }
         let own = match key.bound {
+            Bound::Features => vec![&self.feature_layout],
             Bound::Film => vec![&self.film_layout],
             Bound::FilmAndMap => vec![&self.film_layout, &self.map_layout],
             Bound::Photons => vec![&self.photon_layout],
