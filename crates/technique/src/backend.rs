@@ -3,7 +3,7 @@
 use crate::{Accumulation, Device, DeviceFilters};
 use gpu::{FaultInjection, Gpu};
 use pathtrace::gpu::{GpuTraceError, GpuTracer};
-use pathtrace::{Integrator, Tracer};
+use pathtrace::{FeatureFilm, FeaturePass, Integrator, SamplerKind, Stats, Tracer};
 use scene::{Camera, Scene};
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -82,6 +82,14 @@ impl Backend {
         }
     }
 
+    /// The same of features, with these random numbers.
+    pub(crate) fn has_compiled_features(&self, sampler: SamplerKind) -> bool {
+        match self {
+            Backend::Cpu(_) => true,
+            Backend::Gpu(gpu_backend) => gpu_backend.tracer.has_compiled_features(sampler),
+        }
+    }
+
     /// Whether a device is lost on purpose after a while.
     pub fn fails_on_purpose(&self) -> bool {
         matches!(self, Backend::Gpu(gpu_backend) if gpu_backend.fault.is_some())
@@ -114,9 +122,9 @@ impl Backend {
         stop: &(impl Fn() -> bool + Sync),
     ) -> Result<u64, GpuTraceError> {
         let until = accumulation.spp.saturating_add(samples);
+        accumulation.begin_pass(self.maker(), until);
         match self {
             Backend::Cpu(tracer) => {
-                accumulation.begin_pass(threads_name(), until);
                 // what has said so once may not say so again: a hold that ended meanwhile
                 let stopped = AtomicBool::new(false);
                 let stop = || {
@@ -132,11 +140,29 @@ impl Backend {
                 accumulation.spp = if is_whole { until } else { accumulation.film.samples_per_pixel() };
                 Ok(stats.samples)
             }
-            Backend::Gpu(gpu_backend) => {
-                accumulation.begin_pass(gpu_backend.name.clone(), until);
-                gpu_backend.accumulate(accumulation, camera, integrator, until, stop)
-            }
+            Backend::Gpu(gpu_backend) => gpu_backend.accumulate(accumulation, camera, integrator, until, stop),
         }
+    }
+
+    /// Adds samples to what is known of pixels, unless `stop` says so. The processor does it on the current pool.
+    ///
+    /// # Errors
+    /// If the device fails; what there was stays.
+    pub(crate) fn add_features(
+        &mut self,
+        film: &mut FeatureFilm,
+        pass: &FeaturePass,
+        stop: &(impl Fn() -> bool + Sync),
+    ) -> Result<Stats, GpuTraceError> {
+        match self {
+            Backend::Cpu(tracer) => Ok(tracer.add_features(film, pass, stop)),
+            Backend::Gpu(gpu_backend) => gpu_backend.add_features(film, pass, stop),
+        }
+    }
+
+    /// Who makes what it adds: an adapter's name, or how many threads the current pool has.
+    pub(crate) fn maker(&self) -> String {
+        self.adapter().map_or_else(threads_name, str::to_owned)
     }
 
     /// Brings what a device has added into the film.
@@ -226,13 +252,28 @@ impl GpuBackend {
         let film = accumulation.on_device(tracer)?;
         let (before, pixels) = (film.samples_per_pixel(), u64::from(film.width()) * u64::from(film.height()));
         let gpu = tracer.gpu().clone();
-        let stop = || {
-            fault.iter().for_each(|fault| fault.count(&gpu));
-            stop()
-        };
-        tracer.accumulate(film, camera, integrator, until, &stop)?;
+        tracer.accumulate(film, camera, integrator, until, &counting(fault.as_ref(), &gpu, stop))?;
         let spp = film.samples_per_pixel();
         accumulation.spp = spp;
         Ok(pixels * u64::from(spp - before))
+    }
+
+    fn add_features(
+        &mut self,
+        film: &mut FeatureFilm,
+        pass: &FeaturePass,
+        stop: &impl Fn() -> bool,
+    ) -> Result<Stats, GpuTraceError> {
+        let GpuBackend { tracer, fault, .. } = self;
+        let gpu = tracer.gpu().clone();
+        tracer.add_features(film, pass, &counting(fault.as_ref(), &gpu, stop))
+    }
+}
+
+/// What is asked between dispatches, which counts them for who loses the device on purpose.
+fn counting(fault: Option<&FaultInjection>, gpu: &Gpu, stop: &impl Fn() -> bool) -> impl Fn() -> bool {
+    move || {
+        fault.iter().for_each(|fault| fault.count(gpu));
+        stop()
     }
 }

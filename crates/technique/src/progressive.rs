@@ -251,7 +251,9 @@ impl ProgressiveRenderer {
     }
 
     fn renderer(&self, request: &Request, backend: Backend) -> Renderer {
-        Renderer::new(request.shot.scene.clone(), backend, self.threads.clone()).with_speeds(self.speeds)
+        let mut renderer = Renderer::new(request.shot.scene.clone(), backend, self.threads.clone());
+        renderer.feature = request.settings.feature;
+        renderer.with_speeds(self.speeds)
     }
 
     /// The device that is asked for, unless that cannot follow these paths, or has failed at this scene and nobody has
@@ -305,7 +307,7 @@ impl ProgressiveRenderer {
         };
         // where the processor would take as long to make the scene ready, nothing is won
         let large = request.shot.scene.shapes.iter().map(triangles).sum::<usize>() > LARGE;
-        if large || renderer.backend().has_compiled(&request.settings.integrator) {
+        if large || renderer.has_compiled(&request.settings.integrator) {
             self.rough(renderer, request, watch);
         } else {
             let processor = self.processor(request);

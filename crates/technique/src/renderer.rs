@@ -2,13 +2,12 @@
 //! replaced by the processor, which goes on from the film as it was last read; nowhere else is the loss of a device that
 //! traces rays dealt with.
 
-use crate::features::on_the_processor;
 use crate::speeds::Speeds;
 use crate::{Accumulation, Backend, DenoiseSettings, Denoised, Device, Rank, Threads};
 use denoise::DenoiseError;
 use film::{Feature, Features, Film};
 use pathtrace::gpu::GpuTraceError;
-use pathtrace::{Integrator, Stats, Tracer};
+use pathtrace::{Integrator, Stats};
 use scene::{Camera, Scene};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -115,11 +114,9 @@ pub struct Renderer {
     pub(crate) threads: Arc<Threads>,
     /// How urgent its passes are.
     pub rank: Rank,
-    /// What of surfaces its films show, in place of the integrator's light: on the processor alone.
+    /// What of surfaces its films show, in place of the integrator's light.
     pub feature: Option<Feature>,
     speeds: Speeds,
-    /// The scene for what only the processor traces, beside a device.
-    pub(crate) beside_the_device: Option<Box<Tracer>>,
     /// Why the graphics device does not trace, where it should.
     refusal: Option<Arc<str>>,
 }
@@ -128,7 +125,7 @@ impl Renderer {
     /// A scene on a backend that was made for it.
     pub fn new(scene: Arc<Scene>, backend: Backend, threads: Arc<Threads>) -> Self {
         let (rank, speeds) = (Rank::Refinement, Speeds::default());
-        Renderer { scene, backend, threads, rank, feature: None, speeds, beside_the_device: None, refusal: None }
+        Renderer { scene, backend, threads, rank, feature: None, speeds, refusal: None }
     }
 
     /// A scene on the processor.
@@ -206,18 +203,15 @@ impl Renderer {
         samples: u32,
         stop: &(impl Fn() -> bool + Sync),
     ) -> Result<(), GpuTraceError> {
-        let Renderer { scene, backend, threads, rank, feature, beside_the_device, .. } = self;
+        let Renderer { backend, threads, rank, feature, .. } = self;
         let (threads, rank) = (&**threads, *rank);
-        let on_device = backend.device() == Device::Gpu && feature.is_none();
+        let on_device = backend.device() == Device::Gpu;
         let gives_up: &dyn Fn() -> bool = stop;
         let stop = || stop() || (!on_device && threads.are_wanted_by_more_than(rank));
         let mut timed = || {
             let start = Instant::now();
             let added = match feature {
-                Some(feature) => {
-                    let tracer = on_the_processor(backend, beside_the_device, scene);
-                    Ok(accumulation.add_features(tracer, (camera, integrator), (*feature, samples), &stop))
-                }
+                Some(feature) => accumulation.add_features(backend, (camera, integrator), (*feature, samples), &stop),
                 None => backend.accumulate(accumulation, camera, integrator, samples, &stop),
             };
             (added, start.elapsed())
@@ -247,7 +241,7 @@ impl Renderer {
     }
 
     /// The processor takes over from a device that has failed.
-    fn replace(&mut self, accumulation: &mut Accumulation, fault: GpuTraceError) -> GpuTraceError {
+    pub(crate) fn replace(&mut self, accumulation: &mut Accumulation, fault: GpuTraceError) -> GpuTraceError {
         self.refusal = Some(fault.to_string().into());
         let processor = self.threads.turn(self.rank, || Backend::on_the_processor(&self.scene));
         std::mem::replace(&mut self.backend, processor).abandon(&fault);
@@ -389,11 +383,12 @@ impl Renderer {
                 break;
             }
         }
+        // a device that is lost only now has made it all the same
+        let (device, made_by) = (self.device(), accumulation.made_by());
         if denoise.is_on() || watch.wants_features() {
             self.make_features(&mut accumulation, (camera, wanted.0), true, watch);
         }
         let denoised = self.denoised(&accumulation, denoise, &|| watch.skips_filters());
-        let (device, made_by) = (self.device(), accumulation.made_by());
         let features = accumulation.features.take().map(|(_, features)| features);
         let (stats, earlier) = (accumulation.stats(), accumulation.take_earlier_part());
         Rendered { stats, film: accumulation.into_film(), runs: 1, earlier, features, denoised, device, made_by }

@@ -195,7 +195,7 @@ impl TracedSettings {
     /// Why no graphics device can trace it, as a line for the user; `None` if one can.
     pub fn needs_the_processor(&self) -> Option<&'static str> {
         match self.feature {
-            Some(_) => Some("albedo, normal and depth are traced by the processor"),
+            Some(_) => None,
             None => self.integrator.needs_the_processor(),
         }
     }

@@ -8,7 +8,7 @@ use film::{DisplayTransform, Features, Image, Vec3};
 use image_file::{Kind, Layers, Loaded};
 use std::path::Path;
 use std::time::Instant;
-use technique::{DENOISE, Denoiser, FILTER, HALVES, Halves, Technique, denoised_by, is_of_its_pixels};
+use technique::{DENOISE, Denoiser, FILTER, Filters, HALVES, Halves, Technique, denoised_by, is_of_its_pixels};
 
 pub fn run(args: &DenoiseArgs) -> anyhow::Result<()> {
     let Loaded { image, notes } = image_file::read(&args.picture)?;
@@ -55,7 +55,8 @@ fn filtered(args: &DenoiseArgs, image: &Image, layers: &Layers, samples: Option<
         Features::new(image.size(), albedo, normal, depth).context("a layer is not of the picture's size")?;
     // halves that say nothing of their samples have as many as each other
     let variance = variance_by_halves(layers, samples.unwrap_or([1; 2]));
-    let denoised = args.filter.apply(image, &features, variance.as_deref(), &interrupt::is_asked);
+    let denoised =
+        args.filter.apply(image, &features, variance.as_deref(), &Filters::on_the_processor(), &interrupt::is_asked);
     denoised.context("cannot denoise the picture")
 }
 

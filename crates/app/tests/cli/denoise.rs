@@ -154,7 +154,7 @@ fn halves_tell_the_variance_by_the_samples_that_they_have() {
         let variance: Vec<f32> =
             pictures.noisy.radiances().iter().map(|radiance| share * difference(radiance).powi(2)).collect();
         let expected = technique::Denoiser::ATrous
-            .apply(&pictures.noisy, &features, Some(&variance), &|| false)
+            .apply(&pictures.noisy, &features, Some(&variance), &technique::Filters::on_the_processor(), &|| false)
             .expect("a picture");
         let made = image_file::load(&pictures.path("out.exr")).expect("an EXR");
         let off =

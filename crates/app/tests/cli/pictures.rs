@@ -45,7 +45,6 @@ fn what_cannot_be_shown_without_light_is_refused() {
     refused(&["--show", "glass"], 2, &["expected picture, albedo, normal, depth, trust, cube-faces or shadow-map"]);
     refused(&["--show", "shadow-map"], 2, &["--show shadow-map", "only the fake has maps", "--technique path"]);
     refused(&["--technique", "photon", "--show", "cube-faces"], 2, &["only the fake has maps", "--technique photon"]);
-    refused(&["--show", "albedo", "--device", "gpu"], 2, &["--device gpu: albedo, normal and depth are traced by the"]);
     refused(&["--layers"], 2, &["--layers needs a file that has layers", "-o OUT.exr: none.png"]);
     refused(&["--show", "depth", "--errors"], 1, &["--errors needs a picture", "--show picture"]);
 }
@@ -147,11 +146,13 @@ fn records_of_older_pictures_are_read_and_written_as_they_were() {
 fn the_gpu_traces_the_picture_of_the_cpu() {
     let folder = TestFolder::new();
     let file = |name: &str| folder.file(name).to_str().expect("a plain path").to_owned();
-    for technique in ["path", "whitted"] {
+    // without light also where the light is for the processor alone
+    for technique in ["path", "whitted", "path --show normal", "metropolis --show albedo"] {
         let [cpu, gpu] = ["cpu", "gpu"].map(|device| {
             let out = file(&format!("{device}.exr"));
-            let options = ["--technique", technique, "--size", "32x24", "--spp", "2", "--device", device, "--json"];
-            let report = json(&visavis(&[&["render", "cornell", "-o", &out], &options[..]].concat()));
+            let options = ["--size", "32x24", "--spp", "2", "--device", device, "--json"];
+            let words: Vec<_> = ["--technique"].into_iter().chain(technique.split(' ')).chain(options).collect();
+            let report = json(&visavis(&[&["render", "cornell", "-o", &out], &words[..]].concat()));
             assert_eq!((&report["device"], &report["spp"]), (&device.into(), &2.into()));
             (out, report["rays"].as_u64())
         });

@@ -2,6 +2,7 @@
 
 use super::export::export;
 use super::{User, both_whole};
+use film::Feature;
 use technique::{DeviceChoice, TechniqueName};
 use visavis::model::PaneId;
 use visavis_tests::Frame;
@@ -67,4 +68,14 @@ fn the_gpu_makes_photon_maps_and_the_processor_shows_their_points() {
     user.wait_for("their points by the processor", |f| made_by(f, "cpu"));
     let more = user.unfold_more("B");
     assert_eq!(more.value("text B device"), "photons are shown as points by the processor alone");
+}
+
+#[test]
+fn the_gpu_shows_albedo_where_it_traces_the_light() {
+    let mut user = User::beside("cornell", egui::vec2(1280.0, 720.0), 1.0, DeviceChoice::Gpu);
+    user.change(|model| model.session.panes[PaneId::B].feature = Some(Feature::Albedo));
+    let by_the_gpu = |f: &Frame| made_by(f, "gpu") && f.value("label B").contains("Albedo by rays");
+    let shown = user.wait_for("albedo by the GPU", by_the_gpu);
+    assert!(shown.state("b")["refused"].is_null() && shown.value("label B").contains("on the GPU"));
+    assert_eq!(user.unfold_more("B").value("B device the GPU"), "true");
 }
