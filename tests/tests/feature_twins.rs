@@ -13,6 +13,20 @@ use std::sync::Arc;
 const EVERYTHING: &str = include_str!("scenes/everything-more.toml");
 const METALS: &str = include_str!("scenes/metals.toml");
 
+/// A blue mirror in which a bright sky and a lamp are, and a wall that turns its back.
+const BLUE_MIRROR: &str = r#"
+camera = { eye = [0, 0, 5], target = [0, 0, 0], fov_y = 60 }
+sky = { radiance = [0.25, 3, 7] }
+material.mirror.mirror.reflectance = [0.3, 0.5, 0.9]
+material.wall.diffuse.albedo = [0.2, 0.4, 0.6]
+material.lamp.emissive.radiance = [0.5, 2, 9]
+rectangle = [
+    { corner = [-2, -2, 0], edge_u = [2, 0, 0], edge_v = [0, 4, 0], material = "mirror" },
+    { corner = [1, -2, 0], edge_u = [0, 4, 0], edge_v = [2, 0, 0], material = "wall" },
+    { corner = [-4, -1, 9], edge_u = [0, 2, 0], edge_v = [9, 0, 0], material = "lamp" },
+]
+"#;
+
 const SOBOL: (SamplerKind, u32) = (SamplerKind::Sobol, 1);
 
 fn devices() -> Vec<Gpu> {
@@ -41,6 +55,7 @@ fn scenes() -> Vec<(&'static str, Scene, f64)> {
         ("cornell", built_in("cornell"), 1e-3),
         ("a mesh, and all else", parsed(EVERYTHING), 2e-3),
         ("rough metals under a picture", under_a_picture(parsed(METALS)), 2e-3),
+        ("a blue mirror and a back", parsed(BLUE_MIRROR), 1e-3),
         ("mirrors that never end", built_in("hard/mirror-box"), 1e-3),
         ("glass in glass", built_in("hard/nested-glass"), 2e-3),
     ]
