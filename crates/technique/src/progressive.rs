@@ -279,7 +279,7 @@ impl ProgressiveRenderer {
 
     /// Remembers how fast it was, and whether a device was lost: what it held of other films is lost too.
     fn take_note_of(&mut self, renderer: &Renderer, request: &Request) {
-        self.speeds = renderer.speeds();
+        self.speeds = renderer.speeds;
         if let (Some(why), None) = (renderer.refusal(), &self.refusal) {
             self.refuse(request, why);
             self.kept.iter_mut().for_each(|kept| kept.accumulation.forget_the_device());
@@ -312,7 +312,7 @@ impl ProgressiveRenderer {
         } else {
             let processor = self.processor(request);
             self.rough(&mut self.renderer(request, processor), request, watch);
-            renderer.set_speeds(self.speeds);
+            renderer.speeds = self.speeds;
         }
     }
 

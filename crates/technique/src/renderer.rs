@@ -116,7 +116,7 @@ pub struct Renderer {
     pub rank: Rank,
     /// What of surfaces its films show, in place of the integrator's light.
     pub feature: Option<Feature>,
-    speeds: Speeds,
+    pub(crate) speeds: Speeds,
     /// Why the graphics device does not trace, where it should.
     refusal: Option<Arc<str>>,
 }
@@ -160,14 +160,6 @@ impl Renderer {
 
     pub(crate) fn with_speeds(self, speeds: Speeds) -> Self {
         Renderer { speeds, ..self }
-    }
-
-    pub(crate) fn set_speeds(&mut self, speeds: Speeds) {
-        self.speeds = speeds;
-    }
-
-    pub(crate) fn speeds(&self) -> Speeds {
-        self.speeds
     }
 
     pub(crate) fn into_backend(self) -> Backend {
