@@ -134,7 +134,7 @@ mod tests {
         fn show(&self, _frame: Frame) {}
     }
 
-    const A_TROUS: DenoiseSettings = DenoiseSettings { denoiser: Denoiser::ATrous, trust: 0.0 };
+    const A_TROUS: DenoiseSettings = DenoiseSettings { denoiser: Denoiser::ATrous, ..DenoiseSettings::OFF };
 
     /// A denoised picture by a renderer on this backend.
     fn denoised(scene: &Arc<scene::Scene>, backend: Backend) -> Denoised {
