@@ -1,6 +1,7 @@
 //! Denoising: from a picture of few samples and what is known of its pixels to one without noise, at the price of a bias.
-//! Two filters: the U-Net of Open Image Denoise ([`Network`]), and a-trous wavelets ([`mod@a_trous`]); and [`mod@trust`], which
-//! goes back from either to the samples as they become many. [`mod@gpu`] has what of it runs on graphics devices.
+//! Two filters: the U-Net of Open Image Denoise ([`Network`]), and a-trous wavelets ([`mod@a_trous`]); [`mod@trust`], which
+//! goes back from either to the samples as they become many; and [`mod@temporal`], which puts a picture together with what
+//! earlier ones showed, before any of them. [`mod@gpu`] has what of it runs on graphics devices.
 //!
 //! The networks' weights are Open Image Denoise's, published under Apache-2.0 (`assets/weights`). On lanes sums
 //! are fused where the machine can: pictures agree to rounding, not to the bit, between machines of other lanes.
@@ -11,6 +12,7 @@ pub mod gpu;
 mod network;
 mod oidn;
 mod planes;
+pub mod temporal;
 mod tiles;
 mod transfer;
 pub mod trust;

@@ -1,0 +1,134 @@
+//! Where an earlier picture shows what a pixel shows now (reverse reprojection; Nehab et al., "Accelerating Real-Time Shading with
+//! Reverse Reprojection Caching", 2007).
+
+use super::{History, Now};
+use film::Vec3;
+use film::glam::Vec2;
+use scene::camera::PictureFrame;
+
+/// Share of the distance by which depths of one surface may differ.
+const DEPTH: f32 = 0.01;
+
+/// Pixels along a slope by which they may differ beside: one between taps, and half a one for where in each of both pixels its
+/// sample lies.
+const PIXELS_OF_SLOPE: f32 = 2.0;
+
+/// Cosine at which a surface counts as seen from its edge.
+const LEAST_COSINE: f32 = 0.05;
+
+/// Cosine of the angle between normals of one surface.
+const NORMALS: f32 = 0.9;
+
+/// Share of the bilinear weights that must have found the surface; below it is chance.
+const LEAST_WEIGHT: f32 = 0.05;
+
+/// From the pixels of one picture to those of an earlier one.
+pub struct Reprojection<'a> {
+    now: &'a Now<'a>,
+    history: &'a History,
+    /// Angle that a pixel of the history has, about.
+    pixel: f32,
+    /// Solid angle of a pixel now over that of the history.
+    ratio: f32,
+}
+
+/// What the history has of a point.
+pub struct Found {
+    pub radiance: Vec3,
+    /// As many samples of a pixel of this size as it stands for.
+    pub samples: f32,
+    pub age: f32,
+}
+
+/// The point that a pixel shows, as the history's camera sees it.
+struct Point {
+    /// In pixels from the middle of the top left one.
+    place: Vec2,
+    normal: Vec3,
+    /// Infinite where nothing is met.
+    distance: f32,
+    tolerance: f32,
+}
+
+/// Solid angle that a pixel has, about, in the middle of a picture.
+fn solid_angle(frame: &PictureFrame, (width, height): (u32, u32)) -> f32 {
+    4.0 * frame.right.length() * frame.up.length() / (width as f32 * height as f32)
+}
+
+impl<'a> Reprojection<'a> {
+    pub fn new(now: &'a Now<'a>, history: &'a History) -> Self {
+        let then = solid_angle(&history.frame, history.image.size());
+        let ratio = solid_angle(&now.frame, now.image.size()) / then;
+        Reprojection { now, history, pixel: then.sqrt(), ratio }
+    }
+
+    /// The mean of the four nearest pixels that show this one's point, if any does.
+    pub fn find(&self, [x, y]: [u32; 2]) -> Option<Found> {
+        let pixel = (y * self.now.image.width() + x) as usize;
+        let depth = self.now.features.depth[pixel];
+        let point = self.point([x, y], depth, self.now.features.normal[pixel])?;
+        let (mut sums, mut weights) = (Found { radiance: Vec3::ZERO, samples: 0.0, age: 0.0 }, 0.0);
+        for (tap, weight) in self.taps(&point).filter(|(tap, _)| self.shows(*tap, &point)) {
+            sums.radiance += weight * self.history.image.radiances()[tap];
+            sums.samples += weight * self.history.samples[tap];
+            sums.age += weight * self.history.age[tap];
+            weights += weight;
+        }
+        // a pixel that was larger then spreads its samples over several now
+        let closer = if depth == f32::INFINITY { 1.0 } else { depth / point.distance };
+        let share = (self.ratio * closer * closer).min(1.0) / weights;
+        let Found { radiance, samples, age } = sums;
+        (weights >= LEAST_WEIGHT && samples > 0.0).then(|| Found {
+            radiance: radiance / weights,
+            samples: samples * share,
+            age: age / weights,
+        })
+    }
+
+    fn point(&self, [x, y]: [u32; 2], depth: f32, normal: Vec3) -> Option<Point> {
+        let (now, then) = (&self.now.frame, &self.history.frame);
+        let size = |(width, height): (u32, u32)| Vec2::new(width as f32, height as f32);
+        let direction = now.direction((Vec2::new(x as f32, y as f32) + 0.5) / size(self.now.image.size()));
+        let arm = if depth == f32::INFINITY { direction } else { now.eye + direction * depth - then.eye };
+        let place = then.project(then.eye + arm)? * size(self.history.image.size()) - 0.5;
+        let length = arm.length();
+        if depth == f32::INFINITY {
+            return Some(Point { place, normal, distance: depth, tolerance: 0.0 });
+        }
+        let cosine = normal.try_normalize().map_or(1.0, |normal| (normal.dot(arm) / length).abs()).max(LEAST_COSINE);
+        let slope = self.pixel * (1.0 - cosine * cosine).max(0.0).sqrt() / cosine;
+        let tolerance = length * (DEPTH + PIXELS_OF_SLOPE * slope);
+        (depth > 0.0 && length.is_finite()).then_some(Point { place, normal, distance: length, tolerance })
+    }
+
+    /// The pixels around it with their bilinear weights, as far as they are in the picture.
+    fn taps(&self, point: &Point) -> impl Iterator<Item = (usize, f32)> + use<> {
+        let (width, height) = self.history.image.size();
+        let corner = point.place.floor();
+        let inner = point.place - corner;
+        [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]].into_iter().filter_map(move |[x, y]| {
+            let tap = corner + Vec2::new(x, y);
+            let inside = tap.min_element() >= 0.0 && tap.x < width as f32 && tap.y < height as f32;
+            let weight = (1.0 - (x - inner.x).abs()) * (1.0 - (y - inner.y).abs());
+            inside.then(|| (tap.y as usize * width as usize + tap.x as usize, weight))
+        })
+    }
+
+    /// Whether a pixel of the history shows the surface on which the point is.
+    fn shows(&self, tap: usize, point: &Point) -> bool {
+        let History { image, features, .. } = self.history;
+        let depth = features.depth[tap];
+        let same_depth = depth == point.distance || (depth - point.distance).abs() <= point.tolerance;
+        let same_surface = same_depth && are_alike(features.normal[tap], point.normal);
+        same_surface && image.radiances()[tap].is_finite()
+    }
+}
+
+/// Of what has no normal both have none.
+fn are_alike(a: Vec3, b: Vec3) -> bool {
+    match (a.try_normalize(), b.try_normalize()) {
+        (Some(a), Some(b)) => a.dot(b) >= NORMALS,
+        (None, None) => true,
+        _ => false,
+    }
+}
