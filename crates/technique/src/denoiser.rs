@@ -1,6 +1,6 @@
 //! What a traced picture goes through between film and display.
 
-use crate::{Accumulation, Filters, Renderer};
+use crate::{Accumulation, Filters, Renderer, Reused};
 use denoise::a_trous::{Guide, a_trous};
 use denoise::trust::{Parts, Trusted, trust};
 use denoise::{DenoiseError, Network, Stop, WeightsError};
@@ -93,7 +93,7 @@ impl Denoiser {
     }
 }
 
-/// A denoiser, and how far to go back from it to the samples.
+/// A denoiser, how far to go back from it to the samples, and what earlier views give it to begin with.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct DenoiseSettings {
     /// The filter that the picture goes through.
@@ -103,11 +103,13 @@ pub struct DenoiseSettings {
     pub trust: f32,
     /// Whether that share is shown, pixel by pixel, in place of the picture.
     pub shows_trust: bool,
+    /// As how many samples of a pixel earlier views count at most, while the camera moves; at 0 none do.
+    pub history: u32,
 }
 
 impl DenoiseSettings {
     /// The picture as it is rendered.
-    pub const OFF: Self = DenoiseSettings { denoiser: Denoiser::Off, trust: 0.0, shows_trust: false };
+    pub const OFF: Self = DenoiseSettings { denoiser: Denoiser::Off, trust: 0.0, shows_trust: false, history: 0 };
 
     /// Whether samples are trusted beside a filter.
     pub fn trusts(&self) -> bool {
@@ -122,6 +124,11 @@ impl DenoiseSettings {
     /// Whether there is a filter.
     pub fn is_on(&self) -> bool {
         self.denoiser != Denoiser::Off
+    }
+
+    /// Whether it asks what pixels show beside their light.
+    pub fn wants_features(&self) -> bool {
+        self.is_on() || self.history > 0
     }
 
     /// What becomes of a film, of which an `earlier` state is there to judge the filter by, as [`Denoiser::apply`] does it; or how far
@@ -189,12 +196,12 @@ fn weight_of(image: &Image) -> Image {
 }
 
 /// Variances of a film's means.
-fn variances(film: &Film) -> impl Iterator<Item = Vec3> {
+pub(crate) fn variances(film: &Film) -> impl Iterator<Item = Vec3> {
     film.pixels().iter().map(|pixel| Vec3::from_array(pixel.variance_of_mean().map(|v| v as f32)))
 }
 
 /// The variance of a luminance whose colours vary together, as those of light through one path do.
-fn luminance_variance(of_colours: Vec3) -> f32 {
+pub(crate) fn luminance_variance(of_colours: Vec3) -> f32 {
     luminance(Vec3::from_array(of_colours.to_array().map(f32::sqrt))).powi(2)
 }
 
@@ -212,10 +219,11 @@ pub struct Denoised {
 }
 
 impl Renderer {
-    /// What becomes of a film as it was last read; `None` without a denoiser, or while there are no features.
+    /// What becomes of a film as it was last read, or of what it was put together to with earlier views; `None` without a denoiser, or while there are no features.
     pub(crate) fn denoised(
         &self,
         accumulation: &Accumulation,
+        reused: Option<&Reused>,
         settings: DenoiseSettings,
         stop: Stop,
     ) -> Option<Result<Denoised, DenoiseError>> {
@@ -224,7 +232,10 @@ impl Renderer {
         let device = self.device_filters();
         let apply = || {
             let (start, filters) = (Instant::now(), Filters::first_on(device));
-            let image = settings.apply(film, earlier, features, &filters, stop)?;
+            let image = match reused {
+                Some(reused) => reused.denoised(film, settings, features, &filters, stop)?,
+                None => settings.apply(film, earlier, features, &filters, stop)?,
+            };
             let (made_by, refused) = (filters.made_by(), filters.refusal().cloned());
             Ok(Denoised { image, seconds: start.elapsed().as_secs_f64(), made_by, refused })
         };

@@ -9,7 +9,8 @@ use scene::Camera;
 /// Samples from which features are so clean that more would change nothing that a filter sees.
 const ENOUGH: u32 = 16;
 
-/// Samples with which they are made first: of fewer, what glass sends on by chance would be noise.
+/// Samples with which they are made first for a denoiser: of fewer, what glass sends on by chance would be noise. Where earlier
+/// views alone are looked up by them, one is enough, and there is no time for more.
 const FEWEST: u32 = 4;
 
 /// What a finished film's pixels show, on the current rayon pool; `None` once `stop` says so.
@@ -44,7 +45,8 @@ impl Renderer {
         finished: bool,
         watch: &impl Watch,
     ) {
-        let samples = if finished || accumulation.spp >= ENOUGH { ENOUGH } else { FEWEST };
+        let first = if watch.denoise().is_on() { FEWEST } else { 1 };
+        let samples = if finished || accumulation.spp >= ENOUGH { ENOUGH } else { first };
         if accumulation.features.as_ref().is_some_and(|(made_from, _)| *made_from >= samples) {
             return;
         }

@@ -18,6 +18,7 @@ mod fake;
 mod features;
 mod filters;
 mod halves;
+mod history;
 mod label;
 mod pane;
 pub mod presets;
@@ -42,11 +43,13 @@ pub use fake::FakeSettings;
 pub use features::features_of;
 pub use filters::{DeviceFilters, Filters};
 pub use halves::{HALVES, Halves};
+pub use history::{LAG, Lag, Reused};
 pub use pane::PaneSettings;
 pub use presets::Preset;
 pub use progressive::{NoMemory, ProgressiveRenderer, Request};
 pub use provenance::{
-    DENOISE, FILTER, Made, OWN_FOV, Provenance, Recorded, denoised_by, is_of_its_pixels, made_from, scene_hash,
+    DENOISE, EARLIER_VIEWS, FILTER, Made, OWN_FOV, Provenance, Recorded, denoised_by, is_of_its_pixels, made_from,
+    scene_hash,
 };
 pub use renderer::{Frame, Pacing, Rendered, Renderer, Watch};
 pub use runs::Runs;
@@ -195,6 +198,10 @@ impl Technique {
     /// What its picture goes through before it is shown.
     pub fn denoise(&self) -> DenoiseSettings {
         match self {
+            // how far samples are trusted is not put together with what earlier views showed
+            Technique::Traced(traced) if traced.denoise.shows_the_weight() && self.traces_light() => {
+                DenoiseSettings { history: 0, ..traced.denoise }
+            }
             Technique::Traced(traced) if self.traces_light() => traced.denoise,
             Technique::Traced(_) | Technique::Fake(_) => DenoiseSettings::OFF,
         }

@@ -2,6 +2,7 @@
 //! wished number or a new request. The last films are kept: a request that differs only in the wished number goes on
 //! where one of them stopped, and a view that was left for a moment is there again.
 
+use crate::history::Past;
 use crate::renderer::{Renderer, Watch};
 use crate::speeds::Speeds;
 use crate::{Accumulation, Adapters, Backend, Device, Rank, Runs, Shot, Technique, Threads, TracedSettings};
@@ -70,6 +71,8 @@ pub struct ProgressiveRenderer {
     refusal: Option<Refusal>,
     /// The films of the last requests, the latest last.
     kept: Vec<CachedFilm>,
+    /// What they showed, where that counts.
+    past: Past,
     /// When the request in hand was begun.
     begun: Instant,
 }
@@ -137,6 +140,7 @@ impl ProgressiveRenderer {
             speeds: Speeds::default(),
             refusal: None,
             kept: Vec::new(),
+            past: Past::default(),
             begun: Instant::now(),
         }
     }
@@ -153,7 +157,9 @@ impl ProgressiveRenderer {
         let mut rough = kept.is_none() && !request.settings.denoise.shows_the_weight();
         let mut renderer = self.make_ready(request, &mut rough, watch);
         renderer.feature = request.settings.feature;
-        if rough {
+        renderer.past = std::mem::take(&mut self.past);
+        renderer.past.turn_to(request, watch.denoise().history);
+        if rough && !renderer.show_moved(request, watch) {
             self.rough_by_whoever_is_ready(&mut renderer, request, watch);
         }
         let refined = films_for(request, kept).map(|mut film| {
@@ -164,6 +170,7 @@ impl ProgressiveRenderer {
                 self.kept.push(film);
             }
         });
+        self.past = std::mem::take(&mut renderer.past);
         self.take_note_of(&renderer, request);
         if self.kept.len() > MOST_KEPT {
             self.kept.remove(0);

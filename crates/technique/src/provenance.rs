@@ -76,8 +76,12 @@ const SCENE_HASH: &str = "scene.hash";
 /// window that has room for that above and below.
 pub const OWN_FOV: &str = "camera.fov";
 
+/// The record of a picture in which earlier views of a window count, which nothing makes again: how much.
+pub const EARLIER_VIEWS: &str = "history.counts";
+
 /// Records that say what a picture took or where it was, and are no options of `visavis render`.
-const NO_OPTIONS: [&str; 8] = ["records", "version", "scene", SCENE_HASH, "adapter", "seconds", "command", OWN_FOV];
+const NO_OPTIONS: [&str; 9] =
+    ["records", "version", "scene", SCENE_HASH, "adapter", "seconds", "command", OWN_FOV, EARLIER_VIEWS];
 
 /// The record's name of the weights that a picture was denoised by.
 const WEIGHTS: &str = "denoise.weights";
@@ -205,6 +209,15 @@ impl Shot {
 mod tests {
     use super::*;
     use crate::made_by_command;
+
+    #[test]
+    fn what_a_picture_has_of_earlier_views_is_no_option() {
+        let record = |name: &str, value: &str| (name.to_owned(), value.to_owned());
+        let records = ["records=2", "scene=cornell", "technique=whitted", "history=32", "history.counts=30 spp"];
+        let records = records.map(|pair| pair.split_once('=').map(|(name, value)| record(name, value)).unwrap());
+        let made = made_from(&records).unwrap().unwrap();
+        assert_eq!(made.options, ["--technique=whitted", "--history=32"]);
+    }
 
     /// Pictures from before there were connections, cones and split glass were made without them, and those of
     /// techniques that have none stay as they are.

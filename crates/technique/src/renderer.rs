@@ -2,8 +2,9 @@
 //! replaced by the processor, which goes on from the film as it was last read; nowhere else is the loss of a device that
 //! traces rays dealt with.
 
+use crate::history::Past;
 use crate::speeds::Speeds;
-use crate::{Accumulation, Backend, DenoiseSettings, Denoised, Device, Rank, Threads};
+use crate::{Accumulation, Backend, DenoiseSettings, Denoised, Device, Rank, Reused, Threads};
 use denoise::DenoiseError;
 use film::{Feature, Features, Film};
 use pathtrace::gpu::GpuTraceError;
@@ -33,6 +34,8 @@ pub struct Frame<'a> {
     pub earlier: Option<&'a Film>,
     /// What the pixels show, where [`Watch::wants_features`]; of a rough picture it is not made.
     pub features: Option<&'a Features>,
+    /// The film put together with earlier views, where they count.
+    pub reused: Option<Reused>,
     /// The film as the denoiser that [`Watch::denoise`] asks for leaves it, or why there is no memory for that.
     pub denoised: Option<Result<Denoised, DenoiseError>>,
     /// Samples and rays that it took so far.
@@ -63,7 +66,7 @@ pub trait Watch: Sync {
 
     /// Whether frames shall come with what denoisers are guided by.
     fn wants_features(&self) -> bool {
-        self.denoise().is_on()
+        self.denoise().wants_features()
     }
 
     /// What frames shall go through before they are shown.
@@ -116,6 +119,7 @@ pub struct Renderer {
     pub rank: Rank,
     /// What of surfaces its films show, in place of the integrator's light.
     pub feature: Option<Feature>,
+    pub(crate) past: Past,
     pub(crate) speeds: Speeds,
     /// Why the graphics device does not trace, where it should.
     refusal: Option<Arc<str>>,
@@ -125,7 +129,7 @@ impl Renderer {
     /// A scene on a backend that was made for it.
     pub fn new(scene: Arc<Scene>, backend: Backend, threads: Arc<Threads>) -> Self {
         let (rank, speeds) = (Rank::Refinement, Speeds::default());
-        Renderer { scene, backend, threads, rank, feature: None, speeds, refusal: None }
+        Renderer { scene, backend, threads, rank, feature: None, past: Past::default(), speeds, refusal: None }
     }
 
     /// A scene on the processor.
@@ -308,11 +312,7 @@ impl Renderer {
         if watch.wants_features() {
             self.make_features(accumulation, how, accumulation.spp >= wished, watch);
         }
-        let denoised = self.denoised(accumulation, watch.denoise(), &|| watch.ends_now());
-        if accumulation.spp > 0 && !matches!(denoised, Some(Err(DenoiseError::Stopped))) {
-            let frame = self.frame(accumulation, [false, accumulation.spp < wished]);
-            watch.show(Frame { denoised, ..frame });
-        }
+        self.show_together(accumulation, how.0, watch.denoise(), [false, accumulation.spp < wished], watch);
     }
 
     /// A film as it was last read.
@@ -322,6 +322,7 @@ impl Renderer {
             runs: 1,
             earlier: accumulation.earlier_part(),
             features: accumulation.features.as_ref().map(|(_, features)| features),
+            reused: None,
             denoised: None,
             stats: accumulation.stats(),
             seconds: accumulation.spent.as_secs_f64(),
@@ -380,7 +381,7 @@ impl Renderer {
         if denoise.is_on() || watch.wants_features() {
             self.make_features(&mut accumulation, (camera, wanted.0), true, watch);
         }
-        let denoised = self.denoised(&accumulation, denoise, &|| watch.skips_filters());
+        let denoised = self.denoised(&accumulation, None, denoise, &|| watch.skips_filters());
         let features = accumulation.features.take().map(|(_, features)| features);
         let (stats, earlier) = (accumulation.stats(), accumulation.take_earlier_part());
         Rendered { stats, film: accumulation.into_film(), runs: 1, earlier, features, denoised, device, made_by }

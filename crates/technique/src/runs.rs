@@ -135,6 +135,7 @@ impl Runs {
             runs: self.done,
             earlier: self.half.as_ref(),
             features: self.features.as_ref(),
+            reused: None,
             denoised: self.denoised(),
             stats: self.stats,
             seconds: self.spent.as_secs_f64(),
@@ -205,7 +206,7 @@ impl Renderer {
             self.make_features(accumulation, (camera, integrator), true, watch);
         }
         let filter = if runs.fault.is_some() { DenoiseSettings::OFF } else { runs.denoise };
-        let denoised = self.denoised(accumulation, filter, &|| watch.skips_filters());
+        let denoised = self.denoised(accumulation, None, filter, &|| watch.skips_filters());
         let is_whole = accumulation.spp >= runs.spp && !matches!(denoised, Some(Err(DenoiseError::Stopped)));
         if is_whole && !watch.ends_now() {
             runs.add(accumulation, denoised);

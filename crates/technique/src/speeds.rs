@@ -5,7 +5,7 @@ use std::time::Duration;
 
 /// Seconds that one sample of one pixel takes, by device, as measured on the last passes; a guess at first.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Speeds([f64; 2]);
+pub(crate) struct Speeds(pub(crate) [f64; 2]);
 
 impl Default for Speeds {
     fn default() -> Self {

@@ -5,7 +5,7 @@ use crate::settings::{Control, Kind, Look, Setting, Value};
 use crate::{Denoiser, PaneSettings};
 
 /// Those of all that is traced and shows light.
-pub const ROWS: &[Setting<PaneSettings>] = &[DENOISE, TRUST, RUNS];
+pub const ROWS: &[Setting<PaneSettings>] = &[DENOISE, TRUST, HISTORY, RUNS];
 
 const DENOISE: Setting<PaneSettings> = Setting {
     name: "denoise",
@@ -85,6 +85,34 @@ const RUNS: Setting<PaneSettings> = Setting {
         hover: "The mean of so many independent pictures, each of as many samples and denoised by itself. What noise they have \
                 becomes less, and what they have in common is left: with a denoiser, held against the reference, its bias",
         look: Look::Doubling(0..=6),
+        more: LIGHT,
+        ..BLANK
+    },
+    ..PLAIN
+};
+
+const HISTORY: Setting<PaneSettings> = Setting {
+    name: "history",
+    of: LIGHT,
+    kind: Kind::Whole(0..=256),
+    letter: "N",
+    default: Some(Value::Whole(0)),
+    acts: |pane, _| pane.in_use().shows_the_scene(),
+    help: "in the window, while the camera moves: what earlier views showed at the same points counts as so many samples at most; what \
+           is seen in mirrors and glass lags behind. It fades as the picture comes to twice as many samples",
+    get: |pane| Some(Value::Whole(pane.denoise.history)),
+    set: |pane, value| each(whole(value), [&mut pane.denoise.history]),
+    control: Control {
+        label: "Reuse earlier views",
+        aside: |value| if value == Value::Whole(0) { String::new() } else { " (spp, lags)".into() },
+        brief: Some(|value| match value {
+            Value::Whole(0) => "no earlier views".into(),
+            _ => format!("{value} spp of earlier views"),
+        }),
+        hover: "While the camera moves, what earlier pictures showed at the same points counts as so many samples at most (temporal \
+                accumulation). Reflections, refractions and highlights lag behind. Once the camera stands it fades, and is gone at \
+                twice as many samples",
+        look: Look::Whole(0..=256),
         more: LIGHT,
         ..BLANK
     },
