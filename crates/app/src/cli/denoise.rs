@@ -8,7 +8,9 @@ use film::{DisplayTransform, Features, Image, Vec3};
 use image_file::{Kind, Layers, Loaded};
 use std::path::Path;
 use std::time::Instant;
-use technique::{DENOISE, Denoiser, FILTER, Filters, HALVES, Halves, Technique, denoised_by, is_of_its_pixels};
+use technique::{
+    DENOISE, Denoiser, EARLIER_VIEWS, FILTER, Filters, HALVES, Halves, Technique, denoised_by, is_of_its_pixels,
+};
 
 pub fn run(args: &DenoiseArgs) -> anyhow::Result<()> {
     let Loaded { image, notes } = image_file::read(&args.picture)?;
@@ -68,14 +70,15 @@ fn missing_layers(picture: &Path, filter: Denoiser, missing: &[&str]) -> String 
     )
 }
 
-/// Whether `render --denoise` comes to the same: of light that was traced and not denoised before, and by a network, for which the
+/// Whether `render --denoise` comes to the same: of light that was traced and not denoised before, without earlier views, and by a network, for which the
 /// variance of samples is nothing.
 fn is_made_again(args: &DenoiseArgs, records: &[(String, String)]) -> bool {
     let of_traced_light = |made: RenderArgs| match made.pane.in_use() {
         technique @ Technique::Traced(_) => technique.shows_the_scene(),
         Technique::Fake(_) => false,
     };
-    let new = denoised_by(records).is_none() && args.filter != Denoiser::ATrous;
+    let lags = records.iter().any(|(name, _)| name == EARLIER_VIEWS);
+    let new = denoised_by(records).is_none() && !lags && args.filter != Denoiser::ATrous;
     new && made_by(&args.picture).is_ok_and(of_traced_light)
 }
 

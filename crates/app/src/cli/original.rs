@@ -14,6 +14,8 @@ pub struct Original {
     pub file: PathBuf,
     /// Its scene as it was read then; `None` of a picture from before this was kept.
     pub scene: Option<SceneHash>,
+    /// How much of it is of earlier views of a window, if some is.
+    pub earlier_views: Option<String>,
 }
 
 impl RenderArgs {
@@ -44,6 +46,14 @@ impl RenderArgs {
         }
     }
 
+    /// Says so where earlier views of a window count in the picture, which nobody makes again.
+    pub fn tell_of_earlier_views(&self) {
+        if let Some(Original { file, earlier_views: Some(counts), .. }) = &self.original {
+            let counts = image_file::escaped(counts);
+            note!("note: {} had {counts}", image_file::shown(file));
+        }
+    }
+
     /// Whether the reference of the scene is still the one of the picture. Numbers of the fake do not change it.
     ///
     /// # Errors
@@ -69,7 +79,7 @@ impl RenderArgs {
 
     /// The picture and its scene; says so where it has none.
     fn kept_scene(&self) -> Option<(&Path, &SceneHash)> {
-        let Original { file, scene } = self.original.as_ref()?;
+        let Original { file, scene, .. } = self.original.as_ref()?;
         if scene.is_none() {
             note!("note: {}", made_before(file));
         }

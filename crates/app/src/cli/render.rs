@@ -39,6 +39,8 @@ pub fn run(args: &mut RenderArgs) -> anyhow::Result<()> {
     let shot = args.shot()?;
     tell_what_has_no_effect(args, &builtin::named(&args.scene)?);
     args.tell_of_another_scene(&shot.scene);
+    args.tell_of_earlier_views();
+    args.pane.denoise.history = 0;
     let scene = shot.scene.clone();
     if !args.chose_estimator {
         args.pane.take_usual_estimator(&scene);
@@ -224,6 +226,9 @@ fn tell_what_has_no_effect(args: &RenderArgs, scene: &Scene) {
     let technique = args.pane.technique;
     for option in &args.without_effect {
         note!("note: {option} has no effect with --technique {}", technique.name());
+    }
+    if args.pane.in_use().denoise().history > 0 && args.original.is_none() {
+        note!("note: --history has no effect here: there are no earlier views but in the window");
     }
     let of_scene = OF_SCENES.iter().filter(|setting| (setting.get)(&args.seen.changes).is_some());
     let of_scene = of_scene.map(|setting| (setting.name, setting.needs));

@@ -22,9 +22,10 @@ struct Part {
 }
 
 impl Earlier {
-    /// Goes on with a pane's new picture, from what was kept of the one before; `None` of a picture without samples.
+    /// Goes on with a pane's new picture, from what was kept of the one before; `None` of a picture without samples, and of
+    /// one in which earlier views count: they are in both of its states.
     pub fn follow(before: Option<Earlier>, picture: &Picture) -> Option<Earlier> {
-        let samples = picture.spp.filter(|_| !picture.rough)?;
+        let samples = picture.spp.filter(|_| !picture.rough && picture.lag.is_none())?;
         let (new, order) = (Part { samples, image: picture.image.clone() }, picture.order.clone());
         let before = before.filter(|before| is_same_picture(&before.order, &order) && before.next.samples <= samples);
         Some(match before {
@@ -73,6 +74,7 @@ mod tests {
         let provenance = Arc::new(Provenance { shot, technique: settings.in_use(), device: Device::Cpu });
         Picture {
             before: None,
+            lag: None,
             image: Image::new(1, 1, [Vec3::splat(spp as f32)]).unwrap(),
             runs: 1,
             spp: (technique != TechniqueName::Raster).then_some(spp),
@@ -126,6 +128,8 @@ mod tests {
             traced.sun_radius = Some(0.0);
         }
         assert_eq!(after(under_another_sun), None);
+        let lag = Some(technique::Lag { samples: 2.0, seconds: 0.1 });
+        assert_eq!(after(Picture { lag, ..picture(Path, 1, 4) }), None);
         assert_eq!(after(Picture { rough: true, ..picture(Path, 1, 4) }), None);
         assert!(Earlier::follow(None, &picture(Raster, 1, 1)).is_none(), "it has no samples");
     }

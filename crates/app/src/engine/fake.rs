@@ -259,6 +259,7 @@ impl JobInHand<'_> {
         let picture = Picture {
             image: film.image(),
             before: None,
+            lag: None,
             runs: 1,
             spp: None,
             seconds,

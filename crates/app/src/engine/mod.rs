@@ -32,7 +32,7 @@ use crate::model::Effort;
 use film::Image;
 use scene::{Camera, Scene};
 use std::sync::Arc;
-use technique::{Device, Provenance};
+use technique::{Device, Lag, Provenance};
 
 /// What a technique has made so far, in linear radiance.
 #[derive(Debug, Clone)]
@@ -41,6 +41,8 @@ pub struct Picture {
     pub image: Image,
     /// What it was before it was denoised, and how long that took; `None` where the picture is what was rendered.
     pub before: Option<Box<Undenoised>>,
+    /// What it has of earlier views, where they count.
+    pub lag: Option<Lag>,
     /// Samples per pixel, of all runs; `None` for a technique that does not sample.
     pub spp: Option<u32>,
     /// Pictures of which it is the mean, each of as many samples.

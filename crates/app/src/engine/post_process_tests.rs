@@ -22,6 +22,7 @@ fn picture(view: u64) -> Picture {
     Picture {
         image: pixel(view as f32),
         before: None,
+        lag: None,
         runs: 1,
         spp: None,
         seconds: 0.0,

@@ -8,8 +8,8 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Duration;
 use technique::{
-    Adapters, DenoiseSettings, Denoised, Frame, Halves, NOISY, NoMemory, Pacing, ProgressiveRenderer, Request, Threads,
-    TracedSettings, Watch,
+    Adapters, DenoiseSettings, Denoised, Frame, Halves, NOISY, NoMemory, Pacing, ProgressiveRenderer, Request, Reused,
+    Threads, TracedSettings, Watch,
 };
 
 /// A picture to make.
@@ -122,7 +122,7 @@ struct PaneWatch<'a> {
     has_noise_source: bool,
     control: &'a Control<Option<RayJob>, ()>,
     post_process: &'a PostProcess,
-    /// Milliseconds that the denoiser took last.
+    /// Milliseconds that all between film and picture took last.
     filtering: AtomicU64,
 }
 
@@ -158,35 +158,41 @@ impl Watch for PaneWatch<'_> {
         let film = frame.film;
         let mut filter_fault = None;
         let halves = frame.earlier.and_then(|earlier| Halves::of(film, earlier));
+        let undenoised = frame.reused.as_ref().map_or_else(|| film.image(), |reused| reused.image.clone());
+        let mut filtering = frame.reused.as_ref().map_or(0.0, |reused| reused.seconds);
         let (mut image, before) = match frame.denoised {
             Some(Ok(Denoised { image, seconds, made_by, refused })) => {
-                self.filtering.store((1000.0 * seconds) as u64, Ordering::Relaxed);
+                filtering += seconds;
                 filter_fault = refused.map(|why| format!("denoised on the CPU: the GPU failed: {why}").into());
                 let halves = halves.as_ref().map(|halves| halves.samples);
-                (image, Some(Box::new(Undenoised { image: film.image(), seconds, by: made_by.into(), halves })))
+                (image, Some(Box::new(Undenoised { image: undenoised, seconds, by: made_by.into(), halves })))
             }
             Some(Err(fault)) => {
                 filter_fault = Some(format!("not denoised: {fault}").into());
-                (film.image(), None)
+                (undenoised, None)
             }
-            None => (film.image(), None),
+            None => (undenoised, None),
         };
+        self.filtering.store((1000.0 * filtering) as u64, Ordering::Relaxed);
         // an EXR of the pane keeps them
         image.layers.extend(frame.features.iter().flat_map(|features| features.layers()));
+        image.layers.extend(frame.reused.iter().map(Reused::layer));
         image.layers.extend(before.iter().map(|before| before.image.as_layer(NOISY)));
         image.layers.extend(halves.iter().filter(|_| before.is_some()).flat_map(Halves::layers));
+        let is_mean = before.is_none() && frame.reused.is_none();
         let picture = Picture {
             image,
             spp: Some(film.samples_per_pixel()),
             runs: frame.runs,
             seconds: frame.seconds,
             effort: Effort::Traced(frame.stats),
-            noisy: self.has_noise_source && !frame.rough && before.is_none() && compare::is_visibly_noisy(film),
+            noisy: self.has_noise_source && !frame.rough && is_mean && compare::is_visibly_noisy(film),
             nonfinite: film.nonfinite,
             adapter: frame.made_by.into(),
             refused: frame.refused,
             filter_fault,
             before,
+            lag: frame.reused.map(|reused| reused.lag),
             cut: None,
             rough: frame.rough,
             unfinished: frame.unfinished,

@@ -80,12 +80,15 @@ fn value<'a>(records: &'a [(String, String)], name: &str) -> Option<&'a str> {
     records.iter().find(|(known, _)| known == name).map(|(_, value)| value.as_str())
 }
 
+/// What stands before the command of a pane whose picture was not all that this makes, or more.
+pub const QUALIFIED: [&str; 2] = ["rough, in full: ", "with earlier views, and without: "];
+
 /// The picture as seen, or the map of errors: each pane's command, and how they were shown.
 fn as_seen(records: &[(String, String)]) -> anyhow::Result<Option<Kept>> {
     let value = |name: &str| value(records, name);
     let command = |id: PaneId| {
         let line = value(id.name())?;
-        Some((id, made_by_command(line.strip_prefix("rough, in full: ").unwrap_or(line))?))
+        Some((id, made_by_command(QUALIFIED.into_iter().find_map(|words| line.strip_prefix(words)).unwrap_or(line))?))
     };
     let panes: Vec<_> = [PaneId::A, PaneId::B].into_iter().filter_map(command).collect();
     if panes.is_empty() {

@@ -3,7 +3,7 @@
 use super::{Against, Effort, ErrorHistory, ErrorMap, ErrorPoint, PaneId, Panes, Progress};
 use compare::Errors;
 use std::sync::Arc;
-use technique::{Provenance, Technique};
+use technique::{Lag, Provenance, Technique};
 
 /// All that there is to show, beside the pictures' pixels.
 #[derive(Debug, Clone, Default)]
@@ -43,6 +43,8 @@ pub struct PaneView {
     pub errors: Option<(Against, Errors)>,
     /// What taking out its noise took, and how far off it was before.
     pub denoised: Option<Denoising>,
+    /// What it has of earlier views, where they count.
+    pub lag: Option<Lag>,
     /// How far it was from that while it was made.
     pub history: ErrorHistory,
     /// What made it: a device's name, or a number of threads.

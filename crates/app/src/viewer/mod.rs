@@ -225,6 +225,7 @@ fn dump_of(pane: &PaneView, ready: bool) -> Value {
         "unfinished": pane.unfinished,
         "at_rest": matches!(pane.effort, Some(Effort::Drawn(Drawing { at_rest: true, .. }))),
         "nonfinite": pane.nonfinite,
+        "earlier_views": pane.lag.map(|lag| [lag.samples, lag.seconds]),
         "rel_mse": pane.errors.map(|(_, e)| e.rel_mse),
         "fault": pane.fault,
         "adapter": pane.adapter.as_deref(),

@@ -4,6 +4,7 @@
 use crate::engine::Picture;
 use crate::engine::export::Content;
 use crate::engine::post_process::{DisplayFrame, PaneUpdate, PaneUpdates};
+use crate::engine::restore::QUALIFIED;
 use crate::engine::thumbnails::Thumbnail;
 use crate::model::{
     Against, ComparisonSettings, Denoising, ErrorMap, Model, PaneId, PaneView, Panes, ViewModel, Wanted,
@@ -14,7 +15,7 @@ use egui::{TextureFilter, TextureId};
 use film::DisplayTransform;
 use image_file::Records;
 use std::sync::Arc;
-use technique::{Halves, Made, OWN_FOV, Technique, camera_options};
+use technique::{EARLIER_VIEWS, Halves, Made, OWN_FOV, Technique, camera_options};
 
 /// All panes and the map.
 #[derive(Default)]
@@ -93,6 +94,7 @@ impl Presentation {
         (shown.rough, shown.unfinished) = (picture.rough, picture.unfinished);
         shown.shrink = picture.order.size().0.div_ceil(picture.image.width().max(1)) * picture.order.shrink;
         shown.errors = errors;
+        shown.lag = picture.lag;
         shown.denoised = picture.before.as_ref().map(|before| Denoising { seconds: before.seconds, errors_before });
         self.pictures.insert(pane, picture);
     }
@@ -146,6 +148,9 @@ impl Presentation {
         let mut records = provenance.records(made);
         let halves = picture.before.as_ref().and_then(|before| before.halves);
         records.extend(halves.into_iter().flat_map(Halves::records));
+        if let Some(lag) = picture.lag {
+            records.push((EARLIER_VIEWS, format!("{lag}: command makes it without them")));
+        }
         let own = &picture.order.own_camera;
         if own.fov_y != picture.order.camera().fov_y {
             records.push((OWN_FOV, own.fov_y.to_string()));
@@ -185,7 +190,9 @@ impl Presentation {
         for (pane, picture) in self.pictures.iter() {
             let (provenance, spp) = picture.made();
             let command = provenance.command(spp, exposure, &file_of(pane));
-            records.push((pane.name(), if picture.rough { format!("rough, in full: {command}") } else { command }));
+            let [rough, lagging] = QUALIFIED;
+            let qualified = if picture.rough { rough } else { picture.lag.map_or("", |_| lagging) };
+            records.push((pane.name(), format!("{qualified}{command}")));
         }
         records
     }

@@ -149,3 +149,21 @@ fn a_setting_that_others_undo_has_no_effect_and_it_is_said() {
     let again = visavis(&["render", "--from", out, "--exposure", "1", "-o", out]);
     assert!(!String::from_utf8_lossy(&again.stderr).contains("has no effect"));
 }
+
+/// There are none outside the window: nothing of them is in picture or records.
+#[test]
+fn earlier_views_have_no_effect_on_a_picture_that_has_none() {
+    let folder = TestFolder::new();
+    let [plain, with] =
+        ["plain.exr", "with.exr"].map(|name| folder.file(name).to_str().expect("a plain path").to_owned());
+    let render = |out: &str, more: &[&str]| {
+        let made = visavis(&[&["render", "cornell", "--size", "8x8", "--spp", "2", "-o", out], more].concat());
+        assert!(made.status.success());
+        String::from_utf8_lossy(&made.stderr).into_owned()
+    };
+    assert!(!render(&plain, &[]).contains("--history"));
+    assert!(render(&with, &["--history", "8"]).contains("--history has no effect here"));
+    assert!(film(&plain) == film(&with));
+    let records = image_file::records(std::path::Path::new(&with)).expect("records");
+    assert!(records.iter().all(|(name, value)| !name.starts_with("history") && !value.contains("--history")));
+}

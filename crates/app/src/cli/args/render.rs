@@ -13,7 +13,9 @@ use pathtrace::SettingsError;
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 use technique::settings::{all_of_panes, of_panes, of_scenes};
-use technique::{DeviceChoice, PaneSettings, Preset, Recorded, Technique, TechniqueName, made_from, presets};
+use technique::{
+    DeviceChoice, EARLIER_VIEWS, PaneSettings, Preset, Recorded, Technique, TechniqueName, made_from, presets,
+};
 
 /// `visavis render SCENE -o OUT ...`; `None` leaves a value to the scene.
 #[derive(Debug, Clone, PartialEq)]
@@ -255,7 +257,8 @@ fn read_records(file: &Path) -> anyhow::Result<(RenderArgs, Vec<OsString>)> {
         };
         anyhow::bail!("{why}: {}", image_file::shown(file));
     };
-    let original = Some(Original { file: file.to_owned(), scene: scene_hash });
+    let counts = records.iter().find(|(name, _)| name == EARLIER_VIEWS).map(|(_, counts)| counts.clone());
+    let original = Some(Original { file: file.to_owned(), scene: scene_hash, earlier_views: counts });
     let words: Vec<OsString> = options.into_iter().map(OsString::from).collect();
     let alone = words.iter().cloned().chain(["-o".into(), "out.png".into()]).collect();
     match parse_words(alone, Some(scene)) {

@@ -57,6 +57,7 @@ impl LabelText {
             let source = traced.noise_source(&made.shot.scene).filter(|_| shown.noisy);
             text.notes.extend(source.map(|source| source.words().to_owned()));
             text.facts.extend(branching(traced, shown, beside));
+            text.facts.extend(shown.lag.map(|lag| format!("+ {lag} (lag)")));
             text.facts.extend(denoised(shown, made.technique.denoise()));
             text.notes.extend(weightless(&traced.denoise));
             text.facts.extend(chains(shown).map(|stats| told_of_chains(&stats)));

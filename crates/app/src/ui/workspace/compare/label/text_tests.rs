@@ -65,6 +65,17 @@ fn a_filter_that_failed_is_no_loss_of_what_traces() {
 }
 
 #[test]
+fn what_is_of_earlier_views_is_told_with_its_age() {
+    let lag = |samples| Some(technique::Lag { samples, seconds: 0.44 });
+    let told = |samples| label(&PaneView { lag: lag(samples), ..path(&[("spp", "64")], 12) }, None);
+    assert_eq!(told(30.2).facts, ["+ 30 spp of earlier views, 0.4 s old (lag)"]);
+    assert_eq!(
+        (told(0.5).facts, told(0.5).figures),
+        (vec!["+ 0.5 spp of earlier views, 0.4 s old (lag)".into()], vec!["12 of 64 spp, 500 ms".into()])
+    );
+}
+
+#[test]
 fn chains_tell_what_they_take_and_that_their_spread_is_no_error() {
     let chains = pathtrace::ChainStats { runs: 4, mutations: 4000, accepted: 2160, scales: 0.556 };
     let of_chains = |changes: &[(&str, &str)], chains| PaneView {
