@@ -67,16 +67,19 @@ impl<'a> Reprojection<'a> {
         let pixel = (y * self.now.image.width() + x) as usize;
         let depth = self.now.features.depth[pixel];
         let point = self.point([x, y], depth, self.now.features.normal[pixel])?;
-        let (mut sums, mut weights) = (Found { radiance: Vec3::ZERO, samples: 0.0, age: 0.0 }, 0.0);
+        let mut sums = Found { radiance: Vec3::ZERO, samples: 0.0, age: 0.0 };
+        let [mut weights, mut squares] = [0.0; 2];
         for (tap, weight) in self.taps(&point).filter(|(tap, _)| self.shows(*tap, &point)) {
             sums.radiance += weight * self.history.image.radiances()[tap];
             sums.samples += weight * self.history.samples[tap];
             sums.age += weight * self.history.age[tap];
             weights += weight;
+            squares += weight * weight;
         }
-        // a pixel that was larger then spreads its samples over several now
+        // a pixel that was larger then spreads its samples over several now; of smaller ones the mean is taken of as many as the
+        // weights are for
         let closer = if depth == f32::INFINITY { 1.0 } else { depth / point.distance };
-        let share = (self.ratio * closer * closer).min(1.0) / weights;
+        let share = (self.ratio * closer * closer).min(weights * weights / squares) / weights;
         let Found { radiance, samples, age } = sums;
         (weights >= LEAST_WEIGHT && samples > 0.0).then(|| Found {
             radiance: radiance / weights,

@@ -224,7 +224,7 @@ fn a_coarser_picture_counts_by_its_share_of_samples() {
     };
     let fade = fade(1, REUSE.limit);
     assert!((count(&coarse, &fine) - 2.0 * fade).abs() < 1e-3, "of four pixels one has a quarter");
-    assert!((count(&fine, &coarse) - 8.0 * fade).abs() < 1e-3);
+    assert!((count(&fine, &coarse) - 32.0 * fade).abs() < 1e-3, "and of one four");
     let near = Stage::from(CAMERA.dollied(2.0)).seen();
     assert!((count(&fine, &near) - 2.0 * fade).abs() < 0.1, "and so it is from half the distance");
 }
