@@ -17,4 +17,4 @@ pub use error_metric::{ErrorMetric, finite_mean};
 pub use fits::{ErrorSplit, Fit, efficiency, fit, split_error};
 pub use metrics::{CompareError, Errors, REL_MSE_FLOOR, errors, is_visibly_noisy, mean_squared_standard_error};
 pub use noise::{SIGNIFICANT, variance_by_parts, within_noise};
-pub use plot::{COLOURS, LogLogPlot, PlotPoint, Range, Series, Stroke, escaped};
+pub use plot::{COLOURS, LogLogPlot, PlotPoint, Range, Series, Stroke, escaped, log_ticks, tick_text};

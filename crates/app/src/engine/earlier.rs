@@ -45,7 +45,7 @@ impl Earlier {
 }
 
 /// Whether two orders differ in the wished number of samples at most.
-fn is_same_picture(a: &Order, b: &Order) -> bool {
+pub fn is_same_picture(a: &Order, b: &Order) -> bool {
     let how = |order: &Order| match order.provenance.technique {
         Technique::Fake(_) => None,
         Technique::Traced(traced) => {
@@ -58,14 +58,14 @@ fn is_same_picture(a: &Order, b: &Order) -> bool {
 }
 
 #[cfg(test)]
-mod tests {
+pub mod tests {
     use super::*;
     use film::Vec3;
     use std::sync::Arc;
     use technique::{Device, PaneSettings, Provenance, Shot, TechniqueName};
 
     /// A picture of one pixel whose radiance is its number of samples.
-    fn picture(technique: TechniqueName, view: u64, spp: u32) -> Picture {
+    pub fn picture(technique: TechniqueName, view: u64, spp: u32) -> Picture {
         let mut settings = PaneSettings::of(technique);
         // more were wished for meanwhile
         settings.truth.spp = 100 + spp;

@@ -20,6 +20,8 @@ pub enum Content {
     Pane(Picture, DisplayTransform),
     /// A map of errors.
     Map(Arc<ErrorMap>),
+    /// What is no picture, in a file whose name may end in anything.
+    Text(String),
 }
 
 /// Something to export.
@@ -93,21 +95,25 @@ impl Service for Exports {
 }
 
 fn save(export: &Export, path: &Path) -> anyhow::Result<PathBuf> {
+    let Export { content, records, .. } = export;
+    if let Content::Text(text) = content {
+        return Ok(image_file::write_new(path, text.as_bytes())?);
+    }
     let kind =
         Kind::of(path).with_context(|| format!("the name must end in .png or .exr: {}", image_file::shown(path)))?;
-    let bytes = match (&export.content, kind) {
-        (Content::Seen(_), Kind::Exr) => {
+    let bytes = match (content, kind) {
+        (Content::Map(drawn), kind) => drawn.map.encode(kind, &drawn.map_job.pair, records.clone())?,
+        (Content::Pane(picture, display), kind) => image_file::encode(kind, &picture.image, display, records)?,
+        (Content::Seen(capture), Kind::Png) => {
+            let Pixels { width, height, rgba } = capture.pixels()?;
+            image_file::encode_rgba8(width, height, &rgba, records)?
+        }
+        (Content::Seen(_) | Content::Text(_), _) => {
             anyhow::bail!(
                 "EXR keeps the radiance of one pane: save A, B or the error map, or end the name in .png: {}",
                 image_file::shown(path)
             )
         }
-        (Content::Seen(capture), Kind::Png) => {
-            let Pixels { width, height, rgba } = capture.pixels()?;
-            image_file::encode_rgba8(width, height, &rgba, &export.records)?
-        }
-        (Content::Map(drawn), kind) => drawn.map.encode(kind, &drawn.map_job.pair, export.records.clone())?,
-        (Content::Pane(picture, display), kind) => image_file::encode(kind, &picture.image, display, &export.records)?,
     };
     Ok(image_file::write_new(path, &bytes)?)
 }
@@ -123,11 +129,19 @@ fn copy(export: &Export, clipboard: &mut Option<arboard::Clipboard>) -> anyhow::
             let (width, height, rgba) = drawn.map.with_bar();
             Pixels { width, height, rgba }
         }
+        Content::Text(text) => {
+            let outcome = opened(clipboard).and_then(|open| open.set_text(text));
+            return outcome.context("cannot copy the text; save it instead");
+        }
     };
     let image = arboard::ImageData { width: width as usize, height: height as usize, bytes: rgba.into() };
-    let outcome = match clipboard {
-        Some(clipboard) => clipboard.set_image(image),
-        None => arboard::Clipboard::new().and_then(|new| clipboard.insert(new).set_image(image)),
-    };
+    let outcome = opened(clipboard).and_then(|open| open.set_image(image));
     outcome.context("cannot copy the picture; save it instead")
+}
+
+fn opened(clipboard: &mut Option<arboard::Clipboard>) -> Result<&mut arboard::Clipboard, arboard::Error> {
+    match clipboard {
+        Some(open) => Ok(open),
+        None => arboard::Clipboard::new().map(|new| clipboard.insert(new)),
+    }
 }

@@ -10,6 +10,7 @@
 pub mod ask;
 mod asked_pane;
 pub mod capture;
+mod course;
 pub mod dialogue;
 mod earlier;
 pub mod error_map;

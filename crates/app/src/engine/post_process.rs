@@ -3,11 +3,12 @@
 //! errors is made of goes on to the [`ErrorMapWorker`], which has a thread of its own: FLIP takes longer than a picture
 //! may wait.
 
+use super::course::Course;
 use super::earlier::Earlier;
 use super::error_map::ErrorMapWorker;
 use super::worker::{Control, Service, Worker};
 use super::{Order, Picture, Wake};
-use crate::model::{Against, Comparison, ErrorMapJob, MapWish, PaneId, Panes};
+use crate::model::{Against, Comparison, ErrorMapJob, ErrorPoint, MapWish, PaneId, Panes};
 use crate::ruler::{Noise, Pair, ReferenceImage};
 use compare::{Errors, errors};
 use film::{DisplayTransform, Image};
@@ -22,6 +23,8 @@ pub struct DisplayFrame {
     pub rgba: Option<Vec<u8>>,
     /// What it is compared with, and how far it is from that; `None` unless that is there at the same size.
     pub errors: Option<(Against, Errors)>,
+    /// How far it was from the reference while it was made, where that has come or become better since.
+    pub course: Option<Vec<ErrorPoint>>,
     /// How far it was from the reference before it was denoised; `None` unless it was, and is held against that.
     pub errors_before: Option<Errors>,
 }
@@ -68,6 +71,8 @@ struct Latest {
     latest: Panes<Picture>,
     /// What tells how noisy they are.
     earlier: Panes<Earlier>,
+    /// What tells how their errors have fallen.
+    courses: Panes<Course>,
     /// The newest job that each pane has delivered.
     newest: Panes<u64>,
     oldest_view: u64,
@@ -144,6 +149,7 @@ impl Service for Latest {
 
     fn serve(&mut self, pending: Pending, control: &Control<Pending, PaneUpdates>) {
         let redevelop = pending.display.is_some();
+        let judged_anew = pending.reference.is_some() || pending.comparisons.is_some();
         let (fresh, faults) = self.sort(pending);
         let (errors, before) = (self.errors(|picture| Some(&picture.image)), self.errors(undenoised));
         let resolve = |(pane, picture): (PaneId, &Picture)| {
@@ -152,7 +158,9 @@ impl Service for Latest {
             // of two noisy pictures of the same samples it would say how alike they are
             let told = before.get(pane).filter(|(against, _)| *against == Against::Reference);
             let errors_before = told.map(|(_, errors)| *errors);
-            (pane, DisplayFrame { picture: picture.clone(), rgba, errors: errors.get(pane).copied(), errors_before })
+            let course = if judged_anew { self.course(pane, picture) } else { None };
+            let errors = errors.get(pane).copied();
+            (pane, DisplayFrame { picture: picture.clone(), rgba, errors, course, errors_before })
         };
         // all at once: the error of one belongs to the picture of the other
         let frames: Panes<DisplayFrame> = self.latest.iter().map(resolve).collect();
@@ -191,6 +199,9 @@ impl Latest {
                     if let Some(earlier) = Earlier::follow(self.earlier.remove(pane), &picture) {
                         self.earlier.insert(pane, earlier);
                     }
+                    if let Some(course) = Course::follow(self.courses.remove(pane), &picture) {
+                        self.courses.insert(pane, course);
+                    }
                     self.latest.insert(pane, *picture);
                     fresh.insert(pane, ());
                 }
@@ -199,7 +210,9 @@ impl Latest {
                     self.latest.remove(pane);
                     faults.insert(pane, fault);
                 }
-                Arrival::Gone => drop((self.latest.remove(pane), self.earlier.remove(pane))),
+                Arrival::Gone => {
+                    drop((self.latest.remove(pane), self.earlier.remove(pane), self.courses.remove(pane)));
+                }
                 Arrival::Picture(_) | Arrival::Fault(..) => {}
             }
         }
@@ -221,6 +234,15 @@ impl Latest {
             Some((comparison.of, (comparison.against, errors)))
         };
         self.comparisons.iter().filter_map(measured).collect()
+    }
+
+    /// How far a pane's picture was from the reference while it was made, where that judges it.
+    fn course(&self, pane: PaneId, picture: &Picture) -> Option<Vec<ErrorPoint>> {
+        let judges = |comparison: &&Comparison| (comparison.of, comparison.against) == (pane, Against::Reference);
+        self.comparisons.iter().find(judges)?;
+        let reference = self.reference_of(picture)?;
+        let points = self.courses.get(pane)?.measured(|image| reference.errors(image).ok());
+        (!points.is_empty()).then_some(points)
     }
 
     /// The reference, if it is that of this picture.
@@ -282,6 +304,9 @@ fn still_wanted(order: &Order, oldest_view: u64, newest_job: u64) -> bool {
 fn shelve(updates: &mut PaneUpdates, pane: PaneId, mut new: DisplayFrame) {
     if let (None, Some(PaneUpdate::Picture(old))) = (&new.rgba, updates.get_mut(pane)) {
         new.rgba = old.rgba.take();
+    }
+    if let (None, Some(PaneUpdate::Picture(old))) = (&new.course, updates.get_mut(pane)) {
+        new.course = old.course.take();
     }
     updates.insert(pane, PaneUpdate::Picture(Box::new(new)));
 }

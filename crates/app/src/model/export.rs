@@ -13,6 +13,27 @@ pub enum ExportSubject {
     Pane(PaneId),
     /// The map of errors, with its colour bar and without labels.
     ErrorMap,
+    /// How errors have fallen.
+    Plot(PlotFile),
+}
+
+/// What the plot of errors is kept as.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum PlotFile {
+    /// Its numbers, a row a moment.
+    Csv,
+    /// A picture of lines.
+    Svg,
+}
+
+impl PlotFile {
+    /// The name on its button.
+    pub fn name(self) -> &'static str {
+        match self {
+            PlotFile::Csv => "CSV",
+            PlotFile::Svg => "SVG",
+        }
+    }
 }
 
 /// Where an export goes.

@@ -1,6 +1,6 @@
 //! How it is looked at: what one would want to find again after a pause.
 
-use super::{CompareWith, ComparisonSettings, Line, PaneId, Panes, View, saved};
+use super::{CompareWith, ComparisonSettings, Line, PaneId, Panes, PlotSettings, View, saved};
 use film::DisplayTransform;
 use raster::Show;
 use scene::{Needs, Scene};
@@ -26,6 +26,9 @@ pub struct Session {
     pub wipe: f32,
     /// What is compared with what, and how it is drawn.
     pub comparison: ComparisonSettings,
+    /// What is plotted of the errors.
+    #[serde(default)]
+    pub plots: PlotSettings,
 }
 
 /// How many pixels a picture has.
@@ -75,6 +78,7 @@ impl Default for Session {
             line: Line::Vertical,
             wipe: 0.5,
             comparison: ComparisonSettings::default(),
+            plots: PlotSettings::default(),
         }
     }
 }

@@ -1,6 +1,6 @@
 //! What controls come back to, and what is in hand: nothing that anyone would miss the next day.
 
-use super::{ExportMenu, Message, Panes, PictureArea, Remembered, Slide, Theme};
+use super::{Curve, ExportMenu, Message, Panes, PictureArea, Remembered, Slide, Theme};
 use std::path::PathBuf;
 
 /// The state of the controls.
@@ -50,6 +50,8 @@ pub struct UiState {
     pub reference_file: String,
     /// The slide that is shown once its scene has come.
     pub awaited_slide: Option<&'static Slide>,
+    /// Curves of errors that were kept, to compare others with.
+    pub pinned: Vec<Curve>,
     /// What the export menu shows while it is open.
     pub export: ExportMenu,
     /// What switched-off settings come back to.
@@ -97,6 +99,7 @@ impl UiState {
             scene_file: String::new(),
             reference_file: String::new(),
             awaited_slide: None,
+            pinned: Vec::new(),
             export: ExportMenu::default(),
             switched_off: Panes::default(),
         }

@@ -80,6 +80,13 @@ pub(crate) struct Course {
     judge: Option<Provenance>,
 }
 
+impl Course {
+    /// What judges the picture.
+    pub(crate) fn against(&self) -> Against {
+        self.against
+    }
+}
+
 impl PaneView {
     /// A pane without a picture, and why.
     pub fn failed(fault: String) -> Self {
@@ -88,8 +95,9 @@ impl PaneView {
 }
 
 impl ViewModel {
-    /// Adds the errors of a pane to its history; one of another picture, or against another, begins anew.
-    pub fn note_errors(&mut self, id: PaneId) {
+    /// Adds the errors of a pane to its history; one of another picture, or against another, begins anew. `earlier` errors of
+    /// the same picture, measured only now, take the place of what was known of it.
+    pub fn note_errors(&mut self, id: PaneId, earlier: Vec<ErrorPoint>) {
         let judge = |against| match against {
             Against::Pane(judge) => self.panes.get(judge)?.provenance.as_deref().map(without_spp),
             Against::Reference => None,
@@ -102,10 +110,11 @@ impl ViewModel {
         // a fake that is measured again has a time before that of its first point
         let is_before = |latest: &ErrorPoint| latest.spp > point.spp || latest.seconds > point.seconds;
         let begun_anew = pane.history.latest().is_some_and(is_before);
-        if begun_anew || pane.course.as_ref() != Some(&course) {
+        if begun_anew || !earlier.is_empty() || pane.course.as_ref() != Some(&course) {
             (pane.history, pane.course) = (ErrorHistory::default(), Some(course));
         }
-        pane.history.push(point);
+        let before = earlier.into_iter().filter(|earlier| earlier.spp <= point.spp && earlier.seconds <= point.seconds);
+        before.chain(std::iter::once(point)).for_each(|point| pane.history.push(point));
     }
 }
 
@@ -140,7 +149,7 @@ mod tests {
             model.panes.insert(PaneId::A, pane(*technique_of_a, 256, 1));
             let (history, course) = model.panes.remove(PaneId::B).map(|b| (b.history, b.course)).unwrap_or_default();
             model.panes.insert(PaneId::B, PaneView { history, course, ..b.clone() });
-            model.note_errors(PaneId::B);
+            model.note_errors(PaneId::B, Vec::new());
         }
         model.panes[PaneId::B].history.iter().filter_map(|point| point.spp).collect()
     }
@@ -160,6 +169,13 @@ mod tests {
         assert_eq!(history(&[(Raster, slow), (Raster, again)]), [2], "no time goes back");
         assert_eq!(history(&[path(256, 1), (Raster, pane(Whitted, 256, 2))]), [2], "by another technique");
         assert_eq!(history(&[path(256, 1), (Whitted, pane(Path, 256, 2))]), [2], "against another picture");
+        let mut judged_late = ViewModel::default();
+        judged_late.panes.insert(PaneId::A, pane(Raster, 256, 1));
+        judged_late.panes.insert(PaneId::B, pane(Path, 256, 4));
+        let earlier = [1, 2, 8].map(|spp| ErrorPoint { spp: Some(spp), seconds: 0.0, errors: Errors::default() });
+        judged_late.note_errors(PaneId::B, earlier.into());
+        let spps: Vec<_> = judged_late.panes[PaneId::B].history.iter().filter_map(|point| point.spp).collect();
+        assert_eq!(spps, [1, 2, 4], "what was measured later, and nothing of a longer picture");
         let rough = PaneView { rough: true, ..pane(Path, 256, 2) };
         assert_eq!(history(&[path(256, 1), (Raster, rough)]), [1], "rough ones are no points");
     }

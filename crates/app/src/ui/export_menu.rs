@@ -2,16 +2,26 @@
 
 use super::widgets::{Explained, framed, menu};
 use super::{UiCommand, UiContext, dialogue_button};
-use crate::model::{Destination, ExportRequest, ExportSubject, FilePurpose, FileWish, Model, PaneId, PaneView};
+use crate::model::{
+    Destination, ExportRequest, ExportSubject, FilePurpose, FileWish, Model, PaneId, PaneView, PlotFile,
+};
 use egui::Ui;
 use image_file::{self, Kind};
 use std::path::{Path, PathBuf};
 
 /// The file for the picture as seen: in the folder that was typed, or the default one.
 pub fn seen_file(model: &Model) -> PathBuf {
+    folder(model).join(format!("{}.png", stem(model, ExportSubject::AsSeen)))
+}
+
+/// The file for the plot of errors, in the same folder.
+pub fn plot_file(model: &Model, kind: PlotFile) -> PathBuf {
+    folder(model).join(format!("{}.{}", stem(model, ExportSubject::Plot(kind)), kind.name().to_lowercase()))
+}
+
+fn folder(model: &Model) -> PathBuf {
     let typed = image_file::typed_path(&model.state.export.file, &default_folder());
-    let folder = if typed.is_dir() { typed } else { typed.parent().map_or_else(default_folder, Path::to_owned) };
-    folder.join(format!("{}.png", stem(model, ExportSubject::AsSeen)))
+    if typed.is_dir() { typed } else { typed.parent().map_or_else(default_folder, Path::to_owned) }
 }
 
 fn title(subject: ExportSubject) -> String {
@@ -19,6 +29,7 @@ fn title(subject: ExportSubject) -> String {
         ExportSubject::AsSeen => "As seen".into(),
         ExportSubject::Pane(pane) => format!("{pane} alone"),
         ExportSubject::ErrorMap => "The error map".into(),
+        ExportSubject::Plot(_) => "The plot".into(),
     }
 }
 
@@ -32,6 +43,7 @@ fn stem(model: &Model, subject: ExportSubject) -> String {
     let session = &model.session;
     let of = match (subject, session.view) {
         (ExportSubject::Pane(pane), _) => session.panes[pane].technique.name().to_owned(),
+        (ExportSubject::Plot(_), _) => format!("{}-over-{}", session.plots.measure.name(), session.plots.over.name()),
         (ExportSubject::ErrorMap, _) => format!("error-{}", session.comparison.metric.name()),
         (ExportSubject::AsSeen, view) => view.name().to_lowercase().replace(' ', "-"),
     };

@@ -3,6 +3,7 @@
 
 mod files;
 mod judge;
+mod plots;
 mod presentation;
 mod stopwatch;
 
@@ -121,6 +122,7 @@ impl Viewer {
                 ExportSubject::AsSeen => return Some(UiCommand::Export(request)),
                 ExportSubject::Pane(pane) => self.export_pane(pane, request.to),
                 ExportSubject::ErrorMap => self.export_map(request.to),
+                ExportSubject::Plot(kind) => self.export_plot(kind, request.to),
             },
             UiCommand::Open(name) => {
                 let recent = self.model.state.remembered.recent.clone();

@@ -62,6 +62,7 @@ impl Presentation {
     /// Puts up what is new.
     pub fn update(&mut self, updates: PaneUpdates, textures: &mut impl TextureStore) {
         let changed: Vec<PaneId> = updates.ids().collect();
+        let mut courses = Panes::default();
         for (pane, update) in updates {
             match update {
                 PaneUpdate::Fault(fault) => {
@@ -69,15 +70,18 @@ impl Presentation {
                     self.textures.panes.remove(pane);
                     self.pictures.remove(pane);
                 }
-                PaneUpdate::Picture(frame) => self.put_up(pane, *frame, textures),
+                PaneUpdate::Picture(mut frame) => {
+                    frame.course.take().into_iter().for_each(|course| drop(courses.insert(pane, course)));
+                    self.put_up(pane, *frame, textures);
+                }
             }
         }
         // the error of one belongs to the picture of the other
-        changed.into_iter().for_each(|pane| self.shown.note_errors(pane));
+        changed.into_iter().for_each(|pane| self.shown.note_errors(pane, courses.remove(pane).unwrap_or_default()));
     }
 
     fn put_up(&mut self, pane: PaneId, frame: DisplayFrame, textures: &mut impl TextureStore) {
-        let DisplayFrame { picture, rgba, errors, errors_before } = frame;
+        let DisplayFrame { picture, rgba, errors, course: _, errors_before } = frame;
         let shown = self.shown.panes.entry(pane);
         if let Some(rgba) = &rgba {
             let texture = textures.upload(Place::Pane(pane), picture.image.size(), rgba, filter_of(&picture));

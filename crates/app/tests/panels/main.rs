@@ -3,6 +3,7 @@
 #![expect(clippy::expect_used, reason = "a test stops at the first thing that is not as it must be")]
 
 mod numbers;
+mod plots;
 mod settings;
 mod views;
 
@@ -41,6 +42,11 @@ impl Panels {
     }
 
     fn in_workspaces(model: Model, workspaces: Workspaces) -> Self {
+        Self::with(model, workspaces, ViewModel::default())
+    }
+
+    /// The window of what there is to show, without textures.
+    fn with(model: Model, workspaces: Workspaces, shown: ViewModel) -> Self {
         let model = Rc::new(RefCell::new(model));
         let workspaces = Rc::new(RefCell::new(workspaces));
         let requests = Rc::new(RefCell::new(Vec::new()));
@@ -48,7 +54,7 @@ impl Panels {
         let harness = Harness::builder().with_size([1280.0, 800.0]).with_step_dt(1.0 / 60.0).build_ui(move |ui| {
             let mut cx = UiContext {
                 model: &mut shared.borrow_mut(),
-                shown: &ViewModel::default(),
+                shown: &shown,
                 textures: &Textures::default(),
                 dump: &mut Dump::default(),
                 commands: &mut asked.borrow_mut(),

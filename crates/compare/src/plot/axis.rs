@@ -12,6 +12,8 @@ pub struct Axis {
 const FEW: f64 = 2.5;
 /// Share of the range that is added at both ends.
 const AIR: f64 = 0.05;
+/// Beyond as many there is no f64.
+const MOST_DECADES: f64 = 300.0;
 
 impl Axis {
     /// Holds all medians, and those ends of ranges that are positive.
@@ -43,11 +45,20 @@ impl Axis {
 
     /// Round values on it, ascending.
     pub fn ticks(&self) -> Vec<f64> {
-        let mantissas: &[f64] = if self.high - self.low < FEW { &[1.0, 2.0, 5.0] } else { &[1.0] };
-        let decades = self.low.floor() as i32..=self.high.ceil() as i32;
-        let values = decades.flat_map(|decade| mantissas.iter().map(move |m| m * 10f64.powi(decade)));
-        values.filter(|value| self.holds(*value)).collect()
+        log_ticks(self.low, self.high)
     }
+}
+
+/// Round values between two, all of which but the values themselves are logarithms to base 10, ascending; none outside of
+/// what f64 holds.
+pub fn log_ticks(low: f64, high: f64) -> Vec<f64> {
+    if !(low < high && low > -MOST_DECADES && high < MOST_DECADES) {
+        return Vec::new();
+    }
+    let mantissas: &[f64] = if high - low < FEW { &[1.0, 2.0, 5.0] } else { &[1.0] };
+    let decades = low.floor() as i32..=high.ceil() as i32;
+    let values = decades.flat_map(|decade| mantissas.iter().map(move |m| m * 10f64.powi(decade)));
+    values.filter(|value| (low..=high).contains(&value.log10())).collect()
 }
 
 /// A round value for people.

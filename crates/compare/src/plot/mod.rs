@@ -4,6 +4,8 @@
 mod axis;
 mod labels;
 
+pub use axis::{log_ticks, number as tick_text};
+
 use axis::Axis;
 use std::fmt::Write;
 

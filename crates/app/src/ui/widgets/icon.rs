@@ -17,6 +17,8 @@ pub enum Icon {
     Help,
     /// Two pictures with a line between them.
     Compare,
+    /// Two axes and a falling line.
+    Plots,
     /// A frame with nothing in it.
     Empty,
 }
@@ -50,6 +52,9 @@ impl Icon {
             ],
             Icon::Compare => {
                 &[&[(3.0, 5.0), (21.0, 5.0), (21.0, 19.0), (3.0, 19.0), (3.0, 5.0)], &[(12.0, 5.0), (12.0, 19.0)]]
+            }
+            Icon::Plots => {
+                &[&[(4.0, 4.0), (4.0, 20.0), (20.0, 20.0)], &[(7.0, 7.0), (11.0, 12.0), (15.0, 14.5), (20.0, 16.0)]]
             }
             Icon::Empty => &[&[(3.0, 5.0), (21.0, 5.0), (21.0, 19.0), (3.0, 19.0), (3.0, 5.0)]],
         }

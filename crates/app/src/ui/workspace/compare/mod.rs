@@ -6,11 +6,12 @@ mod map;
 mod map_faces;
 mod mouse;
 mod picture;
+mod plots;
 
 use super::Workspace;
 use crate::model::{CompareWith, Model, PaneId, View, Wanted};
 use crate::ui::pressed::{HelpLine, Keys};
-use crate::ui::widgets::{Icon, choice};
+use crate::ui::widgets::{Icon, choice, icon_button};
 use crate::ui::{UiContext, controls};
 use egui::{Key, Ui};
 
@@ -38,12 +39,21 @@ impl Workspace for Compare {
         if let Some(index) = choice(("view", ""), words, ui, cx.dump) {
             cx.model.choose(View::ALL[index]);
         }
+        let open = cx.model.session.plots.open;
+        let hover = "How errors fall while pictures are made: show or hide the plots (G)";
+        let plots = icon_button(Icon::Plots, ("Plots", hover), (true, open), ui);
+        if cx.dump.note("plots", open, plots).clicked() {
+            cx.model.session.plots.open = !open;
+        }
     }
 
     fn keys(&mut self, cx: &mut UiContext, keys: &Keys) {
         for _ in 0..keys.presses(Key::T) {
             cx.model.session.toggle();
             cx.model.state.hint = false;
+        }
+        if keys.presses(Key::G) % 2 == 1 {
+            cx.model.session.plots.open = !cx.model.session.plots.open;
         }
         for (key, view) in VIEW_KEYS.into_iter().zip(View::ALL) {
             for _ in 0..keys.presses(key) {
@@ -54,6 +64,7 @@ impl Workspace for Compare {
 
     fn ui(&mut self, cx: &mut UiContext, ui: &mut Ui) {
         controls::panel(cx, ui, heads, cards);
+        plots::drawer(cx, ui);
         // no ground under the pictures, which cover it: where the processor draws, every layer is paid for
         let bare = egui::CentralPanel::default().frame(egui::Frame::NONE);
         bare.show(ui, |ui| picture::show(cx, ui));
@@ -81,6 +92,7 @@ impl Workspace for Compare {
             ("3", "wipe; again: turn the line"),
             ("4", "side by side"),
             ("5", "error map"),
+            ("G", "plots of the errors"),
         ]
     }
 }

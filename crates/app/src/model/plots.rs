@@ -1,0 +1,274 @@
+//! The course of the errors as curves: whose, over what they cost, and those that were pinned to compare others with.
+
+use super::{Against, ErrorPoint, PaneId, PaneView, ViewModel};
+use compare::Errors;
+use serde::{Deserialize, Serialize};
+use technique::settings::of_panes;
+use technique::{PaneSettings, Provenance};
+
+/// What is plotted, and whether it is in sight.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(default)]
+pub struct PlotSettings {
+    /// Whether the plots are open.
+    pub open: bool,
+    /// What errors are drawn over.
+    pub over: Cost,
+    /// Which error is drawn.
+    pub measure: Measure,
+}
+
+/// What a picture costs.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+pub enum Cost {
+    /// Samples per pixel.
+    #[default]
+    Samples,
+    /// Seconds that rendering has taken.
+    Seconds,
+}
+
+impl Cost {
+    /// Both, the default first.
+    pub const ALL: [Cost; 2] = [Cost::Samples, Cost::Seconds];
+
+    /// The name on its button.
+    pub fn name(self) -> &'static str {
+        match self {
+            Cost::Samples => "samples",
+            Cost::Seconds => "seconds",
+        }
+    }
+
+    /// Under the axis, with its unit.
+    pub fn label(self) -> &'static str {
+        match self {
+            Cost::Samples => "samples per pixel",
+            Cost::Seconds => "seconds of rendering",
+        }
+    }
+
+    /// What a picture had cost at a moment; `None` of what a technique without samples has none of.
+    pub fn of(self, point: &ErrorPoint) -> Option<f64> {
+        match self {
+            Cost::Samples => point.spp.map(f64::from),
+            Cost::Seconds => Some(point.seconds),
+        }
+    }
+}
+
+/// An error that falls as a power of the samples where nothing is left but noise.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+pub enum Measure {
+    /// [`Errors::rel_mse`].
+    #[default]
+    RelMse,
+    /// [`Errors::rmse`].
+    Rmse,
+    /// [`Errors::mae`].
+    Mae,
+}
+
+impl Measure {
+    /// All, the default first.
+    pub const ALL: [Measure; 3] = [Measure::RelMse, Measure::Rmse, Measure::Mae];
+
+    /// The name on its button and beside the axis.
+    pub fn name(self) -> &'static str {
+        match self {
+            Measure::RelMse => "relMSE",
+            Measure::Rmse => "RMSE",
+            Measure::Mae => "MAE",
+        }
+    }
+
+    /// Its value of all errors.
+    pub fn of(self, errors: &Errors) -> f64 {
+        match self {
+            Measure::RelMse => errors.rel_mse,
+            Measure::Rmse => errors.rmse,
+            Measure::Mae => errors.mae,
+        }
+    }
+
+    /// The power of the number of independent samples by which noise falls: -1/2, and -1 where it is squared.
+    pub fn slope(self) -> f64 {
+        match self {
+            Measure::RelMse => -1.0,
+            Measure::Rmse | Measure::Mae => -0.5,
+        }
+    }
+
+    /// The same in words.
+    pub fn slope_name(self) -> &'static str {
+        match self {
+            Measure::RelMse => "slope -1",
+            Measure::Rmse | Measure::Mae => "slope -1/2",
+        }
+    }
+}
+
+/// Whose curve it is, which decides how it is drawn.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Owner {
+    /// A pane's, which goes on.
+    Pane(PaneId),
+    /// Kept, whatever panes show now.
+    Pinned(usize),
+}
+
+/// The errors of one picture while it was made.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Curve {
+    /// What the picture is: "A: Path tracing, light".
+    pub name: String,
+    /// Whose it is.
+    pub owner: Owner,
+    /// In order of time, never empty.
+    pub points: Vec<ErrorPoint>,
+    /// What judged it.
+    pub against: Against,
+}
+
+impl Curve {
+    /// Whether it is the level of a picture that samples do not make better.
+    pub fn is_level(&self) -> bool {
+        self.points.iter().all(|point| point.spp.is_none())
+    }
+
+    /// The latest error, and all for a cost > 0: (cost, error), each > 0 and finite.
+    pub fn places(&self, settings: PlotSettings) -> impl Iterator<Item = [f64; 2]> {
+        let place = move |point: &ErrorPoint| Some([settings.over.of(point)?, settings.measure.of(&point.errors)]);
+        self.points.iter().filter_map(place).filter(|place| place.iter().all(|v| *v > 0.0 && v.is_finite()))
+    }
+
+    /// The error of the latest moment, if it is > 0.
+    pub fn latest(&self, measure: Measure) -> Option<f64> {
+        self.points.last().map(|point| measure.of(&point.errors)).filter(|error| *error > 0.0 && error.is_finite())
+    }
+}
+
+impl ViewModel {
+    /// The curves of all panes whose errors are measured.
+    pub fn curves(&self) -> Vec<Curve> {
+        self.panes.iter().filter_map(|(id, pane)| self.curve(id, pane)).collect()
+    }
+
+    fn curve(&self, id: PaneId, pane: &PaneView) -> Option<Curve> {
+        let points: Vec<ErrorPoint> = pane.history.iter().copied().collect();
+        let (against, made) = (pane.course.as_ref()?.against(), pane.provenance.as_deref()?);
+        let name = format!("{id}: {}", name_by_itself(made));
+        (!points.is_empty()).then_some(Curve { name, owner: Owner::Pane(id), points, against })
+    }
+}
+
+/// What tells a picture from the usual one of its technique, but for its samples, along which the curve goes.
+fn name_by_itself(made: &Provenance) -> String {
+    let mut usual = PaneSettings::of(made.technique.name());
+    let samples = of_panes("spp").and_then(|row| Some((row, (row.get)(&PaneSettings::from(made.technique))?)));
+    samples.into_iter().for_each(|(row, value)| usual.set(row, value));
+    usual.take_usual_estimator(&made.shot.scene);
+    made.technique.label_beside(&usual.in_use(), &made.shot.scene)
+}
+
+/// A line of the slope by which noise falls, as (cost, error) of its ends: through the latest place of the pane's curve that
+/// has most, along the costs of all.
+pub fn guide(curves: &[Curve], settings: PlotSettings) -> Option<[[f64; 2]; 2]> {
+    let places = |curve: &Curve| curve.places(settings).collect::<Vec<_>>();
+    let of_panes = curves.iter().filter(|curve| matches!(curve.owner, Owner::Pane(_)));
+    let longest = of_panes.map(places).max_by_key(Vec::len)?;
+    let ([first, _], [last, error]) = (*longest.first()?, *longest.last()?);
+    let at = |cost: f64| [cost, error * (cost / last).powf(settings.measure.slope())];
+    (first < last).then(|| [at(first), at(last)])
+}
+
+/// The most curves that are pinned at a time: more could not be told apart.
+pub const MOST_PINNED: usize = 6;
+
+/// Keeps the curves of panes as they are now. Returns whether there was room for all.
+pub fn pin(pinned: &mut Vec<Curve>, curves: Vec<Curve>) -> bool {
+    for curve in curves {
+        let is_there = pinned.iter().any(|kept| kept.points == curve.points);
+        if is_there {
+            continue;
+        }
+        if pinned.len() == MOST_PINNED {
+            return false;
+        }
+        let name = curve.name.split_once(": ").map_or(&*curve.name, |(_, name)| name).to_owned();
+        pinned.push(Curve { name, owner: Owner::Pinned(pinned.len()), ..curve });
+    }
+    true
+}
+
+/// All that curves hold as CSV: a row a moment, numbers in all their digits.
+pub fn csv(curves: &[Curve]) -> String {
+    let mut text = String::from("curve,against,spp,seconds,relMSE,RMSE,MAE,mean difference\n");
+    for curve in curves {
+        let name = curve.name.replace('"', "\"\"");
+        for ErrorPoint { spp, seconds, errors } in &curve.points {
+            let spp = spp.map_or(String::new(), |spp| spp.to_string());
+            let Errors { rel_mse, rmse, mae, bias, .. } = errors;
+            let against = curve.against.name();
+            text += &format!("\"{name}\",{against},{spp},{seconds},{rel_mse},{rmse},{mae},{bias}\n");
+        }
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn curve(name: &str, errors: &[(Option<u32>, f64)]) -> Curve {
+        let point = |&(spp, rmse): &(Option<u32>, f64)| {
+            let errors = Errors { rmse, rel_mse: rmse * rmse, ..Errors::default() };
+            ErrorPoint { spp, seconds: 0.5 * f64::from(spp.unwrap_or(0)), errors }
+        };
+        let points = errors.iter().map(point).collect();
+        Curve { name: name.into(), owner: Owner::Pane(PaneId::A), points, against: Against::Reference }
+    }
+
+    #[test]
+    fn only_what_has_a_logarithm_has_a_place() {
+        let falling = curve("A: path", &[(Some(1), 0.5), (Some(2), 0.0), (Some(4), f64::NAN), (Some(8), 0.25)]);
+        let places = |over, measure| {
+            falling.places(PlotSettings { open: true, over, measure }).map(|[x, y]| (x, y)).collect::<Vec<_>>()
+        };
+        assert_eq!(places(Cost::Samples, Measure::Rmse), [(1.0, 0.5), (8.0, 0.25)]);
+        assert_eq!(places(Cost::Seconds, Measure::RelMse), [(0.5, 0.25), (4.0, 0.0625)]);
+        assert!(!falling.is_level() && curve("A: fake", &[(None, 0.1)]).is_level());
+    }
+
+    #[test]
+    fn the_guide_goes_through_the_latest_error_with_the_slope_of_noise() {
+        let falling = curve("A: path", &[(Some(1), 0.9), (Some(4), 0.5), (Some(16), 0.25)]);
+        let settings = |measure| PlotSettings { open: true, over: Cost::Samples, measure };
+        let of = |measure| guide(std::slice::from_ref(&falling), settings(measure));
+        assert_eq!(of(Measure::Rmse), Some([[1.0, 1.0], [16.0, 0.25]]));
+        assert_eq!(of(Measure::RelMse), Some([[1.0, 1.0], [16.0, 0.0625]]));
+        assert_eq!(guide(&[curve("A: path", &[(Some(1), 0.9)])], settings(Measure::Rmse)), None, "one is no line");
+    }
+
+    #[test]
+    fn pinned_curves_stay_and_are_told_apart_by_their_names_without_a_pane() {
+        let mut pinned = Vec::new();
+        let [a, b] = [curve("A: path, light", &[(Some(1), 0.5)]), curve("B: path, cosine", &[(Some(1), 0.7)])];
+        assert!(pin(&mut pinned, vec![a.clone(), b]));
+        assert!(pin(&mut pinned, vec![a]), "it is there already");
+        let names: Vec<_> = pinned.iter().map(|curve| (&*curve.name, curve.owner)).collect();
+        assert_eq!(names, [("path, light", Owner::Pinned(0)), ("path, cosine", Owner::Pinned(1))]);
+        let many = (0..MOST_PINNED as u32).map(|i| curve("A: path", &[(Some(i + 2), 0.5)])).collect();
+        assert!(!pin(&mut pinned, many));
+        assert_eq!(pinned.len(), MOST_PINNED);
+    }
+
+    #[test]
+    fn csv_has_a_row_for_each_moment_and_quotes_names() {
+        let text = csv(&[curve("A: \"mine\", light", &[(Some(1), 0.5), (None, 0.25)])]);
+        let rows: Vec<&str> = text.lines().collect();
+        assert_eq!(rows[0].split(',').count(), 8);
+        assert_eq!(rows[1], "\"A: \"\"mine\"\", light\",reference,1,0.5,0.25,0.5,0,0");
+        assert_eq!(rows[2], "\"A: \"\"mine\"\", light\",reference,,0,0.0625,0.25,0,0");
+    }
+}

@@ -1,0 +1,218 @@
+//! The drawer of plots: how errors fall while pictures are made, over logarithmic axes, on which a power is a straight
+//! line. egui_plot has linear axes alone: places are logarithms to base 10 here, and only ticks and hovers say numbers.
+
+use crate::model::{
+    Cost, Curve, Destination, ExportRequest, ExportSubject, Measure, Owner, PlotFile, PlotSettings, guide, pin,
+};
+use crate::ruler::brief;
+use crate::ui::theme::{Palette, palette};
+use crate::ui::widgets::{Explained, choice, framed};
+use crate::ui::{UiCommand, UiContext, export_menu};
+use compare::{log_ticks, tick_text};
+use egui::{Color32, Frame, Margin, RichText, Ui};
+use egui_plot::{
+    Corner, GridInput, GridMark, HLine, HoverPosition, Legend, Line, LineStyle, MarkerShape, Plot, PlotPoints, PlotUi,
+    Points,
+};
+
+/// Of the drawer at first, in points.
+const HEIGHT: f32 = 240.0;
+/// Below this a plot says nothing.
+const LEAST_HEIGHT: f32 = 120.0;
+
+/// What stands for nothing, as the name of a line that has none in the legend.
+const UNNAMED: &str = "";
+
+/// Draws the drawer, if it is open.
+pub fn drawer(cx: &mut UiContext, ui: &mut Ui) {
+    if !cx.model.session.plots.open {
+        return;
+    }
+    let frame = Frame::new().fill(palette(ui).panel).inner_margin(Margin::symmetric(10, 6));
+    let panel = egui::Panel::bottom("plots").resizable(true).default_size(HEIGHT).min_size(LEAST_HEIGHT).frame(frame);
+    panel.show(ui, |ui| {
+        let mut curves = cx.shown.curves();
+        head(cx, ui, &curves);
+        curves.splice(0..0, cx.model.state.pinned.iter().cloned());
+        plot(cx, ui, &curves);
+    });
+}
+
+/// What is plotted, and what can be done with it.
+fn head(cx: &mut UiContext, ui: &mut Ui, curves: &[Curve]) {
+    ui.horizontal_wrapped(|ui| {
+        let plots = &mut cx.model.session.plots;
+        let words = Measure::ALL.map(|m| (m.name().to_owned(), explain(m), plots.measure == m));
+        if let Some(index) = choice(("plot of", "Plot"), words, ui, cx.dump) {
+            plots.measure = Measure::ALL[index];
+        }
+        ui.label(RichText::new("over").color(palette(ui).dim));
+        let words = Cost::ALL.map(|c| (c.name().to_owned(), explain_cost(c), plots.over == c));
+        if let Some(index) = choice(("plot over", "Over"), words, ui, cx.dump) {
+            plots.over = Cost::ALL[index];
+        }
+        pins(cx, ui, curves);
+        let any = !curves.is_empty() || !cx.model.state.pinned.is_empty();
+        for (kind, hover) in [
+            (PlotFile::Csv, "All moments of all curves as a table of comma-separated values"),
+            (PlotFile::Svg, "What is shown as a picture for slides and papers"),
+        ] {
+            let button = ui.add_enabled(any, framed(kind.name(), ui));
+            let button = button.explained(hover).accessible_name(format!("Save the plot as {}", kind.name()));
+            if cx.dump.note(&format!("plot {}", kind.name()), any, button).clicked() {
+                let subject = ExportSubject::Plot(kind);
+                let to = Destination::File(export_menu::plot_file(cx.model, kind));
+                cx.commands.push(UiCommand::Export(ExportRequest { subject, to }));
+            }
+        }
+        let close = ui.add(framed("Close", ui)).explained("Hide the plots (G)").accessible_name("Close the plots");
+        if cx.dump.note("close plots", "", close).clicked() {
+            cx.model.session.plots.open = false;
+        }
+    });
+}
+
+/// Curves to compare later ones with.
+fn pins(cx: &mut UiContext, ui: &mut Ui, curves: &[Curve]) {
+    let button = ui.add_enabled(!curves.is_empty(), framed("Pin", ui));
+    let button = button.explained("Keep these curves, to compare with what you choose next").accessible_name("Pin");
+    if cx.dump.note("pin curves", curves.len(), button).clicked() && !pin(&mut cx.model.state.pinned, curves.to_vec()) {
+        cx.model.say(Err("there is no room for more pinned curves: unpin them first".into()));
+    }
+    let pinned = cx.model.state.pinned.len();
+    if pinned > 0 {
+        let button = ui.add(framed("Unpin all", ui)).explained("Forget the curves that were kept");
+        if cx.dump.note("unpin curves", pinned, button).clicked() {
+            cx.model.state.pinned.clear();
+        }
+    }
+}
+
+fn plot(cx: &mut UiContext, ui: &mut Ui, curves: &[Curve]) {
+    let (settings, palette) = (cx.model.session.plots, palette(ui));
+    let against = curves.last().map_or(String::new(), |curve| format!(" against {}", curve.against.name()));
+    let floor = floor(cx, settings.measure);
+    let plot = Plot::new("errors")
+        .legend(Legend::default().position(Corner::RightTop))
+        .x_axis_label(settings.over.label())
+        .y_axis_label(format!("{}{against}", settings.measure.name()))
+        .x_grid_spacer(decades)
+        .y_grid_spacer(decades)
+        .x_axis_formatter(|mark, _| tick_text(10f64.powf(mark.value)))
+        .y_axis_formatter(|mark, _| tick_text(10f64.powf(mark.value)))
+        .grid_color(palette.line)
+        .label_formatter(move |place| said_of(place, settings))
+        // it always fits what there is: nothing is lost by a slip of the mouse
+        .allow_drag(false)
+        .allow_zoom(false)
+        .allow_scroll(false)
+        .allow_boxed_zoom(false)
+        .allow_axis_zoom_drag(false);
+    let shown = plot.show(ui, |plot| {
+        for curve in curves {
+            draw(plot, curve, settings, palette);
+        }
+        if let Some(ends) = guide(curves, settings) {
+            let line = Line::new(settings.measure.slope_name(), logs(ends.into_iter())).color(palette.dim);
+            plot.line(line.style(LineStyle::Dotted { spacing: 6.0 }).width(1.5).allow_hover(false));
+        }
+        if let Some(floor) = floor {
+            let line = HLine::new("noise of the reference", floor.log10()).color(palette.dim);
+            plot.hline(line.style(LineStyle::dashed_dense()).width(1.0).allow_hover(false));
+        }
+    });
+    let said = spoken(curves, settings);
+    let response =
+        shown.response.accessible_name(if said.is_empty() { "Plot of errors: none yet".into() } else { said });
+    cx.dump.note("plot", curves.len(), response);
+}
+
+/// The errors that the reference itself has: below them nothing can be told.
+fn floor(cx: &UiContext, measure: Measure) -> Option<f64> {
+    let of_panes = || cx.shown.panes.values().find_map(|pane| pane.errors?.1.reference_noise);
+    let floor = match measure {
+        Measure::RelMse => cx.shown.reference.as_ref()?.noise,
+        Measure::Rmse => of_panes().map(f64::sqrt),
+        Measure::Mae => None,
+    };
+    floor.filter(|floor| *floor > 0.0)
+}
+
+fn draw(plot: &mut PlotUi, curve: &Curve, settings: PlotSettings, palette: &Palette) {
+    let (colour, style, width) = look(curve.owner, palette);
+    if curve.is_level() {
+        if let Some(error) = curve.latest(settings.measure) {
+            plot.hline(HLine::new(&*curve.name, error.log10()).color(colour).style(style).width(width));
+        }
+        return;
+    }
+    let places: Vec<[f64; 2]> = curve.places(settings).collect();
+    plot.line(Line::new(&*curve.name, logs(places.iter().copied())).color(colour).style(style).width(width));
+    let last = places.into_iter().last();
+    let mark = Points::new(UNNAMED, logs(last.into_iter())).color(colour).radius(1.5 * width + 1.0);
+    plot.points(mark.shape(MarkerShape::Circle).allow_hover(false));
+}
+
+/// A is solid, B dashed, so that nobody needs their colours to tell them apart; what is pinned is thin.
+fn look(owner: Owner, palette: &Palette) -> (Color32, LineStyle, f32) {
+    match owner {
+        Owner::Pane(pane) => {
+            let style =
+                if pane == crate::model::PaneId::A { LineStyle::Solid } else { LineStyle::Dashed { length: 9.0 } };
+            (palette.pane(pane), style, 2.5)
+        }
+        Owner::Pinned(index) => (palette.pinned[index % palette.pinned.len()], LineStyle::Solid, 1.5),
+    }
+}
+
+fn logs<'a>(places: impl Iterator<Item = [f64; 2]>) -> PlotPoints<'a> {
+    places.map(|place| place.map(f64::log10)).collect()
+}
+
+/// Marks at round numbers, of which powers of ten stand out.
+fn decades(input: GridInput) -> Vec<GridMark> {
+    let (low, high) = input.bounds;
+    let mark = |value: f64| {
+        let log = value.log10();
+        let step_size = if (log - log.round()).abs() < 1e-9 { 1.0 } else { 0.3 };
+        GridMark { value: log, step_size }
+    };
+    log_ticks(low, high).into_iter().map(mark).collect()
+}
+
+/// "A: Path tracing, light", "64 samples: relMSE 0.002".
+fn said_of(place: &HoverPosition, settings: PlotSettings) -> Option<String> {
+    let HoverPosition::NearDataPoint { plot_name, position, .. } = place else { return None };
+    let (cost, error) = (10f64.powf(position.x), brief(10f64.powf(position.y)));
+    let cost = match settings.over {
+        Cost::Samples => format!("{cost:.0} spp"),
+        Cost::Seconds => format!("{} s", brief(cost)),
+    };
+    Some(format!("{plot_name}\n{cost}: {} {error}", settings.measure.name()))
+}
+
+/// The latest of each curve, for those who do not see it.
+fn spoken(curves: &[Curve], settings: PlotSettings) -> String {
+    let latest = |curve: &Curve| {
+        let error = brief(curve.latest(settings.measure)?);
+        Some(format!("{}: {} {error}", curve.name, settings.measure.name()))
+    };
+    curves.iter().filter_map(latest).collect::<Vec<_>>().join("; ")
+}
+
+fn explain(measure: Measure) -> &'static str {
+    match measure {
+        Measure::RelMse => "Mean of squared differences relative to the right value: noise falls like 1 / samples",
+        Measure::Rmse => {
+            "Root of the mean squared difference, in radiance: noise falls like 1 / square root of samples"
+        }
+        Measure::Mae => "Mean absolute difference, in radiance: noise falls like 1 / square root of samples",
+    }
+}
+
+fn explain_cost(cost: Cost) -> &'static str {
+    match cost {
+        Cost::Samples => "How good a sample is",
+        Cost::Seconds => "What counts in the end: how good a second is",
+    }
+}

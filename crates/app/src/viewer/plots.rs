@@ -1,0 +1,65 @@
+//! The plot of errors as a file: its numbers, or lines for slides and papers.
+
+use super::Viewer;
+use crate::engine::export::{Content, Export};
+use crate::model::{Curve, Destination, Owner, PaneId, PlotFile, PlotSettings, csv, guide};
+use compare::{LogLogPlot, PlotPoint, Range, Series, Stroke};
+
+impl Viewer {
+    /// Writes the curves that are shown, and those that are pinned.
+    pub(super) fn export_plot(&mut self, kind: PlotFile, to: Destination) {
+        let mut curves = self.presentation.shown.curves();
+        curves.splice(0..0, self.model.state.pinned.iter().cloned());
+        if curves.is_empty() {
+            self.model.say(Err("no errors have been measured yet; try again in a moment".into()));
+            return;
+        }
+        let text = match kind {
+            PlotFile::Csv => csv(&curves),
+            PlotFile::Svg => svg(&curves, self.model.session.plots, &self.model.document.scene.name),
+        };
+        self.engine.export(Export { content: Content::Text(text), records: Vec::new(), to });
+    }
+}
+
+/// The plot as a document of its own.
+fn svg(curves: &[Curve], settings: PlotSettings, scene: &str) -> String {
+    let against = curves.last().map_or("", |curve| curve.against.name());
+    let mut series: Vec<Series> = curves.iter().map(|curve| series(curve, settings)).collect();
+    series.extend(guide(curves, settings).map(|ends| Series {
+        name: settings.measure.slope_name().into(),
+        points: ends.map(point).into(),
+        colour: GREY,
+        stroke: Stroke::Dashed,
+    }));
+    let title = format!("{} of {scene} against {against}", settings.measure.name());
+    let plot = LogLogPlot {
+        title: &title,
+        x_label: settings.over.label(),
+        y_label: settings.measure.name(),
+        x_ticks: Vec::new(),
+        series,
+    };
+    plot.svg()
+}
+
+/// The number of grey among the colours of plots.
+const GREY: usize = 6;
+
+fn series(curve: &Curve, settings: PlotSettings) -> Series {
+    let (colour, stroke) = match curve.owner {
+        Owner::Pane(PaneId::A) => (0, Stroke::Solid),
+        Owner::Pane(_) => (1, Stroke::Dashed),
+        // after those of panes, and without the guide's
+        Owner::Pinned(index) => (2 + index + usize::from(index >= GREY - 2), Stroke::Solid),
+    };
+    if curve.is_level() {
+        let level = curve.latest(settings.measure).map(|error| point([f64::NAN, error]));
+        return Series { name: curve.name.clone(), points: level.into_iter().collect(), colour, stroke: Stroke::Level };
+    }
+    Series { name: curve.name.clone(), points: curve.places(settings).map(point).collect(), colour, stroke }
+}
+
+fn point([x, y]: [f64; 2]) -> PlotPoint {
+    PlotPoint { x: Range::exactly(x), y: Range::exactly(y), hollow: false }
+}
