@@ -5,7 +5,7 @@ use super::earlier::is_same_picture;
 use super::{Order, Picture};
 use crate::model::ErrorPoint;
 use compare::Errors;
-use film::{Image, Vec3};
+use film::Image;
 
 /// Bytes of states that a pane keeps at most: every second one goes where there are more.
 const MOST_BYTES: usize = 64 << 20;
@@ -47,7 +47,7 @@ impl Course {
     }
 
     fn bytes(&self) -> usize {
-        self.states.iter().map(|state| size_of::<Vec3>() * state.image.radiances().len()).sum()
+        self.states.iter().map(|state| size_of_val(state.image.radiances())).sum()
     }
 
     /// The first and the latest stay.
@@ -75,6 +75,7 @@ impl Course {
 mod tests {
     use super::super::earlier::tests::picture;
     use super::*;
+    use film::Vec3;
     use technique::TechniqueName;
 
     fn samples(course: &Course) -> Vec<u32> {

@@ -9,14 +9,15 @@ use crate::ui::theme::{Palette, palette};
 use crate::ui::widgets::{Explained, choice, framed};
 use crate::ui::{UiCommand, UiContext, export_menu};
 use compare::{log_ticks, tick_text};
-use egui::{Color32, Frame, Margin, RichText, Ui};
+use egui::{Color32, Frame, Margin, RichText, Shape, Stroke, Ui, vec2};
 use egui_plot::{
-    Corner, GridInput, GridMark, HLine, HoverPosition, Legend, Line, LineStyle, MarkerShape, Plot, PlotPoints, PlotUi,
-    Points,
+    GridInput, GridMark, HLine, HoverPosition, Line, LineStyle, MarkerShape, Plot, PlotPoints, PlotUi, Points,
 };
 
 /// Of the drawer at first, in points.
 const HEIGHT: f32 = 240.0;
+/// What lines are takes at most so many points of its width.
+const KEY: f32 = 330.0;
 /// Below this a plot says nothing.
 const LEAST_HEIGHT: f32 = 120.0;
 
@@ -34,7 +35,15 @@ pub fn drawer(cx: &mut UiContext, ui: &mut Ui) {
         let mut curves = cx.shown.curves();
         head(cx, ui, &curves);
         curves.splice(0..0, cx.model.state.pinned.iter().cloned());
-        plot(cx, ui, &curves);
+        let key_width = KEY.min(0.4 * ui.available_width());
+        ui.horizontal_top(|ui| {
+            let width = ui.available_width() - key_width - ui.spacing().item_spacing.x;
+            plot(cx, ui, &curves, width);
+            ui.vertical(|ui| {
+                ui.set_width(key_width);
+                egui::ScrollArea::vertical().show(ui, |ui| key(cx, ui, &curves));
+            });
+        });
     });
 }
 
@@ -88,14 +97,13 @@ fn pins(cx: &mut UiContext, ui: &mut Ui, curves: &[Curve]) {
     }
 }
 
-fn plot(cx: &mut UiContext, ui: &mut Ui, curves: &[Curve]) {
+fn plot(cx: &mut UiContext, ui: &mut Ui, curves: &[Curve], width: f32) {
     let (settings, palette) = (cx.model.session.plots, palette(ui));
-    let against = curves.last().map_or(String::new(), |curve| format!(" against {}", curve.against.name()));
     let floor = floor(cx, settings.measure);
     let plot = Plot::new("errors")
-        .legend(Legend::default().position(Corner::RightTop))
+        .width(width)
         .x_axis_label(settings.over.label())
-        .y_axis_label(format!("{}{against}", settings.measure.name()))
+        .y_axis_label(settings.measure.name())
         .x_grid_spacer(decades)
         .y_grid_spacer(decades)
         .x_axis_formatter(|mark, _| tick_text(10f64.powf(mark.value)))
@@ -113,18 +121,60 @@ fn plot(cx: &mut UiContext, ui: &mut Ui, curves: &[Curve]) {
             draw(plot, curve, settings, palette);
         }
         if let Some(ends) = guide(curves, settings) {
-            let line = Line::new(settings.measure.slope_name(), logs(ends.into_iter())).color(palette.dim);
-            plot.line(line.style(LineStyle::Dotted { spacing: 6.0 }).width(1.5).allow_hover(false));
+            let (colour, style, width) = GUIDE.of(palette);
+            let line = Line::new(settings.measure.slope_name(), logs(ends.into_iter())).color(colour);
+            plot.line(line.style(style).width(width).allow_hover(false));
         }
         if let Some(floor) = floor {
-            let line = HLine::new("noise of the reference", floor.log10()).color(palette.dim);
-            plot.hline(line.style(LineStyle::dashed_dense()).width(1.0).allow_hover(false));
+            let (colour, style, width) = FLOOR.of(palette);
+            let line = HLine::new("noise of the reference", floor.log10()).color(colour);
+            plot.hline(line.style(style).width(width).allow_hover(false));
         }
     });
     let said = spoken(curves, settings);
     let response =
         shown.response.accessible_name(if said.is_empty() { "Plot of errors: none yet".into() } else { said });
     cx.dump.note("plot", curves.len(), response);
+}
+
+/// What lines are, each with its latest error: beside the plot, where no line is hidden.
+fn key(cx: &UiContext, ui: &mut Ui, curves: &[Curve]) {
+    let (settings, palette) = (cx.model.session.plots, palette(ui));
+    for curve in curves {
+        let latest = curve.latest(settings.measure).map_or(String::new(), |error| format!("  {}", brief(error)));
+        let (colour, style, width) = look(curve.owner, palette);
+        let style = if curve.is_level() { LineStyle::Solid } else { style };
+        entry(ui, (colour, style, width), &format!("{}{latest}", curve.name), palette.text);
+    }
+    if guide(curves, settings).is_some() {
+        entry(ui, GUIDE.of(palette), settings.measure.slope_name(), palette.dim);
+    }
+    if floor(cx, settings.measure).is_some() {
+        entry(ui, FLOOR.of(palette), "noise of the reference", palette.dim);
+    }
+    if let Some(curve) = curves.last() {
+        ui.label(RichText::new(format!("against {}", curve.against.name())).color(palette.dim));
+    } else {
+        ui.label(RichText::new("no errors have been measured yet").color(palette.dim));
+    }
+}
+
+/// A piece of a line, and what it is.
+fn entry(ui: &mut Ui, (colour, style, width): Look, text: &str, text_colour: Color32) {
+    ui.horizontal(|ui| {
+        let size = vec2(2.0 * ui.spacing().interact_size.y, ui.text_style_height(&egui::TextStyle::Body));
+        let (_, rect) = ui.allocate_space(size);
+        let ends = [rect.left_center(), rect.right_center()];
+        let stroke = Stroke::new(width, colour);
+        match style {
+            LineStyle::Solid => drop(ui.painter().line_segment(ends, stroke)),
+            LineStyle::Dashed { length } => {
+                ui.painter().extend(Shape::dashed_line(&ends, stroke, length, 0.6 * length));
+            }
+            LineStyle::Dotted { spacing } => ui.painter().extend(Shape::dotted_line(&ends, colour, spacing, width)),
+        }
+        ui.add(egui::Label::new(RichText::new(text).color(text_colour)).truncate());
+    });
 }
 
 /// The errors that the reference itself has: below them nothing can be told.
@@ -153,8 +203,26 @@ fn draw(plot: &mut PlotUi, curve: &Curve, settings: PlotSettings, palette: &Pale
     plot.points(mark.shape(MarkerShape::Circle).allow_hover(false));
 }
 
+/// Colour, style and width of a line.
+type Look = (Color32, LineStyle, f32);
+
+/// A line that is no curve: grey.
+struct Grey {
+    style: LineStyle,
+    width: f32,
+}
+
+const GUIDE: Grey = Grey { style: LineStyle::Dotted { spacing: 6.0 }, width: 1.5 };
+const FLOOR: Grey = Grey { style: LineStyle::Dashed { length: 4.0 }, width: 1.0 };
+
+impl Grey {
+    fn of(&self, palette: &Palette) -> Look {
+        (palette.dim, self.style, self.width)
+    }
+}
+
 /// A is solid, B dashed, so that nobody needs their colours to tell them apart; what is pinned is thin.
-fn look(owner: Owner, palette: &Palette) -> (Color32, LineStyle, f32) {
+fn look(owner: Owner, palette: &Palette) -> Look {
     match owner {
         Owner::Pane(pane) => {
             let style =
