@@ -25,9 +25,9 @@ struct State {
 }
 
 impl Course {
-    /// Goes on with a pane's new picture; `None` of a picture without samples.
+    /// Goes on with a pane's new picture; `None` of a picture without samples of its own alone.
     pub fn follow(before: Option<Course>, picture: &Picture) -> Option<Course> {
-        let samples = picture.spp.filter(|_| !picture.rough)?;
+        let samples = picture.spp.filter(|_| !picture.rough && picture.lag.is_none())?;
         let state = State { samples, seconds: picture.seconds, image: picture.image.clone() };
         let goes_on = |before: &Course| {
             is_same_picture(&before.order, &picture.order) && before.latest().is_none_or(|latest| latest <= samples)
@@ -104,6 +104,8 @@ mod tests {
         assert_eq!(with(picture(TechniqueName::Raster, 1, 1)), None, "it has no samples");
         let rough = Picture { rough: true, ..picture(TechniqueName::Path, 1, 8) };
         assert_eq!(with(rough), None);
+        let lag = Some(technique::Lag { samples: 2.0, seconds: 0.1 });
+        assert_eq!(with(Picture { lag, ..picture(TechniqueName::Path, 1, 8) }), None, "earlier views count");
     }
 
     #[test]
