@@ -1,5 +1,6 @@
 //! A film on its way: what is in it, what a device has added to it meanwhile, and who has.
 
+use denoise::DenoiseError;
 use film::{Features, Film, Pixel};
 use gpu::Gpu;
 use pathtrace::gpu::{GpuFilm, GpuTraceError, GpuTracer};
@@ -21,6 +22,8 @@ pub struct Accumulation {
     earlier: Option<EarlierStates>,
     /// What its pixels show, and from how many samples of them that was made.
     pub(crate) features: Option<(u32, Features)>,
+    /// Why that was not made.
+    pub(crate) features_fault: Option<DenoiseError>,
     /// The samples of a film that shows them in place of light.
     pub(crate) feature_film: Option<FeatureFilm>,
     /// What has added to it, one after the other.
@@ -61,6 +64,7 @@ impl Accumulation {
             on_device: None,
             earlier: None,
             features: None,
+            features_fault: None,
             feature_film: None,
             makers: Vec::new(),
             resolved_by: 0,

@@ -3,7 +3,7 @@
 use crate::{Accumulation, Filters, Renderer, Reused};
 use denoise::a_trous::{Guide, a_trous};
 use denoise::trust::{Parts, Trusted, trust};
-use denoise::{DenoiseError, Network, Stop, WeightsError};
+use denoise::{DenoiseError, Network, Stop, WeightsError, check_memory};
 use film::colour::{luminance, srgb_decode};
 use film::{Features, Film, Image, LayerValues, Vec3};
 use std::sync::{Arc, LazyLock};
@@ -156,6 +156,8 @@ impl DenoiseSettings {
         filters: &Filters,
         stop: Stop,
     ) -> Result<Image, DenoiseError> {
+        let of_lists = if self.trusts() { MEMORY_OF_PARTS } else { MEMORY };
+        check_memory(of_lists * film.pixels().len())?;
         let parts = earlier.filter(|_| self.trusts()).and_then(|earlier| Some((earlier, film.since(earlier)?)));
         let Some((earlier, (later, later_samples))) = parts else {
             let variance = variances(film).map(luminance_variance);
@@ -175,6 +177,12 @@ impl DenoiseSettings {
         Ok(image.with_layer(TRUST, LayerValues::Numbers(weight.into())))
     }
 }
+
+/// Bytes for each pixel beside what a filter takes by itself: the film as a picture, and its variance.
+const MEMORY: usize = size_of::<Vec3>() + size_of::<f32>();
+
+/// The same of two parts, what is made of each, and the variance of colours.
+const MEMORY_OF_PARTS: usize = 5 * size_of::<Vec3>() + size_of::<f32>();
 
 /// The layer that tells how far each pixel's samples are trusted, from 0 to 1.
 pub const TRUST: &str = "trust";
@@ -227,6 +235,9 @@ impl Renderer {
         settings: DenoiseSettings,
         stop: Stop,
     ) -> Option<Result<Denoised, DenoiseError>> {
+        if let Some(fault) = accumulation.features_fault.as_ref().filter(|_| settings.is_on()) {
+            return Some(Err(fault.clone()));
+        }
         let (_, features) = accumulation.features.as_ref().filter(|_| settings.is_on())?;
         let (film, earlier) = (accumulation.film(), accumulation.earlier_part());
         let device = self.device_filters();

@@ -51,7 +51,12 @@ impl Renderer {
             return;
         }
         let pass = pass_of(accumulation.film(), (camera, integrator), samples);
-        let mut sums = FeatureFilm::new((accumulation.film().width(), accumulation.film().height()));
+        let size = (accumulation.film().width(), accumulation.film().height());
+        if let Err(fault) = denoise::check_memory(FeatureFilm::memory(size)) {
+            accumulation.features_fault = Some(fault);
+            return;
+        }
+        let mut sums = FeatureFilm::new(size);
         let stop = || watch.ends_now();
         if let Err(fault) = self.sample_features(&mut sums, &pass, &stop) {
             let fault = self.replace(accumulation, fault);

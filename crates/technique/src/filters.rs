@@ -160,6 +160,19 @@ mod tests {
         assert!(most.fold(0.0, f32::max) < 1e-3);
     }
 
+    /// Then the picture is shown as it is, with the reason.
+    #[test]
+    fn where_there_is_no_memory_for_features_nothing_is_denoised_and_it_says_so() {
+        let scene = Arc::new(scene::builtin::named("cornell").unwrap());
+        let renderer = Renderer::on_the_processor(scene, Arc::new(Threads::all()));
+        let mut accumulation = Accumulation::blank(SIZE).unwrap();
+        assert!(renderer.denoised(&accumulation, None, A_TROUS, &|| false).is_none(), "there are none yet");
+        accumulation.features_fault = Some(DenoiseError::Memory(1));
+        let denoised = |settings| renderer.denoised(&accumulation, None, settings, &|| false);
+        assert!(matches!(denoised(A_TROUS), Some(Err(DenoiseError::Memory(1)))));
+        assert!(denoised(DenoiseSettings::OFF).is_none());
+    }
+
     #[test]
     fn what_a_device_refuses_the_processor_filters_and_it_says_why() {
         let pixels = (SIZE.0 * SIZE.1) as usize;

@@ -48,8 +48,8 @@ pub use pane::PaneSettings;
 pub use presets::Preset;
 pub use progressive::{NoMemory, ProgressiveRenderer, Request};
 pub use provenance::{
-    DENOISE, EARLIER_VIEWS, FILTER, Made, OWN_FOV, Provenance, Recorded, denoised_by, is_of_its_pixels, made_from,
-    scene_hash,
+    DENOISE, EARLIER_VIEWS, FILTER, Made, OWN_FOV, Provenance, Recorded, WEIGHTS, denoised_by, is_of_its_pixels,
+    made_from, scene_hash,
 };
 pub use renderer::{Frame, Pacing, Rendered, Renderer, Watch};
 pub use runs::Runs;

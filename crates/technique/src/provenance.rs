@@ -84,7 +84,7 @@ const NO_OPTIONS: [&str; 9] =
     ["records", "version", "scene", SCENE_HASH, "adapter", "seconds", "command", OWN_FOV, EARLIER_VIEWS];
 
 /// The record's name of the weights that a picture was denoised by.
-const WEIGHTS: &str = "denoise.weights";
+pub const WEIGHTS: &str = "denoise.weights";
 
 /// The record's name of what denoised a picture, as `adapter` says what traced it.
 const DENOISED_BY: &str = "denoise.adapter";

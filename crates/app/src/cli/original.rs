@@ -5,7 +5,7 @@ use crate::ruler::made_before;
 use anyhow::ensure;
 use scene::{Scene, SceneError, SceneHash};
 use std::path::{Path, PathBuf};
-use technique::Shot;
+use technique::{Denoiser, Shot};
 
 /// A picture that says how it was made.
 #[derive(Debug, Clone, PartialEq)]
@@ -16,6 +16,8 @@ pub struct Original {
     pub scene: Option<SceneHash>,
     /// How much of it is of earlier views of a window, if some is.
     pub earlier_views: Option<String>,
+    /// The network that has denoised it, and the hash of the weights that it had.
+    pub weights: Option<(Denoiser, String)>,
 }
 
 impl RenderArgs {
@@ -51,6 +53,16 @@ impl RenderArgs {
         if let Some(Original { file, earlier_views: Some(counts), .. }) = &self.original {
             let counts = image_file::escaped(counts);
             note!("note: {} had {counts}", image_file::shown(file));
+        }
+    }
+
+    /// Says so where the picture's denoiser has learnt other weights since.
+    pub fn tell_of_other_weights(&self) {
+        let Some(Original { file, weights: Some((denoiser, then)), .. }) = &self.original else { return };
+        let now = self.pane.in_use().denoise().denoiser;
+        if now == *denoiser && now.weights().is_some_and(|now| now != *then) {
+            let file = image_file::shown(file);
+            note!("note: {} has other weights than when {file} was made; this is another picture", now.name());
         }
     }
 

@@ -40,6 +40,7 @@ pub fn run(args: &mut RenderArgs) -> anyhow::Result<()> {
     tell_what_has_no_effect(args, &builtin::named(&args.scene)?);
     args.tell_of_another_scene(&shot.scene);
     args.tell_of_earlier_views();
+    args.tell_of_other_weights();
     args.pane.denoise.history = 0;
     let scene = shot.scene.clone();
     if !args.chose_estimator {

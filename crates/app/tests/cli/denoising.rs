@@ -167,3 +167,25 @@ fn earlier_views_have_no_effect_on_a_picture_that_has_none() {
     let records = image_file::records(std::path::Path::new(&with)).expect("records");
     assert!(records.iter().all(|(name, value)| !name.starts_with("history") && !value.contains("--history")));
 }
+
+/// A hash in an EXR's header is replaced by another one of its length.
+#[test]
+fn a_picture_of_other_weights_is_made_by_todays_and_it_is_said() {
+    let folder = TestFolder::new();
+    let file = |name: &str| folder.file(name).to_str().expect("a plain path").to_owned();
+    let [made, again] = ["made.exr", "again.exr"].map(file);
+    render(&["--spp", "1", "--denoise", "unet"], &made);
+    let hash = record(&made, "denoise.weights").expect("a hash");
+    let from = |more: &[&str]| {
+        let said = visavis(&[&["render", "--from", &made, "-o", &again], more].concat());
+        assert!(said.status.success());
+        String::from_utf8_lossy(&said.stderr).into_owned()
+    };
+    assert!(!from(&[]).contains("weights"));
+    let mut bytes = std::fs::read(&made).expect("bytes");
+    let at = bytes.windows(hash.len()).position(|part| part == hash.as_bytes()).expect("the hash");
+    bytes[at] = if bytes[at] == b'0' { b'1' } else { b'0' };
+    std::fs::write(&made, bytes).expect("written");
+    assert!(from(&[]).contains("unet has other weights than when"));
+    assert!(!from(&["--denoise", "unet-base"]).contains("weights"), "another network was asked for");
+}

@@ -73,6 +73,12 @@ impl FeatureFilm {
         FeatureFilm { size: [width, height], sums: vec![Sums::zeroed(); width as usize * height as usize] }
     }
 
+    /// Bytes that a film of this size takes, and the means of it.
+    pub fn memory((width, height): (u32, u32)) -> usize {
+        let of_means = 2 * size_of::<Vec3>() + size_of::<f32>();
+        (size_of::<Sums>() + of_means).saturating_mul(width as usize * height as usize)
+    }
+
     /// Fewest samples that any pixel has.
     pub fn samples_per_pixel(&self) -> u32 {
         self.sums.iter().map(|sums| sums.samples).min().unwrap_or(0)
