@@ -17,7 +17,7 @@ pub enum Content {
     /// The picture as seen.
     Seen(Capture),
     /// A pane's radiance, and how it is shown.
-    Pane(Picture, DisplayTransform),
+    Pane(Box<Picture>, DisplayTransform),
     /// A map of errors.
     Map(Arc<ErrorMap>),
     /// What is no picture, in a file whose name may end in anything.

@@ -164,7 +164,7 @@ impl Presentation {
         {
             records.extend(error_records(&errors, judge));
         }
-        Some((Content::Pane(picture.clone(), display), records))
+        Some((Content::Pane(Box::new(picture.clone()), display), records))
     }
 
     /// "B: the command that makes it", or "reference".
