@@ -48,16 +48,22 @@ impl RenderArgs {
         }
     }
 
-    /// Says so where earlier views of a window count in the picture, which nobody makes again.
-    pub fn tell_of_earlier_views(&self) {
+    /// Says so where the picture will be another one by itself.
+    pub fn tell_of_what_is_not_made_again(&self) {
+        self.tell_of_earlier_views();
+        self.tell_of_other_weights();
+    }
+
+    /// Earlier views of a window, which nobody makes again.
+    fn tell_of_earlier_views(&self) {
         if let Some(Original { file, earlier_views: Some(counts), .. }) = &self.original {
             let counts = image_file::escaped(counts);
             note!("note: {} had {counts}", image_file::shown(file));
         }
     }
 
-    /// Says so where the picture's denoiser has learnt other weights since.
-    pub fn tell_of_other_weights(&self) {
+    /// Weights that the picture's denoiser has learnt since.
+    fn tell_of_other_weights(&self) {
         let Some(Original { file, weights: Some((denoiser, then)), .. }) = &self.original else { return };
         let now = self.pane.in_use().denoise().denoiser;
         if now == *denoiser && now.weights().is_some_and(|now| now != *then) {

@@ -39,8 +39,7 @@ pub fn run(args: &mut RenderArgs) -> anyhow::Result<()> {
     let shot = args.shot()?;
     tell_what_has_no_effect(args, &builtin::named(&args.scene)?);
     args.tell_of_another_scene(&shot.scene);
-    args.tell_of_earlier_views();
-    args.tell_of_other_weights();
+    args.tell_of_what_is_not_made_again();
     args.pane.denoise.history = 0;
     let scene = shot.scene.clone();
     if !args.chose_estimator {
