@@ -122,9 +122,14 @@ impl Accumulation {
         }
     }
 
-    /// Whether there are twice as many samples as when it was last kept for being the earlier part of a later state.
-    pub(crate) fn is_to_be_kept(&self) -> bool {
-        self.earlier.as_ref().is_none_or(|earlier| self.spp / 2 >= earlier.next.samples_per_pixel())
+    /// Whether this is the `half` that shall be the earlier part, or there are twice as many samples as when it was last kept for
+    /// being that; where the parts meet at a number of their own, whether it is that or the end.
+    pub(crate) fn is_to_be_kept(&self, half: u32, (meet_at, wished): (Option<u32>, u32)) -> bool {
+        let doubled = || self.earlier.as_ref().is_none_or(|earlier| self.spp / 2 >= earlier.next.samples_per_pixel());
+        match meet_at {
+            Some(meet_at) => [meet_at, wished].contains(&self.spp),
+            None => self.spp == half || doubled(),
+        }
     }
 
     /// Keeps the film as last read, if there is memory for one more.

@@ -1,6 +1,6 @@
 //! What a traced picture goes through between film and display.
 
-use crate::{Accumulation, Filters, Renderer, Reused};
+use crate::{Accumulation, DeviceFilters, Filters, Renderer, Reused};
 use denoise::a_trous::{Guide, a_trous};
 use denoise::trust::{Parts, Trusted, trust};
 use denoise::{DenoiseError, Network, Stop, WeightsError, check_memory};
@@ -191,7 +191,7 @@ pub const TRUST: &str = "trust";
 pub const NOISY: &str = "noisy";
 
 /// How far samples are trusted, as a picture in even steps of grey; nowhere if that was not asked.
-fn weight_of(image: &Image) -> Image {
+pub(crate) fn weight_of(image: &Image) -> Image {
     let Some(LayerValues::Numbers(weight)) =
         image.layers.iter().find(|layer| layer.name == TRUST).map(|layer| &layer.values)
     else {
@@ -235,10 +235,14 @@ impl Renderer {
         settings: DenoiseSettings,
         stop: Stop,
     ) -> Option<Result<Denoised, DenoiseError>> {
-        if let Some(fault) = accumulation.features_fault.as_ref().filter(|_| settings.is_on()) {
+        if !settings.is_on() {
+            self.device_filters().into_iter().for_each(DeviceFilters::rest);
+            return None;
+        }
+        if let Some(fault) = &accumulation.features_fault {
             return Some(Err(fault.clone()));
         }
-        let (_, features) = accumulation.features.as_ref().filter(|_| settings.is_on())?;
+        let (_, features) = accumulation.features.as_ref()?;
         let (film, earlier) = (accumulation.film(), accumulation.earlier_part());
         let device = self.device_filters();
         let apply = || {

@@ -13,6 +13,9 @@ const ENOUGH: u32 = 16;
 /// views alone are looked up by them, one is enough, and there is no time for more.
 const FEWEST: u32 = 4;
 
+/// Most samples of a film that shows a feature: more would change nothing but the rounding of its sums, which are f32.
+pub(crate) const MOST: u32 = 4096;
+
 /// What a finished film's pixels show, on the current rayon pool; `None` once `stop` says so.
 pub fn features_of(
     tracer: &Tracer,

@@ -9,21 +9,20 @@ use denoise::{DenoiseError, Network};
 use film::Image;
 use gpu::Gpu;
 use std::cell::OnceCell;
-use std::collections::HashMap;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 /// Filters on a graphics device: compiled when they are first asked for, by whoever asks, and kept as long as the device.
 pub struct DeviceFilters {
     gpu: Gpu,
     a_trous: OnceLock<Result<GpuATrous, DenoiseError>>,
-    /// The networks that have been asked for, by the hash of their weights.
-    networks: Mutex<HashMap<String, Result<Arc<GpuUnet>, DenoiseError>>>,
+    /// The network that was asked for last, by the hash of its weights: two would take twice the memory.
+    network: Mutex<Option<(String, Result<Arc<GpuUnet>, DenoiseError>)>>,
 }
 
 impl DeviceFilters {
     /// Those of any device, even of one that the processor plays.
     pub fn on(gpu: &Gpu) -> Self {
-        DeviceFilters { gpu: gpu.clone(), a_trous: OnceLock::new(), networks: Mutex::default() }
+        DeviceFilters { gpu: gpu.clone(), a_trous: OnceLock::new(), network: Mutex::default() }
     }
 
     /// Those of a device that is faster than the processor: which plays no device as fast as it filters by itself (a-trous
@@ -37,12 +36,15 @@ impl DeviceFilters {
     }
 
     pub(crate) fn unet(&self, network: &Network) -> Result<Arc<GpuUnet>, DenoiseError> {
-        let mut networks = self.networks.lock().unwrap_or_else(PoisonError::into_inner);
-        let compiled = networks.entry(network.hash()).or_insert_with(|| {
-            let unet = GpuUnet::new(&self.gpu, network)?;
-            Ok(Arc::new(unet))
-        });
-        compiled.clone()
+        let mut kept = self.network.lock().unwrap_or_else(PoisonError::into_inner);
+        kept.take_if(|(hash, _)| *hash != network.hash());
+        let compile = || (network.hash(), GpuUnet::new(&self.gpu, network).map(Arc::new).map_err(DenoiseError::from));
+        kept.get_or_insert_with(compile).1.clone()
+    }
+
+    /// Gives back the memory of networks, which nobody asks for now.
+    pub(crate) fn rest(&self) {
+        *self.network.lock().unwrap_or_else(PoisonError::into_inner) = None;
     }
 }
 

@@ -26,6 +26,12 @@ impl Halves {
         Some(Halves { images: [earlier.image(), image], samples: [first, later] })
     }
 
+    /// Samples per pixel of each, of films alone.
+    pub fn samples_in(film: &Film, earlier: &Film) -> Option<[u32; 2]> {
+        let (first, all) = (earlier.samples_per_pixel(), film.samples_per_pixel());
+        (first > 0 && all > first).then(|| [first, all - first])
+    }
+
     /// As layers of a file.
     pub fn layers(&self) -> [Layer; 2] {
         [0, 1].map(|half| self.images[half].as_layer(HALVES[half]))

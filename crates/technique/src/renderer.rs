@@ -4,7 +4,7 @@
 
 use crate::history::Past;
 use crate::speeds::Speeds;
-use crate::{Accumulation, Backend, DenoiseSettings, Denoised, Device, Rank, Reused, Threads};
+use crate::{Accumulation, Backend, DenoiseSettings, Denoised, Device, Rank, Reused, Threads, features};
 use denoise::DenoiseError;
 use film::{Feature, Features, Film};
 use pathtrace::gpu::GpuTraceError;
@@ -87,6 +87,11 @@ pub trait Watch: Sync {
     /// Whether a film of half of the samples is kept, or of somewhat fewer, by which a denoiser is judged.
     fn keeps_parts(&self) -> bool {
         self.denoise().trusts()
+    }
+
+    /// After how many samples the parts meet, where that is not the half: as those of a picture that is made again.
+    fn parts_meet_at(&self) -> Option<u32> {
+        None
     }
 
     /// Whether to wait where the film is.
@@ -254,6 +259,7 @@ impl Renderer {
         (integrator, wished): (&Integrator, u32),
         watch: &impl Watch,
     ) {
+        let wished = if self.feature.is_some() { wished.min(features::MOST) } else { wished };
         let mut shown = Instant::now();
         // a film that goes on is shown at once, for its label says how far it shall go
         let how = (camera, integrator);
@@ -271,7 +277,7 @@ impl Renderer {
                 break;
             }
             let pacing = watch.pacing(accumulation.spent);
-            let half = if watch.keeps_parts() { wished / 2 } else { wished };
+            let half = if watch.keeps_parts() { watch.parts_meet_at().unwrap_or(wished / 2) } else { wished };
             let until = if before < half { half } else { wished };
             let samples = self.samples_of_a_pass(accumulation, &pacing).min(until - before);
             self.rank = if before > 0 { Rank::Refinement } else { Rank::FirstPicture };
@@ -283,7 +289,8 @@ impl Renderer {
             }
             let spp = accumulation.spp;
             watch.count(spp);
-            if spp > before && watch.keeps_parts() && (spp == half || accumulation.is_to_be_kept()) {
+            if spp > before && watch.keeps_parts() && accumulation.is_to_be_kept(half, (watch.parts_meet_at(), wished))
+            {
                 self.read(accumulation, watch);
                 accumulation.keep();
             }

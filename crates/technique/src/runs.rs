@@ -4,6 +4,7 @@
 //! ([`pathtrace::sampling::sampler`]).
 
 use crate::accumulation::copy_of;
+use crate::denoiser::weight_of;
 use crate::{Accumulation, DenoiseSettings, Denoised, Frame, Pacing, Rendered, Renderer, TRUST, TracedSettings, Watch};
 use denoise::DenoiseError;
 use film::{Features, Film, LayerValues};
@@ -100,6 +101,11 @@ impl Runs {
         if let Some(LayerValues::Numbers(trust)) =
             image.layers.iter().find(|layer| layer.name == TRUST).map(|layer| &layer.values)
         {
+            let room = trust.len().saturating_sub(self.trust.len());
+            if self.trust.try_reserve_exact(room).is_err() {
+                self.fault = Some(DenoiseError::Memory(size_of_val(&trust[..])));
+                return;
+            }
             self.trust.resize(trust.len(), 0.0);
             self.trust.iter_mut().zip(trust.iter()).for_each(|(sum, trust)| *sum += trust);
         }
@@ -119,6 +125,9 @@ impl Runs {
         if !self.trust.is_empty() {
             let mean = self.trust.iter().map(|sum| sum / self.done.max(1) as f32).collect();
             image = image.with_layer(TRUST, LayerValues::Numbers(mean));
+        }
+        if self.denoise.shows_the_weight() {
+            image = weight_of(&image);
         }
         let (seconds, made_by) = (self.filter_seconds, self.filter_makers.join(", then "));
         Some(Ok(Denoised { image, seconds, made_by, refused: self.filter_refusal.clone() }))

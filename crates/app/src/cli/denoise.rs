@@ -70,11 +70,11 @@ fn missing_layers(picture: &Path, filter: Denoiser, missing: &[&str]) -> String 
     )
 }
 
-/// Whether `render --denoise` comes to the same: of light that was traced and not denoised before, without earlier views, and by a network, for which the
-/// variance of samples is nothing.
+/// Whether `render --denoise` comes to the same: of light that was traced and not denoised before, in one run, without earlier views, and by a network, for
+/// which the variance of samples is nothing.
 fn is_made_again(args: &DenoiseArgs, records: &[(String, String)]) -> bool {
     let of_traced_light = |made: RenderArgs| match made.pane.in_use() {
-        technique @ Technique::Traced(_) => technique.shows_the_scene(),
+        technique @ Technique::Traced(_) => technique.shows_the_scene() && technique.runs() == 1,
         Technique::Fake(_) => false,
     };
     let lags = records.iter().any(|(name, _)| name == EARLIER_VIEWS);

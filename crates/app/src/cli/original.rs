@@ -18,6 +18,10 @@ pub struct Original {
     pub earlier_views: Option<String>,
     /// The network that has denoised it, and the hash of the weights that it had.
     pub weights: Option<(Denoiser, String)>,
+    /// Samples per pixel of the parts by which they are trusted, or that are layers.
+    pub halves: Option<[u32; 2]>,
+    /// What has taken its noise away that no option asks for.
+    pub filter: Option<String>,
 }
 
 impl RenderArgs {
@@ -52,6 +56,16 @@ impl RenderArgs {
     pub fn tell_of_what_is_not_made_again(&self) {
         self.tell_of_earlier_views();
         self.tell_of_other_weights();
+        if let Some(Original { file, filter: Some(filter), .. }) = &self.original {
+            let (file, filter) = (image_file::shown(file), image_file::escaped(filter));
+            note!("note: {file} was denoised by visavis denoise ({filter}), which this does not do again");
+        }
+    }
+
+    /// After how many samples the parts of so many meet, where the picture's did.
+    pub fn parts_meet_at(&self, spp: u32) -> Option<u32> {
+        let [first, later] = self.original.as_ref()?.halves?;
+        (first.checked_add(later)? == spp).then_some(first)
     }
 
     /// Earlier views of a window, which nobody makes again.

@@ -205,7 +205,9 @@ fn save(
         exposure: args.exposure,
     };
     let mut records = provenance.records(made);
-    records.extend(halves.into_iter().flat_map(Halves::records));
+    let parts = || Halves::samples_in(&rendered.film, rendered.earlier.as_ref()?);
+    let parts = halves.or_else(|| parts().filter(|_| technique.denoise().trusts()));
+    records.extend(parts.into_iter().flat_map(Halves::records));
     records.extend(errors.into_iter().flat_map(|e| error_records(&e.errors, "reference".into())));
     let kind = Kind::of(&args.out).context("a picture's name must end in .png or .exr")?;
     let bytes = image_file::encode(kind, image, &DisplayTransform { exposure: args.exposure }, &records)?;
@@ -299,7 +301,7 @@ fn trace(args: &RenderArgs, shot: &Shot, traced: TracedSettings) -> anyhow::Resu
     let backend = backend(gpu.as_ref(), &scene, device)?;
     let watch = Terminal {
         spp: spp.saturating_mul(runs),
-        has_runs: runs > 1,
+        parts_meet_at: args.parts_meet_at(spp),
         shown: std::io::stderr().is_terminal(),
         start,
         layers: args.layers,

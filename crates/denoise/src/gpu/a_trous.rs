@@ -3,7 +3,7 @@
 
 use super::{shaders, wait};
 use crate::a_trous::{Guide, LEVELS};
-use crate::{DenoiseError, Stop};
+use crate::{DenoiseError, Stop, check_memory};
 use film::{Image, Vec3};
 use gpu::compute::{Binding, Compute};
 use gpu::{Gpu, GpuError, wgpu};
@@ -123,18 +123,19 @@ impl GpuATrous {
     /// [`DenoiseError::Device`] if the device objects.
     pub fn submit(&self, picture: &DevicePicture) -> Result<wgpu::SubmissionIndex, DenoiseError> {
         let items = [picture.size.0, picture.size.1, 1];
-        let submitted = self.gpu.checked(WHAT, || {
+        let levels = self.passes(picture.knows_variance).zip(&picture.passes);
+        let all = std::iter::once((&self.prepare, &picture.prepare));
+        let all = all.chain(levels).chain(std::iter::once((&self.finish, &picture.finish)));
+        // one submission each, between which a slow device draws the frames of a window
+        let submit = |(compute, bound): (&Compute, &BindGroup)| {
             let mut encoder = self.gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
             let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
-            self.prepare.record(&mut pass, None, &picture.prepare, items);
-            for (compute, bound) in self.passes(picture.knows_variance).zip(&picture.passes) {
-                compute.record(&mut pass, None, bound, items);
-            }
-            self.finish.record(&mut pass, None, &picture.finish, items);
+            compute.record(&mut pass, None, bound, items);
             drop(pass);
             self.gpu.queue.submit([encoder.finish()])
-        })?;
-        Ok(submitted)
+        };
+        let last = self.gpu.checked(WHAT, || all.map(submit).last())?;
+        last.ok_or(DenoiseError::Size)
     }
 
     /// The picture as it is on the device.
@@ -143,6 +144,8 @@ impl GpuATrous {
     /// [`DenoiseError::Device`] if the device fails.
     pub fn read(&self, picture: &DevicePicture) -> Result<Image, DenoiseError> {
         let (width, height) = picture.size;
+        // bytes, and pixels of them
+        check_memory(3 * size_of::<Vec3>() * width as usize * height as usize)?;
         let bytes = self.gpu.read_buffer(WHAT, &picture.colors)?;
         let pixels = bytes.chunks_exact(size_of::<Vec3>()).map(bytemuck::pod_read_unaligned::<Vec3>);
         let pixels = pixels.take(width as usize * height as usize).collect::<Vec<_>>();

@@ -12,7 +12,7 @@ use super::shaders::LIBRARY;
 use crate::network::{ALIGNMENT, Network, Place};
 use crate::tiles::{Tile, tiles};
 use crate::transfer::{Transfer, exposure, sanitized};
-use crate::{DenoiseError, Features, Stop};
+use crate::{DenoiseError, Features, Stop, check_memory};
 use film::{Image, Vec3};
 use gpu::compute::{Binding, Compute};
 use gpu::waiting::PATIENCE;
@@ -179,6 +179,9 @@ impl GpuUnet {
     ) -> Result<Image, DenoiseError> {
         features.check(color)?;
         let picture = [color.width() as usize, color.height() as usize];
+        // the picture that comes out, and what goes in of a tile
+        let of_tile = color.radiances().len().min(most_pixels);
+        check_memory(size_of_val(color.radiances()) + size_of::<[Vec3; 4]>() * of_tile)?;
         let transfer = Transfer::new(exposure(color.radiances(), picture[0]));
         let mut denoised = vec![Vec3::ZERO; color.radiances().len()];
         for tile in tiles(picture, most_pixels) {
@@ -210,6 +213,21 @@ impl GpuUnet {
     /// What the network says of the pixels of a tile.
     fn run(&self, tile: &TileParams, pixels: &[[Vec3; 3]], stop: Stop) -> Result<Vec<Vec3>, DenoiseError> {
         let places = self.places(tile.size.map(|side| side as usize))?;
+        let made = self.run_in(&places, tile, pixels, stop);
+        // also of a picture that was stopped: the queue keeps the order of what comes next
+        if matches!(made, Ok(_) | Err(DenoiseError::Stopped)) {
+            *self.places.lock().unwrap_or_else(PoisonError::into_inner) = Some(places);
+        }
+        made
+    }
+
+    fn run_in(
+        &self,
+        places: &Places,
+        tile: &TileParams,
+        pixels: &[[Vec3; 3]],
+        stop: Stop,
+    ) -> Result<Vec<Vec3>, DenoiseError> {
         let source = self.gpu.buffer("a noisy picture", pixels, BufferUsages::STORAGE)?;
         let params = self.gpu.buffer("a tile", std::slice::from_ref(tile), BufferUsages::UNIFORM)?;
         let [columns, rows] = tile.written.map(u64::from);
@@ -229,7 +247,6 @@ impl GpuUnet {
             self.shaders.output.bind(&self.gpu, &bound)
         })?;
         let bytes = self.gpu.read_buffer(WHAT, &radiances)?;
-        *self.places.lock().unwrap_or_else(PoisonError::into_inner) = Some(places);
         Ok(bytes.chunks_exact(size_of::<Vec3>()).map(bytemuck::pod_read_unaligned).map(sanitized).collect())
     }
 

@@ -14,8 +14,8 @@ use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 use technique::settings::{all_of_panes, of_panes, of_scenes};
 use technique::{
-    DENOISE, Denoiser, DeviceChoice, EARLIER_VIEWS, PaneSettings, Preset, Recorded, Technique, TechniqueName, WEIGHTS,
-    made_from, presets,
+    DENOISE, Denoiser, DeviceChoice, EARLIER_VIEWS, FILTER, Halves, PaneSettings, Preset, Recorded, Technique,
+    TechniqueName, WEIGHTS, made_from, presets,
 };
 
 /// `visavis render SCENE -o OUT ...`; `None` leaves a value to the scene.
@@ -261,7 +261,8 @@ fn read_records(file: &Path) -> anyhow::Result<(RenderArgs, Vec<OsString>)> {
     let record = |of: &str| records.iter().find(|(name, _)| name == of).map(|(_, value)| value.clone());
     let (earlier_views, denoise) = (record(EARLIER_VIEWS), record(DENOISE));
     let weights = denoise.as_deref().and_then(Denoiser::named).zip(record(WEIGHTS));
-    let original = Some(Original { file: file.to_owned(), scene: scene_hash, earlier_views, weights });
+    let (halves, filter) = (Halves::samples_of(&records), record(FILTER));
+    let original = Some(Original { file: file.to_owned(), scene: scene_hash, earlier_views, weights, halves, filter });
     let words: Vec<OsString> = options.into_iter().map(OsString::from).collect();
     let alone = words.iter().cloned().chain(["-o".into(), "out.png".into()]).collect();
     match parse_words(alone, Some(scene)) {

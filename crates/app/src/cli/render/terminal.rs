@@ -9,8 +9,6 @@ use technique::{Frame, Pacing, Watch};
 pub struct Terminal {
     /// Of all runs.
     pub spp: u32,
-    /// Whether there are several.
-    pub has_runs: bool,
     /// Whether someone sees the count.
     pub shown: bool,
     /// Whether what pixels show is wanted beside the picture.
@@ -19,22 +17,24 @@ pub struct Terminal {
     pub limit: Option<Duration>,
     /// Whether half of the samples are wanted by themselves.
     pub keeps_parts: bool,
+    /// After how many samples they meet, where a picture says so that is made again.
+    pub parts_meet_at: Option<u32>,
     /// How long a device may work on what nobody has read yet.
     pub at_risk: Duration,
 }
 
 impl Watch for Terminal {
-    /// One sample of every pixel is made however late it is, and of several runs the one in hand.
+    /// One sample of every pixel is made however late it is.
     fn ends_soon(&self, spp: u32) -> bool {
-        spp > 0 && (interrupt::is_asked() || (!self.has_runs && self.is_late()))
-    }
-
-    fn ends_after_run(&self) -> bool {
-        interrupt::is_asked() || self.is_late()
+        spp > 0 && (interrupt::is_asked() || self.is_late())
     }
 
     fn keeps_parts(&self) -> bool {
         self.keeps_parts
+    }
+
+    fn parts_meet_at(&self) -> Option<u32> {
+        self.parts_meet_at
     }
 
     fn skips_filters(&self) -> bool {
@@ -47,8 +47,7 @@ impl Watch for Terminal {
 
     /// Passes of a quarter of a second, or of what is left of the time.
     fn pacing(&self, _spent: Duration) -> Pacing {
-        let limit = self.limit.filter(|_| !self.has_runs);
-        let left = limit.map_or(Duration::MAX, |limit| limit.saturating_sub(self.start.elapsed()));
+        let left = self.limit.map_or(Duration::MAX, |limit| limit.saturating_sub(self.start.elapsed()));
         Pacing { pass: left.min(Duration::from_millis(250)), show: self.at_risk, growth: 3 }
     }
 
