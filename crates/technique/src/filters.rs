@@ -15,8 +15,14 @@ use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 pub struct DeviceFilters {
     gpu: Gpu,
     a_trous: OnceLock<Result<GpuATrous, DenoiseError>>,
-    /// The network that was asked for last, by the hash of its weights: two would take twice the memory.
-    network: Mutex<Option<(String, Result<Arc<GpuUnet>, DenoiseError>)>>,
+    /// The network that was asked for last: two would take twice the memory.
+    network: Mutex<Option<Compiled>>,
+}
+
+/// A network on the device, by the hash of its weights.
+struct Compiled {
+    hash: String,
+    network: Result<Arc<GpuUnet>, DenoiseError>,
 }
 
 impl DeviceFilters {
@@ -37,9 +43,9 @@ impl DeviceFilters {
 
     pub(crate) fn unet(&self, network: &Network) -> Result<Arc<GpuUnet>, DenoiseError> {
         let mut kept = self.network.lock().unwrap_or_else(PoisonError::into_inner);
-        kept.take_if(|(hash, _)| *hash != network.hash());
-        let compile = || (network.hash(), GpuUnet::new(&self.gpu, network).map(Arc::new).map_err(DenoiseError::from));
-        kept.get_or_insert_with(compile).1.clone()
+        kept.take_if(|compiled| compiled.hash != network.hash());
+        let compile = || GpuUnet::new(&self.gpu, network).map(Arc::new).map_err(DenoiseError::from);
+        kept.get_or_insert_with(|| Compiled { hash: network.hash(), network: compile() }).network.clone()
     }
 
     /// Gives back the memory of networks, which nobody asks for now.

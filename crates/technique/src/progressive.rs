@@ -298,7 +298,11 @@ impl ProgressiveRenderer {
         let serves = |kept: &CachedFilm| {
             kept.request.is_same_picture(request)
                 && kept.accumulation.most() <= request.settings.spp
-                && kept.runs.as_ref().is_none_or(|runs| runs.done() == 0 || runs.go_on_to(&request.settings))
+                && kept.runs.as_ref().is_none_or(|runs| match runs.done() {
+                    0 => true,
+                    // what is in hand is of another seed than a picture alone
+                    _ => request.settings.runs > 1 && runs.go_on_to(&request.settings),
+                })
         };
         let serving = self.kept.iter().enumerate().filter(|(_, kept)| serves(kept));
         let (index, _) = serving.max_by_key(|(_, kept)| kept.progress())?;

@@ -4,7 +4,7 @@ mod terminal;
 
 use self::terminal::Terminal;
 use super::{RenderArgs, interrupt, reference};
-use crate::ruler::{bias_words, brief, error_records, error_words, noise_line};
+use crate::ruler::{FEWEST_RUNS_OF_A_BIAS, bias_words, brief, error_records, error_words, noise_line};
 use anyhow::Context;
 use compare::Errors;
 use film::{DisplayTransform, Features, Image};
@@ -117,7 +117,10 @@ pub fn run(args: &mut RenderArgs) -> anyhow::Result<()> {
         if let Some(Measured { errors: e, before }) = errors {
             let noise = noise_line(&e).map_or_else(String::new, |line| format!(", noise {line}"));
             let [off, brightness] = error_words(&e, None);
-            let brightness = if rendered.runs > 1 { bias_words(&e, &runs_words(&rendered)) } else { brightness };
+            let brightness = match rendered.denoised {
+                Some(Ok(_)) if rendered.runs >= FEWEST_RUNS_OF_A_BIAS => bias_words(&e, rendered.runs),
+                _ => brightness,
+            };
             let (rel_mse, rmse) = (brief(e.rel_mse), brief(e.rmse));
             let before = before.map_or_else(String::new, |e| format!(", before denoising relMSE {}", brief(e.rel_mse)));
             note!("against the reference: {off}, {brightness}; relMSE {rel_mse}, RMSE {rmse}{noise}{before}");
@@ -136,12 +139,6 @@ fn spp_wanted(args: &RenderArgs) -> u32 {
 /// Samples per pixel of each run.
 fn spp_of_run(rendered: &Rendered) -> u32 {
     rendered.film.samples_per_pixel() / rendered.runs.max(1)
-}
-
-/// "8 denoised runs".
-fn runs_words(rendered: &Rendered) -> String {
-    let denoised = if matches!(rendered.denoised, Some(Ok(_))) { "denoised " } else { "" };
-    format!("{} {denoised}runs", rendered.runs)
 }
 
 /// `12 of 64 spp`, `2 of 8 runs of 64 spp`.

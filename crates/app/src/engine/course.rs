@@ -2,7 +2,7 @@
 //! better, still shows how the errors have fallen.
 
 use super::earlier::is_same_picture;
-use super::{Order, Picture};
+use super::{Order, Picture, bare};
 use crate::model::ErrorPoint;
 use compare::Errors;
 use film::Image;
@@ -28,7 +28,7 @@ impl Course {
     /// Goes on with a pane's new picture; `None` of a picture without samples of its own alone.
     pub fn follow(before: Option<Course>, picture: &Picture) -> Option<Course> {
         let samples = picture.spp.filter(|_| !picture.rough && picture.lag.is_none())?;
-        let state = State { samples, seconds: picture.seconds, image: picture.image.clone() };
+        let state = State { samples, seconds: picture.seconds, image: bare(&picture.image) };
         let goes_on = |before: &Course| {
             is_same_picture(&before.order, &picture.order) && before.latest().is_none_or(|latest| latest <= samples)
         };

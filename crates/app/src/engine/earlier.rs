@@ -1,9 +1,9 @@
 //! A pane's picture when it had fewer samples: what has come since tells how noisy the picture is.
 
-use super::{Order, Picture};
+use super::{Order, Picture, bare};
 use crate::ruler::Noise;
 use film::Image;
-use technique::Technique;
+use technique::{Technique, TracedSettings};
 
 /// Earlier states of the picture that a pane is making.
 #[derive(Debug)]
@@ -26,7 +26,7 @@ impl Earlier {
     /// one in which earlier views count: they are in both of its states.
     pub fn follow(before: Option<Earlier>, picture: &Picture) -> Option<Earlier> {
         let samples = picture.spp.filter(|_| !picture.rough && picture.lag.is_none())?;
-        let (new, order) = (Part { samples, image: picture.image.clone() }, picture.order.clone());
+        let (new, order) = (Part { samples, image: bare(&picture.image) }, picture.order.clone());
         let before = before.filter(|before| is_same_picture(&before.order, &order) && before.next.samples <= samples);
         Some(match before {
             Some(Earlier { next, .. }) if samples / 2 >= next.samples => Earlier { order, half: Some(next), next: new },
@@ -51,7 +51,8 @@ pub fn is_same_picture(a: &Order, b: &Order) -> bool {
         Technique::Traced(traced) => {
             // a mean of runs is another sum than one of the first with more samples
             let runs = order.provenance.technique.runs();
-            Some((traced.integrator, traced.sun_radius, traced.denoise, runs, order.view, order.restarts))
+            let TracedSettings { integrator, sun_radius, denoise, feature, .. } = traced;
+            Some((integrator, sun_radius, denoise, feature, runs, order.view, order.restarts))
         }
     };
     how(a).is_some() && how(a) == how(b)
@@ -128,6 +129,12 @@ pub mod tests {
             traced.sun_radius = Some(0.0);
         }
         assert_eq!(after(under_another_sun), None);
+        let mut without_light = picture(Path, 1, 4);
+        if let technique::Technique::Traced(traced) = &mut Arc::make_mut(&mut without_light.order.provenance).technique
+        {
+            traced.feature = Some(film::Feature::Albedo);
+        }
+        assert_eq!(after(without_light), None);
         let lag = Some(technique::Lag { samples: 2.0, seconds: 0.1 });
         assert_eq!(after(Picture { lag, ..picture(Path, 1, 4) }), None);
         assert_eq!(after(Picture { rough: true, ..picture(Path, 1, 4) }), None);

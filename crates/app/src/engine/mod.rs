@@ -144,6 +144,13 @@ impl Order {
     }
 }
 
+/// A picture without its layers, to be kept.
+fn bare(image: &Image) -> Image {
+    let mut bare = image.clone();
+    bare.layers.clear();
+    bare
+}
+
 /// Lets the threads of the window go first, and those of its driver where the processor draws. What this thread starts
 /// steps back with it.
 pub fn step_back() {

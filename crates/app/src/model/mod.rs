@@ -41,7 +41,7 @@ pub use history::{History, Settings};
 pub use message::Message;
 pub use pane::{PaneId, Panes};
 pub use picture_area::PictureArea;
-pub use plots::{Cost, Curve, Measure, Owner, PlotSettings, csv, guide, pin};
+pub use plots::{Cost, Curve, Measure, Owner, PlotSettings, csv, guide, judge_of_all, pin};
 pub use reference::{Origin, Progress};
 pub use remembered::{Remembered, WindowPlace};
 pub use session::{Resolution, Session};

@@ -131,15 +131,32 @@ pub struct Curve {
 }
 
 impl Curve {
+    /// Its name, with what it is held against where curves are held against several.
+    pub fn name_among(&self, curves: &[Curve]) -> String {
+        match judge_of_all(curves) {
+            Some(_) => self.name.clone(),
+            None => format!("{}, against {}", self.name, self.against.name()),
+        }
+    }
+
     /// Whether it is the level of a picture that samples do not make better.
     pub fn is_level(&self) -> bool {
         self.points.iter().all(|point| point.spp.is_none())
     }
 
-    /// The latest error, and all for a cost > 0: (cost, error), each > 0 and finite.
-    pub fn places(&self, settings: PlotSettings) -> impl Iterator<Item = [f64; 2]> {
-        let place = move |point: &ErrorPoint| Some([settings.over.of(point)?, settings.measure.of(&point.errors)]);
-        self.points.iter().filter_map(place).filter(|place| place.iter().all(|v| *v > 0.0 && v.is_finite()))
+    /// Where its line goes: (cost, error), each > 0 and finite; of one cost, at which it may have been judged again by a better
+    /// reference, the latest.
+    pub fn places(&self, settings: PlotSettings) -> Vec<[f64; 2]> {
+        let place = |point: &ErrorPoint| Some([settings.over.of(point)?, settings.measure.of(&point.errors)]);
+        let mut places: Vec<[f64; 2]> = Vec::new();
+        let drawable = |place: &[f64; 2]| place.iter().all(|v| *v > 0.0 && v.is_finite());
+        for place in self.points.iter().filter_map(place).filter(drawable) {
+            match places.last_mut() {
+                Some(last) if last[0] == place[0] => *last = place,
+                _ => places.push(place),
+            }
+        }
+        places
     }
 
     /// The error of the latest moment, if it is > 0.
@@ -171,15 +188,21 @@ fn name_by_itself(made: &Provenance) -> String {
     made.technique.label_beside(&usual.in_use(), &made.shot.scene)
 }
 
-/// A line of the slope by which noise falls, as (cost, error) of its ends: through the latest place of the pane's curve that
+/// A line of the slope by which noise falls, of what is held against the reference: what another picture judges, which may be
+/// wrong itself, need not fall. As (cost, error) of its ends: through the latest place of the pane's curve that
 /// has most, along the costs of all.
 pub fn guide(curves: &[Curve], settings: PlotSettings) -> Option<[[f64; 2]; 2]> {
-    let places = |curve: &Curve| curve.places(settings).collect::<Vec<_>>();
-    let of_panes = curves.iter().filter(|curve| matches!(curve.owner, Owner::Pane(_)));
-    let longest = of_panes.map(places).max_by_key(Vec::len)?;
+    let falls = |curve: &&Curve| matches!(curve.owner, Owner::Pane(_)) && curve.against == Against::Reference;
+    let longest = curves.iter().filter(falls).map(|curve| curve.places(settings)).max_by_key(Vec::len)?;
     let ([first, _], [last, error]) = (*longest.first()?, *longest.last()?);
     let at = |cost: f64| [cost, error * (cost / last).powf(settings.measure.slope())];
     (first < last).then(|| [at(first), at(last)])
+}
+
+/// What all curves are held against, or nothing where they do not agree.
+pub fn judge_of_all(curves: &[Curve]) -> Option<Against> {
+    let first = curves.first()?.against;
+    curves.iter().all(|curve| curve.against == first).then_some(first)
 }
 
 /// The most curves that are pinned at a time: more could not be told apart.
@@ -233,10 +256,14 @@ mod tests {
     fn only_what_has_a_logarithm_has_a_place() {
         let falling = curve("A: path", &[(Some(1), 0.5), (Some(2), 0.0), (Some(4), f64::NAN), (Some(8), 0.25)]);
         let places = |over, measure| {
-            falling.places(PlotSettings { open: true, over, measure }).map(|[x, y]| (x, y)).collect::<Vec<_>>()
+            let places = falling.places(PlotSettings { open: true, over, measure });
+            places.into_iter().map(|[x, y]| (x, y)).collect::<Vec<_>>()
         };
         assert_eq!(places(Cost::Samples, Measure::Rmse), [(1.0, 0.5), (8.0, 0.25)]);
         assert_eq!(places(Cost::Seconds, Measure::RelMse), [(0.5, 0.25), (4.0, 0.0625)]);
+        let again = curve("A: path", &[(Some(1), 0.5), (Some(2), 0.4), (Some(2), 0.3)]);
+        let settings = PlotSettings { measure: Measure::Rmse, ..PlotSettings::default() };
+        assert_eq!(again.places(settings), [[1.0, 0.5], [2.0, 0.3]], "judged again by a better reference");
         assert!(!falling.is_level() && curve("A: fake", &[(None, 0.1)]).is_level());
     }
 
@@ -248,6 +275,8 @@ mod tests {
         assert_eq!(of(Measure::Rmse), Some([[1.0, 1.0], [16.0, 0.25]]));
         assert_eq!(of(Measure::RelMse), Some([[1.0, 1.0], [16.0, 0.0625]]));
         assert_eq!(guide(&[curve("A: path", &[(Some(1), 0.9)])], settings(Measure::Rmse)), None, "one is no line");
+        let judged_by_b = Curve { against: Against::Pane(PaneId::B), ..falling.clone() };
+        assert_eq!(guide(&[judged_by_b], settings(Measure::Rmse)), None, "it need not fall");
     }
 
     #[test]

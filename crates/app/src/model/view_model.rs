@@ -102,7 +102,7 @@ impl ViewModel {
             Against::Pane(judge) => self.panes.get(judge)?.provenance.as_deref().map(without_spp),
             Against::Reference => None,
         };
-        let Some(pane) = self.panes.get(id).filter(|pane| !pane.rough) else { return };
+        let Some(pane) = self.panes.get(id).filter(|pane| !pane.rough && pane.lag.is_none()) else { return };
         let (Some((against, errors)), Some(judged)) = (pane.errors, pane.provenance.as_deref()) else { return };
         let course = Course { against, judged: without_spp(judged), judge: judge(against) };
         let point = ErrorPoint { spp: pane.spp, seconds: pane.seconds, errors };

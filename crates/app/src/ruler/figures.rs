@@ -37,11 +37,14 @@ pub fn error_words(errors: &Errors, judge: Option<&str>) -> [String; 2] {
     [off, brightness]
 }
 
-/// The mean difference of what is the mean of several pictures, whose noise is mostly gone: "bias -2.1 % (mean of 8 denoised runs)".
-pub fn bias_words(errors: &Errors, runs: &str) -> String {
+/// Denoised pictures of which the mean difference is told as a bias: the mean of fewer is noise as much.
+pub const FEWEST_RUNS_OF_A_BIAS: u32 = 4;
+
+/// The mean difference of what is the mean of several denoised pictures, whose noise is mostly gone: "bias -2.1 % (mean of 8 denoised runs)".
+pub fn bias_words(errors: &Errors, runs: u32) -> String {
     let share = errors.relative_bias;
     let sign = if share < 0.0 { "-" } else { "+" };
-    format!("bias {sign}{} % (mean of {runs})", percent(share.abs()))
+    format!("bias {sign}{} % (mean of {runs} denoised runs)", percent(share.abs()))
 }
 
 /// A share in percent, with two figures and no more decimals than are worth reading; "0" below a hundredth of a percent.
@@ -110,7 +113,7 @@ mod tests {
 
     #[test]
     fn what_is_left_of_several_runs_is_told_as_a_bias_with_its_sign() {
-        let of = |relative_bias| bias_words(&Errors { relative_bias, ..Errors::default() }, "8 denoised runs");
+        let of = |relative_bias| bias_words(&Errors { relative_bias, ..Errors::default() }, 8);
         assert_eq!(of(-0.0213), "bias -2.1 % (mean of 8 denoised runs)");
         assert_eq!(of(0.121), "bias +12 % (mean of 8 denoised runs)");
     }

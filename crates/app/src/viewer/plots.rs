@@ -2,7 +2,7 @@
 
 use super::Viewer;
 use crate::engine::export::{Content, Export};
-use crate::model::{Curve, Destination, Owner, PaneId, PlotFile, PlotSettings, csv, guide};
+use crate::model::{Curve, Destination, Owner, PaneId, PlotFile, PlotSettings, csv, guide, judge_of_all};
 use compare::{LogLogPlot, PlotPoint, Range, Series, Stroke};
 
 impl Viewer {
@@ -24,15 +24,16 @@ impl Viewer {
 
 /// The plot as a document of its own.
 fn svg(curves: &[Curve], settings: PlotSettings, scene: &str) -> String {
-    let against = curves.last().map_or("", |curve| curve.against.name());
-    let mut series: Vec<Series> = curves.iter().map(|curve| series(curve, settings)).collect();
+    let against = judge_of_all(curves).map_or(String::new(), |judge| format!(" against {}", judge.name()));
+    let series_of = |curve: &Curve| Series { name: curve.name_among(curves), ..series(curve, settings) };
+    let mut series: Vec<Series> = curves.iter().map(series_of).collect();
     series.extend(guide(curves, settings).map(|ends| Series {
         name: settings.measure.slope_name().into(),
         points: ends.map(point).into(),
         colour: GREY,
         stroke: Stroke::Dashed,
     }));
-    let title = format!("{} of {scene} against {against}", settings.measure.name());
+    let title = format!("{} of {scene}{against}", settings.measure.name());
     let plot = LogLogPlot {
         title: &title,
         x_label: settings.over.label(),
@@ -57,7 +58,7 @@ fn series(curve: &Curve, settings: PlotSettings) -> Series {
         let level = curve.latest(settings.measure).map(|error| point([f64::NAN, error]));
         return Series { name: curve.name.clone(), points: level.into_iter().collect(), colour, stroke: Stroke::Level };
     }
-    Series { name: curve.name.clone(), points: curve.places(settings).map(point).collect(), colour, stroke }
+    Series { name: curve.name.clone(), points: curve.places(settings).into_iter().map(point).collect(), colour, stroke }
 }
 
 fn point([x, y]: [f64; 2]) -> PlotPoint {

@@ -49,14 +49,14 @@ fn a_mean_of_denoised_runs_is_held_against_the_reference_as_its_bias() {
     {
         let session = &mut user.viewer.borrow_mut().model.session;
         let pane = &mut session.panes[PaneId::B];
-        (pane.denoise.denoiser, pane.runs, pane.truth.spp) = (Denoiser::Unet, 3, 2);
+        (pane.denoise.denoiser, pane.runs, pane.truth.spp) = (Denoiser::Unet, 4, 2);
         session.comparison.with = CompareWith::Reference;
     }
     let biased =
-        |f: &Frame| lines(f, "B").iter().any(|line| line.contains("bias ") && line.contains("3 denoised runs"));
+        |f: &Frame| lines(f, "B").iter().any(|line| line.contains("bias ") && line.contains("4 denoised runs"));
     let shown = user.wait_for("a bias", |f| both_whole(f) && biased(f));
-    assert!(lines(&shown, "B").iter().any(|line| line.contains("2 spp, mean of 3 runs, ")), "{:?}", lines(&shown, "B"));
-    assert_eq!(shown.state("b")["spp"], 6, "the samples of all");
+    assert!(lines(&shown, "B").iter().any(|line| line.contains("2 spp, mean of 4 runs, ")), "{:?}", lines(&shown, "B"));
+    assert_eq!(shown.state("b")["spp"], 8, "the samples of all");
 }
 
 /// The camera moves once, and what was seen before counts until the picture has twice as many samples.

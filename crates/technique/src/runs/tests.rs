@@ -164,6 +164,10 @@ fn runs_go_on_where_they_were_stopped_and_more_of_them_where_they_ended() {
     assert_eq!(more[1].3, whole);
     let fewer = pane.go_on(settings(1, UNET), u32::MAX);
     assert_eq!(fewer.last().map(|last| last.3.clone()), Some(image_of(&alone(5, 2, UNET))), "begun anew");
+    // in the middle of the second, whose samples are of another seed
+    pane.go_on(settings(2, UNET), 3);
+    let one = pane.go_on(settings(1, UNET), u32::MAX);
+    assert_eq!(one.last().map(|last| last.3.clone()), Some(image_of(&alone(5, 2, UNET))), "its own seed");
     assert_eq!(pane.go_on(settings(4, UNET), u32::MAX).last().map(|last| last.3.clone()), Some(whole));
     let raw = pane.go_on(settings(4, DenoiseSettings::OFF), u32::MAX);
     assert_eq!(raw.last().map(|last| last.3.clone()), Some(image_of(&mean_of(4, 2, DenoiseSettings::OFF))));

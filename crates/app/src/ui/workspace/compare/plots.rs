@@ -2,7 +2,8 @@
 //! line. egui_plot has linear axes alone: places are logarithms to base 10 here, and only ticks and hovers say numbers.
 
 use crate::model::{
-    Cost, Curve, Destination, ExportRequest, ExportSubject, Measure, Owner, PlotFile, PlotSettings, guide, pin,
+    Cost, Curve, Destination, ExportRequest, ExportSubject, Measure, Owner, PlotFile, PlotSettings, guide,
+    judge_of_all, pin,
 };
 use crate::ruler::brief;
 use crate::ui::theme::{Palette, palette};
@@ -106,8 +107,8 @@ fn plot(cx: &mut UiContext, ui: &mut Ui, curves: &[Curve], width: f32) {
         .y_axis_label(settings.measure.name())
         .x_grid_spacer(decades)
         .y_grid_spacer(decades)
-        .x_axis_formatter(|mark, _| tick_text(10f64.powf(mark.value)))
-        .y_axis_formatter(|mark, _| tick_text(10f64.powf(mark.value)))
+        .x_axis_formatter(|mark, _| tick_of(mark))
+        .y_axis_formatter(|mark, _| tick_of(mark))
         .grid_color(palette.line)
         .label_formatter(move |place| said_of(place, settings))
         // it always fits what there is: nothing is lost by a slip of the mouse
@@ -141,10 +142,8 @@ fn plot(cx: &mut UiContext, ui: &mut Ui, curves: &[Curve], width: f32) {
 fn key(cx: &UiContext, ui: &mut Ui, curves: &[Curve]) {
     let (settings, palette) = (cx.model.session.plots, palette(ui));
     for curve in curves {
-        let latest = curve.latest(settings.measure).map_or(String::new(), |error| format!("  {}", brief(error)));
-        let (colour, style, width) = look(curve.owner, palette);
-        let style = if curve.is_level() { LineStyle::Solid } else { style };
-        entry(ui, (colour, style, width), &format!("{}{latest}", curve.name), palette.text);
+        let latest = curve.latest(settings.measure).map_or(String::new(), |error| format!("{}  ", brief(error)));
+        entry(ui, look(curve.owner, palette), &format!("{latest}{}", curve.name_among(curves)), palette.text);
     }
     if guide(curves, settings).is_some() {
         entry(ui, GUIDE.of(palette), settings.measure.slope_name(), palette.dim);
@@ -152,17 +151,17 @@ fn key(cx: &UiContext, ui: &mut Ui, curves: &[Curve]) {
     if floor(cx, settings.measure).is_some() {
         entry(ui, FLOOR.of(palette), "noise of the reference", palette.dim);
     }
-    if let Some(curve) = curves.last() {
-        ui.label(RichText::new(format!("against {}", curve.against.name())).color(palette.dim));
-    } else {
-        ui.label(RichText::new("no errors have been measured yet").color(palette.dim));
+    let against = judge_of_all(curves).map(|judge| format!("against {}", judge.name()));
+    let nothing = curves.is_empty().then(|| "no errors have been measured yet".into());
+    if let Some(text) = against.or(nothing) {
+        ui.label(RichText::new(text).color(palette.dim));
     }
 }
 
 /// A piece of a line, and what it is.
 fn entry(ui: &mut Ui, (colour, style, width): Look, text: &str, text_colour: Color32) {
     ui.horizontal(|ui| {
-        let size = vec2(2.0 * ui.spacing().interact_size.y, ui.text_style_height(&egui::TextStyle::Body));
+        let size = vec2(1.2 * ui.spacing().interact_size.y, ui.text_style_height(&egui::TextStyle::Body));
         let (_, rect) = ui.allocate_space(size);
         let ends = [rect.left_center(), rect.right_center()];
         let stroke = Stroke::new(width, colour);
@@ -173,7 +172,7 @@ fn entry(ui: &mut Ui, (colour, style, width): Look, text: &str, text_colour: Col
             }
             LineStyle::Dotted { spacing } => ui.painter().extend(Shape::dotted_line(&ends, colour, spacing, width)),
         }
-        ui.add(egui::Label::new(RichText::new(text).color(text_colour)).truncate());
+        ui.add(egui::Label::new(RichText::new(text).color(text_colour)).truncate()).on_hover_text(text);
     });
 }
 
@@ -196,7 +195,7 @@ fn draw(plot: &mut PlotUi, curve: &Curve, settings: PlotSettings, palette: &Pale
         }
         return;
     }
-    let places: Vec<[f64; 2]> = curve.places(settings).collect();
+    let places = curve.places(settings);
     plot.line(Line::new(&*curve.name, logs(places.iter().copied())).color(colour).style(style).width(width));
     let last = places.into_iter().last();
     let mark = Points::new(UNNAMED, logs(last.into_iter())).color(colour).radius(1.5 * width + 1.0);
@@ -248,6 +247,12 @@ fn decades(input: GridInput) -> Vec<GridMark> {
     log_ticks(low, high).into_iter().map(mark).collect()
 }
 
+/// A logarithm's number: 1, 2 or 5 of a power of ten, from which 10 to a power is off by a rounding.
+fn tick_of(mark: GridMark) -> String {
+    let decade = 10f64.powf(mark.value.floor());
+    tick_text((10f64.powf(mark.value) / decade).round() * decade)
+}
+
 /// "A: Path tracing, light", "64 samples: relMSE 0.002".
 fn said_of(place: &HoverPosition, settings: PlotSettings) -> Option<String> {
     let HoverPosition::NearDataPoint { plot_name, position, .. } = place else { return None };
@@ -263,7 +268,7 @@ fn said_of(place: &HoverPosition, settings: PlotSettings) -> Option<String> {
 fn spoken(curves: &[Curve], settings: PlotSettings) -> String {
     let latest = |curve: &Curve| {
         let error = brief(curve.latest(settings.measure)?);
-        Some(format!("{}: {} {error}", curve.name, settings.measure.name()))
+        Some(format!("{}: {} {error}", curve.name_among(curves), settings.measure.name()))
     };
     curves.iter().filter_map(latest).collect::<Vec<_>>().join("; ")
 }
@@ -282,5 +287,21 @@ fn explain_cost(cost: Cost) -> &'static str {
     match cost {
         Cost::Samples => "How good a sample is",
         Cost::Seconds => "What counts in the end: how good a second is",
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ticks_are_round_numbers_of_which_powers_of_ten_stand_out() {
+        let marks = decades(GridInput { bounds: (-1.1, 1.1), base_step_size: 0.1 });
+        let texts: Vec<String> = marks.iter().map(|mark| tick_of(*mark)).collect();
+        assert_eq!(texts, ["0.1", "0.2", "0.5", "1", "2", "5", "10"]);
+        assert!(marks.iter().all(|mark| (mark.step_size == 1.0) == ["0.1", "1", "10"].contains(&&*tick_of(*mark))));
+        let wide = decades(GridInput { bounds: (-4.0, 4.0), base_step_size: 0.1 });
+        let texts: Vec<String> = wide.into_iter().map(tick_of).collect();
+        assert_eq!(texts, ["1e-4", "0.001", "0.01", "0.1", "1", "10", "100", "1000", "10000"]);
     }
 }

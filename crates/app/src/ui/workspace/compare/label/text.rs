@@ -2,8 +2,9 @@
 //! shown, never of settings whose picture is still to come.
 
 use crate::model::{Against, Compiling, Denoising, Drawing, Effort, PaneId, PaneView};
-use crate::ruler::{bias_words, brief, error_words, formulas};
+use crate::ruler::{FEWEST_RUNS_OF_A_BIAS, bias_words, brief, error_words, formulas};
 use compare::Errors;
+use denoise::trust::LEAST_SAMPLES;
 use pathtrace::{ChainStats, Integrator, PathSettings, Stats};
 use technique::settings::{capitalised, grouped, of_panes};
 use technique::{BlindSpot, DenoiseSettings, Device, PaneSettings, Technique, TracedSettings};
@@ -48,7 +49,7 @@ impl LabelText {
         let mut text = LabelText { name: name(shown, beside), ..LabelText::default() };
         if let Some(told) = told {
             let of = if told.of == pane { Some(shown) } else { beside.map(|(_, other)| other) };
-            text.tell(pane, told, of.and_then(several_runs));
+            text.tell(pane, told, of.and_then(denoised_runs));
         }
         text.figures.push(cost(shown, paused));
         text.notes.extend(troubles(shown));
@@ -59,7 +60,7 @@ impl LabelText {
             text.facts.extend(branching(traced, shown, beside));
             text.facts.extend(shown.lag.map(|lag| format!("+ {lag} (lag)")));
             text.facts.extend(denoised(shown, made.technique.denoise()));
-            text.notes.extend(weightless(&traced.denoise));
+            text.notes.extend(weightless(&traced.denoise, shown.spp.unwrap_or(0) / shown.runs.max(1)));
             text.facts.extend(chains(shown).map(|stats| told_of_chains(&stats)));
         }
         text.explanations.extend(explained(shown, beside));
@@ -98,7 +99,7 @@ impl LabelText {
     }
 
     /// `runs` names those that the picture is the mean of, where there are several.
-    fn tell(&mut self, pane: PaneId, Told { of, against, errors }: Told, runs: Option<String>) {
+    fn tell(&mut self, pane: PaneId, Told { of, against, errors }: Told, runs: Option<u32>) {
         let judge = match against {
             Against::Pane(judge) => Some(judge.name()),
             Against::Reference => None,
@@ -108,7 +109,7 @@ impl LabelText {
         let off = if of == pane { off } else { format!("{of} {off}") };
         // what their noise hides in one of them
         let brightness = match runs.filter(|_| judge.is_none()) {
-            Some(runs) => bias_words(&errors, &runs),
+            Some(runs) => bias_words(&errors, runs),
             None => brightness,
         };
         let measure = format!("relMSE {}", brief(errors.rel_mse));
@@ -166,10 +167,9 @@ fn mean_of_runs(shown: &PaneView) -> Option<String> {
     (wished > 1).then(|| format!("mean of {of}{} runs", wished.max(shown.runs)))
 }
 
-/// "8 denoised runs" of a picture that is the mean of several.
-fn several_runs(shown: &PaneView) -> Option<String> {
-    let denoised = if shown.denoised.is_some() { "denoised " } else { "" };
-    (shown.runs > 1).then(|| format!("{} {denoised}runs", shown.runs))
+/// How many it is the mean of, where that shows what they have in common: the filter's bias.
+fn denoised_runs(shown: &PaneView) -> Option<u32> {
+    Some(shown.runs).filter(|runs| *runs >= FEWEST_RUNS_OF_A_BIAS && shown.denoised.is_some())
 }
 
 /// Of a picture with fewer pixels than there is room for: ", at 1/4 of the resolution".
@@ -242,9 +242,13 @@ fn denoised(shown: &PaneView, settings: DenoiseSettings) -> Option<String> {
 }
 
 /// Why there is no weight to be seen, where that is asked for.
-fn weightless(settings: &DenoiseSettings) -> Option<String> {
-    let lacks = settings.shows_trust && !settings.trusts();
-    lacks.then(|| "no trust to show: it needs a denoiser, and trust in the samples above 0".into())
+fn weightless(settings: &DenoiseSettings, samples: u32) -> Option<String> {
+    let (shows, few) = (settings.shows_trust, samples < LEAST_SAMPLES);
+    match settings.trusts() {
+        false if shows => Some("no trust to show: it needs a denoiser, and trust in the samples above 0".into()),
+        true if few => Some(format!("nothing is trusted of fewer than {LEAST_SAMPLES} spp")),
+        _ => None,
+    }
 }
 
 /// What Metropolis' chains did.

@@ -182,6 +182,8 @@ fn a_view_of_trust_says_what_is_black_and_white_or_why_there_is_none() {
     let view = of(&[("denoise", "unet"), ("trust", "1"), ("show", "trust")]);
     assert_eq!(view.facts, ["black is the picture of unet, white that of the samples, in 250 ms"]);
     assert!(view.notes.is_empty());
+    let few = PaneView { denoised, ..path(&[("denoise", "unet"), ("trust", "1"), ("spp", "3")], 3) };
+    assert_eq!(label(&few, None).notes, ["nothing is trusted of fewer than 4 spp"]);
     let without = of(&[("denoise", "unet"), ("show", "trust")]);
     assert_eq!(without.notes, ["no trust to show: it needs a denoiser, and trust in the samples above 0"]);
 }
