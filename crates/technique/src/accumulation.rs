@@ -9,8 +9,10 @@ use std::time::Duration;
 
 /// A film, and what a device has added to it.
 pub struct Accumulation {
-    /// The film as last read.
+    /// The film as last read. Its pixels count the samples that are left out, too.
     pub(crate) film: Film,
+    /// Samples of each pixel that are left out, before the first.
+    left_out: u32,
     pub(crate) stats: Stats,
     /// Samples that every pixel has, on the device too.
     pub(crate) spp: u32,
@@ -54,9 +56,18 @@ impl Accumulation {
         Film::try_new(width, height).map(Accumulation::of)
     }
 
+    /// A film without light, whose first sample will be the one of this number: what comes before is somebody else's. Until it is
+    /// [finished](crate::Renderer::finish) it is not to be looked at.
+    pub fn beginning_at(first: u32, size: (u32, u32)) -> Option<Self> {
+        let mut blank = Accumulation::blank(size)?;
+        blank.film.pixels_mut().iter_mut().for_each(|pixel| pixel.samples = first);
+        Some(Accumulation { left_out: first, ..blank })
+    }
+
     fn of(film: Film) -> Self {
         Accumulation {
             film,
+            left_out: 0,
             stats: Stats::default(),
             spp: 0,
             most: 0,
@@ -99,6 +110,20 @@ impl Accumulation {
         self.spp
     }
 
+    /// Of as many samples a pixel, the number behind the last.
+    pub(crate) fn end_of(&self, samples: u32) -> u32 {
+        self.left_out.saturating_add(samples)
+    }
+
+    /// Takes what is left out off the counts of all pixels, once nothing is added any more.
+    pub(crate) fn count_its_own(&mut self) {
+        let left_out = std::mem::take(&mut self.left_out);
+        let earlier = self.earlier.iter_mut().flat_map(|earlier| earlier.half.iter_mut().chain([&mut earlier.next]));
+        for pixel in earlier.chain([&mut self.film]).flat_map(Film::pixels_mut) {
+            pixel.samples -= left_out;
+        }
+    }
+
     /// Samples that a pixel may have at most.
     pub fn most(&self) -> u32 {
         self.most
@@ -118,14 +143,20 @@ impl Accumulation {
     pub fn forget_the_device(&mut self) {
         self.makers.truncate(self.resolved_by);
         if self.on_device.take().is_some() {
-            self.spp = self.film.samples_per_pixel();
+            self.spp = self.own(self.film.samples_per_pixel());
         }
+    }
+
+    /// Of the samples that a pixel counts, those that are not left out.
+    pub(crate) fn own(&self, counted: u32) -> u32 {
+        counted - self.left_out
     }
 
     /// Whether this is the `half` that shall be the earlier part, or there are twice as many samples as when it was last kept for
     /// being that; where the parts meet at a number of their own, whether it is that or the end.
     pub(crate) fn is_to_be_kept(&self, half: u32, (meet_at, wished): (Option<u32>, u32)) -> bool {
-        let doubled = || self.earlier.as_ref().is_none_or(|earlier| self.spp / 2 >= earlier.next.samples_per_pixel());
+        let of = |earlier: &EarlierStates| self.own(earlier.next.samples_per_pixel());
+        let doubled = || self.earlier.as_ref().is_none_or(|earlier| self.spp / 2 >= of(earlier));
         match meet_at {
             Some(meet_at) => [meet_at, wished].contains(&self.spp),
             None => self.spp == half || doubled(),
@@ -192,3 +223,6 @@ pub(crate) fn copy_of(film: &Film) -> Option<Film> {
     copy.nonfinite = film.nonfinite;
     Some(copy)
 }
+
+#[cfg(test)]
+mod tests;

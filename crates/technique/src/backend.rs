@@ -137,7 +137,8 @@ impl Backend {
                 accumulation.stats = accumulation.stats.plus(stats);
                 accumulation.is_read();
                 let is_whole = !stopped.load(Ordering::Relaxed);
-                accumulation.spp = if is_whole { until } else { accumulation.film.samples_per_pixel() };
+                let counted = accumulation.film.samples_per_pixel();
+                accumulation.spp = if is_whole { until } else { accumulation.own(counted) };
                 Ok(stats.samples)
             }
             Backend::Gpu(gpu_backend) => gpu_backend.accumulate(accumulation, camera, integrator, until, stop),
@@ -249,13 +250,14 @@ impl GpuBackend {
         stop: &impl Fn() -> bool,
     ) -> Result<u64, GpuTraceError> {
         let GpuBackend { tracer, fault, .. } = self;
+        let end = accumulation.end_of(until);
         let film = accumulation.on_device(tracer)?;
         let (before, pixels) = (film.samples_per_pixel(), u64::from(film.width()) * u64::from(film.height()));
         let gpu = tracer.gpu().clone();
-        tracer.accumulate(film, camera, integrator, until, &counting(fault.as_ref(), &gpu, stop))?;
-        let spp = film.samples_per_pixel();
-        accumulation.spp = spp;
-        Ok(pixels * u64::from(spp - before))
+        tracer.accumulate(film, camera, integrator, end, &counting(fault.as_ref(), &gpu, stop))?;
+        let counted = film.samples_per_pixel();
+        accumulation.spp = accumulation.own(counted);
+        Ok(pixels * u64::from(counted - before))
     }
 
     fn add_features(

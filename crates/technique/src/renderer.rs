@@ -383,6 +383,7 @@ impl Renderer {
                 break;
             }
         }
+        accumulation.count_its_own();
         // a device that is lost only now has made it all the same
         let (device, made_by) = (self.device(), accumulation.made_by());
         if denoise.is_on() || watch.wants_features() {
