@@ -23,6 +23,17 @@ impl Provenance {
     }
 }
 
+impl Recorded {
+    /// The `visavis render` line of these options.
+    pub fn command(&self, out: &str) -> String {
+        let options = self.options.iter().map(|option| match option.split_once('=') {
+            Some((name, value)) => format!(" {name} {}", quoted(value)),
+            None => format!(" {option}"),
+        });
+        format!("visavis render {} -o {}{}", quoted(&self.scene), quoted(out), options.collect::<String>())
+    }
+}
+
 impl Shot {
     /// The `visavis reference` line that makes the reference of what is seen.
     pub fn reference_command(&self) -> String {
@@ -52,8 +63,8 @@ fn point(p: Vec3) -> String {
     format!("{},{},{}", p.x, p.y, p.z)
 }
 
-/// A word as a shell takes it whole.
-fn quoted(word: &str) -> String {
+/// A word as a shell of the POSIX kind takes it whole.
+pub fn quoted(word: &str) -> String {
     let plain = |c: char| c.is_alphanumeric() || "/._-+:,=@%".contains(c);
     if !word.is_empty() && word.chars().all(plain) { word.into() } else { format!("'{}'", word.replace('\'', r"'\''")) }
 }

@@ -26,17 +26,19 @@ mod progressive;
 mod provenance;
 mod renderer;
 mod runs;
+mod sample_ranges;
 pub mod settings;
 mod setup;
 mod shot;
 mod speeds;
+mod sums;
 mod threads;
 mod traced;
 
 pub use accumulation::Accumulation;
 pub use backend::{Backend, GpuBackend};
 pub use blind_spot::{BlindSpot, NoiseSource, Specular};
-pub use command::{camera_options, made_by_command};
+pub use command::{camera_options, made_by_command, quoted};
 pub use denoiser::{DenoiseSettings, Denoised, Denoiser, NOISY, TRUST};
 pub use device::{Adapter, Adapters, Device, DeviceChoice, INSTEAD};
 pub use fake::FakeSettings;
@@ -48,13 +50,15 @@ pub use pane::PaneSettings;
 pub use presets::Preset;
 pub use progressive::{NoMemory, ProgressiveRenderer, Request};
 pub use provenance::{
-    DENOISE, EARLIER_VIEWS, FILTER, Made, OWN_FOV, Provenance, Recorded, WEIGHTS, denoised_by, is_of_its_pixels,
-    made_from, scene_hash,
+    DENOISE, EARLIER_VIEWS, FILTER, Made, NONFINITE, OWN_FOV, Provenance, Recorded, SAMPLES, WEIGHTS, denoised_by,
+    is_of_its_pixels, made_from, sample_ranges, scene_hash, tell_samples,
 };
 pub use renderer::{Frame, Pacing, Rendered, Renderer, Watch};
 pub use runs::Runs;
+pub use sample_ranges::SampleRanges;
 pub use setup::PaneSetup;
 pub use shot::{SceneChanges, Shot};
+pub use sums::{film_of_sums, layers_of_sums};
 pub use threads::{Rank, Threads};
 pub use traced::{
     ChainSettings, LightPaneSettings, NormalsPaneSettings, PhotonPaneSettings, TracedSettings, TreeSettings,

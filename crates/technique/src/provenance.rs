@@ -2,7 +2,7 @@
 
 use crate::command::{camera_options, size_option};
 use crate::settings::unsaid_of_old;
-use crate::{Device, HALVES, Shot, Technique, TechniqueName, TracedSettings};
+use crate::{Device, HALVES, SampleRanges, Shot, Technique, TechniqueName, TracedSettings};
 use anyhow::Context;
 use image_file::Records;
 use pathtrace::{Integrator, usual_radius};
@@ -79,9 +79,18 @@ pub const OWN_FOV: &str = "camera.fov";
 /// The record of a picture in which earlier views of a window count, which nothing makes again: how much.
 pub const EARLIER_VIEWS: &str = "history.counts";
 
+/// The record of a picture whose sums are kept: which samples of its pixels they are of.
+pub const SAMPLES: &str = "samples";
+
+/// Its option, where they are not those from the first on.
+const SPP: &str = "spp";
+
+/// The record of such a picture of how many samples were not finite, if any were.
+pub const NONFINITE: &str = "nonfinite";
+
 /// Records that say what a picture took or where it was, and are no options of `visavis render`.
-const NO_OPTIONS: [&str; 9] =
-    ["records", "version", "scene", SCENE_HASH, "adapter", "seconds", "command", OWN_FOV, EARLIER_VIEWS];
+const NO_OPTIONS: [&str; 10] =
+    ["records", "version", "scene", SCENE_HASH, "adapter", "seconds", "command", OWN_FOV, EARLIER_VIEWS, NONFINITE];
 
 /// The record's name of the weights that a picture was denoised by.
 pub const WEIGHTS: &str = "denoise.weights";
@@ -130,6 +139,8 @@ pub fn made_from(records: &[(String, String)]) -> anyhow::Result<Option<Recorded
     // only rays traced on the graphics device ask for it: the fake has no other, and the processor is the usual one
     let asks_for_gpu = value("device") == Some("gpu") && value("technique") != Some(TechniqueName::Raster.name());
     let says_nothing = |name: &str| NO_OPTIONS.contains(&name) || (name == "device" && !asks_for_gpu);
+    let of_samples = if sample_ranges(records)?.is_none_or(|ranges| ranges.are_the_first()) { SAMPLES } else { SPP };
+    let says_nothing = |name: &str| says_nothing(name) || name == of_samples;
     let is_option = |name: &str| !says_nothing(name) && ([DENOISE, TRUST].contains(&name) || !is_of_its_pixels(name));
     let options = records.iter().filter(|(name, _)| is_option(name));
     let words = options.map(|(name, value)| format!("--{name}={value}")).collect();
@@ -143,6 +154,33 @@ pub fn made_from(records: &[(String, String)]) -> anyhow::Result<Option<Recorded
 pub fn scene_hash(records: &[(String, String)]) -> anyhow::Result<Option<SceneHash>> {
     let Some((_, word)) = records.iter().find(|(name, _)| name == SCENE_HASH) else { return Ok(None) };
     Ok(Some(word.parse().with_context(|| format!("its record {SCENE_HASH} is damaged: {word}"))?))
+}
+
+/// Which samples of its pixels a picture has the sums of; `None` if its records do not tell.
+///
+/// # Errors
+/// If they are damaged.
+pub fn sample_ranges(records: &[(String, String)]) -> anyhow::Result<Option<SampleRanges>> {
+    let Some((_, words)) = records.iter().find(|(name, _)| name == SAMPLES) else { return Ok(None) };
+    let ranges = words.parse().map_err(anyhow::Error::msg);
+    Ok(Some(ranges.with_context(|| format!("its record {SAMPLES} is damaged: {words}"))?))
+}
+
+/// Says in a picture's records which samples it has the sums of, and by which command they are made, if there is one.
+///
+/// # Errors
+/// As [`made_from`].
+pub fn tell_samples(records: &mut Vec<(String, String)>, samples: &SampleRanges) -> anyhow::Result<()> {
+    records.retain(|(name, _)| ![SPP, SAMPLES, "command"].contains(&name.as_str()));
+    records.push((SPP.into(), samples.count().to_string()));
+    records.push((SAMPLES.into(), samples.to_string()));
+    if samples.without_gaps().is_some()
+        && let Some(made) = made_from(records)?
+    {
+        let out = if samples.are_the_first() { "picture.png" } else { "picture.exr" };
+        records.push(("command".into(), made.command(out)));
+    }
+    Ok(())
 }
 
 impl Provenance {
