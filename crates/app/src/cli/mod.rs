@@ -8,11 +8,12 @@ mod compare;
 mod denoise;
 mod info;
 mod interrupt;
+mod merge;
 mod original;
 mod reference;
 mod render;
 
-pub use args::{BenchArgs, CheckArgs, CompareArgs, DenoiseArgs, ReferenceArgs, RenderArgs, Seen};
+pub use args::{BenchArgs, CheckArgs, CompareArgs, DenoiseArgs, MergeArgs, ReferenceArgs, RenderArgs, Seen};
 
 use crate::model::ViewArgs;
 use std::process::ExitCode;
@@ -28,6 +29,8 @@ pub enum Command {
     Compare(CompareArgs),
     /// A picture without its noise.
     Denoise(DenoiseArgs),
+    /// Films of ranges of one picture's samples, put together.
+    Merge(MergeArgs),
     /// Speed against error of all techniques on the built-in scenes.
     Bench(BenchArgs),
     /// References: made, kept, thrown away.
@@ -98,6 +101,7 @@ impl Command {
             Command::Render(mut args) => render::run(&mut args),
             Command::Compare(args) => compare::run(&args),
             Command::Denoise(args) => denoise::run(&args),
+            Command::Merge(args) => merge::run(&args),
             Command::Bench(args) => bench::run(&args),
             Command::Reference(args) => reference::run(&args),
             Command::Check(args) => check::run(&args),

@@ -1,7 +1,10 @@
 //! `visavis render`: a picture to a file, without a window.
 
+mod report;
+mod samples;
 mod terminal;
 
+use self::report::report;
 use self::terminal::Terminal;
 use super::{RenderArgs, interrupt, reference};
 use crate::ruler::{FEWEST_RUNS_OF_A_BIAS, bias_words, brief, error_records, error_words, noise_line};
@@ -13,18 +16,14 @@ use image_file::{self, Kind};
 use pathtrace::{ChainStats, Stats};
 use raster::Raster;
 use scene::{Scene, builtin};
-use serde_json::json;
 use std::io::IsTerminal;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
-use technique::settings::{OF_SCENES, Setting, Value, all_of_panes};
+use technique::settings::{OF_SCENES, Setting, all_of_panes};
 use technique::{
-    Accumulation, Backend, BlindSpot, DenoiseSettings, Denoised, Device, DeviceChoice, FakeSettings, Halves, INSTEAD,
-    Made, NOISY, PaneSettings, Provenance, Rendered, Renderer, Runs, Shot, Technique, Threads, TracedSettings,
+    Backend, BlindSpot, DenoiseSettings, Denoised, Device, DeviceChoice, FakeSettings, Halves, INSTEAD, Made, NOISY,
+    PaneSettings, Provenance, Rendered, Renderer, Runs, Shot, Technique, Threads, TracedSettings,
 };
-
-/// Samples per pixel where neither --spp nor --time says how many.
-const DEFAULT_SPP: u32 = 64;
 
 /// How long a device may work on what nobody has read yet.
 const AT_RISK: Duration = Duration::from_secs(5);
@@ -65,6 +64,7 @@ pub fn run(args: &mut RenderArgs) -> anyhow::Result<()> {
         image.layers.extend(rendered.features.iter().flat_map(Features::layers));
         image.layers.extend(before.iter().map(|before| before.as_layer(NOISY)));
     }
+    image.layers.extend(samples::layers(args, &rendered.film));
     let halves = halves(args, &rendered);
     image.layers.extend(halves.iter().flat_map(Halves::layers));
     let measured = args.errors.then(|| measure(&shot, (&image, before.as_ref()))).transpose();
@@ -130,12 +130,6 @@ pub fn run(args: &mut RenderArgs) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// `u32::MAX` where the time alone decides, which it does not within one of several runs.
-fn spp_wanted(args: &RenderArgs) -> u32 {
-    let the_time_decides = args.seconds.is_some() && args.pane.in_use().runs() == 1;
-    args.spp.unwrap_or(if the_time_decides { u32::MAX } else { DEFAULT_SPP })
-}
-
 /// Samples per pixel of each run.
 fn spp_of_run(rendered: &Rendered) -> u32 {
     rendered.film.samples_per_pixel() / rendered.runs.max(1)
@@ -144,7 +138,7 @@ fn spp_of_run(rendered: &Rendered) -> u32 {
 /// `12 of 64 spp`, `2 of 8 runs of 64 spp`.
 fn spp_made(args: &RenderArgs, rendered: &Rendered) -> String {
     let (made, runs) = (spp_of_run(rendered), args.pane.in_use().runs());
-    match (args.pane.in_use(), spp_wanted(args)) {
+    match (args.pane.in_use(), args.spp_wanted()) {
         (Technique::Traced(_), wanted) if runs > 1 && made == wanted => {
             format!("{} of {runs} runs of {made} spp", rendered.runs)
         }
@@ -206,8 +200,9 @@ fn save(
     let parts = halves.or_else(|| parts().filter(|_| technique.denoise().trusts()));
     records.extend(parts.into_iter().flat_map(Halves::records));
     records.extend(errors.into_iter().flat_map(|e| error_records(&e.errors, "reference".into())));
+    let records = samples::records(args, &rendered.film, records)?;
     let kind = Kind::of(&args.out).context("a picture's name must end in .png or .exr")?;
-    let bytes = image_file::encode(kind, image, &DisplayTransform { exposure: args.exposure }, &records)?;
+    let bytes = image_file::encode_with_read(kind, image, &DisplayTransform { exposure: args.exposure }, &records)?;
     Ok(image_file::write_or_keep(&args.out, &bytes)?)
 }
 
@@ -284,10 +279,10 @@ fn trace(args: &RenderArgs, shot: &Shot, traced: TracedSettings) -> anyhow::Resu
     for line in traced.blind_spots(&shot.scene).into_iter().filter_map(BlindSpot::explanation) {
         note!("note: {line}");
     }
-    let spp = spp_wanted(args);
+    let spp = args.spp_wanted();
     let (width, height) = shot.size;
     let no_memory = || format!("not enough memory for {width}x{height} pixels; ask for a smaller --size");
-    let blank = Accumulation::blank(shot.size).with_context(no_memory)?;
+    let blank = samples::blank(args, shot.size).with_context(no_memory)?;
     let (denoise, runs) = (args.pane.in_use().denoise(), args.pane.in_use().runs());
     let of_runs = (runs > 1).then(|| Runs::blank(shot.size, spp, denoise).with_context(no_memory)).transpose()?;
     let device = TracedSettings { device: args.device, ..traced }.device_choice();
@@ -327,72 +322,4 @@ fn backend(gpu: Option<&Gpu>, scene: &Scene, choice: DeviceChoice) -> anyhow::Re
         None => {}
     }
     Ok(Backend::on_the_processor(scene))
-}
-
-fn report(
-    args: &RenderArgs,
-    scene: &Scene,
-    (rendered, seconds): (&Rendered, f64),
-    measured: Option<&Measured>,
-) -> serde_json::Value {
-    let technique = args.pane.technique;
-    let per_second = |count: u64| count as f64 / seconds;
-    let mut report = json!({
-        "scene": scene.name,
-        "technique": technique.name(),
-        "device": rendered.device.name(),
-        "adapter": rendered.made_by,
-        "width": args.seen.size.0,
-        "height": args.seen.size.1,
-        "spp": spp_of_run(rendered),
-        "runs": rendered.runs,
-        "seconds": seconds,
-        "samples_per_second": per_second(rendered.stats.samples),
-        "rays_per_second": per_second(rendered.stats.rays),
-        "mean": rendered.film.mean(),
-        "nonfinite": rendered.film.nonfinite,
-    });
-    match args.pane.in_use() {
-        Technique::Fake(fake) => report["fake"] = json!(fake.fake.name()),
-        Technique::Traced(rays) => {
-            let made = args.pane.in_use().with_runs(rendered.runs);
-            for (name, value) in made.values(spp_of_run(rendered)).into_iter().skip(1) {
-                report[name.replace('-', "_")] = match value {
-                    Value::Whole(number) => json!(number),
-                    other => json!(other.to_string()),
-                };
-            }
-            report["samples"] = json!(rendered.stats.samples);
-            report["rays"] = json!(rendered.stats.rays);
-            report["cut_paths"] = json!(rendered.stats.cut_paths);
-            if rendered.stats.photons > 0 {
-                report["cut_photons"] = json!(rendered.stats.cut_photons);
-            }
-            report["standard_error"] = json!(rendered.film.standard_error());
-            let shows_light = args.pane.in_use().shows_the_scene();
-            let is_a_mean = shows_light && !rays.denoise.is_on();
-            let reliable = is_a_mean && rays.integrator.is_independent() && rendered.film.standard_error_is_reliable();
-            report["standard_error_reliable"] = json!(reliable);
-            if let Some(scale) = rendered.stats.chains.scale() {
-                report["mutations"] = json!(rendered.stats.chains.mutations);
-                report["acceptance"] = json!(rendered.stats.chains.acceptance());
-                report["start_up_scale"] = json!(scale);
-            }
-        }
-    }
-    if let Some(Ok(Denoised { seconds, made_by, .. })) = &rendered.denoised {
-        let before = measured.and_then(|measured| measured.before).map(|e| e.rel_mse);
-        report["denoised"] = json!({
-            "by": args.pane.in_use().denoise().denoiser.name(), "adapter": made_by, "seconds": seconds,
-            "relmse_before": before,
-        });
-    }
-    if let Some(Measured { errors: e, .. }) = measured {
-        report["errors"] = json!({
-            "against": "reference", "rmse": e.rmse, "relmse": e.rel_mse, "mae": e.mae, "bias": e.bias,
-            "relative_mae": e.relative_mae, "relative_bias": e.relative_bias, "reference_noise": e.reference_noise,
-            "below_reference_noise": e.below_reference_noise(),
-        });
-    }
-    report
 }

@@ -7,7 +7,7 @@ use image_file::shown;
 use scene::{Scene, SceneHash, Vec3};
 use std::path::Path;
 use technique::settings::of_scenes;
-use technique::{OWN_FOV, PaneSetup, Recorded, TechniqueName, made_by_command, made_from, scene_hash};
+use technique::{OWN_FOV, PaneSetup, Recorded, SampleRanges, TechniqueName, made_by_command, made_from, scene_hash};
 
 /// A picture's scene and all that it says beside.
 #[derive(Debug)]
@@ -133,6 +133,12 @@ fn of_panes(panes: &[(PaneId, Recorded)]) -> anyhow::Result<Kept> {
     Ok(Kept { scene: scene.clone(), scene_hash: *scene_hash, setup })
 }
 
+/// How many they are.
+fn samples(ranges: &str) -> anyhow::Result<String> {
+    let ranges: SampleRanges = ranges.parse().map_err(anyhow::Error::msg)?;
+    Ok(ranges.count().to_string())
+}
+
 /// Sets up a pane as options of `visavis render` say.
 fn add(setup: &mut Setup, id: PaneId, options: &[String]) -> anyhow::Result<()> {
     let pairs = options.iter().filter_map(|option| option.strip_prefix("--")?.split_once('='));
@@ -143,6 +149,8 @@ fn add(setup: &mut Setup, id: PaneId, options: &[String]) -> anyhow::Result<()> 
         match name {
             // the window has a size and devices of its own
             "technique" | "size" | "device" => {}
+            // the window begins with the first sample
+            "samples" => pane.set("spp", &samples(value)?).map_err(anyhow::Error::msg)?,
             "exposure" => setup.exposure = Some(number(value)?),
             _ if look(setup, name, value)? => {}
             _ => pane.set(name, value).map_err(anyhow::Error::msg)?,
@@ -239,6 +247,16 @@ mod tests {
             assert_eq!((model.document.changes, model.session.display.exposure), (picture.shot.changes, 1.5));
             assert!(!model.can_undo_and_redo()[0], "{name}: there is nothing behind it");
         }
+    }
+
+    #[test]
+    fn of_a_range_of_samples_as_many_are_wished_for() {
+        let [_, truth] = pictures();
+        let made = Made { spp: 5, seconds: 1.0, adapter: "", denoised_by: None, exposure: 0.0 };
+        let mut records = truth.records(made);
+        records.push(("samples", "3..8".into()));
+        let model = restored(&written(&TestFolder::new(), "part.exr", &records));
+        assert_eq!(model.session.panes[PaneId::A].in_use(), truth.technique);
     }
 
     #[test]

@@ -1,7 +1,7 @@
 //! The text of `--help`, made from the tables of options and of settings: what is in none of them is no option.
 
 use super::options::CommandOption;
-use super::{bench, check, compare, denoise, reference, render, view};
+use super::{bench, check, compare, denoise, merge, reference, render, view};
 use technique::TechniqueName;
 use technique::settings::{OF_SCENES, Setting, all_of_panes};
 
@@ -157,6 +157,12 @@ fn commands() -> Vec<Block> {
             "take the noise out of A, an .exr with the layers albedo (R, G, B) and normal (X, Y, Z); the result is biased, which \
              its records and compare say, and render --from makes it again where it can",
             &denoise::options(),
+        ),
+        Block::new(
+            "visavis merge A B ... -o OUT",
+            "put films of render --samples together, ranges of the samples of one picture: the film of one run that takes them all; \
+             ranges may be left out, but none twice, and the order of the files is nothing (docs/many-machines.md)",
+            &merge::options(),
         ),
         Block::new(
             "visavis reference SCENE -o OUT",

@@ -5,9 +5,11 @@ pub mod check;
 pub mod compare;
 pub mod denoise;
 mod help;
+pub mod merge;
 pub mod options;
 pub mod reference;
 pub mod render;
+mod samples;
 mod seen;
 mod values;
 pub mod view;
@@ -16,6 +18,7 @@ pub use bench::BenchArgs;
 pub use check::CheckArgs;
 pub use compare::CompareArgs;
 pub use denoise::DenoiseArgs;
+pub use merge::MergeArgs;
 pub use reference::ReferenceArgs;
 pub use render::{RenderArgs, made_by};
 pub use seen::Seen;
@@ -47,6 +50,7 @@ impl Command {
             "render" => render::parse,
             "compare" => compare::parse,
             "denoise" => denoise::parse,
+            "merge" => merge::parse,
             "bench" => bench::parse,
             "info" => parse_info,
             "check" => check::parse,

@@ -1,6 +1,7 @@
 //! The options of `visavis render`: those of every technique, of what is traced and of the fake.
 
 use super::options::{CommandOption, Typed, read, set};
+use super::samples;
 use super::seen::Seen;
 use super::usage;
 use super::values::{DEVICES, choice, lanes, number, seconds};
@@ -14,8 +15,8 @@ use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 use technique::settings::{all_of_panes, of_panes, of_scenes};
 use technique::{
-    DENOISE, Denoiser, DeviceChoice, EARLIER_VIEWS, FILTER, Halves, PaneSettings, Preset, Recorded, Technique,
-    TechniqueName, WEIGHTS, made_from, presets,
+    DENOISE, Denoiser, DeviceChoice, EARLIER_VIEWS, FILTER, Halves, PaneSettings, Preset, Recorded, SampleRanges,
+    Technique, TechniqueName, WEIGHTS, made_from, presets,
 };
 
 /// `visavis render SCENE -o OUT ...`; `None` leaves a value to the scene.
@@ -32,6 +33,8 @@ pub struct RenderArgs {
     /// Where rays are traced.
     pub device: DeviceChoice,
     pub spp: Option<u32>,
+    pub samples: Option<SampleRanges>,
+    pub jobs: Option<u32>,
     pub seconds: Option<f64>,
     pub exposure: f32,
     pub errors: bool,
@@ -45,12 +48,23 @@ pub struct RenderArgs {
     pub chose_estimator: bool,
 }
 
+/// Samples per pixel where neither --spp nor --time says how many.
+const DEFAULT_SPP: u32 = 64;
+
+impl RenderArgs {
+    /// `u32::MAX` where the time alone decides, which it does not within one of several runs.
+    pub fn spp_wanted(&self) -> u32 {
+        let the_time_decides = self.seconds.is_some() && self.pane.in_use().runs() == 1;
+        self.spp.unwrap_or(if the_time_decides { u32::MAX } else { DEFAULT_SPP })
+    }
+}
+
 /// The words after `render` on their way.
 pub struct Reading {
-    args: RenderArgs,
+    pub(super) args: RenderArgs,
     out: Option<PathBuf>,
     /// The options that were read, and the techniques that they change.
-    given: Vec<(String, &'static [TechniqueName])>,
+    pub(super) given: Vec<(String, &'static [TechniqueName])>,
     preset: Option<&'static Preset>,
 }
 
@@ -60,7 +74,7 @@ impl AsMut<Seen> for Reading {
     }
 }
 
-const TRACED: &[TechniqueName] = &[
+pub(super) const TRACED: &[TechniqueName] = &[
     TechniqueName::Whitted,
     TechniqueName::Path,
     TechniqueName::Photon,
@@ -190,7 +204,7 @@ pub fn options_of_some() -> impl Iterator<Item = (&'static [TechniqueName], Comm
             Ok(())
         },
     };
-    [(TRACED, time), (TRACED, in_lanes)].into_iter()
+    [time, in_lanes].into_iter().chain(samples::options()).map(|option| (TRACED, option))
 }
 
 /// Reads a setting; `false` if there is none of this name.
@@ -210,7 +224,11 @@ fn a_setting(reading: &mut Reading, name: &str, parser: &mut lexopt::Parser) -> 
 
 /// Reads the words after `render`. A picture after `--from` comes first: what else is said changes what it says.
 pub fn parse(mut parser: lexopt::Parser) -> Result<Command, CliError> {
-    let mut words: Vec<OsString> = parser.raw_args()?.collect();
+    let words: Vec<OsString> = parser.raw_args()?.collect();
+    samples::checked(parse_typed(words.clone())?, &words)
+}
+
+fn parse_typed(mut words: Vec<OsString>) -> Result<Command, CliError> {
     let Some(place) = words.iter().position(|word| word.to_string_lossy().split('=').next() == Some("--from")) else {
         return parse_words(words, None);
     };
@@ -224,7 +242,7 @@ pub fn parse(mut parser: lexopt::Parser) -> Result<Command, CliError> {
         return usage("--preset and --from both say how a picture is made: leave one out");
     }
     let (before, made) = read_records(&file)?;
-    words.splice(0..0, made);
+    words.splice(0..0, samples::without_other_samples(made, &words));
     let mut command = parse_words(words, Some(before.scene.clone()))?;
     if let Command::Render(render) = &mut command {
         // what a picture says of itself was not asked for just now
@@ -293,6 +311,8 @@ fn parse_words(words: Vec<OsString>, scene: Option<String>) -> Result<Command, C
         seen: Seen::default(),
         device: DeviceChoice::Auto,
         spp: None,
+        samples: None,
+        jobs: None,
         seconds: None,
         exposure: 0.0,
         errors: false,
@@ -366,6 +386,7 @@ fn parse_words(words: Vec<OsString>, scene: Option<String>) -> Result<Command, C
     }
     args.chose_estimator = is_given("--estimator") || states("estimator");
     args.spp = if is_given("--spp") || states("spp") { args.pane.wished_spp() } else { None };
+    args.spp = args.samples.as_ref().map(SampleRanges::count).or(args.spp);
     args.given = given.iter().filter_map(|(option, _)| Some(option.strip_prefix("--")?.to_owned())).collect();
     let ignored = given.into_iter().filter(|(_, of)| !of.contains(&technique));
     args.without_effect = ignored.map(|(option, _)| option).collect();
