@@ -142,6 +142,12 @@ impl PaneSetup {
         self.give_to(pane);
     }
 
+    /// Sets a pane to its technique with what is said; what is not said stays.
+    pub fn add_to(&self, pane: &mut PaneSettings) {
+        pane.technique = self.technique;
+        self.give_to(pane);
+    }
+
     fn give_to(&self, pane: &mut PaneSettings) {
         for (name, value) in &self.values {
             if let Some(setting) = of_panes(name) {

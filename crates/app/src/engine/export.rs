@@ -1,6 +1,7 @@
 //! The thread that writes pictures and fills the clipboard: encoding, disk and other programs take their time.
 
 use super::capture::{Capture, Pixels};
+use super::session::SessionToSave;
 use super::worker::{Control, Service, Worker};
 use super::{Picture, Wake};
 use crate::model::{Destination, ErrorMap};
@@ -22,6 +23,8 @@ pub enum Content {
     Map(Arc<ErrorMap>),
     /// What is no picture, in a file whose name may end in anything.
     Text(String),
+    /// What makes all pictures again.
+    Session(SessionToSave),
 }
 
 /// Something to export.
@@ -99,6 +102,9 @@ fn save(export: &Export, path: &Path) -> anyhow::Result<PathBuf> {
     if let Content::Text(text) = content {
         return Ok(image_file::write_new(path, text.as_bytes())?);
     }
+    if let Content::Session(session) = content {
+        return session.save(path);
+    }
     let kind =
         Kind::of(path).with_context(|| format!("the name must end in .png or .exr: {}", image_file::shown(path)))?;
     let bytes = match (content, kind) {
@@ -108,7 +114,7 @@ fn save(export: &Export, path: &Path) -> anyhow::Result<PathBuf> {
             let Pixels { width, height, rgba } = capture.pixels()?;
             image_file::encode_rgba8(width, height, &rgba, records)?
         }
-        (Content::Seen(_) | Content::Text(_), _) => {
+        (Content::Seen(_) | Content::Text(_) | Content::Session(_), _) => {
             anyhow::bail!(
                 "EXR keeps the radiance of one pane: save A, B or the error map, or end the name in .png: {}",
                 image_file::shown(path)
@@ -132,6 +138,10 @@ fn copy(export: &Export, clipboard: &mut Option<arboard::Clipboard>) -> anyhow::
         Content::Text(text) => {
             let outcome = opened(clipboard).and_then(|open| open.set_text(text));
             return outcome.context("cannot copy the text; save it instead");
+        }
+        Content::Session(session) => {
+            let outcome = opened(clipboard).and_then(|open| open.set_text(session.text()));
+            return outcome.context("cannot copy the session; save it instead");
         }
     };
     let image = arboard::ImageData { width: width as usize, height: height as usize, bytes: rgba.into() };

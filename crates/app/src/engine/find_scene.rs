@@ -1,4 +1,4 @@
-//! The scene of a picture: where the picture's records say, beside the picture, or among the files that were opened before.
+//! The scene of a picture or a session: where that says, beside it, or among the files that were opened before.
 //! Folders are moved and pictures are sent, so that records keep the scene's file as it was asked for; of several files of
 //! that name the one counts that the picture shows, by its hash.
 
@@ -46,8 +46,8 @@ fn refusal(faults: &[SceneError], picture: &Path) -> String {
     match (faults.iter().find(|fault| !is_missing(fault)), faults.first()) {
         (Some(fault), _) => format!("the scene of {picture}: {fault}"),
         (None, Some(fault)) => format!(
-            "the scene of {picture} is found neither where it was when the picture was made, nor beside the picture, nor \
-             among the files opened before; put it beside the picture: {fault}"
+            "the scene of {picture} is found neither where it was then, nor beside {picture}, nor among the files opened \
+             before; put it there: {fault}"
         ),
         (None, None) => format!("{picture} does not say which scene it shows"),
     }
@@ -83,7 +83,7 @@ mod tests {
             assert_eq!(source(scene).map(PathBuf::from), Ok(folder.file(file)));
         }
         let missing = source("gone.toml").expect_err("no scene");
-        assert!(missing.contains("nor beside the picture") && missing.contains("opened before"), "{missing}");
+        assert!(missing.contains("nor beside ") && missing.contains("opened before"), "{missing}");
         assert_eq!(source("cornell"), Ok("cornell".into()));
     }
 

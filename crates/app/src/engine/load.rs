@@ -1,11 +1,12 @@
-//! Reading scenes, and pictures that say which scene they show, beside the UI: a large file takes its time.
+//! Reading scenes, sessions, and pictures that say which scene they show, beside the UI: a large file takes its time.
 
 use super::Wake;
 use super::find_scene::scene_of;
 use super::restore::{self, Kept, Told};
+use super::session;
 use super::watch::Stamp;
 use super::worker::{Control, Service, Worker};
-use crate::model::Setup;
+use crate::model::{SavedSession, Setup};
 use image_file::{Kind, shown};
 use reference::Reference;
 use scene::{Scene, SceneError, builtin};
@@ -44,7 +45,7 @@ pub struct ReferenceFile {
 /// A scene that was read.
 #[derive(Debug)]
 pub struct Opened {
-    /// What opened it: a built-in name, a scene's file or a picture.
+    /// What opened it: a built-in name, a scene's file, a session or a picture.
     pub asked: String,
     /// The scene's built-in name or file.
     pub source: String,
@@ -54,6 +55,8 @@ pub struct Opened {
     pub stamp: Option<Stamp>,
     /// What the picture sets up that was opened, if one was.
     pub setup: Option<Setup>,
+    /// The session that was opened, if one was.
+    pub session: Option<Box<SavedSession>>,
     /// That picture, where it is the scene's reference.
     pub reference: Option<ReferenceFile>,
     /// What else is to be said, a line each.
@@ -74,11 +77,11 @@ pub struct Refusal {
 /// What the user has asked for: to be looked at, or to be compared with.
 #[derive(Debug, Clone)]
 pub enum Asked {
-    /// A scene by its built-in name, a scene's file, or a picture.
+    /// A scene by its built-in name, a scene's file, a session, or a picture.
     Open {
-        /// A built-in name, or the path of a scene or a picture.
+        /// A built-in name, or the path of a scene, a session or a picture.
         name: String,
-        /// The files that were opened before, among which a picture's scene may be.
+        /// The files that were opened before, among which the scene of a picture or a session may be.
         recent: Vec<PathBuf>,
     },
     /// A picture to compare with.
@@ -103,6 +106,10 @@ pub fn read(asked: &Asked) -> Result<Loaded, Refusal> {
         Asked::Reference(file) => read_reference(file).map(Loaded::Reference),
         Asked::Open { name, recent } => match Kind::of(Path::new(name)) {
             Some(kind) if builtin::text(name).is_none() => read_picture(Path::new(name), kind, recent),
+            _ if builtin::text(name).is_none() && session::is_session_file(Path::new(name)) => {
+                let opened = session::read(Path::new(name), recent);
+                opened.map(|opened| Loaded::Scene(Box::new(opened))).map_err(|line| refuse(Path::new(name), line))
+            }
             _ => read_scene(name).map(|opened| Loaded::Scene(Box::new(opened))).map_err(|fault| refusal(name, &fault)),
         },
     }
@@ -128,6 +135,7 @@ pub(super) fn read_scene(source: &str) -> Result<Opened, SceneError> {
         scene,
         stamp,
         setup: None,
+        session: None,
         reference: None,
         notes,
     })

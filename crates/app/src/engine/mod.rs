@@ -2,7 +2,7 @@
 //! and [`rays`] with its [`technique::ProgressiveRenderer`]. They turn jobs into [`Picture`]s. All who trace share one
 //! pool of threads, in turns. The [`post_process`] turns pictures into bytes for the screen and measures how far
 //! apart they are, from each other or from what the [`mod@reference`] makes, and the [`error_map`] draws where; the
-//! [`export`] writes files and fills the clipboard; [`load`], [`restore`] and [`find_scene`] read them, [`watch`] reads a scene again that
+//! [`export`] writes files and fills the clipboard; [`load`], [`restore`], [`session`] and [`find_scene`] read them, [`watch`] reads a scene again that
 //! has changed on disk, [`memory`] keeps what the next window is to know, [`dialogue`] waits for the system's own and
 //! [`thumbnails`] draws small pictures of scenes. Every thread is a [`worker::Worker`], fed through a
 //! [`mailbox::Mailbox`] in which newer wishes replace older ones. The UI thread only posts and collects.
@@ -25,6 +25,7 @@ pub mod post_process;
 pub mod rays;
 pub mod reference;
 pub mod restore;
+pub mod session;
 pub mod thumbnails;
 pub mod watch;
 pub mod worker;

@@ -1,12 +1,11 @@
 //! What is compared with what, and which map of the errors is looked at. Not part of undo: changing it loses nothing.
 
+use super::PaneId;
 use super::session::other;
-use super::{PaneId, saved};
 use compare::ErrorMetric;
-use serde::{Deserialize, Serialize};
 
 /// What the user compares with.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum CompareWith {
     /// Each pane with the other.
     #[default]
@@ -23,6 +22,14 @@ impl CompareWith {
     pub fn name(self) -> &'static str {
         match self {
             CompareWith::EachOther => "each other",
+            CompareWith::Reference => "reference",
+        }
+    }
+
+    /// On the command line and in a session's file.
+    pub fn word(self) -> &'static str {
+        match self {
+            CompareWith::EachOther => "other",
             CompareWith::Reference => "reference",
         }
     }
@@ -68,14 +75,13 @@ pub struct MapWish {
 }
 
 /// How errors are measured and drawn.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct ComparisonSettings {
     /// With what both panes are compared.
     pub with: CompareWith,
     /// Whose errors the map shows; against each other always A's.
     pub of: PaneId,
     /// Which errors it shows.
-    #[serde(with = "saved::metric")]
     pub metric: ErrorMetric,
     /// Where the scale of each map ends, in the order of [`ErrorMetric::ALL`]; `None` fits it to every picture.
     pub held: [Option<f32>; ErrorMetric::ALL.len()],

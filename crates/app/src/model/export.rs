@@ -15,6 +15,8 @@ pub enum ExportSubject {
     ErrorMap,
     /// How errors have fallen.
     Plot(PlotFile),
+    /// No picture, but what makes all of them again.
+    Session,
 }
 
 /// What the plot of errors is kept as.

@@ -19,8 +19,8 @@ mod picture_area;
 mod plots;
 mod reference;
 mod remembered;
-mod saved;
 mod session;
+mod session_file;
 mod setup;
 mod slides;
 mod theme;
@@ -45,6 +45,7 @@ pub use plots::{Cost, Curve, Measure, Owner, PlotSettings, csv, guide, judge_of_
 pub use reference::{Origin, Progress};
 pub use remembered::{Remembered, WindowPlace};
 pub use session::{Resolution, Session};
+pub use session_file::{SESSION_VERSION, SavedSession, SavedWindow, SessionDraft, is_session};
 pub use setup::{MapSetup, Setup};
 pub use slides::{SLIDES, Slide};
 pub use theme::Theme;
@@ -80,10 +81,10 @@ impl Model {
         Model { document, session, state: UiState::new(theme), adapters: Adapters::default(), history }
     }
 
-    /// The same beside graphics devices, and with rays traced where `device` says.
-    pub fn beside(mut self, adapters: Adapters, device: DeviceChoice) -> Self {
+    /// The same beside graphics devices, and with rays traced where `device` says, if it does.
+    pub fn beside(mut self, adapters: Adapters, device: impl Into<Option<DeviceChoice>>) -> Self {
         self.adapters = adapters;
-        self.session.trace_on(device);
+        device.into().into_iter().for_each(|device| self.session.trace_on(device));
         self.begin_history();
         self
     }

@@ -2,13 +2,11 @@
 
 use super::{Against, ErrorPoint, PaneId, PaneView, ViewModel};
 use compare::Errors;
-use serde::{Deserialize, Serialize};
 use technique::settings::of_panes;
 use technique::{PaneSettings, Provenance};
 
 /// What is plotted, and whether it is in sight.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
-#[serde(default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct PlotSettings {
     /// Whether the plots are open.
     pub open: bool,
@@ -19,7 +17,7 @@ pub struct PlotSettings {
 }
 
 /// What a picture costs.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Cost {
     /// Samples per pixel.
     #[default]
@@ -58,7 +56,7 @@ impl Cost {
 }
 
 /// An error that falls as a power of the samples where nothing is left but noise.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Measure {
     /// [`Errors::rel_mse`].
     #[default]

@@ -1,20 +1,17 @@
 //! How it is looked at: what one would want to find again after a pause.
 
-use super::{CompareWith, ComparisonSettings, Line, PaneId, Panes, PlotSettings, View, saved};
+use super::{CompareWith, ComparisonSettings, Line, PaneId, Panes, PlotSettings, View};
 use film::DisplayTransform;
 use raster::Show;
 use scene::{Needs, Scene};
-use serde::{Deserialize, Serialize};
 use technique::{DeviceChoice, PaneSettings, TechniqueName};
 
 /// The panes and how they are shown.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Session {
     /// How each is made.
-    #[serde(with = "saved::panes")]
     pub panes: Panes<PaneSettings>,
     /// How all are shown.
-    #[serde(with = "saved::display")]
     pub display: DisplayTransform,
     /// How many pixels pictures have.
     pub resolution: Resolution,
@@ -27,12 +24,11 @@ pub struct Session {
     /// What is compared with what, and how it is drawn.
     pub comparison: ComparisonSettings,
     /// What is plotted of the errors.
-    #[serde(default)]
     pub plots: PlotSettings,
 }
 
 /// How many pixels a picture has.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Resolution {
     /// As many as the picture area. While something changes, pictures that take too long for that begin coarser.
     #[default]

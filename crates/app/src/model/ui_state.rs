@@ -28,6 +28,8 @@ pub struct UiState {
     pub restarts: u64,
     /// Whether this frame is for a picture: nothing but panes, line and labels is in it.
     pub posing: bool,
+    /// Width and height of the window in points, if there is one.
+    pub window: Option<[f64; 2]>,
     /// Where pictures are shown, as last drawn.
     pub picture: PictureArea,
     /// The scene, by [`Document::opened`](super::Document::opened), for which the wipe's line was put in its place.
@@ -88,6 +90,7 @@ impl UiState {
             paused: false,
             restarts: 0,
             posing: false,
+            window: None,
             picture: PictureArea::default(),
             line_placed: None,
             dragging_line: false,

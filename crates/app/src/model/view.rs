@@ -1,10 +1,9 @@
 //! Which picture is shown, and how two share the window.
 
 use super::PaneId;
-use serde::{Deserialize, Serialize};
 
 /// Which picture is shown.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum View {
     /// This pane alone, in all of the middle.
     Pane(PaneId),
@@ -17,7 +16,7 @@ pub enum View {
 }
 
 /// How the wipe's line stands.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Line {
     /// A left, B right.
     Vertical,
@@ -37,6 +36,17 @@ impl View {
             View::Wipe => "Wipe",
             View::SideBySide => "Side by side",
             View::ErrorMap => "Error map",
+        }
+    }
+
+    /// On the command line and in a session's file.
+    pub fn word(self) -> &'static str {
+        match self {
+            View::Pane(PaneId::A) => "a",
+            View::Pane(_) => "b",
+            View::Wipe => "wipe",
+            View::SideBySide => "side",
+            View::ErrorMap => "map",
         }
     }
 }

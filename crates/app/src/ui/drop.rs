@@ -34,7 +34,7 @@ fn promise(files: &[PathBuf]) -> Option<Result<String, String>> {
             Ok(format!("Drop to see again what {name} shows; if it does not say that, to compare with it"))
         }
         None if file.extension().is_some_and(|kind| kind.eq_ignore_ascii_case("toml")) => {
-            Ok(format!("Drop to open the scene {name}"))
+            Ok(format!("Drop to open {name}, a scene or a session"))
         }
         None => Err(format!("{name} is neither a scene (.toml) nor a picture (.png, .exr)")),
     })
@@ -60,7 +60,7 @@ mod tests {
     fn what_a_drop_would_do_is_said_by_the_kind_of_file() {
         let said = |names: &[&str]| promise(&names.iter().map(PathBuf::from).collect::<Vec<_>>());
         assert_eq!(said(&[]), None);
-        assert_eq!(said(&["a/b.TOML"]), Some(Ok("Drop to open the scene b.TOML".into())));
+        assert_eq!(said(&["a/b.TOML"]), Some(Ok("Drop to open b.TOML, a scene or a session".into())));
         assert!(said(&["b.png"]).is_some_and(|it| it.is_ok_and(|line| line.contains("what b.png shows"))));
         assert!(said(&["b.exr"]).is_some_and(|it| it.is_ok_and(|line| line.contains("compare with it"))));
         for refused in [&["bunny.obj"][..], &["a.toml", "b.toml"], &["folder"]] {

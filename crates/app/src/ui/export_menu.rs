@@ -1,4 +1,5 @@
-//! The export menu: the picture as seen or one pane, to a file or the clipboard, or as a command to type.
+//! The export menu: the picture as seen or one pane, to a file or the clipboard, or as a command to type; and the session,
+//! which makes all of it again.
 
 use super::widgets::{Explained, framed, menu};
 use super::{UiCommand, UiContext, dialogue_button};
@@ -19,6 +20,11 @@ pub fn plot_file(model: &Model, kind: PlotFile) -> PathBuf {
     folder(model).join(format!("{}.{}", stem(model, ExportSubject::Plot(kind)), kind.name().to_lowercase()))
 }
 
+/// The file for the session, in the same folder.
+pub fn session_file(model: &Model) -> PathBuf {
+    folder(model).join(format!("{}.toml", stem(model, ExportSubject::Session)))
+}
+
 fn folder(model: &Model) -> PathBuf {
     let typed = image_file::typed_path(&model.state.export.file, &default_folder());
     if typed.is_dir() { typed } else { typed.parent().map_or_else(default_folder, Path::to_owned) }
@@ -30,8 +36,16 @@ fn title(subject: ExportSubject) -> String {
         ExportSubject::Pane(pane) => format!("{pane} alone"),
         ExportSubject::ErrorMap => "The error map".into(),
         ExportSubject::Plot(_) => "The plot".into(),
+        ExportSubject::Session => "Session".into(),
     }
 }
+
+/// Whether it is kept as it is shown or as linear radiance.
+fn is_of_two_kinds(subject: ExportSubject) -> bool {
+    matches!(subject, ExportSubject::Pane(_) | ExportSubject::ErrorMap)
+}
+
+const OF_SESSIONS: &str = "Scene, camera, A, B and view as a text (.toml): opened, it makes all of this again";
 
 /// The folder of pictures; where there is none at all, the current one.
 fn default_folder() -> PathBuf {
@@ -44,6 +58,7 @@ fn stem(model: &Model, subject: ExportSubject) -> String {
     let of = match (subject, session.view) {
         (ExportSubject::Pane(pane), _) => session.panes[pane].technique.name().to_owned(),
         (ExportSubject::Plot(_), _) => format!("{}-over-{}", session.plots.measure.name(), session.plots.over.name()),
+        (ExportSubject::Session, _) => "session".into(),
         (ExportSubject::ErrorMap, _) => format!("error-{}", session.comparison.metric.name()),
         (ExportSubject::AsSeen, view) => view.name().to_lowercase().replace(' ', "-"),
     };
@@ -82,12 +97,14 @@ fn choice(cx: &mut UiContext, ui: &mut Ui) {
     let panes = cx.model.session.panes.ids().map(ExportSubject::Pane);
     let subjects = std::iter::once(ExportSubject::AsSeen).chain(panes);
     ui.horizontal(|ui| {
-        for subject in subjects.chain(with_map.then_some(ExportSubject::ErrorMap)) {
+        let with_map = with_map.then_some(ExportSubject::ErrorMap);
+        for subject in subjects.chain(with_map).chain([ExportSubject::Session]) {
             let item = ui.radio_value(&mut menu.subject, subject, title(subject));
+            let item = if subject == ExportSubject::Session { item.explained(OF_SESSIONS) } else { item };
             cx.dump.note(&format!("export {}", title(subject)), menu.subject == subject, item);
         }
     });
-    if menu.subject != ExportSubject::AsSeen {
+    if is_of_two_kinds(menu.subject) {
         ui.horizontal(|ui| {
             for (exr, text) in [(false, "PNG as shown"), (true, "EXR linear")] {
                 let item = ui.radio_value(&mut menu.exr, exr, text);
@@ -106,8 +123,12 @@ fn file(cx: &mut UiContext, ui: &mut Ui) {
     let menu = &mut cx.model.state.export;
     // a name that says its kind has chosen it
     menu.exr = Kind::of(Path::new(menu.file.trim())).map_or(menu.exr, |kind| kind == Kind::Exr);
-    let exr = menu.exr && subject != ExportSubject::AsSeen;
-    let proposal = default_folder().join(format!("{}.{}", stem(cx.model, subject), if exr { "exr" } else { "png" }));
+    let kind = match subject {
+        ExportSubject::Session => "toml",
+        _ if menu.exr && is_of_two_kinds(subject) => "exr",
+        _ => "png",
+    };
+    let proposal = default_folder().join(format!("{}.{kind}", stem(cx.model, subject)));
     let label = ui.label("File");
     let hint = proposal.display().to_string();
     let edit =
@@ -116,7 +137,11 @@ fn file(cx: &mut UiContext, ui: &mut Ui) {
     let entered = line.lost_focus() && ui.input(|i| i.key_pressed(egui::Key::Enter));
     cx.dump.note("export file", &cx.model.state.export.file, line);
     ui.horizontal(|ui| {
-        let save = cx.dump.note("save", "", ui.add(framed("Save", ui)).explained("Ctrl+S saves as seen"));
+        let save = cx.dump.note(
+            "save",
+            "",
+            ui.add(framed("Save", ui)).explained("Ctrl+S saves as seen, Ctrl+Shift+S the session"),
+        );
         if save.clicked() || entered {
             let to = Destination::File(typed_file(&cx.model.state.export.file, proposal.clone()));
             cx.commands.push(UiCommand::Export(ExportRequest { subject, to }));
@@ -126,6 +151,10 @@ fn file(cx: &mut UiContext, ui: &mut Ui) {
         let wish = FileWish { purpose: FilePurpose::Export(subject), near };
         if dialogue_button("choose export", "Choose where to save", wish, cx, ui) {
             ui.close();
+        }
+        // of which there is nothing to be seen elsewhere
+        if subject == ExportSubject::Session {
+            return;
         }
         let copy =
             cx.dump.note("copy picture", "", ui.add(framed("Copy picture", ui)).explained("Ctrl+C copies as seen"));

@@ -7,7 +7,7 @@ use crate::model::{Destination, ExportRequest, ExportSubject};
 use egui::{Context, Event, Key, Modifiers, Popup};
 
 /// What the keys do that every workspace has, for the help.
-pub const KEYS: [HelpLine; 14] = [
+pub const KEYS: [HelpLine; 15] = [
     ("P", "pause, go on"),
     ("R", "restart"),
     ("C", "camera of the scene"),
@@ -15,6 +15,7 @@ pub const KEYS: [HelpLine; 14] = [
     ("L", "hide or show the labels"),
     ("Ctrl+Z  Ctrl+Shift+Z", "undo, redo a setting"),
     ("Ctrl+S  Ctrl+C", "save, copy the picture as seen"),
+    ("Ctrl+Shift+S", "save the session: all that makes this again"),
     ("Ctrl+R", "read the scene's file again"),
     ("Ctrl + - 0", "larger, smaller, usual size of all text"),
     ("F11", "full screen, and back"),
@@ -28,6 +29,10 @@ pub fn listen(workspaces: &mut Workspaces, cx: &mut UiContext, context: &Context
     let keys = Keys::of(context);
     if keys.command(Key::S) > 0 {
         export_as_seen(cx, Destination::File(export_menu::seen_file(cx.model)));
+    }
+    if keys.presses_with(Key::S, Modifiers::COMMAND | Modifiers::SHIFT) > 0 {
+        let to = Destination::File(export_menu::session_file(cx.model));
+        cx.commands.push(UiCommand::Export(ExportRequest { subject: ExportSubject::Session, to }));
     }
     if keys.command(Key::R) > 0 {
         cx.commands.push(UiCommand::ReadAgain);

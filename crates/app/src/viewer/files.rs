@@ -3,10 +3,12 @@
 use super::Viewer;
 use super::judge::Judge;
 use crate::engine::dialogue::{Answer, Choice};
+use crate::engine::export::{Content, Export};
 use crate::engine::load::{Loaded, Opened, Refusal};
 use crate::engine::memory::{Memo, Memory};
+use crate::engine::session::SessionToSave;
 use crate::engine::watch::{News, Reread, Stamp, Watched};
-use crate::model::{Destination, ExportRequest, FilePurpose, Remembered, WindowPlace};
+use crate::model::{Destination, ExportRequest, FilePurpose, Remembered, SavedSession, Setup, WindowPlace};
 use crate::ui::UiCommand;
 use image_file::shown;
 use scene::builtin;
@@ -100,14 +102,18 @@ impl Viewer {
         if self.is_seen(&opened) {
             return self.judge = opened.reference.map(Judge::alone);
         }
-        let Opened { asked, source, scene, stamp, setup, reference, notes } = opened;
-        let what = match &setup {
-            Some(_) => format!("{} as {} shows it", scene.name, shown(Path::new(&asked))),
-            None => scene.name.clone(),
+        let Opened { asked, source, scene, stamp, setup, session, reference, notes } = opened;
+        let what = match (&setup, &session) {
+            (Some(_), _) => format!("{} as {} shows it", scene.name, shown(Path::new(&asked))),
+            (None, Some(_)) => format!("the session {} of {}", shown(Path::new(&asked)), scene.name),
+            (None, None) => scene.name.clone(),
         };
         let slide = self.model.state.awaited_slide.filter(|slide| slide.scene == source);
         self.model.open(scene, source);
-        let seen = setup.map_or(Ok(()), |setup| self.model.set_up(&setup));
+        let seen = match session {
+            Some(session) => self.model.restore(&session, &Setup::default()),
+            None => setup.map_or(Ok(()), |setup| self.model.set_up(&setup)),
+        };
         match seen {
             Err(fault) => self.model.say(Err(fault)),
             // which has said what it is about
@@ -150,6 +156,17 @@ impl Viewer {
             // what was said before does not stand before it
             Err(fault) => (self.model.state.scene_fault, self.model.state.message) = (Some(fault), None),
         }
+    }
+
+    /// Keeps all that makes what is seen.
+    pub(super) fn export_session(&self, to: Destination) {
+        let document = &self.model.document;
+        let session = SessionToSave {
+            session: SavedSession::of(&self.model, self.model.state.window),
+            scene: document.scene.clone(),
+            source: document.source.clone(),
+        };
+        self.engine.export(Export { content: Content::Session(session), records: Vec::new(), to });
     }
 
     /// Waits for a file that the user chooses in this dialogue.

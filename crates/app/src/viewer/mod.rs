@@ -123,6 +123,7 @@ impl Viewer {
                 ExportSubject::Pane(pane) => self.export_pane(pane, request.to),
                 ExportSubject::ErrorMap => self.export_map(request.to),
                 ExportSubject::Plot(kind) => self.export_plot(kind, request.to),
+                ExportSubject::Session => self.export_session(request.to),
             },
             UiCommand::Open(name) => {
                 let recent = self.model.state.remembered.recent.clone();

@@ -1,7 +1,7 @@
 //! The system's file dialogues. A desktop portal shows them on Linux, or zenity, over the window if the server lets it.
 
 use crate::engine::dialogue::Choice;
-use crate::model::{FilePurpose, FileWish};
+use crate::model::{ExportSubject, FilePurpose, FileWish};
 use std::path::Path;
 use winit::window::Window;
 
@@ -17,16 +17,19 @@ pub fn choose(wish: &FileWish, window: &Window) -> Choice {
     match wish.purpose {
         FilePurpose::Open => Box::pin(
             dialogue
-                .set_title("Open a scene, or a picture to see again")
-                .add_filter("Scenes and pictures", &["toml", "png", "exr"])
+                .set_title("Open a scene or a session, or a picture to see again")
+                .add_filter("Scenes, sessions and pictures", &["toml", "png", "exr"])
                 .pick_file(),
         ),
         FilePurpose::Reference => {
             Box::pin(dialogue.set_title("Compare with").add_filter("References", &["exr"]).pick_file())
         }
-        FilePurpose::Export(_) => {
+        FilePurpose::Export(subject) => {
             let name = wish.near.file_name().unwrap_or_default().to_string_lossy();
-            let filtered = dialogue.set_title("Save the picture").add_filter("Pictures", &["png", "exr"]);
+            let filtered = match subject {
+                ExportSubject::Session => dialogue.set_title("Save the session").add_filter("Sessions", &["toml"]),
+                _ => dialogue.set_title("Save the picture").add_filter("Pictures", &["png", "exr"]),
+            };
             Box::pin(filtered.set_file_name(name).save_file())
         }
     }

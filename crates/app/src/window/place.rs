@@ -6,6 +6,12 @@ use winit::event_loop::ActiveEventLoop;
 use winit::monitor::MonitorHandle;
 use winit::window::{Window, WindowAttributes};
 
+/// A window of the size that a session asks for, if it does, where the last one was.
+pub fn of_size(size: Option<[f64; 2]>, remembered: Option<WindowPlace>) -> Option<WindowPlace> {
+    let at = remembered.and_then(|place| place.at);
+    size.map(|size| WindowPlace { size, at, maximised: false }).or(remembered)
+}
+
 /// Width and height in points where nothing is remembered.
 const USUAL: [f64; 2] = [1280.0, 720.0];
 
@@ -85,6 +91,15 @@ fn before_it_was_whole(maximised: bool, before: Option<WindowPlace>) -> WindowPl
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_session_gives_a_window_its_size_and_no_place() {
+        let before = WindowPlace { size: [900.0, 600.0], at: Some([100, 50]), maximised: true };
+        let asked = WindowPlace { size: [1000.0, 700.0], maximised: false, ..before };
+        assert_eq!(of_size(Some([1000.0, 700.0]), Some(before)), Some(asked));
+        assert_eq!((of_size(None, Some(before)), of_size(None, None)), (Some(before), None));
+        assert_eq!(of_size(Some([1.0, 2.0]), None).map(|place| place.at), Some(None));
+    }
 
     #[test]
     fn a_screens_size_is_not_remembered_as_a_windows() {

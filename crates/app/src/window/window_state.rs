@@ -10,7 +10,7 @@ use crate::engine::ask::Engine;
 use crate::engine::capture::Capture;
 use crate::engine::load::Opened;
 use crate::engine::memory::{self, Memory};
-use crate::model::{Destination, ExportRequest, Model, ViewArgs};
+use crate::model::{Destination, ExportRequest, Model, SavedWindow, ViewArgs};
 use crate::ui::{UiCommand, Workspaces};
 use crate::viewer::Viewer;
 use egui_wgpu::ScreenDescriptor;
@@ -49,10 +49,16 @@ pub struct WindowState {
 /// How soon a frame is tried again that had no surface to go to.
 const RETRY: Duration = Duration::from_millis(100);
 
-/// The scene that was read, as the options and the picture that was opened set it up.
+/// The scene that was read, as the options and the session or the picture that was opened set it up.
 fn model_of(opened: &Opened, args: &ViewArgs) -> anyhow::Result<Model> {
     let setup = opened.setup.clone().unwrap_or_default().overridden_by(&args.setup);
-    let mut model = Model::new(opened.scene.clone(), opened.source.clone(), args.theme);
+    let mut model = Model::new(opened.scene.clone(), opened.source.clone(), args.theme.unwrap_or_default());
+    if let Some(session) = &opened.session {
+        let theme = args.theme.or(session.window.theme);
+        model.restore_window(&SavedWindow { theme, ..session.window });
+        model.restore(session, &args.setup).map_err(anyhow::Error::msg)?;
+        return Ok(model);
+    }
     // its scene is the one that is open
     args.slide.into_iter().for_each(|slide| _ = model.show_slide(slide));
     model.set_up(&setup).map_err(anyhow::Error::msg)?;
@@ -94,7 +100,8 @@ impl WindowState {
         scale_factor::check_screens(events)?;
         let Beginning { opened, remembered } = beginning;
         let model = model_of(&opened, args)?;
-        let attributes = place::attributes(events, remembered.window)
+        let session = opened.session.as_ref().and_then(|session| session.window.size);
+        let attributes = place::attributes(events, place::of_size(session, remembered.window))
             .with_title("Visavis")
             .with_window_icon(icon::icon())
             // shown once screen readers know it
@@ -215,6 +222,8 @@ impl WindowState {
         self.entitle();
         let poses = std::mem::take(&mut self.poses);
         self.viewer.model.state.posing = !poses.is_empty();
+        let scale = self.window.scale_factor();
+        self.viewer.model.state.window = Some(self.surface.size().map(|pixels| f64::from(pixels) / scale));
         let input = self.egui.take_egui_input(&self.window);
         let context = self.egui.egui_ctx().clone();
         let output = context.run_ui(input, |ui| self.viewer.draw(ui));
@@ -323,13 +332,37 @@ mod tests {
     use super::*;
     use crate::cli::Command;
     use crate::engine::load::{self, Asked, Loaded};
-    use crate::model::{PaneId, View};
+    use crate::model::{PaneId, Theme, View};
+    use technique::{Adapters, DeviceChoice};
 
     fn opened_with(words: &[&str]) -> Model {
         let Ok(Command::View(args)) = Command::parse(words.iter().map(Into::into)) else { panic!("{words:?}") };
         let asked = Asked::Open { name: args.scene.clone(), recent: Vec::new() };
         let Ok(Loaded::Scene(opened)) = load::read(&asked) else { panic!("{}", args.scene) };
-        model_of(&opened, &args).unwrap()
+        model_of(&opened, &args).unwrap().beside(Adapters::default(), args.device)
+    }
+
+    #[test]
+    fn a_session_is_opened_as_it_was_and_what_else_is_said_changes_it() {
+        let folder = visavis_tests::TestFolder::new();
+        let file = folder.file("lecture.toml");
+        let text = "session = 1\nscene = \"cornell\"\n[camera]\nfov = 30\n[view]\nshow = \"side\"\nexposure = 2\n\
+                    [panes.A]\nsegments = 9\n[panes.B]\ndevice = \"cpu\"\nspp = 3\n[window]\ntheme = \"light\"\npanel = false\n";
+        std::fs::write(&file, text).unwrap();
+        let file = file.to_str().unwrap();
+        let [a, b] = [PaneId::A, PaneId::B];
+        let model = opened_with(&[file]);
+        assert_eq!((model.document.camera.fov_y, model.session.view), (30.0, View::SideBySide));
+        assert_eq!((model.session.panes[a].fake.knobs.segments, model.session.panes[b].truth.spp), (Some(9), 3));
+        assert_eq!((model.state.theme, model.state.panel), (Theme::Light, false));
+        assert_eq!(model.session.panes[b].device, DeviceChoice::Cpu);
+        assert!(!model.can_undo_and_redo()[0], "there is nothing behind it");
+        let words = [file, "--b", "path,spp=5", "--fov", "50", "--theme", "dark", "--view", "map", "--device", "gpu"];
+        let model = opened_with(&words);
+        assert_eq!((model.document.camera.fov_y, model.session.view), (50.0, View::ErrorMap));
+        assert_eq!((model.session.panes[a].fake.knobs.segments, model.session.panes[b].truth.spp), (Some(9), 5));
+        assert_eq!((model.state.theme, model.session.display.exposure), (Theme::Dark, 2.0));
+        assert_eq!(model.session.panes[b].device, DeviceChoice::Gpu);
     }
 
     #[test]

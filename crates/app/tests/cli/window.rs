@@ -63,3 +63,17 @@ fn a_picture_that_says_nothing_is_no_scene_to_open() {
     assert!(visavis(&["render", "cornell", "-o", made, "--size", "4x4", "--spp", "1"]).status.success());
     assert_refused(&[made], 1, &["no window can be opened here"]);
 }
+
+#[test]
+fn a_session_opens_a_window_alone_and_a_faulty_one_is_refused_with_its_place() {
+    let folder = TestFolder::new();
+    let [good, bad] = ["good.toml", "bad.toml"].map(|name| folder.file(name));
+    std::fs::write(&good, "session = 1\nscene = \"cornell\"\n").expect("a file");
+    std::fs::write(&bad, "session = 1\nscene = \"cornell\"\n[panes.B]\nspp = 0\n").expect("a file");
+    let [good, bad] = [&good, &bad].map(|file| file.to_str().expect("a plain path"));
+    assert_refused(&[good], 1, &["no window can be opened here"]);
+    assert_refused(&[bad], 1, &["bad.toml:4:7: spp=0: expected a whole number from 1"]);
+    let out = folder.file("a.png");
+    let render = ["render", good, "-o", out.to_str().expect("a plain path")];
+    assert_refused(&render, 1, &["good.toml", "this is a session, which the window opens"]);
+}

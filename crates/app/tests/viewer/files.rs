@@ -8,13 +8,13 @@ use visavis::model::{CompareWith, ComparisonSettings, PaneId};
 use visavis_tests::Frame;
 
 /// A scene with a field of view of so many degrees.
-fn write(file: &Path, fov: &str) {
+pub fn write(file: &Path, fov: &str) {
     let cornell = scene::builtin::text("cornell").expect("a built-in scene");
     assert!(cornell.contains("fov_y = 45"));
     std::fs::write(file, cornell.replace("fov_y = 45", &format!("fov_y = {fov}"))).expect("a file");
 }
 
-fn fov(frame: &Frame) -> f64 {
+pub fn fov(frame: &Frame) -> f64 {
     frame.state("fov").as_f64().expect("a number")
 }
 
@@ -102,7 +102,7 @@ fn a_dropped_picture_is_shown_again_as_it_was_made() {
 }
 
 /// Commands that make the pictures of both panes: camera, size and settings.
-fn commands(user: &mut User) -> [String; 2] {
+pub fn commands(user: &mut User) -> [String; 2] {
     let menu = user.click("Export");
     let commands = ["A", "B"].map(|pane| menu.value(&format!("command {pane}")).to_owned());
     user.click("Export");

@@ -11,6 +11,7 @@ mod files;
 mod labels;
 mod layout;
 mod scenes;
+mod sessions;
 mod settings;
 
 use egui::accesskit::Role;

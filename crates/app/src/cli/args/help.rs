@@ -21,8 +21,9 @@ after Ctrl-C, 143 after SIGTERM.
 Ctrl-C ends render and reference soon and saves what there is by then; a second one ends them at once.
 In the window: drag the line to wipe, drag the picture to orbit (Shift: pan, wheel: dolly, Ctrl+wheel: zoom), T swaps A
 and B, 1 2 3 4 5 show A, B, wipe, side by side, error map, P pauses, R restarts, C resets the camera, H hides the panel,
-L the labels, F11 fills the screen, Ctrl+Z undoes, Ctrl+S saves and Ctrl+C copies the picture as seen, Ctrl+R reads the
-scene's file again, Ctrl+Q quits, ? shows all keys. A file that is dropped onto the window is opened.
+L the labels, F11 fills the screen, Ctrl+Z undoes, Ctrl+S saves and Ctrl+C copies the picture as seen, Ctrl+Shift+S saves
+the session, Ctrl+R reads the scene's file again, Ctrl+Q quits, ? shows all keys. A file that is dropped onto the window is
+opened.
 ";
 
 /// What `visavis --help` prints.
@@ -133,8 +134,8 @@ fn commands() -> Vec<Block> {
     vec![
         Block::new(
             "visavis [SCENE]",
-            "open the viewer; SCENE is whitted, cornell, phong, hard/NAME, a .toml file or a picture of this program (.png, .exr), \
-             which is shown again as it was made (default whitted); hard/? lists the hard ones",
+            "open the viewer; SCENE is whitted, cornell, phong, hard/NAME, the .toml file of a scene or a session, or a picture of \
+             this program (.png, .exr), which is shown again as it was made (default whitted); hard/? lists the hard ones",
             &view::of_what_is_seen(),
         )
         .with_scene_settings()

@@ -3,7 +3,9 @@
 
 use super::options::CommandOption;
 use super::values::{number, point, size, text};
+use crate::engine::session::is_session_file;
 use scene::{Camera, Scene, Vec3, builtin};
+use std::path::Path;
 use std::sync::Arc;
 use technique::{SceneChanges, Shot};
 
@@ -31,7 +33,7 @@ impl Seen {
     /// # Errors
     /// If it cannot be read, or if the camera sees nothing.
     pub fn of(&self, source: &str) -> anyhow::Result<Shot> {
-        let mut scene = self.changes.applied_to(&builtin::named(source)?);
+        let mut scene = self.changes.applied_to(&scene_of(source)?);
         scene.camera = self.camera(&scene)?;
         scene.notes().iter().for_each(|line| note!("note: {line}"));
         let camera = scene.camera;
@@ -51,6 +53,18 @@ impl Seen {
             None => Ok(camera),
         }
     }
+}
+
+/// A scene, which a session is none of.
+fn scene_of(source: &str) -> anyhow::Result<Scene> {
+    let scene = builtin::named(source);
+    if scene.is_err() && is_session_file(Path::new(source)) {
+        anyhow::bail!(
+            "this is a session, which the window opens; name the scene that stands in it: {}",
+            image_file::shown(Path::new(source))
+        );
+    }
+    Ok(scene?)
 }
 
 /// Options that are read into what is seen, for commands that have one.

@@ -107,7 +107,7 @@ pub fn of_the_window() -> Vec<CommandOption<Reading>> {
             value: "dark|light|projector",
             help: "light, or projector: black on white with large type (default dark)",
             read: |reading, parser| {
-                reading.args.theme = choice(parser, "--theme", Theme::named, "dark, light or projector")?;
+                reading.args.theme = Some(choice(parser, "--theme", Theme::named, "dark, light or projector")?);
                 Ok(())
             },
         },
@@ -116,7 +116,7 @@ pub fn of_the_window() -> Vec<CommandOption<Reading>> {
             value: "auto|cpu|gpu",
             help: "where rays are traced at first; auto is the gpu, but the cpu where the adapter is software",
             read: |reading, parser| {
-                reading.args.device = choice(parser, "--device", DeviceChoice::named, DEVICES)?;
+                reading.args.device = Some(choice(parser, "--device", DeviceChoice::named, DEVICES)?);
                 Ok(())
             },
         },
@@ -177,8 +177,8 @@ pub fn parse(parser: lexopt::Parser) -> Result<Command, CliError> {
         setup: Setup::default(),
         slide: None,
         ui_dump: None,
-        theme: Theme::default(),
-        device: DeviceChoice::default(),
+        theme: None,
+        device: None,
         workspace: None,
         frame_stats: false,
     };
@@ -219,16 +219,11 @@ fn a_pane(reading: &mut Reading, pane: PaneId, option: &str, parser: &mut lexopt
 }
 
 fn a_view(name: &str) -> Option<View> {
-    let names = ["a", "b", "wipe", "side", "map"];
-    names.iter().position(|known| *known == name).map(|index| View::ALL[index])
+    View::ALL.into_iter().find(|view| view.word() == name)
 }
 
 fn a_judge(name: &str) -> Option<CompareWith> {
-    match name {
-        "other" => Some(CompareWith::EachOther),
-        "reference" => Some(CompareWith::Reference),
-        _ => None,
-    }
+    CompareWith::ALL.into_iter().find(|with| with.word() == name)
 }
 
 fn a_workspace(parser: &mut lexopt::Parser) -> Result<String, CliError> {

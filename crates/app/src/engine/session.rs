@@ -1,0 +1,144 @@
+//! Sessions in files: read with their scenes, and written so that both can be moved together.
+
+use super::find_scene::scene_of;
+use super::load::Opened;
+use super::restore::Kept;
+use crate::model::{SavedSession, SessionDraft, Setup, is_session};
+use anyhow::{Context, bail};
+use image_file::shown;
+use scene::{Scene, builtin};
+use std::path::{Component, Path, PathBuf};
+use std::sync::Arc;
+
+/// Largest session that is read, in bytes.
+const LARGEST_FILE: u64 = 1 << 20;
+
+/// Whether a file is a session: a regular one that begins as such.
+pub fn is_session_file(path: &Path) -> bool {
+    head_of(path).is_some_and(|head| is_session(&String::from_utf8_lossy(&head)))
+}
+
+/// As much of a file as a session may have, and one byte; `None` of what is no file, or cannot be read.
+fn head_of(path: &Path) -> Option<Vec<u8>> {
+    use std::io::Read;
+    std::fs::metadata(path).ok().filter(|found| found.is_file())?;
+    let mut head = Vec::new();
+    std::fs::File::open(path).ok()?.take(LARGEST_FILE + 1).read_to_end(&mut head).ok()?;
+    Some(head)
+}
+
+/// Opens a session with its scene.
+///
+/// # Errors
+/// One line that says what is wrong, and where.
+pub fn read(path: &Path, recent: &[PathBuf]) -> Result<Opened, String> {
+    let head = head_of(path).ok_or_else(|| format!("cannot read the session: {}", shown(path)))?;
+    if head.len() as u64 > LARGEST_FILE {
+        return Err(format!("a session has at most {LARGEST_FILE} bytes, and this file has more: {}", shown(path)));
+    }
+    let text = String::from_utf8(head)
+        .map_err(|_| format!("this is not a text in UTF-8: a session is saved as one: {}", shown(path)))?;
+    let draft = SessionDraft::parse(&text, path)?;
+    let scene = source_beside(path, &draft.scene);
+    let kept = Kept { scene, scene_hash: draft.scene_hash, setup: Setup::default() };
+    let opened = scene_of(&kept, path, recent)?;
+    let session = draft.beside(&opened.scene, path)?;
+    let notes = opened.notes.iter().cloned().chain(kept.note(path, &opened.scene)).collect();
+    Ok(Opened { asked: path.display().to_string(), session: Some(Box::new(session)), notes, ..opened })
+}
+
+/// A built-in name, or a file as seen from the session's folder.
+fn source_beside(session: &Path, scene: &str) -> String {
+    match builtin::text(scene) {
+        Some(_) => scene.to_owned(),
+        None => session.with_file_name(scene).display().to_string(),
+    }
+}
+
+/// A session to write.
+#[derive(Debug)]
+pub struct SessionToSave {
+    /// What is kept.
+    pub session: SavedSession,
+    /// Its scene as it was opened.
+    pub scene: Arc<Scene>,
+    /// The scene's built-in name or file.
+    pub source: String,
+}
+
+impl SessionToSave {
+    /// Writes it to a file; where there is one, to another beside it. Returns where.
+    ///
+    /// # Errors
+    /// If its name is none of a session, or if it cannot be written.
+    pub fn save(&self, path: &Path) -> anyhow::Result<PathBuf> {
+        if !path.extension().is_some_and(|kind| kind.eq_ignore_ascii_case("toml")) {
+            bail!("the name of a session must end in .toml: {}", shown(path));
+        }
+        let path = std::path::absolute(path).with_context(|| format!("cannot save to {}", shown(path)))?;
+        let source = source_from(path.parent().unwrap_or(Path::new("")), &self.source);
+        let text = self.session.text(&self.scene, &source);
+        Ok(image_file::write_new(&path, text.as_bytes())?)
+    }
+
+    /// Its text for any folder.
+    pub fn text(&self) -> String {
+        self.session.text(&self.scene, &source_from(Path::new(""), &self.source))
+    }
+}
+
+/// A scene's file as a folder finds it, also after both were moved; its whole path where they have nothing in common.
+fn source_from(folder: &Path, source: &str) -> String {
+    let file = std::path::absolute(source).unwrap_or_else(|_| PathBuf::from(source));
+    if builtin::text(source).is_some() {
+        return source.to_owned();
+    }
+    // through a link the folder above may be another
+    let near = relative(folder, &file).filter(|near| image_file::is_same_file(&folder.join(near), &file));
+    near.unwrap_or_else(|| file.display().to_string())
+}
+
+/// The way from a folder to a file, by names that both systems' paths read; `None` where they meet in the root alone.
+fn relative(folder: &Path, file: &Path) -> Option<String> {
+    let (from, to): (Vec<_>, Vec<_>) = (folder.components().collect(), file.components().collect());
+    let shared = from.iter().zip(&to).take_while(|(a, b)| a == b).count();
+    let has_a_name = from[..shared].iter().any(|part| matches!(part, Component::Normal(_)));
+    let up = from[shared..].iter().map(|_| "..".to_owned());
+    let down = to[shared..].iter().map(|part| part.as_os_str().to_string_lossy().into_owned());
+    has_a_name.then(|| up.chain(down).collect::<Vec<_>>().join("/"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use visavis_tests::TestFolder;
+
+    #[test]
+    fn a_scenes_file_is_named_as_the_sessions_folder_finds_it() {
+        let test = TestFolder::new();
+        for folder in ["course/sessions", "course/scenes"] {
+            std::fs::create_dir_all(test.file(folder)).expect("a folder");
+        }
+        let scene = test.file("course/scenes/a.toml");
+        std::fs::write(&scene, "").expect("a file");
+        let from = |folder: &str| source_from(&test.file(folder), &scene.display().to_string());
+        assert_eq!(from("course"), "scenes/a.toml");
+        assert_eq!(from("course/sessions"), "../scenes/a.toml");
+        assert_eq!(from("course/scenes"), "a.toml");
+        assert_eq!(source_from(&test.file("course"), "cornell"), "cornell");
+        assert_eq!(relative(Path::new("/a"), Path::new("/b/c.toml")), None, "nothing in common");
+    }
+
+    /// `linked/..` is the folder of the link's target.
+    #[cfg(unix)]
+    #[test]
+    fn where_a_link_leads_elsewhere_all_of_the_path_is_kept() {
+        let test = TestFolder::new();
+        std::fs::create_dir_all(test.file("far/away")).expect("a folder");
+        std::os::unix::fs::symlink(test.file("far/away"), test.file("linked")).expect("a link");
+        let scene = test.file("a.toml");
+        std::fs::write(&scene, "").expect("a file");
+        let source = source_from(&test.file("linked"), &scene.display().to_string());
+        assert_eq!(source, scene.display().to_string());
+    }
+}

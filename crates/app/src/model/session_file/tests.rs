@@ -1,0 +1,202 @@
+//! What a session's file says is what comes back, and what it cannot say is told with its place.
+
+use super::*;
+use crate::model::{CompareWith, Line, Resolution, View};
+use compare::ErrorMetric;
+use scene::{Vec3, builtin};
+use std::path::Path;
+use technique::settings::{Kind, OF_SCENES, all_of_panes};
+use technique::{DeviceChoice, TechniqueName};
+
+fn model(scene: &str) -> Model {
+    Model::new(builtin::named(scene).unwrap(), scene.into(), Theme::Dark)
+}
+
+fn saved(model: &Model) -> SavedSession {
+    SavedSession::of(model, Some([1100.0, 700.0]))
+}
+
+fn text(model: &Model) -> String {
+    saved(model).text(&model.document.scene, &model.document.source)
+}
+
+fn parsed(text: &str, scene: &Scene) -> Result<SavedSession, String> {
+    let path = Path::new("a.toml");
+    SessionDraft::parse(text, path)?.beside(scene, path)
+}
+
+/// Values of a setting, as words.
+fn examples(kind: &Kind) -> Vec<String> {
+    match kind {
+        Kind::Number(range) => [*range.start(), *range.end(), range.start() + (range.end() - range.start()) / 3.0]
+            .map(|v| v.to_string())
+            .into(),
+        Kind::DegreesBelow(most) => ["0".into(), most.next_down().to_string()].into(),
+        Kind::Whole(range) => [range.start(), range.end()].map(u32::to_string).into(),
+        Kind::Choice(words) => words.iter().map(|word| (*word).to_owned()).collect(),
+        Kind::Bounces => ["0", "7", "inf"].map(str::to_owned).into(),
+        Kind::Roulette => ["off", "throughput", "0.7", "0.33333334+throughput"].map(str::to_owned).into(),
+    }
+}
+
+/// A pane in which each setting of each technique has its `nth` example.
+fn changed_pane(technique: TechniqueName, nth: usize) -> PaneSettings {
+    let mut pane = PaneSettings::of(technique);
+    // the one in use last: it is the one that has what several share
+    let others = TechniqueName::ALL.into_iter().filter(|other| *other != technique);
+    for technique in others.chain([technique]) {
+        pane.technique = technique;
+        for row in all_of_panes().filter(|row| row.is_of(technique)) {
+            let examples = examples(&row.kind_in(technique));
+            pane.set(row, row.kind_in(technique).parse(&examples[nth % examples.len()]).unwrap());
+        }
+    }
+    pane
+}
+
+#[test]
+fn every_setting_of_every_technique_comes_back_as_it_was() {
+    let mut unseen: Vec<_> = all_of_panes().map(|row| row.name).collect();
+    for technique in TechniqueName::ALL {
+        for nth in 0..7 {
+            let mut model = model("whitted");
+            for id in [PaneId::A, PaneId::B] {
+                model.session.panes[id] = changed_pane(technique, nth + usize::from(id == PaneId::B));
+            }
+            let text = text(&model);
+            assert_eq!(parsed(&text, &model.document.scene), Ok(saved(&model)), "{text}");
+            unseen.retain(|name| !text.contains(&format!("\n{name} = ")));
+        }
+    }
+    assert_eq!(unseen, [""; 0], "never another than in a new pane");
+}
+
+#[test]
+fn all_else_of_a_session_comes_back_as_it_was() {
+    let mut model = model("whitted");
+    for row in OF_SCENES {
+        let examples = examples(&row.kind);
+        (row.set)(&mut model.document.changes, row.kind.parse(examples.last().unwrap()).unwrap());
+    }
+    model.document.camera.eye = Vec3::new(1.0 / 3.0, 1.7e11, -9.1e11);
+    model.document.camera.fov_y = 33.3;
+    model.document.bookmarks = vec![model.document.scene.camera, model.document.camera];
+    let session = &mut model.session;
+    session.panes[PaneId::A].device = DeviceChoice::Gpu;
+    session.panes[PaneId::B].adapter = 3;
+    (session.display.exposure, session.resolution) = (0.1, Resolution::Quarter);
+    (session.view, session.line, session.wipe) = (View::Pane(PaneId::B), Line::Horizontal, 0.1 + 0.2);
+    let comparison = &mut session.comparison;
+    (comparison.with, comparison.of, comparison.metric) = (CompareWith::Reference, PaneId::B, ErrorMetric::Flip);
+    comparison.held = [Some(0.3), None, Some(3.4e38), Some(1e-38), None];
+    session.plots.open = true;
+    session.plots.over = crate::model::Cost::Seconds;
+    session.plots.measure = crate::model::Measure::Mae;
+    (model.state.theme, model.state.panel, model.state.labels) = (Theme::Projector, false, false);
+    let text = text(&model);
+    assert_eq!(parsed(&text, &model.document.scene), Ok(saved(&model)), "{text}");
+}
+
+#[test]
+fn a_session_says_no_more_of_a_pane_than_a_new_one_has_not() {
+    for scene in ["whitted", "cornell"] {
+        let text = text(&model(scene));
+        assert!(text.contains("\n[panes.A]\ntechnique = \"raster\"\n\n[panes.B]\ntechnique = \"path\"\n\n"), "{text}");
+    }
+    let mut chosen = model("whitted");
+    chosen.session.panes[PaneId::B].truth.path.bounces = Some(2);
+    assert!(text(&chosen).contains("technique = \"path\"\nbounces = 2\n\n"));
+}
+
+#[test]
+fn a_session_of_two_lines_is_a_new_window() {
+    for scene in ["whitted", "cornell"] {
+        let new = model(scene);
+        let read = parsed(&format!("session = 1\nscene = \"{scene}\""), &new.document.scene).unwrap();
+        assert_eq!((&read.session, read.camera, read.line_placed), (&new.session, new.document.camera, false));
+        assert_eq!((read.window, read.changes), (SavedWindow::default(), SceneChanges::default()));
+    }
+}
+
+#[test]
+fn names_of_scenes_come_back_whatever_is_in_them() {
+    let model = model("cornell");
+    for source in ["../a b.toml", "C:\\scenes\\a.toml", "a\"b\n\u{7f}\u{85}ü.toml"] {
+        let text = saved(&model).text(&model.document.scene, source);
+        let draft = SessionDraft::parse(&text, Path::new("a.toml")).unwrap();
+        assert_eq!((draft.scene.as_str(), draft.scene_hash), (source, Some(model.document.scene.as_read)));
+    }
+}
+
+#[test]
+fn what_a_session_cannot_mean_is_told_with_line_and_column() {
+    let scene = builtin::named("whitted").unwrap();
+    for (lines, said) in [
+        ("[panes.A]\nspp = 4", "a.toml:4:1: spp is no setting of raster: expected fake, shading, "),
+        ("[panes.B]\nspp = \"many\"", "a.toml:4:7: spp=many: expected a whole number from 1 to "),
+        ("[panes.B]\nspp = 4.5", "a.toml:4:7: spp=4.5: expected a whole number"),
+        ("[panes.B]\nsampler = \"sobl\"", "; did you mean sobol?"),
+        ("[panes.B]\nsamplr = \"sobol\"", "a.toml:4:1: samplr is no setting of path: expected "),
+        ("[panes.B]\nbounces = true", "a.toml:4:11: bounces=: expected a whole number from 0 to "),
+        ("[panes.B]\ntechnique = \"pth\"", "a.toml:4:13: technique pth: expected raster, whitted, path, "),
+        ("[panes.B.raster]\nsegments = 0", "a.toml:4:12: segments=0: expected a number from "),
+        ("[panes.B]\ndevice = \"card\"", "a.toml:4:10: device card: expected auto, cpu or gpu"),
+        ("[panes.B]\nadapter = -1", "a.toml:4:11: adapter: expected the number of an adapter"),
+        ("[panes.C]\nspp = 4", "C is no key of [panes]: expected A or B"),
+        ("panes = 3", "a.toml:3:9: panes: expected a table, [panes]"),
+        (
+            "[scene_changes]\nrefraction-ratio = 0",
+            "a.toml:4:20: refraction-ratio 0: expected a number from 0.001 to 1000",
+        ),
+        ("[scene_changes]\nsun_radius = 0", "; did you mean sun-radius?"),
+        ("[view]\nshow = \"walk\"", "a.toml:4:8: show walk: expected a, b, wipe, side or map"),
+        ("[view]\nline_at = 1.5", "a.toml:4:11: line_at: expected a number from 0 to 1"),
+        ("[view]\nexposure = nan", "a.toml:4:12: exposure: expected stops from -30 to 30"),
+        ("[view]\n  shw = \"a\"", "a.toml:4:3: shw is no key of [view]: expected show, line, "),
+        ("[camera]\neye = [1, 2]", "a.toml:4:7: eye: expected three numbers, [x, y, z]"),
+        ("[camera]\nfov = 180", "a.toml:4:7: fov: expected degrees between 0 and 180"),
+        (
+            "[camera]\neye = [0, 1, 0]\ntarget = [0, 1, 0]",
+            "a.toml:3:1: this camera sees nothing: its eye and target must differ",
+        ),
+        ("[[bookmarks]]\neye = [0, 1, 0]\ntarget = [0, 1, 0]", "a.toml:3:1: this camera sees nothing"),
+        ("[bookmarks]\neye = [0, 1, 0]", "bookmarks: expected tables, each under [[bookmarks]]"),
+        ("[comparison]\nerrors = \"bias\"", "a.toml:4:10: errors bias: expected signed, absolute, "),
+        ("[comparison.scale]\nsigned = 0", "a.toml:4:10: signed: expected a number above 0"),
+        ("[plots]\nopen = \"yes\"", "a.toml:4:8: open: expected true or false"),
+        ("[window]\nsize = [1280]", "a.toml:4:8: size: expected width and height in points"),
+        ("[window]\ntheme = \"drk\"", "a.toml:4:9: theme drk: expected dark, light or projector; did you mean dark?"),
+        ("[plot]\nopen = true", "a.toml:3:2: plot is no key of a session: expected session, scene, "),
+        ("scene_hash = \"12\"", "a.toml:3:14: scene_hash: expected two hashes"),
+        ("[view\nshow = \"a\"", "a.toml:3:6: "),
+        ("scene = \"cornell\"", "a.toml:3:1: duplicate key"),
+    ] {
+        let text = format!("session = 1\nscene = \"whitted\"\n{lines}\n");
+        let fault = parsed(&text, &scene).expect_err(lines);
+        assert!(fault.starts_with("a.toml:") && fault.contains(said) && !fault.contains('\n'), "{lines}: {fault}");
+    }
+}
+
+#[test]
+fn a_session_of_a_later_version_is_refused_in_words() {
+    let fault = |text: &str| SessionDraft::parse(text, Path::new("a.toml")).unwrap_err();
+    let later = fault("session = 2\nscene = \"whitted\"\nholograms = true");
+    assert!(
+        later.starts_with("a.toml:1:11: this session is of version 2, which a later visavis has written"),
+        "{later}"
+    );
+    assert!(fault("session = \"x\"").contains("a.toml:1:11: session: expected 1"));
+    assert!(fault("session = 1").contains("a session needs its scene"));
+}
+
+#[test]
+fn a_session_is_told_by_its_first_key() {
+    for text in ["session = 1", "\u{feff}\n# one\n  session=7 # two\n[", "session = \"x\""] {
+        assert!(is_session(text), "{text}");
+    }
+    for text in
+        ["", "[camera]\nsession = 1", "sessions = 1", "session", "#session = 1", builtin::text("whitted").unwrap()]
+    {
+        assert!(!is_session(text), "{text}");
+    }
+}

@@ -1,0 +1,149 @@
+//! A session as the text of its file.
+
+use super::{SESSION_VERSION, SavedSession};
+use crate::model::{ComparisonSettings, PaneId, PlotSettings, Session};
+use compare::ErrorMetric;
+use scene::{Camera, Scene, Vec3};
+use std::fmt::Write;
+use technique::settings::{OF_SCENES, Value, all_of_panes};
+use technique::{DeviceChoice, PaneSettings, TechniqueName};
+
+impl SavedSession {
+    /// The file's text; `source` is the scene's built-in name, or its file as the session's folder finds it.
+    pub fn text(&self, scene: &Scene, source: &str) -> String {
+        let mut text = format!(
+            "# A session of Visavis, which is opened as scenes are. What is left out is as in a new window.\n\
+             session = {SESSION_VERSION}\nscene = {}\nscene_hash = {}\n",
+            quoted(source),
+            quoted(&scene.as_read.to_string())
+        );
+        table(&mut text, "[camera]", camera(&self.camera));
+        let changes = OF_SCENES.iter().filter_map(|row| Some((row.name, (row.get)(&self.changes)?)));
+        table(&mut text, "[scene_changes]", changes.map(|(name, value)| (name, word(value))).collect());
+        table(&mut text, "[view]", self.view());
+        for (id, pane) in self.session.panes.iter() {
+            panes(&mut text, id, pane, scene);
+        }
+        comparison(&mut text, &self.session.comparison);
+        table(&mut text, "[plots]", plots(self.session.plots));
+        for place in &self.bookmarks {
+            table(&mut text, "[[bookmarks]]", camera(place));
+        }
+        table(&mut text, "[window]", self.window());
+        text
+    }
+
+    fn view(&self) -> Lines {
+        let Session { view, line, wipe, display, resolution, .. } = &self.session;
+        let mut lines = vec![("show", quoted(view.word()))];
+        if self.line_placed {
+            lines.extend([("line", quoted(line.name())), ("line_at", number(*wipe))]);
+        }
+        lines.extend([("exposure", number(display.exposure)), ("resolution", quoted(resolution.name()))]);
+        lines
+    }
+
+    fn window(&self) -> Lines {
+        let window = &self.window;
+        let size = window.size.map(|[width, height]| ("size", format!("[{}, {}]", width.round(), height.round())));
+        let flags = [("panel", window.panel), ("labels", window.labels)];
+        let flags = flags.into_iter().filter_map(|(name, flag)| Some((name, flag?.to_string())));
+        size.into_iter().chain(window.theme.map(|theme| ("theme", quoted(theme.name())))).chain(flags).collect()
+    }
+}
+
+/// Keys and what stands behind them.
+type Lines = Vec<(&'static str, String)>;
+
+fn table(text: &mut String, header: &str, lines: Lines) {
+    if lines.is_empty() {
+        return;
+    }
+    // writing to a text does not fail
+    let _ = writeln!(text, "\n{header}");
+    for (key, value) in lines {
+        let _ = writeln!(text, "{key} = {value}");
+    }
+}
+
+fn camera(camera: &Camera) -> Lines {
+    let point = |Vec3 { x, y, z }| format!("[{}, {}, {}]", number(x), number(y), number(z));
+    vec![("eye", point(camera.eye)), ("target", point(camera.target)), ("fov", number(camera.fov_y))]
+}
+
+/// The settings of a pane that are not a new one's, those of the technique in use first. What several techniques share
+/// stands under the first of them alone.
+fn panes(text: &mut String, id: PaneId, pane: &PaneSettings, scene: &Scene) {
+    let mut told = super::new_pane(id, scene);
+    let mut lines = vec![("technique", quoted(pane.technique.name()))];
+    if pane.device != DeviceChoice::default() {
+        lines.push(("device", quoted(pane.device.name())));
+    }
+    if pane.adapter != 0 {
+        lines.push(("adapter", pane.adapter.to_string()));
+    }
+    lines.extend(unlike(pane, &mut told, pane.technique));
+    table(text, &format!("[panes.{id}]"), lines);
+    for technique in TechniqueName::ALL.into_iter().filter(|other| *other != pane.technique) {
+        let lines = unlike(pane, &mut told, technique);
+        table(text, &format!("[panes.{id}.{}]", technique.name()), lines);
+    }
+}
+
+/// The settings of a technique that are others than those that were `told`, which takes them.
+fn unlike(pane: &PaneSettings, told: &mut PaneSettings, technique: TechniqueName) -> Lines {
+    let pane = PaneSettings { technique, ..*pane };
+    told.technique = technique;
+    let mut lines = Vec::new();
+    for row in all_of_panes().filter(|row| row.is_of(technique)) {
+        let value = (row.get)(&pane).filter(|value| Some(*value) != (row.get)(told));
+        if let Some(value) = value {
+            told.set(row, value);
+            lines.push((row.name, word(value)));
+        }
+    }
+    lines
+}
+
+fn comparison(text: &mut String, comparison: &ComparisonSettings) {
+    let lines = vec![
+        ("against", quoted(comparison.with.word())),
+        ("map_of", quoted(comparison.of.name())),
+        ("errors", quoted(comparison.metric.name())),
+    ];
+    table(text, "[comparison]", lines);
+    let held = ErrorMetric::ALL.into_iter().zip(comparison.held);
+    let held = held.filter_map(|(metric, end)| Some((metric.name(), number(end?))));
+    table(text, "[comparison.scale]", held.collect());
+}
+
+fn plots(plots: PlotSettings) -> Lines {
+    let PlotSettings { open, over, measure } = plots;
+    vec![("open", open.to_string()), ("over", quoted(over.name())), ("measure", quoted(measure.name()))]
+}
+
+fn word(value: Value) -> String {
+    match value {
+        Value::Number(value) => number(value),
+        Value::Whole(value) | Value::Bounces(Some(value)) => value.to_string(),
+        words => quoted(&words.to_string()),
+    }
+}
+
+/// The fewest digits that come back as this number. Large ones have an exponent: TOML's whole numbers end at 2^63.
+fn number(number: f32) -> String {
+    format!("{number:?}")
+}
+
+/// A basic string of TOML.
+fn quoted(text: &str) -> String {
+    let mut quoted = String::from("\"");
+    for letter in text.chars() {
+        match letter {
+            '"' | '\\' => quoted.extend(['\\', letter]),
+            control if control.is_control() => _ = write!(quoted, "\\u{:04X}", u32::from(control)),
+            other => quoted.push(other),
+        }
+    }
+    quoted + "\""
+}
