@@ -61,7 +61,7 @@ mod tests {
     use visavis_tests::TestFolder;
 
     fn kept(scene: &str, scene_hash: Option<SceneHash>) -> Kept {
-        Kept { scene: scene.to_owned(), scene_hash, setup: Setup::default() }
+        Kept { scene: scene.to_owned(), scene_hash, setup: Setup::default(), session: None }
     }
 
     /// A scene of this light, and its hash.

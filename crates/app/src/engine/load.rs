@@ -55,7 +55,7 @@ pub struct Opened {
     pub stamp: Option<Stamp>,
     /// What the picture sets up that was opened, if one was.
     pub setup: Option<Setup>,
-    /// The session that was opened, if one was.
+    /// The session that was opened, or in which that picture was seen.
     pub session: Option<Box<SavedSession>>,
     /// That picture, where it is the scene's reference.
     pub reference: Option<ReferenceFile>,
@@ -174,8 +174,12 @@ fn refuse(path: &Path, line: String) -> Refusal {
 
 /// What its picture shows.
 fn set_up(opened: Opened, kept: Kept, picture: &Path) -> Opened {
-    let notes = opened.notes.iter().cloned().chain(kept.note(picture, &opened.scene)).collect();
-    Opened { asked: picture.display().to_string(), setup: Some(kept.setup), notes, ..opened }
+    let (session, left) = match session::of_picture(&kept, &opened.scene, picture) {
+        Ok(session) => (session, None),
+        Err(why) => (None, Some(why)),
+    };
+    let notes = opened.notes.iter().cloned().chain(kept.note(picture, &opened.scene)).chain(left).collect();
+    Opened { asked: picture.display().to_string(), setup: Some(kept.setup), session, notes, ..opened }
 }
 
 fn read_reference(path: &Path) -> Result<ReferenceFile, Refusal> {

@@ -18,6 +18,8 @@ pub struct Kept {
     pub scene_hash: Option<SceneHash>,
     /// What is set up to see it again.
     pub setup: Setup,
+    /// The text of the session in which it was seen, of a picture as seen.
+    pub session: Option<String>,
 }
 
 /// What a file's records say of its picture.
@@ -63,7 +65,7 @@ fn of_reference(records: &[(String, String)]) -> anyhow::Result<Option<Kept>> {
     for (name, value) in records {
         look(&mut setup, name, value)?;
     }
-    Ok(Some(Kept { scene: scene.to_owned(), scene_hash: scene_hash(records)?, setup }))
+    Ok(Some(Kept { scene: scene.to_owned(), scene_hash: scene_hash(records)?, setup, session: None }))
 }
 
 /// The picture of a pane, shown alone in A.
@@ -83,6 +85,9 @@ fn value<'a>(records: &'a [(String, String)], name: &str) -> Option<&'a str> {
 /// What stands before the command of a pane whose picture was not all that this makes, or more.
 pub const QUALIFIED: [&str; 2] = ["rough, in full: ", "with earlier views, and without: "];
 
+/// The record of the session in which a picture was seen.
+pub const SESSION: &str = "session";
+
 /// The picture as seen, or the map of errors: each pane's command, and how they were shown.
 fn as_seen(records: &[(String, String)]) -> anyhow::Result<Option<Kept>> {
     let value = |name: &str| value(records, name);
@@ -96,6 +101,7 @@ fn as_seen(records: &[(String, String)]) -> anyhow::Result<Option<Kept>> {
     }
     let mut kept = of_panes(&panes)?;
     kept.scene_hash = scene_hash(records)?;
+    kept.session = value(SESSION).map(str::to_owned);
     kept.setup.view = value("view").and_then(|name| View::ALL.into_iter().find(|view| view.name() == name));
     kept.setup.line = value("line").and_then(line);
     kept.setup.exposure = value("exposure").and_then(|stops| stops.parse().ok());
@@ -130,7 +136,7 @@ fn of_panes(panes: &[(PaneId, Recorded)]) -> anyhow::Result<Kept> {
     for (id, made) in panes {
         add(&mut setup, *id, &made.options)?;
     }
-    Ok(Kept { scene: scene.clone(), scene_hash: *scene_hash, setup })
+    Ok(Kept { scene: scene.clone(), scene_hash: *scene_hash, setup, session: None })
 }
 
 /// How many they are.

@@ -3,7 +3,7 @@
 use super::find_scene::scene_of;
 use super::load::Opened;
 use super::restore::Kept;
-use crate::model::{SavedSession, SessionDraft, Setup, is_session};
+use crate::model::{SavedSession, SavedWindow, SessionDraft, Setup, is_session};
 use anyhow::{Context, bail};
 use image_file::shown;
 use scene::{Scene, builtin};
@@ -40,11 +40,24 @@ pub fn read(path: &Path, recent: &[PathBuf]) -> Result<Opened, String> {
         .map_err(|_| format!("this is not a text in UTF-8: a session is saved as one: {}", shown(path)))?;
     let draft = SessionDraft::parse(&text, path)?;
     let scene = source_beside(path, &draft.scene);
-    let kept = Kept { scene, scene_hash: draft.scene_hash, setup: Setup::default() };
+    let kept = Kept { scene, scene_hash: draft.scene_hash, setup: Setup::default(), session: None };
     let opened = scene_of(&kept, path, recent)?;
     let session = draft.beside(&opened.scene, path)?;
     let notes = opened.notes.iter().cloned().chain(kept.note(path, &opened.scene)).collect();
     Ok(Opened { asked: path.display().to_string(), session: Some(Box::new(session)), notes, ..opened })
+}
+
+/// The session in which a picture was seen, where it keeps one: what the picture's other records do not say.
+///
+/// # Errors
+/// A line on why it is left; the other records are enough to see the picture again.
+pub fn of_picture(kept: &Kept, scene: &Scene, picture: &Path) -> Result<Option<Box<SavedSession>>, String> {
+    let Some(text) = &kept.session else { return Ok(None) };
+    let read = SessionDraft::parse(text, picture).and_then(|draft| draft.beside(scene, picture));
+    let session = read.map_err(|fault| format!("only what it shows is set up, its session cannot be read: {fault}"))?;
+    // the picture may be older than the last change, and a window keeps its size
+    let session = SavedSession { changes: kept.setup.changes, window: SavedWindow::default(), ..session };
+    Ok(Some(Box::new(session)))
 }
 
 /// A built-in name, or a file as seen from the session's folder.
@@ -127,6 +140,21 @@ mod tests {
         assert_eq!(from("course/scenes"), "a.toml");
         assert_eq!(source_from(&test.file("course"), "cornell"), "cornell");
         assert_eq!(relative(Path::new("/a"), Path::new("/b/c.toml")), None, "nothing in common");
+    }
+
+    #[test]
+    fn a_pictures_session_that_cannot_be_read_is_left_with_a_line() {
+        let scene = builtin::named("whitted").expect("a built-in scene");
+        let of = |text: Option<&str>| {
+            let session = text.map(str::to_owned);
+            let kept = Kept { scene: "whitted".into(), scene_hash: None, setup: Setup::default(), session };
+            of_picture(&kept, &scene, Path::new("seen.png"))
+        };
+        assert_eq!(of(None), Ok(None));
+        let session = of(Some("session = 1\nscene = \"whitted\"\n[window]\nsize = [900, 600]")).expect("a session");
+        assert_eq!(session.map(|session| session.window), Some(SavedWindow::default()), "a window keeps its size");
+        let left = of(Some("session = 2")).expect_err("a later one");
+        assert!(left.starts_with("only what it shows is set up") && left.contains("version 2"), "{left}");
     }
 
     /// `linked/..` is the folder of the link's target.

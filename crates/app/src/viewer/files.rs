@@ -8,7 +8,7 @@ use crate::engine::load::{Loaded, Opened, Refusal};
 use crate::engine::memory::{Memo, Memory};
 use crate::engine::session::SessionToSave;
 use crate::engine::watch::{News, Reread, Stamp, Watched};
-use crate::model::{Destination, ExportRequest, FilePurpose, Remembered, SavedSession, Setup, WindowPlace};
+use crate::model::{Destination, ExportRequest, FilePurpose, Remembered, SavedSession, WindowPlace};
 use crate::ui::UiCommand;
 use image_file::shown;
 use scene::builtin;
@@ -111,7 +111,7 @@ impl Viewer {
         let slide = self.model.state.awaited_slide.filter(|slide| slide.scene == source);
         self.model.open(scene, source);
         let seen = match session {
-            Some(session) => self.model.restore(&session, &Setup::default()),
+            Some(session) => self.model.restore(&session, &setup.unwrap_or_default()),
             None => setup.map_or(Ok(()), |setup| self.model.set_up(&setup)),
         };
         match seen {

@@ -4,10 +4,10 @@
 use crate::engine::Picture;
 use crate::engine::export::Content;
 use crate::engine::post_process::{DisplayFrame, PaneUpdate, PaneUpdates};
-use crate::engine::restore::QUALIFIED;
+use crate::engine::restore::{QUALIFIED, SESSION};
 use crate::engine::thumbnails::Thumbnail;
 use crate::model::{
-    Against, ComparisonSettings, Denoising, ErrorMap, Model, PaneId, PaneView, Panes, ViewModel, Wanted,
+    Against, ComparisonSettings, Denoising, ErrorMap, Model, PaneId, PaneView, Panes, SavedSession, ViewModel, Wanted,
 };
 use crate::ruler::error_records;
 use crate::ui::Textures;
@@ -176,7 +176,7 @@ impl Presentation {
         Some(format!("{judge}: {command}"))
     }
 
-    /// What a file keeps about the picture as seen: the view, and for each pane the command that makes it.
+    /// What a file keeps about the picture as seen: the view, for each pane the command that makes it, and the session.
     pub fn records_of_all(&self, model: &Model) -> Records {
         let session = &model.session;
         let exposure = session.display.exposure;
@@ -198,6 +198,8 @@ impl Presentation {
             let qualified = if picture.rough { rough } else { picture.lag.map_or("", |_| lagging) };
             records.push((pane.name(), format!("{qualified}{command}")));
         }
+        let document = &model.document;
+        records.push((SESSION, SavedSession::of(model, None).text(&document.scene, &document.source)));
         records
     }
 }

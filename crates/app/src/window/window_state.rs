@@ -56,7 +56,7 @@ fn model_of(opened: &Opened, args: &ViewArgs) -> anyhow::Result<Model> {
     if let Some(session) = &opened.session {
         let theme = args.theme.or(session.window.theme);
         model.restore_window(&SavedWindow { theme, ..session.window });
-        model.restore(session, &args.setup).map_err(anyhow::Error::msg)?;
+        model.restore(session, &setup).map_err(anyhow::Error::msg)?;
         return Ok(model);
     }
     // its scene is the one that is open

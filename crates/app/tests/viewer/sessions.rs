@@ -72,6 +72,31 @@ fn a_session_that_was_saved_opens_as_it_was_with_the_same_pictures() {
 }
 
 #[test]
+fn a_picture_as_seen_opens_as_the_session_in_which_it_was_seen() {
+    let mut user = User::of("whitted");
+    of_fakes(&mut user);
+    user.change(|model| {
+        model.document.bookmarks.push(model.document.camera.orbited(0.1, 0.1));
+        model.session.resolution = Resolution::Half;
+        model.session.panes[PaneId::B].truth.spp = 77;
+        model.session.comparison.held[0] = Some(0.3);
+        model.session.plots.over = visavis::model::Cost::Seconds;
+        model.session.panes.values_mut().for_each(|pane| pane.fake.fake = raster::Fake::AsTaught);
+    });
+    user.wait_for("both pictures", are_taught);
+    let (made, kept) = (commands(&mut user), state_of(&mut user));
+    let file = user.file("seen.png");
+    user.export_as_seen(&file);
+    user.open("cornell");
+    user.change(|model| model.session = Session::default());
+    user.wait_for("another scene", |f| f.state("scene") == "cornell");
+    user.drop_file(&file);
+    user.wait_for("the picture", |f| says(f, "whitted as") && says(f, "seen.png shows it") && are_taught(f));
+    assert_eq!(state_of(&mut user), kept);
+    assert_eq!(commands(&mut user), made, "the pictures are others");
+}
+
+#[test]
 fn a_faulty_session_is_refused_with_its_place_and_the_running_one_stays() {
     let mut user = User::of("cornell");
     of_fakes(&mut user);

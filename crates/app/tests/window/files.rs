@@ -1,6 +1,6 @@
 //! Files in the real window: options, title, a scene that changes on disk, and what the next window remembers.
 
-use super::{alone, both_ready};
+use super::{alone, both_ready, says};
 use std::path::Path;
 use visavis_tests::{Screen, TestFolder, ViewerUnderTest};
 
@@ -42,6 +42,38 @@ fn a_lecture_is_opened_by_its_options_and_its_window_comes_back() {
     assert_eq!(screen.title(window), "cornell - Visavis");
     screen.click(again.point("scene", 0.5, 0.5));
     next.wait_for("the file of before", |f| f.shows("recent lecture.toml"));
+}
+
+#[test]
+fn a_session_opens_its_window_and_a_key_saves_it_again() {
+    let _alone = alone();
+    let (screen, folder) = (Screen::start(1280, 720), TestFolder::new());
+    write(&folder.file("box.toml"), "40");
+    let file = folder.file("lecture.toml");
+    let text = "session = 1\nscene = \"box.toml\"\n[view]\nshow = \"side\"\n[panes.A]\nsegments = 9\n[panes.B]\nspp = 2\n\
+                [window]\nsize = [900, 640]\ntheme = \"light\"\npanel = false\n";
+    std::fs::write(&file, text).expect("a file");
+    let binary = Path::new(env!("CARGO_BIN_EXE_visavis"));
+    let variables = [("WINIT_X11_SCALE_FACTOR", Some("1"))];
+    let name = file.to_str().expect("a plain path");
+    let mut viewer = ViewerUnderTest::start_keeping(binary, &screen, &variables, &[name], folder.path());
+    let first = viewer.wait_for("both pictures", both_ready);
+    assert_eq!((first.state("view"), first.state("fov")), (&"Side by side".into(), &40.0.into()));
+    let [_, _, right, bottom] = first.rect("picture");
+    assert!(
+        (right, bottom) <= (900.0, 640.0) && right > 880.0 && bottom > 600.0,
+        "without the panel: {right} {bottom}"
+    );
+    screen.focus("Visavis");
+    screen.chord(&[Screen::CONTROL, Screen::SHIFT, u32::from('s')]);
+    let saved = viewer.wait_for("the session's file", |f| says(f, "Saved "));
+    let message = saved.state("message").as_str().expect("a line");
+    let saved = std::fs::read_to_string(message.trim_start_matches("Saved ")).expect("the session");
+    for line in
+        ["segments = 9", "spp = 2", "show = \"side\"", "size = [900, 640]", "theme = \"light\"", "panel = false"]
+    {
+        assert!(saved.lines().any(|known| known == line), "{line} is not in {saved}");
+    }
 }
 
 /// As a session of the desktop's ends: nobody closes the window.
