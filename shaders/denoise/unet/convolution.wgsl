@@ -34,6 +34,9 @@ struct Layer {
     // Where its kernels and its biases begin.
     kernels: u32,
     biases: u32,
+    // The first row of tiles that a dispatch goes over, and how many rows.
+    first: u32,
+    rows: u32,
 }
 
 @group(0) @binding(0) var<uniform> layer: Layer;

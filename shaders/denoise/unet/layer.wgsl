@@ -6,18 +6,19 @@
 
 @compute @workgroup_size(64)
 fn convolve(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) index: u32) {
-    let sums = convolved(group.yz * TILE, group.x, index);
+    let tile = vec2u(group.y, layer.first + group.z);
+    let sums = convolved(tile * TILE, group.x, index);
     if layer.pools == 0u {
         let block = group.x * BLOCKS_OF_A_GROUP + block_of(index);
-        let pixel = group.yz * TILE + offset(index);
+        let pixel = tile * TILE + offset(index);
         keep(block, pixel, sums[0], sums[1]);
         keep(block + 1u, pixel, sums[2], sums[3]);
         return;
     }
     for (var half = 0u; half < 2u; half++) {
         let block = group.x * BLOCKS_OF_A_GROUP + 2u * half;
-        pool(block, group.yz, index, half == index / 32u, sums[0], sums[1]);
-        pool(block + 1u, group.yz, index, half == index / 32u, sums[2], sums[3]);
+        pool(block, tile, index, half == index / 32u, sums[0], sums[1]);
+        pool(block + 1u, tile, index, half == index / 32u, sums[2], sums[3]);
     }
 }
 

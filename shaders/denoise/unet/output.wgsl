@@ -8,11 +8,12 @@
 
 @compute @workgroup_size(64)
 fn convolve(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) index: u32) {
-    let sums = convolved(group.yz * TILE, group.x, index);
+    let first = vec2u(group.y, layer.first + group.z) * TILE;
+    let sums = convolved(first, group.x, index);
     if index >= 32u {
         return;
     }
-    let pixel = group.yz * TILE + offset(index);
+    let pixel = first + offset(index);
     write_row(pixel, sums[0]);
     write_row(pixel + vec2u(0u, 2u), sums[1]);
 }

@@ -19,7 +19,7 @@ use gpu::waiting::PATIENCE;
 use gpu::wgpu::{self, BindGroup, Buffer, BufferUsages, SubmissionIndex};
 use gpu::wgsl::{self, Source};
 use gpu::{Gpu, GpuError};
-use places::{Places, most_pixels, storage};
+use places::{MOST_OPERATIONS, Places, most_pixels, storage};
 use rayon::prelude::*;
 use std::sync::{Mutex, PoisonError};
 use weights::{Layer, packed};
@@ -80,6 +80,8 @@ pub struct GpuUnet {
     layers: Vec<Layer>,
     weights: Buffer,
     places: Mutex<Option<Places>>,
+    /// Of a submission.
+    most_operations: f64,
 }
 
 #[derive(Debug)]
@@ -154,7 +156,15 @@ impl GpuUnet {
         let (layers, weights) = packed(network);
         let weights = gpu.buffer("the weights of a denoising network", &weights, BufferUsages::STORAGE)?;
         let shaders = Shaders::new(gpu, numbers)?;
-        Ok(GpuUnet { gpu: gpu.clone(), numbers, shaders, layers, weights, places: Mutex::new(None) })
+        Ok(GpuUnet {
+            gpu: gpu.clone(),
+            numbers,
+            shaders,
+            layers,
+            weights,
+            places: Mutex::new(None),
+            most_operations: MOST_OPERATIONS,
+        })
     }
 
     /// As [`Network::denoise`], to roundings. Memory on the device: at most 1 GiB for values between layers, and 60 bytes
@@ -237,33 +247,37 @@ impl GpuUnet {
             let bound = [&params, &source, places.at(Place::Input)].map(Buffer::as_entire_binding);
             self.shaders.input.bind(&self.gpu, &bound)
         })?;
-        for (layer, group) in places.layers.iter().zip(&places.groups) {
-            queue.submit(&self.shaders.layer, items(layer), || group.clone())?;
+        for slice in &places.slices {
+            let items = items(&slice.layer);
+            match &slice.group {
+                Some(group) => queue.submit(&self.shaders.layer, items, || group.clone())?,
+                None => queue.submit(&self.shaders.output, items, || {
+                    let mut bound = places.bound(slice, &self.weights);
+                    bound.extend([&radiances, &params].map(Buffer::as_entire_binding));
+                    self.shaders.output.bind(&self.gpu, &bound)
+                })?,
+            }
         }
-        let last = places.layers.len() - 1;
-        queue.submit(&self.shaders.output, items(&places.layers[last]), || {
-            let mut bound = places.bound(last, &self.weights);
-            bound.extend([&radiances, &params].map(Buffer::as_entire_binding));
-            self.shaders.output.bind(&self.gpu, &bound)
-        })?;
         let bytes = self.gpu.read_buffer(WHAT, &radiances)?;
         Ok(bytes.chunks_exact(size_of::<Vec3>()).map(bytemuck::pod_read_unaligned).map(sanitized).collect())
     }
 
     /// Memory for inputs of this size: that of the picture before if it fits.
     fn places(&self, size: [usize; 2]) -> Result<Places, GpuError> {
+        let most = self.most_operations;
         let kept = self.places.lock().unwrap_or_else(PoisonError::into_inner).take();
         match kept.filter(|places| places.size == size) {
             Some(places) => Ok(places),
-            None => Places::new(&self.gpu, &self.shaders, &self.layers, &self.weights, size, self.numbers.block()),
+            None => {
+                Places::new(&self.gpu, &self.shaders, &self.layers, &self.weights, size, (self.numbers.block(), most))
+            }
         }
     }
 }
 
 /// Threads of a layer along x, y and z: a workgroup of them for each group of blocks and each tile of pixels.
 fn items(layer: &Layer) -> [u32; 3] {
-    let [columns, rows] = layer.size.map(|side| side.div_ceil(weights::TILE as u32));
-    [64 * layer.groups(), columns, rows]
+    [64 * layer.groups(), layer.size[0].div_ceil(weights::TILE as u32), layer.rows]
 }
 
 /// Colour, albedo and normal of the pixels of a tile that the picture has.
@@ -275,8 +289,8 @@ fn pixels(tile: &Tile, picture: [usize; 2], color: &[Vec3], features: Features) 
     (0..width * rows.len()).into_par_iter().map(at).collect()
 }
 
-/// Submissions one after the other, a layer each, so that none takes long where a device is slow: two are on their way at
-/// most.
+/// Submissions one after the other, some rows of a layer each, so that none takes long where a device is slow: two are on their
+/// way at most.
 struct Queue<'a> {
     gpu: &'a Gpu,
     before: Option<SubmissionIndex>,

@@ -15,15 +15,29 @@ pub struct Places {
     pub size: [usize; 2],
     /// The layers, with their sizes.
     pub layers: Vec<Layer>,
-    /// What those are bound to whose values other layers read.
-    pub groups: Vec<BindGroup>,
-    /// The parameters of each.
-    params: Vec<Buffer>,
+    /// What is submitted by itself, in the order of work.
+    pub slices: Vec<Slice>,
     buffers: Vec<Buffer>,
 }
 
+/// Some rows of a layer.
+#[derive(Debug)]
+pub struct Slice {
+    /// Which layer.
+    pub index: usize,
+    /// It, over these rows.
+    pub layer: Layer,
+    /// What it is bound to; nothing of the last one, which writes a picture.
+    pub group: Option<BindGroup>,
+    params: Buffer,
+}
+
+/// Operations of a submission: a millisecond of a fast device, and half a frame of one that does .25 Tflop/s, which draws a
+/// window meanwhile.
+pub const MOST_OPERATIONS: f64 = 8e9;
+
 impl Places {
-    /// Memory for values of so many bytes a block of four channels.
+    /// Memory for values of so many bytes a `block` of four channels, and layers in slices of so many operations.
     ///
     /// # Errors
     /// [`GpuError`] if the device has not so much.
@@ -33,28 +47,39 @@ impl Places {
         layers: &[Layer],
         weights: &Buffer,
         size: [usize; 2],
-        block: u64,
+        (block, most_operations): (u64, f64),
     ) -> Result<Self, GpuError> {
         let (blocks, layers) = sized(layers, size);
         let buffers = blocks.map(|blocks| storage(gpu, blocks * block)).into_iter().collect::<Result<Vec<_>, _>>()?;
-        let uniform = |layer: &Layer| gpu.buffer(WHAT, std::slice::from_ref(layer), BufferUsages::UNIFORM);
-        let params = layers.iter().map(uniform).collect::<Result<Vec<_>, _>>()?;
-        let mut places = Places { size, layers, groups: Vec::new(), params, buffers };
-        places.groups = gpu.checked(WHAT, || {
-            let group = |index: usize| {
-                let written = places.at(GRAPH[index].writes).as_entire_binding();
-                shaders.layer.bind(gpu, &[&places.bound(index, weights)[..], &[written]].concat())
-            };
-            (0..GRAPH.len() - 1).map(group).collect()
-        })?;
+        let mut places = Places { size, layers, slices: Vec::new(), buffers };
+        let sliced = places.layers.iter().enumerate();
+        let sliced = sliced.flat_map(|(index, layer)| layer.slices(most_operations).map(move |slice| (index, slice)));
+        places.slices = sliced.map(|part| places.slice(gpu, shaders, weights, part)).collect::<Result<_, _>>()?;
         Ok(places)
     }
 
+    fn slice(
+        &self,
+        gpu: &Gpu,
+        shaders: &Shaders,
+        weights: &Buffer,
+        (index, layer): (usize, Layer),
+    ) -> Result<Slice, GpuError> {
+        let params = gpu.buffer(WHAT, &[layer], BufferUsages::UNIFORM)?;
+        let mut slice = Slice { index, layer, group: None, params };
+        if index + 1 < GRAPH.len() {
+            let written = self.at(GRAPH[index].writes).as_entire_binding();
+            let bound = [&self.bound(&slice, weights)[..], &[written]].concat();
+            slice.group = Some(gpu.checked(WHAT, || shaders.layer.bind(gpu, &bound))?);
+        }
+        Ok(slice)
+    }
+
     /// What a layer is bound to beside where it writes: a layer that reads one place has it in both roles.
-    pub fn bound<'a>(&'a self, index: usize, weights: &'a Buffer) -> Vec<gpu::wgpu::BindingResource<'a>> {
-        let reads = GRAPH[index].reads;
+    pub fn bound<'a>(&'a self, slice: &'a Slice, weights: &'a Buffer) -> Vec<gpu::wgpu::BindingResource<'a>> {
+        let reads = GRAPH[slice.index].reads;
         let [halved, full] = [reads[0].0, reads[reads.len() - 1].0].map(|place| self.at(place));
-        [&self.params[index], halved, full, weights].map(Buffer::as_entire_binding).to_vec()
+        [&slice.params, halved, full, weights].map(Buffer::as_entire_binding).to_vec()
     }
 
     /// The buffer of a place.

@@ -199,7 +199,7 @@ const SIZE: [usize; 2] = [22, 18];
 fn convolved(unet: &GpuUnet, index: usize, reads: &[Values], channels: usize) -> Values {
     let pools = GRAPH[index].then == Then::Pool;
     let size = if pools { SIZE.map(|side| side / 2) } else { SIZE };
-    let layer = Layer { size: SIZE.map(|side| side as u32), ..unet.layers[index] };
+    let layer = Layer { size: SIZE.map(|side| side as u32), ..unet.layers[index] }.whole();
     let params = unet.gpu.buffer("a layer", &[layer], BufferUsages::UNIFORM).unwrap();
     let inputs: Vec<Buffer> = reads.iter().map(|values| values.buffer(&unet.gpu, unet.numbers)).collect();
     let bytes = (channels.div_ceil(4) * size[0] * size[1]) as u64 * unet.numbers.block();
@@ -252,6 +252,18 @@ fn tiles_make_the_picture_of_the_whole_to_the_bit() {
             let tiled = unet.denoise_in_tiles(&case.color, case.features(), 224 * 16, &|| false).unwrap();
             assert!(tiled == case.denoised(unet), "{width} x {height} {}", described(unet));
         }
+    }
+}
+
+#[test]
+fn layers_in_slices_make_the_picture_of_the_whole_to_the_bit() {
+    let case = Case::noisy(40, 70);
+    for unet in everywhere().iter() {
+        let mut sliced = GpuUnet::with_numbers(&unet.gpu, &Network::small().unwrap(), unet.numbers).unwrap();
+        sliced.most_operations = 1e6;
+        assert!(sliced.places([48, 80]).unwrap().slices.len() > 2 * GRAPH.len());
+        let whole = GpuUnet::with_numbers(&unet.gpu, &Network::small().unwrap(), unet.numbers).unwrap();
+        assert!(case.denoised(&sliced) == case.denoised(&whole), "{}", described(unet));
     }
 }
 

@@ -28,7 +28,7 @@ impl GpuUnet {
     pub fn time_layers(&self, runs: u32) -> Result<Vec<LayerTime>, GpuError> {
         let kept = self.places.lock().unwrap_or_else(PoisonError::into_inner).take();
         let Some(places) = kept else { return Ok(Vec::new()) };
-        let times = (0..places.groups.len()).map(|index| self.time_layer(&places, index, runs)).collect();
+        let times = (0..places.layers.len() - 1).map(|index| self.time_layer(&places, index, runs)).collect();
         *self.places.lock().unwrap_or_else(PoisonError::into_inner) = Some(places);
         times
     }
@@ -41,7 +41,12 @@ impl GpuUnet {
             let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
             let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
             for _ in 0..runs {
-                self.shaders.layer.record(&mut pass, None, &places.groups[index], items(layer));
+                for slice in places.slices.iter().filter(|slice| slice.index == index) {
+                    let group = slice.group.as_ref();
+                    group
+                        .into_iter()
+                        .for_each(|group| self.shaders.layer.record(&mut pass, None, group, items(&slice.layer)));
+                }
             }
             drop(pass);
             queue.submit([encoder.finish()])

@@ -29,9 +29,26 @@ pub struct Layer {
     pub kernels: u32,
     /// ... and its biases.
     pub biases: u32,
+    /// The first row of tiles that a dispatch goes over, ...
+    pub first: u32,
+    /// ... and how many rows.
+    pub rows: u32,
 }
 
 impl Layer {
+    /// The same over all rows of tiles.
+    pub fn whole(self) -> Self {
+        Layer { first: 0, rows: self.size[1].div_ceil(TILE as u32), ..self }
+    }
+
+    /// Parts of at most so many operations, a row of tiles at least.
+    pub fn slices(self, most_operations: f64) -> impl Iterator<Item = Layer> {
+        let Layer { size: [columns, _], rows, .. } = self.whole();
+        let of_row = self.operations() * f64::from(columns.next_multiple_of(TILE as u32)) * TILE as f64;
+        let most = ((most_operations / of_row) as u32).max(1);
+        (0..rows).step_by(most as usize).map(move |first| Layer { first, rows: most.min(rows - first), ..self })
+    }
+
     /// Groups of blocks, the last one padded.
     pub fn groups(&self) -> u32 {
         self.outputs.div_ceil(BLOCKS_OF_A_GROUP as u32)
@@ -60,6 +77,8 @@ pub fn packed(network: &Network) -> (Vec<Layer>, Vec<[f32; BLOCK]>) {
             pools: u32::from(row.then == Then::Pool),
             kernels: weights.len() as u32,
             biases: 0,
+            first: 0,
+            rows: 0,
         };
         for group in 0..layer.groups() as usize {
             add_kernels(convolution, group, &mut weights);
@@ -106,4 +125,29 @@ pub fn sized(layers: &[Layer], [width, height]: [usize; 2]) -> ([u64; PLACES], V
     });
     let sized = sized.collect();
     (most, sized)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn slices_are_all_rows_of_tiles_once_and_none_has_more_than_it_may() {
+        let network = Network::small().unwrap();
+        let (layers, _) = packed(&network);
+        let (_, layers) = sized(&layers, [1920, 1088]);
+        for layer in layers {
+            for most in [1e3, 1e9, 8e9, 1e12] {
+                let slices: Vec<Layer> = layer.slices(most).collect();
+                let mut next = 0;
+                for slice in &slices {
+                    assert_eq!(slice.first, next);
+                    next += slice.rows;
+                    let operations = layer.operations() * f64::from(layer.size[0] * slice.rows * TILE as u32);
+                    assert!(slice.rows == 1 || operations <= most, "{operations} of {most}");
+                }
+                assert_eq!(next, layer.whole().rows);
+            }
+        }
+    }
 }
