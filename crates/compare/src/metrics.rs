@@ -1,6 +1,7 @@
 //! Error metrics between two pictures.
 
-use film::{Film, Image, Pixel};
+use crate::PixelRect;
+use film::{Film, Image, Pixel, Vec3};
 
 /// Why pictures cannot be compared.
 #[derive(Debug, thiserror::Error, PartialEq, Eq)]
@@ -76,9 +77,23 @@ impl Errors {
 /// [`CompareError::Sizes`] if they do not have the same pixels.
 pub fn errors(image: &Image, reference: &Image) -> Result<Errors, CompareError> {
     same_size(image.size(), reference.size())?;
+    Ok(errors_of(image.radiances().iter().zip(reference.radiances())))
+}
+
+/// Measures the pixels of `image` in a rectangle against those of `reference` there.
+///
+/// # Errors
+/// [`CompareError::Sizes`] if they do not have the same pixels.
+pub fn errors_within(image: &Image, reference: &Image, rect: &PixelRect) -> Result<Errors, CompareError> {
+    same_size(image.size(), reference.size())?;
+    let [image, reference] = [image, reference].map(|image| rect.of(image.radiances(), image.width()));
+    Ok(errors_of(image.zip(reference)))
+}
+
+fn errors_of<'a>(pairs: impl Iterator<Item = (&'a Vec3, &'a Vec3)>) -> Errors {
     let mut sum = Errors::default();
     let (mut reference_sum, mut values) = (0.0, 0u64);
-    for (pixel, reference) in image.radiances().iter().zip(reference.radiances()) {
+    for (pixel, reference) in pairs {
         if !pixel.is_finite() || !reference.is_finite() {
             sum.nonfinite += 1;
             continue;
@@ -96,7 +111,7 @@ pub fn errors(image: &Image, reference: &Image) -> Result<Errors, CompareError> 
     }
     let share_of_the_reference = |sum: f64| if reference_sum > 0.0 { sum / reference_sum } else { 0.0 };
     let values = values.max(1) as f64;
-    Ok(Errors {
+    Errors {
         rmse: (sum.rmse / values).sqrt(),
         rel_mse: sum.rel_mse / values,
         mae: sum.mae / values,
@@ -106,7 +121,7 @@ pub fn errors(image: &Image, reference: &Image) -> Result<Errors, CompareError> 
         relative_bias: share_of_the_reference(sum.bias),
         nonfinite: sum.nonfinite,
         reference_noise: None,
-    })
+    }
 }
 
 /// Mean over pixels and channels of the squared standard error of a film's pixels, in radiance squared: what its noise
@@ -147,7 +162,6 @@ pub(crate) fn same_size(picture: (u32, u32), reference: (u32, u32)) -> Result<()
 #[cfg(test)]
 mod tests {
     use super::*;
-    use film::Vec3;
 
     fn row(radiances: &[Vec3]) -> Image {
         Image::new(radiances.len() as u32, 1, radiances).unwrap()
@@ -172,6 +186,16 @@ mod tests {
         let dim = errors(&greys([0.75, 0.0]), &greys([0.5, 0.5])).unwrap();
         assert!((dim.mae - 0.375).abs() < 1e-12 && (dim.relative_mae - 0.75).abs() < 1e-12, "a share has no unit");
         assert!((e.bias + 0.25).abs() < 1e-12 && (e.relative_bias + 0.25).abs() < 1e-12);
+    }
+
+    #[test]
+    fn in_a_rectangle_they_are_those_of_the_pictures_cut_to_it() {
+        let image = |scale: f32| Image::new(4, 3, (0..12).map(|i| Vec3::splat(scale * i as f32)).collect::<Vec<_>>());
+        let cut = |scale: f32| row(&[5, 6, 9, 10].map(|i| Vec3::splat(scale * i as f32)));
+        let rect = PixelRect { start: (1, 1), end: (3, 3) };
+        let within = errors_within(&image(1.5).unwrap(), &image(1.0).unwrap(), &rect).unwrap();
+        assert_eq!(within, errors(&cut(1.5), &cut(1.0)).unwrap());
+        assert!(within.rmse > 0.0);
     }
 
     #[test]
