@@ -55,6 +55,7 @@ struct Asked {
     display: Option<DisplayTransform>,
     comparisons: Vec<Comparison>,
     map: Option<MapWish>,
+    histograms: bool,
     /// The view and the origin of the reference.
     reference: Option<(u64, Origin)>,
     paused: bool,
@@ -205,6 +206,10 @@ impl Engine {
         if (&self.asked.comparisons, self.asked.map) != (&wanted.comparisons, wanted.map) {
             (self.asked.comparisons, self.asked.map) = (wanted.comparisons.clone(), wanted.map);
             self.post_process.set_comparisons(wanted.comparisons.clone(), wanted.map);
+        }
+        if self.asked.histograms != wanted.histograms {
+            self.asked.histograms = wanted.histograms;
+            self.post_process.set_histograms(wanted.histograms);
         }
         // one reference at a time: of what the first pane shows that is judged by one
         let mut judged = wanted.comparisons.iter().filter(|comparison| comparison.against == Against::Reference);

@@ -5,6 +5,7 @@ use super::worker::{Control, Service, Worker};
 use super::{Wake, step_back};
 use crate::model::{ErrorMap, ErrorMapJob};
 use crate::ruler::HeatMap;
+use compare::finite_mean;
 
 /// The worker; [`ErrorMapWorker::close`] ends its thread.
 pub struct ErrorMapWorker(Worker<Option<ErrorMapJob>, Option<ErrorMap>>);
@@ -58,5 +59,12 @@ impl Service for ErrorMaps {
 fn draw(map_job: ErrorMapJob) -> Option<ErrorMap> {
     let map = HeatMap::of(&map_job.pair, map_job.map, map_job.held).ok()?;
     let rgba = map.rgba();
-    Some(ErrorMap { map_job, map, rgba })
+    let (mean, nonfinite) = match map_job.region {
+        Some(region) => {
+            let rect = region.pixels((map.width, map.height()));
+            finite_mean(&rect.of(&map.values, map.width).copied().collect::<Vec<_>>())
+        }
+        None => (map.mean, map.nonfinite),
+    };
+    Some(ErrorMap { map_job, map, mean, nonfinite, rgba })
 }

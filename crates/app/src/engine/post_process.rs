@@ -8,9 +8,9 @@ use super::earlier::Earlier;
 use super::error_map::ErrorMapWorker;
 use super::worker::{Control, Service, Worker};
 use super::{Order, Picture, Wake};
-use crate::model::{Against, Comparison, ErrorMapJob, ErrorPoint, MapWish, PaneId, Panes};
+use crate::model::{Against, Comparison, ErrorMapJob, ErrorPoint, MapWish, PaneId, Panes, Region};
 use crate::ruler::{Noise, Pair, ReferenceImage};
-use compare::{Errors, errors};
+use compare::{Errors, Histogram, errors, errors_within};
 use film::{DisplayTransform, Image};
 use std::sync::Arc;
 
@@ -23,6 +23,12 @@ pub struct DisplayFrame {
     pub rgba: Option<Vec<u8>>,
     /// What it is compared with, and how far it is from that; `None` unless that is there at the same size.
     pub errors: Option<(Against, Errors)>,
+    /// The reference that it is compared with, if it is.
+    pub reference: Option<Image>,
+    /// How bright the pixels of that part are, where it is asked for.
+    pub histogram: Option<Arc<Histogram>>,
+    /// The part of it that is compared; `None` for all.
+    pub region: Option<Region>,
     /// How far it was from the reference while it was made, where that has come or become better since.
     pub course: Option<Vec<ErrorPoint>>,
     /// How far it was from the reference before it was denoised; `None` unless it was, and is held against that.
@@ -59,6 +65,7 @@ struct Pending {
     display: Option<DisplayTransform>,
     oldest_view: Option<u64>,
     comparisons: Option<(Vec<Comparison>, Option<MapWish>)>,
+    histograms: Option<bool>,
     /// The reference of a view, or that there is none.
     reference: Option<Option<(u64, ReferenceImage)>>,
 }
@@ -79,6 +86,7 @@ struct Latest {
     display: DisplayTransform,
     comparisons: Vec<Comparison>,
     map: Option<MapWish>,
+    histograms: bool,
     reference: Option<(u64, ReferenceImage)>,
 }
 
@@ -122,6 +130,11 @@ impl PostProcess {
         self.0.post(|pending| pending.comparisons = Some((comparisons, map)));
     }
 
+    /// Whether pixels are counted by how bright they are.
+    pub fn set_histograms(&self, histograms: bool) {
+        self.0.post(|pending| pending.histograms = Some(histograms));
+    }
+
     /// The reference of a view as far as it has come, or that there is none.
     pub fn set_reference(&self, reference: Option<(u64, ReferenceImage)>) {
         self.0.post(|pending| pending.reference = Some(reference));
@@ -160,7 +173,24 @@ impl Service for Latest {
             let errors_before = told.map(|(_, errors)| *errors);
             let course = if judged_anew { self.course(pane, picture) } else { None };
             let errors = errors.get(pane).copied();
-            (pane, DisplayFrame { picture: picture.clone(), rgba, errors, course, errors_before })
+            let comparison = self.comparison(pane);
+            let region = comparison.and_then(|comparison| comparison.region);
+            let histogram = self.histograms.then(|| Arc::new(histogram(&picture.image, region)));
+            let judged = comparison.filter(|comparison| comparison.against == Against::Reference);
+            let reference = judged.and_then(|_| self.reference_of(picture)).map(|reference| reference.image.clone());
+            (
+                pane,
+                DisplayFrame {
+                    picture: picture.clone(),
+                    rgba,
+                    errors,
+                    reference,
+                    histogram,
+                    region,
+                    course,
+                    errors_before,
+                },
+            )
         };
         // all at once: the error of one belongs to the picture of the other
         let frames: Panes<DisplayFrame> = self.latest.iter().map(resolve).collect();
@@ -186,6 +216,7 @@ impl Latest {
         if let Some((comparisons, map)) = pending.comparisons {
             (self.comparisons, self.map) = (comparisons, map);
         }
+        self.histograms = pending.histograms.unwrap_or(self.histograms);
         self.reference = pending.reference.unwrap_or_else(|| self.reference.take());
         self.oldest_view = pending.oldest_view.unwrap_or(self.oldest_view);
         let oldest_view = self.oldest_view;
@@ -227,9 +258,12 @@ impl Latest {
             let errors = match comparison.against {
                 Against::Pane(judge) => {
                     let judge = self.latest.get(judge).filter(|judge| comparable(picture, judge))?;
-                    errors(image, &judge.image).ok()?
+                    match comparison.region {
+                        Some(region) => errors_within(image, &judge.image, &region.pixels(image.size())).ok()?,
+                        None => errors(image, &judge.image).ok()?,
+                    }
                 }
-                Against::Reference => self.reference_of(picture)?.errors(image).ok()?,
+                Against::Reference => self.errors_of(image, picture, comparison.region)?,
             };
             Some((comparison.of, (comparison.against, errors)))
         };
@@ -238,11 +272,22 @@ impl Latest {
 
     /// How far a pane's picture was from the reference while it was made, where that judges it.
     fn course(&self, pane: PaneId, picture: &Picture) -> Option<Vec<ErrorPoint>> {
-        let judges = |comparison: &&Comparison| (comparison.of, comparison.against) == (pane, Against::Reference);
-        self.comparisons.iter().find(judges)?;
-        let reference = self.reference_of(picture)?;
-        let points = self.courses.get(pane)?.measured(|image| reference.errors(image).ok());
+        let comparison = self.comparison(pane).filter(|comparison| comparison.against == Against::Reference)?;
+        let points = self.courses.get(pane)?.measured(|image| self.errors_of(image, picture, comparison.region));
         (!points.is_empty()).then_some(points)
+    }
+
+    fn comparison(&self, pane: PaneId) -> Option<&Comparison> {
+        self.comparisons.iter().find(|comparison| comparison.of == pane)
+    }
+
+    /// How far an earlier or later state of a picture is from the picture's reference.
+    fn errors_of(&self, image: &Image, picture: &Picture, region: Option<Region>) -> Option<Errors> {
+        let reference = self.reference_of(picture)?;
+        match region {
+            Some(region) => reference.errors_within(image, &region.pixels(image.size())).ok(),
+            None => reference.errors(image).ok(),
+        }
     }
 
     /// The reference, if it is that of this picture.
@@ -260,7 +305,7 @@ impl Latest {
 
     /// What to draw; `None` to leave the map as it is, where it only has to wait for a picture on its way.
     fn map_job(&self) -> Option<Option<ErrorMapJob>> {
-        let MapWish { comparison: Comparison { of, against }, metric, held } = self.map?;
+        let MapWish { comparison: Comparison { of, against, region }, metric, held } = self.map?;
         let film = self.latest.get(of);
         let judge = match against {
             Against::Pane(judge) => self.latest.get(judge),
@@ -288,6 +333,7 @@ impl Latest {
                 },
                 map: metric,
                 held,
+                region,
             })),
             _ if on_its_way => None,
             _ => Some(None),
@@ -309,6 +355,13 @@ fn shelve(updates: &mut PaneUpdates, pane: PaneId, mut new: DisplayFrame) {
         new.course = old.course.take();
     }
     updates.insert(pane, PaneUpdate::Picture(Box::new(new)));
+}
+
+fn histogram(image: &Image, region: Option<Region>) -> Histogram {
+    match region {
+        Some(region) => Histogram::of(region.pixels(image.size()).of(image.radiances(), image.width())),
+        None => Histogram::of(image.radiances().iter()),
+    }
 }
 
 fn undenoised(picture: &Picture) -> Option<&Image> {

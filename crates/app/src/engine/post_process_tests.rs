@@ -40,7 +40,7 @@ fn picture(view: u64) -> Picture {
 }
 
 fn both(against: impl Fn(PaneId) -> Against) -> Vec<Comparison> {
-    [PaneId::A, PaneId::B].map(|of| Comparison { of, against: against(of) }).into()
+    [PaneId::A, PaneId::B].map(|of| Comparison { of, against: against(of), region: None }).into()
 }
 
 /// Runs a post_process over what `post` posts, and returns all that it shelved.
@@ -120,4 +120,24 @@ fn a_fault_stays_and_forgotten_views_do_not_come_back() {
     });
     assert!(matches!(updates.get(PaneId::A), Some(PaneUpdate::Fault(fault)) if fault == "no"));
     assert!(updates.get(PaneId::B).is_none());
+}
+
+/// Two pictures of two pixels that differ in the right one alone.
+#[test]
+fn in_a_region_the_errors_are_those_of_its_pixels() {
+    let wide = |right: f32| Picture { image: Image::new(2, 1, [Vec3::ONE, Vec3::splat(right)]).unwrap(), ..picture(1) };
+    let rmse = |region: Option<[f32; 2]>| {
+        let region = region.map(|[left, right]| Region { start: [left, 0.0], end: [right, 1.0] });
+        let comparison = Comparison { of: PaneId::A, against: Against::Pane(PaneId::B), region };
+        let updates = frame(|post_process| {
+            post_process.set_comparisons(vec![comparison], None);
+            post_process.deliver(PaneId::A, wide(3.0));
+            post_process.deliver(PaneId::B, wide(1.0));
+        });
+        let Some(PaneUpdate::Picture(shown)) = updates.get(PaneId::A) else { panic!("no picture") };
+        assert_eq!(shown.region, region);
+        shown.errors.expect("errors").1.rmse
+    };
+    assert_eq!([rmse(Some([0.0, 0.5])), rmse(Some([0.5, 1.0]))], [0.0, 2.0]);
+    assert!((rmse(None) - 2f64.sqrt()).abs() < 1e-12);
 }

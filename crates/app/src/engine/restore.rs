@@ -1,6 +1,6 @@
 //! What a picture of this program shows, from its records: its scene, and what is to be set up to see it again.
 
-use crate::model::{CompareWith, Line, MapSetup, PaneId, Setup, View};
+use crate::model::{CompareWith, Line, MapSetup, PaneId, Region, Setup, View};
 use anyhow::{Context, bail};
 use compare::ErrorMetric;
 use image_file::shown;
@@ -88,6 +88,9 @@ pub const QUALIFIED: [&str; 2] = ["rough, in full: ", "with earlier views, and w
 /// The record of the session in which a picture was seen.
 pub const SESSION: &str = "session";
 
+/// Names the part of the picture that figures speak of.
+pub const REGION: &str = "region";
+
 /// The picture as seen, or the map of errors: each pane's command, and how they were shown.
 fn as_seen(records: &[(String, String)]) -> anyhow::Result<Option<Kept>> {
     let value = |name: &str| value(records, name);
@@ -107,6 +110,7 @@ fn as_seen(records: &[(String, String)]) -> anyhow::Result<Option<Kept>> {
     kept.setup.exposure = value("exposure").and_then(|stops| stops.parse().ok());
     kept.setup.with = value("against").and_then(|name| CompareWith::ALL.into_iter().find(|with| with.name() == name));
     kept.setup.map = map(records);
+    kept.setup.region = value(REGION).and_then(Region::recorded);
     // the panes' commands have the camera of the pictures, which show more of it where they are narrow
     let camera = &mut kept.setup;
     camera.eye = value("eye").map(point).transpose()?.or(camera.eye);

@@ -1,6 +1,7 @@
 //! What is compared with what, and which map of the errors is looked at. Not part of undo: changing it loses nothing.
 
 use super::PaneId;
+use super::Region;
 use super::session::other;
 use compare::ErrorMetric;
 
@@ -55,12 +56,14 @@ impl Against {
 }
 
 /// A picture and what judges it.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Comparison {
     /// Whose errors are measured.
     pub of: PaneId,
     /// What it is held against.
     pub against: Against,
+    /// The part of both that counts; `None` for all.
+    pub region: Option<Region>,
 }
 
 /// A map of errors to draw.
@@ -85,6 +88,8 @@ pub struct ComparisonSettings {
     pub metric: ErrorMetric,
     /// Where the scale of each map ends, in the order of [`ErrorMetric::ALL`]; `None` fits it to every picture.
     pub held: [Option<f32>; ErrorMetric::ALL.len()],
+    /// The part of the pictures that figures speak of; `None` for the whole.
+    pub region: Option<Region>,
 }
 
 impl Default for ComparisonSettings {
@@ -94,6 +99,7 @@ impl Default for ComparisonSettings {
             of: PaneId::A,
             metric: ErrorMetric::Signed,
             held: [None; ErrorMetric::ALL.len()],
+            region: None,
         }
     }
 }
@@ -105,7 +111,7 @@ impl ComparisonSettings {
             CompareWith::EachOther => Against::Pane(other(of)),
             CompareWith::Reference => Against::Reference,
         };
-        Comparison { of, against }
+        Comparison { of, against, region: self.region }
     }
 
     /// The comparison whose errors are mapped.

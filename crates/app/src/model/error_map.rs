@@ -1,5 +1,6 @@
 //! Maps of errors: what they are of, and as they are drawn.
 
+use super::Region;
 use crate::ruler::{HeatMap, Pair};
 use compare::ErrorMetric;
 
@@ -12,6 +13,8 @@ pub struct ErrorMapJob {
     pub map: ErrorMetric,
     /// Where the scale ends; `None` to fit it.
     pub held: Option<f32>,
+    /// The part whose mean is told; `None` for all.
+    pub region: Option<Region>,
 }
 
 /// A map that is drawn.
@@ -21,6 +24,10 @@ pub struct ErrorMap {
     pub map_job: ErrorMapJob,
     /// The numbers and their colours.
     pub map: HeatMap,
+    /// Mean of its finite numbers in the region, or in all of it.
+    pub mean: f64,
+    /// How many are not finite there.
+    pub nonfinite: u64,
     /// Its bytes, four a pixel, without the bar.
     pub rgba: Vec<u8>,
 }

@@ -13,11 +13,13 @@ mod export;
 mod file_wish;
 mod first_line;
 mod history;
+mod magnification;
 mod message;
 mod pane;
 mod picture_area;
 mod plots;
 mod reference;
+mod region;
 mod remembered;
 mod session;
 mod session_file;
@@ -38,18 +40,20 @@ pub use errors::{ErrorHistory, ErrorPoint};
 pub use export::{Destination, ExportMenu, ExportRequest, ExportSubject, PlotFile};
 pub use file_wish::{FilePurpose, FileWish};
 pub use history::{History, Settings};
+pub use magnification::Magnification;
 pub use message::Message;
 pub use pane::{PaneId, Panes};
 pub use picture_area::PictureArea;
 pub use plots::{Cost, Curve, Measure, Owner, PlotSettings, csv, guide, judge_of_all, pin};
 pub use reference::{Origin, Progress};
+pub use region::{IN_THE_REGION, Region};
 pub use remembered::{Remembered, WindowPlace};
 pub use session::{Resolution, Session};
 pub use session_file::{SESSION_VERSION, SavedSession, SavedWindow, SessionDraft, is_session};
 pub use setup::{MapSetup, Setup};
 pub use slides::{SLIDES, Slide};
 pub use theme::Theme;
-pub use ui_state::{SwitchedOff, UiState};
+pub use ui_state::{Drag, SwitchedOff, UiState};
 pub use view::{Line, View};
 pub use view_args::ViewArgs;
 pub use view_model::{Denoising, PaneView, ViewModel};
@@ -95,6 +99,7 @@ impl Model {
         let before = self.document.scene.needs();
         self.document.open(scene, source);
         self.state.pinned.clear();
+        self.look_at_the_whole();
         self.session.forget_the_scene(&before, &self.document.scene);
         self.take_awaited_slide();
         self.begin_history();
@@ -134,11 +139,25 @@ impl Model {
 
     /// Shows a view, as [`Session::choose`]; a line that turns takes its place.
     pub fn choose(&mut self, view: View) {
+        if self.state.flicker.take().is_some() && self.session.view == view {
+            return;
+        }
         let line = self.session.line;
         self.session.choose(view);
         if self.session.line != line {
             self.place_line_again();
         }
+    }
+
+    /// Shows all of the pictures, of which all figures speak.
+    pub fn look_at_the_whole(&mut self) {
+        self.session.comparison.region = None;
+        self.state.magnification = Magnification::default();
+    }
+
+    /// What is seen: while A and B flicker the one whose turn it is, else the view that was chosen.
+    pub fn seen(&self) -> View {
+        self.state.flicker.map_or(self.session.view, View::Pane)
     }
 
     /// Says a line to the user.
@@ -201,6 +220,7 @@ impl Model {
             panes: panes.filter_map(pane).collect(),
             comparisons: Vec::new(),
             map: None,
+            histograms: false,
             display: session.display,
             paused: state.paused,
             restarts: state.restarts,

@@ -1,6 +1,6 @@
 //! The course of the errors as curves: whose, over what they cost, and those that were pinned to compare others with.
 
-use super::{Against, ErrorPoint, PaneId, PaneView, ViewModel};
+use super::{Against, ErrorPoint, IN_THE_REGION, PaneId, PaneView, Region, ViewModel};
 use compare::Errors;
 use technique::settings::of_panes;
 use technique::{PaneSettings, Provenance};
@@ -126,14 +126,22 @@ pub struct Curve {
     pub points: Vec<ErrorPoint>,
     /// What judged it.
     pub against: Against,
+    /// The part of the picture that was judged; `None` for all of it.
+    pub region: Option<Region>,
 }
 
 impl Curve {
+    /// What judged it, and where: "reference", "B in the region".
+    pub fn judged_by(&self) -> String {
+        let against = self.against.name();
+        self.region.map_or_else(|| against.to_owned(), |_| format!("{against} {IN_THE_REGION}"))
+    }
+
     /// Its name, with what it is held against where curves are held against several.
     pub fn name_among(&self, curves: &[Curve]) -> String {
         match judge_of_all(curves) {
             Some(_) => self.name.clone(),
-            None => format!("{}, against {}", self.name, self.against.name()),
+            None => format!("{}, against {}", self.name, self.judged_by()),
         }
     }
 
@@ -171,9 +179,9 @@ impl ViewModel {
 
     fn curve(&self, id: PaneId, pane: &PaneView) -> Option<Curve> {
         let points: Vec<ErrorPoint> = pane.history.iter().copied().collect();
-        let (against, made) = (pane.course.as_ref()?.against(), pane.provenance.as_deref()?);
+        let ((against, region), made) = (pane.course.as_ref()?.against(), pane.provenance.as_deref()?);
         let name = format!("{id}: {}", name_by_itself(made));
-        (!points.is_empty()).then_some(Curve { name, owner: Owner::Pane(id), points, against })
+        (!points.is_empty()).then_some(Curve { name, owner: Owner::Pane(id), points, against, region })
     }
 }
 
@@ -197,10 +205,10 @@ pub fn guide(curves: &[Curve], settings: PlotSettings) -> Option<[[f64; 2]; 2]> 
     (first < last).then(|| [at(first), at(last)])
 }
 
-/// What all curves are held against, or nothing where they do not agree.
-pub fn judge_of_all(curves: &[Curve]) -> Option<Against> {
-    let first = curves.first()?.against;
-    curves.iter().all(|curve| curve.against == first).then_some(first)
+/// What all curves are held against, and where; or nothing where they do not agree.
+pub fn judge_of_all(curves: &[Curve]) -> Option<String> {
+    let first = curves.first()?.judged_by();
+    curves.iter().all(|curve| curve.judged_by() == first).then_some(first)
 }
 
 /// The most curves that are pinned at a time: more could not be told apart.
@@ -216,7 +224,10 @@ pub fn pin(pinned: &mut Vec<Curve>, curves: Vec<Curve>) -> bool {
         if pinned.len() == MOST_PINNED {
             return false;
         }
-        let name = curve.name.split_once(": ").map_or(&*curve.name, |(_, name)| name).to_owned();
+        let mut name = curve.name.split_once(": ").map_or(&*curve.name, |(_, name)| name).to_owned();
+        if curve.region.is_some() {
+            name += &format!(" ({IN_THE_REGION})");
+        }
         pinned.push(Curve { name, owner: Owner::Pinned(pinned.len()), ..curve });
     }
     true
@@ -230,7 +241,7 @@ pub fn csv(curves: &[Curve]) -> String {
         for ErrorPoint { spp, seconds, errors } in &curve.points {
             let spp = spp.map_or(String::new(), |spp| spp.to_string());
             let Errors { rel_mse, rmse, mae, bias, .. } = errors;
-            let against = curve.against.name();
+            let against = curve.judged_by();
             text += &format!("\"{name}\",{against},{spp},{seconds},{rel_mse},{rmse},{mae},{bias}\n");
         }
     }
@@ -247,7 +258,7 @@ mod tests {
             ErrorPoint { spp, seconds: 0.5 * f64::from(spp.unwrap_or(0)), errors }
         };
         let points = errors.iter().map(point).collect();
-        Curve { name: name.into(), owner: Owner::Pane(PaneId::A), points, against: Against::Reference }
+        Curve { name: name.into(), owner: Owner::Pane(PaneId::A), points, against: Against::Reference, region: None }
     }
 
     #[test]

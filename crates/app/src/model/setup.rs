@@ -1,6 +1,6 @@
 //! What a scene is opened with beside itself: by options of the window, or by what a picture says of how it was made.
 
-use super::{CompareWith, Line, Model, PaneId, Panes, View};
+use super::{CompareWith, Line, Model, PaneId, Panes, Region, View};
 use compare::ErrorMetric;
 use scene::{Camera, Vec3};
 use technique::settings::OF_SCENES;
@@ -27,6 +27,8 @@ pub struct Setup {
     pub with: Option<CompareWith>,
     /// The map of errors.
     pub map: Option<MapSetup>,
+    /// The part of the pictures that figures speak of.
+    pub region: Option<Region>,
     /// Stops added before display.
     pub exposure: Option<f32>,
 }
@@ -62,6 +64,7 @@ impl Model {
             self.state.line_placed = Some(self.document.opened);
         }
         session.comparison.with = setup.with.unwrap_or(session.comparison.with);
+        session.comparison.region = setup.region;
         if let Some(MapSetup { of, metric, held }) = setup.map {
             (session.comparison.of, session.comparison.metric) = (of, metric);
             session.comparison.held[metric as usize] = held;
@@ -116,6 +119,7 @@ impl Setup {
             line: other.line.or(self.line),
             with: other.with.or(self.with),
             map: other.map.or(self.map),
+            region: other.region.or(self.region),
             exposure: other.exposure.or(self.exposure),
         }
     }

@@ -182,6 +182,7 @@ impl Model {
             }
         }
         self.session.view = slide.view;
+        self.look_at_the_whole();
         if slide.against_reference {
             self.session.comparison.with = CompareWith::Reference;
         }

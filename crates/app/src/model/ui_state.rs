@@ -1,6 +1,6 @@
 //! What controls come back to, and what is in hand: nothing that anyone would miss the next day.
 
-use super::{Curve, ExportMenu, Message, Panes, PictureArea, Remembered, Slide, Theme};
+use super::{Curve, ExportMenu, Magnification, Message, PaneId, Panes, PictureArea, Remembered, Slide, Theme};
 use std::path::PathBuf;
 
 /// The state of the controls.
@@ -34,8 +34,20 @@ pub struct UiState {
     pub picture: PictureArea,
     /// The scene, by [`Document::opened`](super::Document::opened), for which the wipe's line was put in its place.
     pub line_placed: Option<u64>,
-    /// Whether the drag in hand moves the wipe's line.
-    pub dragging_line: bool,
+    /// What the drag in hand does.
+    pub drag: Drag,
+    /// Whether the next drag marks a region.
+    pub marking: bool,
+    /// How much larger pictures are shown than they are.
+    pub magnification: Magnification,
+    /// What the wheel has turned of its next step of that.
+    pub wheel: f32,
+    /// Whether the pixels under the mouse are shown with their numbers.
+    pub loupe: bool,
+    /// Whether histograms are in sight.
+    pub histograms: bool,
+    /// The pane whose turn it is while A and B flicker.
+    pub flicker: Option<PaneId>,
     /// What is wrong with the scene's file as it stands on disk, until it is mended; the scene before is shown.
     pub scene_fault: Option<String>,
     /// The scenes in the folder of the one that is open, if it is a file.
@@ -58,6 +70,20 @@ pub struct UiState {
     pub export: ExportMenu,
     /// What switched-off settings come back to.
     pub switched_off: Panes<SwitchedOff>,
+}
+
+/// What a drag on the pictures does.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub enum Drag {
+    /// Turns or moves the camera.
+    #[default]
+    Camera,
+    /// Moves the wipe's line.
+    Line,
+    /// Moves what is seen of magnified pictures.
+    Magnified,
+    /// Marks a region between two points, in shares of a picture.
+    Region([[f32; 2]; 2]),
 }
 
 /// What a pane's settings come back to when they are switched on again.
@@ -93,7 +119,13 @@ impl UiState {
             window: None,
             picture: PictureArea::default(),
             line_placed: None,
-            dragging_line: false,
+            drag: Drag::default(),
+            marking: false,
+            magnification: Magnification::default(),
+            wheel: 0.0,
+            loupe: false,
+            histograms: false,
+            flicker: None,
             scene_fault: None,
             neighbours: Vec::new(),
             remembered: Remembered::default(),

@@ -1,7 +1,8 @@
 //! What there is to show: results, as those who draw them take them.
 
-use super::{Against, Effort, ErrorHistory, ErrorMap, ErrorPoint, PaneId, Panes, Progress};
-use compare::Errors;
+use super::{Against, Effort, ErrorHistory, ErrorMap, ErrorPoint, PaneId, Panes, Progress, Region};
+use compare::{Errors, Histogram};
+use film::Image;
 use std::sync::Arc;
 use technique::{Lag, Provenance, Technique};
 
@@ -19,6 +20,8 @@ pub struct ViewModel {
 /// What there is to show of one pane.
 #[derive(Debug, Clone, Default)]
 pub struct PaneView {
+    /// Its radiance.
+    pub image: Option<Image>,
     /// What its picture was made from; `None` while there is none.
     pub provenance: Option<Arc<Provenance>>,
     /// Samples per pixel, of all runs, where the technique samples.
@@ -41,6 +44,12 @@ pub struct PaneView {
     pub unfinished: bool,
     /// What it is compared with, and how far it is from that.
     pub errors: Option<(Against, Errors)>,
+    /// The reference that it is compared with, where that is the reference of the same pixels.
+    pub reference: Option<Image>,
+    /// The part of the picture that they are of; `None` for all of it.
+    pub region: Option<Region>,
+    /// How bright its pixels there are, while that is looked at.
+    pub histogram: Option<Arc<Histogram>>,
     /// What taking out its noise took, and how far off it was before.
     pub denoised: Option<Denoising>,
     /// What it has of earlier views, where they count.
@@ -70,20 +79,21 @@ pub struct Denoising {
     pub errors_before: Option<Errors>,
 }
 
-/// What errors must have in common to be points of one curve: the picture, but for its number of samples, and what
-/// judges it.
+/// What errors must have in common to be points of one curve: the picture, but for its number of samples, what judges it
+/// and where.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Course {
     against: Against,
     judged: Provenance,
     /// The picture that judges; `None` for the reference.
     judge: Option<Provenance>,
+    region: Option<Region>,
 }
 
 impl Course {
-    /// What judges the picture.
-    pub(crate) fn against(&self) -> Against {
-        self.against
+    /// What judges the picture, and in which part of it.
+    pub(crate) fn against(&self) -> (Against, Option<Region>) {
+        (self.against, self.region)
     }
 }
 
@@ -104,7 +114,7 @@ impl ViewModel {
         };
         let Some(pane) = self.panes.get(id).filter(|pane| !pane.rough && pane.lag.is_none()) else { return };
         let (Some((against, errors)), Some(judged)) = (pane.errors, pane.provenance.as_deref()) else { return };
-        let course = Course { against, judged: without_spp(judged), judge: judge(against) };
+        let course = Course { against, judged: without_spp(judged), judge: judge(against), region: pane.region };
         let point = ErrorPoint { spp: pane.spp, seconds: pane.seconds, errors };
         let pane = &mut self.panes[id];
         // a fake that is measured again has a time before that of its first point
@@ -178,5 +188,7 @@ mod tests {
         assert_eq!(spps, [1, 2, 4], "what was measured later, and nothing of a longer picture");
         let rough = PaneView { rough: true, ..pane(Path, 256, 2) };
         assert_eq!(history(&[path(256, 1), (Raster, rough)]), [1], "rough ones are no points");
+        let part = PaneView { region: Region::between([0.0; 2], [0.5; 2]), ..pane(Path, 256, 4) };
+        assert_eq!(history(&[path(256, 1), path(256, 2), (Raster, part)]), [4], "another part");
     }
 }

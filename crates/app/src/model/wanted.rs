@@ -17,6 +17,8 @@ pub struct Wanted {
     pub comparisons: Vec<Comparison>,
     /// The map of errors that is looked at, if one is.
     pub map: Option<MapWish>,
+    /// Whether histograms of the pictures are looked at.
+    pub histograms: bool,
     /// How all are shown.
     pub display: DisplayTransform,
     /// Whether what is traced waits.

@@ -1,7 +1,7 @@
 //! What pictures are compared with.
 
 use super::Noise;
-use compare::{CompareError, Errors, errors};
+use compare::{CompareError, Errors, PixelRect, errors, errors_within};
 use film::{Image, Vec3};
 use reference::Reference;
 use std::sync::Arc;
@@ -38,5 +38,39 @@ impl ReferenceImage {
     pub fn errors(&self, image: &Image) -> Result<Errors, CompareError> {
         let errors = errors(image, &self.image)?;
         Ok(self.noise.map_or(errors, |noise| errors.with_reference_noise(noise)))
+    }
+    /// How far a picture of the same pixels is from it in a rectangle, whose noise alone counts.
+    ///
+    /// # Errors
+    /// [`CompareError::Sizes`] if it is of another size.
+    pub fn errors_within(&self, image: &Image, rect: &PixelRect) -> Result<Errors, CompareError> {
+        let errors = errors_within(image, &self.image, rect)?;
+        Ok(self.noise_within(rect).map_or(errors, |noise| errors.with_reference_noise(noise)))
+    }
+
+    /// Mean squared error of its own in a rectangle.
+    fn noise_within(&self, rect: &PixelRect) -> Option<f64> {
+        let errors = rect.of(self.standard_errors.as_deref()?, self.image.width());
+        let squares = errors.flat_map(|error| error.to_array()).map(|error| f64::from(error).powi(2));
+        let (sum, count) = squares.fold((0.0, 0u32), |(sum, count), square| (sum + square, count + 1));
+        (count > 0).then(|| sum / f64::from(count))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn in_a_rectangle_its_noise_is_that_of_the_pixels_there() {
+        let errors = [0.5, 0.1, 0.2, 0.5].map(Vec3::splat);
+        let image = Image::new(4, 1, [Vec3::ONE; 4]).unwrap();
+        let reference =
+            ReferenceImage { image: image.clone(), standard_errors: Some(errors.into()), noise: Some(0.1375) };
+        let rect = PixelRect { start: (1, 0), end: (3, 1) };
+        let noise = |errors: Result<Errors, _>| errors.unwrap().reference_noise.unwrap();
+        assert!((noise(reference.errors_within(&image, &rect)) - 0.025).abs() < 1e-7);
+        let whole = PixelRect { start: (0, 0), end: (4, 1) };
+        assert!((noise(reference.errors_within(&image, &whole)) - noise(reference.errors(&image))).abs() < 1e-7);
     }
 }

@@ -19,7 +19,7 @@ pub const KEYS: [HelpLine; 15] = [
     ("Ctrl+R", "read the scene's file again"),
     ("Ctrl + - 0", "larger, smaller, usual size of all text"),
     ("F11", "full screen, and back"),
-    ("Esc", "close the menu or the help that is open"),
+    ("Esc", "close the menu or the help that is open, or end what a workspace has begun"),
     ("Ctrl+Q", "quit"),
     ("Tab, arrows, space, enter", "reach and use every control"),
     ("?", "this help"),
@@ -45,7 +45,11 @@ pub fn listen(workspaces: &mut Workspaces, cx: &mut UiContext, context: &Context
     }
     // egui closes the menu that is open, and the help below waits for the next press
     if keys.presses(Key::Escape) > 0 && !Popup::is_any_open(context) {
-        cx.model.state.help = false;
+        if cx.model.state.help {
+            cx.model.state.help = false;
+        } else {
+            workspaces.open_mut().escape(cx);
+        }
     }
     if context.text_edit_focused() {
         return;

@@ -153,7 +153,9 @@ impl Viewer {
 
     /// Exports the picture area as it was drawn, line and labels included.
     pub fn export_as_seen(&mut self, capture: Capture, to: Destination) {
-        let records = self.presentation.records_of_all(&self.model);
+        let mut records = self.presentation.records_of_all(&self.model);
+        let magnification = self.model.state.magnification;
+        records.extend((magnification.factor() > 1).then(|| ("magnified", magnification.record())));
         self.engine.export(Export { content: Content::Seen(capture), records, to });
     }
 
@@ -192,6 +194,9 @@ impl Viewer {
             "view": session.view.name(),
             "line": session.line.name(),
             "wipe": session.wipe,
+            "region": session.comparison.region.map(|region| [region.start, region.end]),
+            "magnification": state.magnification.factor(),
+            "flicker": state.flicker.map(|pane| pane.name()),
             "paused": state.paused,
             "theme": state.theme.name(),
             "picture_size": state.picture.size,

@@ -24,7 +24,7 @@ impl Viewer {
 
 /// The plot as a document of its own.
 fn svg(curves: &[Curve], settings: PlotSettings, scene: &str) -> String {
-    let against = judge_of_all(curves).map_or(String::new(), |judge| format!(" against {}", judge.name()));
+    let against = judge_of_all(curves).map_or(String::new(), |judge| format!(" against {judge}"));
     let series_of = |curve: &Curve| Series { name: curve.name_among(curves), ..series(curve, settings) };
     let mut series: Vec<Series> = curves.iter().map(series_of).collect();
     series.extend(guide(curves, settings).map(|ends| Series {

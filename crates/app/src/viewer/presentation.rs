@@ -4,7 +4,7 @@
 use crate::engine::Picture;
 use crate::engine::export::Content;
 use crate::engine::post_process::{DisplayFrame, PaneUpdate, PaneUpdates};
-use crate::engine::restore::{QUALIFIED, SESSION};
+use crate::engine::restore::{QUALIFIED, REGION, SESSION};
 use crate::engine::thumbnails::Thumbnail;
 use crate::model::{
     Against, ComparisonSettings, Denoising, ErrorMap, Model, PaneId, PaneView, Panes, SavedSession, ViewModel, Wanted,
@@ -81,7 +81,7 @@ impl Presentation {
     }
 
     fn put_up(&mut self, pane: PaneId, frame: DisplayFrame, textures: &mut impl TextureStore) {
-        let DisplayFrame { picture, rgba, errors, course: _, errors_before } = frame;
+        let DisplayFrame { picture, rgba, errors, reference, histogram, region, course: _, errors_before } = frame;
         let shown = self.shown.panes.entry(pane);
         if let Some(rgba) = &rgba {
             let texture = textures.upload(Place::Pane(pane), picture.image.size(), rgba, filter_of(&picture));
@@ -97,7 +97,8 @@ impl Presentation {
         shown.adapter = Some(picture.adapter.clone());
         (shown.rough, shown.unfinished) = (picture.rough, picture.unfinished);
         shown.shrink = picture.order.size().0.div_ceil(picture.image.width().max(1)) * picture.order.shrink;
-        shown.errors = errors;
+        (shown.errors, shown.region) = (errors, region);
+        (shown.image, shown.reference, shown.histogram) = (Some(picture.image.clone()), reference, histogram);
         shown.lag = picture.lag;
         shown.denoised = picture.before.as_ref().map(|before| Denoising { seconds: before.seconds, errors_before });
         self.pictures.insert(pane, picture);
@@ -163,6 +164,8 @@ impl Presentation {
             && let Some(judge) = self.name_of_what_judges(against, display)
         {
             records.extend(error_records(&errors, judge));
+            let region = self.shown.panes[pane].region;
+            records.extend(region.map(|region| ("error.region", region.record())));
         }
         Some((Content::Pane(Box::new(picture.clone()), display), records))
     }
@@ -207,12 +210,14 @@ impl Presentation {
 /// What is compared with what, and how errors are mapped.
 fn records_of_comparison(comparison: &ComparisonSettings) -> Records {
     let scale = comparison.map().held.map_or_else(|| "fitted".into(), |end| end.to_string());
-    vec![
+    let mut records = vec![
         ("against", comparison.with.name().to_owned()),
         ("errors of", comparison.of.name().to_owned()),
         ("errors", comparison.metric.name().to_owned()),
         ("scale", scale),
-    ]
+    ];
+    records.extend(comparison.region.map(|region| (REGION, region.record())));
+    records
 }
 
 /// A picture that stands for a finer one until that has come is smooth, as that will be; and so is a map, which is seen

@@ -2,6 +2,7 @@
 
 #![expect(clippy::expect_used, reason = "a test stops at the first thing that is not as it must be")]
 
+mod closer;
 mod numbers;
 mod plots;
 mod settings;

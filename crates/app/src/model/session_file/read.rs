@@ -2,7 +2,7 @@
 
 use super::table::{Entry, Fault, Table, fault};
 use super::{SESSION_VERSION, SavedSession, SavedWindow};
-use crate::model::{CompareWith, Cost, Line, Measure, PaneId, Panes, Resolution, Session, Theme, View};
+use crate::model::{CompareWith, Cost, Line, Measure, PaneId, Panes, Region, Resolution, Session, Theme, View};
 use compare::ErrorMetric;
 use image_file::shown;
 use scene::{Camera, Scene, SceneHash, Vec3};
@@ -250,6 +250,13 @@ fn comparison(mut table: Table, session: &mut Session) -> Result<(), Fault> {
     comparison.of = of.unwrap_or(comparison.of);
     let metric = table.read("errors", |entry| entry.one_of(&ErrorMetric::ALL, ErrorMetric::name))?;
     comparison.metric = metric.unwrap_or(comparison.metric);
+    let sides = "left, top, right and bottom in shares of the picture, [0, 0, 0.5, 1]";
+    let region = table.read("region", |entry| {
+        let [left, top, right, bottom] = entry.numbers(sides, |side| (0.0..=1.0).contains(&side))?;
+        let region = Region::between([left, top], [right, bottom]);
+        region.map_or_else(|| entry.no(sides), Ok)
+    })?;
+    comparison.region = region;
     let mut scale = table.table("scale")?;
     for metric in ErrorMetric::ALL {
         let end = scale.read(metric.name(), |entry| entry.number("a number above 0", |end| end > 0.0))?;

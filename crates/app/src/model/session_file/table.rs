@@ -112,7 +112,7 @@ impl<'t> Entry<'t> {
         }
     }
 
-    fn no<T>(&self, expected: &str) -> Result<T, Fault> {
+    pub fn no<T>(&self, expected: &str) -> Result<T, Fault> {
         fault(&self.at, format!("{}: expected {expected}", self.key))
     }
 

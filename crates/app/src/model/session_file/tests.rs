@@ -89,6 +89,7 @@ fn all_else_of_a_session_comes_back_as_it_was() {
     let comparison = &mut session.comparison;
     (comparison.with, comparison.of, comparison.metric) = (CompareWith::Reference, PaneId::B, ErrorMetric::Flip);
     comparison.held = [Some(0.3), None, Some(3.4e38), Some(1e-38), None];
+    comparison.region = crate::model::Region::between([0.1, 0.2], [1.0 / 3.0, 1.0]);
     session.plots.open = true;
     session.plots.over = crate::model::Cost::Seconds;
     session.plots.measure = crate::model::Measure::Mae;
@@ -162,6 +163,7 @@ fn what_a_session_cannot_mean_is_told_with_line_and_column() {
         ("[[bookmarks]]\neye = [0, 1, 0]\ntarget = [0, 1, 0]", "a.toml:3:1: this camera sees nothing"),
         ("[bookmarks]\neye = [0, 1, 0]", "bookmarks: expected tables, each under [[bookmarks]]"),
         ("[comparison]\nerrors = \"bias\"", "a.toml:4:10: errors bias: expected signed, absolute, "),
+        ("[comparison]\nregion = [0.5, 0, 0.5, 1]", "a.toml:4:10: region: expected left, top, right and bottom"),
         ("[comparison.scale]\nsigned = 0", "a.toml:4:10: signed: expected a number above 0"),
         ("[plots]\nopen = \"yes\"", "a.toml:4:8: open: expected true or false"),
         ("[window]\nsize = [1280]", "a.toml:4:8: size: expected width and height in points"),

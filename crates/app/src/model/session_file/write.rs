@@ -1,7 +1,7 @@
 //! A session as the text of its file.
 
 use super::{SESSION_VERSION, SavedSession};
-use crate::model::{ComparisonSettings, PaneId, PlotSettings, Session};
+use crate::model::{ComparisonSettings, PaneId, PlotSettings, Region, Session};
 use compare::ErrorMetric;
 use scene::{Camera, Scene, Vec3};
 use std::fmt::Write;
@@ -106,11 +106,13 @@ fn unlike(pane: &PaneSettings, told: &mut PaneSettings, technique: TechniqueName
 }
 
 fn comparison(text: &mut String, comparison: &ComparisonSettings) {
-    let lines = vec![
+    let mut lines = vec![
         ("against", quoted(comparison.with.word())),
         ("map_of", quoted(comparison.of.name())),
         ("errors", quoted(comparison.metric.name())),
     ];
+    let sides = |region: &Region| [region.start, region.end].concat().into_iter().map(number).collect::<Vec<_>>();
+    lines.extend(comparison.region.iter().map(|region| ("region", format!("[{}]", sides(region).join(", ")))));
     table(text, "[comparison]", lines);
     let held = ErrorMetric::ALL.into_iter().zip(comparison.held);
     let held = held.filter_map(|(metric, end)| Some((metric.name(), number(end?))));

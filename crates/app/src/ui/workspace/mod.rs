@@ -27,6 +27,9 @@ pub trait Workspace {
     /// Hears the keys that nobody types with.
     fn keys(&mut self, _cx: &mut UiContext, _keys: &Keys) {}
 
+    /// Hears Esc where it closes nothing that lies above.
+    fn escape(&mut self, _cx: &mut UiContext) {}
+
     /// Draws what is below the bar.
     fn ui(&mut self, cx: &mut UiContext, ui: &mut Ui);
 

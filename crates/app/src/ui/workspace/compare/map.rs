@@ -2,8 +2,8 @@
 //! and the numbers under the mouse.
 
 use super::comparison::reference_state;
-use super::picture::WHOLE;
-use crate::model::{Against, Comparison, ErrorMap};
+use super::{magnify, region};
+use crate::model::{Against, Comparison, ErrorMap, IN_THE_REGION};
 use crate::ruler::{GREY, HeatMap, Pair, brief};
 use crate::ui::overlay::{spoken, text_box};
 use crate::ui::{UiContext, theme};
@@ -15,12 +15,13 @@ use std::sync::Arc;
 /// Steps of colour along the bar.
 const STEPS: u32 = 128;
 
-pub fn show(cx: &mut UiContext, ui: &Ui, rect: Rect, hover: Option<Pos2>) {
+/// Shows it at `place`, as far as it lies in `rect`.
+pub fn show(cx: &mut UiContext, ui: &Ui, (place, rect): (Rect, Rect), hover: Option<Pos2>) {
     let painter = ui.painter().with_clip_rect(rect);
     let (Some(map), Some(texture)) = (&cx.shown.map, cx.textures.map) else {
         // what there will be a map of
         if let Some(texture) = cx.textures.panes.get(cx.model.session.comparison.mapped().of) {
-            painter.image(*texture, rect, WHOLE, Color32::WHITE);
+            magnify::paint(&painter, *texture, place, rect);
         }
         let text = why_not(cx);
         let place = text_box(ui, rect, rect.center(), Align2::CENTER_CENTER, &text, Color32::WHITE);
@@ -28,16 +29,18 @@ pub fn show(cx: &mut UiContext, ui: &Ui, rect: Rect, hover: Option<Pos2>) {
         spoken(ui, "label no map", &text, place, false);
         return;
     };
-    painter.image(texture, rect, WHOLE, Color32::WHITE);
-    let under_the_mouse = hover.filter(|_| !cx.model.state.posing).and_then(|at| numbers_at(map, rect, at));
+    magnify::paint(&painter, texture, place, rect);
+    region::show(cx, &painter, place);
+    let under_the_mouse =
+        hover.filter(|_| !cx.model.state.posing && !cx.model.state.loupe).and_then(|at| numbers_at(map, place, at));
     if cx.model.state.labels {
-        legend(cx, ui, rect, &map.map, under_the_mouse);
+        legend(cx, ui, rect, map, under_the_mouse);
     }
 }
 
 /// Why there is nothing to see.
 fn why_not(cx: &UiContext) -> String {
-    let Comparison { of, against } = cx.model.session.comparison.mapped();
+    let Comparison { of, against, .. } = cx.model.session.comparison.mapped();
     let judge = match against {
         Against::Pane(judge) => Some(judge),
         Against::Reference => None,
@@ -58,10 +61,10 @@ fn why_not(cx: &UiContext) -> String {
 }
 
 /// "x 12, y 34: A 0.1 0.2 0.3, reference 0.1 0.2 0.3: 0.004".
-fn numbers_at(map: &ErrorMap, rect: Rect, at: Pos2) -> Option<String> {
+fn numbers_at(map: &ErrorMap, place: Rect, at: Pos2) -> Option<String> {
     let HeatMap { width, values, .. } = &map.map;
     let height = map.map.height();
-    let share = (at - rect.min) / rect.size();
+    let share = (at - place.min) / place.size();
     let (x, y) = ((share.x * *width as f32) as u32, (share.y * height as f32) as u32);
     let index = (x < *width && y < height).then_some(y as usize * *width as usize + x as usize)?;
     let channels = |v: Vec3| v.to_array().map(|channel| brief(f64::from(channel))).join(" ");
@@ -72,13 +75,14 @@ fn numbers_at(map: &ErrorMap, rect: Rect, at: Pos2) -> Option<String> {
 }
 
 /// The box in the corner, from top to bottom: name, bar, ticks, and the rest in words.
-fn legend(cx: &mut UiContext, ui: &Ui, rect: Rect, map: &HeatMap, pixel: Option<String>) {
+fn legend(cx: &mut UiContext, ui: &Ui, rect: Rect, drawn: &ErrorMap, pixel: Option<String>) {
+    let map = &drawn.map;
     let painter = ui.painter().with_clip_rect(rect);
     let font = theme::label_font(ui);
     let size = font.size;
     let width = (15.0 * size).min(rect.width() - 36.0).max(40.0);
     let lay = |text: String| painter.layout(text, font.clone(), Color32::WHITE, width);
-    let (name, words) = (lay(map.label.clone()), lay(in_words(map, pixel)));
+    let (name, words) = (lay(map.label.clone()), lay(in_words(drawn, pixel)));
     let (bar_height, gap) = (0.9 * size, 0.3 * size);
     let line = name.rows.first().map_or(size, |row| row.height());
     let height = name.size().y + gap + bar_height + gap + line + gap + words.size().y;
@@ -105,13 +109,14 @@ fn legend(cx: &mut UiContext, ui: &Ui, rect: Rect, map: &HeatMap, pixel: Option<
 }
 
 /// Mean, what is not finite, the numbers under the mouse.
-fn in_words(map: &HeatMap, pixel: Option<String>) -> String {
-    let mut text = format!("mean {}", brief(map.mean));
-    if map.within_noise.is_some() {
+fn in_words(drawn: &ErrorMap, pixel: Option<String>) -> String {
+    let place = drawn.map_job.region.map_or_else(String::new, |_| format!(" {IN_THE_REGION}"));
+    let mut text = format!("mean{place} {}", brief(drawn.mean));
+    if drawn.map.within_noise.is_some() {
         text += &format!("\ngrey: {GREY}");
     }
-    if map.nonfinite > 0 {
-        text += &format!("\n{} pixels are not finite: hatched", map.nonfinite);
+    if drawn.nonfinite > 0 {
+        text += &format!("\n{} pixels{place} are not finite: hatched", drawn.nonfinite);
     }
     pixel.into_iter().for_each(|pixel| text += &format!("\n{pixel}"));
     text

@@ -1,12 +1,18 @@
 //! The first workspace: two pictures of one scene, one against the other or both against the reference.
 
+mod closer;
 mod comparison;
+mod flicker;
+mod histogram;
 mod label;
+mod loupe;
+mod magnify;
 mod map;
 mod map_faces;
 mod mouse;
 mod picture;
 mod plots;
+mod region;
 
 use super::Workspace;
 use crate::model::{CompareWith, Model, PaneId, View, Wanted};
@@ -20,6 +26,9 @@ pub struct Compare;
 
 /// The keys of the views, in the order of [`View::ALL`].
 const VIEW_KEYS: [Key; View::ALL.len()] = [Key::Num1, Key::Num2, Key::Num3, Key::Num4, Key::Num5];
+
+/// Windows narrower than this, in points, have the region's button on its card alone.
+const ROOMY: f32 = 900.0;
 
 impl Workspace for Compare {
     fn id(&self) -> &'static str {
@@ -45,15 +54,25 @@ impl Workspace for Compare {
         if cx.dump.note("plots", open, plots).clicked() {
             cx.model.session.plots.open = !open;
         }
+        if ui.ctx().content_rect().width() >= ROOMY {
+            region_button(cx, ui);
+        }
     }
 
     fn keys(&mut self, cx: &mut UiContext, keys: &Keys) {
         for _ in 0..keys.presses(Key::T) {
             cx.model.session.toggle();
-            cx.model.state.hint = false;
+            (cx.model.state.hint, cx.model.state.flicker) = (false, None);
         }
         if keys.presses(Key::G) % 2 == 1 {
             cx.model.session.plots.open = !cx.model.session.plots.open;
+        }
+        if keys.presses(Key::M) % 2 == 1 {
+            region::toggle(cx);
+        }
+        cx.model.state.loupe ^= keys.presses(Key::I) % 2 == 1;
+        if keys.presses(Key::F) % 2 == 1 {
+            flicker::toggle(cx);
         }
         for (key, view) in VIEW_KEYS.into_iter().zip(View::ALL) {
             for _ in 0..keys.presses(key) {
@@ -62,7 +81,13 @@ impl Workspace for Compare {
         }
     }
 
+    fn escape(&mut self, cx: &mut UiContext) {
+        region::end(cx);
+    }
+
     fn ui(&mut self, cx: &mut UiContext, ui: &mut Ui) {
+        // until the card is found open
+        cx.model.state.histograms = false;
         controls::panel(cx, ui, heads, cards);
         plots::drawer(cx, ui);
         // no ground under the pictures, which cover it: where the processor draws, every layer is paid for
@@ -75,6 +100,7 @@ impl Workspace for Compare {
         let panes = session.panes.ids();
         Wanted {
             comparisons: panes.map(|id| session.comparison.comparison(id)).collect(),
+            histograms: model.state.histograms,
             map: (session.view == View::ErrorMap).then(|| session.comparison.map()),
             ..model.wanted(session.panes.ids())
         }
@@ -93,7 +119,21 @@ impl Workspace for Compare {
             ("4", "side by side"),
             ("5", "error map"),
             ("G", "plots of the errors"),
+            ("M, Alt+drag", "mark the region that figures and plots speak of; M or Esc: the whole picture"),
+            ("+ -, Shift+wheel", "show pictures larger, pixel by pixel, about the mouse; Shift+drag moves them"),
+            ("0, double click", "as large as they are"),
+            ("I", "loupe: the pixels under the mouse of A, B, reference and error, with their numbers"),
+            ("F", "A and B by turns, twice a second"),
         ]
+    }
+}
+
+fn region_button(cx: &mut UiContext, ui: &mut Ui) {
+    let marked = cx.model.state.marking || cx.model.session.comparison.region.is_some();
+    let hover = "Mark the part of the pictures that figures and plots speak of, by the next drag (M); again: the whole";
+    let button = icon_button(Icon::Region, ("Region", hover), (true, marked), ui);
+    if cx.dump.note("region", marked, button).clicked() {
+        region::toggle(cx);
     }
 }
 
@@ -119,6 +159,8 @@ fn cards(cx: &mut UiContext, ui: &mut Ui) {
         controls::pane(cx, pane, !low || pane != PaneId::A, ui);
     }
     controls::display(cx, ui);
+    controls::group(cx, ui, "Looking closer", false, closer::show);
+    controls::group(cx, ui, "Histogram", false, histogram::show);
     controls::camera(cx, ui);
 }
 

@@ -1,6 +1,8 @@
-//! The mouse on the picture, and the arrow keys once it has the focus: the line, orbit, pan, dolly and zoom.
+//! The mouse on the picture, and the arrow keys once it has the focus: the line, orbit, pan, dolly and zoom, a region,
+//! and what is seen of magnified pictures.
 
-use crate::model::{Line, View};
+use super::{magnify, region};
+use crate::model::{Drag, Line, Magnification, View};
 use crate::ui::UiContext;
 use egui::{CursorIcon, EventFilter, Key, PointerButton, Pos2, Rect, Ui, Vec2};
 use scene::{Camera, glam};
@@ -11,15 +13,24 @@ const GRAB: f32 = 16.0;
 /// How far an arrow key moves the line, as a share of the picture.
 const NUDGE: f32 = 0.02;
 
-pub fn listen(cx: &mut UiContext, ui: &Ui, response: &egui::Response, rect: Rect) {
+pub fn listen(cx: &mut UiContext, ui: &Ui, response: &egui::Response, rect: Rect, frames: &[Rect]) {
+    if response.drag_started() {
+        cx.model.state.drag = begun(cx, ui, rect, frames);
+    }
+    match cx.model.state.drag {
+        Drag::Camera if response.dragged() => turn_camera(cx, ui, response, rect),
+        Drag::Magnified if response.dragged() => magnify::drag(cx, response.drag_delta(), frames),
+        Drag::Region(corners) => region::drag(cx, response, frames, corners),
+        _ => {}
+    }
     move_line(cx, ui, response, rect);
-    if response.dragged() && !cx.model.state.dragging_line {
-        turn_camera(cx, ui, response, rect);
+    if response.double_clicked() {
+        put_back(cx, response, rect);
     }
     if response.drag_stopped() {
-        cx.model.state.dragging_line = false;
+        cx.model.state.drag = Drag::Camera;
     }
-    if response.hovered() {
+    if response.hovered() && !magnify::wheel(cx, ui, frames) {
         let (scroll, zoom) = ui.input(|i| (i.smooth_scroll_delta().y, i.zoom_delta()));
         if zoom != 1.0 {
             take(cx, cx.model.document.camera.zoomed(zoom));
@@ -27,6 +38,41 @@ pub fn listen(cx: &mut UiContext, ui: &Ui, response: &egui::Response, rect: Rect
             take(cx, cx.model.document.camera.dollied((scroll * 0.002).exp()));
         }
     }
+}
+
+/// What a drag does that has just begun.
+fn begun(cx: &UiContext, ui: &Ui, rect: Rect, frames: &[Rect]) -> Drag {
+    let (origin, modifiers) = ui.input(|i| (i.pointer.press_origin(), i.modifiers));
+    let Some(origin) = origin else { return Drag::Camera };
+    let model = &cx.model;
+    if modifiers.alt || model.state.marking {
+        Drag::Region([magnify::picture_at(&model.state.magnification, frames, origin); 2])
+    } else if near_the_line(cx, rect, origin) {
+        Drag::Line
+    } else if modifiers.shift && model.state.magnification.factor() > 1 {
+        Drag::Magnified
+    } else {
+        Drag::Camera
+    }
+}
+
+/// The line at its first place, or pictures as large as they are.
+fn put_back(cx: &mut UiContext, response: &egui::Response, rect: Rect) {
+    if response.interact_pointer_pos().is_some_and(|at| near_the_line(cx, rect, at)) {
+        cx.model.place_line_again();
+    } else {
+        cx.model.state.magnification = Magnification::default();
+    }
+}
+
+fn near_the_line(cx: &UiContext, rect: Rect, at: Pos2) -> bool {
+    let (line, wipe) = (cx.model.session.line, cx.model.session.wipe);
+    cx.model.seen() == View::Wipe && (along(line, at) - line_at(rect, line, wipe)).abs() < GRAB
+}
+
+/// The coordinate that moves the line.
+fn along(line: Line, at: Pos2) -> f32 {
+    if line == Line::Vertical { at.x } else { at.y }
 }
 
 /// Where the line stands, in points: x of a vertical one, y of a horizontal one.
@@ -38,30 +84,22 @@ pub fn line_at(rect: Rect, line: Line, wipe: f32) -> f32 {
 }
 
 fn move_line(cx: &mut UiContext, ui: &Ui, response: &egui::Response, rect: Rect) {
-    if cx.model.session.view != View::Wipe {
+    if cx.model.seen() != View::Wipe {
         return;
     }
     let line = cx.model.session.line;
-    let at = line_at(rect, line, cx.model.session.wipe);
-    let along = |p: Pos2| if line == Line::Vertical { p.x } else { p.y };
-    let near = |p: Pos2| (along(p) - at).abs() < GRAB;
-    if response.drag_started() {
-        cx.model.state.dragging_line = ui.input(|i| i.pointer.press_origin()).is_some_and(near);
-    }
-    if cx.model.state.dragging_line || response.hover_pos().is_some_and(near) {
+    let (dragging, marking) = (cx.model.state.drag == Drag::Line, cx.model.state.marking);
+    if dragging || (!marking && response.hover_pos().is_some_and(|at| near_the_line(cx, rect, at))) {
         let vertical = line == Line::Vertical;
         ui.ctx().set_cursor_icon(if vertical { CursorIcon::ResizeHorizontal } else { CursorIcon::ResizeVertical });
     }
-    if response.double_clicked() && response.interact_pointer_pos().is_some_and(near) {
-        cx.model.place_line_again();
-    }
     if response.dragged()
-        && cx.model.state.dragging_line
-        && let Some(p) = response.interact_pointer_pos()
+        && dragging
+        && let Some(at) = response.interact_pointer_pos()
     {
         cx.model.state.hint = false;
         let (start, length) = (line_at(rect, line, 0.0), line_at(rect, line, 1.0) - line_at(rect, line, 0.0));
-        cx.model.session.wipe = ((along(p) - start) / length).clamp(0.0, 1.0);
+        cx.model.session.wipe = ((along(line, at) - start) / length).clamp(0.0, 1.0);
     }
     if response.has_focus() {
         arrows(cx, ui, response);

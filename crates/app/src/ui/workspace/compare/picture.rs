@@ -1,7 +1,7 @@
 //! The picture area: one pane, both under the wipe or both side by side, or the map of their errors, and what is known
 //! about each on top.
 
-use super::{label, map, map_faces, mouse};
+use super::{flicker, label, loupe, magnify, map, map_faces, mouse, region};
 use crate::model::{Line, PaneId, PictureArea, View};
 use crate::ui::UiContext;
 use crate::ui::overlay::{say, spoken, text_box};
@@ -11,14 +11,11 @@ use scene::Vec3;
 /// Between two pictures side by side, in points.
 const GAP: f32 = 8.0;
 
-/// All of a texture.
-pub const WHOLE: Rect = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
-
 /// One pane in the picture area.
 struct Shown {
     pane: PaneId,
-    /// Where its picture lies.
-    place: Rect,
+    /// Where its picture lies as large as it is.
+    frame: Rect,
     /// What of it is seen.
     clip: Rect,
 }
@@ -26,43 +23,58 @@ struct Shown {
 pub fn show(cx: &mut UiContext, ui: &mut Ui) {
     let scale = ui.ctx().pixels_per_point();
     let rect = whole_pixels(ui.max_rect(), scale);
-    let frame = if cx.model.session.view == View::SideBySide { left_half(rect, scale) } else { rect };
+    flicker::turn(cx, ui);
+    let view = cx.model.seen();
+    let frame = if view == View::SideBySide { left_half(rect, scale) } else { rect };
     let [whole, part] = [rect, frame].map(|rect| (rect.size() * scale).round().into());
     let corners = [rect.left(), rect.top(), rect.right(), rect.bottom()];
     cx.model.state.picture = PictureArea::new(whole, part, cx.model.session.resolution.shrink(), corners);
     cx.model.place_line();
 
     let response = ui.allocate_rect(rect, Sense::click_and_drag());
-    mouse::listen(cx, ui, &response, rect);
-    let shown = arranged(cx, rect, frame);
-    for Shown { pane, place, clip } in &shown {
-        picture(cx, ui, *place, *clip, *pane);
-        map_faces::show(cx, ui, *place, *clip, *pane);
+    let mut frames: Vec<Rect> = arranged(cx, rect, frame).iter().map(|shown| shown.frame).collect();
+    if frames.is_empty() {
+        frames.push(rect);
     }
-    if cx.model.session.view == View::Wipe {
+    mouse::listen(cx, ui, &response, rect, &frames);
+    region::show_cursor(cx, ui, &response);
+    magnify::keys(cx, ui, &frames);
+    let shown = arranged(cx, rect, frame);
+    for Shown { pane, frame, clip } in &shown {
+        let place = place(cx, *pane, *frame, *clip, scale);
+        picture(cx, ui, place, *clip, *pane);
+        map_faces::show(cx, ui, place, *clip, *pane);
+        if map_faces::map_of(cx, *pane).is_none() {
+            region::show(cx, &ui.painter().with_clip_rect(*clip), place);
+        }
+    }
+    if view == View::Wipe {
         line(ui, rect, cx.model.session.line, cx.model.session.wipe);
     }
-    if cx.model.session.view == View::ErrorMap {
-        map::show(cx, ui, rect, response.hover_pos());
+    if view == View::ErrorMap {
+        let place = magnify::place(&cx.model.state.magnification, rect, scale);
+        map::show(cx, ui, (place, rect), response.hover_pos());
     }
     for Shown { pane, clip, .. } in &shown {
         label::show(cx, ui, *clip, *pane);
     }
+    magnify::label(cx, ui, rect);
+    loupe::show(cx, ui, rect, &frames, response.hover_pos());
     if !cx.model.state.posing {
         let hints = ["Drag the line.", "Drag the picture to orbit.", "T swaps A and B.", "? shows all keys."];
-        let without_a_line = usize::from(cx.model.session.view != View::Wipe);
+        let without_a_line = usize::from(view != View::Wipe);
         say(cx, ui, rect, &hints[without_a_line..]);
     }
-    let response = response.accessible_name(format!("Picture: {}", cx.model.session.view.name()));
+    let response = response.accessible_name(format!("Picture: {}", view.name()));
     if response.has_focus() {
         ui.painter().rect_stroke(rect, 0.0, Stroke::new(2.0, Color32::YELLOW), egui::StrokeKind::Inside);
     }
-    cx.dump.note("picture", cx.model.session.view.name(), response);
+    cx.dump.note("picture", view.name(), response);
 }
 
 fn arranged(cx: &UiContext, rect: Rect, frame: Rect) -> Vec<Shown> {
-    let shown = |pane, place, clip| Shown { pane, place: seen_whole(cx, pane, place, clip), clip };
-    match cx.model.session.view {
+    let shown = |pane, frame, clip| Shown { pane, frame, clip };
+    match cx.model.seen() {
         View::Pane(pane) => vec![shown(pane, rect, rect)],
         View::Wipe => {
             let (of_a, of_b) = match cx.model.session.line {
@@ -80,13 +92,16 @@ fn arranged(cx: &UiContext, rect: Rect, frame: Rect) -> Vec<Shown> {
 }
 
 /// Where a pane's picture lies. A map of the fake's is no picture of the scene, and nothing of it lies where it does in
-/// the other pane: it is shown whole in what is seen of its pane, rather than cut by the wipe.
-fn seen_whole(cx: &UiContext, pane: PaneId, place: Rect, clip: Rect) -> Rect {
-    if map_faces::map_of(cx, pane).is_none() || place == clip {
-        return place;
+/// the other pane: it is shown whole in what is seen of its pane, rather than cut by the wipe or magnified.
+fn place(cx: &UiContext, pane: PaneId, frame: Rect, clip: Rect, pixels_per_point: f32) -> Rect {
+    if map_faces::map_of(cx, pane).is_none() {
+        return magnify::place(&cx.model.state.magnification, frame, pixels_per_point);
     }
-    let shrink = (clip.width() / place.width()).min(clip.height() / place.height());
-    Rect::from_center_size(clip.center(), place.size() * shrink)
+    if frame == clip {
+        return frame;
+    }
+    let shrink = (clip.width() / frame.width()).min(clip.height() / frame.height());
+    Rect::from_center_size(clip.center(), frame.size() * shrink)
 }
 
 /// The largest rectangle on whole physical pixels inside: a pane is shown 1:1.
@@ -117,7 +132,7 @@ fn picture(cx: &mut UiContext, ui: &Ui, rect: Rect, clip: Rect, pane: PaneId) {
                 let around = cx.model.session.display.rgba8(Vec3::splat(raster::maps::BACKGROUND));
                 ui.painter().rect_filled(clip, 0.0, Color32::from_rgb(around[0], around[1], around[2]));
             }
-            ui.painter().with_clip_rect(clip).image(*texture, rect, WHOLE, Color32::WHITE);
+            magnify::paint(ui.painter(), *texture, rect, clip);
         }
         (None, None) => drop(in_the_middle("rendering ...", Color32::WHITE)),
     }

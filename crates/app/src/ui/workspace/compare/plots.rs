@@ -110,14 +110,8 @@ fn plot(cx: &mut UiContext, ui: &mut Ui, curves: &[Curve], width: f32) {
         .x_axis_formatter(|mark, _| tick_of(mark))
         .y_axis_formatter(|mark, _| tick_of(mark))
         .grid_color(palette.line)
-        .label_formatter(move |place| said_of(place, settings))
-        // it always fits what there is: nothing is lost by a slip of the mouse
-        .allow_drag(false)
-        .allow_zoom(false)
-        .allow_scroll(false)
-        .allow_boxed_zoom(false)
-        .allow_axis_zoom_drag(false);
-    let shown = plot.show(ui, |plot| {
+        .label_formatter(move |place| said_of(place, settings));
+    let shown = fixed(plot).show(ui, |plot| {
         for curve in curves {
             draw(plot, curve, settings, palette);
         }
@@ -138,6 +132,12 @@ fn plot(cx: &mut UiContext, ui: &mut Ui, curves: &[Curve], width: f32) {
     cx.dump.note("plot", curves.len(), response);
 }
 
+/// It always fits what there is: nothing is lost by a slip of the mouse.
+pub fn fixed(plot: Plot) -> Plot {
+    let plot = plot.allow_drag(false).allow_zoom(false).allow_scroll(false);
+    plot.allow_boxed_zoom(false).allow_axis_zoom_drag(false)
+}
+
 /// What lines are, each with its latest error: beside the plot, where no line is hidden.
 fn key(cx: &UiContext, ui: &mut Ui, curves: &[Curve]) {
     let (settings, palette) = (cx.model.session.plots, palette(ui));
@@ -151,7 +151,7 @@ fn key(cx: &UiContext, ui: &mut Ui, curves: &[Curve]) {
     if floor(cx, settings.measure).is_some() {
         entry(ui, FLOOR.of(palette), "noise of the reference", palette.dim);
     }
-    let against = judge_of_all(curves).map(|judge| format!("against {}", judge.name()));
+    let against = judge_of_all(curves).map(|judge| format!("against {judge}"));
     let nothing = curves.is_empty().then(|| "no errors have been measured yet".into());
     if let Some(text) = against.or(nothing) {
         ui.label(RichText::new(text).color(palette.dim));
@@ -179,8 +179,10 @@ fn entry(ui: &mut Ui, (colour, style, width): Look, text: &str, text_colour: Col
 /// The errors that the reference itself has: below them nothing can be told.
 fn floor(cx: &UiContext, measure: Measure) -> Option<f64> {
     let of_panes = || cx.shown.panes.values().find_map(|pane| pane.errors?.1.reference_noise);
+    let of_the_whole = |noise: &f64| cx.model.session.comparison.region.is_none().then_some(*noise);
     let floor = match measure {
-        Measure::RelMse => cx.shown.reference.as_ref()?.noise,
+        // it is told of the whole picture alone
+        Measure::RelMse => cx.shown.reference.as_ref()?.noise.as_ref().and_then(of_the_whole),
         Measure::Rmse => of_panes().map(f64::sqrt),
         Measure::Mae => None,
     };

@@ -2,7 +2,7 @@
 
 mod text;
 
-use crate::model::{Against, Line, PaneId, PaneView, Session, View};
+use crate::model::{Against, Line, Model, PaneId, PaneView, View};
 use crate::ui::overlay::{describe, spoken};
 use crate::ui::{UiContext, theme};
 use egui::text::{LayoutJob, TextWrapping};
@@ -30,7 +30,7 @@ pub fn show(cx: &mut UiContext, ui: &Ui, clip: Rect, pane: PaneId) {
     let text = LabelText::of(pane, shown, beside(cx, pane), told(cx, pane, shown), cx.model.state.paused);
     let room = room(cx, clip, pane);
     let Some(galley) = fitting(ui, &text, pane, room.size()) else { return };
-    let place = align(&cx.model.session, pane).align_size_within_rect(galley.size(), room);
+    let place = align(cx.model, pane).align_size_within_rect(galley.size(), room);
     paint(ui, clip, place, galley, colour(pane));
     let (name, whole) = (format!("label {pane}"), text.whole(pane));
     cx.dump.note_text(&name, &whole, place, clip);
@@ -51,11 +51,11 @@ fn beside<'a>(cx: &UiContext<'a>, pane: PaneId) -> Option<Beside<'a>> {
 /// on B's label only where that is alone.
 fn told(cx: &UiContext, pane: PaneId, shown: &PaneView) -> Option<Told> {
     let (against, errors) = shown.errors?;
-    let told = |of, (against, errors)| Told { of, against, errors };
+    let told = |of, (against, errors)| Told { of, against, region: shown.region, errors };
     match against {
         Against::Reference => Some(told(pane, (against, errors))),
         Against::Pane(_) if pane == PaneId::A => Some(told(pane, (against, errors))),
-        Against::Pane(judge) if cx.model.session.view == View::Pane(pane) => {
+        Against::Pane(judge) if cx.model.seen() == View::Pane(pane) => {
             Some(told(judge, cx.shown.panes.get(judge)?.errors?))
         }
         Against::Pane(_) => None,
@@ -65,15 +65,15 @@ fn told(cx: &UiContext, pane: PaneId, shown: &PaneView) -> Option<Told> {
 /// Where its text may be: not at the edges, and not where a message stands at the foot of the window.
 fn room(cx: &UiContext, clip: Rect, pane: PaneId) -> Rect {
     let mut room = clip.shrink2(INSET);
-    if align(&cx.model.session, pane) == Align2::LEFT_BOTTOM {
+    if align(cx.model, pane) == Align2::LEFT_BOTTOM {
         room.max.y = room.max.y.min(clip.bottom() - cx.model.state.said_height - PADDING.y);
     }
     room
 }
 
 /// Its corner of the part of the picture that is seen: away from the line, and at the foot where the line is above.
-fn align(session: &Session, pane: PaneId) -> Align2 {
-    match (session.view, session.line) {
+fn align(model: &Model, pane: PaneId) -> Align2 {
+    match (model.seen(), model.session.line) {
         (View::Wipe, Line::Vertical) if pane != PaneId::A => Align2::RIGHT_TOP,
         (View::Wipe, Line::Horizontal) if pane != PaneId::A => Align2::LEFT_BOTTOM,
         _ => Align2::LEFT_TOP,

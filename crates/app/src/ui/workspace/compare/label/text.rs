@@ -1,7 +1,7 @@
 //! What a label says: what the picture is; how far off and at what cost; what it lacks. Always of the picture that is
 //! shown, never of settings whose picture is still to come.
 
-use crate::model::{Against, Compiling, Denoising, Drawing, Effort, PaneId, PaneView};
+use crate::model::{Against, Compiling, Denoising, Drawing, Effort, IN_THE_REGION, PaneId, PaneView, Region};
 use crate::ruler::{FEWEST_RUNS_OF_A_BIAS, bias_words, brief, error_words, formulas};
 use compare::Errors;
 use denoise::trust::LEAST_SAMPLES;
@@ -39,6 +39,8 @@ pub struct Told {
     pub of: PaneId,
     /// What that pane is held against.
     pub against: Against,
+    /// The part of both that is compared; `None` for all.
+    pub region: Option<Region>,
     /// How far it is from that.
     pub errors: Errors,
 }
@@ -99,7 +101,7 @@ impl LabelText {
     }
 
     /// `runs` names those that the picture is the mean of, where there are several.
-    fn tell(&mut self, pane: PaneId, Told { of, against, errors }: Told, runs: Option<u32>) {
+    fn tell(&mut self, pane: PaneId, Told { of, against, region, errors }: Told, runs: Option<u32>) {
         let judge = match against {
             Against::Pane(judge) => Some(judge.name()),
             Against::Reference => None,
@@ -114,6 +116,7 @@ impl LabelText {
         };
         let measure = format!("relMSE {}", brief(errors.rel_mse));
         let measure = if judge.is_none() { format!("{measure} against the reference") } else { measure };
+        let off = region.map_or_else(|| off.clone(), |_| format!("{}: {off}", capitalised(IN_THE_REGION)));
         self.errors.extend([off, brightness]);
         self.figures.push(measure);
         if errors.below_reference_noise() {

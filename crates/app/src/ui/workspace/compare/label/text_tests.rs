@@ -145,11 +145,13 @@ fn figures_are_kept_whole_where_they_fit_a_line() {
 #[test]
 fn errors_stand_with_words_first_and_say_what_they_are_against() {
     let errors = Errors { relative_mae: 0.31, relative_bias: 0.003, rel_mse: 1.338, ..Errors::default() };
-    let judged = label(&path(&[], 256), Some(Told { of: PaneId::B, against: Against::Reference, errors }));
+    let judged =
+        label(&path(&[], 256), Some(Told { of: PaneId::B, against: Against::Reference, region: None, errors }));
     assert_eq!(judged.errors, ["31 % off on average", "0.3 % too bright overall"]);
     assert_eq!(judged.figures[0], "relMSE 1.338 against the reference");
     assert!(judged.explanations.iter().any(|line| line.contains("mean of |B - reference|")));
-    let beside = label(&path(&[], 256), Some(Told { of: PaneId::A, against: Against::Pane(PaneId::B), errors }));
+    let beside =
+        label(&path(&[], 256), Some(Told { of: PaneId::A, against: Against::Pane(PaneId::B), region: None, errors }));
     let lines = [
         "B: Path tracing, light",
         "A differs from B by 31 % on average · 0.3 % brighter overall",
@@ -164,7 +166,7 @@ fn a_mean_of_runs_says_of_how_many_and_that_what_is_left_of_its_error_is_bias() 
     let denoised = Some(Denoising { seconds: 0.25, errors_before: None });
     let of = |runs| PaneView { runs, denoised, ..path(settings, 4 * runs) };
     let errors = Errors { relative_mae: 0.31, relative_bias: -0.021, ..Errors::default() };
-    let told = |against| label(&of(8), Some(Told { of: PaneId::B, against, errors }));
+    let told = |against| label(&of(8), Some(Told { of: PaneId::B, against, region: None, errors }));
     let held = told(Against::Reference);
     assert_eq!(held.errors, ["31 % off on average", "bias -2.1 % (mean of 8 denoised runs)"]);
     assert_eq!(held.figures[1], "4 spp, mean of 8 runs, 500 ms");

@@ -1,0 +1,79 @@
+//! How bright the pixels of A and B are: counts over stops, with the radiance that is shown as white.
+
+use super::plots;
+use crate::model::{IN_THE_REGION, PaneId, PaneView};
+use crate::ui::UiContext;
+use crate::ui::theme::palette;
+use crate::ui::widgets::Explained;
+use compare::{Histogram, tick_text};
+use egui::{RichText, Ui};
+use egui_plot::{Line, LineStyle, Plot, PlotPoint, PlotPoints, VLine};
+
+/// Of the plot, in points.
+const HEIGHT: f32 = 130.0;
+
+pub fn show(cx: &mut UiContext, ui: &mut Ui) {
+    cx.model.state.histograms = true;
+    let shown = |(id, pane): (PaneId, &PaneView)| Some((id, pane.histogram.clone()?));
+    let histograms: Vec<(PaneId, _)> = cx.shown.panes.iter().filter_map(shown).collect();
+    let palette = palette(ui);
+    let white = f64::from(-cx.model.session.display.exposure);
+    let plot = Plot::new("histogram")
+        .height(HEIGHT)
+        .y_axis_formatter(|mark, _| tick_text(10f64.powf(mark.value)))
+        .x_axis_formatter(|mark, _| format!("{:+.0}", mark.value))
+        .x_axis_label("stops above a luminance of 1")
+        .y_axis_label("pixels")
+        .grid_color(palette.line)
+        .include_y(0.0);
+    let drawn = plots::fixed(plot).show(ui, |plot| {
+        plot.vline(VLine::new("white", white).color(palette.dim).style(LineStyle::Dotted { spacing: 5.0 }));
+        for (id, histogram) in &histograms {
+            let style = if *id == PaneId::A { LineStyle::Solid } else { LineStyle::Dashed { length: 7.0 } };
+            let line = Line::new(id.name(), PlotPoints::Owned(steps(histogram)));
+            plot.line(line.color(palette.pane(*id)).style(style).width(2.0));
+        }
+    });
+    let said: Vec<String> = histograms.iter().map(|(id, histogram)| in_words(*id, histogram)).collect();
+    let place = cx.model.session.comparison.region.map_or_else(String::new, |_| format!(" {IN_THE_REGION}"));
+    let text = format!("Pixels{place} by their luminance. {}", said.join("; "));
+    let hover = "A solid, B dashed, over the logarithm of the number of pixels; what is right of the dotted line is shown as white";
+    cx.dump.note("histogram", &text, drawn.response.explained(hover).accessible_name(&text));
+    let words = if place.is_empty() { said.join("\n") } else { format!("{}:\n{}", place.trim(), said.join("\n")) };
+    ui.label(RichText::new(words).color(palette.dim));
+}
+
+/// "A: median -2.1 stops, 1234 darker than all".
+fn in_words(id: PaneId, histogram: &Histogram) -> String {
+    let median = histogram.median().map_or_else(|| "half is black".into(), |stop| format!("median {stop:+.1} stops"));
+    let darker = if histogram.darker > 0 { format!(", {} black", histogram.darker) } else { String::new() };
+    let brighter =
+        if histogram.brighter > 0 { format!(", {} off the scale", histogram.brighter) } else { String::new() };
+    format!("{id}: {median}{darker}{brighter}")
+}
+
+/// Its outline: logarithms of counts over stops, down to one pixel between bins that have some.
+fn steps(histogram: &Histogram) -> Vec<PlotPoint> {
+    let mut outline: Vec<PlotPoint> = Vec::new();
+    for ([low, high], count) in histogram.bins() {
+        let (low, high, count) = (f64::from(low), f64::from(high), f64::from(count).log10());
+        if let Some(before) = outline.last().filter(|before| before.x < low).copied() {
+            outline.extend([PlotPoint::new(before.x, 0.0), PlotPoint::new(low, 0.0)]);
+        }
+        outline.extend([PlotPoint::new(low, count), PlotPoint::new(high, count)]);
+    }
+    outline
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use film::Vec3;
+
+    #[test]
+    fn the_outline_goes_from_edge_to_edge_and_down_where_there_are_no_pixels() {
+        let pixels: Vec<Vec3> = [1.1; 10].into_iter().chain([4.1; 100]).map(Vec3::splat).collect();
+        let places: Vec<_> = steps(&Histogram::of(pixels.iter())).iter().map(|point| [point.x, point.y]).collect();
+        assert_eq!(places, [[0.0, 1.0], [0.25, 1.0], [0.25, 0.0], [2.0, 0.0], [2.0, 2.0], [2.25, 2.0]]);
+    }
+}
