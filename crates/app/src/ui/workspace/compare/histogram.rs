@@ -30,7 +30,7 @@ pub fn show(cx: &mut UiContext, ui: &mut Ui) {
         plot.vline(VLine::new("white", white).color(palette.dim).style(LineStyle::Dotted { spacing: 5.0 }));
         for (id, histogram) in &histograms {
             let style = if *id == PaneId::A { LineStyle::Solid } else { LineStyle::Dashed { length: 7.0 } };
-            let line = Line::new(id.name(), PlotPoints::Owned(steps(histogram)));
+            let line = Line::new(id.name(), PlotPoints::Owned(outline(histogram)));
             plot.line(line.color(palette.pane(*id)).style(style).width(2.0));
         }
     });
@@ -52,15 +52,21 @@ fn in_words(id: PaneId, histogram: &Histogram) -> String {
     format!("{id}: {median}{darker}{brighter}")
 }
 
-/// Its outline: logarithms of counts over stops, down to one pixel between bins that have some.
-fn steps(histogram: &Histogram) -> Vec<PlotPoint> {
+/// A line through the logarithms of its counts over the middles of their stops, down to one pixel where there are none.
+fn outline(histogram: &Histogram) -> Vec<PlotPoint> {
     let mut outline: Vec<PlotPoint> = Vec::new();
+    let mut end = None;
     for ([low, high], count) in histogram.bins() {
-        let (low, high, count) = (f64::from(low), f64::from(high), f64::from(count).log10());
-        if let Some(before) = outline.last().filter(|before| before.x < low).copied() {
-            outline.extend([PlotPoint::new(before.x, 0.0), PlotPoint::new(low, 0.0)]);
+        let [low, high] = [low, high].map(f64::from);
+        let half = 0.5 * (high - low);
+        if let Some(end) = end.filter(|end| *end < low) {
+            outline.push(PlotPoint::new(end + half, 0.0));
+            if end + half < low - half {
+                outline.push(PlotPoint::new(low - half, 0.0));
+            }
         }
-        outline.extend([PlotPoint::new(low, count), PlotPoint::new(high, count)]);
+        outline.push(PlotPoint::new(low + half, f64::from(count).log10()));
+        end = Some(high);
     }
     outline
 }
@@ -71,9 +77,17 @@ mod tests {
     use film::Vec3;
 
     #[test]
-    fn the_outline_goes_from_edge_to_edge_and_down_where_there_are_no_pixels() {
-        let pixels: Vec<Vec3> = [1.1; 10].into_iter().chain([4.1; 100]).map(Vec3::splat).collect();
-        let places: Vec<_> = steps(&Histogram::of(pixels.iter())).iter().map(|point| [point.x, point.y]).collect();
-        assert_eq!(places, [[0.0, 1.0], [0.25, 1.0], [0.25, 0.0], [2.0, 0.0], [2.0, 2.0], [2.25, 2.0]]);
+    fn the_outline_has_a_place_for_each_bin_and_goes_down_where_there_are_no_pixels() {
+        let pixels = |bright: f32| -> Vec<Vec3> {
+            [1.1; 10].into_iter().chain([1.2; 1000]).chain([bright; 100]).map(Vec3::splat).collect()
+        };
+        let places = |bright: f32| {
+            let outline = outline(&Histogram::of(pixels(bright).iter()));
+            outline.iter().map(|point| [point.x, point.y]).collect::<Vec<_>>()
+        };
+        let rising = [[0.125, 1.0], [0.375, 3.0]];
+        assert_eq!(places(1.42), [rising[0], rising[1], [0.625, 2.0]], "side by side");
+        assert_eq!(places(1.7), [rising[0], rising[1], [0.625, 0.0], [0.875, 2.0]], "one bin between");
+        assert_eq!(places(4.1), [rising[0], rising[1], [0.625, 0.0], [1.875, 0.0], [2.125, 2.0]]);
     }
 }
