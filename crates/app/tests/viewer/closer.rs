@@ -6,6 +6,7 @@ use compare::{Histogram, errors_within};
 use egui::{Key, Modifiers};
 use film::{DisplayTransform, Image};
 use visavis::model::{PaneId, Region};
+use visavis::ui::Workspaces;
 use visavis_tests::Frame;
 
 /// Both pictures, and B has all its samples.
@@ -101,7 +102,7 @@ fn the_loupe_reads_the_pixel_under_the_mouse_magnified_or_not() {
 #[test]
 fn histograms_are_counted_while_their_card_is_open_and_of_the_region() {
     let mut user = user_of_few_samples();
-    let wanted = |user: &User| user.viewer.borrow().model.state.histograms;
+    let wanted = |user: &User| Workspaces::default().open().wanted(&user.viewer.borrow().model).histograms;
     assert!(!wanted(&user), "closed at first");
     user.scroll_to("Histogram");
     user.click("Histogram");
