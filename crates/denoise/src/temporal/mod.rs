@@ -26,7 +26,7 @@ pub struct Now<'a> {
     pub image: &'a Image,
     /// How many samples each pixel has.
     pub samples: &'a [u32],
-    /// What its pixels show, of few samples: a depth and a normal each.
+    /// What its pixels show, of few samples each.
     pub features: &'a Features,
 }
 

@@ -19,6 +19,13 @@ const LEAST_COSINE: f32 = 0.05;
 /// Cosine of the angle between normals of one surface.
 const NORMALS: f32 = 0.9;
 
+/// How far each colour of the albedo of one surface may differ: a lamp in a ceiling, and the next field of a check, have its depth
+/// and its normal.
+const ALBEDO: f32 = 0.1;
+
+/// A pixel with less than this share of the solid angle of a pixel of the history looks at a coarser one.
+const COARSER: f32 = 0.5;
+
 /// Share of the bilinear weights that must have found the surface; below it is chance.
 const LEAST_WEIGHT: f32 = 0.05;
 
@@ -44,6 +51,7 @@ pub struct Found {
 struct Point {
     /// In pixels from the middle of the top left one.
     place: Vec2,
+    albedo: Vec3,
     normal: Vec3,
     /// Infinite where nothing is met.
     distance: f32,
@@ -66,7 +74,13 @@ impl<'a> Reprojection<'a> {
     pub fn find(&self, [x, y]: [u32; 2]) -> Option<Found> {
         let pixel = (y * self.now.image.width() + x) as usize;
         let depth = self.now.features.depth[pixel];
-        let point = self.point([x, y], depth, self.now.features.normal[pixel])?;
+        let point = self.point([x, y], pixel)?;
+        // a pixel that was larger then spreads its samples over several now
+        let closer = if depth == f32::INFINITY { 1.0 } else { depth / point.distance };
+        let spread = self.ratio * closer * closer;
+        if spread < COARSER && !self.is_within_its_surface(&point) {
+            return None;
+        }
         let mut sums = Found { radiance: Vec3::ZERO, samples: 0.0, age: 0.0 };
         let [mut weights, mut squares] = [0.0; 2];
         for (tap, weight) in self.taps(&point).filter(|(tap, _)| self.shows(*tap, &point)) {
@@ -76,10 +90,8 @@ impl<'a> Reprojection<'a> {
             weights += weight;
             squares += weight * weight;
         }
-        // a pixel that was larger then spreads its samples over several now; of smaller ones the mean is taken of as many as the
-        // weights are for
-        let closer = if depth == f32::INFINITY { 1.0 } else { depth / point.distance };
-        let share = (self.ratio * closer * closer).min(weights * weights / squares) / weights;
+        // of pixels that were smaller the mean is taken of as many as the weights are for
+        let share = spread.min(weights * weights / squares) / weights;
         let Found { radiance, samples, age } = sums;
         (weights >= LEAST_WEIGHT && samples > 0.0).then(|| Found {
             radiance: radiance / weights,
@@ -88,20 +100,22 @@ impl<'a> Reprojection<'a> {
         })
     }
 
-    fn point(&self, [x, y]: [u32; 2], depth: f32, normal: Vec3) -> Option<Point> {
+    fn point(&self, [x, y]: [u32; 2], pixel: usize) -> Option<Point> {
         let (now, then) = (&self.now.frame, &self.history.frame);
+        let features = self.now.features;
+        let (albedo, normal, depth) = (features.albedo[pixel], features.normal[pixel], features.depth[pixel]);
         let size = |(width, height): (u32, u32)| Vec2::new(width as f32, height as f32);
         let direction = now.direction((Vec2::new(x as f32, y as f32) + 0.5) / size(self.now.image.size()));
         let arm = if depth == f32::INFINITY { direction } else { now.eye + direction * depth - then.eye };
         let place = then.project(then.eye + arm)? * size(self.history.image.size()) - 0.5;
         let length = arm.length();
         if depth == f32::INFINITY {
-            return Some(Point { place, normal, distance: depth, tolerance: 0.0 });
+            return Some(Point { place, albedo, normal, distance: depth, tolerance: 0.0 });
         }
         let cosine = normal.try_normalize().map_or(1.0, |normal| (normal.dot(arm) / length).abs()).max(LEAST_COSINE);
         let slope = self.pixel * (1.0 - cosine * cosine).max(0.0).sqrt() / cosine;
         let tolerance = length * (DEPTH + PIXELS_OF_SLOPE * slope);
-        (depth > 0.0 && length.is_finite()).then_some(Point { place, normal, distance: length, tolerance })
+        (depth > 0.0 && length.is_finite()).then_some(Point { place, albedo, normal, distance: length, tolerance })
     }
 
     /// The pixels around it with their bilinear weights, as far as they are in the picture.
@@ -117,12 +131,25 @@ impl<'a> Reprojection<'a> {
         })
     }
 
+    /// Whether the nearest pixels of a coarser history, and those around them, show one surface. A pixel on an edge is told by a
+    /// sample of one side, and has the light of both; the pixel beside it is then of the other side.
+    fn is_within_its_surface(&self, point: &Point) -> bool {
+        let (width, height) = self.history.image.size();
+        let corner = point.place.floor();
+        // depths there are of twice as many pixels along a slope
+        let point = Point { tolerance: 2.0 * point.tolerance, ..*point };
+        let near = |corner: f32, side: u32| (corner as i64 - 1).max(0)..(corner as i64 + 3).min(i64::from(side));
+        near(corner.y, height)
+            .all(|y| near(corner.x, width).all(|x| self.shows(y as usize * width as usize + x as usize, &point)))
+    }
+
     /// Whether a pixel of the history shows the surface on which the point is.
     fn shows(&self, tap: usize, point: &Point) -> bool {
         let History { image, features, .. } = self.history;
         let depth = features.depth[tap];
         let same_depth = depth == point.distance || (depth - point.distance).abs() <= point.tolerance;
-        let same_surface = same_depth && are_alike(features.normal[tap], point.normal);
+        let same_albedo = (features.albedo[tap] - point.albedo).abs().cmple(Vec3::splat(ALBEDO)).all();
+        let same_surface = same_depth && same_albedo && are_alike(features.normal[tap], point.normal);
         same_surface && image.radiances()[tap].is_finite()
     }
 }

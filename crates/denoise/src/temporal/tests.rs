@@ -16,6 +16,8 @@ struct Stage {
 const CAMERA: Camera =
     Camera { eye: Vec3::new(0.0, 0.0, 4.0), target: Vec3::ZERO, up: Vec3::Y, fov_y: 50.0, near: None, far: None };
 
+const MIDDLE: Vec2 = Vec2::splat(0.5);
+
 /// Half the width of the board, and how far before the wall it is.
 const BOARD: [f32; 2] = [0.3, 1.0];
 
@@ -44,16 +46,16 @@ impl Stage {
     fn seen(self) -> Seen {
         let (width, height) = self.size;
         let frame = self.camera.frame(width as f32 / height as f32);
-        let points: Vec<Vec3> = (0..width * height).map(|pixel| self.point(&frame, pixel)).collect();
+        let points: Vec<Vec3> = (0..width * height).map(|pixel| self.point(&frame, pixel, MIDDLE)).collect();
         let depth: Vec<f32> = points.iter().map(|point| (*point - frame.eye).length()).collect();
         let pixels = points.len();
         let features = Features::new(self.size, vec![Vec3::ONE; pixels], vec![Vec3::Z; pixels], depth).unwrap();
         Seen { frame, points, features }
     }
 
-    fn point(self, frame: &PictureFrame, pixel: u32) -> Vec3 {
+    fn point(self, frame: &PictureFrame, pixel: u32, within: Vec2) -> Vec3 {
         let (x, y) = (pixel % self.size.0, pixel / self.size.0);
-        let at = Vec2::new((x as f32 + 0.5) / self.size.0 as f32, (y as f32 + 0.5) / self.size.1 as f32);
+        let at = (Vec2::new(x as f32, y as f32) + within) / Vec2::new(self.size.0 as f32, self.size.1 as f32);
         let direction = frame.direction(at);
         let on = |z: f32| frame.eye + direction * ((z - frame.eye.z) / direction.z);
         let before = on(BOARD[1]);
@@ -146,6 +148,52 @@ fn what_comes_from_behind_a_board_has_no_history() {
     let turned = Seen { features: other.unwrap(), ..stage(0.4).seen() };
     let mixed = put_together(&turned, &own, &history, REUSE);
     assert!(mixed.earlier.iter().all(|h| *h == 0.0), "a surface that faces elsewhere is another one");
+    let Features { normal, depth, .. } = now.features;
+    let black = Features::new(SIZE, vec![Vec3::ZERO; now.points.len()], normal, depth).unwrap();
+    let painted = Seen { features: black, ..stage(0.4).seen() };
+    let mixed = put_together(&painted, &own, &history, REUSE);
+    assert!(mixed.earlier.iter().all(|h| *h == 0.0), "and so is one of another colour");
+}
+
+/// The light of a square lamp in the wall or of the wall beside it, and the albedo that features tell.
+fn lamp(point: Vec3) -> [f32; 2] {
+    if point.x.abs().max(point.y.abs()) < 0.5 { [17.0, 1.0] } else { [0.3, 0.7] }
+}
+
+impl Stage {
+    /// With the lamp: its light is the mean over each pixel, and its features are of one sample, anywhere in it.
+    fn lit(self, seed: u32) -> (Seen, Image) {
+        const GRID: u32 = 8;
+        let mut seen = self.seen();
+        let point = |pixel: usize, within: Vec2| self.point(&seen.frame, pixel as u32, within);
+        let any = |pixel: usize| MIDDLE + Vec2::new(noise(seed, pixel), noise(seed + 1, pixel));
+        let albedo: Vec<Vec3> = (0..seen.points.len()).map(|p| Vec3::splat(lamp(point(p, any(p)))[1])).collect();
+        let cells =
+            || (0..GRID * GRID).map(|cell| (Vec2::new((cell % GRID) as f32, (cell / GRID) as f32) + 0.5) / GRID as f32);
+        let mean = |pixel: usize| cells().map(|cell| lamp(point(pixel, cell))[0]).sum::<f32>() / (GRID * GRID) as f32;
+        let image = seen.image(|pixel, _| Vec3::splat(mean(pixel)));
+        seen.features.albedo = albedo.into();
+        (seen, image)
+    }
+}
+
+/// Their clamp has the lamp in it, and depth and normal are those of the wall.
+#[test]
+fn pixels_beside_a_lamp_take_no_light_of_it_from_a_coarser_history() {
+    let fine = Stage::from(CAMERA.panned(Vec2::new(0.013, 0.009)));
+    for shrink in [2, 4] {
+        let (then, light) = Stage { size: (SIZE.0 / shrink, SIZE.1 / shrink), ..Stage::from(CAMERA) }.lit(7);
+        let history = then.history(&light, 64);
+        let (now, own) = fine.lit(3);
+        let mixed = put_together(&now, &own, &history, REUSE);
+        let whole = |truth: &Vec3| [0.3, 17.0].iter().any(|light| (truth.x - light).abs() < 1e-3);
+        let pairs = mixed.image.radiances().iter().zip(own.radiances());
+        let errors = pairs.filter(|(_, truth)| whole(truth)).map(|(light, truth)| (*light / *truth - 1.0).x.abs());
+        let most = errors.clone().fold(0.0, f32::max);
+        assert!(most < 0.02 && errors.count() > 1400, "1/{shrink}: {most}");
+        let with_history = mixed.earlier.iter().filter(|h| **h > 0.0).count();
+        assert!(with_history > now.points.len() / 2, "1/{shrink}: {with_history} pixels beside it have history");
+    }
 }
 
 #[test]
