@@ -23,6 +23,10 @@ const NORMALS: f32 = 0.9;
 /// and its normal.
 const ALBEDO: f32 = 0.1;
 
+/// Bilinear weight from which a pixel is found again whole, with its shares of both sides of an edge: that one sample of each told
+/// another side is chance, and nothing is blurred by taking it. At rest edges so become smooth.
+const WHOLE: f32 = 0.99;
+
 /// A pixel with less than this share of the solid angle of a pixel of the history looks at a coarser one.
 const COARSER: f32 = 0.5;
 
@@ -83,7 +87,7 @@ impl<'a> Reprojection<'a> {
         }
         let mut sums = Found { radiance: Vec3::ZERO, samples: 0.0, age: 0.0 };
         let [mut weights, mut squares] = [0.0; 2];
-        for (tap, weight) in self.taps(&point).filter(|(tap, _)| self.shows(*tap, &point)) {
+        for (tap, weight) in self.taps(&point).filter(|(tap, weight)| self.shows(*tap, *weight, &point)) {
             sums.radiance += weight * self.history.image.radiances()[tap];
             sums.samples += weight * self.history.samples[tap];
             sums.age += weight * self.history.age[tap];
@@ -140,16 +144,16 @@ impl<'a> Reprojection<'a> {
         let point = Point { tolerance: 2.0 * point.tolerance, ..*point };
         let near = |corner: f32, side: u32| (corner as i64 - 1).max(0)..(corner as i64 + 3).min(i64::from(side));
         near(corner.y, height)
-            .all(|y| near(corner.x, width).all(|x| self.shows(y as usize * width as usize + x as usize, &point)))
+            .all(|y| near(corner.x, width).all(|x| self.shows(y as usize * width as usize + x as usize, 0.0, &point)))
     }
 
-    /// Whether a pixel of the history shows the surface on which the point is.
-    fn shows(&self, tap: usize, point: &Point) -> bool {
+    /// Whether a pixel of the history, of this bilinear weight, shows the surface on which the point is.
+    fn shows(&self, tap: usize, weight: f32, point: &Point) -> bool {
         let History { image, features, .. } = self.history;
         let depth = features.depth[tap];
         let same_depth = depth == point.distance || (depth - point.distance).abs() <= point.tolerance;
-        let same_albedo = (features.albedo[tap] - point.albedo).abs().cmple(Vec3::splat(ALBEDO)).all();
-        let same_surface = same_depth && same_albedo && are_alike(features.normal[tap], point.normal);
+        let alike = (features.albedo[tap] - point.albedo).abs().cmple(Vec3::splat(ALBEDO)).all();
+        let same_surface = same_depth && (alike || weight >= WHOLE) && are_alike(features.normal[tap], point.normal);
         same_surface && image.radiances()[tap].is_finite()
     }
 }

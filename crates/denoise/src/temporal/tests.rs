@@ -261,6 +261,38 @@ fn the_variance_of_a_slow_pan_falls_as_one_over_the_frames() {
     assert!((0.1..0.14).contains(&left), "{left} of the variance is left: {variance:?}");
 }
 
+/// What is wrong in the last of some pictures of one sample that see the lamp go by so many pixels each, alone and put together with
+/// those before; a lamp counts as little more than the wall.
+fn errors_of_a_pan(by: f32) -> [f32; 2] {
+    let mut history: Option<History> = None;
+    let mut errors = [0.0; 2];
+    for frame in 0..12 {
+        let shift = Vec2::new(1.0, 0.7) * (by * frame as f32 / SIZE.1 as f32);
+        let stage = Stage::from(CAMERA.panned(shift));
+        let (mut seen, truth) = stage.lit(3);
+        let place = |p: usize| MIDDLE + Vec2::new(noise(2 * frame + 50, p), noise(2 * frame + 51, p));
+        let met = |p: usize| lamp(stage.point(&seen.frame, p as u32, place(p)));
+        let albedo: Vec<Vec3> = (0..seen.points.len()).map(|p| Vec3::splat(met(p)[1])).collect();
+        let own = seen.image(|p, _| Vec3::splat(met(p)[0] * (1.0 + noise(frame + 100, p))));
+        seen.features.albedo = albedo.into();
+        let mixed = history.as_ref().map(|history| put_together(&seen, &own, history, REUSE));
+        let shown = mixed.as_ref().map_or(&own, |mixed| &mixed.image);
+        let difference = |(a, b): (&Vec3, &Vec3)| (a.x.min(2.0) - b.x.min(2.0)).powi(2);
+        errors = [&own, shown].map(|image| image.radiances().iter().zip(truth.radiances()).map(difference).sum());
+        history = Some(seen.now(&own, &vec![1; seen.points.len()]).history(mixed.as_ref()).unwrap());
+    }
+    errors
+}
+
+#[test]
+fn an_edge_becomes_smooth_at_rest_and_is_not_blurred_while_it_moves() {
+    let [alone, together] = errors_of_a_pan(1e-4);
+    // 12 samples for one, with what the clamp costs
+    assert!(together < 0.15 * alone, "{together} of {alone}");
+    let [alone, together] = errors_of_a_pan(0.3);
+    assert!(together < 0.8 * alone, "{together} of {alone}");
+}
+
 #[test]
 fn a_coarser_picture_counts_by_its_share_of_samples() {
     let coarse = Stage { size: (SIZE.0 / 2, SIZE.1 / 2), ..Stage::from(CAMERA) }.seen();
