@@ -154,9 +154,16 @@ impl Reused {
     }
 }
 
+/// At how many samples a picture takes nothing of earlier views any more: it needs none where it is twice as good as they may be,
+/// and what is done is the mean of its own.
+fn gone_at(limit: u32, wished: Option<u32>) -> u32 {
+    limit.saturating_mul(2).min(wished.unwrap_or(u32::MAX))
+}
+
 impl Renderer {
     /// A film as it was last read together with earlier views, which count as `limit` samples at most; `None` where none do.
-    /// The next view has this one as its history; whether it is the first of a view that was `moved` to matters for that.
+    /// The next view has this one as its history. It goes on to as many samples as are `wished` for, or is the first picture of a
+    /// view that was moved to.
     ///
     /// # Errors
     /// [`DenoiseError::Stopped`] if `stop` said so, before or meanwhile.
@@ -164,7 +171,7 @@ impl Renderer {
         &mut self,
         accumulation: &Accumulation,
         camera: &Camera,
-        (limit, moved): (u32, bool),
+        (limit, wished): (u32, Option<u32>),
         stop: Stop,
     ) -> Result<Option<Reused>, DenoiseError> {
         if limit == 0 {
@@ -178,10 +185,15 @@ impl Renderer {
         let frame = camera.frame(film.width() as f32 / film.height() as f32);
         let now = Now { frame, image: &image, samples: &samples, features };
         let begun = Instant::now();
-        let counts = fade(film.samples_per_pixel(), limit) > 0.0;
+        let until = gone_at(limit, wished);
+        let counts = fade(film.samples_per_pixel(), until) > 0.0;
+        if wished.is_some() && !counts {
+            // nor does it come back where more samples are wished for then
+            self.past.earlier = None;
+        }
         let accumulated = match self.past.earlier.as_ref().filter(|_| counts) {
             Some(Shown { history, at, .. }) => {
-                let reuse = Reuse { limit, elapsed: at.elapsed().as_secs_f32() };
+                let reuse = Reuse { limit, until, elapsed: at.elapsed().as_secs_f32() };
                 let put_together = || accumulate(&now, history, reuse, stop);
                 let turn = self.threads.turn_unless(stop, self.rank, put_together);
                 Some(turn.unwrap_or(Err(DenoiseError::Stopped))?)
@@ -192,7 +204,7 @@ impl Renderer {
         let reused = accumulated.map(|both| Reused::new(both, &samples, begun.elapsed().as_secs_f64()));
         let (pixels, own) = (samples.len() as f64, f64::from(film.samples_per_pixel()));
         let stands_for = pixels * (own + reused.as_ref().map_or(0.0, |reused| f64::from(reused.lag.samples)));
-        let of_a_move = moved.then_some(stands_for);
+        let of_a_move = wished.is_none().then_some(stands_for);
         self.past.keep(Shown { history, at: Instant::now(), of_a_move }, pixels * own);
         Ok(reused.filter(|reused| reused.lag.samples > 0.0))
     }
@@ -217,7 +229,7 @@ impl Renderer {
         }
         self.make_features(&mut accumulation, (&shot.camera, &integrator), false, &patient);
         let denoise = DenoiseSettings { denoiser: self.quick_denoiser(&accumulation, watch), ..watch.denoise() };
-        self.show_together(&accumulation, &shot.camera, denoise, [true, true], &patient);
+        self.show_together(&accumulation, &shot.camera, denoise, None, &patient);
         true
     }
 
@@ -239,22 +251,24 @@ impl Renderer {
         if in_time { watch.denoise().denoiser } else { crate::Denoiser::Off }
     }
 
-    /// Shows a film as it was last read, put together with earlier views and then denoised; not one that was stopped on the way.
+    /// Shows a film as it was last read, put together with earlier views and then denoised; not one that was stopped on the way. How
+    /// many samples it goes on to is `wished`, as for [`Renderer::reuse`].
     pub(crate) fn show_together(
         &mut self,
         accumulation: &Accumulation,
         camera: &Camera,
         denoise: DenoiseSettings,
-        state: [bool; 2],
+        wished: Option<u32>,
         watch: &impl Watch,
     ) {
         let stop = || watch.ends_now();
-        let Ok(reused) = self.reuse(accumulation, camera, (denoise.history, state[0]), &stop) else { return };
+        let Ok(reused) = self.reuse(accumulation, camera, (denoise.history, wished), &stop) else { return };
         let denoised = self.denoised(accumulation, reused.as_ref(), denoise, &stop);
         if let Some(Ok(denoised)) = &denoised {
             self.past.note_filter(denoised.seconds, accumulation.film());
         }
         if accumulation.spp > 0 && !matches!(denoised, Some(Err(DenoiseError::Stopped))) {
+            let state = [wished.is_none(), wished.is_none_or(|wished| accumulation.spp < wished)];
             watch.show(Frame { denoised, reused, ..self.frame(accumulation, state) });
         }
     }

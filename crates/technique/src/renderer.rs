@@ -319,7 +319,7 @@ impl Renderer {
         if watch.wants_features() {
             self.make_features(accumulation, how, accumulation.spp >= wished, watch);
         }
-        self.show_together(accumulation, how.0, watch.denoise(), [false, accumulation.spp < wished], watch);
+        self.show_together(accumulation, how.0, watch.denoise(), Some(wished), watch);
     }
 
     /// A film as it was last read.

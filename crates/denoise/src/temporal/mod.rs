@@ -47,6 +47,8 @@ pub struct History {
 pub struct Reuse {
     /// As how many samples of a pixel at most.
     pub limit: u32,
+    /// From how many samples of its own on a pixel takes nothing of them.
+    pub until: u32,
     /// Seconds since the history was shown.
     pub elapsed: f32,
 }
@@ -62,9 +64,9 @@ pub struct Accumulated {
     pub age: Vec<f32>,
 }
 
-/// A picture that is twice as good as its history may be needs none: which share of it a picture of `samples` still takes.
-pub fn fade(samples: u32, limit: u32) -> f32 {
-    (1.0 - samples as f32 / (2.0 * limit.max(1) as f32)).max(0.0)
+/// Which share of its history a picture of `samples` still takes, where it takes none from `until` samples on.
+pub fn fade(samples: u32, until: u32) -> f32 {
+    (1.0 - samples as f32 / until.max(1) as f32).max(0.0)
 }
 
 impl Now<'_> {
@@ -132,7 +134,7 @@ struct Mixed {
 fn mixed(now: &Now, reprojection: &Reprojection, around: &Neighbourhood, reuse: Reuse, [x, y]: [u32; 2]) -> Mixed {
     let pixel = (y * now.image.width() + x) as usize;
     let (own, samples) = (now.image.radiances()[pixel], now.samples[pixel]);
-    let fade = fade(samples, reuse.limit);
+    let fade = fade(samples, reuse.until);
     let found = if fade > 0.0 { reprojection.find([x, y]) } else { None };
     let Some(Found { radiance, samples: found, age }) = found else {
         return Mixed { radiance: own, earlier: 0.0, age: 0.0 };

@@ -85,7 +85,7 @@ impl Seen {
     }
 }
 
-const REUSE: Reuse = Reuse { limit: 64, elapsed: 0.25 };
+const REUSE: Reuse = Reuse { limit: 64, until: 128, elapsed: 0.25 };
 
 fn put_together(seen: &Seen, image: &Image, history: &History, reuse: Reuse) -> Accumulated {
     accumulate(&seen.now(image, &vec![1; seen.points.len()]), history, reuse, &|| false).unwrap()
@@ -221,7 +221,8 @@ fn a_picture_of_a_camera_that_stands_is_in_the_end_the_mean_of_its_samples() {
     let history = seen.history(&seen.image(|_, _| Vec3::splat(1.2)), 64);
     let of = |samples: u32| {
         let samples = vec![samples; seen.points.len()];
-        accumulate(&seen.now(&own, &samples), &history, Reuse { limit: 16, elapsed: 0.0 }, &|| false).unwrap()
+        let reuse = Reuse { limit: 16, until: 32, elapsed: 0.0 };
+        accumulate(&seen.now(&own, &samples), &history, reuse, &|| false).unwrap()
     };
     assert_eq!([1, 8, 16, 24, 32, 99].map(|samples| of(samples).earlier[0]), [15.5, 12.0, 8.0, 4.0, 0.0, 0.0]);
     assert!(of(31).image != own && of(31).age[0] == 0.0, "as old as it is");
@@ -240,7 +241,7 @@ fn the_variance_of_a_slow_pan_falls_as_one_over_the_frames() {
         let own = seen.image(|pixel, _| Vec3::splat(1.0 + noise(frame + 1, pixel)));
         let samples = vec![1; seen.points.len()];
         let now = seen.now(&own, &samples);
-        let reuse = Reuse { limit: 256, elapsed: 0.5 };
+        let reuse = Reuse { limit: 256, until: 512, elapsed: 0.5 };
         let mixed = history.as_ref().map(|history| accumulate(&now, history, reuse, &|| false).unwrap());
         let shown = mixed.as_ref().map_or(&own, |mixed| &mixed.image);
         // columns that have been in all frames
@@ -302,7 +303,7 @@ fn a_coarser_picture_counts_by_its_share_of_samples() {
         let own = now.image(|_, _| Vec3::ONE);
         put_together(now, &own, &history, REUSE).earlier[now.points.len() / 2 + now.features.size().0 as usize / 2]
     };
-    let fade = fade(1, REUSE.limit);
+    let fade = fade(1, REUSE.until);
     assert!((count(&coarse, &fine) - 2.0 * fade).abs() < 1e-3, "of four pixels one has a quarter");
     assert!((count(&fine, &coarse) - 32.0 * fade).abs() < 1e-3, "and of one four");
     let near = Stage::from(CAMERA.dollied(2.0)).seen();

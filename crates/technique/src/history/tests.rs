@@ -91,7 +91,7 @@ fn a_view_that_was_moved_to_begins_with_the_last_one_and_ends_as_its_own_mean() 
             Some(Lag { samples: earlier, seconds }) => {
                 assert!(samples < 16 && (0.0..60.0).contains(&seconds), "{samples} samples, {seconds} s");
                 // all but the edge of the picture has history, as far as it has faded
-                let most = 8.0 * fade(samples, 8);
+                let most = 8.0 * fade(samples, 16);
                 assert!((0.8 * most..=most).contains(&earlier), "{earlier} of at most {most}");
             }
             None => assert!(samples >= 16 && sight.shown == sight.film.image()),
@@ -100,6 +100,20 @@ fn a_view_that_was_moved_to_begins_with_the_last_one_and_ends_as_its_own_mean() 
     let alone = Stage::new(20, 0).look(0.02, false);
     assert!(sights.last().unwrap().film == alone.last().unwrap().film, "history takes no part in the film");
     assert!(alone.iter().all(|sight| sight.lag.is_none() && !sight.rough));
+}
+
+/// Also one of fewer samples than earlier views count as.
+#[test]
+fn a_picture_that_is_done_is_the_mean_of_its_own_samples_and_stays_that() {
+    let mut stage = Stage::new(6, 64);
+    stage.look(0.0, false);
+    let sights = stage.look(0.02, false);
+    let (last, before) = sights.split_last().unwrap();
+    assert!(before.iter().all(|sight| sight.lag.is_some()) && before.len() > 1);
+    assert_eq!((last.film.samples_per_pixel(), last.lag), (6, None));
+    assert!(last.shown == last.film.image());
+    stage.settings.spp = 12;
+    assert!(stage.look(0.02, false).iter().all(|sight| sight.lag.is_none()), "it has none of what comes after");
 }
 
 #[test]
@@ -122,10 +136,10 @@ fn a_drag_shows_each_view_it_comes_to_with_ever_less_noise() {
 fn films_of_few_samples_are_no_history_beside_what_was_shown_of_the_move() {
     const VIEWS: usize = 8;
     let mut stage = Stage::new(1, 64);
-    let sights: Vec<Sight> = (0..=VIEWS).filter_map(|view| stage.look(1e-6 * view as f32, false).pop()).collect();
+    let views: Vec<Vec<Sight>> = (0..=VIEWS).map(|view| stage.look(1e-6 * view as f32, false)).collect();
     let truth = Stage::new(512, 0).look(1e-6 * VIEWS as f32, false).pop().unwrap().film;
-    let last = sights.last().unwrap();
-    assert!(!last.rough && last.film.samples_per_pixel() == 1);
+    let [last, film] = &views[VIEWS][..] else { panic!("a picture of the move and a film of one sample") };
+    assert!(last.rough && !film.rough && film.film.samples_per_pixel() == 1);
     let (alone, together) = (square_error(&last.film.image(), &truth), square_error(&last.shown, &truth));
     assert!(together < 0.2 * alone, "{together} of {alone}");
 }

@@ -99,7 +99,8 @@ const HISTORY: Setting<PaneSettings> = Setting {
     default: Some(Value::Whole(0)),
     acts: |pane, _| pane.in_use().shows_the_scene(),
     help: "in the window, while the camera moves: what earlier views showed at the same points counts as so many samples at most; what \
-           is seen in mirrors and glass lags behind. It fades as the picture comes to twice as many samples",
+           is seen in mirrors and glass lags behind. It fades, and is gone at twice as many samples, or where the picture \
+           is done",
     get: |pane| Some(Value::Whole(pane.denoise.history)),
     set: |pane, value| each(whole(value), [&mut pane.denoise.history]),
     control: Control {
@@ -111,7 +112,7 @@ const HISTORY: Setting<PaneSettings> = Setting {
         }),
         hover: "While the camera moves, what earlier pictures showed at the same points counts as so many samples at most (temporal \
                 accumulation). Reflections, refractions and highlights lag behind. Once the camera stands it fades, and is gone at \
-                twice as many samples",
+                twice as many samples, or where the picture is done",
         look: Look::Whole(0..=256),
         more: LIGHT,
         ..BLANK
