@@ -77,8 +77,22 @@ pub(crate) struct Past {
 struct Shown {
     history: History,
     at: Instant,
-    /// Of the first picture of a view that was moved to: how many samples all its pixels stand for.
-    of_a_move: Option<f64>,
+    pixels: usize,
+    /// How many samples all its pixels stand for.
+    samples: f64,
+    /// Share of its pixels that the view before it showed.
+    overlap: f64,
+    /// Whether it is the first picture of a view that was moved to.
+    of_a_move: bool,
+}
+
+impl Shown {
+    /// Whether the view `before` tells the next one more, where earlier views count as `limit` samples at most: a coarse picture
+    /// stands for few, and what it was put together with is found again as well from two views on.
+    fn is_worth_less_than(&self, before: &Shown, limit: u32) -> bool {
+        let counting = before.samples.min(before.pixels as f64 * f64::from(limit));
+        self.of_a_move && self.pixels < before.pixels && self.samples < self.overlap * counting
+    }
 }
 
 impl Past {
@@ -89,18 +103,26 @@ impl Past {
             *self = Past::default();
         } else if !self.request.as_ref().is_some_and(|before| before.is_same_picture(request)) {
             let moved = self.request.as_ref().is_some_and(|before| before.is_of_another_camera(request));
-            // a view that showed nothing was only passed by
-            let earlier = self.latest.take().or(self.earlier.take()).filter(|_| moved);
+            let earlier = self.take_earlier(limit).filter(|_| moved);
             let (views, request) = (self.views.wrapping_add(1), Some(request.clone()));
             *self = Past { request, earlier, latest: None, views, filter: self.filter };
+        }
+    }
+
+    /// What the next view has as its history: a view that showed nothing, or little, was only passed by.
+    fn take_earlier(&mut self, limit: u32) -> Option<Shown> {
+        let (latest, before) = (self.latest.take(), self.earlier.take());
+        match (&latest, &before) {
+            (Some(latest), Some(known)) if latest.is_worth_less_than(known, limit) => before,
+            _ => latest.or(before),
         }
     }
 
     /// Takes what is shown as the next view's history. A film begins with the random numbers of the film before; until it has
     /// more samples than what was shown of a move stands for, that has less noise in common with the film to come.
     fn keep(&mut self, shown: Shown, own_samples: f64) {
-        let kept = self.latest.as_ref().and_then(|latest| latest.of_a_move);
-        if shown.of_a_move.is_some() || kept.is_none_or(|samples| own_samples >= samples) {
+        let kept = self.latest.as_ref().filter(|latest| latest.of_a_move);
+        if shown.of_a_move || kept.is_none_or(|kept| own_samples >= kept.samples) {
             self.latest = Some(shown);
         }
     }
@@ -128,6 +150,12 @@ impl Reused {
         let seconds_old = if all > 0.0 { (ages / all) as f32 } else { 0.0 };
         let lag = Lag { samples: (all / earlier.len().max(1) as f64) as f32, seconds: seconds_old };
         Reused { image, lag, seconds, age: age.into(), earlier }
+    }
+
+    /// Share of its pixels for which there was something.
+    fn overlap(&self) -> f64 {
+        let found = self.earlier.iter().filter(|earlier| **earlier > 0.0).count();
+        found as f64 / self.earlier.len().max(1) as f64
     }
 
     /// The layer [`LAG`].
@@ -202,10 +230,11 @@ impl Renderer {
         };
         let history = now.history(accumulated.as_ref())?;
         let reused = accumulated.map(|both| Reused::new(both, &samples, begun.elapsed().as_secs_f64()));
-        let (pixels, own) = (samples.len() as f64, f64::from(film.samples_per_pixel()));
-        let stands_for = pixels * (own + reused.as_ref().map_or(0.0, |reused| f64::from(reused.lag.samples)));
-        let of_a_move = wished.is_none().then_some(stands_for);
-        self.past.keep(Shown { history, at: Instant::now(), of_a_move }, pixels * own);
+        let (pixels, own) = (samples.len(), f64::from(film.samples_per_pixel()));
+        let earlier = reused.as_ref().map_or(0.0, |reused| f64::from(reused.lag.samples));
+        let (stands_for, overlap) = (pixels as f64 * (own + earlier), reused.as_ref().map_or(0.0, Reused::overlap));
+        let (at, of_a_move) = (Instant::now(), wished.is_none());
+        self.past.keep(Shown { history, at, pixels, samples: stands_for, overlap, of_a_move }, pixels as f64 * own);
         Ok(reused.filter(|reused| reused.lag.samples > 0.0))
     }
 

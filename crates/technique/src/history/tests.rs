@@ -59,13 +59,38 @@ impl Stage {
         Stage { renderer, scene, settings }
     }
 
-    /// All that is shown of a view that is turned by this angle.
-    fn look(&mut self, yaw: f32, in_a_hurry: bool) -> Vec<Sight> {
+    /// A view that is turned by this angle.
+    fn request(&self, yaw: f32) -> Request {
         let camera = self.scene.camera.orbited(yaw, 0.0);
         let shot = Shot { scene: self.scene.clone(), camera, ..Shot::of((*self.scene).clone(), SIZE) };
-        let onlooker = Onlooker { denoise: self.settings.denoise, in_a_hurry, seen: Mutex::default() };
-        let request = Request { shot, settings: self.settings, restarts: 0 };
+        Request { shot, settings: self.settings, restarts: 0 }
+    }
+
+    fn onlooker(&self, in_a_hurry: bool) -> Onlooker {
+        Onlooker { denoise: self.settings.denoise, in_a_hurry, seen: Mutex::default() }
+    }
+
+    /// All that is shown of it.
+    fn look(&mut self, yaw: f32, in_a_hurry: bool) -> Vec<Sight> {
+        let (request, onlooker) = (self.request(yaw), self.onlooker(in_a_hurry));
         self.renderer.render(&request, &onlooker).unwrap();
+        onlooker.seen.into_inner().unwrap()
+    }
+
+    /// All that is shown of a film of it.
+    fn film(&self, renderer: &mut Renderer, yaw: f32) -> Vec<Sight> {
+        let (onlooker, TracedSettings { integrator, spp, .. }) = (self.onlooker(false), &self.settings);
+        let mut film = Accumulation::blank(SIZE).unwrap();
+        renderer.refine(&mut film, &self.request(yaw).shot.camera, (integrator, *spp), &onlooker);
+        onlooker.seen.into_inner().unwrap()
+    }
+
+    /// What is shown of it where there is time for an eighth of the resolution alone.
+    fn pass_by(&self, renderer: &mut Renderer, yaw: f32) -> Vec<Sight> {
+        let (request, onlooker) = (self.request(yaw), self.onlooker(true));
+        renderer.past.turn_to(&request, self.settings.denoise.history);
+        renderer.speeds = crate::speeds::Speeds([1.0; 2]);
+        assert!(renderer.show_moved(&request, &onlooker));
         onlooker.seen.into_inner().unwrap()
     }
 }
@@ -156,6 +181,28 @@ fn what_changed_is_no_earlier_view() {
     assert!(!lags(stage.look(0.06, false)), "another scene");
     stage.settings.feature = Some(film::Feature::Albedo);
     assert!(!lags(stage.look(0.06, false)), "what is no light");
+}
+
+#[test]
+fn coarse_pictures_of_a_drag_leave_the_whole_one_before_it_to_its_end() {
+    const SPP: u32 = 26;
+    let stage = Stage::new(SPP, 32);
+    let mut renderer = Renderer::on_the_processor(stage.scene.clone(), Arc::new(Threads::all()));
+    renderer.past.turn_to(&stage.request(0.0), 32);
+    stage.film(&mut renderer, 0.0);
+    for step in 1..=6 {
+        let sights = stage.pass_by(&mut renderer, 0.002 * step as f32);
+        assert!(sights.len() == 1 && sights[0].film.width() == SIZE.0 / 8 && sights[0].lag.is_some(), "step {step}");
+    }
+    let lag = stage.film(&mut renderer, 0.012)[0].lag.unwrap();
+    // of all but edges, as after one step: coarse pictures stand for less than one sample
+    let most = SPP as f32 * fade(1, SPP);
+    assert!((0.8 * most..=most).contains(&lag.samples), "{lag:?} of at most {most}");
+    // far away it shows nothing any more, and coarse pictures take over
+    (1..=3).for_each(|step| drop(stage.pass_by(&mut renderer, 1.5 + 0.002 * step as f32)));
+    renderer.past.turn_to(&stage.request(1.6), 32);
+    let kept = renderer.past.earlier.as_ref().map(|shown| shown.pixels);
+    assert_eq!(kept, Some(24), "of an eighth each way");
 }
 
 #[test]
