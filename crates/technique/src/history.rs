@@ -4,7 +4,8 @@
 //! those about which an orbit turns, would have the noise of the view before in each film, and no mean takes that away.
 
 use crate::denoiser::{luminance_variance, variances};
-use crate::{Accumulation, DenoiseSettings, Filters, Frame, Pacing, Rank, Renderer, Request, Watch};
+use crate::patience::Patient;
+use crate::{Accumulation, DenoiseSettings, Filters, Frame, Rank, Renderer, Request, Watch};
 use denoise::temporal::{Accumulated, History, Now, Reuse, accumulate, fade};
 use denoise::{DenoiseError, Stop};
 use film::{Features, Film, Image, Layer, LayerValues};
@@ -246,7 +247,7 @@ impl Renderer {
         if self.past.earlier.is_none() || !compiled {
             return false;
         }
-        let patient = Patient { watch, until: Instant::now() + GRACE };
+        let patient = Patient::until(watch, Instant::now() + GRACE);
         let (size, samples) = self.affordable(shot.size, settings.spp);
         let Some(mut accumulation) = Accumulation::blank(size) else { return false };
         let integrator = settings.integrator.with_seed(settings.integrator.seed().wrapping_add(self.past.views));
@@ -300,34 +301,6 @@ impl Renderer {
             let state = [wished.is_none(), wished.is_none_or(|wished| accumulation.spp < wished)];
             watch.show(Frame { denoised, reused, ..self.frame(accumulation, state) });
         }
-    }
-}
-
-/// Someone who ends a while later than another.
-struct Patient<'a, W> {
-    watch: &'a W,
-    until: Instant,
-}
-
-impl<W: Watch> Watch for Patient<'_, W> {
-    fn ends_now(&self) -> bool {
-        self.watch.ends_now() && Instant::now() >= self.until
-    }
-
-    fn ends_soon(&self, spp: u32) -> bool {
-        self.watch.ends_soon(spp)
-    }
-
-    fn denoise(&self) -> DenoiseSettings {
-        self.watch.denoise()
-    }
-
-    fn pacing(&self, spent: Duration) -> Pacing {
-        self.watch.pacing(spent)
-    }
-
-    fn show(&self, frame: Frame) {
-        self.watch.show(frame);
     }
 }
 

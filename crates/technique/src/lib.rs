@@ -21,6 +21,7 @@ mod halves;
 mod history;
 mod label;
 mod pane;
+mod patience;
 pub mod presets;
 mod progressive;
 mod provenance;

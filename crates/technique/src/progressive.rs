@@ -3,6 +3,7 @@
 //! where one of them stopped, and a view that was left for a moment is there again.
 
 use crate::history::Past;
+use crate::patience::Patient;
 use crate::renderer::{Renderer, Watch};
 use crate::speeds::Speeds;
 use crate::{Accumulation, Adapters, Backend, Device, Rank, Runs, Shot, Technique, Threads, TracedSettings};
@@ -13,6 +14,8 @@ use std::time::{Duration, Instant};
 /// Time that a request may go on after a newer one came, if it has not shown anything yet: else a drag would never show
 /// anything.
 const GRACE: Duration = Duration::from_millis(80);
+/// The same for how far samples are trusted, of which there is no rough picture: that takes two passes, and two filters.
+const GRACE_OF_THE_WEIGHT: Duration = Duration::from_millis(500);
 /// Time that a rough picture may take: with the two frames of the window around it, it shall be on the screen within a
 /// tenth of a second.
 const ROUGH: Duration = Duration::from_millis(20);
@@ -154,7 +157,9 @@ impl ProgressiveRenderer {
         let request = &self.as_seen(request);
         let kept = self.best_kept(request);
         // a picture without a weight is no rough one of the weight
-        let mut rough = kept.is_none() && !request.settings.denoise.shows_the_weight();
+        let weight = request.settings.denoise.shows_the_weight();
+        let mut rough = kept.is_none() && !weight;
+        let grace = if weight && kept.is_none() { GRACE_OF_THE_WEIGHT } else { Duration::ZERO };
         let mut renderer = self.make_ready(request, &mut rough, watch);
         renderer.feature = request.settings.feature;
         renderer.past = std::mem::take(&mut self.past);
@@ -163,8 +168,9 @@ impl ProgressiveRenderer {
             self.rough_by_whoever_is_ready(&mut renderer, request, watch);
         }
         let refined = films_for(request, kept).map(|mut film| {
+            let watch = Patient::until(watch, Instant::now() + grace);
             if film.has_samples() || !watch.ends_now() {
-                film.refine(&mut renderer, watch);
+                film.refine(&mut renderer, &watch);
             }
             if film.has_samples() {
                 self.kept.push(film);

@@ -294,7 +294,9 @@ impl Renderer {
                 self.read(accumulation, watch);
                 accumulation.keep();
             }
-            if spp > 0 && (before == 0 || spp == wished || shown.elapsed() >= pacing.show) {
+            // one part alone tells no weight
+            let tells = !watch.denoise().shows_the_weight() || accumulation.earlier_part().is_some();
+            if spp == wished || spp > 0 && tells && (before == 0 || shown.elapsed() >= pacing.show) {
                 self.show(accumulation, how, wished, watch);
                 shown = Instant::now();
             }

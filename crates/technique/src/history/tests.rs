@@ -1,5 +1,5 @@
 use super::*;
-use crate::{Adapters, ProgressiveRenderer, Shot, Threads, TracedSettings, TruthSettings};
+use crate::{Adapters, Pacing, ProgressiveRenderer, Shot, Threads, TracedSettings, TruthSettings};
 use film::Vec3;
 use std::sync::Mutex;
 
