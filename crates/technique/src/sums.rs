@@ -2,7 +2,7 @@
 //! f64 in two layers of f32, what that rounds to and the rest: 48 bits at least, so that the mean is that of the film.
 
 use crate::SampleRanges;
-use film::{Film, Layer, LayerValues, Pixel, Vec3};
+use film::{Film, Image, Layer, LayerValues, Pixel, Vec3};
 use image_file::{ImageFileError, load_layer, load_layers};
 use std::path::Path;
 
@@ -60,8 +60,26 @@ pub fn film_of_sums(
         let (sum, sum_of_squares) = (whole(&sum, index), whole(&squares, index));
         *pixel = Pixel { sum, sum_of_squares, samples: samples.count(), largest: largest[index] };
     }
-    Ok(Some(film))
+    if is_of_its_picture(&film, &image_file::load(path)?) {
+        return Ok(Some(film));
+    }
+    let why = "its sums are not those of its picture: it is damaged, or changed by another program".into();
+    Err(ImageFileError::Read { why, path: path.to_owned() })
 }
+
+/// Whether sums are numbers, and have the means that the picture has, to rounding of what is kept of them.
+fn is_of_its_picture(film: &Film, picture: &Image) -> bool {
+    let holds = |(pixel, radiance): (&Pixel, &Vec3)| {
+        let mean = Vec3::from_array(pixel.mean().map(|mean| mean as f32));
+        let squares = pixel.sum_of_squares.iter().all(|squares| squares.is_finite() && *squares >= 0.0);
+        let alike = (mean - *radiance).abs().cmple(ROUNDING * radiance.abs()).all();
+        alike && squares && pixel.largest.is_finite()
+    };
+    picture.size() == (film.width(), film.height()) && film.pixels().iter().zip(picture.radiances()).all(holds)
+}
+
+/// A few units in the last place of f32.
+const ROUNDING: f32 = 5e-7;
 
 #[cfg(test)]
 mod tests {
@@ -80,10 +98,15 @@ mod tests {
         image.layers = layers_of_sums(&film);
         let bytes = image_file::encode(Kind::Exr, &image, &DisplayTransform::default(), &Vec::new()).unwrap();
         let path = std::env::temp_dir().join(format!("visavis-sums-{}.exr", std::process::id()));
-        std::fs::write(&path, bytes).unwrap();
+        std::fs::write(&path, &bytes).unwrap();
         let samples = SampleRanges::from(5..1004);
         let read = film_of_sums(&path, (2, 1), &samples);
         let of_another_size = film_of_sums(&path, (1, 2), &samples);
+        let fewer = film_of_sums(&path, (2, 1), &SampleRanges::from(5..1003));
+        assert!(fewer.unwrap_err().to_string().contains("its sums are not those of its picture"));
+        let mut damaged = film.clone();
+        damaged.pixels_mut()[1].sum[2] = f64::INFINITY;
+        assert!(is_of_its_picture(&film, &film.image()) && !is_of_its_picture(&damaged, &film.image()));
         std::fs::remove_file(&path).unwrap();
         let read = read.unwrap().unwrap();
         assert_eq!(of_another_size.unwrap(), None);

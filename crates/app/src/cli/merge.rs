@@ -43,7 +43,7 @@ fn together(parts: &[Part], size: (u32, u32)) -> anyhow::Result<Film> {
     for part in parts {
         let film = film_of_sums(&part.file, size, &part.samples)?.with_context(|| parts::no_sums(&part.file))?;
         all.add_all(&film);
-        all.nonfinite += part.nonfinite()?;
+        all.nonfinite = all.nonfinite.saturating_add(part.nonfinite()?);
     }
     Ok(all)
 }

@@ -53,6 +53,9 @@ pub fn read(path: &Path, recent: &[PathBuf]) -> Result<Opened, String> {
 /// A line on why it is left; the other records are enough to see the picture again.
 pub fn of_picture(kept: &Kept, scene: &Scene, picture: &Path) -> Result<Option<Box<SavedSession>>, String> {
     let Some(text) = &kept.session else { return Ok(None) };
+    if text.len() as u64 > LARGEST_FILE {
+        return Err(format!("only what it shows is set up, its session is larger than {LARGEST_FILE} bytes"));
+    }
     let read = SessionDraft::parse(text, picture).and_then(|draft| draft.beside(scene, picture));
     let session = read.map_err(|fault| format!("only what it shows is set up, its session cannot be read: {fault}"))?;
     // the picture may be older than the last change, and a window keeps its size

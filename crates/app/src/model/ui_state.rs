@@ -64,6 +64,8 @@ pub struct UiState {
     pub reference_file: String,
     /// The slide that is shown once its scene has come.
     pub awaited_slide: Option<&'static Slide>,
+    /// Whether a text field had the keyboard when the last frame began.
+    pub typing: bool,
     /// Curves of errors that were kept, to compare others with.
     pub pinned: Vec<Curve>,
     /// What the export menu shows while it is open.
@@ -134,6 +136,7 @@ impl UiState {
             scene_file: String::new(),
             reference_file: String::new(),
             awaited_slide: None,
+            typing: false,
             pinned: Vec::new(),
             export: ExportMenu::default(),
             switched_off: Panes::default(),

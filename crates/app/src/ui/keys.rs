@@ -43,8 +43,10 @@ pub fn listen(workspaces: &mut Workspaces, cx: &mut UiContext, context: &Context
     if keys.presses(Key::F11) % 2 == 1 {
         cx.commands.push(UiCommand::FullScreen);
     }
+    // egui takes the keyboard from a text field at once
+    let was_typing = std::mem::replace(&mut cx.model.state.typing, context.text_edit_focused());
     // egui closes the menu that is open, and the help below waits for the next press
-    if keys.presses(Key::Escape) > 0 && !Popup::is_any_open(context) {
+    if keys.presses(Key::Escape) > 0 && !was_typing && !Popup::is_any_open(context) {
         if cx.model.state.help {
             cx.model.state.help = false;
         } else {

@@ -112,7 +112,7 @@ fn the_card_names_the_region_and_goes_back_to_the_whole_picture() {
     panels.harness.run_steps(3);
     panels.click("Mark a region", 0);
     panels.drag([0.0, 0.0], [0.5, 0.5], Modifiers::NONE);
-    assert!(panels.shows("Region: ") && panels.shows("from x 0, y 0"));
+    assert!(panels.shows("Region: ") && panels.shows("at 0, 0"));
     panels.count_named();
     panels.click("Whole picture", 0);
     assert!(panels.region().is_none() && panels.shows("Mark a region"));

@@ -79,6 +79,7 @@ impl Part {
     fn check_beside(&self, other: &Part) -> anyhow::Result<()> {
         let [file, beside] = [&self.file, &other.file].map(|file| image_file::shown(file));
         let differs = |name: &str| self.record(name) != other.record(name);
+        ensure!(self.record("scene.hash").is_some(), "it does not say of which scene it is: {file}");
         ensure!(!differs("scene.hash"), "it shows another scene than {beside}: {file}");
         // what says most comes first: other techniques have other settings too
         let first = ["version", "technique", "size"].into_iter();

@@ -15,6 +15,9 @@ use technique::{PaneSettings, SceneChanges};
 /// The version that is written, and the latest that is read.
 pub const SESSION_VERSION: u32 = 1;
 
+/// More places to come back to nobody tells apart.
+const MOST_BOOKMARKS: usize = 1000;
+
 /// How a scene is looked at, as it is kept.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SavedSession {

@@ -1,7 +1,7 @@
 //! A session from the text of its file. What depends on the scene waits until that is open.
 
 use super::table::{Entry, Fault, Table, fault};
-use super::{SESSION_VERSION, SavedSession, SavedWindow};
+use super::{MOST_BOOKMARKS, SESSION_VERSION, SavedSession, SavedWindow};
 use crate::model::{CompareWith, Cost, Line, Measure, PaneId, Panes, Region, Resolution, Session, Theme, View};
 use compare::ErrorMetric;
 use image_file::shown;
@@ -132,6 +132,9 @@ fn parse(text: &str) -> Result<SessionDraft, Fault> {
     comparison(table.table("comparison")?, &mut session)?;
     plots(table.table("plots")?, &mut session)?;
     let bookmarks = table.read("bookmarks", |entry| entry.tables("bookmarks"))?.unwrap_or_default();
+    if let Some(first_too_many) = bookmarks.get(MOST_BOOKMARKS) {
+        return fault(&first_too_many.at, format!("bookmarks: expected {MOST_BOOKMARKS} at most"));
+    }
     let bookmarks = bookmarks.into_iter().map(|place| self::camera(place, text)).collect::<Result<_, _>>()?;
     let window = window(table.table("window")?)?;
     table.end()?;

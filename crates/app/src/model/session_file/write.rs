@@ -1,6 +1,6 @@
 //! A session as the text of its file.
 
-use super::{SESSION_VERSION, SavedSession};
+use super::{MOST_BOOKMARKS, SESSION_VERSION, SavedSession};
 use crate::model::{ComparisonSettings, PaneId, PlotSettings, Region, Session};
 use compare::ErrorMetric;
 use scene::{Camera, Scene, Vec3};
@@ -26,7 +26,8 @@ impl SavedSession {
         }
         comparison(&mut text, &self.session.comparison);
         table(&mut text, "[plots]", plots(self.session.plots));
-        for place in &self.bookmarks {
+        // the latest
+        for place in &self.bookmarks[self.bookmarks.len().saturating_sub(MOST_BOOKMARKS)..] {
             table(&mut text, "[[bookmarks]]", camera(place));
         }
         table(&mut text, "[window]", self.window());

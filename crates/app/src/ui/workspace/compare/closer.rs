@@ -4,7 +4,7 @@ use super::{flicker, region};
 use crate::model::Magnification;
 use crate::ui::UiContext;
 use crate::ui::theme::palette;
-use crate::ui::widgets::{Explained, choice};
+use crate::ui::widgets::{Explained, choice, framed};
 use egui::{RichText, Ui};
 
 /// Why it does not flicker faster.
@@ -36,7 +36,8 @@ pub fn show(cx: &mut UiContext, ui: &mut Ui) {
 fn marked(cx: &mut UiContext, ui: &mut Ui) {
     let Some(marked) = cx.model.session.comparison.region else {
         let words = if cx.model.state.marking { "Cancel" } else { "Mark a region" };
-        let button = ui.button(words).explained("By the next drag over the pictures (M, or Alt+drag at any time)");
+        let button =
+            ui.add(framed(words, ui)).explained("By the next drag over the pictures (M, or Alt+drag at any time)");
         if cx.dump.note("mark region", cx.model.state.marking, button).clicked() {
             region::toggle(cx);
         }
@@ -44,9 +45,9 @@ fn marked(cx: &mut UiContext, ui: &mut Ui) {
     };
     let pixels = marked.pixels(cx.model.state.picture.size);
     let ((width, height), (x, y)) = (pixels.size(), pixels.start);
-    let text = format!("Region: {width} x {height} pixels from x {x}, y {y}");
+    let text = format!("Region: {width} x {height} pixels at {x}, {y}");
     cx.dump.note("text region", &text, ui.label(&text));
-    let button = ui.button("Whole picture").explained("Figures and plots speak of all of it again (M or Esc)");
+    let button = ui.add(framed("Whole picture", ui)).explained("Figures and plots speak of all of it again (M or Esc)");
     if cx.dump.note("whole picture", "", button).clicked() {
         region::end(cx);
     }

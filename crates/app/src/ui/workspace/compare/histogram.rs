@@ -6,8 +6,8 @@ use crate::ui::UiContext;
 use crate::ui::theme::palette;
 use crate::ui::widgets::Explained;
 use compare::{Histogram, tick_text};
-use egui::{RichText, Ui};
-use egui_plot::{Line, LineStyle, Plot, PlotPoint, PlotPoints, VLine};
+use egui::{Rangef, RichText, Ui};
+use egui_plot::{AxisHints, Line, LineStyle, Plot, PlotPoint, PlotPoints, VLine, uniform_grid_spacer};
 
 /// Of the plot, in points.
 const HEIGHT: f32 = 130.0;
@@ -20,10 +20,20 @@ pub fn show(cx: &mut UiContext, ui: &mut Ui) {
     let white = f64::from(-cx.model.session.display.exposure);
     let plot = Plot::new("histogram")
         .height(HEIGHT)
-        .y_axis_formatter(|mark, _| tick_text(10f64.powf(mark.value)))
-        .x_axis_formatter(|mark, _| format!("{:+.0}", mark.value))
-        .x_axis_label("stops above a luminance of 1")
-        .y_axis_label("pixels")
+        .x_grid_spacer(uniform_grid_spacer(|_| [2.0, 4.0, 8.0]))
+        .y_grid_spacer(uniform_grid_spacer(|_| [1.0, 2.0, 4.0]))
+        .custom_x_axes(vec![
+            AxisHints::new_x()
+                .label("stops")
+                .formatter(|mark, _| format!("{:+.0}", mark.value))
+                .label_spacing(Rangef::new(18.0, 28.0)),
+        ])
+        .custom_y_axes(vec![
+            AxisHints::new_y()
+                .label("pixels")
+                .formatter(|mark, _| tick_text(10f64.powf(mark.value).round()))
+                .label_spacing(Rangef::new(12.0, 18.0)),
+        ])
         .grid_color(palette.line)
         .include_y(0.0);
     let drawn = plots::fixed(plot).show(ui, |plot| {
@@ -37,7 +47,7 @@ pub fn show(cx: &mut UiContext, ui: &mut Ui) {
     let said: Vec<String> = histograms.iter().map(|(id, histogram)| in_words(*id, histogram)).collect();
     let place = cx.model.session.comparison.region.map_or_else(String::new, |_| format!(" {IN_THE_REGION}"));
     let text = format!("Pixels{place} by their luminance. {}", said.join("; "));
-    let hover = "A solid, B dashed, over the logarithm of the number of pixels; what is right of the dotted line is shown as white";
+    let hover = "Stops above a luminance of 1, and the number of pixels on a logarithmic scale. A solid, B dashed; what is right of the dotted line is shown as white";
     cx.dump.note("histogram", &text, drawn.response.explained(hover).accessible_name(&text));
     let words = if place.is_empty() { said.join("\n") } else { format!("{}:\n{}", place.trim(), said.join("\n")) };
     ui.label(RichText::new(words).color(palette.dim));

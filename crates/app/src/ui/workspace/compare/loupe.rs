@@ -1,7 +1,7 @@
 //! The loupe: what lies about the mouse, pixel by pixel, in A, B, the reference and the error, with the numbers of the pixel
 //! in the middle, in radiance and as the bytes that are shown.
 
-use super::magnify;
+use super::{magnify, map_faces};
 use crate::model::{Against, PaneId};
 use crate::ruler::brief;
 use crate::ui::overlay::spoken;
@@ -34,13 +34,21 @@ pub fn show(cx: &mut UiContext, ui: &Ui, rect: Rect, frames: &[Rect], hover: Opt
     if tiles.is_empty() {
         return;
     }
-    let font = theme::figures().resolve(ui.style());
+    let mut font = theme::figures().resolve(ui.style());
+    let widest = tiles.iter().flat_map(|tile| tile.numbers.iter().chain([&tile.name]));
+    let widest = |font: &FontId| {
+        let width = |text: &String| ui.painter().layout_no_wrap(text.clone(), font.clone(), Color32::WHITE).size().x;
+        widest.clone().map(width).fold(0.0, f32::max)
+    };
+    let room_for_text = (rect.width() - GAP) / tiles.len() as f32 - GAP;
+    font.size *= (room_for_text / widest(&font)).clamp(0.3, 1.0);
     let room = (rect.width() - GAP) / tiles.len() as f32 - GAP;
     let cell = (font.size * 0.9).min(room / SIDE as f32).floor().max(2.0);
     let lines = tiles.iter().map(|tile| tile.numbers.len()).max().unwrap_or_default();
     let line = 1.35 * font.size;
-    let width = cell * SIDE as f32;
-    let size = vec2((width + GAP) * tiles.len() as f32 + GAP, width + line * (lines + 1) as f32 + 2.0 * GAP);
+    let width = widest(&font).max(cell * SIDE as f32);
+    let size =
+        vec2((width + GAP) * tiles.len() as f32 + GAP, cell * SIDE as f32 + line * (lines + 1) as f32 + 2.0 * GAP);
     let place = beside(at, size, rect);
     let painter = ui.painter().with_clip_rect(rect);
     let edge = Stroke::new(1.0, Color32::from_gray(110));
@@ -54,15 +62,18 @@ pub fn show(cx: &mut UiContext, ui: &Ui, rect: Rect, frames: &[Rect], hover: Opt
     spoken(ui, "loupe under the mouse", &text, place, false);
 }
 
-/// Below the mouse at its right, or where there is more room.
+/// Below the mouse at its right, or above and at its left; where neither side has room, in the corner farthest from it.
 fn beside(at: Pos2, size: egui::Vec2, rect: Rect) -> Rect {
-    let along = |at: f32, size: f32, low: f32, high: f32| {
-        let after = at + GAP;
-        let before = at - GAP - size;
-        if after + size <= high { after } else { before.max(low) }
+    let clear = |at: f32, size: f32, low: f32, high: f32| {
+        let (after, before) = (at + GAP, at - GAP - size);
+        [after, before].into_iter().find(|start| *start >= low && start + size <= high)
     };
-    let left = along(at.x, size.x, rect.left(), rect.right());
-    Rect::from_min_size(pos2(left, along(at.y, size.y, rect.top(), rect.bottom())), size)
+    let [x, y] = [clear(at.x, size.x, rect.left(), rect.right()), clear(at.y, size.y, rect.top(), rect.bottom())];
+    // one that clears the mouse is enough
+    let far = |at: f32, size: f32, low: f32, high: f32| if at - low > high - at { low } else { (high - size).max(low) };
+    let left = x.unwrap_or_else(|| far(at.x, size.x, rect.left(), rect.right()));
+    let top = y.unwrap_or_else(|| far(at.y, size.y, rect.top(), rect.bottom()));
+    Rect::from_min_size(pos2(left, top), size)
 }
 
 fn said(tile: &Tile) -> String {
@@ -73,7 +84,11 @@ fn said(tile: &Tile) -> String {
 fn tiles(cx: &UiContext, share: [f32; 2]) -> Vec<Tile> {
     let display = cx.model.session.display;
     let shown = &cx.shown.panes;
-    let image = |pane: PaneId| shown.get(pane).and_then(|shown| shown.image.as_ref());
+    // a map of the fake does not lie where the scene does
+    let image = |pane: PaneId| {
+        let shown = shown.get(pane).filter(|_| map_faces::map_of(cx, pane).is_none())?;
+        shown.image.as_ref()
+    };
     let comparison = cx.model.session.comparison.mapped();
     let reference = shown.get(comparison.of).and_then(|shown| shown.reference.as_ref());
     let judge = match comparison.against {
@@ -210,6 +225,15 @@ mod tests {
         for at in [pos2(5.0, 45.0), pos2(890.0, 45.0), pos2(890.0, 630.0), pos2(450.0, 330.0)] {
             let place = beside(at, vec2(400.0, 200.0), rect);
             assert!(rect.contains_rect(place) && !place.contains(at), "{place:?} at {at:?}");
+            // too wide to stand beside it, as on a small projector
+            let place = beside(at, vec2(880.0, 200.0), rect);
+            assert!(rect.contains_rect(place) && !place.contains(at), "{place:?} at {at:?}");
         }
+        let low = Rect::from_min_size(pos2(0.0, 40.0), vec2(738.0, 430.0));
+        for at in [pos2(150.0, 100.0), pos2(600.0, 400.0)] {
+            let place = beside(at, vec2(708.0, 315.0), low);
+            assert!(low.contains_rect(place) && !place.contains(at), "{place:?} at {at:?}");
+        }
+        assert!(low.contains_rect(beside(pos2(369.0, 255.0), vec2(708.0, 315.0), low)), "no room beside the middle");
     }
 }

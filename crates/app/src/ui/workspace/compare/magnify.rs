@@ -30,8 +30,17 @@ pub fn picture_at(magnification: &Magnification, frames: &[Rect], at: Pos2) -> [
     magnification.picture_at(share_of_frame(frames, at))
 }
 
+/// The same in shares of the picture that another point is in or nearest to.
+pub fn picture_at_from(magnification: &Magnification, frames: &[Rect], (from, at): (Pos2, Pos2)) -> [f32; 2] {
+    magnification.picture_at(share_of_frame_at(frames, from, at))
+}
+
 fn share_of_frame(frames: &[Rect], at: Pos2) -> [f32; 2] {
-    let nearest = frames.iter().min_by(|a, b| a.distance_to_pos(at).total_cmp(&b.distance_to_pos(at)));
+    share_of_frame_at(frames, at, at)
+}
+
+fn share_of_frame_at(frames: &[Rect], from: Pos2, at: Pos2) -> [f32; 2] {
+    let nearest = frames.iter().min_by(|a, b| a.distance_to_pos(from).total_cmp(&b.distance_to_pos(from)));
     let share = nearest.map_or(Vec2::splat(0.5), |frame| (at - frame.min) / frame.size());
     [share.x, share.y]
 }
@@ -72,15 +81,25 @@ pub fn keys(cx: &mut UiContext, ui: &Ui, frames: &[Rect]) {
         return;
     }
     let keys = Keys::of(ui.ctx());
-    // on many keyboards it takes Shift
-    let larger = keys.presses(Key::Plus) + keys.presses_with(Key::Plus, Modifiers::SHIFT) + keys.presses(Key::Equals);
-    let steps = larger as i32 - keys.presses(Key::Minus) as i32;
+    let steps = ui.input(|i| i.events.iter().filter(|event| is_larger(event)).count()) as i32;
+    let steps = steps - keys.presses(Key::Minus) as i32;
     let on_pictures = |at: &Pos2| frames.iter().any(|frame| frame.contains(*at));
     let at = ui.input(|i| i.pointer.hover_pos()).filter(on_pictures);
     let share = at.map_or([0.5; 2], |at| share_of_frame(frames, at));
     magnify(cx, steps, share);
     if keys.presses(Key::Num0) > 0 {
         cx.model.state.magnification = Magnification::default();
+    }
+}
+
+/// On many keyboards it takes Shift. Who lets go of that first leaves it pressed, and its next press is told as a repetition.
+fn is_larger(event: &Event) -> bool {
+    match event {
+        Event::Key { key: Key::Plus, pressed: true, modifiers, .. } => {
+            [Modifiers::NONE, Modifiers::SHIFT].iter().any(|with| modifiers.matches_exact(*with))
+        }
+        Event::Key { key: Key::Equals, pressed: true, repeat: false, modifiers, .. } => modifiers.is_none(),
+        _ => false,
     }
 }
 
@@ -129,5 +148,7 @@ mod tests {
         assert_eq!(at(50.0, 25.0), [0.5, 0.5]);
         assert_eq!(at(158.0, 10.0), [0.5, 0.2]);
         assert_eq!(at(101.0, 25.0), [1.01, 0.5]);
+        let across = (pos2(90.0, 25.0), pos2(158.0, 25.0));
+        assert_eq!(picture_at_from(&Magnification::default(), &frames, across), [1.58, 0.5]);
     }
 }

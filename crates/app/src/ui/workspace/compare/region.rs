@@ -11,7 +11,10 @@ const LEAST: f32 = 4.0;
 /// Goes on with a drag that marks it, and takes it when that ends.
 pub fn drag(cx: &mut UiContext, response: &Response, frames: &[Rect], [from, to]: [[f32; 2]; 2]) {
     let state = &mut cx.model.state;
-    let to = response.interact_pointer_pos().map_or(to, |at| magnify::picture_at(&state.magnification, frames, at));
+    // in the picture that it began in, also where it goes beyond that
+    let begun = response.ctx.input(|i| i.pointer.press_origin());
+    let place = |at| magnify::picture_at_from(&state.magnification, frames, (begun.unwrap_or(at), at));
+    let to = response.interact_pointer_pos().map_or(to, place);
     state.drag = Drag::Region([from, to]);
     if !response.drag_stopped() {
         return;
@@ -50,6 +53,11 @@ pub fn toggle(cx: &mut UiContext) {
 
 /// Ends what is marked or to be marked; returns whether there was anything.
 pub fn end(cx: &mut UiContext) -> bool {
+    if matches!(cx.model.state.drag, Drag::Region(_)) {
+        // what was there before the drag stays
+        (cx.model.state.drag, cx.model.state.marking) = (Drag::Camera, false);
+        return true;
+    }
     let marking = std::mem::take(&mut cx.model.state.marking);
     marking || cx.model.session.comparison.region.take().is_some()
 }
