@@ -3,7 +3,7 @@
 //! Techniques", 2020). With n samples of its own and h of earlier views a pixel is (n now + h history) / (n + h).
 //!
 //! What depends on where it is seen from, and all that has changed, lags behind: in a mirror or behind glass the points are
-//! those of the first surface, not of what is seen in it. Clamping bounds how far ([`mod@clamp`]), and [`fade`] ends it where the
+//! those of the first surface, not of what is seen in it. Clamping bounds how far (`clamp`), and [`fade`] ends it where the
 //! camera stands: then the picture is the mean of its own samples, to the bit.
 
 mod clamp;
