@@ -19,7 +19,7 @@ pub struct Histogram {
 }
 
 impl Histogram {
-    /// Of these pixels.
+    /// Counts these pixels by their luminance.
     pub fn of<'a>(radiances: impl Iterator<Item = &'a Vec3>) -> Self {
         let mut histogram = Histogram { counts: [0; BINS], darker: 0, brighter: 0 };
         for radiance in radiances {

@@ -10,7 +10,7 @@ pub struct PixelRect {
 }
 
 impl PixelRect {
-    /// Columns and rows.
+    /// How many columns and rows it has.
     pub fn size(&self) -> (u32, u32) {
         (self.end.0.saturating_sub(self.start.0), self.end.1.saturating_sub(self.start.1))
     }

@@ -71,7 +71,7 @@ fn tile(x: u32, y: u32) -> bool {
     (x / 40 + y / 40).is_multiple_of(2)
 }
 
-/// In [-1, 1).
+/// A pseudo-random number in [-1, 1), the same for each `number`.
 fn noise(number: u32) -> f32 {
     number.wrapping_mul(0x9e37_79b9).rotate_left(13).wrapping_mul(0x85eb_ca6b) as f32 / 2_147_483_648.0 - 1.0
 }

@@ -4,8 +4,8 @@
 //! Input channels come from one or two layers; one that was halved before is read as if each of its pixels stood for four
 //! (nearest upsampling), with the kernel's weights summed where they meet the same one: 4 products instead of 9.
 //!
-//! Sums are fused where lanes can: another width rounds otherwise, and a picture differs in its last bits. On the device:
-//! `shaders/denoise/unet/convolution.wgsl`, layer.wgsl.
+//! Sums are fused where lanes can: another width rounds otherwise, and a picture differs in its last bits. On
+//! the device: `shaders/denoise/unet/convolution.wgsl`, layer.wgsl.
 
 use crate::Stop;
 use crate::planes::{BLOCK, Pixel, Planes, Shape, strips};
@@ -75,7 +75,7 @@ impl Convolution {
         Some(Convolution { outputs, inputs: inputs.to_vec(), bias, weights })
     }
 
-    /// What it reads.
+    /// The channels that it reads, place by place.
     pub fn inputs(&self) -> &[Channels] {
         &self.inputs
     }

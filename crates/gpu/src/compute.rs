@@ -11,7 +11,7 @@ pub enum Binding {
     Read,
     /// A storage buffer that is written.
     Written,
-    /// A uniform buffer.
+    /// A uniform buffer, which all threads read alike.
     Uniform,
     /// Layers of a texture of words.
     WordTexture,
@@ -99,8 +99,8 @@ impl Compute {
         gpu.device.create_bind_group(&own)
     }
 
-    /// Adds to a pass that it runs over so many items along x, y and z: for several shaders, one after the other, in one
-    /// submission. Within [`Gpu::checked`].
+    /// Adds to a pass that it runs over so many items along x, y and z: for several shaders, one after the other, in
+    /// one submission. Within [`Gpu::checked`].
     pub fn record(
         &self,
         pass: &mut wgpu::ComputePass<'_>,

@@ -20,8 +20,8 @@ pub use wgpu;
 
 use std::sync::{Arc, Mutex, PoisonError};
 
-/// What is used where an adapter has it, and done without where it has not: times of passes, and numbers of half the
-/// size.
+/// What is used where an adapter has it, and done without where it has not: times of passes, and numbers
+/// of half the size.
 const WELCOME: wgpu::Features = wgpu::Features::TIMESTAMP_QUERY.union(wgpu::Features::SHADER_F16);
 
 /// A graphics device with its queue. Clones share it.

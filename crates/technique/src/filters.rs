@@ -1,5 +1,5 @@
-//! Where pictures are filtered: on the graphics device that traces them, else on the processor, and there too where the
-//! device fails.
+//! Where pictures are filtered: on the graphics device that traces them, else on the processor, and there too
+//! where the device fails.
 
 use crate::backend::threads_name;
 use crate::{Backend, Renderer};
@@ -59,12 +59,12 @@ pub struct Filters<'a> {
     device: Option<&'a DeviceFilters>,
     /// Why the device does not, where it should.
     refusal: OnceCell<Arc<str>>,
-    /// Whether it has.
+    /// Set once the device has filtered something.
     used: OnceCell<()>,
 }
 
 impl<'a> Filters<'a> {
-    /// The processor alone.
+    /// The processor alone, whatever devices there are.
     pub fn on_the_processor() -> Self {
         Filters::first_on(None)
     }

@@ -69,7 +69,7 @@ pub(crate) struct Past {
     earlier: Option<Shown>,
     /// The last that was shown of this view.
     latest: Option<Shown>,
-    /// Counts them.
+    /// Counts the views so far: each has random numbers of its own.
     views: u32,
     /// Seconds that the denoiser took of a pixel.
     filter: f64,
@@ -159,7 +159,7 @@ impl Reused {
         found as f64 / self.earlier.len().max(1) as f64
     }
 
-    /// The layer [`LAG`].
+    /// The age of each pixel's light, as the layer [`LAG`].
     pub fn layer(&self) -> Layer {
         Layer { name: LAG, values: LayerValues::Numbers(self.age.clone()) }
     }

@@ -1,7 +1,7 @@
 //! The mean of several pictures, of one seed after the other, each of which goes through the denoiser by itself. Their noise becomes
 //! less, as one over the root of their number; what they have in common stays: the bias of the denoiser, or of chains of few
-//! mutations. Seeds are as independent as pixels, for Sobol points too: each scrambles them anew
-//! ([`pathtrace::sampling::sampler`]).
+//! mutations. Seeds are as independent as pixels, for Sobol points too: each
+//! scrambles them anew ([`pathtrace::sampling::sampler`]).
 
 use crate::accumulation::copy_of;
 use crate::denoiser::weight_of;
@@ -158,8 +158,8 @@ impl Runs {
 }
 
 impl Renderer {
-    /// Goes on until so many are done, or as many as there is time for. One that was stopped in the middle is completed by the next
-    /// call.
+    /// Goes on until so many are done, or as many as there is time for. One that was stopped in the middle is completed
+    /// by the next call.
     pub(crate) fn refine_runs(
         &mut self,
         (accumulation, runs): (&mut Accumulation, &mut Runs),

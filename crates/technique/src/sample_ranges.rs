@@ -12,7 +12,7 @@ impl SampleRanges {
     /// What an option or a record of them is.
     pub const EXPECTED: &str = "FROM..TO, numbers of samples from 0 on, TO above FROM and left out, like 0..64";
 
-    /// The first number.
+    /// The number of the first sample of all ranges.
     pub fn first(&self) -> u32 {
         self.0[0].start
     }
@@ -42,8 +42,8 @@ impl SampleRanges {
         Some(SampleRanges(joined(all)))
     }
 
-    /// The same in so many parts, one behind the other, as even as can be; fewer where there are fewer samples. `None` where
-    /// they have gaps.
+    /// The same in so many parts, one behind the other, as even as can be; fewer where there are fewer samples. `None`
+    /// where they have gaps.
     pub fn split(&self, parts: u32) -> Option<Vec<SampleRanges>> {
         let Range { start, end } = self.without_gaps()?;
         let (count, parts) = (u64::from(end - start), u64::from(parts.clamp(1, end - start)));

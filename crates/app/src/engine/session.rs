@@ -74,7 +74,7 @@ fn source_beside(session: &Path, scene: &str) -> String {
 /// A session to write.
 #[derive(Debug)]
 pub struct SessionToSave {
-    /// What is kept.
+    /// Scene, view, panes and window as the file shall keep them.
     pub session: SavedSession,
     /// Its scene as it was opened.
     pub scene: Arc<Scene>,

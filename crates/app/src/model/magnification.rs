@@ -19,7 +19,7 @@ impl Magnification {
     /// All factors, the smallest first.
     pub const FACTORS: [u32; 6] = [1, 2, 4, 8, 16, 32];
 
-    /// How much larger.
+    /// How many times as wide and as high pictures are shown, from 1 up.
     pub fn factor(&self) -> u32 {
         self.factor
     }

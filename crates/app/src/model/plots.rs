@@ -19,7 +19,7 @@ pub struct PlotSettings {
 /// What a picture costs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Cost {
-    /// Samples per pixel.
+    /// Samples per pixel: of what no technique samples there are none.
     #[default]
     Samples,
     /// Seconds that rendering has taken.
@@ -58,12 +58,12 @@ impl Cost {
 /// An error that falls as a power of the samples where nothing is left but noise.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Measure {
-    /// [`Errors::rel_mse`].
+    /// The relative mean squared error, [`Errors::rel_mse`].
     #[default]
     RelMse,
-    /// [`Errors::rmse`].
+    /// The root of the mean squared error, [`Errors::rmse`].
     Rmse,
-    /// [`Errors::mae`].
+    /// The mean absolute error, [`Errors::mae`].
     Mae,
 }
 
@@ -120,11 +120,11 @@ pub enum Owner {
 pub struct Curve {
     /// What the picture is: "A: Path tracing, light".
     pub name: String,
-    /// Whose it is.
+    /// The pane that it belongs to, or that it was pinned.
     pub owner: Owner,
     /// In order of time, never empty.
     pub points: Vec<ErrorPoint>,
-    /// What judged it.
+    /// The picture or the reference that its errors are from.
     pub against: Against,
     /// The part of the picture that was judged; `None` for all of it.
     pub region: Option<Region>,
@@ -150,8 +150,8 @@ impl Curve {
         self.points.iter().all(|point| point.spp.is_none())
     }
 
-    /// Where its line goes: (cost, error), each > 0 and finite; of one cost, at which it may have been judged again by a better
-    /// reference, the latest.
+    /// Where its line goes: (cost, error), each > 0 and finite; of one cost, at which it may have been judged again by a
+    /// better reference, the latest.
     pub fn places(&self, settings: PlotSettings) -> Vec<[f64; 2]> {
         let place = |point: &ErrorPoint| Some([settings.over.of(point)?, settings.measure.of(&point.errors)]);
         let mut places: Vec<[f64; 2]> = Vec::new();

@@ -5,9 +5,9 @@ use compare::PixelRect;
 /// A rectangle in shares of a picture's width and height, from its upper left corner: pictures of other sizes have it too.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Region {
-    /// Left and top.
+    /// Its left and its upper edge.
     pub start: [f32; 2],
-    /// Right and bottom.
+    /// Its right and its lower edge.
     pub end: [f32; 2],
 }
 

@@ -20,7 +20,7 @@ pub struct ViewModel {
 /// What there is to show of one pane.
 #[derive(Debug, Clone, Default)]
 pub struct PaneView {
-    /// Its radiance.
+    /// Its linear radiance, for the loupe.
     pub image: Option<Image>,
     /// What its picture was made from; `None` while there is none.
     pub provenance: Option<Arc<Provenance>>,
@@ -79,8 +79,8 @@ pub struct Denoising {
     pub errors_before: Option<Errors>,
 }
 
-/// What errors must have in common to be points of one curve: the picture, but for its number of samples, what judges it
-/// and where.
+/// What errors must have in common to be points of one curve: the picture, but for its number of samples, what
+/// judges it and where.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Course {
     against: Against,

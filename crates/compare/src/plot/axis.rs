@@ -49,8 +49,8 @@ impl Axis {
     }
 }
 
-/// Round values between two, all of which but the values themselves are logarithms to base 10, ascending; none outside of
-/// what f64 holds.
+/// Round values between two, all of which but the values themselves are logarithms to base 10, ascending; none outside
+/// of what f64 holds.
 pub fn log_ticks(low: f64, high: f64) -> Vec<f64> {
     if !(low < high && low > -MOST_DECADES && high < MOST_DECADES) {
         return Vec::new();

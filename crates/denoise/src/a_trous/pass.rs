@@ -23,7 +23,7 @@ const SPLINE_1: f32 = 1.0 / 4.0;
 const SPLINE_2: f32 = 1.0 / 16.0;
 const SPLINE: [f32; 3] = [SPLINE_0, SPLINE_1, SPLINE_2];
 
-/// See [`super::shared_constants`].
+/// Those of this file, for [`super::shared_constants`].
 pub fn shared_constants() -> Vec<(&'static str, f64)> {
     gpu::named_values![
         LEAST_DEPTH,

@@ -1,5 +1,5 @@
-//! Filters on a graphics device: the same as the processor's but for rounding. All that a picture goes through is one
-//! submission.
+//! Filters on a graphics device: the same as the processor's but for rounding. All that a picture goes
+//! through is one submission.
 
 mod a_trous;
 pub mod shaders;

@@ -24,8 +24,8 @@ use rayon::prelude::*;
 use std::sync::{Mutex, PoisonError};
 use weights::{Layer, packed};
 
-/// Bytes of values between layers that are on the device at once: a picture of 1920 x 1080 in one tile, also of single
-/// precision.
+/// Bytes of values between layers that are on the device at once: a picture of 1920 x 1080 in one tile,
+/// also of single precision.
 const MOST_BYTES: u64 = 1 << 30;
 
 /// The last layer gives three channels.
@@ -44,7 +44,7 @@ const WHAT: &str = "a denoised picture";
 pub enum Numbers {
     /// 16 bits, on devices that have them.
     Half,
-    /// 32 bits.
+    /// Single precision, 32 bits a number.
     Single,
 }
 
@@ -80,7 +80,7 @@ pub struct GpuUnet {
     layers: Vec<Layer>,
     weights: Buffer,
     places: Mutex<Option<Places>>,
-    /// Of a submission.
+    /// Floating-point operations of a submission, about as many at most.
     most_operations: f64,
 }
 
@@ -289,8 +289,8 @@ fn pixels(tile: &Tile, picture: [usize; 2], color: &[Vec3], features: Features) 
     (0..width * rows.len()).into_par_iter().map(at).collect()
 }
 
-/// Submissions one after the other, some rows of a layer each, so that none takes long where a device is slow: two are on their
-/// way at most.
+/// Submissions one after the other, some rows of a layer each, so that none takes long where a device is slow: two are on
+/// their way at most.
 struct Queue<'a> {
     gpu: &'a Gpu,
     before: Option<SubmissionIndex>,

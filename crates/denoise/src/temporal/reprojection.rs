@@ -9,8 +9,8 @@ use scene::camera::PictureFrame;
 /// Share of the distance by which depths of one surface may differ.
 const DEPTH: f32 = 0.01;
 
-/// Pixels along a slope by which they may differ beside: one between taps, and half a one for where in each of both pixels its
-/// sample lies.
+/// Pixels along a slope by which they may differ beside: one between taps, and half a one for where in each of both
+/// pixels its sample lies.
 const PIXELS_OF_SLOPE: f32 = 2.0;
 
 /// Cosine at which a surface counts as seen from its edge.
@@ -19,8 +19,8 @@ const LEAST_COSINE: f32 = 0.05;
 /// Cosine of the angle between normals of one surface.
 const NORMALS: f32 = 0.9;
 
-/// How far each colour of the albedo of one surface may differ: a lamp in a ceiling, and the next field of a check, have its depth
-/// and its normal.
+/// How far each colour of the albedo of one surface may differ: a lamp in a ceiling, and the next field of a check, have its
+/// depth and its normal.
 const ALBEDO: f32 = 0.1;
 
 /// Bilinear weight from which a pixel is found again whole, with its shares of both sides of an edge: that one sample of each told

@@ -4,8 +4,8 @@ use scene::Camera;
 
 const SIZE: (u32, u32) = (48, 32);
 
-/// A wall in the plane z = 0 and, where one is asked for, a narrow board before it; both with a texture in the scene's own
-/// coordinates.
+/// A wall in the plane z = 0 and, where one is asked for, a narrow board before it; both with a texture in
+/// the scene's own coordinates.
 #[derive(Clone, Copy)]
 struct Stage {
     camera: Camera,
@@ -100,8 +100,8 @@ fn of_history(seen: &Seen, image: &Image, mixed: &Accumulated) -> Vec<Option<Vec
         .collect()
 }
 
-/// The farthest that what history says is from the truth, where its four nearest pixels are in the picture, and of how many
-/// pixels.
+/// The farthest that what history says is from the truth, where its four nearest pixels are in the picture, and
+/// of how many pixels.
 fn worst(seen: &Seen, then: &Seen, history: &History, truth: impl Fn(Vec3) -> Vec3) -> (f32, usize) {
     let own = seen.unclamped();
     let found = of_history(seen, &own, &put_together(seen, &own, history, REUSE));

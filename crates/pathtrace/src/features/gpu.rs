@@ -34,9 +34,9 @@ pub struct FeatureParams {
     pub end: u32,
     /// Samples that every pixel shall have.
     pub until: u32,
-    /// The picture's seed.
+    /// The seed of the picture's random numbers.
     pub seed: u32,
-    /// Padding.
+    /// Fills the last 16 bytes, of which uniforms consist.
     pub unused: u32,
 }
 

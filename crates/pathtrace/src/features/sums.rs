@@ -1,7 +1,7 @@
 //! Sums of what a pixel's samples show, which go to a graphics device and back as they are.
 //!
-//! Mirror of `Sums` in `shaders/pathtrace/features.wgsl`, field for field. A test compares every offset with the shader
-//! compiler's.
+//! Mirror of `Sums` in `shaders/pathtrace/features.wgsl`, field for field. A test compares every offset
+//! with the shader compiler's.
 
 use bytemuck::{Pod, Zeroable};
 use scene::Vec3;
@@ -22,7 +22,7 @@ pub struct Sums {
     pub met: u32,
     /// Rays that a device has traced for them, which may have overflowed.
     pub rays: u32,
-    /// Padding.
+    /// Fills the last 16 bytes, to which vectors are aligned.
     pub unused: [u32; 2],
 }
 

@@ -5,7 +5,7 @@ use std::sync::Mutex;
 
 const SIZE: (u32, u32) = (48, 32);
 
-/// What was shown.
+/// What a frame has shown, as far as tests ask for it.
 struct Sight {
     film: Film,
     shown: Image,

@@ -1,5 +1,5 @@
-//! A range of a picture's samples, and all of them as a list of jobs: one line of `visavis render` for each range, for other
-//! machines to run.
+//! A range of a picture's samples, and all of them as a list of jobs: one line of `visavis render` for each range, for
+//! other machines to run.
 
 use super::options::CommandOption;
 use super::render::{Reading, TRACED};

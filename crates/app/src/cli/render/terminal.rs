@@ -7,7 +7,7 @@ use technique::{Frame, Pacing, Watch};
 
 /// Watches the time, and counts samples on stderr where someone can see it.
 pub struct Terminal {
-    /// Of all runs.
+    /// Samples per pixel that are wanted, those of all runs together.
     pub spp: u32,
     /// Whether someone sees the count.
     pub shown: bool,

@@ -35,8 +35,8 @@ pub struct SavedSession {
     pub window: SavedWindow,
 }
 
-/// How a window looks; `None` leaves it. One that is open already stays as it is, for that is the room's and not the
-/// lecture's.
+/// How a window looks; `None` leaves it. One that is open already stays as it is, for that is the room's
+/// and not the lecture's.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct SavedWindow {
     /// Width and height in points.

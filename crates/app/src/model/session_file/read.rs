@@ -34,7 +34,7 @@ struct DraftCamera {
     eye: Option<Vec3>,
     target: Option<Vec3>,
     fov: Option<f32>,
-    /// Line and column.
+    /// Line and column where it stands in the file, from 1.
     at: (usize, usize),
 }
 

@@ -1,5 +1,5 @@
-//! Tables of a session's file, taken apart key by key, so that whatever is wrong is told with its place and with what was
-//! expected there.
+//! Tables of a session's file, taken apart key by key, so that whatever is wrong is told with its place and with
+//! what was expected there.
 
 use scene::{Vec3, nearest_or_begun};
 use std::ops::Range;
@@ -21,7 +21,7 @@ pub fn fault<T>(at: &Range<usize>, message: impl Into<String>) -> Result<T, Faul
 pub struct Table<'t> {
     /// As messages call it.
     name: String,
-    /// Where it stands.
+    /// The bytes of the file in which it stands, for faults.
     pub at: Range<usize>,
     /// In the order of the text.
     entries: Vec<Entry<'t>>,
@@ -150,7 +150,7 @@ impl<'t> Entry<'t> {
         number(&self.value).filter(|number| holds(*number)).map_or_else(|| self.no(expected), Ok)
     }
 
-    /// So many numbers.
+    /// An array of exactly `N` numbers, all of which `holds`.
     pub fn numbers<const N: usize>(&self, expected: &str, holds: impl Fn(f32) -> bool) -> Result<[f32; N], Fault> {
         let DeValue::Array(array) = &self.value else { return self.no(expected) };
         let numbers = array.iter().map(|value| number(value.get_ref()).filter(|number| holds(*number)));

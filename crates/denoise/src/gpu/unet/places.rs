@@ -23,7 +23,7 @@ pub struct Places {
 /// Some rows of a layer.
 #[derive(Debug)]
 pub struct Slice {
-    /// Which layer.
+    /// The layer's row in the graph of the network.
     pub index: usize,
     /// It, over these rows.
     pub layer: Layer,
@@ -32,8 +32,8 @@ pub struct Slice {
     params: Buffer,
 }
 
-/// Operations of a submission: a millisecond of a fast device, and half a frame of one that does .25 Tflop/s, which draws a
-/// window meanwhile.
+/// Operations of a submission: a millisecond of a fast device, and half a frame of one that does .25 Tflop/s, which
+/// draws a window meanwhile.
 pub const MOST_OPERATIONS: f64 = 8e9;
 
 impl Places {

@@ -57,7 +57,7 @@ impl GpuUnet {
     }
 }
 
-/// Over all pixels.
+/// Floating-point operations of a layer over all of its pixels.
 pub(super) fn operations(layer: &Layer) -> f64 {
     layer.operations() * f64::from(layer.size[0] * layer.size[1])
 }
