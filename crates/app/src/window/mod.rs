@@ -83,7 +83,7 @@ pub fn open<Heeded>(args: &ViewArgs, heed: impl FnOnce(Box<dyn Fn() + Send>) -> 
         anyhow::anyhow!(
             "no window can be opened here ({}); without a display, use: visavis render {} -o out.png",
             cause(&e),
-            args.scene
+            beginning.opened.source
         )
     })?;
     let proxy = events.create_proxy();

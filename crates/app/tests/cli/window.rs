@@ -71,7 +71,7 @@ fn a_session_opens_a_window_alone_and_a_faulty_one_is_refused_with_its_place() {
     std::fs::write(&good, "session = 1\nscene = \"cornell\"\n").expect("a file");
     std::fs::write(&bad, "session = 1\nscene = \"cornell\"\n[panes.B]\nspp = 0\n").expect("a file");
     let [good, bad] = [&good, &bad].map(|file| file.to_str().expect("a plain path"));
-    assert_refused(&[good], 1, &["no window can be opened here"]);
+    assert_refused(&[good], 1, &["no window can be opened here", "use: visavis render cornell -o out.png"]);
     assert_refused(&[bad], 1, &["bad.toml:4:7: spp=0: expected a whole number from 1"]);
     let out = folder.file("a.png");
     let render = ["render", good, "-o", out.to_str().expect("a plain path")];
