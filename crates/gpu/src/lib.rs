@@ -79,10 +79,11 @@ impl Gpu {
         Gpu::open(instance, only.into_iter().collect(), GpuError::NoSuchAdapter(described.to_owned()))
     }
 
-    /// Every device of this computer, the best first, without a window: for tests that must hold on all of them.
+    /// Every device of this computer that opens, the best first, without a window: for tests that must hold on all of
+    /// them. Drivers list adapters that then refuse, as that of a card without a display does through OpenGL.
     ///
     /// # Errors
-    /// [`GpuError::NoAdapter`] if there is none, [`GpuError::Device`] if one refuses.
+    /// [`GpuError::NoAdapter`] if there is none, [`GpuError::Device`] of the best if all refuse.
     pub fn each() -> Result<Vec<Gpu>, GpuError> {
         let instance = new_instance(None);
         let mut adapters = adapter::all(&instance);
@@ -91,7 +92,8 @@ impl Gpu {
             return Err(GpuError::NoAdapter);
         }
         let open = |adapter| Gpu::open(instance.clone(), vec![adapter], GpuError::NoAdapter);
-        adapters.into_iter().map(open).collect()
+        let (opened, refused): (Vec<_>, Vec<_>) = adapters.into_iter().map(open).partition(Result::is_ok);
+        if opened.is_empty() { refused } else { opened }.into_iter().collect()
     }
 
     /// The best device that can present on `surface`, which `instance` made, and every adapter there is, whether it can
