@@ -43,6 +43,15 @@ fn exact_dot(a: vec3f, a_low: vec3f, b: vec3f, b_low: vec3f) -> f32 {
     return three.sum.x + (three.sum.y + (rest.x + (three.sum.z + rest.y)));
 }
 
+// v without its length. A device's root and quotient may be off by some ulp, always to the same side: normals and
+// directions that are too short by one turn a ray a little at each of a hundred reflections inside a glass ball, until
+// it cannot leave any more. So one step of Newton's follows, as a small correction that is added: a factor near 1 would
+// itself be rounded to one side.
+fn unit_vector(v: vec3f) -> vec3f {
+    let rough = v / sqrt(dot(v, v));
+    return rough + rough * (0.5 - 0.5 * dot(rough, rough));
+}
+
 // Below this share of the sum of |a_i b_i| a plain dot product is not good to 20 bits. Here alone: f64 is.
 const CANCELLED: f32 = 0.25;
 

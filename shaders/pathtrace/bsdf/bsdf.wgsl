@@ -54,7 +54,7 @@ fn specular_of(at: Interaction) -> Specular {
         var refracted = mirrored;
         if share < 1.0 {
             let wi = refract(boundary, at.wo, at.normal);
-            refracted = wi / sqrt(dot(wi, wi));
+            refracted = unit_vector(wi);
         }
         return Specular(share > 0.0, share < 1.0, mirrored, refracted, ScaledColour(at.colour, share), 1.0 - share);
     }

@@ -12,7 +12,7 @@ fn sample_dielectric(at: Interaction, u: f32) -> BsdfSample {
     } else {
         wi = refract(boundary, at.wo, at.normal);
     }
-    return delta_sample(at, wi / sqrt(dot(wi, wi)));
+    return delta_sample(at, unit_vector(wi));
 }
 
 fn interface_of(at: Interaction) -> Interface {

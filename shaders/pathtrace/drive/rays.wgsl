@@ -63,6 +63,6 @@ fn meet_dielectric(answer: ptr<function, RayAnswer>, at: Interaction) {
     (*answer).reflectance = fresnel(boundary, dot(at.normal, at.wo));
     if refracted_cosine(boundary, dot(at.normal, at.wo)) != ALL_REFLECTED {
         let wi = refract(boundary, at.wo, at.normal);
-        (*answer).refracted = wi / sqrt(dot(wi, wi));
+        (*answer).refracted = unit_vector(wi);
     }
 }

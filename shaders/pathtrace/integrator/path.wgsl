@@ -146,7 +146,7 @@ fn split() {
     let share = fresnel(interface_of(vertex), dot(vertex.normal, vertex.wo));
     if share > 0.0 {
         let mirrored = reflect(vertex.wo, vertex.normal);
-        let wi = mirrored / sqrt(dot(mirrored, mirrored));
+        let wi = unit_vector(mirrored);
         split_origins[split_off] = leaving_towards(vertex.point, wi);
         split_directions[split_off] = wi;
         split_throughputs[split_off] = path.throughput * share;

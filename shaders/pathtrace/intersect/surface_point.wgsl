@@ -31,9 +31,7 @@ fn on_plane(corner: vec3f, along_u: vec3f, along_v: vec3f, normal: vec3f) -> Sur
 
 // The point of a sphere in a direction from its centre, of any length but 0.
 fn on_sphere(center: vec3f, radius: f32, from_center: vec3f) -> SurfacePoint {
-    // a device's root and quotient may be off by some ulp: one step of Newton's makes it a unit vector
-    let rough = from_center / sqrt(dot(from_center, from_center));
-    let normal = rough * (1.5 - 0.5 * dot(rough, rough));
+    let normal = unit_vector(from_center);
     let out = normal * radius;
     return SurfacePoint(center + out, gamma(5.0) * (abs(center) + abs(out)), normal, radius);
 }
