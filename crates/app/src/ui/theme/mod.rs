@@ -1,5 +1,7 @@
 //! The themes in egui's words: [`palette`] has their colours, [`fonts`] their type. Everything stands on a grid of four points.
 
+#[cfg(test)]
+mod colour_vision;
 mod fonts;
 mod palette;
 

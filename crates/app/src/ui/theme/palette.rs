@@ -29,7 +29,7 @@ pub struct Palette {
     pub handle: Color32,
     /// Pane A and pane B: blue and orange, which nobody takes for each other.
     pub panes: [Color32; 2],
-    /// Curves that were pinned, one after the other.
+    /// Curves that were pinned, one after the other: apart from each other and from the panes also to those who do not see red or green.
     pub pinned: [Color32; 6],
     /// What has the keyboard, and what is new.
     pub accent: Color32,
@@ -53,7 +53,7 @@ const DARK: Palette = Palette {
     filled: rgb(0x7e8899),
     handle: rgb(0xe8eaee),
     panes: [rgb(0x6cb2ff), rgb(0xffb057)],
-    pinned: [rgb(0x5fd39a), rgb(0xe79ac6), rgb(0xe8e077), rgb(0xb9a2ff), rgb(0xc4c9d2), rgb(0xd08a6a)],
+    pinned: [rgb(0xf0f0f0), rgb(0xf03090), rgb(0x009090), rgb(0xd06000), rgb(0xf09090), rgb(0x9060f0)],
     accent: rgb(0x6ee7c8),
     error: rgb(0xff8f8f),
 };
@@ -70,7 +70,7 @@ const LIGHT: Palette = Palette {
     filled: rgb(0x6b7688),
     handle: rgb(0x2b3442),
     panes: [rgb(0x0b57c2), rgb(0xa34a00)],
-    pinned: [rgb(0x0a7a4a), rgb(0xa8327e), rgb(0x736000), rgb(0x6a3fc4), rgb(0x555e6b), rgb(0x7a3b1d)],
+    pinned: [rgb(0x000000), rgb(0x606060), rgb(0x309060), rgb(0xb06090), rgb(0x000060), rgb(0x003000)],
     accent: rgb(0x0b6b57),
     error: rgb(0xa31515),
 };
