@@ -11,6 +11,9 @@ pub struct Region {
     pub end: [f32; 2],
 }
 
+/// The least width and height that keys leave of one.
+const LEAST: f32 = 1.0 / 256.0;
+
 /// After a figure that is of the region alone.
 pub const IN_THE_REGION: &str = "in the region";
 
@@ -31,6 +34,19 @@ impl Region {
         };
         let (columns, rows) = (along(0, width), along(1, height));
         PixelRect { start: (columns.0, rows.0), end: (columns.1, rows.1) }
+    }
+
+    /// The same rectangle elsewhere, within the picture.
+    pub fn moved(self, by: [f32; 2]) -> Self {
+        let by = [0, 1].map(|axis| by[axis].clamp(-self.start[axis], 1.0 - self.end[axis]));
+        let along = |edge: [f32; 2]| [edge[0] + by[0], edge[1] + by[1]];
+        Region { start: along(self.start), end: along(self.end) }
+    }
+
+    /// With its right and its lower edge farther off, within the picture and never so near that nothing is left.
+    pub fn enlarged(self, by: [f32; 2]) -> Self {
+        let end = [0, 1].map(|axis| (self.end[axis] + by[axis]).clamp((self.start[axis] + LEAST).min(1.0), 1.0));
+        Region { end, ..self }
     }
 
     /// As files keep it: left, top, right and bottom, in shares of the picture.
@@ -68,6 +84,15 @@ mod tests {
         let small = Region { start: [0.999, 0.999], end: [0.9999, 1.0] };
         assert_eq!(small.pixels((2, 2)), rect((1, 1), (2, 2)));
         assert_eq!(small.pixels((1, 1)), rect((0, 0), (1, 1)));
+    }
+
+    #[test]
+    fn moved_and_enlarged_it_stays_within_the_picture_and_something_is_left_of_it() {
+        let region = Region { start: [0.25, 0.5], end: [0.75, 0.75] };
+        assert_eq!(region.moved([-0.125, 0.125]), Region { start: [0.125, 0.625], end: [0.625, 0.875] });
+        assert_eq!(region.moved([-9.0, 9.0]), Region { start: [0.0, 0.75], end: [0.5, 1.0] });
+        assert_eq!(region.enlarged([0.125, 9.0]).end, [0.875, 1.0]);
+        assert_eq!(region.enlarged([-9.0, 0.0]).end, [0.25 + LEAST, 0.75]);
     }
 
     #[test]

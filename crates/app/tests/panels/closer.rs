@@ -33,6 +33,11 @@ impl Panels {
         self.harness.run_steps(2);
     }
 
+    fn press_with(&mut self, key: Key, modifiers: Modifiers) {
+        self.harness.key_press_modifiers(modifiers, key);
+        self.harness.run_steps(2);
+    }
+
     /// The region's corners; all that is measured speaks of it.
     fn region(&self) -> Option<[[f32; 2]; 2]> {
         let wanted = self.wanted();
@@ -175,4 +180,22 @@ fn a_and_b_flicker_twice_a_second_once_that_is_asked_for() {
     panels.press(Key::Num3);
     assert_eq!(panels.model.borrow().state.flicker, None, "another view ends it");
     assert_ne!(panels.model.borrow().session.line, Line::Horizontal, "and shows the wipe as it was");
+}
+
+#[test]
+fn arrow_keys_alone_mark_move_and_enlarge_the_region_and_move_magnified_pictures() {
+    let mut panels = Panels::of("cornell");
+    let line = panels.model.borrow().session.wipe;
+    panels.press_with(Key::ArrowLeft, Modifiers::COMMAND);
+    assert!(is_near(panels.region(), [[0.25, 0.25], [0.75, 0.75]]), "{:?}", panels.region());
+    panels.press_with(Key::ArrowLeft, Modifiers::COMMAND);
+    panels.press_with(Key::ArrowDown, Modifiers::COMMAND | Modifiers::SHIFT);
+    let step = 1.0 / 32.0;
+    assert!(is_near(panels.region(), [[0.25 - step, 0.25], [0.75 - step, 0.75 + step]]), "{:?}", panels.region());
+    panels.press(Key::Plus);
+    let seen = |panels: &Panels| panels.model.borrow().state.magnification.picture_at([0.0; 2]);
+    let before = seen(&panels);
+    panels.press_with(Key::ArrowRight, Modifiers::SHIFT);
+    assert!((seen(&panels)[0] - before[0] - 0.5 * step).abs() < 1e-6, "{before:?} {:?}", seen(&panels));
+    assert_eq!(panels.model.borrow().session.wipe, line, "the line has its own arrows");
 }

@@ -1,5 +1,6 @@
 //! The first workspace: two pictures of one scene, one against the other or both against the reference.
 
+mod arrows;
 mod closer;
 mod comparison;
 mod flicker;
@@ -70,6 +71,7 @@ impl Workspace for Compare {
         if keys.presses(Key::M) % 2 == 1 {
             region::toggle(cx);
         }
+        arrows::keys(cx, keys);
         cx.model.state.loupe ^= keys.presses(Key::I) % 2 == 1;
         if keys.presses(Key::F) % 2 == 1 {
             flicker::toggle(cx);
@@ -120,7 +122,9 @@ impl Workspace for Compare {
             ("5", "error map"),
             ("G", "plots of the errors"),
             ("M, Alt+drag", "mark the region that figures and plots speak of; M or Esc: the whole picture"),
-            ("+ -, Shift+wheel", "show pictures larger, pixel by pixel, about the mouse; Shift+drag moves them"),
+            ("Ctrl+arrows", "mark the middle, then move the region; with Shift: larger, smaller"),
+            ("+ -, Shift+wheel", "show pictures larger, pixel by pixel, about the mouse"),
+            ("Shift+drag, Shift+arrows", "move what is shown larger"),
             ("0, double click", "as large as they are"),
             ("I", "loupe: the pixels under the mouse of A, B, reference and error, with their numbers"),
             ("F", "A and B by turns, twice a second"),

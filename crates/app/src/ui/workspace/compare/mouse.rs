@@ -113,7 +113,8 @@ fn arrows(cx: &mut UiContext, ui: &Ui, response: &egui::Response) {
         Line::Vertical => (Key::ArrowLeft, Key::ArrowRight),
         Line::Horizontal => (Key::ArrowUp, Key::ArrowDown),
     };
-    let presses = |key| ui.input(|i| i.num_presses(key)) as f32;
+    // with others they are the region's and the magnifier's
+    let presses = |key| ui.input(|i| if i.modifiers.any() { 0 } else { i.num_presses(key) }) as f32;
     cx.model.session.wipe = (cx.model.session.wipe + NUDGE * (presses(forth) - presses(back))).clamp(0.0, 1.0);
 }
 
