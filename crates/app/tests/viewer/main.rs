@@ -11,6 +11,7 @@ mod export;
 mod files;
 mod labels;
 mod layout;
+mod plots;
 mod scenes;
 mod sessions;
 mod settings;
