@@ -103,7 +103,7 @@ impl Engine {
         self.gpu = window.clone();
         self.pane_workers.values_mut().for_each(|workers| workers.move_to(window.clone()));
         for pane in self.asked.panes.values_mut() {
-            pane.made.take_if(|(_, technique)| matches!(technique, Technique::Fake(_)));
+            pane.made.take_if(|(_, technique, _)| matches!(technique, Technique::Fake(_)));
         }
         self.asked.display = None;
         self.post_process.set_comparisons(self.asked.comparisons.clone(), self.asked.map);
@@ -159,7 +159,7 @@ impl Engine {
                 jobs.insert(id, order.job);
                 // panes come first: the reference is told before it has to wait for them
                 self.reference_worker.iter().for_each(|reference_worker| reference_worker.hold(true));
-                self.workers(id).submit(pane.technique, order);
+                self.workers(id).submit(pane.technique, &pane.source, order);
             }
         }
         self.measure_fakes();
@@ -363,11 +363,12 @@ impl Asked {
     /// What a pane's workers are to make, if that is not what they were asked for.
     fn order(&mut self, id: PaneId, pane: &WantedPane, restarts: u64) -> Option<Order> {
         let asked = self.panes.entry(id);
-        if asked.made == Some((restarts, pane.technique)) {
+        let made = Some((restarts, pane.technique, pane.source.clone()));
+        if asked.made == made {
             return None;
         }
         self.jobs += 1;
-        (asked.made, asked.unfinished) = (Some((restarts, pane.technique)), Some(self.jobs));
+        (asked.made, asked.unfinished) = (made, Some(self.jobs));
         asked.fakes_time = FakesTime::Settled;
         let (shot, technique) = (pane.shot.clone(), pane.technique);
         let provenance = Arc::new(Provenance { shot, technique, device: technique.name().usual_device() });

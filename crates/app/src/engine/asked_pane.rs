@@ -1,7 +1,7 @@
 //! What a pane was last asked for, and how far that has come.
 
 use super::post_process::PaneUpdate;
-use crate::model::Effort;
+use crate::model::{Effort, PaneSource};
 use technique::Technique;
 
 /// What a pane was last asked for.
@@ -9,8 +9,8 @@ use technique::Technique;
 pub struct AskedPane {
     /// The number of what it shows.
     pub view: u64,
-    /// The number of restarts and how it is made; `None` to make it once more.
-    pub made: Option<(u64, Technique)>,
+    /// The number of restarts, how it is made and where it comes from; `None` to make it once more.
+    pub made: Option<(u64, Technique, PaneSource)>,
     /// Its job, until its last picture has come.
     pub unfinished: Option<u64>,
     /// How the time of its picture was measured.

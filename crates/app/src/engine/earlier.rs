@@ -74,6 +74,7 @@ pub mod tests {
         let own_camera = shot.camera;
         let provenance = Arc::new(Provenance { shot, technique: settings.in_use(), device: Device::Cpu });
         Picture {
+            external: None,
             before: None,
             lag: None,
             image: Image::new(1, 1, [Vec3::splat(spp as f32)]).unwrap(),

@@ -258,6 +258,7 @@ impl JobInHand<'_> {
         let compiling = if compiled { Compiling::Included } else { Compiling::Apart(stage.compiling) };
         let picture = Picture {
             image: film.image(),
+            external: None,
             before: None,
             lag: None,
             runs: 1,

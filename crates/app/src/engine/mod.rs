@@ -1,5 +1,5 @@
 //! Rendering beside the UI. Each pane has its [`pane_workers`], a thread for each technique it has used: [`fake`],
-//! and [`rays`] with its [`technique::ProgressiveRenderer`]. They turn jobs into [`Picture`]s. All who trace share one
+//! and [`rays`] with its [`technique::ProgressiveRenderer`], or [`external`] pictures of other programs. They turn jobs into [`Picture`]s. All who trace share one
 //! pool of threads, in turns. The [`post_process`] turns pictures into bytes for the screen and measures how far
 //! apart they are, from each other or from what the [`mod@reference`] makes, and the [`error_map`] draws where; the
 //! [`export`] writes files and fills the clipboard; [`load`], [`restore`], [`session`] and [`find_scene`] read them, [`watch`] reads a scene again that
@@ -15,6 +15,7 @@ pub mod dialogue;
 mod earlier;
 pub mod error_map;
 pub mod export;
+pub mod external;
 pub mod fake;
 pub mod find_scene;
 pub mod load;
@@ -30,7 +31,7 @@ pub mod thumbnails;
 pub mod watch;
 pub mod worker;
 
-use crate::model::Effort;
+use crate::model::{Effort, External};
 use film::Image;
 use scene::{Camera, Scene};
 use std::sync::Arc;
@@ -41,6 +42,8 @@ use technique::{Device, Lag, Provenance};
 pub struct Picture {
     /// Smaller than asked for in a rough first picture.
     pub image: Image,
+    /// What is known of a picture that another program has made; `None` of one that is made here.
+    pub external: Option<Arc<External>>,
     /// What it was before it was denoised, and how long that took; `None` where the picture is what was rendered.
     pub before: Option<Box<Undenoised>>,
     /// What it has of earlier views, where they count.

@@ -1,10 +1,11 @@
 //! The workers of one pane, made when the pane first asks for their technique.
 
+use super::external::{ExternalJob, ExternalWorker};
 use super::fake::FakeWorker;
 use super::post_process::PostProcess;
 use super::rays::RayWorker;
 use super::{Job, Order};
-use crate::model::PaneId;
+use crate::model::{PaneId, PaneSource};
 use anyhow::Context;
 use gpu::Gpu;
 use std::sync::Arc;
@@ -19,6 +20,7 @@ pub struct PaneWorkers {
     post_process: Arc<PostProcess>,
     fake: Option<FakeWorker>,
     rays: Option<RayWorker>,
+    external: Option<ExternalWorker>,
     held: bool,
 }
 
@@ -30,7 +32,7 @@ impl PaneWorkers {
         (adapters, threads): (Adapters, Arc<Threads>),
         post_process: Arc<PostProcess>,
     ) -> Self {
-        PaneWorkers { pane, gpu, adapters, threads, post_process, fake: None, rays: None, held: false }
+        PaneWorkers { pane, gpu, adapters, threads, post_process, fake: None, rays: None, external: None, held: false }
     }
 
     /// Draws the fake on another device of the window's from now on.
@@ -40,7 +42,11 @@ impl PaneWorkers {
 
     /// Asks for a picture; whatever this pane was making stops. Settings that cannot be rendered are told in the picture's
     /// place.
-    pub fn submit(&mut self, technique: Technique, order: Order) {
+    pub fn submit(&mut self, technique: Technique, source: &PaneSource, order: Order) {
+        if *source != PaneSource::Made {
+            return self.show_external(source.clone(), order);
+        }
+        self.external.iter().for_each(ExternalWorker::cancel);
         let begun = match technique {
             Technique::Traced(settings) if settings.integrator.check().is_err() => {
                 self.rest();
@@ -60,6 +66,16 @@ impl PaneWorkers {
         }
     }
 
+    /// Shows what another program makes.
+    fn show_external(&mut self, source: PaneSource, order: Order) {
+        self.fake.iter().for_each(FakeWorker::cancel);
+        self.rays.iter_mut().for_each(RayWorker::cancel);
+        match self.external() {
+            Ok(worker) => worker.submit(ExternalJob { source, order }),
+            Err(fault) => self.post_process.report(self.pane, order, format!("{fault:#}")),
+        }
+    }
+
     /// Measures the fake that was drawn last once more.
     pub fn measure_again(&self) {
         self.fake.iter().for_each(FakeWorker::measure_again);
@@ -69,6 +85,7 @@ impl PaneWorkers {
     pub fn rest(&mut self) {
         self.fake.iter().for_each(FakeWorker::cancel);
         self.rays.iter_mut().for_each(RayWorker::cancel);
+        self.external.iter().for_each(ExternalWorker::cancel);
     }
 
     /// Holds the tracing of rays, or lets it go on.
@@ -85,6 +102,14 @@ impl PaneWorkers {
             self.fake = Some(worker);
         }
         self.fake.as_ref().context("no thread for the fake")
+    }
+
+    fn external(&mut self) -> anyhow::Result<&ExternalWorker> {
+        if self.external.is_none() {
+            let worker = ExternalWorker::start(self.pane, self.post_process.clone());
+            self.external = Some(worker.context("no thread for pictures of other programs")?);
+        }
+        self.external.as_ref().context("no thread for pictures of other programs")
     }
 
     fn rays(&mut self) -> anyhow::Result<&mut RayWorker> {

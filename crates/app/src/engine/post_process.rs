@@ -299,7 +299,8 @@ impl Latest {
 
     /// What is known of the noise of a pane's picture.
     fn noise_of(&self, pane: PaneId, picture: &Picture) -> Noise {
-        let unknown = if picture.spp.is_some() { Noise::Unknown } else { Noise::None };
+        let has_samples = picture.spp.is_some() || picture.external.is_some();
+        let unknown = if has_samples { Noise::Unknown } else { Noise::None };
         self.earlier.get(pane).map_or(unknown, |earlier| earlier.noise_of(picture))
     }
 

@@ -20,6 +20,7 @@ fn pixel(grey: f32) -> Image {
 fn picture(view: u64) -> Picture {
     let order = order(view, view);
     Picture {
+        external: None,
         image: pixel(view as f32),
         before: None,
         lag: None,

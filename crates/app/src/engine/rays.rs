@@ -182,6 +182,7 @@ impl Watch for PaneWatch<'_> {
         let is_mean = before.is_none() && frame.reused.is_none();
         let picture = Picture {
             image,
+            external: None,
             spp: Some(film.samples_per_pixel()),
             runs: frame.runs,
             seconds: frame.seconds,

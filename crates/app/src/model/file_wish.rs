@@ -1,6 +1,6 @@
 //! A file that the user chooses in the system's own dialogue.
 
-use super::ExportSubject;
+use super::{ExportSubject, PaneId};
 use std::path::PathBuf;
 
 /// What the file is for.
@@ -10,6 +10,8 @@ pub enum FilePurpose {
     Open,
     /// A reference to compare with.
     Reference,
+    /// To follow it in a pane whenever it changes.
+    Follow(PaneId),
     /// A file to save a picture to.
     Export(ExportSubject),
 }

@@ -1,6 +1,6 @@
 //! What undo gives back: the camera, the settings of all panes, the scene's sliders and the display.
 
-use super::{Document, Panes, Resolution, Session};
+use super::{Document, PaneSource, Panes, Resolution, Session};
 use film::DisplayTransform;
 use scene::Camera;
 use technique::{PaneSettings, SceneChanges};
@@ -14,6 +14,8 @@ pub struct Settings {
     pub changes: SceneChanges,
     /// How each is made.
     pub panes: Panes<PaneSettings>,
+    /// Where the pictures come from that are not made here.
+    pub sources: Panes<PaneSource>,
     /// How all are shown.
     pub display: DisplayTransform,
     /// How many pixels pictures have.
@@ -23,11 +25,12 @@ pub struct Settings {
 impl Settings {
     /// The settings as they stand now.
     pub fn of(document: &Document, session: &Session) -> Self {
-        let Session { panes, display, resolution, .. } = session;
+        let Session { panes, sources, display, resolution, .. } = session;
         Settings {
             camera: document.camera,
             changes: document.changes,
             panes: panes.clone(),
+            sources: sources.clone(),
             display: *display,
             resolution: *resolution,
         }
@@ -36,7 +39,8 @@ impl Settings {
     /// Makes document and session what they were.
     pub fn restore(self, document: &mut Document, session: &mut Session) {
         (document.camera, document.changes) = (self.camera, self.changes);
-        (session.panes, session.display, session.resolution) = (self.panes, self.display, self.resolution);
+        (session.panes, session.sources) = (self.panes, self.sources);
+        (session.display, session.resolution) = (self.display, self.resolution);
     }
 }
 

@@ -16,6 +16,7 @@ mod history;
 mod magnification;
 mod message;
 mod pane;
+mod pane_source;
 mod picture_area;
 mod plots;
 mod reference;
@@ -43,6 +44,7 @@ pub use history::{History, Settings};
 pub use magnification::Magnification;
 pub use message::Message;
 pub use pane::{PaneId, Panes};
+pub use pane_source::{External, PaneSource, USUAL_PORT};
 pub use picture_area::PictureArea;
 pub use plots::{Cost, Curve, Measure, Owner, PlotSettings, csv, guide, judge_of_all, pin};
 pub use reference::{Origin, Progress};
@@ -60,7 +62,7 @@ pub use view_model::{Denoising, PaneView, ViewModel};
 pub use wanted::{Wanted, WantedPane};
 
 use scene::{Needs, Scene};
-use technique::{Adapters, DeviceChoice};
+use technique::{Adapters, DeviceChoice, FakeSettings, Technique};
 
 /// All that the user can change.
 #[derive(Debug)]
@@ -209,8 +211,13 @@ impl Model {
         let Model { document, session, state, .. } = self;
         let shot = document.shot(&state.picture);
         let pane = |id| {
-            let (technique, shrink) = (session.panes.get(id)?.in_use(), session.resolution.shrink());
-            Some((id, WantedPane { shot: shot.clone(), own_camera: document.camera, technique, shrink }))
+            let (source, shot) = (session.source(id).clone(), shot.clone());
+            let technique = match source {
+                PaneSource::Made => session.panes.get(id)?.in_use(),
+                _ => Technique::Fake(FakeSettings::default()),
+            };
+            let (own_camera, shrink) = (document.camera, state.picture.shrink);
+            Some((id, WantedPane { shot, own_camera, technique, source, shrink }))
         };
         // before the first layout there is no place for a picture
         let (width, height) = state.picture.size;

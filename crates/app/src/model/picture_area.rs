@@ -9,13 +9,15 @@ pub struct PictureArea {
     pub size: (u32, u32),
     /// Left, top, right and bottom of the whole area in points.
     pub corners: [f32; 4],
+    /// Pixels of the area along a side of one of the picture.
+    pub shrink: u32,
     /// By how much more than the camera's own field of view a picture shows, along its height.
     widening: f32,
 }
 
 impl Default for PictureArea {
     fn default() -> Self {
-        PictureArea { size: (0, 0), corners: [0.0; 4], widening: 1.0 }
+        PictureArea { size: (0, 0), corners: [0.0; 4], shrink: 1, widening: 1.0 }
     }
 }
 
@@ -26,7 +28,13 @@ impl PictureArea {
         let side = |pixels: f32| (pixels.round().max(1.0) as u32).div_ceil(shrink);
         let aspect = |[width, height]: [f32; 2]| width.max(1.0) / height.max(1.0);
         let widening = (aspect(whole).max(1.0) / aspect(part)).max(1.0);
-        PictureArea { size: (side(part[0]), side(part[1])), corners, widening }
+        PictureArea { size: (side(part[0]), side(part[1])), corners, shrink, widening }
+    }
+
+    /// An area for pictures of this size, whatever it is itself: that of one that another program made from the camera's own
+    /// field of view.
+    pub fn of_size(size: (u32, u32), corners: [f32; 4]) -> Self {
+        PictureArea { size, corners, ..PictureArea::default() }
     }
 
     /// Width over height of the whole area.

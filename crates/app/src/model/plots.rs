@@ -145,9 +145,11 @@ impl Curve {
         }
     }
 
-    /// Whether it is the level of a picture that samples do not make better.
-    pub fn is_level(&self) -> bool {
-        self.points.iter().all(|point| point.spp.is_none())
+    /// Whether it is the level of a picture that samples do not make better. Over seconds that of another program may fall all
+    /// the same, whose samples are not known.
+    pub fn is_level(&self, over: Cost) -> bool {
+        let at_once = self.points.windows(2).all(|pair| pair[0].seconds == pair[1].seconds);
+        self.points.iter().all(|point| point.spp.is_none()) && (over == Cost::Samples || at_once)
     }
 
     /// Where its line goes: (cost, error), each > 0 and finite; of one cost, at which it may have been judged again by a
@@ -180,7 +182,8 @@ impl ViewModel {
     fn curve(&self, id: PaneId, pane: &PaneView) -> Option<Curve> {
         let points: Vec<ErrorPoint> = pane.history.iter().copied().collect();
         let ((against, region), made) = (pane.course.as_ref()?.against(), pane.provenance.as_deref()?);
-        let name = format!("{id}: {}", name_by_itself(made));
+        let name = pane.external.as_ref().map_or_else(|| name_by_itself(made), |external| external.title());
+        let name = format!("{id}: {name}");
         (!points.is_empty()).then_some(Curve { name, owner: Owner::Pane(id), points, against, region })
     }
 }
@@ -273,7 +276,12 @@ mod tests {
         let again = curve("A: path", &[(Some(1), 0.5), (Some(2), 0.4), (Some(2), 0.3)]);
         let settings = PlotSettings { measure: Measure::Rmse, ..PlotSettings::default() };
         assert_eq!(again.places(settings), [[1.0, 0.5], [2.0, 0.3]], "judged again by a better reference");
-        assert!(!falling.is_level() && curve("A: fake", &[(None, 0.1)]).is_level());
+        let fake = curve("A: fake", &[(None, 0.1)]);
+        assert!(Cost::ALL.into_iter().all(|over| !falling.is_level(over) && fake.is_level(over)));
+        let mut received = curve("B: homework", &[(None, 0.2), (None, 0.1)]);
+        assert!(received.is_level(Cost::Seconds), "judged again by a better reference");
+        received.points[1].seconds = 1.0;
+        assert_eq!(Cost::ALL.map(|over| received.is_level(over)), [true, false]);
     }
 
     #[test]

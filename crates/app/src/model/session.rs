@@ -1,6 +1,6 @@
 //! How it is looked at: what one would want to find again after a pause.
 
-use super::{CompareWith, ComparisonSettings, Line, PaneId, Panes, PlotSettings, View};
+use super::{CompareWith, ComparisonSettings, Line, PaneId, PaneSource, Panes, PlotSettings, View};
 use film::DisplayTransform;
 use raster::Show;
 use scene::{Needs, Scene};
@@ -11,6 +11,8 @@ use technique::{DeviceChoice, PaneSettings, TechniqueName};
 pub struct Session {
     /// How each is made.
     pub panes: Panes<PaneSettings>,
+    /// Where the pictures come from that are not made here.
+    pub sources: Panes<PaneSource>,
     /// How all are shown.
     pub display: DisplayTransform,
     /// How many pixels pictures have.
@@ -68,6 +70,7 @@ impl Default for Session {
         let panes = [(PaneId::A, TechniqueName::Raster), (PaneId::B, TechniqueName::Path)];
         Session {
             panes: panes.into_iter().map(|(id, technique)| (id, PaneSettings::of(technique))).collect(),
+            sources: Panes::default(),
             display: DisplayTransform::default(),
             resolution: Resolution::default(),
             view: View::Wipe,

@@ -1,6 +1,6 @@
 //! What a scene is opened with beside itself: by options of the window, or by what a picture says of how it was made.
 
-use super::{CompareWith, Line, Model, PaneId, Panes, Region, View};
+use super::{CompareWith, Line, Model, PaneId, PaneSource, Panes, Region, View};
 use compare::ErrorMetric;
 use scene::{Camera, Vec3};
 use technique::settings::OF_SCENES;
@@ -11,6 +11,8 @@ use technique::{PaneSetup, SceneChanges};
 pub struct Setup {
     /// How pictures are made.
     pub panes: Panes<PaneSetup>,
+    /// Where pictures come from that another program makes.
+    pub sources: Panes<PaneSource>,
     /// What is changed in the scene.
     pub changes: SceneChanges,
     /// Where the camera stands.
@@ -52,9 +54,14 @@ impl Model {
     pub fn set_up(&mut self, setup: &Setup) -> Result<(), String> {
         for (id, pane) in setup.panes.iter() {
             pane.apply(&mut self.session.panes[id], &self.document.scene);
+            self.session.set_source(id, PaneSource::Made);
         }
         let session = &mut self.session;
-        session.view = setup.view.unwrap_or(match (session.view, setup.panes.ids().next()) {
+        for (id, source) in setup.sources.iter() {
+            session.set_source(id, source.clone());
+            self.state.picture_files.remove(id);
+        }
+        session.view = setup.view.unwrap_or(match (session.view, setup.asked_for().min()) {
             // what was set up is seen
             (View::Pane(_), Some(first)) => View::Pane(first),
             (view, _) => view,
@@ -98,19 +105,29 @@ impl Setup {
     /// Whether a picture that is shown alone leaves all in sight that is asked for.
     fn is_seen_in(&self, view: View) -> bool {
         let View::Pane(shown) = view else { return true };
-        self.panes.ids().all(|asked| asked == shown)
+        self.asked_for().all(|asked| asked == shown)
+    }
+
+    /// The panes of which it says something.
+    fn asked_for(&self) -> impl Iterator<Item = PaneId> {
+        self.panes.ids().chain(self.sources.ids())
     }
 
     /// The same with all that `other` says in its place.
     pub fn overridden_by(mut self, other: &Setup) -> Self {
         for (id, pane) in other.panes.iter() {
             self.panes.insert(id, pane.clone());
+            self.sources.remove(id);
+        }
+        for (id, source) in other.sources.iter() {
+            self.sources.insert(id, source.clone());
         }
         for setting in OF_SCENES {
             (setting.get)(&other.changes).into_iter().for_each(|value| (setting.set)(&mut self.changes, value));
         }
         Setup {
             panes: self.panes,
+            sources: self.sources,
             changes: self.changes,
             eye: other.eye.or(self.eye),
             target: other.target.or(self.target),

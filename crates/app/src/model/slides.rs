@@ -1,6 +1,6 @@
 //! The tutorial's slides as they are shown: each a scene and two presets side by side, in the order of the lecture.
 
-use super::{CompareWith, Model, PaneId, View};
+use super::{CompareWith, Model, PaneId, PaneSource, View};
 use compare::ErrorMetric;
 use film::DisplayTransform;
 use technique::{Preset, SceneChanges};
@@ -203,6 +203,7 @@ impl Model {
         if preset.values().all(|(setting, _)| setting.name != "estimator") {
             settings.take_usual_estimator(&self.document.scene);
         }
+        self.session.set_source(pane, PaneSource::Made);
     }
 }
 

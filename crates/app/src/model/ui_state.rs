@@ -62,6 +62,8 @@ pub struct UiState {
     pub scene_file: String,
     /// A reference to load, as typed.
     pub reference_file: String,
+    /// Pictures of other programs to follow, as typed, where a pane asks for one.
+    pub picture_files: Panes<String>,
     /// The slide that is shown once its scene has come.
     pub awaited_slide: Option<&'static Slide>,
     /// Whether a text field had the keyboard when the last frame began.
@@ -135,6 +137,7 @@ impl UiState {
             choosing_file: false,
             scene_file: String::new(),
             reference_file: String::new(),
+            picture_files: Panes::default(),
             awaited_slide: None,
             typing: false,
             pinned: Vec::new(),

@@ -1,6 +1,8 @@
 //! What there is to show: results, as those who draw them take them.
 
-use super::{Against, Effort, ErrorHistory, ErrorMap, ErrorPoint, PaneId, Panes, Progress, Region};
+use super::{
+    Against, Effort, ErrorHistory, ErrorMap, ErrorPoint, External, PaneId, PaneSource, Panes, Progress, Region,
+};
 use compare::{Errors, Histogram};
 use film::Image;
 use std::sync::Arc;
@@ -24,6 +26,8 @@ pub struct PaneView {
     pub image: Option<Image>,
     /// What its picture was made from; `None` while there is none.
     pub provenance: Option<Arc<Provenance>>,
+    /// What is known of a picture that another program has made, of whose provenance the shot alone holds.
+    pub external: Option<Arc<External>>,
     /// Samples per pixel, of all runs, where the technique samples.
     pub spp: Option<u32>,
     /// Pictures of which it is the mean, each of as many samples.
@@ -85,6 +89,8 @@ pub struct Denoising {
 pub(crate) struct Course {
     against: Against,
     judged: Provenance,
+    /// Which picture of another program it is, where one is.
+    external: Option<(PaneSource, String)>,
     /// The picture that judges; `None` for the reference.
     judge: Option<Provenance>,
     region: Option<Region>,
@@ -98,6 +104,14 @@ impl Course {
 }
 
 impl PaneView {
+    /// Width and height of a picture that another program has made, where they are not those of what is seen: then nothing
+    /// judges it.
+    pub fn misfit(&self) -> Option<[(u32, u32); 2]> {
+        let (image, made) = (self.image.as_ref()?, self.provenance.as_ref()?);
+        let sizes = [image.size(), made.shot.size];
+        (self.external.is_some() && sizes[0] != sizes[1]).then_some(sizes)
+    }
+
     /// A pane without a picture, and why.
     pub fn failed(fault: String) -> Self {
         PaneView { fault: Some(fault), ..PaneView::default() }
@@ -114,7 +128,9 @@ impl ViewModel {
         };
         let Some(pane) = self.panes.get(id).filter(|pane| !pane.rough && pane.lag.is_none()) else { return };
         let (Some((against, errors)), Some(judged)) = (pane.errors, pane.provenance.as_deref()) else { return };
-        let course = Course { against, judged: without_spp(judged), judge: judge(against), region: pane.region };
+        let external = pane.external.as_ref().map(|external| (external.source.clone(), external.name.clone()));
+        let (judge, region) = (judge(against), pane.region);
+        let course = Course { against, judged: without_spp(judged), external, judge, region };
         let point = ErrorPoint { spp: pane.spp, seconds: pane.seconds, errors };
         let pane = &mut self.panes[id];
         // a fake that is measured again has a time before that of its first point

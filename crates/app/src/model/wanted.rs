@@ -1,6 +1,6 @@
 //! What shall be made: a plain value, stated anew in every frame. Who makes it compares it with what was wanted before.
 
-use super::{Comparison, MapWish, Panes};
+use super::{Comparison, MapWish, PaneSource, Panes};
 use film::DisplayTransform;
 use scene::Camera;
 use technique::Shot;
@@ -34,8 +34,10 @@ pub struct WantedPane {
     pub shot: Shot,
     /// The document's camera, of which a narrow picture shows more above and below.
     pub own_camera: Camera,
-    /// The technique with its settings.
+    /// The technique with its settings; one that stands for another program's, whose settings are not known.
     pub technique: Technique,
+    /// Where the picture comes from, if it is not made by that.
+    pub source: PaneSource,
     /// Pixels of the picture area along a side of one of the picture.
     pub shrink: u32,
 }

@@ -4,7 +4,7 @@
 use super::widgets::{Explained, framed, menu};
 use super::{UiCommand, UiContext, dialogue_button};
 use crate::model::{
-    Destination, ExportRequest, ExportSubject, FilePurpose, FileWish, Model, PaneId, PaneView, PlotFile,
+    Destination, ExportRequest, ExportSubject, FilePurpose, FileWish, Model, PaneId, PaneSource, PaneView, PlotFile,
 };
 use egui::Ui;
 use image_file::{self, Kind};
@@ -56,7 +56,10 @@ fn default_folder() -> PathBuf {
 fn stem(model: &Model, subject: ExportSubject) -> String {
     let session = &model.session;
     let of = match (subject, session.view) {
-        (ExportSubject::Pane(pane), _) => session.panes[pane].technique.name().to_owned(),
+        (ExportSubject::Pane(pane), _) => match session.source(pane) {
+            PaneSource::Made => session.panes[pane].technique.name().to_owned(),
+            external => external.word().to_owned(),
+        },
         (ExportSubject::Plot(_), _) => format!("{}-over-{}", session.plots.measure.name(), session.plots.over.name()),
         (ExportSubject::Session, _) => "session".into(),
         (ExportSubject::ErrorMap, _) => format!("error-{}", session.comparison.metric.name()),
@@ -180,9 +183,9 @@ fn typed_file(typed: &str, proposal: PathBuf) -> PathBuf {
     }
 }
 
-/// The line that makes the pane's picture again, as far as it has come.
+/// The line that makes the pane's picture again, as far as it has come; `None` of another program's.
 fn command(model: &Model, pane: PaneId, shown: &PaneView) -> Option<String> {
-    let provenance = shown.provenance.as_ref()?;
+    let provenance = shown.provenance.as_ref().filter(|_| shown.external.is_none())?;
     let wished = model.session.panes[pane].wished_spp().unwrap_or(1);
     let (spp, runs) = match shown.spp.filter(|_| !shown.rough) {
         Some(spp) => (spp / shown.runs.max(1), shown.runs),

@@ -183,6 +183,9 @@ impl Viewer {
             (Ok(None), _) => {}
             (Ok(Some(file)), FilePurpose::Open) => self.commands.push(UiCommand::Open(file.display().to_string())),
             (Ok(Some(file)), FilePurpose::Reference) => self.commands.push(UiCommand::LoadReference(file)),
+            (Ok(Some(file)), FilePurpose::Follow(pane)) => {
+                self.model.follow(pane, &file).unwrap_or_else(|fault| self.model.say(Err(fault)));
+            }
             (Ok(Some(file)), FilePurpose::Export(subject)) => {
                 let to = Destination::File(file);
                 self.commands.push(UiCommand::Export(ExportRequest { subject, to }));

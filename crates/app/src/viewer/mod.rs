@@ -1,6 +1,7 @@
 //! Model, workspaces, engine and what they have brought as one: what happens in a frame, whoever has a window for it. The
 //! real one is `window`; tests drive it without any.
 
+mod external;
 mod files;
 mod judge;
 mod plots;
@@ -80,11 +81,16 @@ impl Viewer {
         self.engine.exported().into_iter().for_each(|outcome| self.model.say(outcome));
     }
 
-    /// Says once that a pane's rays are not traced where they should be.
+    /// Says once that a pane's rays are not traced where they should be, or what another program did wrong.
     fn tell_of_refusal(&mut self, pane: PaneId, picture: &Picture) {
         let known = self.presentation.shown.panes.get(pane).and_then(|shown| shown.refused.as_ref());
         if let Some(why) = picture.refused.as_ref().filter(|why| known != Some(why)) {
             self.model.say(Err(format!("{pane} goes on on the CPU, the GPU failed: {why}. R tries it again")));
+        }
+        let known = self.presentation.shown.panes.get(pane).and_then(|shown| shown.external.as_ref()?.fault.as_ref());
+        let fault = picture.external.as_ref().and_then(|external| external.fault.as_ref());
+        if let Some(why) = fault.filter(|why| known != Some(why)) {
+            self.model.say(Err(format!("{pane}: {why}")));
         }
     }
 
@@ -227,7 +233,9 @@ impl Viewer {
 fn dump_of(pane: &PaneView, ready: bool) -> Value {
     json!({
         "ready": ready,
-        "label": pane.provenance.as_ref().map(|p| p.technique.label()),
+        "label": pane.provenance.as_ref().filter(|_| pane.external.is_none()).map(|p| p.technique.label()),
+        "external": pane.external.as_ref().map(|external| &external.name),
+        "changes": pane.external.as_ref().map(|external| external.changes),
         "spp": pane.spp,
         "rough": pane.rough,
         "unfinished": pane.unfinished,

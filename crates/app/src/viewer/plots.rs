@@ -54,7 +54,7 @@ fn series(curve: &Curve, settings: PlotSettings) -> Series {
         // after those of panes, and without the guide's
         Owner::Pinned(index) => (2 + index + usize::from(index >= GREY - 2), Stroke::Solid),
     };
-    if curve.is_level() {
+    if curve.is_level(settings.over) {
         let level = curve.latest(settings.measure).map(|error| point([f64::NAN, error]));
         return Series { name: curve.name.clone(), points: level.into_iter().collect(), colour, stroke: Stroke::Level };
     }

@@ -1,6 +1,7 @@
 //! What is shown: for each pane its texture, what the UI says about it, and the picture itself for
 //! export; and the map of errors.
 
+use super::external;
 use crate::engine::Picture;
 use crate::engine::export::Content;
 use crate::engine::post_process::{DisplayFrame, PaneUpdate, PaneUpdates};
@@ -89,6 +90,7 @@ impl Presentation {
             shown.fault = None;
         }
         shown.provenance = Some(picture.order.provenance.clone());
+        shown.external.clone_from(&picture.external);
         (shown.spp, shown.seconds, shown.nonfinite) = (picture.spp, picture.seconds, picture.nonfinite);
         shown.runs = picture.runs;
         (shown.effort, shown.noisy) = (Some(picture.effort), picture.noisy);
@@ -96,7 +98,8 @@ impl Presentation {
         shown.filter_fault = picture.filter_fault.clone();
         shown.adapter = Some(picture.adapter.clone());
         (shown.rough, shown.unfinished) = (picture.rough, picture.unfinished);
-        shown.shrink = picture.order.size().0.div_ceil(picture.image.width().max(1)) * picture.order.shrink;
+        let coarser = picture.order.size().0.div_ceil(picture.image.width().max(1)) * picture.order.shrink;
+        shown.shrink = if picture.external.is_some() { 1 } else { coarser };
         (shown.errors, shown.region) = (errors, region);
         (shown.image, shown.reference, shown.histogram) = (Some(picture.image.clone()), reference, histogram);
         shown.lag = picture.lag;
@@ -142,24 +145,10 @@ impl Presentation {
     pub fn pane(&self, pane: PaneId, model: &Model) -> Option<(Content, Records)> {
         let display = model.session.display;
         let picture = self.pictures.get(pane).filter(|picture| !picture.rough)?;
-        let (provenance, spp) = picture.made();
-        let made = Made {
-            spp,
-            seconds: picture.seconds,
-            adapter: &picture.adapter,
-            denoised_by: picture.before.as_ref().map(|before| &*before.by),
-            exposure: display.exposure,
+        let mut records = match &picture.external {
+            Some(external) => external::records(external, picture, display),
+            None => records_of(picture, display),
         };
-        let mut records = provenance.records(made);
-        let halves = picture.before.as_ref().and_then(|before| before.halves);
-        records.extend(halves.into_iter().flat_map(Halves::records));
-        if let Some(lag) = picture.lag {
-            records.push((EARLIER_VIEWS, format!("{lag}: command makes it without them")));
-        }
-        let own = &picture.order.own_camera;
-        if own.fov_y != picture.order.camera().fov_y {
-            records.push((OWN_FOV, own.fov_y.to_string()));
-        }
         if let Some((against, errors)) = self.shown.panes.get(pane).and_then(|shown| shown.errors)
             && let Some(judge) = self.name_of_what_judges(against, display)
         {
@@ -174,9 +163,7 @@ impl Presentation {
     fn name_of_what_judges(&self, against: Against, display: DisplayTransform) -> Option<String> {
         let Against::Pane(judge) = against else { return Some(against.name().into()) };
         let picture = self.pictures.get(judge)?;
-        let (provenance, spp) = picture.made();
-        let command = provenance.command(spp, display.exposure, &file_of(judge));
-        Some(format!("{judge}: {command}"))
+        Some(format!("{judge}: {}", external::how_it_is_made(picture, display, &file_of(judge))))
     }
 
     /// What a file keeps about the picture as seen: the view, for each pane the command that makes it, and the session.
@@ -195,8 +182,7 @@ impl Presentation {
             records.extend(camera_options(&shown.order.own_camera));
         }
         for (pane, picture) in self.pictures.iter() {
-            let (provenance, spp) = picture.made();
-            let command = provenance.command(spp, exposure, &file_of(pane));
+            let command = external::how_it_is_made(picture, session.display, &file_of(pane));
             let [rough, lagging] = QUALIFIED;
             let qualified = if picture.rough { rough } else { picture.lag.map_or("", |_| lagging) };
             records.push((pane.name(), format!("{qualified}{command}")));
@@ -205,6 +191,29 @@ impl Presentation {
         records.push((SESSION, SavedSession::of(model, None).text(&document.scene, &document.source)));
         records
     }
+}
+
+/// What a file keeps of a picture that was made here.
+fn records_of(picture: &Picture, display: DisplayTransform) -> Records {
+    let (provenance, spp) = picture.made();
+    let made = Made {
+        spp,
+        seconds: picture.seconds,
+        adapter: &picture.adapter,
+        denoised_by: picture.before.as_ref().map(|before| &*before.by),
+        exposure: display.exposure,
+    };
+    let mut records = provenance.records(made);
+    let halves = picture.before.as_ref().and_then(|before| before.halves);
+    records.extend(halves.into_iter().flat_map(Halves::records));
+    if let Some(lag) = picture.lag {
+        records.push((EARLIER_VIEWS, format!("{lag}: command makes it without them")));
+    }
+    let own = &picture.order.own_camera;
+    if own.fov_y != picture.order.camera().fov_y {
+        records.push((OWN_FOV, own.fov_y.to_string()));
+    }
+    records
 }
 
 /// What is compared with what, and how errors are mapped.

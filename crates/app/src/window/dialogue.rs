@@ -24,6 +24,9 @@ pub fn choose(wish: &FileWish, window: &Window) -> Choice {
         FilePurpose::Reference => {
             Box::pin(dialogue.set_title("Compare with").add_filter("References", &["exr"]).pick_file())
         }
+        FilePurpose::Follow(pane) => Box::pin(
+            dialogue.set_title(format!("The picture of {pane}")).add_filter("Pictures", &["exr", "png"]).pick_file(),
+        ),
         FilePurpose::Export(subject) => {
             let name = wish.near.file_name().unwrap_or_default().to_string_lossy();
             let filtered = match subject {

@@ -63,12 +63,15 @@ impl Uploads<'_> {
             TextureFilter::Linear => wgpu::FilterMode::Linear,
         };
         let view = texture.create_view(&wgpu::TextureViewDescriptor::default());
+        // one that is larger than its place, as another program's may be, is no mosaic of single pixels
+        let min_filter = wgpu::FilterMode::Linear;
+        let sampler = wgpu::SamplerDescriptor { mag_filter: filter, min_filter, ..Default::default() };
         match old {
             Some(id) => {
-                self.renderer.update_egui_texture_from_wgpu_texture(device, &view, filter, id);
+                self.renderer.update_egui_texture_from_wgpu_texture_with_sampler_options(device, &view, sampler, id);
                 id
             }
-            None => self.renderer.register_native_texture(device, &view, filter),
+            None => self.renderer.register_native_texture_with_sampler_options(device, &view, sampler),
         }
     }
 }

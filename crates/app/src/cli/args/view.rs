@@ -5,7 +5,7 @@ use super::seen::{self, Seen};
 use super::values::{DEVICES, choice, number, shown, text};
 use super::{help, usage};
 use crate::cli::{CliError, Command};
-use crate::model::{CompareWith, PaneId, SLIDES, Session, Setup, Slide, Theme, View, ViewArgs};
+use crate::model::{CompareWith, PaneId, PaneSource, SLIDES, Session, Setup, Slide, Theme, View, ViewArgs};
 use crate::ui::Workspaces;
 use lexopt::ValueExt;
 use std::ffi::OsString;
@@ -44,7 +44,9 @@ fn of_a_lecture() -> Vec<CommandOption<Reading>> {
             names: &["--a"],
             value: "SPEC",
             help: "how A is made: a technique or a preset of render, its choices and NAME=VALUE of the settings of render, with \
-                   commas between (default raster), like raster,as-taught,segments=40 or 2e-0-bounces,spp=64",
+                   commas between (default raster), like raster,as-taught,segments=40 or 2e-0-bounces,spp=64; or picture=FILE, another \
+                   program's picture, read again whenever it changes; or received, what another program sends to \
+                   127.0.0.1:14158 as to tev, or received=PORT",
             read: |reading, parser| a_pane(reading, PaneId::A, "--a", parser),
         },
         CommandOption {
@@ -208,14 +210,16 @@ pub fn parse(parser: lexopt::Parser) -> Result<Command, CliError> {
 
 fn a_pane(reading: &mut Reading, pane: PaneId, option: &str, parser: &mut lexopt::Parser) -> Result<(), CliError> {
     let words = text(parser)?;
-    let usual = Session::default().panes[pane].technique;
-    match PaneSetup::parse(&words, usual) {
-        Err(fault) => usage(format!("{option} {}: {fault}", shown(&words))),
-        Ok(setup) => match reading.args.setup.panes.insert(pane, setup) {
-            Some(_) => usage(format!("{option} {words}: {option} is given twice")),
-            None => Ok(()),
-        },
+    let setup = &mut reading.args.setup;
+    if setup.panes.get(pane).is_some() || setup.sources.get(pane).is_some() {
+        return usage(format!("{option} {words}: {option} is given twice"));
     }
+    let usual = Session::default().panes[pane].technique;
+    let taken = match PaneSource::parse(&words) {
+        Some(source) => source.map(|source| drop(setup.sources.insert(pane, source))),
+        None => PaneSetup::parse(&words, usual).map(|made| drop(setup.panes.insert(pane, made))),
+    };
+    taken.or_else(|fault| usage(format!("{option} {}: {fault}", shown(&words))))
 }
 
 fn a_view(name: &str) -> Option<View> {

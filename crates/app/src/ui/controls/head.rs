@@ -1,7 +1,7 @@
 //! A pane's letter, its technique and its presets, to be chosen: always in sight, in as few lines as the panel has room for.
 
 use super::{named, presets};
-use crate::model::PaneId;
+use crate::model::{PaneId, PaneSource};
 use crate::ui::UiContext;
 use crate::ui::theme::{bold, palette};
 use crate::ui::widgets::{Explained, segmented, width_of_segments};
@@ -67,11 +67,13 @@ fn width(techniques: impl Iterator<Item = TechniqueName>, ui: &Ui) -> f32 {
 fn techniques(cx: &mut UiContext, pane: PaneId, row: &[TechniqueName], ui: &mut Ui) {
     segmented(ui, |ui| {
         for &technique in row {
-            let chosen = cx.model.session.panes[pane].technique == technique;
+            let made_here = *cx.model.session.source(pane) == PaneSource::Made;
+            let chosen = made_here && cx.model.session.panes[pane].technique == technique;
             let button = ui.add(Button::selectable(chosen, word(technique))).explained(describe(technique));
             let button = button.accessible_name(technique.title());
             if cx.dump.note(&format!("{pane} {}", technique.name()), chosen, button).clicked() {
                 cx.model.session.panes[pane].technique = technique;
+                cx.model.session.set_source(pane, PaneSource::Made);
             }
         }
     });

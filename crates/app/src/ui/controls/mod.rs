@@ -3,6 +3,7 @@
 mod camera;
 mod device;
 mod display;
+mod external;
 mod head;
 mod pane;
 mod presets;

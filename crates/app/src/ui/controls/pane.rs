@@ -1,8 +1,8 @@
 //! The settings of a pane's technique: in which order they stand, and what is no setting. Their table says the rest.
 
-use super::device;
 use super::setting::{Change, Place};
-use crate::model::PaneId;
+use super::{device, external};
+use crate::model::{PaneId, PaneSource};
 use crate::ui::UiContext;
 use crate::ui::theme::palette;
 use crate::ui::widgets::fold;
@@ -97,6 +97,18 @@ fn order(technique: TechniqueName) -> &'static [&'static str] {
 }
 
 pub fn show(cx: &mut UiContext, pane: PaneId, ui: &mut Ui) {
+    if *cx.model.session.source(pane) == PaneSource::Made {
+        of_technique(cx, pane, ui);
+        let id = ui.make_persistent_id(("external", pane));
+        let title = "Another program's picture";
+        let (header, open) = fold(title, Some(palette(ui).dim), (id, false), ui, |ui| external::show(cx, pane, ui));
+        cx.dump.note(&format!("{pane} external"), open, header);
+    } else {
+        external::show(cx, pane, ui);
+    }
+}
+
+fn of_technique(cx: &mut UiContext, pane: PaneId, ui: &mut Ui) {
     let technique = cx.model.session.panes[pane].technique;
     let scene = &cx.model.document.scene;
     let mut usable: Vec<_> =

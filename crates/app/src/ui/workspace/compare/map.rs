@@ -50,6 +50,12 @@ fn why_not(cx: &UiContext) -> String {
         if let Some(fault) = &shown.fault {
             return format!("{pane}: {fault}");
         }
+        if let Some([has, seen]) = shown.misfit() {
+            return format!(
+                "{pane} has {}x{} pixels, and what is seen {}x{}: it has no errors",
+                has.0, has.1, seen.0, seen.1
+            );
+        }
         if shown.provenance.as_ref().is_some_and(|provenance| !provenance.technique.shows_the_scene()) {
             return format!("{pane} does not show the light of the scene: it has no errors");
         }

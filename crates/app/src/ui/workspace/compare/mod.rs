@@ -3,6 +3,7 @@
 mod arrows;
 mod closer;
 mod comparison;
+mod external;
 mod flicker;
 mod histogram;
 mod label;

@@ -1,10 +1,11 @@
 //! The picture area: one pane, both under the wipe or both side by side, or the map of their errors, and what is known
 //! about each on top.
 
-use super::{flicker, label, loupe, magnify, map, map_faces, mouse, region};
+use super::{external, flicker, label, loupe, magnify, map, map_faces, mouse, region};
 use crate::model::{Line, PaneId, PictureArea, View};
 use crate::ui::UiContext;
 use crate::ui::overlay::{say, spoken, text_box};
+use crate::ui::theme::palette;
 use egui::{Align2, Color32, Rect, Sense, Stroke, Ui, pos2, vec2};
 use scene::Vec3;
 
@@ -22,13 +23,24 @@ struct Shown {
 
 pub fn show(cx: &mut UiContext, ui: &mut Ui) {
     let scale = ui.ctx().pixels_per_point();
-    let rect = whole_pixels(ui.max_rect(), scale);
+    let room = whole_pixels(ui.max_rect(), scale);
     flicker::turn(cx, ui);
     let view = cx.model.seen();
-    let frame = if view == View::SideBySide { left_half(rect, scale) } else { rect };
+    let half = if view == View::SideBySide { left_half(room, scale) } else { room };
+    let external = external::size(cx);
+    let [rect, frame] = match external {
+        Some(size) => external::within([room, half], size, scale),
+        None => [room, half],
+    };
     let [whole, part] = [rect, frame].map(|rect| (rect.size() * scale).round().into());
     let corners = [rect.left(), rect.top(), rect.right(), rect.bottom()];
-    cx.model.state.picture = PictureArea::new(whole, part, cx.model.session.resolution.shrink(), corners);
+    cx.model.state.picture = match external {
+        Some(size) => PictureArea::of_size(size, corners),
+        None => PictureArea::new(whole, part, cx.model.session.resolution.shrink(), corners),
+    };
+    if external.is_some() {
+        ui.painter().rect_filled(room, 0.0, palette(ui).ground);
+    }
     cx.model.place_line();
 
     let response = ui.allocate_rect(rect, Sense::click_and_drag());
@@ -63,7 +75,7 @@ pub fn show(cx: &mut UiContext, ui: &mut Ui) {
     if !cx.model.state.posing {
         let hints = ["Drag the line.", "Drag the picture to orbit.", "T swaps A and B.", "? shows all keys."];
         let without_a_line = usize::from(view != View::Wipe);
-        say(cx, ui, rect, &hints[without_a_line..]);
+        say(cx, ui, room, &hints[without_a_line..]);
     }
     let response = response.accessible_name(format!("Picture: {}", view.name()));
     if response.has_focus() {

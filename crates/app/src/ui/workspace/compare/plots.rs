@@ -191,7 +191,7 @@ fn floor(cx: &UiContext, measure: Measure) -> Option<f64> {
 
 fn draw(plot: &mut PlotUi, curve: &Curve, settings: PlotSettings, palette: &Palette) {
     let (colour, style, width) = look(curve.owner, palette);
-    if curve.is_level() {
+    if curve.is_level(settings.over) {
         if let Some(error) = curve.latest(settings.measure) {
             plot.hline(HLine::new(&*curve.name, error.log10()).color(colour).style(style).width(width));
         }

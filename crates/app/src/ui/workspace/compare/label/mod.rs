@@ -1,5 +1,6 @@
 //! The label of a pane, on the picture: in a corner of what is seen of it, away from the wipe's line.
 
+mod external;
 mod text;
 
 use crate::model::{Against, Line, Model, PaneId, PaneView, View};

@@ -53,6 +53,10 @@ impl LabelText {
             let of = if told.of == pane { Some(shown) } else { beside.map(|(_, other)| other) };
             text.tell(pane, told, of.and_then(denoised_runs));
         }
+        if let Some(external) = &shown.external {
+            super::external::tell(&mut text, shown, external);
+            return text;
+        }
         text.figures.push(cost(shown, paused));
         text.notes.extend(troubles(shown));
         if let Some((traced, made)) = traced(shown) {
@@ -127,8 +131,12 @@ impl LabelText {
 }
 
 fn name(shown: &PaneView, beside: Option<Beside>) -> String {
+    if let Some(external) = &shown.external {
+        return external.title();
+    }
     let Some(made) = &shown.provenance else { return String::new() };
-    match beside.and_then(|(_, other)| other.provenance.as_ref()) {
+    let made_here = beside.filter(|(_, other)| other.external.is_none());
+    match made_here.and_then(|(_, other)| other.provenance.as_ref()) {
         Some(other) => made.technique.label_beside(&other.technique, &made.shot.scene),
         None => made.technique.label(),
     }
@@ -181,7 +189,7 @@ fn resolution(shown: &PaneView) -> String {
 }
 
 /// "4.1 ms", "557 ms", "7.6 s".
-fn duration(seconds: f64) -> String {
+pub fn duration(seconds: f64) -> String {
     match seconds {
         s if s < 0.00995 => format!("{:.1} ms", 1000.0 * s),
         s if s < 0.9995 => format!("{:.0} ms", 1000.0 * s),
