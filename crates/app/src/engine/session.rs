@@ -3,7 +3,7 @@
 use super::find_scene::scene_of;
 use super::load::Opened;
 use super::restore::Kept;
-use crate::model::{SavedSession, SavedWindow, SessionDraft, Setup, is_session};
+use crate::model::{PaneSource, SavedSession, SavedWindow, SessionDraft, Setup, is_session};
 use anyhow::{Context, bail};
 use image_file::shown;
 use scene::{Scene, builtin};
@@ -42,7 +42,8 @@ pub fn read(path: &Path, recent: &[PathBuf]) -> Result<Opened, String> {
     let scene = source_beside(path, &draft.scene);
     let kept = Kept { scene, scene_hash: draft.scene_hash, setup: Setup::default(), session: None };
     let opened = scene_of(&kept, path, recent)?;
-    let session = draft.beside(&opened.scene, path)?;
+    let mut session = draft.beside(&opened.scene, path)?;
+    files_as(&mut session, |file| std::path::absolute(path.with_file_name(file)).unwrap_or_else(|_| file.to_owned()));
     let notes = opened.notes.iter().cloned().chain(kept.note(path, &opened.scene)).collect();
     Ok(Opened { asked: path.display().to_string(), session: Some(Box::new(session)), notes, ..opened })
 }
@@ -71,6 +72,15 @@ fn source_beside(session: &Path, scene: &str) -> String {
     }
 }
 
+/// Names the pictures that are followed in another way.
+fn files_as(session: &mut SavedSession, named: impl Fn(&Path) -> PathBuf) {
+    for source in session.session.sources.values_mut() {
+        if let PaneSource::Followed(file) = source {
+            *file = named(file);
+        }
+    }
+}
+
 /// A session to write.
 #[derive(Debug)]
 pub struct SessionToSave {
@@ -92,8 +102,10 @@ impl SessionToSave {
             bail!("the name of a session must end in .toml: {}", shown(path));
         }
         let path = std::path::absolute(path).with_context(|| format!("cannot save to {}", shown(path)))?;
-        let source = source_from(path.parent().unwrap_or(Path::new("")), &self.source);
-        let text = self.session.text(&self.scene, &source);
+        let folder = path.parent().unwrap_or(Path::new(""));
+        let mut session = self.session.clone();
+        files_as(&mut session, |file| PathBuf::from(source_from(folder, &file.display().to_string())));
+        let text = session.text(&self.scene, &source_from(folder, &self.source));
         Ok(image_file::write_new(&path, text.as_bytes())?)
     }
 

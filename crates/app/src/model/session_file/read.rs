@@ -2,11 +2,13 @@
 
 use super::table::{Entry, Fault, Table, fault};
 use super::{MOST_BOOKMARKS, SESSION_VERSION, SavedSession, SavedWindow};
-use crate::model::{CompareWith, Cost, Line, Measure, PaneId, Panes, Region, Resolution, Session, Theme, View};
+use crate::model::{
+    CompareWith, Cost, Line, Measure, PaneId, PaneSource, Panes, Region, Resolution, Session, Theme, View,
+};
 use compare::ErrorMetric;
-use image_file::shown;
+use image_file::{Kind, shown};
 use scene::{Camera, Scene, SceneHash, Vec3};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use technique::settings::{OF_SCENES, of_panes};
 use technique::{DeviceChoice, PaneSettings, PaneSetup, SceneChanges, TechniqueName};
 use toml::de::DeTable;
@@ -45,6 +47,7 @@ struct DraftPane {
     in_use: PaneSetup,
     /// What techniques are set to that are not in use.
     others: Vec<PaneSetup>,
+    source: PaneSource,
 }
 
 impl SessionDraft {
@@ -129,6 +132,7 @@ fn parse(text: &str) -> Result<SessionDraft, Fault> {
     let mut session = Session::default();
     let line_placed = view(table.table("view")?, &mut session)?;
     let panes = panes(table.table("panes")?)?;
+    panes.iter().for_each(|(id, pane)| session.set_source(id, pane.source.clone()));
     comparison(table.table("comparison")?, &mut session)?;
     plots(table.table("plots")?, &mut session)?;
     let bookmarks = table.read("bookmarks", |entry| entry.tables("bookmarks"))?.unwrap_or_default();
@@ -230,8 +234,28 @@ fn pane(mut table: Table, usual: TechniqueName) -> Result<DraftPane, Fault> {
             others.push(settings(entry.table(name)?, other)?);
         }
     }
+    let source = source(&mut table)?;
     let in_use = settings(table, technique)?;
-    Ok(DraftPane { device: device.unwrap_or_default(), adapter: adapter.unwrap_or_default(), in_use, others })
+    let (device, adapter) = (device.unwrap_or_default(), adapter.unwrap_or_default());
+    Ok(DraftPane { device, adapter, in_use, others, source })
+}
+
+/// Where the pane's picture comes from.
+fn source(table: &mut Table) -> Result<PaneSource, Fault> {
+    let port = |entry: Entry| match entry.word().and_then(|word| word.parse().ok()).filter(|port| *port > 0) {
+        Some(port) => Ok(PaneSource::Received(port)),
+        None => entry.no("the port that a picture is received on, from 1 to 65535"),
+    };
+    let received = table.read("received", port)?;
+    let Some(entry) = table.take("picture") else { return Ok(received.unwrap_or_default()) };
+    if received.is_some() {
+        return fault(&entry.key_at, "picture: received stands before it; leave one of the two");
+    }
+    let file = PathBuf::from(entry.text("a picture's file")?);
+    match Kind::of(&file) {
+        Some(_) => Ok(PaneSource::Followed(file)),
+        None => entry.no("a picture's file, whose name ends in .png or .exr"),
+    }
 }
 
 /// The settings of a technique, by the names of their table.

@@ -1,7 +1,7 @@
 //! What a session's file says is what comes back, and what it cannot say is told with its place.
 
 use super::*;
-use crate::model::{CompareWith, Line, Resolution, View};
+use crate::model::{CompareWith, Line, PaneSource, Resolution, View};
 use compare::ErrorMetric;
 use scene::{Vec3, builtin};
 use std::path::Path;
@@ -84,6 +84,8 @@ fn all_else_of_a_session_comes_back_as_it_was() {
     let session = &mut model.session;
     session.panes[PaneId::A].device = DeviceChoice::Gpu;
     session.panes[PaneId::B].adapter = 3;
+    session.set_source(PaneId::A, PaneSource::Received(14159));
+    session.set_source(PaneId::B, PaneSource::Followed("/a \"b\"/c.exr".into()));
     (session.display.exposure, session.resolution) = (0.1, Resolution::Quarter);
     (session.view, session.line, session.wipe) = (View::Pane(PaneId::B), Line::Horizontal, 0.1 + 0.2);
     let comparison = &mut session.comparison;
@@ -144,6 +146,9 @@ fn what_a_session_cannot_mean_is_told_with_line_and_column() {
         ("[panes.B]\ndevice = \"card\"", "a.toml:4:10: device card: expected auto, cpu or gpu"),
         ("[panes.B]\nadapter = -1", "a.toml:4:11: adapter: expected the number of an adapter"),
         ("[panes.C]\nspp = 4", "C is no key of [panes]: expected A or B"),
+        ("[panes.B]\nreceived = 0", "a.toml:4:12: received: expected the port that a picture is received on"),
+        ("[panes.B]\npicture = \"a.gif\"", "a.toml:4:11: picture: expected a picture's file, whose name ends in"),
+        ("[panes.B]\nreceived = 9\npicture = \"a.exr\"", "a.toml:5:1: picture: received stands before it"),
         ("panes = 3", "a.toml:3:9: panes: expected a table, [panes]"),
         (
             "[scene_changes]\nrefraction-ratio = 0",

@@ -1,7 +1,7 @@
 //! A session as the text of its file.
 
 use super::{MOST_BOOKMARKS, SESSION_VERSION, SavedSession};
-use crate::model::{ComparisonSettings, PaneId, PlotSettings, Region, Session};
+use crate::model::{ComparisonSettings, PaneId, PaneSource, PlotSettings, Region, Session};
 use compare::ErrorMetric;
 use scene::{Camera, Scene, Vec3};
 use std::fmt::Write;
@@ -22,7 +22,7 @@ impl SavedSession {
         table(&mut text, "[scene_changes]", changes.map(|(name, value)| (name, word(value))).collect());
         table(&mut text, "[view]", self.view());
         for (id, pane) in self.session.panes.iter() {
-            panes(&mut text, id, pane, scene);
+            panes(&mut text, (id, pane), self.session.source(id), scene);
         }
         comparison(&mut text, &self.session.comparison);
         table(&mut text, "[plots]", plots(self.session.plots));
@@ -74,7 +74,7 @@ fn camera(camera: &Camera) -> Lines {
 
 /// The settings of a pane that are not a new one's, those of the technique in use first. What several techniques share
 /// stands under the first of them alone.
-fn panes(text: &mut String, id: PaneId, pane: &PaneSettings, scene: &Scene) {
+fn panes(text: &mut String, (id, pane): (PaneId, &PaneSettings), source: &PaneSource, scene: &Scene) {
     let mut told = super::new_pane(id, scene);
     let mut lines = vec![("technique", quoted(pane.technique.name()))];
     if pane.device != DeviceChoice::default() {
@@ -82,6 +82,11 @@ fn panes(text: &mut String, id: PaneId, pane: &PaneSettings, scene: &Scene) {
     }
     if pane.adapter != 0 {
         lines.push(("adapter", pane.adapter.to_string()));
+    }
+    match source {
+        PaneSource::Made => {}
+        PaneSource::Received(port) => lines.push(("received", port.to_string())),
+        PaneSource::Followed(file) => lines.push(("picture", quoted(&file.to_string_lossy()))),
     }
     lines.extend(unlike(pane, &mut told, pane.technique));
     table(text, &format!("[panes.{id}]"), lines);
