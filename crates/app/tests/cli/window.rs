@@ -22,6 +22,9 @@ fn options_of_the_window_are_those_of_render_and_faults_name_the_word() {
         (&["--a", "2e-0-bounce"], &["did you mean 2e-0-bounces?"]),
         (&["--b", "spp=4,spp=5"], &["spp=4 and spp=5 both say spp"]),
         (&["--a", "raster", "--a", "path"], &["--a path", "given twice"]),
+        (&["--b", "received=0"], &["--b received=0", "a port from 1 to 65535"]),
+        (&["--b", "picture=mine.gif"], &["--b picture=mine.gif", "ends in .png or .exr"]),
+        (&["--b", "received", "--b", "path"], &["--b path", "given twice"]),
         (&["--view", "A"], &["--view A", "did you mean a?"]),
         (&["--view", "side-by-side"], &["did you mean side?"]),
         (&["--view", ""], &["--view ''", "a, b, wipe"]),
@@ -36,8 +39,11 @@ fn options_of_the_window_are_those_of_render_and_faults_name_the_word() {
                    --refraction-ratio 0.6 --sun-radius 0 --eye 1,2,3 --target 0,0,0 --fov 30";
     let arguments: Vec<&str> = ["whitted"].into_iter().chain(lecture.split(' ')).collect();
     assert_refused(&arguments, 1, &["no window can be opened here"]);
-    for prepared in [&["--a", "2e-0-bounces", "--b", "fair"][..], &["--slide", "2e-0-1", "--a", "2e-0-bounces,spp=64"]]
-    {
+    for prepared in [
+        &["--a", "2e-0-bounces", "--b", "fair"][..],
+        &["--a", "picture=mine.exr", "--b", "received=14159"],
+        &["--slide", "2e-0-1", "--a", "2e-0-bounces,spp=64"],
+    ] {
         assert_refused(prepared, 1, &["no window can be opened here"]);
     }
     let told = visavis(&["whitted"]);

@@ -8,6 +8,7 @@ mod comparison;
 mod denoising;
 mod device;
 mod export;
+mod external;
 mod files;
 mod labels;
 mod layout;
