@@ -1,14 +1,13 @@
 //! A picture's file that is read again whenever it changes. A program may still be writing it: what cannot be read is tried
 //! again, and the picture before stays.
 
+use super::protocol::{MOST_PIXELS, MOST_SIDE};
 use crate::engine::bare;
 use crate::engine::watch::Stamp;
 use film::Image;
 use image_file::{Loaded, shown};
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
-
-use super::protocol::MOST_SIDE;
 
 /// How long a file that cannot be read waits for the next try, unless it changes before.
 const RETRY: Duration = Duration::from_secs(2);
@@ -93,8 +92,11 @@ fn not_there(path: &std::path::Path) -> String {
 fn load(path: &std::path::Path) -> Result<Loaded, String> {
     let loaded = image_file::read(path).map_err(|fault| format!("{fault}; tried again when it changes"))?;
     let (width, height) = loaded.image.size();
-    if width.max(height) > MOST_SIDE {
-        return Err(format!("{width}x{height} pixels, where a side has at most {MOST_SIDE}: {}", shown(path)));
+    if width.max(height) > MOST_SIDE || u64::from(width) * u64::from(height) > MOST_PIXELS {
+        return Err(format!(
+            "{width}x{height} pixels, where a side has at most {MOST_SIDE} and all are at most {MOST_PIXELS}: {}",
+            shown(path)
+        ));
     }
     Ok(loaded)
 }
@@ -156,7 +158,11 @@ mod tests {
         let half = next(&mut follower);
         assert_eq!(grey(&half), Some(0.25));
         assert!(half.fault.is_some_and(|fault| fault.contains("mine.exr")));
+        let version = Some(half.version);
+        std::fs::write(&file, &whole[..whole.len() / 3]).expect("a file");
+        assert!(follower.since(version).is_none(), "it may be in the middle of being written");
         std::fs::write(&file, &whole).expect("a file");
+        assert!(follower.since(version).is_none(), "it has just changed again");
         let done = next(&mut follower);
         assert_eq!((grey(&done), done.fault), (Some(0.5), None));
         std::fs::remove_file(&file).expect("a file");

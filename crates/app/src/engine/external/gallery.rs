@@ -1,11 +1,9 @@
 //! The pictures that other programs have sent, as far as they have come. The one that was begun last is shown.
 
-use super::protocol::{NewPicture, Packet, Tile};
+use super::protocol::{MOST_PIXELS, NewPicture, Packet, Tile};
 use film::{Image, Vec3};
 use std::time::Instant;
 
-/// Pixels that all pictures may have together: 8192 x 4096.
-pub const MOST_PIXELS: u64 = 1 << 25;
 /// How many are kept: a program may go on with an older one.
 const MOST_PICTURES: usize = 16;
 

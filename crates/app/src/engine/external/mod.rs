@@ -25,6 +25,9 @@ const EVERY: [Duration; 2] = [Duration::from_millis(100), Duration::from_millis(
 /// Looking takes at most one part in so many of the time.
 const SHARE: u32 = 5;
 
+/// So many pixels more of a picture, and it is looked at after so much longer: who shows it has to put it on the screen.
+const PIXELS_A_LOOK: u32 = 1 << 21;
+
 /// How soon it is tried again to listen on a port that is taken.
 const RETRY: Duration = Duration::from_secs(1);
 
@@ -105,12 +108,13 @@ impl Service for Externals {
                 }
             }
         }
-        let mut version = None;
+        let (mut version, mut pixels) = (None, 0);
         while let Some((source, open)) = self.open.as_mut().filter(|_| !control.ends_soon()) {
             let start = Instant::now();
-            let every = open.every();
+            let every = open.every() * (1 + pixels / PIXELS_A_LOOK);
             if let Some(sight) = open.since(version, source) {
                 version = Some(sight.version);
+                pixels = sight.picture.as_ref().map_or(0, |image| image.width() * image.height());
                 self.show(sight, &order);
             }
             control.rest(every.max(start.elapsed() * SHARE));

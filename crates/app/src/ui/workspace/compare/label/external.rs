@@ -2,7 +2,7 @@
 //! came here.
 
 use super::text::{LabelText, duration};
-use crate::model::{External, PaneView};
+use crate::model::{External, PaneSource, PaneView};
 use technique::settings::grouped;
 
 /// Adds what is known of it.
@@ -11,7 +11,11 @@ pub fn tell(text: &mut LabelText, shown: &PaneView, external: &External) {
         text.figures.push(format!("{} x {} pixels", image.width(), image.height()));
     }
     text.figures.extend(changes(external, shown.seconds));
-    text.facts.push(external.source.to_string());
+    text.facts.push(match &external.source {
+        // whose folders are nobody's business on a projector
+        PaneSource::Followed(_) => "a file, read again whenever it changes".into(),
+        source => source.to_string(),
+    });
     text.notes.extend(shown.misfit().map(|[has, seen]| {
         format!("it has {}x{} pixels, and what is seen {}x{}: not measured", has.0, has.1, seen.0, seen.1)
     }));
@@ -38,7 +42,7 @@ fn grouped_of(number: u64) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::model::{PaneId, PaneSource};
+    use crate::model::PaneId;
     use film::{Image, Vec3};
     use std::sync::Arc;
     use technique::{Device, PaneSettings, Provenance, Shot, TechniqueName};
