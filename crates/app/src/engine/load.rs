@@ -162,7 +162,8 @@ fn read_picture(path: &Path, kind: Kind, recent: &[PathBuf]) -> Result<Loaded, R
         (Told::Nothing, Kind::Exr) => read_reference(path).map(Loaded::Reference),
         (Told::Nothing, Kind::Png) => Err(refuse(format!(
             "this picture does not say how it was made: {}; a scene (.toml) can be opened, a picture that visavis has saved, \
-             or an .exr to compare with",
+             or an .exr to compare with; another program's picture can be shown in a pane: Settings of B, Another program's \
+             picture",
             shown(path)
         ))),
     }
