@@ -1,4 +1,4 @@
-//! Pictures that another program makes, in a pane beside those that are made here: received by tev's [`protocol`], or read
+//! Pictures that another program makes, in a pane beside those that are made here: received by tev's protocol, or read
 //! from a file again and again. A pane has a thread that looks for what is new a few times a second, however much comes, and
 //! hands it on as a [`Picture`] of the view that the pane shows.
 
