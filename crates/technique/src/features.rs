@@ -167,7 +167,7 @@ mod tests {
         FeaturePass::new(&scene.camera, SIZE, samples, (integrator.sampler(), integrator.seed()))
     }
 
-    fn finished(renderer: Renderer, integrator: &Integrator, samples: u32, watch: &impl Watch) -> Rendered {
+    fn finished(mut renderer: Renderer, integrator: &Integrator, samples: u32, watch: &impl Watch) -> Rendered {
         let (camera, blank) = (renderer.scene().camera, Accumulation::blank(SIZE).unwrap());
         renderer.finish(blank, &camera, (integrator, samples), DenoiseSettings::OFF, watch)
     }

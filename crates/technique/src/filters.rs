@@ -146,7 +146,7 @@ mod tests {
 
     /// A denoised picture by a renderer on this backend.
     fn denoised(scene: &Arc<scene::Scene>, backend: Backend) -> Denoised {
-        let renderer = Renderer::new(scene.clone(), backend, Arc::new(Threads::all()));
+        let mut renderer = Renderer::new(scene.clone(), backend, Arc::new(Threads::all()));
         let blank = Accumulation::blank(SIZE).unwrap();
         let wanted = (&PathSettings::default().into(), 4);
         renderer.finish(blank, &scene.camera, wanted, A_TROUS, &Patient).denoised.unwrap().unwrap()

@@ -368,7 +368,7 @@ impl Renderer {
     /// Makes a picture from the beginning to the end, wherever it was made in the end: what a device loses is made again,
     /// unless it is too late; then it goes through a denoiser. `accumulation` is blank.
     pub fn finish(
-        mut self,
+        &mut self,
         mut accumulation: Accumulation,
         camera: &Camera,
         wanted: (&Integrator, u32),

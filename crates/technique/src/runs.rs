@@ -227,7 +227,7 @@ impl Renderer {
     /// Makes the mean of so many pictures from the beginning to the end, each as [`Renderer::finish`] makes one; where that is stopped
     /// it is the mean of those that are done. `accumulation` and `runs` are blank.
     pub fn finish_runs(
-        mut self,
+        &mut self,
         (mut accumulation, mut runs): (Accumulation, Runs),
         camera: &Camera,
         (integrator, wanted): (&Integrator, u32),

@@ -34,6 +34,11 @@ impl Shot {
         let (source, camera) = (scene.name.clone(), scene.camera);
         Shot { source, changes: SceneChanges::default(), scene: Arc::new(scene), camera, size }
     }
+
+    /// Whether both show the same pixels of one and the same scene, so that pictures of them can be compared.
+    pub fn is_of_the_same_view(&self, other: &Shot) -> bool {
+        Arc::ptr_eq(&self.scene, &other.scene) && (self.camera, self.size) == (other.camera, other.size)
+    }
 }
 
 impl SceneChanges {

@@ -32,7 +32,7 @@ fn cornell() -> Arc<Scene> {
     Arc::new(scene::builtin::named("cornell").unwrap())
 }
 
-fn samples(renderer: Renderer, integrator: &Integrator, [from, to]: [u32; 2]) -> Rendered {
+fn samples(mut renderer: Renderer, integrator: &Integrator, [from, to]: [u32; 2]) -> Rendered {
     let blank = Accumulation::beginning_at(from, SIZE).unwrap();
     let camera = renderer.scene().camera;
     renderer.finish(blank, &camera, (integrator, to - from), DenoiseSettings::OFF, &Patient)

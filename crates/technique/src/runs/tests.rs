@@ -64,7 +64,7 @@ fn renderer() -> Renderer {
 
 /// The mean of so many, made at once.
 fn mean_of(runs: u32, spp: u32, denoise: DenoiseSettings) -> Rendered {
-    let (renderer, blank) = (renderer(), Accumulation::blank(SIZE).unwrap());
+    let (mut renderer, blank) = (renderer(), Accumulation::blank(SIZE).unwrap());
     let camera = renderer.scene().camera;
     let films = (blank, Runs::blank(SIZE, spp, denoise).unwrap());
     renderer.finish_runs(films, &camera, (&settings(runs, denoise).integrator, runs), &Pane::new(denoise, u32::MAX))
@@ -72,7 +72,7 @@ fn mean_of(runs: u32, spp: u32, denoise: DenoiseSettings) -> Rendered {
 
 /// One picture, of its own seed.
 fn alone(seed: u32, spp: u32, denoise: DenoiseSettings) -> Rendered {
-    let renderer = renderer();
+    let mut renderer = renderer();
     let camera = renderer.scene().camera;
     let integrator = settings(1, denoise).integrator.with_seed(seed);
     let blank = Accumulation::blank(SIZE).unwrap();
@@ -111,7 +111,7 @@ fn the_mean_of_runs_is_that_of_pictures_of_their_seeds_each_denoised_by_itself()
 #[test]
 fn a_run_that_is_stopped_is_left_out_unless_it_is_the_only_one() {
     let end = |spp| {
-        let renderer = renderer();
+        let mut renderer = renderer();
         let camera = renderer.scene().camera;
         let films = (Accumulation::blank(SIZE).unwrap(), Runs::blank(SIZE, 2, UNET).unwrap());
         renderer.finish_runs(films, &camera, (&settings(8, UNET).integrator, 8), &Pane::new(UNET, spp))
