@@ -3,9 +3,11 @@
 
 pub mod films;
 mod folder;
+mod pictures;
 mod screen;
 mod viewer;
 
 pub use folder::TestFolder;
+pub use pictures::place_of;
 pub use screen::Screen;
 pub use viewer::{Frame, ViewerUnderTest};

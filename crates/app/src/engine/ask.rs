@@ -5,10 +5,12 @@ use super::dialogue::{Answer, Choice, Dialogues};
 use super::error_map::ErrorMapWorker;
 use super::export::{Export, Exporter, Outcome};
 use super::load::{Asked as AskedFile, Loaded, Loader, Refusal};
+use super::make_reference::OpenStore;
 use super::pane_workers::PaneWorkers;
 use super::post_process::{PaneUpdate, PaneUpdates, PostProcess};
-use super::reference::{OpenStore, ReferenceUpdate, ReferenceWorker, Wish};
-use super::thumbnails::{Thumbnail, Thumbnails};
+use super::reference::{ReferenceUpdate, ReferenceWorker, Wish};
+use super::sweep::Sweeper;
+use super::thumbnails::Thumbnails;
 use super::watch::{News, Watched, Watcher};
 use super::{Order, STEPS_BACK, Wake, step_farther_back};
 use crate::model::{Against, Comparison, ErrorMap, FilePurpose, MapWish, Origin, PaneId, Panes, Wanted, WantedPane};
@@ -22,17 +24,17 @@ use technique::{Adapters, Provenance, Shot, Technique, Threads};
 /// The workers; dropping it ends their threads.
 pub struct Engine {
     /// The window's device, and what can trace rays.
-    gpu: Gpu,
-    adapters: Adapters,
+    pub(super) gpu: Gpu,
+    pub(super) adapters: Adapters,
     /// Made when a pane is first wanted.
     pane_workers: Panes<PaneWorkers>,
     post_process: Arc<PostProcess>,
     error_map_worker: Arc<ErrorMapWorker>,
     /// Made when it is first asked for.
     reference_worker: Option<ReferenceWorker>,
-    open_store: OpenStore,
+    pub(super) open_store: OpenStore,
     /// Shared by all who trace rays.
-    threads: Arc<Threads>,
+    pub(super) threads: Arc<Threads>,
     exporter: Exporter,
     loader: Loader,
     /// Reads pictures to compare with, whatever else is opened.
@@ -40,8 +42,10 @@ pub struct Engine {
     watcher: Watcher,
     dialogues: Dialogues,
     /// Made when they are first asked for.
-    thumbnails: Option<Thumbnails>,
-    wake: Wake,
+    pub(super) thumbnails: Option<Thumbnails>,
+    /// Made when a sweep is first asked for.
+    pub(super) sweeper: Option<Sweeper>,
+    pub(super) wake: Wake,
     asked: Asked,
 }
 
@@ -93,6 +97,7 @@ impl Engine {
             watcher: Watcher::start(wake.clone()).context("no thread to watch files")?,
             dialogues: Dialogues::new(wake.clone()),
             thumbnails: None,
+            sweeper: None,
             wake,
             asked: Asked::default(),
         })
@@ -101,6 +106,7 @@ impl Engine {
     /// Goes on with another device of the window: fakes are drawn again, and all that is shown is resolved again.
     pub fn move_to(&mut self, window: &Gpu) {
         self.gpu = window.clone();
+        self.sweeper = None;
         self.pane_workers.values_mut().for_each(|workers| workers.move_to(window.clone()));
         for pane in self.asked.panes.values_mut() {
             pane.made.take_if(|(_, technique, _)| matches!(technique, Technique::Fake(_)));
@@ -164,6 +170,7 @@ impl Engine {
         }
         self.measure_fakes();
         self.compare(wanted);
+        self.ask_sweep(wanted);
         jobs
     }
 
@@ -298,22 +305,6 @@ impl Engine {
         self.dialogues.answer()
     }
 
-    /// Draws small pictures of these scenes.
-    pub fn draw_thumbnails(&mut self, names: impl IntoIterator<Item = &'static str>) {
-        if self.thumbnails.is_none() {
-            // without a thread there are none
-            self.thumbnails = Thumbnails::start(self.threads.clone(), self.wake.clone()).ok();
-        }
-        if let Some(worker) = &self.thumbnails {
-            worker.draw(names);
-        }
-    }
-
-    /// Those drawn since the last call.
-    pub fn thumbnails(&self) -> Vec<Thumbnail> {
-        self.thumbnails.as_ref().map(Thumbnails::drawn).unwrap_or_default()
-    }
-
     /// Writes a picture to a file or the clipboard.
     pub fn export(&self, export: Export) {
         self.exporter.submit(export);
@@ -338,7 +329,7 @@ impl Asked {
         let mut before = std::mem::take(&mut self.views);
         before.retain(|(number, _)| *number >= oldest_view);
         for (id, pane) in wanted.panes.iter() {
-            let shows = |(_, shot): &&(u64, Shot)| same_shot(shot, &pane.shot);
+            let shows = |(_, shot): &&(u64, Shot)| shot.is_of_the_same_view(&pane.shot);
             let known = self.views.iter().find(shows).or_else(|| before.iter().find(shows)).map(|(number, _)| *number);
             let view = known.unwrap_or_else(|| {
                 self.newest_view += 1;
@@ -375,11 +366,6 @@ impl Asked {
         let (view, shrink, own_camera) = (asked.view, pane.shrink, pane.own_camera);
         Some(Order { job: self.jobs, view, shrink, restarts, own_camera, provenance })
     }
-}
-
-/// Whether two pictures show the same, so that they can be compared.
-fn same_shot(a: &Shot, b: &Shot) -> bool {
-    Arc::ptr_eq(&a.scene, &b.scene) && (a.camera, a.size) == (b.camera, b.size)
 }
 
 fn is_older_than(update: &PaneUpdate, oldest_view: u64) -> bool {

@@ -4,7 +4,9 @@ use super::capture::{Capture, Pixels};
 use super::session::SessionToSave;
 use super::worker::{Control, Service, Worker};
 use super::{Picture, Wake};
+use crate::lettering::Canvas;
 use crate::model::{Destination, ErrorMap};
+use crate::sweep::Sheet;
 use anyhow::Context;
 use film::DisplayTransform;
 use image_file::Records;
@@ -21,10 +23,12 @@ pub enum Content {
     Pane(Box<Picture>, DisplayTransform),
     /// A map of errors.
     Map(Arc<ErrorMap>),
+    /// All tiles of a sweep with their captions.
+    Sweep(Box<Sheet>),
     /// What is no picture, in a file whose name may end in anything.
     Text(String),
     /// What makes all pictures again.
-    Session(SessionToSave),
+    Session(Box<SessionToSave>),
 }
 
 /// Something to export.
@@ -114,7 +118,8 @@ fn save(export: &Export, path: &Path) -> anyhow::Result<PathBuf> {
             let Pixels { width, height, rgba } = capture.pixels()?;
             image_file::encode_rgba8(width, height, &rgba, records)?
         }
-        (Content::Seen(_) | Content::Text(_) | Content::Session(_), _) => {
+        (Content::Sweep(sheet), Kind::Png) => sheet.png(records.clone())?,
+        (Content::Seen(_) | Content::Sweep(_) | Content::Text(_) | Content::Session(_), _) => {
             anyhow::bail!(
                 "EXR keeps the radiance of one pane: save A, B or the error map, or end the name in .png: {}",
                 image_file::shown(path)
@@ -133,6 +138,10 @@ fn copy(export: &Export, clipboard: &mut Option<arboard::Clipboard>) -> anyhow::
         }
         Content::Map(drawn) => {
             let (width, height, rgba) = drawn.map.with_bar();
+            Pixels { width, height, rgba }
+        }
+        Content::Sweep(sheet) => {
+            let Canvas { size: (width, height), rgba } = sheet.canvas()?;
             Pixels { width, height, rgba }
         }
         Content::Text(text) => {

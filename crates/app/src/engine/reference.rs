@@ -1,20 +1,16 @@
-//! The thread that makes the reference of what is seen: from the store at once if it is there, else picture by picture,
-//! while the panes are at rest, for they have priority. It keeps what it has made: when it is good enough, after each
-//! doubling, and when something else is asked for or the window closes.
+//! The thread that makes the reference of what is seen, or reads it from a file, while the panes are at rest, for they have
+//! priority.
 
+use super::make_reference::{OpenStore, ReferenceMaking, ReferenceWatch};
 use super::post_process::PostProcess;
 use super::worker::{Control, Service, Worker};
 use super::{Wake, step_back};
 use crate::model::{Origin, Progress};
 use crate::ruler::{ReferenceImage, kept_scene};
-use pathtrace::FEWEST_REPLICATES;
-use reference::{Goal, Key, Maker, Reference, Store, StoreError};
+use reference::Reference;
 use std::path::Path;
 use std::sync::Arc;
-use technique::{Rank, Renderer, Shot, Threads};
-
-/// Where references are kept, looked up anew for each.
-pub type OpenStore = Arc<dyn Fn() -> Result<Store, StoreError> + Send + Sync>;
+use technique::{Shot, Threads};
 
 /// A reference to come by.
 #[derive(Debug, Clone)]
@@ -53,7 +49,7 @@ impl ReferenceWorker {
     ) -> std::io::Result<Self> {
         let service = move || {
             step_back();
-            References { post_process, threads, open_store, renderer: None }
+            References { post_process, making: ReferenceMaking::new(threads, open_store) }
         };
         Worker::start("reference_worker", wake, service).map(ReferenceWorker)
     }
@@ -85,10 +81,7 @@ type ReferenceControl = Control<Option<Wish>, ReferenceUpdate>;
 /// Makes one reference after the other.
 struct References {
     post_process: Arc<PostProcess>,
-    threads: Arc<Threads>,
-    open_store: OpenStore,
-    /// The scene of the last wish, ready for rays.
-    renderer: Option<Renderer>,
+    making: ReferenceMaking,
 }
 
 impl Service for References {
@@ -100,7 +93,7 @@ impl Service for References {
         let Origin::File(file) = &wish.origin else { return self.make(&wish, control) };
         match load(file, &wish.shot) {
             Ok((reference, notes)) => {
-                self.show(&wish, &reference, true, control);
+                self.watch(&wish, control).show(Some(&reference), true);
                 // one line: a later one would take the place of those before
                 if !notes.is_empty() {
                     fail(control, notes.join("; "));
@@ -114,72 +107,58 @@ impl Service for References {
     }
 
     fn recover(&mut self, control: &ReferenceControl) {
-        self.renderer = None;
+        self.making.forget();
         fail(control, "the reference stopped at a fault of its own".into());
     }
 }
 
 impl References {
+    fn watch<'a>(&self, wish: &'a Wish, control: &'a ReferenceControl) -> Asked<'a> {
+        Asked { wish, control, post_process: self.post_process.clone() }
+    }
+
     fn make(&mut self, wish: &Wish, control: &ReferenceControl) {
-        let key = Key::of(&wish.shot);
-        let store = (self.open_store)().map_err(|fault| fail(control, fault.to_string())).ok();
-        let fetched = store.as_ref().map_or(Ok(None), |store| store.fetch(key));
-        let kept = fetched.map_err(|fault| fail(control, fault.to_string())).ok().flatten();
-        match &kept {
-            Some(kept) => self.show(wish, kept, false, control),
-            None => tell(control, wish, (0, None, 0.0), false),
-        }
-        let scene = &wish.shot.scene;
-        let mut renderer = match self.renderer.take() {
-            Some(renderer) if Arc::ptr_eq(renderer.scene(), scene) => renderer,
-            _ => Renderer::on_the_processor(scene.clone(), self.threads.clone()),
-        };
-        // panes go first
-        renderer.rank = Rank::Background;
-        let mut keeper = Keeper { store, key, wish, kept: kept.as_ref().map_or(0, |kept| kept.replicates) };
-        match Maker::new(&mut renderer, &wish.shot, kept.as_ref()) {
-            Some(mut maker) => self.work(&mut maker, &Goal::default(), &mut keeper, control),
-            None => fail(control, "not enough memory for a reference; make the window smaller".into()),
-        }
-        self.renderer = Some(renderer);
-    }
-
-    fn work(&self, maker: &mut Maker, goal: &Goal, keeper: &mut Keeper, control: &ReferenceControl) {
-        while !maker.is_done(goal) && !control.ends_soon() {
-            // who waits holds no threads
-            control.wait();
-            if !maker.step(&|| control.is_held() || control.ends_soon()) {
-                continue;
-            }
-            let reference = maker.reference();
-            let done = maker.is_done(goal);
-            self.show(keeper.wish, &reference, done, control);
-            if done || reference.replicates >= keeper.next() {
-                keeper.keep(&reference).unwrap_or_else(|fault| fail(control, fault));
-            }
-        }
-        let reference = maker.reference();
-        if maker.is_done(goal) {
-            self.show(keeper.wish, &reference, true, control);
-        }
-        keeper.keep(&reference).unwrap_or_else(|fault| fail(control, fault));
-    }
-
-    /// Hands it on, to measure pictures by. One picture alone tells nothing of its own noise, and waits for the second.
-    fn show(&self, wish: &Wish, reference: &Reference, done: bool, control: &ReferenceControl) {
-        let enough = reference.replicates != 1;
-        if enough {
-            self.post_process.set_reference(Some((wish.view, ReferenceImage::of(reference))));
-        }
-        let noise = reference.rel_mse().filter(|_| enough);
-        tell(control, wish, (reference.replicates, noise, reference.seconds), done);
+        let watch = self.watch(wish, control);
+        self.making.make(&wish.shot, &watch);
     }
 }
 
-fn tell(control: &ReferenceControl, wish: &Wish, (pictures, noise, seconds): (u32, Option<f64>, f64), done: bool) {
-    let origin = wish.origin.clone();
-    let progress = Progress { view: wish.view, origin, pictures, noise, seconds, done };
-    control.tell(|update| update.progress = Some(progress));
+/// Who has asked for a reference, and hands it on to measure pictures by.
+struct Asked<'a> {
+    wish: &'a Wish,
+    control: &'a ReferenceControl,
+    post_process: Arc<PostProcess>,
+}
+
+impl ReferenceWatch for Asked<'_> {
+    fn ends_soon(&self) -> bool {
+        self.control.ends_soon()
+    }
+
+    fn is_held(&self) -> bool {
+        self.control.is_held()
+    }
+
+    fn wait(&self) {
+        self.control.wait();
+    }
+
+    /// One picture alone tells nothing of its own noise, and waits for the second.
+    fn show(&self, reference: Option<&Reference>, done: bool) {
+        let enough = reference.filter(|reference| reference.replicates != 1);
+        if let Some(reference) = enough {
+            self.post_process.set_reference(Some((self.wish.view, ReferenceImage::of(reference))));
+        }
+        let (view, origin) = (self.wish.view, self.wish.origin.clone());
+        let (pictures, seconds) = reference.map_or((0, 0.0), |reference| (reference.replicates, reference.seconds));
+        let noise = enough.and_then(Reference::rel_mse);
+        let progress = Progress { view, origin, pictures, noise, seconds, done };
+        self.control.tell(|update| update.progress = Some(progress));
+    }
+
+    fn fail(&self, fault: String) {
+        fail(self.control, fault);
+    }
 }
 
 fn fail(control: &ReferenceControl, fault: String) {
@@ -215,34 +194,5 @@ fn of_another_scene(file: &Path, shot: &Shot) -> Option<String> {
         }
         Ok(_) => None,
         Err(line) => Some(line),
-    }
-}
-
-/// Puts one reference into the store, now and then.
-struct Keeper<'a> {
-    store: Option<Store>,
-    key: Key,
-    wish: &'a Wish,
-    /// Pictures of the one that is in the store; 0 if there is none.
-    kept: u32,
-}
-
-impl Keeper<'_> {
-    /// How many pictures are worth keeping: a first time, and then each doubling.
-    fn next(&self) -> u32 {
-        FEWEST_REPLICATES.max(2 * self.kept)
-    }
-
-    /// Keeps it, if it has become finer and there are enough pictures to tell its noise.
-    fn keep(&mut self, reference: &Reference) -> Result<(), String> {
-        if reference.replicates < FEWEST_REPLICATES || reference.replicates <= self.kept {
-            return Ok(());
-        }
-        // a store that failed once is not tried again: one line is enough
-        let Some(store) = self.store.take() else { return Ok(()) };
-        store.put(self.key, reference, reference::records(&self.wish.shot)).map_err(|fault| fault.to_string())?;
-        self.kept = reference.replicates;
-        self.store = Some(store);
-        Ok(())
     }
 }

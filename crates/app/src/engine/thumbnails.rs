@@ -1,6 +1,7 @@
 //! Small pictures of the built-in scenes for their menu, drawn once when it is first opened.
 
 use super::Wake;
+use super::ask::Engine;
 use super::worker::{Control, Service, Worker};
 use film::{DisplayTransform, Film, Image};
 use pathtrace::Tracer;
@@ -47,6 +48,24 @@ impl Thumbnails {
     /// Those drawn since the last call.
     pub fn drawn(&self) -> Vec<Thumbnail> {
         self.0.collect().unwrap_or_default()
+    }
+}
+
+impl Engine {
+    /// Draws small pictures of these scenes.
+    pub fn draw_thumbnails(&mut self, names: impl IntoIterator<Item = &'static str>) {
+        if self.thumbnails.is_none() {
+            // without a thread there are none
+            self.thumbnails = Thumbnails::start(self.threads.clone(), self.wake.clone()).ok();
+        }
+        if let Some(worker) = &self.thumbnails {
+            worker.draw(names);
+        }
+    }
+
+    /// Those drawn since the last call.
+    pub fn thumbnails(&self) -> Vec<Thumbnail> {
+        self.thumbnails.as_ref().map(Thumbnails::drawn).unwrap_or_default()
     }
 }
 

@@ -15,6 +15,8 @@ pub enum ExportSubject {
     ErrorMap,
     /// How errors have fallen.
     Plot(PlotFile),
+    /// All tiles of a sweep with their captions.
+    Sweep(SweepFile),
     /// No picture, but what makes all of them again.
     Session,
 }
@@ -34,6 +36,25 @@ impl PlotFile {
         match self {
             PlotFile::Csv => "CSV",
             PlotFile::Svg => "SVG",
+        }
+    }
+}
+
+/// What a sweep is kept as.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum SweepFile {
+    /// One picture of all tiles, with their captions.
+    Picture,
+    /// The captions, a row a tile.
+    Table,
+}
+
+impl SweepFile {
+    /// The name on its button.
+    pub fn name(self) -> &'static str {
+        match self {
+            SweepFile::Picture => "PNG",
+            SweepFile::Table => "CSV",
         }
     }
 }

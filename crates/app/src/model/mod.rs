@@ -26,6 +26,7 @@ mod session;
 mod session_file;
 mod setup;
 mod slides;
+mod sweep;
 mod theme;
 mod ui_state;
 mod view;
@@ -38,7 +39,7 @@ pub use document::Document;
 pub use effort::{Compiling, Drawing, Effort};
 pub use error_map::{ErrorMap, ErrorMapJob};
 pub use errors::{ErrorHistory, ErrorPoint};
-pub use export::{Destination, ExportMenu, ExportRequest, ExportSubject, PlotFile};
+pub use export::{Destination, ExportMenu, ExportRequest, ExportSubject, PlotFile, SweepFile};
 pub use file_wish::{FilePurpose, FileWish};
 pub use history::{History, Settings};
 pub use magnification::Magnification;
@@ -54,12 +55,16 @@ pub use session::{Resolution, Session};
 pub use session_file::{SESSION_VERSION, SavedSession, SavedWindow, SessionDraft, is_session};
 pub use setup::{MapSetup, Setup};
 pub use slides::{SLIDES, Slide};
+pub use sweep::{
+    Axis, Equal, Line as SweepLine, MOST_TILES, MOST_VALUES, PlannedTile, SWEEPS, SweepMeasure, SweepPlan, SweepPreset,
+    SweepSettings, TECHNIQUE, TileErrors, TileFacts, best, captions, sweep_csv, variable,
+};
 pub use theme::Theme;
-pub use ui_state::{Drag, SwitchedOff, UiState};
+pub use ui_state::{Drag, SweepState, SwitchedOff, UiState};
 pub use view::{Line, View};
 pub use view_args::ViewArgs;
-pub use view_model::{Denoising, PaneView, ViewModel};
-pub use wanted::{Wanted, WantedPane};
+pub use view_model::{Denoising, PaneView, SweepView, ViewModel};
+pub use wanted::{Wanted, WantedPane, WantedSweep};
 
 use scene::{Needs, Scene};
 use technique::{Adapters, DeviceChoice, FakeSettings, Technique};
@@ -227,6 +232,7 @@ impl Model {
             panes: panes.filter_map(pane).collect(),
             comparisons: Vec::new(),
             map: None,
+            sweep: None,
             histograms: false,
             display: session.display,
             paused: state.paused,

@@ -1,6 +1,6 @@
 //! How it is looked at: what one would want to find again after a pause.
 
-use super::{CompareWith, ComparisonSettings, Line, PaneId, PaneSource, Panes, PlotSettings, View};
+use super::{CompareWith, ComparisonSettings, Line, PaneId, PaneSource, Panes, PlotSettings, SweepSettings, View};
 use film::DisplayTransform;
 use raster::Show;
 use scene::{Needs, Scene};
@@ -27,6 +27,8 @@ pub struct Session {
     pub comparison: ComparisonSettings,
     /// What is plotted of the errors.
     pub plots: PlotSettings,
+    /// What is varied in a sweep.
+    pub sweep: SweepSettings,
 }
 
 /// How many pixels a picture has.
@@ -78,6 +80,7 @@ impl Default for Session {
             wipe: 0.5,
             comparison: ComparisonSettings::default(),
             plots: PlotSettings::default(),
+            sweep: SweepSettings::default(),
         }
     }
 }

@@ -1,6 +1,8 @@
 //! What controls come back to, and what is in hand: nothing that anyone would miss the next day.
 
-use super::{Curve, ExportMenu, Magnification, Message, PaneId, Panes, PictureArea, Remembered, Slide, Theme};
+use super::{
+    Curve, ExportMenu, Magnification, Message, PaneId, Panes, PictureArea, Remembered, Slide, SweepPlan, Theme,
+};
 use std::path::PathBuf;
 
 /// The state of the controls.
@@ -72,6 +74,8 @@ pub struct UiState {
     pub pinned: Vec<Curve>,
     /// What the export menu shows while it is open.
     pub export: ExportMenu,
+    /// The sweep as it was last drawn.
+    pub sweep: SweepState,
     /// What switched-off settings come back to.
     pub switched_off: Panes<SwitchedOff>,
 }
@@ -88,6 +92,17 @@ pub enum Drag {
     Magnified,
     /// Marks a region between two points, in shares of a picture.
     Region([[f32; 2]; 2]),
+}
+
+/// A sweep as far as it can be made.
+#[derive(Debug, Clone, Default)]
+pub struct SweepState {
+    /// Where a tile is shown.
+    pub area: PictureArea,
+    /// The last one that could be made: what is being typed takes nothing down.
+    pub plan: Option<SweepPlan>,
+    /// Why what is typed now cannot: one line.
+    pub fault: Option<String>,
 }
 
 /// What a pane's settings come back to when they are switched on again.
@@ -142,6 +157,7 @@ impl UiState {
             typing: false,
             pinned: Vec::new(),
             export: ExportMenu::default(),
+            sweep: SweepState::default(),
             switched_off: Panes::default(),
         }
     }

@@ -1,8 +1,6 @@
 //! What there is to show: results, as those who draw them take them.
 
-use super::{
-    Against, Effort, ErrorHistory, ErrorMap, ErrorPoint, External, PaneId, PaneSource, Panes, Progress, Region,
-};
+use super::{Against, Effort, ErrorHistory, ErrorMap, ErrorPoint, External, PaneId, PaneSource, Panes, Progress, Region, TileFacts};
 use compare::{Errors, Histogram};
 use film::Image;
 use std::sync::Arc;
@@ -16,6 +14,17 @@ pub struct ViewModel {
     /// Where the errors are, while that is looked at.
     pub map: Option<Arc<ErrorMap>>,
     /// How far the reference has come, while it is asked for.
+    pub reference: Option<Progress>,
+    /// What is known of a sweep's tiles.
+    pub sweep: SweepView,
+}
+
+/// What there is to show of a sweep.
+#[derive(Debug, Clone, Default)]
+pub struct SweepView {
+    /// In the order of its tiles.
+    pub tiles: Vec<TileFacts>,
+    /// How far the reference has come that they are measured by.
     pub reference: Option<Progress>,
 }
 

@@ -1,6 +1,6 @@
 //! What shall be made: a plain value, stated anew in every frame. Who makes it compares it with what was wanted before.
 
-use super::{Comparison, MapWish, PaneSource, Panes};
+use super::{Comparison, MapWish, PaneSource, Panes, SweepPlan};
 use film::DisplayTransform;
 use scene::Camera;
 use technique::Shot;
@@ -17,6 +17,8 @@ pub struct Wanted {
     pub comparisons: Vec<Comparison>,
     /// The map of errors that is looked at, if one is.
     pub map: Option<MapWish>,
+    /// The tiles that are to be made, where a sweep is looked at.
+    pub sweep: Option<WantedSweep>,
     /// Whether histograms of the pictures are looked at.
     pub histograms: bool,
     /// How all are shown.
@@ -40,6 +42,21 @@ pub struct WantedPane {
     pub source: PaneSource,
     /// Pixels of the picture area along a side of one of the picture.
     pub shrink: u32,
+}
+
+/// A sweep: what all of its tiles show, and how each is made.
+#[derive(Debug, Clone)]
+pub struct WantedSweep {
+    /// Scene, camera and size of a tile.
+    pub shot: Shot,
+    /// The tiles.
+    pub plan: SweepPlan,
+}
+
+impl PartialEq for WantedSweep {
+    fn eq(&self, other: &Self) -> bool {
+        self.shot.is_of_the_same_view(&other.shot) && self.plan == other.plan
+    }
 }
 
 #[cfg(test)]

@@ -4,7 +4,7 @@
 use super::widgets::{Explained, framed, menu};
 use super::{UiCommand, UiContext, dialogue_button};
 use crate::model::{
-    Destination, ExportRequest, ExportSubject, FilePurpose, FileWish, Model, PaneId, PaneSource, PaneView, PlotFile,
+    Destination, ExportRequest, ExportSubject, FilePurpose, FileWish, Model, PaneId, PaneSource, PaneView, PlotFile, SweepFile,
 };
 use egui::Ui;
 use image_file::{self, Kind};
@@ -12,7 +12,17 @@ use std::path::{Path, PathBuf};
 
 /// The file for the picture as seen: in the folder that was typed, or the default one.
 pub fn seen_file(model: &Model) -> PathBuf {
-    folder(model).join(format!("{}.png", stem(model, ExportSubject::AsSeen)))
+    folder(model).join(format!("{}.png", stem(model, seen_subject(model))))
+}
+
+/// What is seen as a whole: the picture area, or all tiles of a sweep.
+pub fn seen_subject(model: &Model) -> ExportSubject {
+    if model.session.sweep.open { ExportSubject::Sweep(SweepFile::Picture) } else { ExportSubject::AsSeen }
+}
+
+/// The file for a sweep, in the same folder.
+pub fn sweep_file(model: &Model, file: SweepFile) -> PathBuf {
+    folder(model).join(format!("{}.{}", stem(model, ExportSubject::Sweep(file)), file.name().to_lowercase()))
 }
 
 /// The file for the plot of errors, in the same folder.
@@ -36,6 +46,8 @@ fn title(subject: ExportSubject) -> String {
         ExportSubject::Pane(pane) => format!("{pane} alone"),
         ExportSubject::ErrorMap => "The error map".into(),
         ExportSubject::Plot(_) => "The plot".into(),
+        ExportSubject::Sweep(SweepFile::Picture) => "The sweep".into(),
+        ExportSubject::Sweep(SweepFile::Table) => "Its table".into(),
         ExportSubject::Session => "Session".into(),
     }
 }
@@ -61,6 +73,7 @@ fn stem(model: &Model, subject: ExportSubject) -> String {
             external => external.word().to_owned(),
         },
         (ExportSubject::Plot(_), _) => format!("{}-over-{}", session.plots.measure.name(), session.plots.over.name()),
+        (ExportSubject::Sweep(_), _) => sweep_name(model),
         (ExportSubject::Session, _) => "session".into(),
         (ExportSubject::ErrorMap, _) => format!("error-{}", session.comparison.metric.name()),
         (ExportSubject::AsSeen, view) => view.name().to_lowercase().replace(' ', "-"),
@@ -71,10 +84,28 @@ fn stem(model: &Model, subject: ExportSubject) -> String {
     format!("visavis-{scene}-{of}")
 }
 
+/// "sweep-bounces", "sweep-estimator-by-sampler".
+fn sweep_name(model: &Model) -> String {
+    let sweep = &model.session.sweep;
+    let rows = if sweep.rows.is_empty() { String::new() } else { format!("-by-{}", sweep.rows.setting) };
+    format!("sweep-{}{rows}", sweep.columns.setting)
+}
+
+/// What there is to export: of the comparison, or of the sweep.
+fn subjects(cx: &UiContext) -> Vec<ExportSubject> {
+    if cx.model.session.sweep.open {
+        let files = [SweepFile::Picture, SweepFile::Table].map(ExportSubject::Sweep);
+        return files.into_iter().chain([ExportSubject::Session]).collect();
+    }
+    let panes = cx.model.session.panes.ids().map(ExportSubject::Pane);
+    let map = cx.shown.map.is_some().then_some(ExportSubject::ErrorMap);
+    std::iter::once(ExportSubject::AsSeen).chain(panes).chain(map).chain([ExportSubject::Session]).collect()
+}
+
 pub fn show(cx: &mut UiContext, ui: &mut Ui) {
-    // a map that is not looked at is not there
-    if cx.shown.map.is_none() && cx.model.state.export.subject == ExportSubject::ErrorMap {
-        cx.model.state.export.subject = ExportSubject::AsSeen;
+    // what is not looked at is not there
+    if !subjects(cx).contains(&cx.model.state.export.subject) {
+        cx.model.state.export.subject = seen_subject(cx.model);
     }
     let (response, _) = menu("Export").ui(ui, |ui| {
         ui.set_min_width(300.0);
@@ -96,12 +127,10 @@ pub fn show(cx: &mut UiContext, ui: &mut Ui) {
 }
 
 fn choice(cx: &mut UiContext, ui: &mut Ui) {
-    let (menu, with_map) = (&mut cx.model.state.export, cx.shown.map.is_some());
-    let panes = cx.model.session.panes.ids().map(ExportSubject::Pane);
-    let subjects = std::iter::once(ExportSubject::AsSeen).chain(panes);
+    let subjects = subjects(cx);
+    let menu = &mut cx.model.state.export;
     ui.horizontal(|ui| {
-        let with_map = with_map.then_some(ExportSubject::ErrorMap);
-        for subject in subjects.chain(with_map).chain([ExportSubject::Session]) {
+        for subject in subjects {
             let item = ui.radio_value(&mut menu.subject, subject, title(subject));
             let item = if subject == ExportSubject::Session { item.explained(OF_SESSIONS) } else { item };
             cx.dump.note(&format!("export {}", title(subject)), menu.subject == subject, item);
@@ -128,6 +157,7 @@ fn file(cx: &mut UiContext, ui: &mut Ui) {
     menu.exr = Kind::of(Path::new(menu.file.trim())).map_or(menu.exr, |kind| kind == Kind::Exr);
     let kind = match subject {
         ExportSubject::Session => "toml",
+        ExportSubject::Sweep(SweepFile::Table) => "csv",
         _ if menu.exr && is_of_two_kinds(subject) => "exr",
         _ => "png",
     };

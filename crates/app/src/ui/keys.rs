@@ -7,7 +7,8 @@ use crate::model::{Destination, ExportRequest, ExportSubject};
 use egui::{Context, Event, Key, Modifiers, Popup};
 
 /// What the keys do that every workspace has, for the help.
-pub const KEYS: [HelpLine; 15] = [
+pub const KEYS: [HelpLine; 16] = [
+    ("S", "sweep: many pictures at once, and back to the comparison"),
     ("P", "pause, go on"),
     ("R", "restart"),
     ("C", "camera of the scene"),
@@ -28,7 +29,8 @@ pub const KEYS: [HelpLine; 15] = [
 pub fn listen(workspaces: &mut Workspaces, cx: &mut UiContext, context: &Context) {
     let keys = Keys::of(context);
     if keys.command(Key::S) > 0 {
-        export_as_seen(cx, Destination::File(export_menu::seen_file(cx.model)));
+        let file = Destination::File(export_menu::seen_file(cx.model));
+        export_as_seen(cx, file);
     }
     if keys.presses_with(Key::S, Modifiers::COMMAND | Modifiers::SHIFT) > 0 {
         let to = Destination::File(export_menu::session_file(cx.model));
@@ -70,11 +72,13 @@ pub fn listen(workspaces: &mut Workspaces, cx: &mut UiContext, context: &Context
 }
 
 fn export_as_seen(cx: &mut UiContext, to: Destination) {
-    cx.commands.push(UiCommand::Export(ExportRequest { subject: ExportSubject::AsSeen, to }));
+    let subject = export_menu::seen_subject(cx.model);
+    cx.commands.push(UiCommand::Export(ExportRequest { subject, to }));
 }
 
 fn letters(cx: &mut UiContext, keys: &Keys) {
     let turned_over = |key| keys.presses(key) % 2 == 1;
+    cx.model.session.sweep.open ^= turned_over(Key::S);
     let state = &mut cx.model.state;
     state.paused ^= turned_over(Key::P);
     state.panel ^= turned_over(Key::H);

@@ -56,6 +56,8 @@ pub struct Textures {
     pub panes: Panes<TextureId>,
     /// The map of errors.
     pub map: Option<TextureId>,
+    /// The tiles of a sweep, in their order.
+    pub tiles: Vec<Option<TextureId>>,
     /// Small pictures of built-in scenes, by their names.
     pub thumbnails: HashMap<&'static str, TextureId>,
 }
@@ -85,7 +87,9 @@ pub fn show(workspaces: &mut Workspaces, cx: &mut UiContext, ui: &mut Ui) {
         ui.ctx().request_repaint();
         return;
     }
+    workspaces.follow(cx.model);
     keys::listen(workspaces, cx, ui.ctx());
+    workspaces.follow(cx.model);
     top_bar::show(workspaces, cx, ui);
     workspaces.rail(cx, ui);
     workspaces.open_mut().ui(cx, ui);

@@ -77,6 +77,7 @@ fn widths_id() -> egui::Id {
 
 /// What stands at the right of the bar.
 fn tools(cx: &mut UiContext, ui: &mut Ui) {
+    sweep_button(cx, ui);
     slides_menu::show(cx, ui);
     steps(cx, ui);
     export_menu::show(cx, ui);
@@ -90,6 +91,16 @@ fn tools(cx: &mut UiContext, ui: &mut Ui) {
     let help = icon_button(Icon::Help, ("Help", "Mouse and keys (?)"), (true, open), ui);
     if cx.dump.note("help button", open, help).clicked() {
         cx.model.state.help = !open;
+    }
+}
+
+fn sweep_button(cx: &mut UiContext, ui: &mut Ui) {
+    let open = cx.model.session.sweep.open;
+    let hover = "Many pictures at once, of one setting or two, each with its error; again: back to the comparison (S)";
+    let sweep = icon_button(Icon::Sweep, ("Sweep", hover), (true, open), ui);
+    if cx.dump.note("sweep", open, sweep).clicked() {
+        cx.model.session.sweep.open = !open;
+        ui.ctx().request_repaint();
     }
 }
 

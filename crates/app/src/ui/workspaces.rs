@@ -6,12 +6,18 @@ use super::widgets::icon_and_word;
 use super::workspace::Workspace;
 use super::workspace::compare::Compare;
 use super::workspace::empty::Empty;
+use super::workspace::sweep::Sweep;
+use crate::model::Model;
 use egui::{Frame, Margin, Ui};
 
-/// All that there are, in the order of the rail; the first one is the usual one.
+/// All that there are, in the order of the rail; the first one is the usual one. The first two are everybody's, to choose from in the
+/// bar.
 fn registry() -> Vec<Box<dyn Workspace>> {
-    vec![Box::new(Compare), Box::new(Empty)]
+    vec![Box::new(Compare), Box::new(Sweep), Box::new(Empty)]
 }
+
+/// How many everybody has.
+const USUAL: usize = 2;
 
 /// Those that the window offers, and the one that is open.
 pub struct Workspaces {
@@ -27,20 +33,27 @@ impl Default for Workspaces {
 }
 
 impl Workspaces {
-    /// All workspaces, that of this id open; `None` for the usual one alone.
+    /// The usual workspaces, the one of this id open; all of them, with a rail, where it is none of those.
     pub fn beginning_with(id: Option<&str>) -> Self {
         let mut offered = registry();
-        let Some(id) = id else {
-            offered.truncate(1);
-            return Workspaces { offered, open: 0 };
-        };
-        let open = offered.iter().position(|workspace| workspace.id() == id).unwrap_or(0);
+        let place = id.and_then(|id| offered.iter().position(|workspace| workspace.id() == id));
+        let open = place.unwrap_or(0);
+        if open < USUAL {
+            offered.truncate(USUAL);
+        }
         Workspaces { offered, open }
     }
 
     /// The ids of all workspaces.
     pub fn names() -> Vec<&'static str> {
         registry().iter().map(|workspace| workspace.id()).collect()
+    }
+
+    /// Opens that of the usual ones which the session says, unless another is open.
+    pub fn follow(&mut self, model: &Model) {
+        if self.open < USUAL {
+            self.open = usize::from(model.session.sweep.open);
+        }
     }
 
     /// The one that is open.
@@ -55,7 +68,7 @@ impl Workspaces {
 
     /// Icon and word of each at the left, where there is more than one to choose from.
     pub fn rail(&mut self, cx: &mut UiContext, ui: &mut Ui) {
-        if self.offered.len() == 1 {
+        if self.offered.len() == USUAL {
             return;
         }
         let frame = Frame::new().fill(palette(ui).panel).inner_margin(Margin::same(4));
@@ -65,6 +78,7 @@ impl Workspaces {
                 let tab = icon_and_word(workspace.icon(), workspace.name(), open, ui);
                 if cx.dump.note(&format!("workspace {id}"), open, tab).clicked() {
                     self.open = index;
+                    cx.model.session.sweep.open = index + 1 == USUAL;
                 }
             }
         });

@@ -166,7 +166,7 @@ impl Viewer {
             scene: document.scene.clone(),
             source: document.source.clone(),
         };
-        self.engine.export(Export { content: Content::Session(session), records: Vec::new(), to });
+        self.engine.export(Export { content: Content::Session(Box::new(session)), records: Vec::new(), to });
     }
 
     /// Waits for a file that the user chooses in this dialogue.

@@ -7,6 +7,7 @@ mod judge;
 mod plots;
 mod presentation;
 mod stopwatch;
+mod sweep;
 
 pub use presentation::{Place, TextureStore};
 
@@ -25,6 +26,7 @@ use presentation::Presentation;
 use serde_json::{Value, json};
 use std::time::{Duration, Instant};
 use stopwatch::Stopwatch;
+use sweep::MadeSweep;
 
 /// A viewer without its window.
 pub struct Viewer {
@@ -43,6 +45,8 @@ pub struct Viewer {
     asked_again: bool,
     /// A picture to compare with, until it is known how large what is seen is.
     judge: Option<Judge>,
+    /// The tiles of the sweep that is looked at.
+    sweep: MadeSweep,
 }
 
 impl Viewer {
@@ -59,6 +63,7 @@ impl Viewer {
             memory: None,
             asked_again: false,
             judge: None,
+            sweep: MadeSweep::default(),
         }
     }
 
@@ -76,6 +81,7 @@ impl Viewer {
             self.presentation.update_map(drawn, textures);
         }
         self.follow_the_reference();
+        self.collect_sweep(textures);
         self.collect_files();
         self.presentation.update_thumbnails(self.engine.thumbnails(), textures);
         self.engine.exported().into_iter().for_each(|outcome| self.model.say(outcome));
@@ -129,6 +135,7 @@ impl Viewer {
                 ExportSubject::Pane(pane) => self.export_pane(pane, request.to),
                 ExportSubject::ErrorMap => self.export_map(request.to),
                 ExportSubject::Plot(kind) => self.export_plot(kind, request.to),
+                ExportSubject::Sweep(file) => self.export_sweep(file, request.to),
                 ExportSubject::Session => self.export_session(request.to),
             },
             UiCommand::Open(name) => {
@@ -204,6 +211,7 @@ impl Viewer {
             "magnification": state.magnification.factor(),
             "flicker": state.flicker.map(|pane| pane.name()),
             "paused": state.paused,
+            "sweep": self.sweep_dump(),
             "theme": state.theme.name(),
             "picture_size": state.picture.size,
             "eye": document.camera.eye.to_array(),

@@ -41,6 +41,8 @@ pub enum Place {
     Pane(PaneId),
     /// The map of errors.
     ErrorMap,
+    /// A tile of a sweep, by its place.
+    Tile(usize),
     /// A small picture of the built-in scene of this name.
     Thumbnail(&'static str),
 }

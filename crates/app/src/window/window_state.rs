@@ -57,11 +57,12 @@ fn model_of(opened: &Opened, args: &ViewArgs) -> anyhow::Result<Model> {
         let theme = args.theme.or(session.window.theme);
         model.restore_window(&SavedWindow { theme, ..session.window });
         model.restore(session, &setup).map_err(anyhow::Error::msg)?;
-        return Ok(model);
+    } else {
+        // its scene is the one that is open
+        args.slide.into_iter().for_each(|slide| _ = model.show_slide(slide));
+        model.set_up(&setup).map_err(anyhow::Error::msg)?;
     }
-    // its scene is the one that is open
-    args.slide.into_iter().for_each(|slide| _ = model.show_slide(slide));
-    model.set_up(&setup).map_err(anyhow::Error::msg)?;
+    args.workspace.iter().for_each(|workspace| model.session.sweep.open = workspace == "sweep");
     Ok(model)
 }
 

@@ -6,6 +6,7 @@ mod closer;
 mod numbers;
 mod plots;
 mod settings;
+mod sweep;
 mod views;
 
 use egui::accesskit::{Role, Toggled};
@@ -313,7 +314,7 @@ fn keys_and_menus_ask_the_shell() {
 #[test]
 fn a_second_workspace_has_a_tab_where_it_is_asked_for_and_wants_pictures_of_its_own() {
     let usual = Panels::of("whitted");
-    assert!(usual.harness.query_by_label("Compare").is_none(), "there is nothing to choose from");
+    assert!(usual.harness.query_by_label("Compare").is_none(), "a button of the bar chooses between the usual two");
     let cornell = scene::builtin::named("cornell").expect("a built-in scene");
     let model = Model::new(cornell, "cornell".into(), Theme::Dark);
     let mut panels = Panels::in_workspaces(model, Workspaces::beginning_with(Some("empty")));

@@ -34,7 +34,7 @@ fn hold(user: &mut User) {
 }
 
 /// Runs a command that was copied from the window, with another file to write.
-fn run(command: &str, out: &Path) {
+pub fn run(command: &str, out: &Path) {
     let (before, after) = command.split_once(" -o ").expect("a command with an output");
     let (_, after) = after.split_once(' ').expect("options");
     let binary = Path::new(env!("CARGO_BIN_EXE_visavis"));

@@ -16,6 +16,7 @@ mod plots;
 mod scenes;
 mod sessions;
 mod settings;
+mod sweep;
 
 use egui::accesskit::Role;
 use egui::{ColorImage, Key, Modifiers, Pos2, TextureFilter, TextureHandle, TextureOptions, Vec2};

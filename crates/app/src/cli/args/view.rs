@@ -142,11 +142,10 @@ pub fn of_the_window() -> Vec<CommandOption<Reading>> {
                 Ok(())
             },
         },
-        // there is one workspace to use today
         CommandOption {
             names: &["--workspace"],
-            value: "NAME",
-            help: "",
+            value: "compare|sweep",
+            help: "what the window is used for at first: A against B, or many pictures at once (default compare)",
             read: |reading, parser| {
                 reading.args.workspace = Some(a_workspace(parser)?);
                 Ok(())

@@ -3,7 +3,7 @@
 use super::table::{Entry, Fault, Table, fault};
 use super::{MOST_BOOKMARKS, SESSION_VERSION, SavedSession, SavedWindow};
 use crate::model::{
-    CompareWith, Cost, Line, Measure, PaneId, PaneSource, Panes, Region, Resolution, Session, Theme, View,
+    Axis, CompareWith, Cost, Equal, Line, Measure, PaneId, PaneSource, Panes, Region, Resolution, Session, SweepMeasure, SweepSettings, Theme, View,
 };
 use compare::ErrorMetric;
 use image_file::{Kind, shown};
@@ -135,6 +135,7 @@ fn parse(text: &str) -> Result<SessionDraft, Fault> {
     panes.iter().for_each(|(id, pane)| session.set_source(id, pane.source.clone()));
     comparison(table.table("comparison")?, &mut session)?;
     plots(table.table("plots")?, &mut session)?;
+    session.sweep = sweep(table.table("sweep")?)?;
     let bookmarks = table.read("bookmarks", |entry| entry.tables("bookmarks"))?.unwrap_or_default();
     if let Some(first_too_many) = bookmarks.get(MOST_BOOKMARKS) {
         return fault(&first_too_many.at, format!("bookmarks: expected {MOST_BOOKMARKS} at most"));
@@ -299,6 +300,30 @@ fn plots(mut table: Table, session: &mut Session) -> Result<(), Fault> {
     plots.over = table.read("over", |entry| entry.one_of(&Cost::ALL, Cost::name))?.unwrap_or_default();
     plots.measure = table.read("measure", |entry| entry.one_of(&Measure::ALL, Measure::name))?.unwrap_or_default();
     table.end()
+}
+
+fn sweep(mut table: Table) -> Result<SweepSettings, Fault> {
+    let usual = SweepSettings::default();
+    let axis = |entry: Entry| {
+        let text = entry.text("NAME=V1,V2,... of a setting")?;
+        Axis::parse(&text).or_else(|why| fault(&entry.at, format!("{}: {why}", entry.key)))
+    };
+    let seconds = |seconds| (0.01..=3600.0).contains(&seconds);
+    let sweep = SweepSettings {
+        open: table.read("open", |entry| entry.flag())?.unwrap_or(usual.open),
+        of: table.read("of", |entry| entry.one_of(&[PaneId::A, PaneId::B], PaneId::name))?.unwrap_or(usual.of),
+        columns: table.read("columns", axis)?.unwrap_or(usual.columns),
+        rows: table.read("rows", axis)?.unwrap_or(usual.rows),
+        equal: table.read("equal", |entry| entry.one_of(&Equal::ALL, Equal::name))?.unwrap_or(usual.equal),
+        seconds: table
+            .read("seconds", |entry| entry.number("seconds from 0.01 to 3600", seconds))?
+            .unwrap_or(usual.seconds),
+        measure: table
+            .read("error", |entry| entry.one_of(&SweepMeasure::ALL, SweepMeasure::name))?
+            .unwrap_or(usual.measure),
+    };
+    table.end()?;
+    Ok(sweep)
 }
 
 fn window(mut table: Table) -> Result<SavedWindow, Fault> {

@@ -1,7 +1,7 @@
 //! What a session's file says is what comes back, and what it cannot say is told with its place.
 
 use super::*;
-use crate::model::{CompareWith, Line, PaneSource, Resolution, View};
+use crate::model::{Axis, CompareWith, Equal, Line, PaneSource, Resolution, SweepMeasure, SweepSettings, View};
 use compare::ErrorMetric;
 use scene::{Vec3, builtin};
 use std::path::Path;
@@ -98,6 +98,41 @@ fn all_else_of_a_session_comes_back_as_it_was() {
     (model.state.theme, model.state.panel, model.state.labels) = (Theme::Projector, false, false);
     let text = text(&model);
     assert_eq!(parsed(&text, &model.document.scene), Ok(saved(&model)), "{text}");
+}
+
+#[test]
+fn a_sweep_comes_back_as_it_was_and_what_it_cannot_mean_is_told_with_its_place() {
+    let mut model = model("cornell");
+    assert!(!text(&model).contains("[sweep]"), "nobody has set one up");
+    model.session.sweep = SweepSettings {
+        open: true,
+        of: PaneId::A,
+        columns: Axis::new("bounces", "0, 1, inf"),
+        rows: Axis::new("technique", "path, metropolis"),
+        equal: Equal::Time,
+        seconds: 2.5,
+        measure: SweepMeasure::Flip,
+    };
+    let read = parsed(&text(&model), &model.document.scene).unwrap();
+    assert_eq!(read.session.sweep, model.session.sweep);
+    // in the middle of typing
+    model.session.sweep.columns.values = "0,".into();
+    assert_eq!(
+        parsed(&text(&model), &model.document.scene).unwrap().session.sweep.columns,
+        Axis::new("spp", "1, 4, 16")
+    );
+    for (line, said) in [
+        ("columns = \"bounces=0,many\"", "4:11: columns: bounces=many: expected a whole number"),
+        ("rows = \"bouncs=0,1\"", "4:8: rows: bouncs is no setting"),
+        ("rows = \"spp\"", "4:8: rows: spp: expected NAME=V1,V2"),
+        ("equal = \"space\"", "4:9: equal space: expected samples or time"),
+        ("seconds = 0", "4:11: seconds: expected seconds from 0.01 to 3600"),
+        ("error = \"MSE\"", "4:9: error MSE: expected relMSE, RMSE or FLIP"),
+    ] {
+        let session = format!("session = 1\nscene = \"cornell\"\n[sweep]\n{line}\n");
+        let fault = parsed(&session, &model.document.scene).expect_err(line);
+        assert!(fault.contains(said), "{fault}");
+    }
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! A session as the text of its file.
 
 use super::{MOST_BOOKMARKS, SESSION_VERSION, SavedSession};
-use crate::model::{ComparisonSettings, PaneId, PaneSource, PlotSettings, Region, Session};
+use crate::model::{Axis, ComparisonSettings, PaneId, PaneSource, PlotSettings, Region, Session, SweepSettings};
 use compare::ErrorMetric;
 use scene::{Camera, Scene, Vec3};
 use std::fmt::Write;
@@ -26,6 +26,7 @@ impl SavedSession {
         }
         comparison(&mut text, &self.session.comparison);
         table(&mut text, "[plots]", plots(self.session.plots));
+        table(&mut text, "[sweep]", sweep(&self.session.sweep));
         // the latest
         for place in &self.bookmarks[self.bookmarks.len().saturating_sub(MOST_BOOKMARKS)..] {
             table(&mut text, "[[bookmarks]]", camera(place));
@@ -128,6 +129,24 @@ fn comparison(text: &mut String, comparison: &ComparisonSettings) {
 fn plots(plots: PlotSettings) -> Lines {
     let PlotSettings { open, over, measure } = plots;
     vec![("open", open.to_string()), ("over", quoted(over.name())), ("measure", quoted(measure.name()))]
+}
+
+/// One that was never set up is left out.
+fn sweep(sweep: &SweepSettings) -> Lines {
+    if *sweep == SweepSettings::default() {
+        return Vec::new();
+    }
+    let mut lines = vec![("open", sweep.open.to_string()), ("of", quoted(sweep.of.name()))];
+    // what is being typed may be none that is read again
+    let axes = [("columns", &sweep.columns), ("rows", &sweep.rows)].map(|(key, axis)| (key, axis.text()));
+    let whole = axes.into_iter().filter(|(_, text)| Axis::parse(text).is_ok());
+    lines.extend(whole.map(|(key, text)| (key, quoted(&text))));
+    lines.extend([
+        ("equal", quoted(sweep.equal.name())),
+        ("seconds", number(sweep.seconds)),
+        ("error", quoted(sweep.measure.name())),
+    ]);
+    lines
 }
 
 fn word(value: Value) -> String {

@@ -1,12 +1,9 @@
 //! The type: Inter in two weights, its digits all of one width so that numbers stand under each other and do not jump while they change
 //! (assets/README.md says where it comes from).
 
+use crate::lettering::{REGULAR, SEMI_BOLD, font_definitions};
 use crate::model::Theme;
-use egui::{FontData, FontDefinitions, FontFamily, FontId, Style, TextStyle};
-use std::sync::Arc;
-
-const REGULAR: &str = "Inter";
-const SEMI_BOLD: &str = "Inter SemiBold";
+use egui::{FontDefinitions, FontFamily, FontId, Style, TextStyle};
 
 /// The weight of headings and of what is chosen.
 pub fn semi_bold() -> FontFamily {
@@ -72,22 +69,7 @@ impl Sizes {
 
 /// The fonts of a theme: all of a projector's type is heavy, because thin strokes are the first that a bright room takes away.
 pub fn definitions(theme: Theme) -> FontDefinitions {
-    let mut fonts = FontDefinitions::default();
-    let data: [(&str, &'static [u8]); 2] = [
-        (REGULAR, include_bytes!("../../../../../assets/fonts/Inter-Regular.otf")),
-        (SEMI_BOLD, include_bytes!("../../../../../assets/fonts/Inter-SemiBold.otf")),
-    ];
-    for (name, bytes) in data {
-        fonts.font_data.insert(name.into(), Arc::new(FontData::from_static(bytes)));
-    }
-    let usual = if theme == Theme::Projector { SEMI_BOLD } else { REGULAR };
-    // what Inter lacks is looked for in egui's own fonts
-    let others = fonts.families.get(&FontFamily::Proportional).cloned().unwrap_or_default();
-    let led_by = |first: &str| std::iter::once(first.to_owned()).chain(others.iter().cloned()).collect::<Vec<_>>();
-    fonts.families.insert(FontFamily::Proportional, led_by(usual));
-    fonts.families.insert(FontFamily::Monospace, led_by(usual));
-    fonts.families.insert(semi_bold(), led_by(SEMI_BOLD));
-    fonts
+    font_definitions(if theme == Theme::Projector { SEMI_BOLD } else { REGULAR })
 }
 
 #[cfg(test)]

@@ -17,6 +17,8 @@ pub enum Icon {
     Help,
     /// Two pictures with a line between them.
     Compare,
+    /// Three pictures in a row, and three below.
+    Sweep,
     /// Two axes and a falling line.
     Plots,
     /// The corners of a rectangle, and a point in it.
@@ -55,6 +57,12 @@ impl Icon {
             Icon::Compare => {
                 &[&[(3.0, 5.0), (21.0, 5.0), (21.0, 19.0), (3.0, 19.0), (3.0, 5.0)], &[(12.0, 5.0), (12.0, 19.0)]]
             }
+            Icon::Sweep => &[
+                &[(3.0, 5.0), (21.0, 5.0), (21.0, 19.0), (3.0, 19.0), (3.0, 5.0)],
+                &[(9.0, 5.0), (9.0, 19.0)],
+                &[(15.0, 5.0), (15.0, 19.0)],
+                &[(3.0, 12.0), (21.0, 12.0)],
+            ],
             Icon::Plots => {
                 &[&[(4.0, 4.0), (4.0, 20.0), (20.0, 20.0)], &[(7.0, 7.0), (11.0, 12.0), (15.0, 14.5), (20.0, 16.0)]]
             }

@@ -3,6 +3,7 @@
 
 pub(super) mod compare;
 pub(super) mod empty;
+pub(super) mod sweep;
 
 use super::UiContext;
 use super::pressed::{HelpLine, Keys};

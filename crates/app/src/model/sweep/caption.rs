@@ -1,0 +1,170 @@
+//! What stands below a tile, and the same of all tiles as a table.
+
+use super::{SweepMeasure, SweepPlan};
+use crate::ruler::brief;
+use compare::Errors;
+use std::fmt::Write;
+
+/// What is known of a tile's picture.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct TileFacts {
+    /// Samples per pixel, of all runs; `None` of what does not sample.
+    pub spp: Option<u32>,
+    /// Seconds of rendering, those of a denoiser with it.
+    pub seconds: f64,
+    /// How far it is from the reference, once there is one.
+    pub errors: Option<TileErrors>,
+    /// Whether it is all that was asked for.
+    pub done: bool,
+    /// Why there is no picture, or one that was not made as it should be: one line.
+    pub fault: Option<String>,
+}
+
+/// How far a tile is from the reference of what it shows.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct TileErrors {
+    /// The figures of `visavis compare`.
+    pub errors: Errors,
+    /// The mean of FLIP's map.
+    pub flip: f64,
+}
+
+impl TileFacts {
+    /// Whether there is a picture, if only a noisy one.
+    pub fn has_a_picture(&self) -> bool {
+        self.spp.is_some() || self.done && self.fault.is_none()
+    }
+}
+
+impl TileErrors {
+    /// The figure of this name.
+    pub fn measured(&self, measure: SweepMeasure) -> f64 {
+        match measure {
+            SweepMeasure::RelMse => self.errors.rel_mse,
+            SweepMeasure::Rmse => self.errors.rmse,
+            SweepMeasure::Flip => self.flip,
+        }
+    }
+}
+
+/// The tiles of the least error as it is told, once all have one; none where all are alike.
+pub fn best(tiles: &[TileFacts], measure: SweepMeasure) -> Vec<usize> {
+    let error = |tile: &TileFacts| Some(tile.errors.filter(|_| tile.done)?.measured(measure)).filter(|e| e.is_finite());
+    let Some(errors) = tiles.iter().map(error).collect::<Option<Vec<f64>>>() else { return Vec::new() };
+    let Some(least) = errors.iter().copied().reduce(f64::min).map(brief) else { return Vec::new() };
+    let best: Vec<usize> = (0..errors.len()).filter(|index| brief(errors[*index]) == least).collect();
+    if best.len() == errors.len() { Vec::new() } else { best }
+}
+
+/// The lines below each tile: its values; then what it took; then how far off it is, where that is known.
+pub fn captions(plan: &SweepPlan, tiles: &[TileFacts], measure: SweepMeasure) -> Vec<Vec<String>> {
+    let best = best(tiles, measure);
+    let blank = TileFacts::default();
+    let caption = |(index, planned): (usize, &super::PlannedTile)| {
+        let facts = tiles.get(index).unwrap_or(&blank);
+        let error = facts.errors.map(|errors| {
+            let mark = if best.contains(&index) { ", best" } else { "" };
+            format!("{} {}{mark}", measure.name(), brief(errors.measured(measure)))
+        });
+        planned.names.iter().cloned().chain([took(facts)]).chain(error).collect()
+    };
+    plan.tiles.iter().enumerate().map(caption).collect()
+}
+
+/// "20 spp, 0.14 s".
+fn took(facts: &TileFacts) -> String {
+    if let Some(fault) = &facts.fault {
+        return fault.clone();
+    }
+    let seconds = format!("{:.2} s", facts.seconds);
+    match (facts.spp, facts.done) {
+        (None, false) => "waits ...".into(),
+        (None, true) => seconds,
+        (Some(spp), true) => format!("{spp} spp, {seconds}"),
+        (Some(spp), false) => format!("{spp} spp, {seconds} ..."),
+    }
+}
+
+/// All captions with the figures of every measure, a row a tile.
+pub fn sweep_csv(plan: &SweepPlan, tiles: &[TileFacts]) -> String {
+    let mut text = String::from(plan.columns.setting);
+    let rows = plan.rows.as_ref();
+    rows.into_iter().for_each(|rows| _ = write!(text, ",{}", rows.setting));
+    text += ",made_spp,seconds,rel_mse,rmse,mae,flip,reference_noise\n";
+    let columns = plan.columns.values.len();
+    for (index, facts) in tiles.iter().enumerate().take(plan.tiles.len()) {
+        text += &field(&plan.columns.values[index % columns]);
+        rows.into_iter().for_each(|rows| _ = write!(text, ",{}", field(&rows.values[index / columns])));
+        let spp = facts.spp.map_or_else(String::new, |spp| spp.to_string());
+        let _ = write!(text, ",{spp},{}", facts.seconds);
+        let figures = facts.errors.map(|TileErrors { errors: e, flip }| [e.rel_mse, e.rmse, e.mae, flip]);
+        match figures {
+            Some(figures) => figures.iter().for_each(|figure| _ = write!(text, ",{figure}")),
+            None => text += ",,,,",
+        }
+        let noise = facts.errors.and_then(|errors| errors.errors.reference_noise);
+        let _ = writeln!(text, ",{}", noise.map_or_else(String::new, |noise| noise.to_string()));
+    }
+    text
+}
+
+/// A field of a table whose commas part fields.
+fn field(text: &str) -> String {
+    if text.contains([',', '"']) { format!("\"{}\"", text.replace('"', "\"\"")) } else { text.into() }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::model::sweep::Axis;
+    use technique::{PaneSettings, TechniqueName};
+
+    fn facts(spp: u32, rel_mse: f64) -> TileFacts {
+        let errors = Errors { rel_mse, rmse: 1.0 / rel_mse, ..Errors::default() };
+        let errors = Some(TileErrors { errors, flip: 0.5 });
+        TileFacts { spp: Some(spp), seconds: 0.126, errors, done: true, fault: None }
+    }
+
+    fn plan() -> SweepPlan {
+        let mut base = PaneSettings::of(TechniqueName::Path);
+        base.truth.path.bounces = Some(2);
+        let axes = [Axis::new("spp", "1, 4"), Axis::new("roulette", "off, 0.8+throughput")];
+        SweepPlan::of(&base, [&axes[0], &axes[1]], None).unwrap()
+    }
+
+    #[test]
+    fn a_caption_tells_value_samples_seconds_and_error_and_marks_the_best() {
+        let tiles = [facts(1, 0.4), facts(4, 0.1), facts(1, 0.5), facts(4, 0.2)];
+        let told = captions(&plan(), &tiles, SweepMeasure::RelMse);
+        assert_eq!(told[0][2..], ["1 spp, 0.13 s", "relMSE 0.400"]);
+        assert_eq!(told[0][0], "1 spp");
+        assert_eq!(told[1][3], "relMSE 0.100, best");
+        let mut on_the_way = tiles.clone();
+        on_the_way[3].done = false;
+        let told = captions(&plan(), &on_the_way, SweepMeasure::RelMse);
+        assert_eq!(
+            (told[1][3].as_str(), told[3][2].as_str()),
+            ("relMSE 0.100", "4 spp, 0.13 s ..."),
+            "nothing is best yet"
+        );
+        assert_eq!(captions(&plan(), &tiles, SweepMeasure::Rmse)[2][3], "RMSE 2.000, best");
+        assert!(best(&tiles, SweepMeasure::Flip).is_empty(), "all are alike");
+        let nearly = [facts(1, 0.4), facts(1, 0.100_02), facts(1, 0.100_01)];
+        assert_eq!(best(&nearly, SweepMeasure::RelMse), [1, 2], "no caption tells them apart");
+        let unmeasured = [facts(1, 0.4), TileFacts { errors: None, ..facts(4, 0.1) }];
+        assert!(best(&unmeasured, SweepMeasure::RelMse).is_empty(), "one is not known yet");
+    }
+
+    #[test]
+    fn the_table_has_a_row_for_each_tile_and_a_field_for_each_figure() {
+        let tiles = [facts(1, 0.25), facts(4, 0.1), facts(1, 0.5), TileFacts::default()];
+        let table = sweep_csv(&plan(), &tiles);
+        let lines: Vec<&str> = table.lines().collect();
+        assert_eq!(lines[0], "spp,roulette,made_spp,seconds,rel_mse,rmse,mae,flip,reference_noise");
+        assert_eq!(lines.len(), 5);
+        assert!(lines[1].starts_with("1,off,1,") && lines[1].ends_with(",0.126,0.25,4,0,0.5,"), "{}", lines[1]);
+        let commas =
+            |line: &str| line.split('"').step_by(2).flat_map(|part| part.chars()).filter(|c| *c == ',').count();
+        assert!(lines.iter().all(|line| commas(line) == 8), "{table}");
+    }
+}
