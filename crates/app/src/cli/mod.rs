@@ -12,8 +12,9 @@ mod merge;
 mod original;
 mod reference;
 mod render;
+mod sweep;
 
-pub use args::{BenchArgs, CheckArgs, CompareArgs, DenoiseArgs, MergeArgs, ReferenceArgs, RenderArgs, Seen};
+pub use args::{BenchArgs, CheckArgs, CompareArgs, DenoiseArgs, MergeArgs, ReferenceArgs, RenderArgs, Seen, SweepArgs};
 
 use crate::model::ViewArgs;
 use std::process::ExitCode;
@@ -37,6 +38,8 @@ pub enum Command {
     Reference(ReferenceArgs),
     /// Every hard case.
     Check(CheckArgs),
+    /// Many pictures of one scene as one.
+    Sweep(Box<SweepArgs>),
     /// Adapters, limits, and what would be used.
     Info,
     /// A text to print.
@@ -105,6 +108,7 @@ impl Command {
             Command::Bench(args) => bench::run(&args),
             Command::Reference(args) => reference::run(&args),
             Command::Check(args) => check::run(&args),
+            Command::Sweep(args) => sweep::run(&args),
             Command::Info => info::run(),
             Command::Print(text) => print(&text),
         }

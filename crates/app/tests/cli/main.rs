@@ -14,6 +14,7 @@ mod interrupts;
 mod merge;
 mod pictures;
 mod references;
+mod sweep;
 mod window;
 
 use serde_json::Value;

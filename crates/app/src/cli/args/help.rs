@@ -1,7 +1,7 @@
 //! The text of `--help`, made from the tables of options and of settings: what is in none of them is no option.
 
 use super::options::CommandOption;
-use super::{bench, check, compare, denoise, merge, reference, render, view};
+use super::{bench, check, compare, denoise, merge, reference, render, sweep, view};
 use technique::TechniqueName;
 use technique::settings::{OF_SCENES, Setting, all_of_panes};
 
@@ -147,6 +147,13 @@ fn commands() -> Vec<Block> {
         )
         .with_settings(),
         Block::new(
+            "visavis sweep SCENE NAME=V1,V2,... [NAME=V1,V2,...] -o OUT.png",
+            "many pictures of one scene as one: a strip of 2 to 8 values of a setting of render, or of technique; a matrix of two \
+             settings, 16 tiles at most; each tile is what render makes of the same settings",
+            &sweep::options(),
+        )
+        .with_scene_settings(),
+        Block::new(
             "visavis compare A B",
             "how far picture A is from reference B (.exr or .png): RMSE, relMSE, MAE, mean difference, FLIP, HDR-FLIP; B's own noise \
              where it is a reference of this program; without B against the reference of what A's records say that it shows, \
@@ -201,6 +208,9 @@ mod tests {
         for preset in technique::presets::ALL {
             assert!(text.contains(preset.name), "{}", preset.name);
         }
+        for sweep in crate::model::SWEEPS {
+            assert!(text.contains(sweep.name), "{}", sweep.name);
+        }
         for slide in crate::model::SLIDES {
             let (_, listed) = text.split_once("--slide NAME").expect("the option");
             let listed = listed.split("--view a|b").next().expect("what is before the next");
@@ -215,7 +225,7 @@ mod tests {
         let window = text.split("visavis render SCENE").next().expect("the window's options");
         let options = window.lines().filter_map(|line| line.strip_prefix("    --")?.split([' ', ',']).next());
         let expected = "a b slide view against exposure eye target fov refraction-ratio sun-radius theme device frame-stats \
-                        help version";
+                        workspace help version";
         assert_eq!(options.collect::<Vec<_>>(), expected.split(' ').collect::<Vec<_>>());
     }
 }

@@ -11,6 +11,7 @@ pub mod reference;
 pub mod render;
 mod samples;
 mod seen;
+pub mod sweep;
 mod values;
 pub mod view;
 
@@ -22,6 +23,7 @@ pub use merge::MergeArgs;
 pub use reference::ReferenceArgs;
 pub use render::{RenderArgs, made_by};
 pub use seen::Seen;
+pub use sweep::SweepArgs;
 
 use super::{CliError, Command};
 use options::{Typed, no_more, read};
@@ -52,6 +54,7 @@ impl Command {
             "denoise" => denoise::parse,
             "merge" => merge::parse,
             "bench" => bench::parse,
+            "sweep" => sweep::parse,
             "info" => parse_info,
             "check" => check::parse,
             "reference" => reference::parse,
