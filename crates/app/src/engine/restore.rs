@@ -1,6 +1,7 @@
 //! What a picture of this program shows, from its records: its scene, and what is to be set up to see it again.
 
 use crate::model::{CompareWith, Line, MapSetup, PaneId, Region, Setup, View};
+use crate::sweep::COLUMNS;
 use anyhow::{Context, bail};
 use compare::ErrorMetric;
 use image_file::shown;
@@ -51,11 +52,25 @@ fn told(records: &[(String, String)]) -> anyhow::Result<Told> {
     if let Some(kept) = as_seen(records)? {
         return Ok(Told::Picture(kept));
     }
+    if let Some(kept) = of_sweep(records)? {
+        return Ok(Told::Picture(kept));
+    }
     if let Some(kept) = of_reference(records)? {
         return Ok(Told::Reference(kept));
     }
     let is_map = value(records, "map").is_some() && value(records, "colours").is_some();
     Ok(if is_map { Told::ErrorMap } else { Told::Nothing })
+}
+
+/// The scene of a sweep, seen as all of its tiles are; one that the window has saved keeps its session too.
+fn of_sweep(records: &[(String, String)]) -> anyhow::Result<Option<Kept>> {
+    let (Some(scene), Some(_)) = (value(records, "scene"), value(records, COLUMNS)) else { return Ok(None) };
+    let mut setup = Setup::default();
+    for (name, value) in records {
+        look(&mut setup, name, value)?;
+    }
+    let session = value(records, SESSION).map(str::to_owned);
+    Ok(Some(Kept { scene: scene.to_owned(), scene_hash: scene_hash(records)?, setup, session }))
 }
 
 /// The reference of a scene, as `reference` keeps it: it tells by which estimator it was made.

@@ -4,5 +4,5 @@
 mod sheet;
 mod tile;
 
-pub use sheet::{Sheet, SheetError};
+pub use sheet::{COLUMNS, Sheet, SheetError};
 pub use tile::{Asked, Devices, Onlooker, Tile, TileMaker, measure};

@@ -8,6 +8,7 @@ use egui::{Rect, pos2, vec2};
 use film::DisplayTransform;
 use image_file::{ImageFileError, MOST_PIXELS, Records};
 use std::sync::Arc;
+use technique::{Shot, camera_options};
 
 /// The tiles and what is said of them.
 #[derive(Debug, Clone)]
@@ -66,6 +67,9 @@ const GROUND: [u8; 3] = [0x14, 0x16, 0x1a];
 const TEXT: [u8; 3] = [0xe8, 0xea, 0xee];
 const DIM: [u8; 3] = [0xb4, 0xbc, 0xc8];
 const BEST: [u8; 3] = [0x6e, 0xe7, 0xc8];
+
+/// The record of what is varied from column to column, which tells a sweep from other pictures.
+pub const COLUMNS: &str = "columns";
 
 /// Names of the records that say how tiles are made.
 const RECORDS: [&str; crate::model::MOST_TILES] = [
@@ -158,11 +162,22 @@ impl Sheet {
         image_file::encode_rgba8(width, height, &rgba, &records).map_err(SheetError::File)
     }
 
+    /// Scene, camera and changes, which are the same of all tiles.
+    fn records_of_the_view(&self) -> Records {
+        let Some(tile) = self.tiles.iter().flatten().next() else { return Vec::new() };
+        let Shot { source, changes, camera, .. } = &tile.provenance.shot;
+        let mut records = vec![("scene", source.clone()), tile.provenance.shot.hash_record()];
+        records.extend(camera_options(camera).into_iter().chain(changes.options()));
+        records.push(("exposure", self.display.exposure.to_string()));
+        records
+    }
+
     /// What is varied, and for each tile the command that makes it.
     pub fn records(&self) -> Records {
         let SweepPlan { columns, rows, seconds, .. } = &self.plan;
         let line = |line: &crate::model::SweepLine| format!("{}: {}", line.setting, line.values.join(", "));
-        let mut records = vec![("version", env!("CARGO_PKG_VERSION").to_owned()), ("columns", line(columns))];
+        let mut records = vec![("version", env!("CARGO_PKG_VERSION").to_owned()), (COLUMNS, line(columns))];
+        records.extend(self.records_of_the_view());
         records.extend(rows.iter().map(|rows| ("rows", line(rows))));
         let equal =
             seconds.map_or_else(|| "samples".into(), |seconds| format!("time: {seconds} s of rendering a tile"));

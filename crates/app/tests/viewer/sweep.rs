@@ -42,6 +42,10 @@ fn all_tiles_are_saved_as_one_picture_of_what_their_commands_render() {
         let place = place_of((one.dimensions(), one.as_raw()), (whole.dimensions(), whole.as_raw()));
         assert!(place.is_some(), "{command}");
     }
+    user.change(|model| model.session.sweep = SweepSettings::default());
+    user.drop_file(&file);
+    let opened = user.wait_for("the sweep again", |frame| frame.state("sweep")["open"] == true && all_done(frame));
+    assert!(opened.shows("tile 3") && opened.value("Values of Columns") == "0, 1, 2", "{opened:?}");
     let table = user.file("sweep.csv");
     export(&mut user, &["Its table"], &table);
     assert_eq!(std::fs::read_to_string(&table).expect("a table").lines().count(), 4);

@@ -82,16 +82,28 @@ pub fn show(cx: &mut UiContext, ui: &mut Ui) {
     let measure = cx.model.session.sweep.measure;
     let captions = captions(&plan, &cx.shown.sweep.tiles, measure);
     let all_known = cx.shown.sweep.tiles.len() == plan.tiles.len();
+    let fitting = fitting(ui, captions.iter().flatten(), grid.size.x, &font);
     let best = if all_known { best(&cx.shown.sweep.tiles, measure) } else { Vec::new() };
     let corner = grid.corner(room);
     for (index, (tile, caption)) in plan.tiles.iter().zip(captions).enumerate() {
         let rect = grid.rect(index, corner);
         let best = best.contains(&index);
         show_tile(cx, ui, rect, (index, tile), (&caption, best));
-        letter(ui, rect, (&caption, best), (&font, row));
+        letter(ui, rect, (&caption, best), (&fitting, row));
     }
     speak(cx, ui, room, "");
 }
+
+/// The type at which the longest line fits below a tile, if that can still be read.
+fn fitting<'a>(ui: &Ui, lines: impl Iterator<Item = &'a String>, room: f32, font: &FontId) -> FontId {
+    let strong = FontId::new(font.size, semi_bold());
+    let width = |line: &String| ui.painter().layout_no_wrap(line.clone(), strong.clone(), Color32::WHITE).size().x;
+    let longest = lines.map(width).fold(1.0, f32::max);
+    FontId { size: font.size * (0.98 * room / longest).clamp(SMALLEST, 1.0), ..font.clone() }
+}
+
+/// The smallest type of a caption, as a share of the usual.
+const SMALLEST: f32 = 0.65;
 
 /// Says what is to be said, and no hints of the comparison.
 fn speak(cx: &mut UiContext, ui: &Ui, room: Rect, hint: &str) {
