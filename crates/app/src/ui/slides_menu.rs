@@ -13,6 +13,14 @@ pub fn show(cx: &mut UiContext, ui: &mut Ui) {
 }
 
 fn rows(cx: &mut UiContext, ui: &mut Ui) {
+    let open = cx.model.session.sweep.open;
+    let title = if open { "Back to the comparison (S)" } else { "Many pictures at once (S)" };
+    let item =
+        ui.button(title).explained("Sweeps: a strip of one setting or a matrix of two, each picture with its error");
+    if cx.dump.note("slides sweep", open, item).clicked() {
+        cx.model.session.sweep.open = !open;
+        ui.close();
+    }
     for slide in SLIDES {
         let item = ui.button(slide.title).explained(slide.about);
         if cx.dump.note(&format!("slide {}", slide.name), "", item).clicked() {

@@ -75,9 +75,14 @@ fn widths_id() -> egui::Id {
     egui::Id::unique("widths of the bar")
 }
 
+/// Windows narrower than this, in points, have the sweep's button in the menu of slides alone.
+const ROOMY: f32 = 900.0;
+
 /// What stands at the right of the bar.
 fn tools(cx: &mut UiContext, ui: &mut Ui) {
-    sweep_button(cx, ui);
+    if ui.ctx().content_rect().width() >= ROOMY {
+        sweep_button(cx, ui);
+    }
     slides_menu::show(cx, ui);
     steps(cx, ui);
     export_menu::show(cx, ui);

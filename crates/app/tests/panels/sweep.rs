@@ -64,6 +64,19 @@ fn a_key_and_a_button_open_it_and_go_back_and_only_what_is_open_is_wanted() {
 }
 
 #[test]
+fn a_narrow_window_has_it_in_the_menu_of_slides() {
+    let mut panels = panels(ViewModel::default());
+    panels.harness.set_size([683.0, 512.0].into());
+    press(&mut panels, Key::Escape, Modifiers::NONE);
+    assert!(panels.harness.query_by_label("Sweep").is_none(), "the bar has room for one row");
+    for (item, open) in [("Many pictures at once (S)", true), ("Back to the comparison (S)", false)] {
+        panels.click("Slides", 0);
+        panels.click(item, 0);
+        assert_eq!(panels.model.borrow().session.sweep.open, open);
+    }
+}
+
+#[test]
 fn captions_tell_samples_seconds_and_the_chosen_error_of_which_the_least_is_marked() {
     let mut panels = panels(shown());
     assert!(panels.shows("1 spp: 1 spp, 0.25 s, relMSE 0.400"));
