@@ -107,7 +107,7 @@ impl Line {
 }
 
 impl Canvas {
-    /// One colour everywhere.
+    /// So many pixels of one opaque colour.
     pub fn filled(size: (u32, u32), [r, g, b]: [u8; 3]) -> Self {
         let pixels = size.0 as usize * size.1 as usize;
         Canvas { size, rgba: [r, g, b, 255].repeat(pixels) }

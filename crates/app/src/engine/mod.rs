@@ -3,7 +3,7 @@
 //! pool of threads, in turns. The [`post_process`] turns pictures into bytes for the screen and measures how far
 //! apart they are, from each other or from what the [`mod@reference`] makes, and the [`error_map`] draws where; the
 //! [`export`] writes files and fills the clipboard; [`load`], [`restore`], [`session`] and [`find_scene`] read them, [`watch`] reads a scene again that
-//! has changed on disk, [`memory`] keeps what the next window is to know, [`dialogue`] waits for the system's own
+//! has changed on disk, [`memory`] keeps what the next window is to know, [`dialogue`] waits for the system's own,
 //! [`thumbnails`] draws small pictures of scenes and [`sweep`] many pictures of one scene. Every thread is a [`worker::Worker`], fed through a
 //! [`mailbox::Mailbox`] in which newer wishes replace older ones. The UI thread only posts and collects.
 

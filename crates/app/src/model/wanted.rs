@@ -49,7 +49,7 @@ pub struct WantedPane {
 pub struct WantedSweep {
     /// Scene, camera and size of a tile.
     pub shot: Shot,
-    /// The tiles.
+    /// All tiles of it, and how each is made.
     pub plan: SweepPlan,
 }
 

@@ -13,7 +13,7 @@ use technique::{Shot, camera_options};
 /// The tiles and what is said of them.
 #[derive(Debug, Clone)]
 pub struct Sheet {
-    /// What is varied.
+    /// What is varied along rows and columns.
     pub plan: SweepPlan,
     /// In the order of the plan; `None` of one that could not be made.
     pub tiles: Vec<Option<Arc<Tile>>>,
@@ -80,7 +80,7 @@ const RECORDS: [&str; crate::model::MOST_TILES] = [
 /// Where things are, in pixels.
 struct Layout {
     columns: u32,
-    /// Of a tile.
+    /// Width and height of a tile.
     size: (u32, u32),
     gap: u32,
     /// Size of the type.
@@ -125,7 +125,7 @@ impl Sheet {
     /// The whole as a picture.
     ///
     /// # Errors
-    /// [`SheetError::TooLarge`].
+    /// [`SheetError::TooLarge`], before memory is taken for it.
     pub fn canvas(&self) -> Result<Canvas, SheetError> {
         let shown = |tile: &&Arc<Tile>| tile.facts.has_a_picture();
         let size = self.tiles.iter().flatten().find(shown).map_or((320, 180), |tile| tile.image.size());
@@ -155,7 +155,7 @@ impl Sheet {
     /// The bytes of a PNG that keeps how each tile is made.
     ///
     /// # Errors
-    /// [`SheetError`].
+    /// [`SheetError`]: it is too large, or not to be encoded.
     pub fn png(&self, more: Records) -> Result<Vec<u8>, SheetError> {
         let Canvas { size: (width, height), rgba } = self.canvas()?;
         let records: Records = self.records().into_iter().chain(more).collect();

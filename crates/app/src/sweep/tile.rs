@@ -11,14 +11,14 @@ use scene::Scene;
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 use technique::{
-    Accumulation, Backend, DenoiseSettings, Denoised, Device, FakeSettings, Frame, Halves, Made, Pacing, PaneSettings,
-    Provenance, Rendered, Renderer, Runs, Shot, Technique, Threads, TracedSettings, Watch,
+    Accumulation, Backend, DenoiseSettings, Denoised, Device, FakeSettings, Frame, Pacing, PaneSettings, Provenance,
+    Rendered, Renderer, Runs, Shot, Technique, Threads, TracedSettings, Watch,
 };
 
 /// A tile's picture, and what makes it again.
 #[derive(Debug, Clone)]
 pub struct Tile {
-    /// In linear radiance.
+    /// Its pixels, in linear radiance.
     pub image: Image,
     /// What was found out while it was made, but for its errors.
     pub facts: TileFacts,
@@ -28,32 +28,18 @@ pub struct Tile {
     pub spp: u32,
     /// What made it: a device's name, or a number of threads.
     pub made_by: String,
-    /// What denoised it, likewise.
-    pub denoised_by: Option<String>,
-    /// Samples of each half, where a denoiser was judged by those.
-    halves: Option<[u32; 2]>,
 }
 
 impl Tile {
     /// A tile of which there is no picture: one black pixel stands for it.
     pub fn without_light(facts: TileFacts, provenance: Provenance) -> Self {
         let image = Film::new(1, 1).image();
-        Tile { image, facts, provenance, spp: 1, made_by: String::new(), denoised_by: None, halves: None }
+        Tile { image, facts, provenance, spp: 1, made_by: String::new() }
     }
 
     /// The command that makes it as a picture of its own.
     pub fn command(&self, exposure: f32) -> String {
         self.provenance.command(self.spp, exposure, "tile.png")
-    }
-
-    /// What a picture of its own keeps of it.
-    pub fn records(&self, exposure: f32) -> image_file::Records {
-        let seconds = self.facts.seconds;
-        let made =
-            Made { spp: self.spp, seconds, adapter: &self.made_by, denoised_by: self.denoised_by.as_deref(), exposure };
-        let mut records = self.provenance.records(made);
-        records.extend(self.halves.into_iter().flat_map(Halves::records));
-        records
     }
 }
 
@@ -99,7 +85,7 @@ pub struct TileMaker {
 /// A picture to make.
 #[derive(Debug, Clone, Copy)]
 pub struct Asked<'a> {
-    /// What it shows.
+    /// Scene, camera and size of it.
     pub shot: &'a Shot,
     /// How it is made.
     pub pane: &'a PaneSettings,
@@ -268,12 +254,10 @@ impl<'a, O: Onlooker> TileWatch<'a, O> {
     }
 
     fn tile_of(&self, rendered: Rendered, seconds: f64) -> Tile {
-        let Rendered { film, runs, earlier, denoised, made_by, device, .. } = rendered;
+        let Rendered { film, runs, denoised, made_by, device, .. } = rendered;
         let samples = film.samples_per_pixel();
         let whole = !self.onlooker.ends_now();
         let mut tile = self.tile((film.image(), denoised.and_then(Result::ok)), (samples, runs), (seconds, whole));
-        let parts = || Halves::samples_in(&film, earlier.as_ref()?);
-        tile.halves = parts().filter(|_| tile.provenance.technique.denoise().trusts());
         (tile.made_by, tile.provenance.device) = (made_by, device);
         tile
     }
@@ -291,7 +275,6 @@ impl<'a, O: Onlooker> TileWatch<'a, O> {
         let filtering = denoised.as_ref().map_or(0.0, |denoised| denoised.seconds);
         let seconds = seconds + filtering;
         let facts = TileFacts { spp: Some(samples), seconds, errors: None, done, fault: self.refused.clone() };
-        let denoised_by = denoised.as_ref().map(|denoised| denoised.made_by.clone());
         let mut image = denoised.map_or(mean, |denoised| denoised.image);
         image.layers.clear();
         Tile {
@@ -300,8 +283,6 @@ impl<'a, O: Onlooker> TileWatch<'a, O> {
             provenance: Provenance { shot: self.asked.shot.clone(), technique, device: Device::Cpu },
             spp: samples / runs.max(1),
             made_by: String::new(),
-            denoised_by,
-            halves: None,
         }
     }
 }

@@ -84,7 +84,7 @@ fn stem(model: &Model, subject: ExportSubject) -> String {
     format!("visavis-{scene}-{of}")
 }
 
-/// "sweep-bounces", "sweep-estimator-by-sampler".
+/// What a file of the sweep is called: "sweep-bounces", "sweep-estimator-by-sampler".
 fn sweep_name(model: &Model) -> String {
     let sweep = &model.session.sweep;
     let rows = if sweep.rows.is_empty() { String::new() } else { format!("-by-{}", sweep.rows.setting) };

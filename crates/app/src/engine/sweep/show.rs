@@ -11,7 +11,7 @@ use std::sync::Arc;
 /// All tiles as they are now, and what they are shown and measured by.
 #[derive(Debug, Clone)]
 pub struct Show {
-    /// Counts sweeps.
+    /// Counts the sweeps that were shown, to tell old ones.
     pub number: u64,
     /// In the order of the plan.
     pub tiles: Vec<Option<Arc<Tile>>>,
@@ -24,9 +24,9 @@ pub struct Show {
 /// What is new of the tiles of a sweep.
 #[derive(Debug, Default)]
 pub struct Shown {
-    /// Of which one.
+    /// Of which sweep it is, as its job counts them.
     pub number: u64,
-    /// By their places.
+    /// By their places in the plan, from 0.
     pub tiles: BTreeMap<usize, ShownTile>,
 }
 

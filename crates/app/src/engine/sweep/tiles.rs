@@ -27,7 +27,7 @@ pub struct Job {
 /// What is new of a sweep.
 #[derive(Debug, Default)]
 pub struct TilesUpdate {
-    /// Of which one.
+    /// Of which sweep it is, as its job counts them.
     pub number: u64,
     /// Tiles by their places.
     pub tiles: BTreeMap<usize, Arc<Tile>>,

@@ -79,7 +79,7 @@ pub enum Equal {
     /// Samples per pixel, as many as the pane is set to.
     #[default]
     Samples,
-    /// Seconds of rendering.
+    /// Seconds of rendering that each tile has at equal time.
     Time,
 }
 

@@ -22,7 +22,7 @@ pub struct SweepPlan {
     pub columns: Line,
     /// What is varied from row to row; `None` of a strip.
     pub rows: Option<Line>,
-    /// Row by row.
+    /// All of them, row by row from the top.
     pub tiles: Vec<PlannedTile>,
     /// Seconds of rendering that each tile has; `None` where it has the samples that it is set to.
     pub seconds: Option<f32>,
@@ -42,7 +42,7 @@ pub struct Line {
 pub struct PlannedTile {
     /// What tells it from the others, as captions call it: that of its column, and that of its row if there are rows.
     pub names: Vec<String>,
-    /// Its settings.
+    /// All settings that make its picture.
     pub pane: PaneSettings,
 }
 

@@ -26,7 +26,7 @@ const MUCH_LARGER: f32 = 1.5;
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Grid {
     columns: usize,
-    /// Of a tile.
+    /// Width and height of a tile.
     size: Vec2,
     /// Height of a caption.
     caption: f32,
