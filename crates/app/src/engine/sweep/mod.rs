@@ -1,5 +1,5 @@
-//! Sweeps beside the UI: a thread that makes tiles and then their reference ([`tiles`]), and one that turns both into bytes for
-//! the screen and into errors ([`show`]), so that no picture waits for a figure.
+//! Sweeps beside the UI: a thread that makes tiles and then their reference (`tiles`), and one that turns both into bytes for
+//! the screen and into errors (`show`), so that no picture waits for a figure.
 
 mod show;
 mod tiles;
