@@ -19,6 +19,7 @@ pub mod integrator;
 pub mod intersect;
 pub mod light;
 pub mod prepared;
+mod probe;
 mod replicates;
 pub mod sampling;
 pub mod shaders;
@@ -30,6 +31,7 @@ mod vectors;
 pub use caster::cone::shapes_with_cones;
 pub use features::{FeatureFilm, FeaturePass};
 pub use integrator::Integrator;
+pub use integrator::first_vertex::{FirstVertex, Met, Term, Terms};
 pub use integrator::metropolis::MetropolisSettings;
 pub use integrator::normals::{NormalsSettings, Space};
 pub use integrator::photon::{
@@ -37,6 +39,7 @@ pub use integrator::photon::{
 };
 pub use integrator::settings::{ConesAt, Directions, Estimator, LightSampling, PathSettings, Roulette, SettingsError};
 pub use integrator::whitted::{GlassShadows, WhittedSettings};
+pub use probe::ProbedPixel;
 pub use replicates::{FEWEST_REPLICATES, estimate_with_replicates};
 pub use sampling::sampler::SamplerKind;
 pub use simd::Lanes;

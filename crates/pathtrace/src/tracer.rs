@@ -119,7 +119,7 @@ impl Tracer {
         pass.trace(&self.scene, self.lanes, film, stop)
     }
 
-    fn job<'a>(&'a self, pass: FilmPass, stop: &'a Stop) -> FilmJob<'a> {
+    pub(crate) fn job<'a>(&'a self, pass: FilmPass, stop: &'a Stop) -> FilmJob<'a> {
         let Tracer { scene, stand_ins, guides, lanes } = self;
         FilmJob { scene, stand_ins, guides, lanes: *lanes, pass, stop }
     }

@@ -117,6 +117,9 @@ pub struct FilmPass {
     pub until: u32,
     /// Where random numbers come from.
     pub sampler: (SamplerKind, u32),
+    /// Whose samples the film's places are, where they are not pixels of the picture: the pixel's column and row, and the
+    /// number of the sample in the first place.
+    pub probed: Option<([u32; 2], u32)>,
 }
 
 impl FilmPass {
@@ -124,7 +127,7 @@ impl FilmPass {
     pub fn new(film: &Film, camera: &Camera, samples: u32, sampler: (SamplerKind, u32)) -> Self {
         let size = [film.width(), film.height()];
         let until = film.samples_per_pixel().saturating_add(samples);
-        FilmPass { frame: camera.frame(size[0] as f32 / size[1] as f32), size, until, sampler }
+        FilmPass { frame: camera.frame(size[0] as f32 / size[1] as f32), size, until, sampler, probed: None }
     }
 }
 
@@ -186,6 +189,8 @@ struct LaneDriver<'a, F: Float> {
     next: [u32; 3],
     /// Place of each lane's pixel in the chunk.
     place: [u32; MOST_LANES],
+    /// Its index in the picture.
+    pixel: [u32; MOST_LANES],
     sample: [u32; MOST_LANES],
     column: [f32; MOST_LANES],
     row: [f32; MOST_LANES],
@@ -205,6 +210,7 @@ impl<'a, F: Float> LaneDriver<'a, F> {
             first: chunk.first,
             next: [0, chunk.first % width, chunk.first / width],
             place: [0; MOST_LANES],
+            pixel: [0; MOST_LANES],
             sample: [0; MOST_LANES],
             column: [0.0; MOST_LANES],
             row: [0.0; MOST_LANES],
@@ -226,7 +232,12 @@ impl<'a, F: Float> LaneDriver<'a, F> {
             let Some(pixel) = self.pixels.get(place as usize) else { return false };
             self.next = if column + 1 == pass.size[0] { [place + 1, 0, row + 1] } else { [place + 1, column + 1, row] };
             if pixel.samples < pass.until {
-                (self.place[lane], self.sample[lane]) = (place, pixel.samples);
+                let (sample, [column, row]) = match pass.probed {
+                    Some((at, first)) => (first + self.first + place, at),
+                    None => (pixel.samples, [column, row]),
+                };
+                (self.place[lane], self.sample[lane]) = (place, sample);
+                self.pixel[lane] = row * pass.size[0] + column;
                 (self.column[lane], self.row[lane]) = (column as f32, row as f32);
                 return true;
             }
@@ -236,8 +247,7 @@ impl<'a, F: Float> LaneDriver<'a, F> {
     #[inline(always)]
     fn sampler(&self, pass: &FilmPass) -> Sampler<F::U> {
         let (kind, seed) = pass.sampler;
-        let pixel = F::U::load(&self.place).wrapping_add(F::U::splat(self.first));
-        Sampler { kind, pixel, sample: F::U::load(&self.sample), seed }
+        Sampler { kind, pixel: F::U::load(&self.pixel), sample: F::U::load(&self.sample), seed }
     }
 
     /// The rays through the lanes' pixels, each at its sample's place.

@@ -7,6 +7,7 @@
 pub(crate) mod chain_state;
 mod connected;
 pub(crate) mod directions;
+pub(crate) mod first_vertex;
 pub(crate) mod forks;
 pub(crate) mod guide;
 pub mod metropolis;

@@ -53,7 +53,7 @@ impl Guides {
         let (cones, split_glass) = (ConesAt::Nothing, false);
         let cosine = PathSettings { estimator, branches: 1, seed, cones, split_glass, ..*settings };
         let sampler = (settings.sampler, seed);
-        let pass = FilmPass { frame: job.pass.frame, size: [SIDE; 2], until: SAMPLES, sampler };
+        let pass = FilmPass { frame: job.pass.frame, size: [SIDE; 2], until: SAMPLES, sampler, probed: None };
         let notes = Notes::new(self.cells);
         let mut film = Film::new(SIDE, SIDE);
         FilmJob { pass, ..*job }.fill(&mut film, &Plan::that_teaches(&cosine, &notes));
