@@ -1,6 +1,6 @@
 //! The threads beside the UI as one: asks them for whatever no longer fits what is wanted, and ends them.
 
-use super::asked_pane::{AskedPane, FakesTime};
+use super::asked_pane::{AskedPane, FakesTime, same_shot};
 use super::dialogue::{Answer, Choice, Dialogues};
 use super::error_map::ErrorMapWorker;
 use super::export::{Export, Exporter, Outcome};
@@ -45,6 +45,8 @@ pub struct Engine {
     pub(super) thumbnails: Option<Thumbnails>,
     /// Made when a sweep is first asked for.
     pub(super) sweeper: Option<Sweeper>,
+    /// Looks into a pixel.
+    pub probes: super::probe::Probes,
     pub(super) wake: Wake,
     asked: Asked,
 }
@@ -98,6 +100,7 @@ impl Engine {
             dialogues: Dialogues::new(wake.clone()),
             thumbnails: None,
             sweeper: None,
+            probes: Default::default(),
             wake,
             asked: Asked::default(),
         })
@@ -171,6 +174,7 @@ impl Engine {
         self.measure_fakes();
         self.compare(wanted);
         self.ask_sweep(wanted);
+        self.probes.follow(wanted, &self.threads, &self.wake);
         jobs
     }
 
@@ -234,8 +238,8 @@ impl Engine {
             }
         }
         // the user explores: panes come first, and what is paused is quiet
-        let busy = self.asked.is_busy();
-        self.reference_worker.iter().for_each(|reference_worker| reference_worker.hold(busy || wanted.paused));
+        let held = self.asked.is_busy() || wanted.paused;
+        self.reference_worker.iter().for_each(|reference_worker| reference_worker.hold(held));
     }
 
     /// Takes the reference of what is seen from this file, until something else is seen.

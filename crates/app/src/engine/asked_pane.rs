@@ -2,7 +2,8 @@
 
 use super::post_process::PaneUpdate;
 use crate::model::{Effort, PaneSource};
-use technique::Technique;
+use std::sync::Arc;
+use technique::{Shot, Technique};
 
 /// What a pane was last asked for.
 #[derive(Default)]
@@ -45,6 +46,11 @@ impl AskedPane {
     pub fn is_busy(&self) -> bool {
         self.unfinished.is_some() || self.fakes_time == FakesTime::InHand
     }
+}
+
+/// Whether two pictures show the same, so that they can be compared.
+pub fn same_shot(a: &Shot, b: &Shot) -> bool {
+    Arc::ptr_eq(&a.scene, &b.scene) && (a.camera, a.size) == (b.camera, b.size)
 }
 
 /// Whether no more comes of a job after this.

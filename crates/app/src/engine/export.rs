@@ -5,7 +5,7 @@ use super::session::SessionToSave;
 use super::worker::{Control, Service, Worker};
 use super::{Picture, Wake};
 use crate::lettering::Canvas;
-use crate::model::{Destination, ErrorMap};
+use crate::model::{Destination, ErrorMap, PaneId, PixelSamples, samples_csv};
 use crate::sweep::Sheet;
 use anyhow::Context;
 use film::DisplayTransform;
@@ -27,6 +27,8 @@ pub enum Content {
     Sweep(Box<Sheet>),
     /// What is no picture, in a file whose name may end in anything.
     Text(String),
+    /// The samples of a pixel in each pane, of which a table is made.
+    Samples(Vec<(PaneId, Arc<PixelSamples>)>),
     /// What makes all pictures again.
     Session(Box<SessionToSave>),
 }
@@ -106,6 +108,9 @@ fn save(export: &Export, path: &Path) -> anyhow::Result<PathBuf> {
     if let Content::Text(text) = content {
         return Ok(image_file::write_new(path, text.as_bytes())?);
     }
+    if let Content::Samples(panes) = content {
+        return Ok(image_file::write_new(path, samples_csv(panes).as_bytes())?);
+    }
     if let Content::Session(session) = content {
         return session.save(path);
     }
@@ -119,7 +124,7 @@ fn save(export: &Export, path: &Path) -> anyhow::Result<PathBuf> {
             image_file::encode_rgba8(width, height, &rgba, records)?
         }
         (Content::Sweep(sheet), Kind::Png) => sheet.png(records.clone())?,
-        (Content::Seen(_) | Content::Sweep(_) | Content::Text(_) | Content::Session(_), _) => {
+        (Content::Seen(_) | Content::Sweep(_) | Content::Text(_) | Content::Samples(_) | Content::Session(_), _) => {
             anyhow::bail!(
                 "EXR keeps the radiance of one pane: save A, B or the error map, or end the name in .png: {}",
                 image_file::shown(path)
@@ -147,6 +152,10 @@ fn copy(export: &Export, clipboard: &mut Option<arboard::Clipboard>) -> anyhow::
         Content::Text(text) => {
             let outcome = opened(clipboard).and_then(|open| open.set_text(text));
             return outcome.context("cannot copy the text; save it instead");
+        }
+        Content::Samples(panes) => {
+            let outcome = opened(clipboard).and_then(|open| open.set_text(samples_csv(panes)));
+            return outcome.context("cannot copy the table; save it instead");
         }
         Content::Session(session) => {
             let outcome = opened(clipboard).and_then(|open| open.set_text(session.text()));

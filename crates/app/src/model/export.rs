@@ -17,6 +17,8 @@ pub enum ExportSubject {
     Plot(PlotFile),
     /// All tiles of a sweep with their captions.
     Sweep(SweepFile),
+    /// The samples of the pixel that is looked into.
+    Samples,
     /// No picture, but what makes all of them again.
     Session,
 }

@@ -19,6 +19,7 @@ mod pane;
 mod pane_source;
 mod picture_area;
 mod plots;
+mod probe;
 mod reference;
 mod region;
 mod remembered;
@@ -48,6 +49,10 @@ pub use pane::{PaneId, Panes};
 pub use pane_source::{External, PaneSource, USUAL_PORT};
 pub use picture_area::PictureArea;
 pub use plots::{Cost, Curve, Measure, Owner, PlotSettings, csv, guide, judge_of_all, pin};
+pub use probe::{
+    Bin, Channel, Drawn, MOST_PROBED, PaneProbe, PixelSamples, ProbeSettings, ProbeWish, RunningMean, Spread, pixel_at,
+    samples_csv,
+};
 pub use reference::{Origin, Progress};
 pub use region::{IN_THE_REGION, Region};
 pub use remembered::{Remembered, WindowPlace};
@@ -234,6 +239,7 @@ impl Model {
             map: None,
             sweep: None,
             histograms: false,
+            probe: None,
             display: session.display,
             paused: state.paused,
             restarts: state.restarts,

@@ -1,6 +1,6 @@
 //! How it is looked at: what one would want to find again after a pause.
 
-use super::{CompareWith, ComparisonSettings, Line, PaneId, PaneSource, Panes, PlotSettings, SweepSettings, View};
+use super::{CompareWith, ComparisonSettings, Line, PaneId, PaneSource, Panes, PlotSettings, ProbeSettings, SweepSettings, View};
 use film::DisplayTransform;
 use raster::Show;
 use scene::{Needs, Scene};
@@ -29,6 +29,8 @@ pub struct Session {
     pub plots: PlotSettings,
     /// What is varied in a sweep.
     pub sweep: SweepSettings,
+    /// The pixel that is looked into.
+    pub probe: ProbeSettings,
 }
 
 /// How many pixels a picture has.
@@ -81,6 +83,7 @@ impl Default for Session {
             comparison: ComparisonSettings::default(),
             plots: PlotSettings::default(),
             sweep: SweepSettings::default(),
+            probe: ProbeSettings::default(),
         }
     }
 }

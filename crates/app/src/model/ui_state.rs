@@ -46,6 +46,8 @@ pub struct UiState {
     pub wheel: f32,
     /// Whether the pixels under the mouse are shown with their numbers.
     pub loupe: bool,
+    /// Which sample the probe takes apart, from 0; `None` for the last.
+    pub probed_sample: Option<u32>,
     /// Whether histograms are in sight.
     pub histograms: bool,
     /// The pane whose turn it is while A and B flicker.
@@ -143,6 +145,7 @@ impl UiState {
             magnification: Magnification::default(),
             wheel: 0.0,
             loupe: false,
+            probed_sample: None,
             histograms: false,
             flicker: None,
             scene_fault: None,

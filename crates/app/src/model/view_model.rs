@@ -1,6 +1,6 @@
 //! What there is to show: results, as those who draw them take them.
 
-use super::{Against, Effort, ErrorHistory, ErrorMap, ErrorPoint, External, PaneId, PaneSource, Panes, Progress, Region, TileFacts};
+use super::{Against, Effort, ErrorHistory, ErrorMap, ErrorPoint, External, PaneId, PaneProbe, PaneSource, Panes, Progress, Region, TileFacts};
 use compare::{Errors, Histogram};
 use film::Image;
 use std::sync::Arc;
@@ -13,6 +13,8 @@ pub struct ViewModel {
     pub panes: Panes<PaneView>,
     /// Where the errors are, while that is looked at.
     pub map: Option<Arc<ErrorMap>>,
+    /// What is known of the pixel that is looked into.
+    pub probe: Panes<PaneProbe>,
     /// How far the reference has come, while it is asked for.
     pub reference: Option<Progress>,
     /// What is known of a sweep's tiles.

@@ -1,6 +1,6 @@
 //! What shall be made: a plain value, stated anew in every frame. Who makes it compares it with what was wanted before.
 
-use super::{Comparison, MapWish, PaneSource, Panes, SweepPlan};
+use super::{Comparison, MapWish, PaneSource, Panes, ProbeWish, SweepPlan};
 use film::DisplayTransform;
 use scene::Camera;
 use technique::Shot;
@@ -21,6 +21,8 @@ pub struct Wanted {
     pub sweep: Option<WantedSweep>,
     /// Whether histograms of the pictures are looked at.
     pub histograms: bool,
+    /// The pixel that is looked into, if one is.
+    pub probe: Option<ProbeWish>,
     /// How all are shown.
     pub display: DisplayTransform,
     /// Whether what is traced waits.

@@ -35,6 +35,11 @@ pub fn session_file(model: &Model) -> PathBuf {
     folder(model).join(format!("{}.toml", stem(model, ExportSubject::Session)))
 }
 
+/// The file for the samples of a pixel, in the same folder.
+pub fn samples_file(model: &Model) -> PathBuf {
+    folder(model).join(format!("{}.csv", stem(model, ExportSubject::Samples)))
+}
+
 fn folder(model: &Model) -> PathBuf {
     let typed = image_file::typed_path(&model.state.export.file, &default_folder());
     if typed.is_dir() { typed } else { typed.parent().map_or_else(default_folder, Path::to_owned) }
@@ -48,6 +53,7 @@ fn title(subject: ExportSubject) -> String {
         ExportSubject::Plot(_) => "The plot".into(),
         ExportSubject::Sweep(SweepFile::Picture) => "The sweep".into(),
         ExportSubject::Sweep(SweepFile::Table) => "Its table".into(),
+        ExportSubject::Samples => "The samples".into(),
         ExportSubject::Session => "Session".into(),
     }
 }
@@ -74,6 +80,10 @@ fn stem(model: &Model, subject: ExportSubject) -> String {
         },
         (ExportSubject::Plot(_), _) => format!("{}-over-{}", session.plots.measure.name(), session.plots.over.name()),
         (ExportSubject::Sweep(_), _) => sweep_name(model),
+        (ExportSubject::Samples, _) => {
+            let [column, row] = session.probe.pixel(model.state.picture.size);
+            format!("samples-at-{column}-{row}")
+        }
         (ExportSubject::Session, _) => "session".into(),
         (ExportSubject::ErrorMap, _) => format!("error-{}", session.comparison.metric.name()),
         (ExportSubject::AsSeen, view) => view.name().to_lowercase().replace(' ', "-"),

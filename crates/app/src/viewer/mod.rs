@@ -6,6 +6,7 @@ mod files;
 mod judge;
 mod plots;
 mod presentation;
+mod probe;
 mod stopwatch;
 mod sweep;
 
@@ -82,6 +83,7 @@ impl Viewer {
         }
         self.follow_the_reference();
         self.collect_sweep(textures);
+        self.presentation.update_probe(self.engine.probes.collect());
         self.collect_files();
         self.presentation.update_thumbnails(self.engine.thumbnails(), textures);
         self.engine.exported().into_iter().for_each(|outcome| self.model.say(outcome));
@@ -136,6 +138,7 @@ impl Viewer {
                 ExportSubject::ErrorMap => self.export_map(request.to),
                 ExportSubject::Plot(kind) => self.export_plot(kind, request.to),
                 ExportSubject::Sweep(file) => self.export_sweep(file, request.to),
+                ExportSubject::Samples => self.export_samples(request.to),
                 ExportSubject::Session => self.export_session(request.to),
             },
             UiCommand::Open(name) => {

@@ -8,7 +8,8 @@ use crate::engine::post_process::{DisplayFrame, PaneUpdate, PaneUpdates};
 use crate::engine::restore::{QUALIFIED, REGION, SESSION};
 use crate::engine::thumbnails::Thumbnail;
 use crate::model::{
-    Against, ComparisonSettings, Denoising, ErrorMap, Model, PaneId, PaneView, Panes, SavedSession, ViewModel, Wanted,
+    Against, ComparisonSettings, Denoising, ErrorMap, Model, PaneId, PaneProbe, PaneView, Panes, SavedSession,
+    ViewModel, Wanted,
 };
 use crate::ruler::error_records;
 use crate::ui::Textures;
@@ -115,6 +116,7 @@ impl Presentation {
         self.shown.panes.retain(|pane, _| is_wanted(pane));
         self.textures.panes.retain(|pane, _| is_wanted(pane));
         self.pictures.retain(|pane, _| is_wanted(pane));
+        self.shown.probe.retain(|pane, _| wanted.probe.is_some() && is_wanted(pane));
         if wanted.map.is_none() {
             (self.shown.map, self.textures.map) = (None, None);
         }
@@ -126,6 +128,11 @@ impl Presentation {
             textures.upload(Place::ErrorMap, (drawn.map.width, drawn.map.height()), &drawn.rgba, TextureFilter::Nearest)
         });
         self.shown.map = drawn.map(Arc::new);
+    }
+
+    /// Takes what is new of the pixel that is looked into.
+    pub fn update_probe(&mut self, probed: Panes<PaneProbe>) {
+        probed.into_iter().for_each(|(pane, probe)| drop(self.shown.probe.insert(pane, probe)));
     }
 
     /// Puts up small pictures of scenes.

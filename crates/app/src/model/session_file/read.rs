@@ -3,7 +3,7 @@
 use super::table::{Entry, Fault, Table, fault};
 use super::{MOST_BOOKMARKS, SESSION_VERSION, SavedSession, SavedWindow};
 use crate::model::{
-    Axis, CompareWith, Cost, Equal, Line, Measure, PaneId, PaneSource, Panes, Region, Resolution, Session, SweepMeasure, SweepSettings, Theme, View,
+    Axis, Channel, CompareWith, Cost, Equal, Line, Measure, PaneId, PaneSource, Panes, Region, Resolution, Session, SweepMeasure, SweepSettings, Theme, View,
 };
 use compare::ErrorMetric;
 use image_file::{Kind, shown};
@@ -136,6 +136,7 @@ fn parse(text: &str) -> Result<SessionDraft, Fault> {
     comparison(table.table("comparison")?, &mut session)?;
     plots(table.table("plots")?, &mut session)?;
     session.sweep = sweep(table.table("sweep")?)?;
+    probe(table.table("probe")?, &mut session)?;
     let bookmarks = table.read("bookmarks", |entry| entry.tables("bookmarks"))?.unwrap_or_default();
     if let Some(first_too_many) = bookmarks.get(MOST_BOOKMARKS) {
         return fault(&first_too_many.at, format!("bookmarks: expected {MOST_BOOKMARKS} at most"));
@@ -324,6 +325,16 @@ fn sweep(mut table: Table) -> Result<SweepSettings, Fault> {
     };
     table.end()?;
     Ok(sweep)
+}
+
+fn probe(mut table: Table, session: &mut Session) -> Result<(), Fault> {
+    let probe = &mut session.probe;
+    probe.open = table.read("open", |entry| entry.flag())?.unwrap_or(probe.open);
+    let place = "a pixel's place in shares of the picture, [0.5, 0.5]";
+    let at = table.read("at", |entry| entry.numbers(place, |share| (0.0..=1.0).contains(&share)))?;
+    probe.at = at.unwrap_or(probe.at);
+    probe.channel = table.read("channel", |entry| entry.one_of(&Channel::ALL, Channel::name))?.unwrap_or_default();
+    table.end()
 }
 
 fn window(mut table: Table) -> Result<SavedWindow, Fault> {

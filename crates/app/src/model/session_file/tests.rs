@@ -95,6 +95,8 @@ fn all_else_of_a_session_comes_back_as_it_was() {
     session.plots.open = true;
     session.plots.over = crate::model::Cost::Seconds;
     session.plots.measure = crate::model::Measure::Mae;
+    let channel = crate::model::Channel::Green;
+    session.probe = crate::model::ProbeSettings { open: true, at: [1.0 / 3.0, 0.9], channel };
     (model.state.theme, model.state.panel, model.state.labels) = (Theme::Projector, false, false);
     let text = text(&model);
     assert_eq!(parsed(&text, &model.document.scene), Ok(saved(&model)), "{text}");
@@ -206,6 +208,7 @@ fn what_a_session_cannot_mean_is_told_with_line_and_column() {
         ("[comparison]\nregion = [0.5, 0, 0.5, 1]", "a.toml:4:10: region: expected left, top, right and bottom"),
         ("[comparison.scale]\nsigned = 0", "a.toml:4:10: signed: expected a number above 0"),
         ("[plots]\nopen = \"yes\"", "a.toml:4:8: open: expected true or false"),
+        ("[probe]\nat = [0.5, 2]", "a.toml:4:6: at: expected a pixel's place in shares of the picture, [0.5, 0.5]"),
         ("[window]\nsize = [1280]", "a.toml:4:8: size: expected width and height in points"),
         ("[window]\ntheme = \"drk\"", "a.toml:4:9: theme drk: expected dark, light or projector; did you mean dark?"),
         ("[plot]\nopen = true", "a.toml:3:2: plot is no key of a session: expected session, scene, "),

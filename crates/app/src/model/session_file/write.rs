@@ -1,7 +1,7 @@
 //! A session as the text of its file.
 
 use super::{MOST_BOOKMARKS, SESSION_VERSION, SavedSession};
-use crate::model::{Axis, ComparisonSettings, PaneId, PaneSource, PlotSettings, Region, Session, SweepSettings};
+use crate::model::{Axis, ComparisonSettings, PaneId, PaneSource, PlotSettings, ProbeSettings, Region, Session, SweepSettings};
 use compare::ErrorMetric;
 use scene::{Camera, Scene, Vec3};
 use std::fmt::Write;
@@ -27,6 +27,7 @@ impl SavedSession {
         comparison(&mut text, &self.session.comparison);
         table(&mut text, "[plots]", plots(self.session.plots));
         table(&mut text, "[sweep]", sweep(&self.session.sweep));
+        table(&mut text, "[probe]", probe(self.session.probe));
         // the latest
         for place in &self.bookmarks[self.bookmarks.len().saturating_sub(MOST_BOOKMARKS)..] {
             table(&mut text, "[[bookmarks]]", camera(place));
@@ -147,6 +148,16 @@ fn sweep(sweep: &SweepSettings) -> Lines {
         ("error", quoted(sweep.measure.name())),
     ]);
     lines
+}
+
+/// Nothing where nobody has looked into a pixel.
+fn probe(probe: ProbeSettings) -> Lines {
+    if probe == ProbeSettings::default() {
+        return Vec::new();
+    }
+    let ProbeSettings { open, at: [x, y], channel } = probe;
+    let at = format!("[{}, {}]", number(x), number(y));
+    vec![("open", open.to_string()), ("at", at), ("channel", quoted(channel.name()))]
 }
 
 fn word(value: Value) -> String {

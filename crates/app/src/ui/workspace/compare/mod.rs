@@ -14,10 +14,11 @@ mod map_faces;
 mod mouse;
 mod picture;
 mod plots;
+mod probe;
 mod region;
 
 use super::Workspace;
-use crate::model::{CompareWith, Model, PaneId, View, Wanted};
+use crate::model::{CompareWith, Model, PaneId, ProbeWish, View, Wanted};
 use crate::ui::pressed::{HelpLine, Keys};
 use crate::ui::widgets::{Icon, choice, icon_button};
 use crate::ui::{UiContext, controls};
@@ -58,6 +59,7 @@ impl Workspace for Compare {
         }
         if ui.ctx().content_rect().width() >= ROOMY {
             region_button(cx, ui);
+            probe::button(cx, ui);
         }
     }
 
@@ -73,6 +75,7 @@ impl Workspace for Compare {
             region::toggle(cx);
         }
         arrows::keys(cx, keys);
+        probe::keys(cx, keys);
         cx.model.state.loupe ^= keys.presses(Key::I) % 2 == 1;
         if keys.presses(Key::F) % 2 == 1 {
             flicker::toggle(cx);
@@ -93,6 +96,7 @@ impl Workspace for Compare {
         cx.model.state.histograms = false;
         controls::panel(cx, ui, heads, cards);
         plots::drawer(cx, ui);
+        probe::drawer(cx, ui);
         // no ground under the pictures, which cover it: where the processor draws, every layer is paid for
         let bare = egui::CentralPanel::default().frame(egui::Frame::NONE);
         bare.show(ui, |ui| picture::show(cx, ui));
@@ -104,6 +108,7 @@ impl Workspace for Compare {
         Wanted {
             comparisons: panes.map(|id| session.comparison.comparison(id)).collect(),
             histograms: model.state.histograms,
+            probe: session.probe.open.then_some(ProbeWish { at: session.probe.at, sample: model.state.probed_sample }),
             map: (session.view == View::ErrorMap).then(|| session.comparison.map()),
             ..model.wanted(session.panes.ids())
         }
@@ -129,6 +134,8 @@ impl Workspace for Compare {
             ("0, double click", "as large as they are"),
             ("I", "loupe: the pixels under the mouse of A, B, reference and error, with their numbers"),
             ("F", "A and B by turns, twice a second"),
+            ("B", "probe: a pixel's samples, their mean and the integral; a click chooses the pixel"),
+            ("Alt+arrows", "move the probe's pixel; with Shift: another of its samples"),
         ]
     }
 }

@@ -1,7 +1,7 @@
 //! The mouse on the picture, and the arrow keys once it has the focus: the line, orbit, pan, dolly and zoom, a region,
 //! and what is seen of magnified pictures.
 
-use super::{magnify, region};
+use super::{magnify, probe, region};
 use crate::model::{Drag, Line, Magnification, View};
 use crate::ui::UiContext;
 use egui::{CursorIcon, EventFilter, Key, PointerButton, Pos2, Rect, Ui, Vec2};
@@ -24,6 +24,9 @@ pub fn listen(cx: &mut UiContext, ui: &Ui, response: &egui::Response, rect: Rect
         _ => {}
     }
     move_line(cx, ui, response, rect);
+    if let (true, Some(at)) = (response.clicked(), response.interact_pointer_pos()) {
+        probe::choose(cx, frames, at);
+    }
     if response.double_clicked() {
         put_back(cx, response, rect);
     }
@@ -113,7 +116,7 @@ fn arrows(cx: &mut UiContext, ui: &Ui, response: &egui::Response) {
         Line::Vertical => (Key::ArrowLeft, Key::ArrowRight),
         Line::Horizontal => (Key::ArrowUp, Key::ArrowDown),
     };
-    // with others they are the region's and the magnifier's
+    // with others they are the region's, the magnifier's and the probe's
     let presses = |key| ui.input(|i| if i.modifiers.any() { 0 } else { i.num_presses(key) }) as f32;
     cx.model.session.wipe = (cx.model.session.wipe + NUDGE * (presses(forth) - presses(back))).clamp(0.0, 1.0);
 }

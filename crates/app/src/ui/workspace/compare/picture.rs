@@ -1,7 +1,7 @@
 //! The picture area: one pane, both under the wipe or both side by side, or the map of their errors, and what is known
 //! about each on top.
 
-use super::{external, flicker, label, loupe, magnify, map, map_faces, mouse, region};
+use super::{external, flicker, label, loupe, magnify, map, map_faces, mouse, probe, region};
 use crate::model::{Line, PaneId, PictureArea, View};
 use crate::ui::UiContext;
 use crate::ui::overlay::{say, spoken, text_box};
@@ -58,6 +58,7 @@ pub fn show(cx: &mut UiContext, ui: &mut Ui) {
         map_faces::show(cx, ui, place, *clip, *pane);
         if map_faces::map_of(cx, *pane).is_none() {
             region::show(cx, &ui.painter().with_clip_rect(*clip), place);
+            probe::mark(cx, &ui.painter().with_clip_rect(*clip), place);
         }
     }
     if view == View::Wipe {

@@ -239,7 +239,7 @@ fn logs<'a>(places: impl Iterator<Item = [f64; 2]>) -> PlotPoints<'a> {
 }
 
 /// Marks at round numbers, of which powers of ten stand out.
-fn decades(input: GridInput) -> Vec<GridMark> {
+pub fn decades(input: GridInput) -> Vec<GridMark> {
     let (low, high) = input.bounds;
     let mark = |value: f64| {
         let log = value.log10();
@@ -250,7 +250,7 @@ fn decades(input: GridInput) -> Vec<GridMark> {
 }
 
 /// A logarithm's number: 1, 2 or 5 of a power of ten, from which 10 to a power is off by a rounding.
-fn tick_of(mark: GridMark) -> String {
+pub fn tick_of(mark: GridMark) -> String {
     let decade = 10f64.powf(mark.value.floor());
     tick_text((10f64.powf(mark.value) / decade).round() * decade)
 }

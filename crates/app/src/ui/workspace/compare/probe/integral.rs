@@ -1,0 +1,182 @@
+//! The tutorial's integral with the numbers of one sample in it, and what all samples make of it.
+
+use super::mean::ERRORS;
+use super::{spread, value_without_samples};
+use crate::model::{Channel, PaneId, PaneProbe, PixelSamples};
+use crate::ruler::brief;
+use crate::ui::UiContext;
+use crate::ui::theme::{figures, palette};
+use crate::ui::widgets::{Explained, framed};
+use egui::text::{LayoutJob, TextFormat};
+use egui::{Align, Color32, DragValue, FontId, Response, RichText, Ui};
+use film::Vec3;
+use pathtrace::{FirstVertex, Met, Term};
+
+/// As the lecture writes it.
+const INTEGRAL: &str = "L_o = L_e + ∫ f_r L_i cosθ dω ≈ L_e + 1/N Σ f_r L_i cosθ / p(ω)";
+
+/// Turns to a sample that lies so many farther.
+pub fn turn(cx: &mut UiContext, by: i64) {
+    let last = most_samples(cx).saturating_sub(1);
+    let now = i64::from(cx.model.state.probed_sample.unwrap_or(last).min(last));
+    let next = (now + by).clamp(0, i64::from(last)) as u32;
+    // the last one stays the last while there come more
+    cx.model.state.probed_sample = (next < last).then_some(next);
+}
+
+fn most_samples(cx: &UiContext) -> u32 {
+    let counts = cx.shown.probe.values().filter_map(|probe| Some(probe.samples.as_ref()?.samples.len() as u32));
+    counts.max().unwrap_or(0)
+}
+
+pub fn show(cx: &mut UiContext, ui: &mut Ui) {
+    formula(ui, INTEGRAL, palette(ui).text);
+    stepper(cx, ui);
+    let panes: Vec<PaneId> = cx.model.session.panes.ids().collect();
+    for pane in panes {
+        let lines = lines(cx, pane);
+        for (index, line) in lines.iter().enumerate() {
+            let colour = if index == 0 { palette(ui).pane(pane) } else { palette(ui).text };
+            let response = formula(ui, line, colour);
+            if index == 0 {
+                cx.dump.note(&format!("integral {pane}"), lines.join("\n"), response);
+            }
+        }
+    }
+}
+
+/// Which sample is taken apart.
+fn stepper(cx: &mut UiContext, ui: &mut Ui) {
+    let count = most_samples(cx);
+    if count == 0 {
+        return;
+    }
+    ui.horizontal(|ui| {
+        let label = ui.label(RichText::new("Sample").color(palette(ui).dim));
+        for (text, name, by) in [("<", "Sample before", -1), (">", "Sample after", 1)] {
+            let button = ui.add(framed(text, ui)).explained("Alt+Shift and an arrow key").accessible_name(name);
+            if cx.dump.note(name, "", button).clicked() {
+                turn(cx, by);
+            }
+        }
+        let mut number = cx.model.state.probed_sample.map_or(count, |sample| (sample + 1).min(count));
+        let field = ui.add(DragValue::new(&mut number).range(1..=count)).labelled_by(label.id);
+        if cx.dump.note("probed sample", number, field).changed() {
+            cx.model.state.probed_sample = (number < count).then(|| number.saturating_sub(1));
+        }
+        ui.label(RichText::new(format!("of {count}")).color(palette(ui).dim));
+    });
+}
+
+/// What is known of a pane's pixel, its name first.
+fn lines(cx: &UiContext, pane: PaneId) -> Vec<String> {
+    let channel = cx.model.session.probe.channel;
+    if let Some(value) = value_without_samples(cx, pane) {
+        return vec![format!("{pane}: {}, one value: there are no samples", brief(channel.of(value)))];
+    }
+    match cx.shown.probe.get(pane) {
+        None => vec![format!("{pane}: tracing ...")],
+        Some(PaneProbe { fault: Some(fault), .. }) => vec![format!("{pane}: no samples of one pixel: {fault}")],
+        Some(PaneProbe { samples, vertex, .. }) => {
+            let first = |(number, vertex): &(u32, FirstVertex)| {
+                let value = brief(channel.of(vertex.value));
+                format!("{pane}: {}; sample {} is {value}", met_words(vertex.met), number + 1)
+            };
+            let mut lines = vec![vertex.as_ref().map_or_else(|| format!("{pane}: no integral over directions"), first)];
+            lines.extend(vertex.iter().flat_map(|(_, vertex)| of_sample(vertex, channel)));
+            lines.extend(samples.iter().flat_map(|samples| of_all(cx, pane, samples, channel)));
+            lines
+        }
+    }
+}
+
+fn met_words(met: Met) -> &'static str {
+    match met {
+        Met::Sky => "sees the sky first",
+        Met::Light => "sees a light first",
+        Met::Diffuse => "sees a diffuse surface first",
+        Met::RoughMetal => "sees rough metal first",
+        Met::Mirror => "sees a mirror first",
+        Met::Glass => "sees glass first",
+    }
+}
+
+/// One sample with its numbers.
+fn of_sample(vertex: &FirstVertex, channel: Channel) -> Vec<String> {
+    let value = |radiance: Vec3| brief(channel.of(radiance));
+    let mut lines = Vec::new();
+    match vertex.terms {
+        Err(why) => lines.push(why.to_owned()),
+        Ok(terms) => {
+            if vertex.emitted != Vec3::ZERO {
+                lines.push(format!("L_e = {}", value(vertex.emitted)));
+            }
+            let names = if terms.light.is_some() { ["L_dir", "L_indir"] } else { ["", "f_r L_i cosθ / p"] };
+            lines.extend(terms.light.iter().map(|term| of_term(names[0], term, "w", channel)));
+            lines.extend(terms.onward.iter().map(|term| of_term(names[1], term, "1/q", channel)));
+        }
+    }
+    lines
+}
+
+/// "L_dir = 0.159 x 12.000 x 0.860 / 2.100 = 0.781": what is not 1 among its weights is told by `weight`'s name.
+fn of_term(name: &str, term: &Term, weight: &str, channel: Channel) -> String {
+    let value = |radiance: Vec3| brief(channel.of(radiance));
+    let cosine = brief(f64::from(term.cosine.max(0.0)));
+    let (f_r, product) = (value(term.f_r), value(term.product));
+    let light = value(term.radiance);
+    let weighted = if (term.weight - 1.0).abs() < 5e-4 || !term.weight.is_finite() {
+        String::new()
+    } else {
+        format!(" · {} ({weight})", brief(f64::from(term.weight)))
+    };
+    if term.pdf.is_finite() {
+        let pdf = brief(f64::from(term.pdf));
+        return format!("{name} = {f_r} (f_r) · {light} (L_i) · {cosine} (cosθ) / {pdf} (p){weighted} = {product}");
+    }
+    format!("{name} = {f_r} (f_r) · {light} (L_i / p, from one direction) · {cosine} (cosθ) = {product}")
+}
+
+/// What all samples make of it.
+fn of_all(cx: &UiContext, pane: PaneId, samples: &PixelSamples, channel: Channel) -> Vec<String> {
+    let drawn = samples.drawn(channel);
+    let Some(last) = drawn.course.last() else { return Vec::new() };
+    let sum = last.mean * f64::from(last.samples);
+    let mut lines = vec![
+        format!(
+            "Σ = {}, N = {}: mean {} ± {} (2 standard errors)",
+            brief(sum),
+            last.samples,
+            brief(last.mean),
+            brief(ERRORS * last.error)
+        ),
+        spread::in_words(pane, &drawn.spread).split_once(": ").map_or(String::new(), |(_, words)| words.to_owned()),
+    ];
+    if samples.wished > last.samples && last.samples >= crate::model::MOST_PROBED {
+        lines.push(format!("the first {} of {} samples", last.samples, samples.wished));
+    }
+    let traced = cx.shown.panes.get(pane).and_then(|shown| shown.provenance.as_ref());
+    if traced.is_some_and(|made| made.technique.denoise().is_on()) {
+        lines.push("before the denoiser".into());
+    }
+    lines
+}
+
+/// A line in which what follows an underscore, up to the end of its word, stands lower.
+fn formula(ui: &mut Ui, text: &str, colour: Color32) -> Response {
+    let usual = figures().resolve(ui.style());
+    let small = FontId::new(0.72 * usual.size, usual.family.clone());
+    let mut job = LayoutJob::default();
+    job.wrap.max_width = ui.available_width();
+    for (index, part) in text.split('_').enumerate() {
+        let end = if index == 0 { 0 } else { part.find(|c: char| !c.is_alphanumeric()).unwrap_or(part.len()) };
+        let (lower, rest) = part.split_at(end);
+        job.append(
+            lower,
+            0.0,
+            TextFormat { font_id: small.clone(), color: colour, valign: Align::BOTTOM, ..TextFormat::default() },
+        );
+        job.append(rest, 0.0, TextFormat { font_id: usual.clone(), color: colour, ..TextFormat::default() });
+    }
+    ui.label(job)
+}
