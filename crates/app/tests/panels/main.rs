@@ -5,6 +5,7 @@
 mod closer;
 mod numbers;
 mod plots;
+mod probe;
 mod settings;
 mod sweep;
 mod views;

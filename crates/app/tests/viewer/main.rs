@@ -13,6 +13,7 @@ mod files;
 mod labels;
 mod layout;
 mod plots;
+mod probe;
 mod scenes;
 mod sessions;
 mod settings;

@@ -1,0 +1,165 @@
+//! The probe: a pixel looked into.
+
+use crate::Panels;
+use egui::{Event, Key, Modifiers, PointerButton, Pos2, Vec2, pos2, vec2};
+use film::Vec3;
+use pathtrace::{FirstVertex, Met, Term, Terms};
+use std::sync::Arc;
+use technique::TechniqueName;
+use visavis::model::{
+    Channel, Destination, ExportRequest, ExportSubject, Model, PaneId, PaneProbe, PixelSamples, Theme, ViewModel,
+};
+use visavis::ui::{UiCommand, Workspaces};
+
+/// Samples of B: every fourth finds nothing, and one of them is a firefly.
+fn samples() -> Vec<Vec3> {
+    let sample = |i: u32| if i % 4 == 0 { Vec3::ZERO } else { Vec3::splat(if i == 17 { 90.0 } else { 0.5 }) };
+    (0..64).map(sample).collect()
+}
+
+fn vertex() -> FirstVertex {
+    let term = |radiance: f32, weight| Term {
+        f_r: Vec3::splat(0.25),
+        cosine: 0.5,
+        pdf: 2.0,
+        radiance: Vec3::splat(radiance),
+        weight,
+        product: Vec3::splat(radiance * weight / 16.0),
+    };
+    let terms = Terms { light: Some(term(8.0, 1.0)), onward: Some(term(4.0, 2.0)) };
+    FirstVertex { met: Met::Diffuse, emitted: Vec3::ZERO, value: Vec3::ONE, terms: Ok(terms) }
+}
+
+/// A window in which this is known of B's pixel.
+fn panels(probe: PaneProbe) -> Panels {
+    let scene = scene::builtin::named("cornell").expect("a built-in scene");
+    let mut shown = ViewModel::default();
+    shown.probe.insert(PaneId::B, probe);
+    let mut panels = Panels::with(Model::new(scene, "cornell".into(), Theme::Dark), Workspaces::default(), shown);
+    panels.harness.run_steps(2);
+    panels
+}
+
+fn with_samples() -> Panels {
+    let samples = Some(Arc::new(PixelSamples::new([3, 4], 64, samples())));
+    panels(PaneProbe { samples, vertex: Some((63, vertex())), fault: None })
+}
+
+impl Panels {
+    fn press_with(&mut self, key: Key, modifiers: Modifiers) {
+        self.harness.key_press_modifiers(modifiers, key);
+        self.harness.run_steps(3);
+    }
+
+    /// Presses the button here and lets go of it there.
+    fn press_and_release(&mut self, [from, to]: [Pos2; 2]) {
+        let modifiers = Modifiers::NONE;
+        let button = |pos, pressed| Event::PointerButton { pos, button: PointerButton::Primary, pressed, modifiers };
+        for event in [Event::PointerMoved(from), button(from, true), Event::PointerMoved(to), button(to, false)] {
+            self.harness.event(event);
+            self.harness.step();
+        }
+        self.harness.run_steps(2);
+    }
+
+    fn probed(&self) -> Option<([f32; 2], Option<u32>)> {
+        self.wanted().probe.map(|wish| (wish.at, wish.sample))
+    }
+
+    fn pixel(&self) -> [u32; 2] {
+        let model = self.model.borrow();
+        model.session.probe.pixel(model.state.picture.size)
+    }
+}
+
+#[test]
+fn it_opens_by_its_key_and_its_button_and_is_wanted_while_it_is_open() {
+    let mut panels = with_samples();
+    assert_eq!(panels.probed(), None);
+    panels.press_with(Key::B, Modifiers::NONE);
+    assert_eq!(panels.probed(), Some(([0.5; 2], None)));
+    panels.count_named();
+    panels.click("Close the probe", 0);
+    assert_eq!(panels.probed(), None);
+    panels.click("Probe", 0);
+    assert!(panels.probed().is_some());
+}
+
+#[test]
+fn alt_and_arrows_move_the_pixel_and_with_shift_turn_to_another_sample() {
+    let mut panels = with_samples();
+    panels.press_with(Key::ArrowRight, Modifiers::ALT);
+    assert_eq!(panels.model.borrow().session.probe.at, [0.5; 2], "closed");
+    panels.press_with(Key::B, Modifiers::NONE);
+    let [column, row] = panels.pixel();
+    panels.press_with(Key::ArrowRight, Modifiers::ALT);
+    panels.press_with(Key::ArrowUp, Modifiers::ALT);
+    assert_eq!(panels.pixel(), [column + 1, row - 1]);
+    let sample = |panels: &Panels| panels.probed().expect("a wish").1;
+    panels.press_with(Key::ArrowLeft, Modifiers::ALT | Modifiers::SHIFT);
+    assert_eq!(sample(&panels), Some(62), "the one before the last");
+    panels.click("Sample before", 0);
+    assert_eq!(sample(&panels), Some(61));
+    panels.click("Sample after", 0);
+    panels.press_with(Key::ArrowRight, Modifiers::ALT | Modifiers::SHIFT);
+    panels.press_with(Key::ArrowRight, Modifiers::ALT | Modifiers::SHIFT);
+    assert_eq!(sample(&panels), None, "the last, however many come");
+    assert_eq!(panels.pixel(), [column + 1, row - 1]);
+}
+
+#[test]
+fn a_click_chooses_the_pixel_while_it_is_open_and_a_drag_still_moves_the_camera() {
+    let mut panels = with_samples();
+    let at = |panels: &Panels, share: [f32; 2]| {
+        let [left, top, right, bottom] = panels.model.borrow().state.picture.corners;
+        pos2(left, top) + Vec2::from(share) * vec2(right - left, bottom - top)
+    };
+    let place = at(&panels, [0.25, 0.75]);
+    panels.press_and_release([place; 2]);
+    assert_eq!(panels.model.borrow().session.probe.at, [0.5; 2], "closed");
+    panels.press_with(Key::B, Modifiers::NONE);
+    let place = at(&panels, [0.25, 0.75]);
+    panels.press_and_release([place; 2]);
+    let [x, y] = panels.model.borrow().session.probe.at;
+    assert!((x - 0.25).abs() < 1e-3 && (y - 0.75).abs() < 1e-3, "{x}, {y}");
+    let camera = panels.model.borrow().document.camera;
+    let ends = [at(&panels, [0.25, 0.25]), at(&panels, [0.3, 0.25])];
+    panels.press_and_release(ends);
+    assert_eq!(panels.model.borrow().session.probe.at, [x, y]);
+    assert_ne!(panels.model.borrow().document.camera, camera);
+}
+
+#[test]
+fn it_says_mean_errors_zeros_firefly_and_the_integral_in_numbers() {
+    let mut panels = with_samples();
+    panels.press_with(Key::B, Modifiers::NONE);
+    let channel = PixelSamples::new([3, 4], 64, samples());
+    let last = *channel.drawn(Channel::Luminance).course.last().expect("a mean");
+    let mean = format!("{:.3} ± {:.3}", last.mean, 2.0 * last.error);
+    assert!(panels.shows(&format!("B: {mean} of 64 samples")), "{mean}");
+    assert!(panels.shows("B: 25 % are 0; the largest is 90.000, of sample 18"));
+    assert!(panels.shows("B: sees a diffuse surface first; sample 64 is 1.000"));
+    assert!(panels.shows("Ldir = 0.250 (fr) · 8.000 (Li) · 0.500 (cosθ) / 2.000 (p) = 0.500"));
+    assert!(panels.shows("Lindir = 0.250 (fr) · 4.000 (Li) · 0.500 (cosθ) / 2.000 (p) · 2.000 (1/q) = 0.500"));
+    assert!(panels.shows("N = 64: mean "));
+    panels.click("Samples: green", 0);
+    assert_eq!(panels.model.borrow().session.probe.channel, Channel::Green);
+    assert!(panels.shows("Mean green of the samples"));
+    panels.click("Save the samples as CSV", 0);
+    let asked = panels.requests.borrow_mut().pop().expect("a command");
+    let UiCommand::Export(ExportRequest { subject: ExportSubject::Samples, to: Destination::File(file) }) = asked
+    else {
+        panic!("{asked:?} is no export of samples")
+    };
+    assert!(file.to_string_lossy().contains("samples-at-") && file.extension().is_some_and(|e| e == "csv"), "{file:?}");
+}
+
+#[test]
+fn what_has_no_samples_of_one_pixel_says_why() {
+    let fault = Some("the chains of Metropolis choose their pixels themselves".to_owned());
+    let mut panels = panels(PaneProbe { fault, ..PaneProbe::default() });
+    panels.model.borrow_mut().session.panes[PaneId::B].technique = TechniqueName::Metropolis;
+    panels.press_with(Key::B, Modifiers::NONE);
+    assert!(panels.shows("B: no samples of one pixel: the chains of Metropolis choose their pixels themselves"));
+    assert!(!panels.shows("Sample before"));
+}
