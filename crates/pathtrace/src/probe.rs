@@ -35,18 +35,6 @@ impl ProbedPixel {
     }
 }
 
-impl Integrator {
-    /// Why no pixel's samples can be traced without those of all others, as a line for the user; `None` if they can.
-    pub fn binds_pixels(&self) -> Option<&'static str> {
-        match self {
-            Integrator::Photon(_) => Some("each sample of a photon map takes all photons of its pass"),
-            Integrator::LightTracing(_) => Some("photons of light tracing choose their pixels themselves"),
-            Integrator::Metropolis(_) => Some("the chains of Metropolis choose their pixels themselves"),
-            Integrator::Path(_) | Integrator::Whitted(_) | Integrator::Normals(_) => None,
-        }
-    }
-}
-
 impl Tracer {
     /// The samples of a pixel whose numbers these are, in their order, on the current rayon pool: bit for bit what
     /// [`Tracer::render`] adds to it, those black that were not finite. `None` once `stop` says so, where there is no
@@ -77,7 +65,7 @@ impl Tracer {
         sample: u32,
         stop: &(impl Fn() -> bool + Sync),
     ) -> Option<FirstVertex> {
-        let Integrator::Path(settings) = integrator else { return None };
+        let settings = integrator.paths()?;
         let pass = probed.pass(integrator, sample);
         let job = self.job(pass, stop);
         let plan = Plan::of(settings, &job)?;

@@ -11,7 +11,8 @@ use scene::{Scene, Vec3, builtin};
 use std::path::Path;
 
 const SIZE: [u32; 2] = [12, 9];
-const SPP: u32 = 37;
+/// More than the least that a thread takes at a time.
+const SPP: u32 = 150;
 
 fn named(name: &str) -> Scene {
     builtin::named(name).expect("a built-in scene")

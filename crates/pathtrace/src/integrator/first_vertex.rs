@@ -133,8 +133,12 @@ impl<'a> Start<'a> {
             _ if lanes.is_guided() => {
                 Err("these paths are guided: what the guide expects is added where roulette is played")
             }
-            _ if lanes.connecting => Err("light is connected to through spheres as well, beside these directions"),
-            Met::Diffuse if self.plan.branching_vertices > 0 => Err("paths branch here into several directions"),
+            _ if lanes.connecting => {
+                Err("light also comes connected through spheres: switch Connections off for the integral's numbers")
+            }
+            Met::Diffuse if self.plan.branching_vertices > 0 => {
+                Err("paths branch here into several directions: set N to 1 for the integral's numbers")
+            }
             Met::Diffuse | Met::RoughMetal => Ok(()),
         }
     }

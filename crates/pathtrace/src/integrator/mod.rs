@@ -170,6 +170,24 @@ impl Integrator {
         }
     }
 
+    /// Why no pixel's samples can be traced without those of all others, as a line for the user; `None` if they can.
+    pub fn binds_pixels(&self) -> Option<&'static str> {
+        match self {
+            Integrator::Photon(_) => Some("each sample of a photon map takes all photons of its pass"),
+            Integrator::LightTracing(_) => Some("photons of light tracing choose their pixels themselves"),
+            Integrator::Metropolis(_) => Some("the chains of Metropolis choose their pixels themselves"),
+            Integrator::Path(_) | Integrator::Whitted(_) | Integrator::Normals(_) => None,
+        }
+    }
+
+    /// Its settings, where it follows one random path a sample.
+    pub(crate) fn paths(&self) -> Option<&PathSettings> {
+        match self {
+            Integrator::Path(settings) => Some(settings),
+            _ => None,
+        }
+    }
+
     /// What of the settings a shader reads while it runs.
     pub(crate) fn render_params(&self, params: RenderParams, stand_ins: &FakeNumbers) -> RenderParams {
         let params = RenderParams { seed: self.seed(), ..params };
