@@ -354,7 +354,7 @@ mod tests {
     /// at one standard deviation; four of them are allowed.
     #[test]
     fn two_standard_errors_hold_the_truth_in_95_of_100_pixels() {
-        let text = "sky = [1, 1, 1]\nmaterial.floor.diffuse.albedo = [0.5, 0.5, 0.5]\n\
+        let text = "sky.radiance = [1, 1, 1]\nmaterial.floor.diffuse.albedo = [0.5, 0.5, 0.5]\n\
                     camera = { eye = [0, 3, 6], target = [0, 0, 0], fov_y = 40 }\n\
                     [[rectangle]]\ncorner = [-90, 0, -90]\nedge_u = [0, 0, 180]\nedge_v = [180, 0, 0]\nmaterial = \"floor\"\n";
         let scene = scene::parse(text, "floor", Path::new("floor.toml")).unwrap();

@@ -5,12 +5,13 @@ use super::{spread, value_without_samples};
 use crate::model::{Channel, PaneId, PaneProbe, PixelSamples};
 use crate::ruler::brief;
 use crate::ui::UiContext;
-use crate::ui::theme::{figures, palette};
+use crate::ui::theme::palette;
 use crate::ui::widgets::{Explained, framed};
 use egui::text::{LayoutJob, TextFormat};
-use egui::{Align, Color32, DragValue, FontId, Response, RichText, Ui};
+use egui::{Align, Color32, DragValue, FontId, Response, RichText, TextStyle, Ui};
 use film::Vec3;
-use pathtrace::{FirstVertex, Met, Term};
+use pathtrace::{FirstVertex, Met, SamplerKind, Term, Terms};
+use technique::Technique;
 
 /// As the lecture writes it.
 const INTEGRAL: &str = "L_o = L_e + ∫ f_r L_i cosθ dω ≈ L_e + 1/N Σ f_r L_i cosθ / p(ω)";
@@ -103,23 +104,33 @@ fn met_words(met: Met) -> &'static str {
 
 /// One sample with its numbers.
 fn of_sample(vertex: &FirstVertex, channel: Channel) -> Vec<String> {
-    let value = |radiance: Vec3| brief(channel.of(radiance));
+    let terms = match vertex.terms {
+        Ok(terms) => terms,
+        Err(why) => return vec![why.to_owned()],
+    };
+    let multiplied = channel_of_factors(&terms, channel);
     let mut lines = Vec::new();
-    match vertex.terms {
-        Err(why) => lines.push(why.to_owned()),
-        Ok(terms) => {
-            if vertex.emitted != Vec3::ZERO {
-                lines.push(format!("L_e = {}", value(vertex.emitted)));
-            }
-            let names = if terms.light.is_some() { ["L_dir", "L_indir"] } else { ["", "f_r L_i cosθ / p"] };
-            lines.extend(terms.light.iter().map(|term| of_term(names[0], term, "w", channel)));
-            lines.extend(terms.onward.iter().map(|term| of_term(names[1], term, "1/q", channel)));
-        }
+    if multiplied != channel {
+        lines.push("in green, for luminances of colours are not multiplied:".to_owned());
     }
+    if vertex.emitted != Vec3::ZERO {
+        lines.push(format!("L_e = {}", brief(multiplied.of(vertex.emitted))));
+    }
+    let name = if terms.light.is_some() { "L_indir" } else { "f_r L_i cosθ / p" };
+    lines.extend(terms.light.iter().map(|term| of_term("L_dir", term, "w", multiplied)));
+    lines.extend(terms.onward.iter().map(|term| of_term(name, term, "1/q", multiplied)));
     lines
 }
 
-/// "L_dir = 0.159 x 12.000 x 0.860 / 2.100 = 0.781": what is not 1 among its weights is told by `weight`'s name.
+/// In which channel the factors of all terms make their products: of luminances only where surface or light is grey.
+fn channel_of_factors(terms: &Terms, channel: Channel) -> Channel {
+    let is_grey = |colour: Vec3| colour.max_element() - colour.min_element() <= 1e-4 * colour.max_element();
+    let parts = [terms.light, terms.onward];
+    let all_grey = parts.iter().flatten().all(|term| is_grey(term.f_r) || is_grey(term.radiance));
+    if channel == Channel::Luminance && !all_grey { Channel::Green } else { channel }
+}
+
+/// "L_dir = 0.159 (f_r) · 12.000 (L_i) · 0.860 (cosθ) / 2.100 (p) = 0.781": what is not 1 among its weights is told by `weight`'s name.
 fn of_term(name: &str, term: &Term, weight: &str, channel: Channel) -> String {
     let value = |radiance: Vec3| brief(channel.of(radiance));
     let cosine = brief(f64::from(term.cosine.max(0.0)));
@@ -155,6 +166,9 @@ fn of_all(cx: &UiContext, pane: PaneId, samples: &PixelSamples, channel: Channel
     if samples.wished > last.samples && last.samples >= crate::model::MOST_PROBED {
         lines.push(format!("the first {} of {} samples", last.samples, samples.wished));
     }
+    if sampler(cx, pane) == Some(SamplerKind::Sobol) {
+        lines.push("Sobol's points keep apart: the error is smaller than their spread says".into());
+    }
     let traced = cx.shown.panes.get(pane).and_then(|shown| shown.provenance.as_ref());
     if traced.is_some_and(|made| made.technique.denoise().is_on()) {
         lines.push("before the denoiser".into());
@@ -162,9 +176,16 @@ fn of_all(cx: &UiContext, pane: PaneId, samples: &PixelSamples, channel: Channel
     lines
 }
 
+fn sampler(cx: &UiContext, pane: PaneId) -> Option<SamplerKind> {
+    match cx.model.session.panes.get(pane)?.in_use() {
+        Technique::Traced(settings) => Some(settings.integrator.sampler()),
+        Technique::Fake(_) => None,
+    }
+}
+
 /// A line in which what follows an underscore, up to the end of its word, stands lower.
 fn formula(ui: &mut Ui, text: &str, colour: Color32) -> Response {
-    let usual = figures().resolve(ui.style());
+    let usual = TextStyle::Small.resolve(ui.style());
     let small = FontId::new(0.72 * usual.size, usual.family.clone());
     let mut job = LayoutJob::default();
     job.wrap.max_width = ui.available_width();
@@ -179,4 +200,41 @@ fn formula(ui: &mut Ui, text: &str, colour: Color32) -> Response {
         job.append(rest, 0.0, TextFormat { font_id: usual.clone(), color: colour, ..TextFormat::default() });
     }
     ui.label(job)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn term(f_r: Vec3, radiance: Vec3) -> Term {
+        let product = f_r * radiance * (0.5 / 2.0);
+        Term { f_r, cosine: 0.5, pdf: 2.0, radiance, weight: 1.0, product }
+    }
+
+    fn lines(onward: Term) -> Vec<String> {
+        let terms = Ok(Terms { light: None, onward: Some(onward) });
+        let vertex = FirstVertex { met: Met::Diffuse, emitted: Vec3::ZERO, value: onward.product, terms };
+        of_sample(&vertex, Channel::Luminance)
+    }
+
+    /// What stands in a line comes to what it says.
+    #[test]
+    fn the_numbers_of_a_line_make_its_product_whatever_the_colours() {
+        let (grey, red, blue) = (Vec3::splat(0.3), Vec3::new(0.6, 0.2, 0.1), Vec3::new(1.0, 2.0, 8.0));
+        for (f_r, radiance) in [(grey, blue), (red, Vec3::splat(4.0)), (red, blue)] {
+            let lines = lines(term(f_r, radiance));
+            let line = lines.last().expect("a line");
+            let numbers: Vec<f64> = line.split([' ', '/']).filter_map(|word| word.parse().ok()).collect();
+            let [f_r, radiance, cosine, pdf, product] = numbers[..] else { panic!("{line}") };
+            assert!((f_r * radiance * cosine / pdf - product).abs() < 2e-3, "{line}");
+        }
+        assert_eq!(lines(term(red, blue))[0], "in green, for luminances of colours are not multiplied:");
+        assert_eq!(lines(term(grey, blue)).len(), 1);
+    }
+
+    #[test]
+    fn a_light_without_extent_has_no_density() {
+        let line = lines(Term { pdf: f32::INFINITY, ..term(Vec3::splat(0.3), Vec3::splat(4.0)) }).remove(0);
+        assert!(line.contains("(L_i / p, from one direction)") && !line.contains("inf"), "{line}");
+    }
 }

@@ -7,8 +7,8 @@ use crate::ruler::brief;
 use crate::ui::UiContext;
 use crate::ui::theme::{Palette, palette};
 use crate::ui::widgets::Explained;
-use egui::{Color32, Ui};
-use egui_plot::{AxisHints, FilledArea, HLine, Line, LineStyle, Plot, PlotPoints, PlotUi};
+use egui::{Color32, Rangef, Ui};
+use egui_plot::{AxisHints, FilledArea, HLine, Line, LineStyle, Plot, PlotPoints, PlotUi, uniform_grid_spacer};
 
 /// Standard errors at each side of the mean, between which the truth lies in 95 of 100 pixels.
 pub const ERRORS: f64 = 2.0;
@@ -25,8 +25,14 @@ pub fn plot(cx: &mut UiContext, ui: &mut Ui, width: f32) {
     let plot = Plot::new("running means")
         .width(width)
         .custom_x_axes(vec![AxisHints::new_x().label("samples").formatter(|mark, _| tick_of(mark))])
-        .y_axis_label(format!("mean {}", channel.name()))
+        .custom_y_axes(vec![
+            AxisHints::new_y().label(format!("mean {}", channel.name())).label_spacing(Rangef::new(12.0, 18.0)),
+        ])
         .x_grid_spacer(decades)
+        .y_grid_spacer(uniform_grid_spacer(|input| {
+            let step = round_step((input.bounds.1 - input.bounds.0) / MARKS);
+            [step, 5.0 * step, 10.0 * step]
+        }))
         .grid_color(palette.line);
     let panes: Vec<PaneId> = cx.model.session.panes.ids().collect();
     let drawn = fixed(plot).show(ui, |plot| {
@@ -44,6 +50,16 @@ pub fn plot(cx: &mut UiContext, ui: &mut Ui, width: f32) {
     let name = format!("Mean {} of the samples. {text}", channel.name());
     let response = drawn.response.explained(HOVER).accessible_name(name);
     cx.dump.note("plot of means", &text, response);
+}
+
+/// Marks along the axis of means, about.
+const MARKS: f64 = 5.0;
+
+/// 1, 2 or 5 of a power of ten, the first that is no smaller than this.
+fn round_step(least: f64) -> f64 {
+    let decade = 10f64.powf(least.max(f64::MIN_POSITIVE).log10().floor());
+    let step = [1.0, 2.0, 5.0].into_iter().find(|step| step * decade >= least);
+    step.unwrap_or(10.0) * decade
 }
 
 fn draw(cx: &UiContext, plot: &mut PlotUi, pane: PaneId, channel: Channel, palette: &Palette) {
@@ -97,4 +113,17 @@ fn in_words(cx: &UiContext, pane: PaneId, channel: Channel) -> Option<String> {
     }
     let last = probe.samples.as_ref()?.drawn(channel).course.last()?;
     Some(format!("{pane}: {} ± {} of {} samples", brief(last.mean), brief(ERRORS * last.error), last.samples))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::round_step;
+
+    #[test]
+    fn steps_are_round_and_no_smaller_than_asked_for() {
+        let steps = [0.013, 0.2, 3.1, 60.0].map(round_step);
+        let expected = [0.02, 0.2, 5.0, 100.0];
+        assert!(steps.iter().zip(expected).all(|(step, expected)| (step / expected - 1.0).abs() < 1e-12), "{steps:?}");
+        assert!(round_step(0.0) > 0.0);
+    }
 }

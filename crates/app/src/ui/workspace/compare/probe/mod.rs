@@ -11,12 +11,15 @@ use crate::ui::pressed::Keys;
 use crate::ui::theme::palette;
 use crate::ui::widgets::{Explained, Icon, choice, framed, icon_button};
 use crate::ui::{UiCommand, UiContext, export_menu};
-use egui::{Color32, Frame, Key, Margin, Modifiers, Painter, Pos2, Rect, RichText, Stroke, StrokeKind, Ui, vec2};
+use egui::{
+    Color32, Frame, Key, Margin, Modifiers, Painter, Pos2, Rect, RichText, Stroke, StrokeKind, TextStyle, Ui, vec2,
+};
 use film::{Image, Vec3};
 use technique::Technique;
 
-/// Of the drawer at first, in points, and at least.
+/// Of the drawer at first, in points, and in rows of text where that is large; and at least.
 const HEIGHT: f32 = 250.0;
+const ROWS: f32 = 13.0;
 const LEAST_HEIGHT: f32 = 140.0;
 /// Of the drawer's width: the course of the mean, and the spread.
 const SHARES: [f32; 2] = [0.33, 0.24];
@@ -88,7 +91,8 @@ pub fn drawer(cx: &mut UiContext, ui: &mut Ui) {
         return;
     }
     let frame = Frame::new().fill(palette(ui).panel).inner_margin(Margin::symmetric(10, 6));
-    let panel = egui::Panel::bottom("probe").resizable(true).default_size(HEIGHT).min_size(LEAST_HEIGHT).frame(frame);
+    let height = HEIGHT.max(ROWS * ui.text_style_height(&TextStyle::Body));
+    let panel = egui::Panel::bottom("probe").resizable(true).default_size(height).min_size(LEAST_HEIGHT).frame(frame);
     panel.show(ui, |ui| {
         head(cx, ui);
         let room = ui.available_width();

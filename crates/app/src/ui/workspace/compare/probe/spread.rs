@@ -18,7 +18,7 @@ const NONE: f64 = -0.3;
 pub fn plot(cx: &mut UiContext, ui: &mut Ui, width: f32) {
     let (channel, palette) = (cx.model.session.probe.channel, palette(ui));
     let spreads = spreads(cx, channel);
-    let heavy = spreads.iter().any(|(_, spread)| spread.is_heavy_tailed);
+    let heavy = wants_ratios(&spreads);
     let x_axis = AxisHints::new_x().label(channel.name());
     let x_axis = if heavy { x_axis.formatter(|mark, _| tick_of(mark)) } else { x_axis };
     let x_axis = x_axis.label_spacing(Rangef::new(28.0, 40.0));
@@ -32,7 +32,7 @@ pub fn plot(cx: &mut UiContext, ui: &mut Ui, width: f32) {
         for (pane, spread) in &spreads {
             let bins = if heavy { &spread.logarithmic } else { &spread.even };
             let line = Line::new(pane.name(), outline(bins, heavy)).color(palette.pane(*pane));
-            plot.line(line.style(style_of(*pane)).width(2.0));
+            plot.line(line.style(style_of(*pane)).width(1.5));
         }
     });
     let said: Vec<String> = spreads.iter().map(|(pane, spread)| in_words(*pane, spread)).collect();
@@ -41,6 +41,16 @@ pub fn plot(cx: &mut UiContext, ui: &mut Ui, width: f32) {
     let hover =
         "How many samples are how bright, on a logarithmic scale; zeros are counted beside it. A solid, B dashed";
     cx.dump.note("plot of samples", &text, drawn.response.explained(hover).accessible_name(name));
+}
+
+/// Largest samples of so many times each other have no even axis in common.
+const APART: f64 = 8.0;
+
+/// Whether samples, or two panes' largest ones, are so far apart that an even axis would show nothing else.
+fn wants_ratios(spreads: &[(PaneId, Spread)]) -> bool {
+    let largest = || spreads.iter().map(|(_, spread)| spread.largest.0).filter(|largest| *largest > 0.0);
+    let (least, most) = (largest().fold(f64::INFINITY, f64::min), largest().fold(0.0, f64::max));
+    most > APART * least || spreads.iter().any(|(_, spread)| spread.is_heavy_tailed)
 }
 
 /// Fewer than one sample are none.
@@ -70,7 +80,7 @@ fn outline(bins: &[Bin], logarithmic: bool) -> PlotPoints<'static> {
     steps.into()
 }
 
-/// "A: 38 % are 0; the largest, sample 17, is 12.5, 24 times the mean".
+/// "A: 38 % are 0; the largest is 12.500, of sample 17".
 pub fn in_words(pane: PaneId, spread: &Spread) -> String {
     let zeros = 100.0 * f64::from(spread.zeros) / f64::from(spread.count.max(1));
     let (largest, sample) = spread.largest;
@@ -85,6 +95,15 @@ mod tests {
     fn it_says_how_many_found_nothing_and_which_is_the_largest() {
         let spread = Spread { count: 200, zeros: 50, largest: (12.5, 16), ..Spread::default() };
         assert_eq!(in_words(PaneId::A, &spread), "A: 25 % are 0; the largest is 12.500, of sample 17");
+    }
+
+    #[test]
+    fn panes_whose_samples_are_far_apart_have_an_axis_of_ratios() {
+        let of = |largest: f64| (PaneId::A, Spread { largest: (largest, 0), ..Spread::default() });
+        assert!(wants_ratios(&[of(0.5), of(20.0)]) && !wants_ratios(&[of(0.5), of(0.7)]));
+        assert!(!wants_ratios(&[of(0.0), of(0.7)]) && !wants_ratios(&[]), "what is black has no place on it");
+        let heavy = Spread { is_heavy_tailed: true, ..of(0.5).1 };
+        assert!(wants_ratios(&[(PaneId::A, heavy)]));
     }
 
     #[test]
