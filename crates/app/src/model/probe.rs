@@ -292,7 +292,7 @@ mod tests {
         let mut probe = ProbeSettings { at: [1.0, 0.0], ..ProbeSettings::default() };
         assert_eq!((probe.pixel((8, 4)), probe.pixel((100, 100))), ([7, 0], [99, 0]));
         probe.step([3, -2], (8, 4));
-        assert_eq!(probe.pixel((8, 4)), [7, 0]);
+        assert_eq!((probe.pixel((8, 4)), probe.at), ([7, 0], [7.5 / 8.0, 0.5 / 4.0]));
         probe.step([-5, 2], (8, 4));
         assert_eq!((probe.pixel((8, 4)), probe.at), ([2, 2], [2.5 / 8.0, 2.5 / 4.0]));
         for column in 0..1000 {

@@ -13,7 +13,7 @@ use visavis::ui::{UiCommand, Workspaces};
 
 /// Samples of B: every fourth finds nothing, and one of them is a firefly.
 fn samples() -> Vec<Vec3> {
-    let sample = |i: u32| if i % 4 == 0 { Vec3::ZERO } else { Vec3::splat(if i == 17 { 90.0 } else { 0.5 }) };
+    let sample = |i: u32| if i.is_multiple_of(4) { Vec3::ZERO } else { Vec3::splat(if i == 17 { 90.0 } else { 0.5 }) };
     (0..64).map(sample).collect()
 }
 

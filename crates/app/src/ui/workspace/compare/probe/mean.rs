@@ -8,7 +8,9 @@ use crate::ui::UiContext;
 use crate::ui::theme::{Palette, palette};
 use crate::ui::widgets::Explained;
 use egui::{Color32, Rangef, Ui};
-use egui_plot::{AxisHints, FilledArea, HLine, Line, LineStyle, Plot, PlotPoints, PlotUi, uniform_grid_spacer};
+use egui_plot::{
+    AxisHints, FilledArea, GridMark, HLine, Line, LineStyle, Plot, PlotPoints, PlotUi, uniform_grid_spacer,
+};
 
 /// Standard errors at each side of the mean, between which the truth lies in 95 of 100 pixels.
 pub const ERRORS: f64 = 2.0;
@@ -26,7 +28,10 @@ pub fn plot(cx: &mut UiContext, ui: &mut Ui, width: f32) {
         .width(width)
         .custom_x_axes(vec![AxisHints::new_x().label("samples").formatter(|mark, _| tick_of(mark))])
         .custom_y_axes(vec![
-            AxisHints::new_y().label(format!("mean {}", channel.name())).label_spacing(Rangef::new(12.0, 18.0)),
+            AxisHints::new_y()
+                .label(format!("mean {}", channel.name()))
+                .label_spacing(Rangef::new(12.0, 18.0))
+                .formatter(|mark, _| even_tick(mark)),
         ])
         .x_grid_spacer(decades)
         .y_grid_spacer(uniform_grid_spacer(|input| {
@@ -50,6 +55,11 @@ pub fn plot(cx: &mut UiContext, ui: &mut Ui, width: f32) {
     let name = format!("Mean {} of the samples. {text}", channel.name());
     let response = drawn.response.explained(HOVER).accessible_name(name);
     cx.dump.note("plot of means", &text, response);
+}
+
+/// A multiple of a round step, without the digits that it is off by.
+fn even_tick(mark: GridMark) -> String {
+    (mark.value as f32).to_string()
 }
 
 /// Marks along the axis of means, about.
@@ -117,7 +127,7 @@ fn in_words(cx: &UiContext, pane: PaneId, channel: Channel) -> Option<String> {
 
 #[cfg(test)]
 mod tests {
-    use super::round_step;
+    use super::*;
 
     #[test]
     fn steps_are_round_and_no_smaller_than_asked_for() {
@@ -125,5 +135,7 @@ mod tests {
         let expected = [0.02, 0.2, 5.0, 100.0];
         assert!(steps.iter().zip(expected).all(|(step, expected)| (step / expected - 1.0).abs() < 1e-12), "{steps:?}");
         assert!(round_step(0.0) > 0.0);
+        let told = [-0.5, 0.0, 0.1 + 0.2].map(|value| even_tick(GridMark { value, step_size: 0.5 }));
+        assert_eq!(told, ["-0.5", "0", "0.3"]);
     }
 }

@@ -99,6 +99,7 @@ pub fn drawer(cx: &mut UiContext, ui: &mut Ui) {
         ui.horizontal_top(|ui| {
             mean::plot(cx, ui, SHARES[0] * room);
             spread::plot(cx, ui, SHARES[1] * room);
+            ui.add_space(8.0);
             ui.vertical(|ui| egui::ScrollArea::vertical().show(ui, |ui| integral::show(cx, ui)));
         });
     });
