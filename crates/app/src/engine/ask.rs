@@ -1,6 +1,6 @@
 //! The threads beside the UI as one: asks them for whatever no longer fits what is wanted, and ends them.
 
-use super::asked_pane::{AskedPane, FakesTime, same_shot};
+use super::asked_pane::{AskedPane, FakesTime};
 use super::dialogue::{Answer, Choice, Dialogues};
 use super::error_map::ErrorMapWorker;
 use super::export::{Export, Exporter, Outcome};

@@ -1,6 +1,8 @@
 //! How it is looked at: what one would want to find again after a pause.
 
-use super::{CompareWith, ComparisonSettings, Line, PaneId, PaneSource, Panes, PlotSettings, ProbeSettings, SweepSettings, View};
+use super::{
+    CompareWith, ComparisonSettings, Line, PaneId, PaneSource, Panes, PlotSettings, ProbeSettings, SweepSettings, View,
+};
 use film::DisplayTransform;
 use raster::Show;
 use scene::{Needs, Scene};

@@ -1,6 +1,9 @@
 //! What there is to show: results, as those who draw them take them.
 
-use super::{Against, Effort, ErrorHistory, ErrorMap, ErrorPoint, External, PaneId, PaneProbe, PaneSource, Panes, Progress, Region, TileFacts};
+use super::{
+    Against, Effort, ErrorHistory, ErrorMap, ErrorPoint, External, PaneId, PaneProbe, PaneSource, Panes, Progress,
+    Region, TileFacts,
+};
 use compare::{Errors, Histogram};
 use film::Image;
 use std::sync::Arc;

@@ -4,7 +4,8 @@
 use super::widgets::{Explained, framed, menu};
 use super::{UiCommand, UiContext, dialogue_button};
 use crate::model::{
-    Destination, ExportRequest, ExportSubject, FilePurpose, FileWish, Model, PaneId, PaneSource, PaneView, PlotFile, SweepFile,
+    Destination, ExportRequest, ExportSubject, FilePurpose, FileWish, Model, PaneId, PaneSource, PaneView, PlotFile,
+    SweepFile,
 };
 use egui::Ui;
 use image_file::{self, Kind};

@@ -33,7 +33,7 @@ impl Panels {
         self.harness.run_steps(2);
     }
 
-    fn press_with(&mut self, key: Key, modifiers: Modifiers) {
+    pub fn press_with(&mut self, key: Key, modifiers: Modifiers) {
         self.harness.key_press_modifiers(modifiers, key);
         self.harness.run_steps(2);
     }

@@ -46,11 +46,6 @@ fn with_samples() -> Panels {
 }
 
 impl Panels {
-    fn press_with(&mut self, key: Key, modifiers: Modifiers) {
-        self.harness.key_press_modifiers(modifiers, key);
-        self.harness.run_steps(3);
-    }
-
     /// Presses the button here and lets go of it there.
     fn press_and_release(&mut self, [from, to]: [Pos2; 2]) {
         let modifiers = Modifiers::NONE;

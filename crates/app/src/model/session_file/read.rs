@@ -3,7 +3,8 @@
 use super::table::{Entry, Fault, Table, fault};
 use super::{MOST_BOOKMARKS, SESSION_VERSION, SavedSession, SavedWindow};
 use crate::model::{
-    Axis, Channel, CompareWith, Cost, Equal, Line, Measure, PaneId, PaneSource, Panes, Region, Resolution, Session, SweepMeasure, SweepSettings, Theme, View,
+    Axis, Channel, CompareWith, Cost, Equal, Line, Measure, PaneId, PaneSource, Panes, Region, Resolution, Session,
+    SweepMeasure, SweepSettings, Theme, View,
 };
 use compare::ErrorMetric;
 use image_file::{Kind, shown};

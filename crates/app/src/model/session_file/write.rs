@@ -1,7 +1,9 @@
 //! A session as the text of its file.
 
 use super::{MOST_BOOKMARKS, SESSION_VERSION, SavedSession};
-use crate::model::{Axis, ComparisonSettings, PaneId, PaneSource, PlotSettings, ProbeSettings, Region, Session, SweepSettings};
+use crate::model::{
+    Axis, ComparisonSettings, PaneId, PaneSource, PlotSettings, ProbeSettings, Region, Session, SweepSettings,
+};
 use compare::ErrorMetric;
 use scene::{Camera, Scene, Vec3};
 use std::fmt::Write;
