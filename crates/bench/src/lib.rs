@@ -29,6 +29,7 @@ pub mod variant;
 
 pub use clock::Progress;
 pub use error::BenchError;
-pub use host::{Host, build_of_this_program};
+pub use host::{Host, build_of_this_program, today};
 pub use peer::{HEADER as PEER_HEADER, PeerRow};
+pub use pictures::data_uri;
 pub use run::{Options, Outcome, run};

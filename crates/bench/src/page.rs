@@ -142,14 +142,14 @@ fn figure(pair: &PicturePair) -> String {
     let image = |png: &[u8], what: &str| {
         format!(
             "<div><img src=\"{}\" width=\"{width}\" height=\"{height}\" alt=\"{what}\"><p>{what}</p></div>\n",
-            data_uri(png)
+            data_uri("image/png", png)
         )
     };
     let mut html = format!("<h3>{}</h3>\n<div class=\"row\">\n", escaped(&pair.title));
     html += &image(&pair.picture, "A, the technique");
     html += &image(&pair.truth, "the reference");
     html += &image(&pair.map, pair.label);
-    html += &format!("</div>\n<div class=\"bar\"><img src=\"{}\" alt=\"colours\">", data_uri(&pair.bar));
+    html += &format!("</div>\n<div class=\"bar\"><img src=\"{}\" alt=\"colours\">", data_uri("image/png", &pair.bar));
     for tick in &pair.ticks {
         let at = 100.0 * tick.position;
         html += &format!("<span style=\"left:{at:.1}%\">{}</span>", escaped(&tick.text));

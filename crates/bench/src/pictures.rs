@@ -96,9 +96,9 @@ fn pair(title: String, image: &Image, truth: &Truth) -> Result<PicturePair, Benc
     })
 }
 
-/// The address of a PNG within the page: RFC 2397, with the base 64 of RFC 4648.
-pub fn data_uri(png: &[u8]) -> String {
-    format!("data:image/png;base64,{}", base64(png))
+/// The address of a file of this media type within the page: RFC 2397, with the base 64 of RFC 4648.
+pub fn data_uri(media_type: &str, bytes: &[u8]) -> String {
+    format!("data:{media_type};base64,{}", base64(bytes))
 }
 
 fn base64(bytes: &[u8]) -> String {
