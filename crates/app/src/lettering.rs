@@ -1,7 +1,10 @@
-//! The type: Inter in two weights (assets/README.md says where it comes from); and text drawn in it without a window, as pixels, which
-//! egui lays out and draws.
+//! The type: Inter in two weights (assets/README.md says where it comes from); and text drawn in it where there is no window, laid out
+//! by egui's own layout.
 
-use egui::{Color32, ColorImage, Context, FontData, FontDefinitions, FontFamily, FontId, Galley, RawInput, Rect};
+use egui::epaint::text::{Galley, LayoutJob, TextOptions, TextWrapping};
+use egui::epaint::{FontColorTransferFunction, Fonts};
+use egui::{Color32, FontData, FontDefinitions, FontFamily, FontId, TextFormat};
+use film::colour::{srgb_decode, srgb_encode};
 use std::sync::Arc;
 
 /// The weight of most text.
@@ -29,109 +32,123 @@ pub fn font_definitions(usual: &str) -> FontDefinitions {
     fonts
 }
 
-/// What draws text into pictures.
-pub struct Lettering {
-    context: Context,
-}
+/// Height of Inter's capitals as a share of its size (`capHeight` over `unitsPerEm` of the font).
+pub const CAPITALS: f32 = 0.727;
 
-/// A text that is laid out, and the glyphs that it is drawn from.
-pub struct Line {
-    galley: Arc<Galley>,
-    glyphs: ColorImage,
-}
-
-/// Pixels of RGBA, rows from the top, that text is drawn into.
+/// An opaque picture of sRGB bytes, rows from the top.
+#[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Canvas {
     /// Width and height in pixels.
     pub size: (u32, u32),
-    /// Four bytes a pixel.
-    pub rgba: Vec<u8>,
+    /// A pixel after the other.
+    pub pixels: Vec<[u8; 3]>,
 }
+
+impl Canvas {
+    /// A picture of one colour.
+    pub fn filled(size: (u32, u32), colour: [u8; 3]) -> Self {
+        Canvas { size, pixels: vec![colour; size.0 as usize * size.1 as usize] }
+    }
+
+    /// The pixel there; `None` outside.
+    pub fn at_mut(&mut self, x: i64, y: i64) -> Option<&mut [u8; 3]> {
+        let (x, y) = (u32::try_from(x).ok()?, u32::try_from(y).ok()?);
+        let inside = x < self.size.0 && y < self.size.1;
+        inside.then(|| &mut self.pixels[y as usize * self.size.0 as usize + x as usize])
+    }
+
+    /// Lays a picture of RGBA bytes, all opaque, over this one, its upper left corner at `at`.
+    pub fn place(&mut self, (left, top): (u32, u32), (width, rgba): (u32, &[u8])) {
+        for (y, row) in (i64::from(top)..).zip(rgba.chunks_exact(4 * width.max(1) as usize)) {
+            for (x, pixel) in (i64::from(left)..).zip(row.chunks_exact(4)) {
+                if let Some(under) = self.at_mut(x, y) {
+                    under.copy_from_slice(&pixel[..3]);
+                }
+            }
+        }
+    }
+
+    /// Fills a rectangle that begins there and is so wide and high, as far as it is inside.
+    pub fn fill(&mut self, (left, top): (i64, i64), (width, height): (u32, u32), colour: [u8; 3]) {
+        for y in top..top + i64::from(height) {
+            for x in left..left + i64::from(width) {
+                self.at_mut(x, y).into_iter().for_each(|pixel| *pixel = colour);
+            }
+        }
+    }
+
+    /// As RGBA bytes.
+    pub fn rgba(&self) -> Vec<u8> {
+        self.pixels.iter().flat_map(|[r, g, b]| [*r, *g, *b, 255]).collect()
+    }
+}
+
+/// How a text looks.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Type {
+    /// In pixels.
+    pub size: f32,
+    /// Whether it is a heading.
+    pub semi_bold: bool,
+    /// As sRGB bytes.
+    pub colour: [u8; 3],
+}
+
+/// The font, and the glyphs of it that were drawn so far.
+pub struct Lettering(Fonts);
 
 impl Default for Lettering {
     fn default() -> Self {
-        let context = Context::default();
-        context.set_fonts(font_definitions(REGULAR));
-        // as large as glyphs may become, so that the atlas takes them; fonts are there from the first pass on
-        let input = RawInput { max_texture_side: Some(8192), ..RawInput::default() };
-        let _ = context.run_pass(input, |_| ());
-        Lettering { context }
+        let options = TextOptions {
+            max_texture_side: 8192,
+            // how much of a pixel a glyph covers, which is all that is blended by
+            color_transfer_function: FontColorTransferFunction::Off,
+            ..TextOptions::default()
+        };
+        Lettering(Fonts::new(options, font_definitions(REGULAR)))
     }
 }
 
 impl Lettering {
-    /// A text of this size in pixels in one row; one that is wider than `widest` ends in dots.
-    pub fn line(&self, text: &str, size: f32, strong: bool, widest: f32) -> Line {
-        let family = if strong { FontFamily::Name(SEMI_BOLD.into()) } else { FontFamily::Proportional };
-        let mut job = egui::text::LayoutJob::simple_singleline(text.into(), FontId::new(size, family), Color32::WHITE);
-        job.wrap = egui::text::TextWrapping::truncate_at_width(widest);
-        let galley = self.context.fonts_mut(|fonts| fonts.layout_job(job));
-        Line { galley, glyphs: self.context.fonts(|fonts| fonts.image()) }
-    }
-}
-
-impl Line {
-    /// Width and height in pixels.
-    pub fn size(&self) -> [f32; 2] {
-        self.galley.size().into()
+    /// Breaks a text into at most so many lines of a width in pixels; what has no room ends in an ellipsis.
+    pub fn lay_out(&mut self, text: &str, look: Type, width: u32, most_lines: usize) -> Galley {
+        let family = if look.semi_bold { FontFamily::Name(SEMI_BOLD.into()) } else { FontFamily::Proportional };
+        let printable: String = text.chars().map(|c| if c.is_control() { ' ' } else { c }).collect();
+        let [r, g, b] = look.colour;
+        let format = TextFormat::simple(FontId::new(look.size, family), Color32::from_rgb(r, g, b));
+        let mut job = LayoutJob::single_section(printable, format);
+        job.wrap = TextWrapping { max_width: width as f32, max_rows: most_lines, ..TextWrapping::default() };
+        self.0.layout_uncached(1.0, Arc::new(job))
     }
 
-    /// Draws it with its left upper corner at `at`.
-    pub fn draw(&self, canvas: &mut Canvas, at: [f32; 2], colour: [u8; 3]) {
-        for row in &self.galley.rows {
-            for glyph in row.glyphs.iter().filter(|glyph| !glyph.uv_rect.is_nothing()) {
-                let corner = row.pos + glyph.pos.to_vec2() + glyph.uv_rect.offset;
-                let corner = [at[0] + corner.x, at[1] + corner.y].map(|side| side.round() as i64);
-                self.stamp(canvas, corner, (glyph.uv_rect.min, glyph.uv_rect.max), colour);
-            }
-        }
-    }
-
-    /// Blends a part of the glyphs over the pixels.
-    fn stamp(&self, canvas: &mut Canvas, [left, top]: [i64; 2], (min, max): ([u16; 2], [u16; 2]), colour: [u8; 3]) {
-        let [width, height] = [canvas.size.0, canvas.size.1].map(i64::from);
-        for (y, row) in (min[1]..max[1]).enumerate() {
-            for (x, column) in (min[0]..max[0]).enumerate() {
-                let (x, y) = (left + x as i64, top + y as i64);
-                if !(0..width).contains(&x) || !(0..height).contains(&y) {
-                    continue;
-                }
-                let cover = u32::from(self.glyphs[(usize::from(column), usize::from(row))].a());
-                let pixel = 4 * (y * width + x) as usize;
-                for (under, over) in canvas.rgba[pixel..pixel + 3].iter_mut().zip(colour) {
-                    *under = ((u32::from(*under) * (255 - cover) + u32::from(over) * cover + 127) / 255) as u8;
+    /// Draws what was laid out, its upper left corner at `at`. Returns how high it is.
+    pub fn draw(&mut self, canvas: &mut Canvas, text: &Galley, at: (u32, u32), colour: [u8; 3]) -> u32 {
+        let atlas = self.0.image();
+        for row in &text.rows {
+            for glyph in row.row.glyphs.iter().filter(|glyph| !glyph.uv_rect.is_nothing()) {
+                // as egui's tessellator places it
+                let left_top = (row.pos + glyph.pos.to_vec2() + glyph.uv_rect.offset).round();
+                let (left, top) = (i64::from(at.0) + left_top.x as i64, i64::from(at.1) + left_top.y as i64);
+                let ([u0, v0], [u1, v1]) = (glyph.uv_rect.min, glyph.uv_rect.max);
+                for (y, v) in (top..).zip(v0..v1) {
+                    for (x, u) in (left..).zip(u0..u1) {
+                        let covered = atlas[(usize::from(u), usize::from(v))].a();
+                        canvas.at_mut(x, y).into_iter().for_each(|under| cover(under, colour, covered));
+                    }
                 }
             }
         }
+        text.rect.height().ceil() as u32
     }
 }
 
-impl Canvas {
-    /// So many pixels of one opaque colour.
-    pub fn filled(size: (u32, u32), [r, g, b]: [u8; 3]) -> Self {
-        let pixels = size.0 as usize * size.1 as usize;
-        Canvas { size, rgba: [r, g, b, 255].repeat(pixels) }
-    }
-
-    /// Copies a picture's pixels, whole, with its left upper corner at `at`.
-    pub fn paste(&mut self, (left, top): (u32, u32), (width, height): (u32, u32), rgba: &[u8]) {
-        let bytes = 4 * width as usize;
-        for (row, pixels) in rgba.chunks_exact(bytes).take(height as usize).enumerate() {
-            let begin = 4 * ((top as usize + row) * self.size.0 as usize + left as usize);
-            self.rgba[begin..begin + bytes].copy_from_slice(pixels);
-        }
-    }
-
-    /// Fills a rectangle, as far as it is inside.
-    pub fn fill(&mut self, rect: Rect, [r, g, b]: [u8; 3]) {
-        let side = |value: f32, most: u32| (value.round().max(0.0) as u32).min(most) as usize;
-        let columns = side(rect.left(), self.size.0)..side(rect.right(), self.size.0);
-        for row in side(rect.top(), self.size.1)..side(rect.bottom(), self.size.1) {
-            for column in columns.clone() {
-                let pixel = 4 * (row * self.size.0 as usize + column);
-                self.rgba[pixel..pixel + 4].copy_from_slice(&[r, g, b, 255]);
-            }
-        }
+/// Lays a colour over a pixel of which it covers so many of 255 parts, in linear light.
+fn cover(under: &mut [u8; 3], colour: [u8; 3], covered: u8) {
+    let share = f32::from(covered) / 255.0;
+    let linear = |code: u8| srgb_decode(f32::from(code) / 255.0);
+    for (under, over) in under.iter_mut().zip(colour) {
+        let light = linear(*under) + share * (linear(over) - linear(*under));
+        *under = (255.0 * srgb_encode(light)).round() as u8;
     }
 }
 
@@ -139,35 +156,59 @@ impl Canvas {
 mod tests {
     use super::*;
 
-    fn drawn(text: &str) -> (Canvas, [f32; 2]) {
-        let lettering = Lettering::default();
-        let line = lettering.line(text, 24.0, false, f32::INFINITY);
-        let mut canvas = Canvas::filled((200, 40), [0, 0, 0]);
-        line.draw(&mut canvas, [4.0, 4.0], [255, 200, 0]);
-        (canvas, line.size())
+    const BLACK: [u8; 3] = [0; 3];
+    const WHITE: [u8; 3] = [255; 3];
+
+    /// Rows and columns in which anything is drawn, first and behind the last.
+    fn inked(canvas: &Canvas) -> Option<[u32; 4]> {
+        let width = canvas.size.0 as usize;
+        let inked = (0..canvas.pixels.len()).filter(|i| canvas.pixels[*i][0] > 127);
+        inked.map(|i| ((i % width) as u32, (i / width) as u32)).fold(None, |found, (x, y)| {
+            let [left, top, right, bottom] = found.unwrap_or([x, y, x + 1, y + 1]);
+            Some([left.min(x), top.min(y), right.max(x + 1), bottom.max(y + 1)])
+        })
+    }
+
+    fn drawn(text: &str, size: f32) -> Canvas {
+        let mut canvas = Canvas::filled((400, 200), BLACK);
+        let mut lettering = Lettering::default();
+        let galley = lettering.lay_out(text, Type { size, semi_bold: false, colour: WHITE }, 400, 1);
+        lettering.draw(&mut canvas, &galley, (10, 20), WHITE);
+        canvas
     }
 
     #[test]
-    fn letters_are_where_their_line_is_and_nowhere_else() {
-        let (canvas, [width, height]) = drawn("relMSE 0.125");
-        let lit = |x: usize, y: usize| canvas.rgba[4 * (200 * y + x)] > 128;
-        let inside = |x: usize, y: usize| {
-            (4.0..=5.0 + width).contains(&(x as f32)) && (4.0..=5.0 + height).contains(&(y as f32))
-        };
-        let all = (0..40).flat_map(|y| (0..200).map(move |x| (x, y)));
-        let lit: Vec<_> = all.filter(|(x, y)| lit(*x, *y)).collect();
-        assert!(lit.len() > 300, "{}", lit.len());
-        assert!(lit.iter().all(|(x, y)| inside(*x, *y)), "{width} x {height}");
-        // full colour somewhere: strokes are wider than a pixel
-        assert!(canvas.rgba.chunks(4).any(|pixel| pixel[..3] == [255, 200, 0]));
-        assert_ne!(drawn("relMSE 0.125").0.rgba, drawn("relMSE 0.126").0.rgba);
+    fn capitals_are_as_high_as_the_font_says() {
+        for size in [20.0, 34.0, 100.0] {
+            let [left, top, _, bottom] = inked(&drawn("H", size)).unwrap();
+            let height = (bottom - top) as f32;
+            assert!((height - CAPITALS * size).abs() <= 1.0, "{size}: {height}");
+            assert!(left >= 10 && top > 20, "{left} {top}");
+        }
     }
 
     #[test]
-    fn a_text_that_is_too_wide_ends_in_dots_within_its_room() {
-        let lettering = Lettering::default();
-        let [wide, _] = lettering.line("no limit of bounces", 24.0, true, f32::INFINITY).size();
-        let [cut, _] = lettering.line("no limit of bounces", 24.0, true, 100.0).size();
-        assert!(wide > 150.0 && cut <= 100.0, "{wide} {cut}");
+    fn a_text_is_one_letter_after_the_other() {
+        let width = |text: &str| inked(&drawn(text, 40.0)).map(|[left, _, right, _]| right - left).unwrap();
+        let letters = ["H", "HH", "HHH"].map(width);
+        assert!((letters[2] - letters[1]).abs_diff(letters[1] - letters[0]) <= 1, "{letters:?}");
+        let look = Type { size: 40.0, semi_bold: false, colour: WHITE };
+        let laid_out = |text: &str| Lettering::default().lay_out(text, look, 400, 1).rect.width();
+        let advance = laid_out("HH") - laid_out("H");
+        assert!((letters[1] - letters[0]).abs_diff(advance.round() as u32) <= 1, "{letters:?}: {advance}");
+        assert_eq!(drawn("a\nb", 40.0), drawn("a b", 40.0), "a line stays one");
+        assert_eq!(inked(&drawn(" ", 40.0)), None);
+    }
+
+    #[test]
+    fn what_has_no_room_is_broken_and_ends_in_an_ellipsis() {
+        let mut lettering = Lettering::default();
+        let look = Type { size: 30.0, semi_bold: true, colour: WHITE };
+        let text = "path tracing with light sampling and roulette by throughput";
+        let galley = lettering.lay_out(text, look, 300, 2);
+        assert!(galley.rows.len() == 2 && galley.elided && galley.rect.width() <= 300.0, "{:?}", galley.rect);
+        assert!(!lettering.lay_out("path", look, 300, 2).elided);
+        let unbroken = lettering.lay_out(&"m".repeat(200), look, 300, 1);
+        assert!(unbroken.rect.width() <= 300.0 && unbroken.elided, "{:?}", unbroken.rect);
     }
 }

@@ -10,6 +10,7 @@ mod console;
 pub mod cli;
 pub mod engine;
 pub mod environment;
+pub mod lab_report;
 pub mod lettering;
 pub mod model;
 pub mod ruler;

@@ -12,9 +12,12 @@ mod merge;
 mod original;
 mod reference;
 mod render;
+mod report;
 mod sweep;
 
-pub use args::{BenchArgs, CheckArgs, CompareArgs, DenoiseArgs, MergeArgs, ReferenceArgs, RenderArgs, Seen, SweepArgs};
+pub use args::{
+    BenchArgs, CheckArgs, CompareArgs, DenoiseArgs, MergeArgs, ReferenceArgs, RenderArgs, ReportArgs, Seen, SweepArgs,
+};
 
 use crate::model::ViewArgs;
 use std::process::ExitCode;
@@ -26,6 +29,8 @@ pub enum Command {
     View(ViewArgs),
     /// A picture to a file, without a window.
     Render(Box<RenderArgs>),
+    /// A lab report or a slide of two pictures.
+    Report(Box<ReportArgs>),
     /// The distance between two pictures, or of one from its reference.
     Compare(CompareArgs),
     /// A picture without its noise.
@@ -102,6 +107,7 @@ impl Command {
         match self {
             Command::View(args) => crate::window::open(&args, interrupt::heed_when_woken),
             Command::Render(mut args) => render::run(&mut args),
+            Command::Report(args) => report::run(&args),
             Command::Compare(args) => compare::run(&args),
             Command::Denoise(args) => denoise::run(&args),
             Command::Merge(args) => merge::run(&args),

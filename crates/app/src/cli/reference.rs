@@ -52,7 +52,7 @@ pub fn run(args: &ReferenceArgs) -> anyhow::Result<()> {
 }
 
 /// How far a reference has come.
-fn course(reference: &Reference) -> String {
+pub(super) fn course(reference: &Reference) -> String {
     let noise = reference.rel_mse().map_or_else(|| "unknown".into(), brief);
     format!("{} pictures, noise (relMSE) {noise}, {:.1} s", reference.replicates, reference.seconds)
 }

@@ -21,17 +21,17 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 use technique::settings::{OF_SCENES, Setting, all_of_panes};
 use technique::{
-    Backend, BlindSpot, DenoiseSettings, Denoised, Device, DeviceChoice, FakeSettings, Halves, INSTEAD, Made, NOISY,
-    PaneSettings, Provenance, Rendered, Renderer, Runs, Shot, Technique, Threads, TracedSettings,
+    Backend, BlindSpot, DenoiseSettings, Denoised, Device, DeviceChoice, FakeSettings, Frame, Halves, INSTEAD, Made,
+    NOISY, PaneSettings, Provenance, Rendered, Renderer, Runs, Shot, Technique, Threads, TracedSettings,
 };
 
 /// How long a device may work on what nobody has read yet.
 const AT_RISK: Duration = Duration::from_secs(5);
 
 /// A finished picture and what it cost.
-struct Timed {
-    rendered: Rendered,
-    seconds: f64,
+pub(super) struct Timed {
+    pub rendered: Rendered,
+    pub seconds: f64,
 }
 
 pub fn run(args: &mut RenderArgs) -> anyhow::Result<()> {
@@ -54,12 +54,10 @@ pub fn run(args: &mut RenderArgs) -> anyhow::Result<()> {
     let _heeded = interrupt::heed();
     let Timed { rendered, seconds } = match technique {
         Technique::Fake(fake) => raster(args, &fake.applied_to(&scene), fake)?,
-        Technique::Traced(traced) => trace(args, &shot, traced)?,
+        Technique::Traced(traced) => trace(args, &shot, traced, None)?,
     };
-    let (mut image, before) = match &rendered.denoised {
-        Some(Ok(denoised)) => (denoised.image.clone(), Some(rendered.film.image())),
-        Some(Err(_)) | None => (rendered.film.image(), None),
-    };
+    let mut image = picture_of(&rendered);
+    let before = matches!(rendered.denoised, Some(Ok(_))).then(|| rendered.film.image());
     if args.layers {
         image.layers.extend(rendered.features.iter().flat_map(Features::layers));
         image.layers.extend(before.iter().map(|before| before.as_layer(NOISY)));
@@ -128,6 +126,14 @@ pub fn run(args: &mut RenderArgs) -> anyhow::Result<()> {
     }
     anyhow::ensure!(!interrupt::is_asked(), "{made} are saved: {out}");
     Ok(())
+}
+
+/// Denoised, where that was asked for and could be done.
+pub(super) fn picture_of(rendered: &Rendered) -> Image {
+    match &rendered.denoised {
+        Some(Ok(denoised)) => denoised.image.clone(),
+        Some(Err(_)) | None => rendered.film.image(),
+    }
 }
 
 /// Samples per pixel of each run.
@@ -258,7 +264,8 @@ fn tell_what_others_undo(args: &RenderArgs, scene: &Scene) {
     }
 }
 
-fn raster(args: &RenderArgs, scene: &Scene, fake: FakeSettings) -> anyhow::Result<Timed> {
+/// The picture of the fake.
+pub(super) fn raster(args: &RenderArgs, scene: &Scene, fake: FakeSettings) -> anyhow::Result<Timed> {
     let gpu = Gpu::headless().context("the raster technique needs a GPU")?;
     let mut raster = Raster::new(&gpu)?;
     let start = Instant::now();
@@ -275,7 +282,13 @@ fn raster(args: &RenderArgs, scene: &Scene, fake: FakeSettings) -> anyhow::Resul
     Ok(Timed { rendered, seconds })
 }
 
-fn trace(args: &RenderArgs, shot: &Shot, traced: TracedSettings) -> anyhow::Result<Timed> {
+/// The picture of rays; `follow` is shown how it comes.
+pub(super) fn trace(
+    args: &RenderArgs,
+    shot: &Shot,
+    traced: TracedSettings,
+    follow: Option<&(dyn Fn(&Frame) + Sync)>,
+) -> anyhow::Result<Timed> {
     for line in traced.blind_spots(&shot.scene).into_iter().filter_map(BlindSpot::explanation) {
         note!("note: {line}");
     }
@@ -293,6 +306,7 @@ fn trace(args: &RenderArgs, shot: &Shot, traced: TracedSettings) -> anyhow::Resu
     let backend = backend(gpu.as_ref(), &scene, device)?;
     let watch = Terminal {
         spp: spp.saturating_mul(runs),
+        follow,
         parts_meet_at: args.parts_meet_at(spp),
         shown: std::io::stderr().is_terminal(),
         start,

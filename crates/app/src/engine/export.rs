@@ -1,10 +1,10 @@
 //! The thread that writes pictures and fills the clipboard: encoding, disk and other programs take their time.
 
 use super::capture::{Capture, Pixels};
+use super::report::{ReportToSave, SlideToSave};
 use super::session::SessionToSave;
 use super::worker::{Control, Service, Worker};
 use super::{Picture, Wake};
-use crate::lettering::Canvas;
 use crate::model::{Destination, ErrorMap, PaneId, PixelSamples, samples_csv};
 use crate::sweep::Sheet;
 use anyhow::Context;
@@ -31,6 +31,10 @@ pub enum Content {
     Samples(Vec<(PaneId, Arc<PixelSamples>)>),
     /// What makes all pictures again.
     Session(Box<SessionToSave>),
+    /// A page of all that is known of them.
+    Report(Box<ReportToSave>),
+    /// Pictures with large labels.
+    Slide(Box<SlideToSave>),
 }
 
 /// Something to export.
@@ -114,6 +118,9 @@ fn save(export: &Export, path: &Path) -> anyhow::Result<PathBuf> {
     if let Content::Session(session) = content {
         return session.save(path);
     }
+    if let Content::Report(report) = content {
+        return report.save(path);
+    }
     let kind =
         Kind::of(path).with_context(|| format!("the name must end in .png or .exr: {}", image_file::shown(path)))?;
     let bytes = match (content, kind) {
@@ -124,7 +131,20 @@ fn save(export: &Export, path: &Path) -> anyhow::Result<PathBuf> {
             image_file::encode_rgba8(width, height, &rgba, records)?
         }
         (Content::Sweep(sheet), Kind::Png) => sheet.png(records.clone())?,
-        (Content::Seen(_) | Content::Sweep(_) | Content::Text(_) | Content::Samples(_) | Content::Session(_), _) => {
+        (Content::Slide(slide), Kind::Png) => {
+            let Pixels { width, height, rgba } = slide.pixels()?;
+            image_file::encode_rgba8(width, height, &rgba, records)?
+        }
+        (
+            Content::Seen(_)
+            | Content::Sweep(_)
+            | Content::Slide(_)
+            | Content::Text(_)
+            | Content::Samples(_)
+            | Content::Session(_)
+            | Content::Report(_),
+            _,
+        ) => {
             anyhow::bail!(
                 "EXR keeps the radiance of one pane: save A, B or the error map, or end the name in .png: {}",
                 image_file::shown(path)
@@ -146,9 +166,11 @@ fn copy(export: &Export, clipboard: &mut Option<arboard::Clipboard>) -> anyhow::
             Pixels { width, height, rgba }
         }
         Content::Sweep(sheet) => {
-            let Canvas { size: (width, height), rgba } = sheet.canvas()?;
-            Pixels { width, height, rgba }
+            let canvas = sheet.canvas()?;
+            Pixels { width: canvas.size.0, height: canvas.size.1, rgba: canvas.rgba() }
         }
+        Content::Slide(slide) => slide.pixels()?,
+        Content::Report(_) => anyhow::bail!("a report is a file: save it instead"),
         Content::Text(text) => {
             let outcome = opened(clipboard).and_then(|open| open.set_text(text));
             return outcome.context("cannot copy the text; save it instead");

@@ -2,13 +2,14 @@
 //! and [`rays`] with its [`technique::ProgressiveRenderer`], or [`external`] pictures of other programs. They turn jobs into [`Picture`]s. All who trace share one
 //! pool of threads, in turns. The [`mod@probe`] traces the samples of one pixel. The [`post_process`] turns pictures into bytes for the screen and measures how far
 //! apart they are, from each other or from what the [`mod@reference`] makes, and the [`error_map`] draws where; the
-//! [`export`] writes files and fills the clipboard; [`load`], [`restore`], [`session`] and [`find_scene`] read them, [`watch`] reads a scene again that
+//! [`export`] writes files and fills the clipboard, [`mod@report`]s too; [`load`], [`restore`], [`session`] and [`find_scene`] read them, [`beginning`] is what a window begins with, [`watch`] reads a scene again that
 //! has changed on disk, [`memory`] keeps what the next window is to know, [`dialogue`] waits for the system's own,
 //! [`thumbnails`] draws small pictures of scenes and [`sweep`] many pictures of one scene. Every thread is a [`worker::Worker`], fed through a
 //! [`mailbox::Mailbox`] in which newer wishes replace older ones. The UI thread only posts and collects.
 
 pub mod ask;
 mod asked_pane;
+pub mod beginning;
 pub mod capture;
 mod course;
 pub mod dialogue;
@@ -27,10 +28,12 @@ pub mod post_process;
 pub mod probe;
 pub mod rays;
 pub mod reference;
+pub mod report;
 pub mod restore;
 pub mod session;
 pub mod sweep;
 pub mod thumbnails;
+pub mod view_records;
 pub mod watch;
 pub mod worker;
 

@@ -24,7 +24,7 @@ pub struct DisplayFrame {
     /// What it is compared with, and how far it is from that; `None` unless that is there at the same size.
     pub errors: Option<(Against, Errors)>,
     /// The reference that it is compared with, if it is.
-    pub reference: Option<Image>,
+    pub reference: Option<ReferenceImage>,
     /// How bright the pixels of that part are, where it is asked for.
     pub histogram: Option<Arc<Histogram>>,
     /// The part of it that is compared; `None` for all.
@@ -177,7 +177,7 @@ impl Service for Latest {
             let region = comparison.and_then(|comparison| comparison.region);
             let histogram = self.histograms.then(|| Arc::new(histogram(&picture.image, region)));
             let judged = comparison.filter(|comparison| comparison.against == Against::Reference);
-            let reference = judged.and_then(|_| self.reference_of(picture)).map(|reference| reference.image.clone());
+            let reference = judged.and_then(|_| self.reference_of(picture)).cloned();
             (
                 pane,
                 DisplayFrame {

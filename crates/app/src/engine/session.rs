@@ -82,7 +82,7 @@ fn files_as(session: &mut SavedSession, named: impl Fn(&Path) -> PathBuf) {
 }
 
 /// A session to write.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct SessionToSave {
     /// Scene, view, panes and window as the file shall keep them.
     pub session: SavedSession,
@@ -102,16 +102,20 @@ impl SessionToSave {
             bail!("the name of a session must end in .toml: {}", shown(path));
         }
         let path = std::path::absolute(path).with_context(|| format!("cannot save to {}", shown(path)))?;
-        let folder = path.parent().unwrap_or(Path::new(""));
-        let mut session = self.session.clone();
-        files_as(&mut session, |file| PathBuf::from(source_from(folder, &file.display().to_string())));
-        let text = session.text(&self.scene, &source_from(folder, &self.source));
+        let text = self.text_in(path.parent().unwrap_or(Path::new("")));
         Ok(image_file::write_new(&path, text.as_bytes())?)
     }
 
     /// Its text for any folder.
     pub fn text(&self) -> String {
-        self.session.text(&self.scene, &source_from(Path::new(""), &self.source))
+        self.text_in(Path::new(""))
+    }
+
+    /// Its text for a file in this folder.
+    pub fn text_in(&self, folder: &Path) -> String {
+        let mut session = self.session.clone();
+        files_as(&mut session, |file| PathBuf::from(source_from(folder, &file.display().to_string())));
+        session.text(&self.scene, &source_from(folder, &self.source))
     }
 }
 

@@ -21,6 +21,46 @@ pub enum ExportSubject {
     Samples,
     /// No picture, but what makes all of them again.
     Session,
+    /// Pictures, settings, errors, times and plots as one page.
+    Report,
+    /// Pictures with large labels, to be shown to a class.
+    Slide(SlideSize),
+}
+
+/// How large a slide is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum SlideSize {
+    /// 1920 x 1080 pixels.
+    #[default]
+    FullHd,
+    /// 3840 x 2160 pixels.
+    Uhd,
+}
+
+impl SlideSize {
+    /// Both, the default first.
+    pub const ALL: [SlideSize; 2] = [SlideSize::FullHd, SlideSize::Uhd];
+
+    /// Width and height in pixels.
+    pub fn pixels(self) -> (u32, u32) {
+        match self {
+            SlideSize::FullHd => (1920, 1080),
+            SlideSize::Uhd => (3840, 2160),
+        }
+    }
+
+    /// On the command line and on its button: "1920x1080".
+    pub fn name(self) -> &'static str {
+        match self {
+            SlideSize::FullHd => "1920x1080",
+            SlideSize::Uhd => "3840x2160",
+        }
+    }
+
+    /// The size of that name.
+    pub fn named(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|size| size.name() == name)
+    }
 }
 
 /// What the plot of errors is kept as.
@@ -88,4 +128,6 @@ pub struct ExportMenu {
     pub file: String,
     /// Whether a pane is kept as linear radiance.
     pub exr: bool,
+    /// How large the next slide is.
+    pub slide: SlideSize,
 }

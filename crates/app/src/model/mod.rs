@@ -40,7 +40,7 @@ pub use document::Document;
 pub use effort::{Compiling, Drawing, Effort};
 pub use error_map::{ErrorMap, ErrorMapJob};
 pub use errors::{ErrorHistory, ErrorPoint};
-pub use export::{Destination, ExportMenu, ExportRequest, ExportSubject, PlotFile, SweepFile};
+pub use export::{Destination, ExportMenu, ExportRequest, ExportSubject, PlotFile, SlideSize, SweepFile};
 pub use file_wish::{FilePurpose, FileWish};
 pub use history::{History, Settings};
 pub use magnification::Magnification;

@@ -104,6 +104,11 @@ impl External {
             None => name,
         }
     }
+
+    /// "the picture of another program mine.exr, read from /home/me/mine.exr".
+    pub fn told(&self) -> String {
+        format!("the picture of another program {}, {}", image_file::escaped(&self.name), self.source)
+    }
 }
 
 impl Session {

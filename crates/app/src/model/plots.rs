@@ -131,6 +131,18 @@ pub struct Curve {
 }
 
 impl Curve {
+    /// The curve of a pane's picture, which was held against this there; `None` without points.
+    pub fn of_pane(
+        id: PaneId,
+        made: &Provenance,
+        points: Vec<ErrorPoint>,
+        (against, region): (Against, Option<Region>),
+        title: Option<String>,
+    ) -> Option<Self> {
+        let name = format!("{id}: {}", title.unwrap_or_else(|| name_by_itself(made)));
+        (!points.is_empty()).then_some(Curve { name, owner: Owner::Pane(id), points, against, region })
+    }
+
     /// What judged it, and where: "reference", "B in the region".
     pub fn judged_by(&self) -> String {
         let against = self.against.name();
@@ -181,10 +193,8 @@ impl ViewModel {
 
     fn curve(&self, id: PaneId, pane: &PaneView) -> Option<Curve> {
         let points: Vec<ErrorPoint> = pane.history.iter().copied().collect();
-        let ((against, region), made) = (pane.course.as_ref()?.against(), pane.provenance.as_deref()?);
-        let name = pane.external.as_ref().map_or_else(|| name_by_itself(made), |external| external.title());
-        let name = format!("{id}: {name}");
-        (!points.is_empty()).then_some(Curve { name, owner: Owner::Pane(id), points, against, region })
+        let name = pane.external.as_ref().map(|external| external.title());
+        Curve::of_pane(id, pane.provenance.as_deref()?, points, pane.course.as_ref()?.against(), name)
     }
 }
 

@@ -4,6 +4,7 @@ use super::{
     Against, Effort, ErrorHistory, ErrorMap, ErrorPoint, External, PaneId, PaneProbe, PaneSource, Panes, Progress,
     Region, TileFacts,
 };
+use crate::ruler::ReferenceImage;
 use compare::{Errors, Histogram};
 use film::Image;
 use std::sync::Arc;
@@ -63,7 +64,7 @@ pub struct PaneView {
     /// What it is compared with, and how far it is from that.
     pub errors: Option<(Against, Errors)>,
     /// The reference that it is compared with, where that is the reference of the same pixels.
-    pub reference: Option<Image>,
+    pub reference: Option<ReferenceImage>,
     /// The part of the picture that they are of; `None` for all of it.
     pub region: Option<Region>,
     /// How bright its pixels there are, while that is looked at.

@@ -2,9 +2,8 @@
 //! row of seats.
 
 use super::tile::Tile;
-use crate::lettering::{Canvas, Lettering};
+use crate::lettering::{Canvas, Lettering, Type};
 use crate::model::{SweepMeasure, SweepPlan, TileFacts, best, captions};
-use egui::{Rect, pos2, vec2};
 use film::DisplayTransform;
 use image_file::{ImageFileError, MOST_PIXELS, Records};
 use std::sync::Arc;
@@ -137,7 +136,7 @@ impl Sheet {
             return Err(SheetError::TooLarge(width, height));
         }
         let mut canvas = Canvas::filled(layout.whole, GROUND);
-        let lettering = Lettering::default();
+        let mut lettering = Lettering::default();
         let best = best(&self.facts, self.measure);
         for (index, (tile, caption)) in self.tiles.iter().zip(&captions).enumerate() {
             let best = best.contains(&index);
@@ -145,9 +144,9 @@ impl Sheet {
                 mark(&mut canvas, &layout, index);
             }
             if let Some(tile) = tile.as_ref().filter(shown) {
-                canvas.paste(layout.corner(index), size, &self.display.rgba8_of(&tile.image));
+                canvas.place(layout.corner(index), (size.0, &self.display.rgba8_of(&tile.image)));
             }
-            letter(&mut canvas, &lettering, &layout, (index, caption, best));
+            letter(&mut canvas, &mut lettering, &layout, (index, caption, best));
         }
         Ok(canvas)
     }
@@ -157,9 +156,9 @@ impl Sheet {
     /// # Errors
     /// [`SheetError`]: it is too large, or not to be encoded.
     pub fn png(&self, more: Records) -> Result<Vec<u8>, SheetError> {
-        let Canvas { size: (width, height), rgba } = self.canvas()?;
+        let canvas = self.canvas()?;
         let records: Records = self.records().into_iter().chain(more).collect();
-        image_file::encode_rgba8(width, height, &rgba, &records).map_err(SheetError::File)
+        image_file::encode_rgba8(canvas.size.0, canvas.size.1, &canvas.rgba(), &records).map_err(SheetError::File)
     }
 
     /// Scene, camera and changes, which are the same of all tiles.
@@ -194,18 +193,19 @@ impl Sheet {
 /// A frame about a tile.
 fn mark(canvas: &mut Canvas, layout: &Layout, index: usize) {
     let (left, top) = layout.corner(index);
-    let rect = Rect::from_min_size(pos2(left as f32, top as f32), vec2(layout.size.0 as f32, layout.size.1 as f32));
-    canvas.fill(rect.expand((layout.gap as f32 / 3.0).max(2.0)), BEST);
+    let wide = (layout.gap / 3).max(2);
+    let corner = (i64::from(left) - i64::from(wide), i64::from(top) - i64::from(wide));
+    canvas.fill(corner, (layout.size.0 + 2 * wide, layout.size.1 + 2 * wide), BEST);
 }
 
 fn letter(
     canvas: &mut Canvas,
-    lettering: &Lettering,
+    lettering: &mut Lettering,
     layout: &Layout,
     (index, caption, best): (usize, &[String], bool),
 ) {
     let (left, top) = layout.corner(index);
-    let (size, row) = (layout.letters, ROW * layout.letters);
+    let row = ROW * layout.letters;
     let top = (top + layout.size.1) as f32 + MARGIN * row;
     for (number, text) in caption.iter().enumerate() {
         let colour = match number {
@@ -213,8 +213,9 @@ fn letter(
             last if best && last + 1 == caption.len() => BEST,
             _ => DIM,
         };
-        let line = lettering.line(text, size, number == 0, layout.size.0 as f32);
-        line.draw(canvas, [left as f32, top + number as f32 * row], colour);
+        let look = Type { size: layout.letters, semi_bold: number == 0, colour };
+        let line = lettering.lay_out(text, look, layout.size.0, 1);
+        lettering.draw(canvas, &line, (left, (top + number as f32 * row).round() as u32), colour);
     }
 }
 

@@ -5,7 +5,7 @@ use super::widgets::{Explained, framed, menu};
 use super::{UiCommand, UiContext, dialogue_button};
 use crate::model::{
     Destination, ExportRequest, ExportSubject, FilePurpose, FileWish, Model, PaneId, PaneSource, PaneView, PlotFile,
-    SweepFile,
+    SlideSize, SweepFile,
 };
 use egui::Ui;
 use image_file::{self, Kind};
@@ -29,6 +29,11 @@ pub fn sweep_file(model: &Model, file: SweepFile) -> PathBuf {
 /// The file for the plot of errors, in the same folder.
 pub fn plot_file(model: &Model, kind: PlotFile) -> PathBuf {
     folder(model).join(format!("{}.{}", stem(model, ExportSubject::Plot(kind)), kind.name().to_lowercase()))
+}
+
+/// The file for the lab report, in the same folder.
+pub fn report_file(model: &Model) -> PathBuf {
+    folder(model).join(format!("{}.html", stem(model, ExportSubject::Report)))
 }
 
 /// The file for the session, in the same folder.
@@ -56,6 +61,18 @@ fn title(subject: ExportSubject) -> String {
         ExportSubject::Sweep(SweepFile::Table) => "Its table".into(),
         ExportSubject::Samples => "The samples".into(),
         ExportSubject::Session => "Session".into(),
+        ExportSubject::Report => "Report".into(),
+        ExportSubject::Slide(_) => "Slide".into(),
+    }
+}
+
+/// What it is, where the name alone does not say so.
+fn about(subject: ExportSubject) -> Option<&'static str> {
+    match subject {
+        ExportSubject::Session => Some(OF_SESSIONS),
+        ExportSubject::Report => Some(OF_REPORTS),
+        ExportSubject::Slide(_) => Some(OF_SLIDES),
+        _ => None,
     }
 }
 
@@ -65,6 +82,11 @@ fn is_of_two_kinds(subject: ExportSubject) -> bool {
 }
 
 const OF_SESSIONS: &str = "Scene, camera, A, B and view as a text (.toml): opened, it makes all of this again";
+
+const OF_REPORTS: &str = "Pictures, errors, plots, settings, times, machine and session as one page (.html), to be read, printed and handed in";
+
+const OF_SLIDES: &str =
+    "The pictures of this view with large labels (.png): A or B alone, both, or both and the error map";
 
 /// The folder of pictures; where there is none at all, the current one.
 fn default_folder() -> PathBuf {
@@ -86,6 +108,8 @@ fn stem(model: &Model, subject: ExportSubject) -> String {
             format!("samples-at-{column}-{row}")
         }
         (ExportSubject::Session, _) => "session".into(),
+        (ExportSubject::Report, _) => "report".into(),
+        (ExportSubject::Slide(_), _) => "slide".into(),
         (ExportSubject::ErrorMap, _) => format!("error-{}", session.comparison.metric.name()),
         (ExportSubject::AsSeen, view) => view.name().to_lowercase().replace(' ', "-"),
     };
@@ -110,7 +134,8 @@ fn subjects(cx: &UiContext) -> Vec<ExportSubject> {
     }
     let panes = cx.model.session.panes.ids().map(ExportSubject::Pane);
     let map = cx.shown.map.is_some().then_some(ExportSubject::ErrorMap);
-    std::iter::once(ExportSubject::AsSeen).chain(panes).chain(map).chain([ExportSubject::Session]).collect()
+    let whole = [ExportSubject::Session, ExportSubject::Report, ExportSubject::Slide(cx.model.state.export.slide)];
+    std::iter::once(ExportSubject::AsSeen).chain(panes).chain(map).chain(whole).collect()
 }
 
 pub fn show(cx: &mut UiContext, ui: &mut Ui) {
@@ -143,10 +168,19 @@ fn choice(cx: &mut UiContext, ui: &mut Ui) {
     ui.horizontal(|ui| {
         for subject in subjects {
             let item = ui.radio_value(&mut menu.subject, subject, title(subject));
-            let item = if subject == ExportSubject::Session { item.explained(OF_SESSIONS) } else { item };
+            let item = about(subject).map_or(item.clone(), |about| item.explained(about));
             cx.dump.note(&format!("export {}", title(subject)), menu.subject == subject, item);
         }
     });
+    if let ExportSubject::Slide(chosen) = &mut menu.subject {
+        ui.horizontal(|ui| {
+            for size in SlideSize::ALL {
+                let item = ui.radio_value(chosen, size, size.name().replace('x', " x "));
+                cx.dump.note(&format!("slide {}", size.name()), *chosen == size, item);
+            }
+        });
+        menu.slide = *chosen;
+    }
     if is_of_two_kinds(menu.subject) {
         ui.horizontal(|ui| {
             for (exr, text) in [(false, "PNG as shown"), (true, "EXR linear")] {
@@ -169,6 +203,7 @@ fn file(cx: &mut UiContext, ui: &mut Ui) {
     let kind = match subject {
         ExportSubject::Session => "toml",
         ExportSubject::Sweep(SweepFile::Table) => "csv",
+        ExportSubject::Report => "html",
         _ if menu.exr && is_of_two_kinds(subject) => "exr",
         _ => "png",
     };
@@ -184,7 +219,7 @@ fn file(cx: &mut UiContext, ui: &mut Ui) {
         let save = cx.dump.note(
             "save",
             "",
-            ui.add(framed("Save", ui)).explained("Ctrl+S saves as seen, Ctrl+Shift+S the session"),
+            ui.add(framed("Save", ui)).explained("Ctrl+S saves as seen, Ctrl+Shift+S the session, Ctrl+P a report"),
         );
         if save.clicked() || entered {
             let to = Destination::File(typed_file(&cx.model.state.export.file, proposal.clone()));
@@ -197,7 +232,7 @@ fn file(cx: &mut UiContext, ui: &mut Ui) {
             ui.close();
         }
         // of which there is nothing to be seen elsewhere
-        if subject == ExportSubject::Session {
+        if [ExportSubject::Session, ExportSubject::Report].contains(&subject) {
             return;
         }
         let copy =

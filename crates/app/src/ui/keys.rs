@@ -7,7 +7,7 @@ use crate::model::{Destination, ExportRequest, ExportSubject};
 use egui::{Context, Event, Key, Modifiers, Popup};
 
 /// What the keys do that every workspace has, for the help.
-pub const KEYS: [HelpLine; 16] = [
+pub const KEYS: [HelpLine; 17] = [
     ("S", "sweep: many pictures at once, and back to the comparison"),
     ("P", "pause, go on"),
     ("R", "restart"),
@@ -17,6 +17,7 @@ pub const KEYS: [HelpLine; 16] = [
     ("Ctrl+Z  Ctrl+Shift+Z", "undo, redo a setting"),
     ("Ctrl+S  Ctrl+C", "save, copy the picture as seen"),
     ("Ctrl+Shift+S", "save the session: all that makes this again"),
+    ("Ctrl+P", "save a lab report: one page to read, to print and to hand in"),
     ("Ctrl+R", "read the scene's file again"),
     ("Ctrl + - 0", "larger, smaller, usual size of all text"),
     ("F11", "full screen, and back"),
@@ -35,6 +36,10 @@ pub fn listen(workspaces: &mut Workspaces, cx: &mut UiContext, context: &Context
     if keys.presses_with(Key::S, Modifiers::COMMAND | Modifiers::SHIFT) > 0 {
         let to = Destination::File(export_menu::session_file(cx.model));
         cx.commands.push(UiCommand::Export(ExportRequest { subject: ExportSubject::Session, to }));
+    }
+    if keys.command(Key::P) > 0 {
+        let to = Destination::File(export_menu::report_file(cx.model));
+        cx.commands.push(UiCommand::Export(ExportRequest { subject: ExportSubject::Report, to }));
     }
     if keys.command(Key::R) > 0 {
         cx.commands.push(UiCommand::ReadAgain);

@@ -3,12 +3,12 @@
 use crate::engine::Picture;
 use crate::model::External;
 use film::DisplayTransform;
-use image_file::{Records, escaped};
+use image_file::Records;
 
 /// What makes a pane's picture again; of another program's what it is, and how it came here.
 pub fn how_it_is_made(picture: &Picture, display: DisplayTransform, file: &str) -> String {
     match &picture.external {
-        Some(external) => told(external),
+        Some(external) => external.told(),
         None => {
             let (provenance, spp) = picture.made();
             provenance.command(spp, display.exposure, file)
@@ -20,13 +20,8 @@ pub fn how_it_is_made(picture: &Picture, display: DisplayTransform, file: &str) 
 pub fn records(external: &External, picture: &Picture, display: DisplayTransform) -> Records {
     vec![
         ("version", env!("CARGO_PKG_VERSION").into()),
-        ("picture", told(external)),
+        ("picture", external.told()),
         ("picture.seconds", picture.seconds.to_string()),
         ("exposure", display.exposure.to_string()),
     ]
-}
-
-/// "the picture of another program mine.exr, read from /home/me/mine.exr".
-fn told(external: &External) -> String {
-    format!("the picture of another program {}, {}", escaped(&external.name), external.source)
 }

@@ -160,13 +160,17 @@ impl Viewer {
 
     /// Keeps all that makes what is seen.
     pub(super) fn export_session(&self, to: Destination) {
+        self.engine.export(Export { content: Content::Session(Box::new(self.session())), records: Vec::new(), to });
+    }
+
+    /// What makes all of it again.
+    pub(super) fn session(&self) -> SessionToSave {
         let document = &self.model.document;
-        let session = SessionToSave {
+        SessionToSave {
             session: SavedSession::of(&self.model, self.model.state.window),
             scene: document.scene.clone(),
             source: document.source.clone(),
-        };
-        self.engine.export(Export { content: Content::Session(Box::new(session)), records: Vec::new(), to });
+        }
     }
 
     /// Waits for a file that the user chooses in this dialogue.

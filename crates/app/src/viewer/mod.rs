@@ -7,6 +7,7 @@ mod judge;
 mod plots;
 mod presentation;
 mod probe;
+mod report;
 mod stopwatch;
 mod sweep;
 
@@ -140,6 +141,8 @@ impl Viewer {
                 ExportSubject::Sweep(file) => self.export_sweep(file, request.to),
                 ExportSubject::Samples => self.export_samples(request.to),
                 ExportSubject::Session => self.export_session(request.to),
+                ExportSubject::Report => self.export_report(request.to),
+                ExportSubject::Slide(size) => self.export_slide(size, request.to),
             },
             UiCommand::Open(name) => {
                 let recent = self.model.state.remembered.recent.clone();

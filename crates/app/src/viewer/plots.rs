@@ -2,8 +2,8 @@
 
 use super::Viewer;
 use crate::engine::export::{Content, Export};
-use crate::model::{Curve, Destination, Owner, PaneId, PlotFile, PlotSettings, csv, guide, judge_of_all};
-use compare::{LogLogPlot, PlotPoint, Range, Series, Stroke};
+use crate::lab_report::plot;
+use crate::model::{Destination, PlotFile, csv};
 
 impl Viewer {
     /// Writes the curves that are shown, and those that are pinned.
@@ -16,51 +16,8 @@ impl Viewer {
         }
         let text = match kind {
             PlotFile::Csv => csv(&curves),
-            PlotFile::Svg => svg(&curves, self.model.session.plots, &self.model.document.scene.name),
+            PlotFile::Svg => plot::svg(&curves, self.model.session.plots, &self.model.document.scene.name),
         };
         self.engine.export(Export { content: Content::Text(text), records: Vec::new(), to });
     }
-}
-
-/// The plot as a document of its own.
-fn svg(curves: &[Curve], settings: PlotSettings, scene: &str) -> String {
-    let against = judge_of_all(curves).map_or(String::new(), |judge| format!(" against {judge}"));
-    let series_of = |curve: &Curve| Series { name: curve.name_among(curves), ..series(curve, settings) };
-    let mut series: Vec<Series> = curves.iter().map(series_of).collect();
-    series.extend(guide(curves, settings).map(|ends| Series {
-        name: settings.measure.slope_name().into(),
-        points: ends.map(point).into(),
-        colour: GREY,
-        stroke: Stroke::Dashed,
-    }));
-    let title = format!("{} of {scene}{against}", settings.measure.name());
-    let plot = LogLogPlot {
-        title: &title,
-        x_label: settings.over.label(),
-        y_label: settings.measure.name(),
-        x_ticks: Vec::new(),
-        series,
-    };
-    plot.svg()
-}
-
-/// The number of grey among the colours of plots.
-const GREY: usize = 6;
-
-fn series(curve: &Curve, settings: PlotSettings) -> Series {
-    let (colour, stroke) = match curve.owner {
-        Owner::Pane(PaneId::A) => (0, Stroke::Solid),
-        Owner::Pane(_) => (1, Stroke::Dashed),
-        // after those of panes, and without the guide's
-        Owner::Pinned(index) => (2 + index + usize::from(index >= GREY - 2), Stroke::Solid),
-    };
-    if curve.is_level(settings.over) {
-        let level = curve.latest(settings.measure).map(|error| point([f64::NAN, error]));
-        return Series { name: curve.name.clone(), points: level.into_iter().collect(), colour, stroke: Stroke::Level };
-    }
-    Series { name: curve.name.clone(), points: curve.places(settings).into_iter().map(point).collect(), colour, stroke }
-}
-
-fn point([x, y]: [f64; 2]) -> PlotPoint {
-    PlotPoint { x: Range::exactly(x), y: Range::exactly(y), hollow: false }
 }

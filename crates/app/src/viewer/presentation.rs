@@ -5,19 +5,17 @@ use super::external;
 use crate::engine::Picture;
 use crate::engine::export::Content;
 use crate::engine::post_process::{DisplayFrame, PaneUpdate, PaneUpdates};
-use crate::engine::restore::{QUALIFIED, REGION, SESSION};
+use crate::engine::restore::QUALIFIED;
 use crate::engine::thumbnails::Thumbnail;
-use crate::model::{
-    Against, ComparisonSettings, Denoising, ErrorMap, Model, PaneId, PaneProbe, PaneView, Panes, SavedSession,
-    ViewModel, Wanted,
-};
+use crate::engine::view_records::{file_of, records_of_view};
+use crate::model::{Against, Denoising, ErrorMap, Model, PaneId, PaneProbe, PaneView, Panes, ViewModel, Wanted};
 use crate::ruler::error_records;
 use crate::ui::Textures;
 use egui::{TextureFilter, TextureId};
 use film::DisplayTransform;
 use image_file::Records;
 use std::sync::Arc;
-use technique::{EARLIER_VIEWS, Halves, Made, OWN_FOV, Technique, camera_options};
+use technique::{EARLIER_VIEWS, Halves, Made, OWN_FOV, Technique};
 
 /// All panes and the map.
 #[derive(Default)]
@@ -144,6 +142,12 @@ impl Presentation {
         }
     }
 
+    /// The pictures of all panes; or the pane that has no whole one yet.
+    pub fn whole_pictures(&self, model: &Model) -> Result<Vec<(PaneId, &Picture)>, PaneId> {
+        let whole = |pane| self.pictures.get(pane).filter(|picture| !picture.rough).map(|picture| (pane, picture));
+        model.session.panes.ids().map(|pane| whole(pane).ok_or(pane)).collect()
+    }
+
     /// The map for export, if there is one.
     pub fn map(&self, model: &Model) -> Option<(Content, Records)> {
         let drawn = self.shown.map.clone()?;
@@ -177,28 +181,16 @@ impl Presentation {
 
     /// What a file keeps about the picture as seen: the view, for each pane the command that makes it, and the session.
     pub fn records_of_all(&self, model: &Model) -> Records {
-        let session = &model.session;
-        let exposure = session.display.exposure;
-        let mut records = vec![
-            ("view", session.view.name().to_owned()),
-            ("line", format!("{} at {}", session.line.name(), session.wipe)),
-            ("exposure", exposure.to_string()),
-        ];
-        records.extend(records_of_comparison(&session.comparison));
         // all panes show one scene from one place
-        if let Some((_, shown)) = self.pictures.iter().next() {
-            records.push(shown.order.provenance.shot.hash_record());
-            records.extend(camera_options(&shown.order.own_camera));
-        }
-        for (pane, picture) in self.pictures.iter() {
-            let command = external::how_it_is_made(picture, session.display, &file_of(pane));
+        let shown = self.pictures.values().next().map(|picture| &picture.order);
+        let shown = shown.map(|order| (&order.provenance.shot, &order.own_camera));
+        let display = model.session.display;
+        let commands = self.pictures.iter().map(|(pane, picture)| {
             let [rough, lagging] = QUALIFIED;
             let qualified = if picture.rough { rough } else { picture.lag.map_or("", |_| lagging) };
-            records.push((pane.name(), format!("{qualified}{command}")));
-        }
-        let document = &model.document;
-        records.push((SESSION, SavedSession::of(model, None).text(&document.scene, &document.source)));
-        records
+            (pane, format!("{qualified}{}", external::how_it_is_made(picture, display, &file_of(pane))))
+        });
+        records_of_view(model, shown, commands)
     }
 }
 
@@ -225,26 +217,9 @@ fn records_of(picture: &Picture, display: DisplayTransform) -> Records {
     records
 }
 
-/// What is compared with what, and how errors are mapped.
-fn records_of_comparison(comparison: &ComparisonSettings) -> Records {
-    let scale = comparison.map().held.map_or_else(|| "fitted".into(), |end| end.to_string());
-    let mut records = vec![
-        ("against", comparison.with.name().to_owned()),
-        ("errors of", comparison.of.name().to_owned()),
-        ("errors", comparison.metric.name().to_owned()),
-        ("scale", scale),
-    ];
-    records.extend(comparison.region.map(|region| (REGION, region.record())));
-    records
-}
-
 /// A picture that stands for a finer one until that has come is smooth, as that will be; and so is a map, which is seen
 /// at any size. All others are shown as they are, pixel by pixel.
 fn filter_of(picture: &Picture) -> TextureFilter {
     let is_map = matches!(picture.order.provenance.technique, Technique::Fake(fake) if fake.show.is_map());
     if picture.rough || is_map { TextureFilter::Linear } else { TextureFilter::Nearest }
-}
-
-fn file_of(pane: PaneId) -> String {
-    format!("{}.png", pane.name().to_lowercase())
 }

@@ -1,7 +1,8 @@
 //! The application as winit sees it: events in, frames out.
 
 use super::window_state::WindowState;
-use super::{Beginning, UserEvent, scale_factor};
+use super::{UserEvent, scale_factor};
+use crate::engine::beginning::Beginning;
 use crate::model::ViewArgs;
 use std::sync::Arc;
 use std::time::Instant;

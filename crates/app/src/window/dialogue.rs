@@ -31,6 +31,7 @@ pub fn choose(wish: &FileWish, window: &Window) -> Choice {
             let name = wish.near.file_name().unwrap_or_default().to_string_lossy();
             let filtered = match subject {
                 ExportSubject::Session => dialogue.set_title("Save the session").add_filter("Sessions", &["toml"]),
+                ExportSubject::Report => dialogue.set_title("Save the report").add_filter("Pages", &["html"]),
                 _ => dialogue.set_title("Save the picture").add_filter("Pictures", &["png", "exr"]),
             };
             Box::pin(filtered.set_file_name(name).save_file())

@@ -11,10 +11,9 @@ mod surface;
 mod textures;
 mod window_state;
 
-use crate::engine::load::{self, Asked, Loaded, Opened, ReferenceFile};
-use crate::engine::memory;
-use crate::model::{Remembered, ViewArgs};
-use anyhow::{Context, bail};
+use crate::engine::beginning::Beginning;
+use crate::model::ViewArgs;
+use anyhow::Context;
 use egui_winit::accesskit_winit;
 use winit::event_loop::EventLoop;
 
@@ -33,41 +32,6 @@ impl From<accesskit_winit::Event> for UserEvent {
     fn from(event: accesskit_winit::Event) -> Self {
         UserEvent::Accessibility(event)
     }
-}
-
-/// What a window begins with.
-pub struct Beginning {
-    /// The scene, or the picture that shows it.
-    pub opened: Opened,
-    /// What earlier windows have left.
-    pub remembered: Remembered,
-}
-
-impl Beginning {
-    /// # Errors
-    /// If there is no scene to show.
-    fn read(scene: &str) -> anyhow::Result<Self> {
-        let remembered = recall();
-        let asked = Asked::Open { name: scene.to_owned(), recent: remembered.recent.clone() };
-        match load::read(&asked) {
-            Ok(Loaded::Scene(opened)) => Ok(Beginning { opened: *opened, remembered }),
-            Ok(Loaded::Reference(ReferenceFile { sceneless: Some(line), .. })) => bail!("{line}"),
-            Ok(Loaded::Reference(ReferenceFile { file, .. })) => bail!(
-                "this picture does not say how it was made; open its scene and compare with it there: {}",
-                image_file::shown(&file)
-            ),
-            Err(refusal) => bail!("{}", refusal.line),
-        }
-    }
-}
-
-/// What the program remembers of earlier windows; what cannot be read is told and left.
-fn recall() -> Remembered {
-    let file = memory::file_of_the_user();
-    file.as_deref().map_or(Ok(Remembered::default()), memory::recall).unwrap_or_else(|fault| {
-        note!("note: {fault}");
-        Remembered::default()
-    })
 }
 
 /// Opens the viewer and returns when it is closed. Who asks the program to end calls what `heed` is given, and is heeded as

@@ -4,13 +4,13 @@ use super::frame_stats::{Clock, FrameStats};
 use super::recovery::DeviceRecovery;
 use super::surface::{Painting, Presented, WindowSurface};
 use super::textures::{Uploads, WindowTextures};
-use super::{Beginning, UserEvent, dialogue, icon, place, scale_factor};
+use super::{UserEvent, dialogue, icon, place, scale_factor};
 use crate::engine::Wake;
 use crate::engine::ask::Engine;
+use crate::engine::beginning::Beginning;
 use crate::engine::capture::Capture;
-use crate::engine::load::Opened;
 use crate::engine::memory::{self, Memory};
-use crate::model::{Destination, ExportRequest, Model, SavedWindow, ViewArgs};
+use crate::model::{Destination, ExportRequest, ViewArgs};
 use crate::ui::{UiCommand, Workspaces};
 use crate::viewer::Viewer;
 use egui_wgpu::ScreenDescriptor;
@@ -49,23 +49,6 @@ pub struct WindowState {
 /// How soon a frame is tried again that had no surface to go to.
 const RETRY: Duration = Duration::from_millis(100);
 
-/// The scene that was read, as the options and the session or the picture that was opened set it up.
-fn model_of(opened: &Opened, args: &ViewArgs) -> anyhow::Result<Model> {
-    let setup = opened.setup.clone().unwrap_or_default().overridden_by(&args.setup);
-    let mut model = Model::new(opened.scene.clone(), opened.source.clone(), args.theme.unwrap_or_default());
-    if let Some(session) = &opened.session {
-        let theme = args.theme.or(session.window.theme);
-        model.restore_window(&SavedWindow { theme, ..session.window });
-        model.restore(session, &setup).map_err(anyhow::Error::msg)?;
-    } else {
-        // its scene is the one that is open
-        args.slide.into_iter().for_each(|slide| _ = model.show_slide(slide));
-        model.set_up(&setup).map_err(anyhow::Error::msg)?;
-    }
-    args.workspace.iter().for_each(|workspace| model.session.sweep.open = workspace == "sweep");
-    Ok(model)
-}
-
 /// egui as it hears this window, and screen readers with it.
 fn egui_of(
     events: &ActiveEventLoop,
@@ -99,8 +82,8 @@ impl WindowState {
         wake: Wake,
     ) -> anyhow::Result<Self> {
         scale_factor::check_screens(events)?;
+        let model = beginning.model(args)?;
         let Beginning { opened, remembered } = beginning;
-        let model = model_of(&opened, args)?;
         let session = opened.session.as_ref().and_then(|session| session.window.size);
         let attributes = place::attributes(events, place::of_size(session, remembered.window))
             .with_title("Visavis")
@@ -325,57 +308,5 @@ impl WindowState {
         let partial = file.with_extension("partial");
         std::fs::write(&partial, self.viewer.dump(self.egui.egui_ctx(), self.scale, more))?;
         Ok(std::fs::rename(&partial, file)?)
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::cli::Command;
-    use crate::engine::load::{self, Asked, Loaded};
-    use crate::model::{PaneId, Theme, View};
-    use technique::{Adapters, DeviceChoice};
-
-    fn opened_with(words: &[&str]) -> Model {
-        let Ok(Command::View(args)) = Command::parse(words.iter().map(Into::into)) else { panic!("{words:?}") };
-        let asked = Asked::Open { name: args.scene.clone(), recent: Vec::new() };
-        let Ok(Loaded::Scene(opened)) = load::read(&asked) else { panic!("{}", args.scene) };
-        model_of(&opened, &args).unwrap().beside(Adapters::default(), args.device)
-    }
-
-    #[test]
-    fn a_session_is_opened_as_it_was_and_what_else_is_said_changes_it() {
-        let folder = visavis_tests::TestFolder::new();
-        let file = folder.file("lecture.toml");
-        let text = "session = 1\nscene = \"cornell\"\n[camera]\nfov = 30\n[view]\nshow = \"side\"\nexposure = 2\n\
-                    [panes.A]\nsegments = 9\n[panes.B]\ndevice = \"cpu\"\nspp = 3\n[window]\ntheme = \"light\"\npanel = false\n";
-        std::fs::write(&file, text).unwrap();
-        let file = file.to_str().unwrap();
-        let [a, b] = [PaneId::A, PaneId::B];
-        let model = opened_with(&[file]);
-        assert_eq!((model.document.camera.fov_y, model.session.view), (30.0, View::SideBySide));
-        assert_eq!((model.session.panes[a].fake.knobs.segments, model.session.panes[b].truth.spp), (Some(9), 3));
-        assert_eq!((model.state.theme, model.state.panel), (Theme::Light, false));
-        assert_eq!(model.session.panes[b].device, DeviceChoice::Cpu);
-        assert!(!model.can_undo_and_redo()[0], "there is nothing behind it");
-        let words = [file, "--b", "path,spp=5", "--fov", "50", "--theme", "dark", "--view", "map", "--device", "gpu"];
-        let model = opened_with(&words);
-        assert_eq!((model.document.camera.fov_y, model.session.view), (50.0, View::ErrorMap));
-        assert_eq!((model.session.panes[a].fake.knobs.segments, model.session.panes[b].truth.spp), (Some(9), 5));
-        assert_eq!((model.state.theme, model.session.display.exposure), (Theme::Dark, 2.0));
-        assert_eq!(model.session.panes[b].device, DeviceChoice::Gpu);
-    }
-
-    #[test]
-    fn a_slide_is_shown_with_its_scene_and_what_else_is_said_changes_it() {
-        let paths = |model: &Model| {
-            [PaneId::A, PaneId::B]
-                .map(|id| (model.session.panes[id].truth.path.bounces, model.session.panes[id].truth.spp))
-        };
-        let slide = opened_with(&["--slide", "2e-0-1"]);
-        assert_eq!((slide.document.source.as_str(), paths(&slide)), ("cornell", [(Some(0), 20), (Some(1), 20)]));
-        assert_eq!(opened_with(&["--slide", "phong"]).session.view, View::SideBySide);
-        let changed = opened_with(&["--b", "2e-2-bounces,spp=64", "--slide", "2e-0-1", "--view", "map"]);
-        assert_eq!((changed.session.view, paths(&changed)), (View::ALL[4], [(Some(0), 20), (Some(2), 64)]));
     }
 }

@@ -14,6 +14,7 @@ mod interrupts;
 mod merge;
 mod pictures;
 mod references;
+mod report;
 mod sweep;
 mod window;
 

@@ -1,7 +1,7 @@
 //! The text of `--help`, made from the tables of options and of settings: what is in none of them is no option.
 
 use super::options::CommandOption;
-use super::{bench, check, compare, denoise, merge, reference, render, sweep, view};
+use super::{bench, check, compare, denoise, merge, reference, render, report, sweep, view};
 use technique::TechniqueName;
 use technique::settings::{OF_SCENES, Setting, all_of_panes};
 
@@ -153,6 +153,13 @@ fn commands() -> Vec<Block> {
             &sweep::options(),
         )
         .with_scene_settings(),
+        Block::new(
+            "visavis report SCENE -o OUT",
+            "make both pictures and their reference, and of them a lab report (.html: one page that needs no other file, with \
+             pictures, errors, plots, settings, times, machine and session) or a slide (.png); SCENE is what the window opens, and \
+             the window's --a, --b, --slide, --view, --against, --exposure and camera say what is on it",
+            &report::own_options(),
+        ),
         Block::new(
             "visavis compare A B",
             "how far picture A is from reference B (.exr or .png): RMSE, relMSE, MAE, mean difference, FLIP, HDR-FLIP; B's own noise \

@@ -9,6 +9,7 @@ pub mod merge;
 pub mod options;
 pub mod reference;
 pub mod render;
+pub mod report;
 mod samples;
 mod seen;
 pub mod sweep;
@@ -22,6 +23,7 @@ pub use denoise::DenoiseArgs;
 pub use merge::MergeArgs;
 pub use reference::ReferenceArgs;
 pub use render::{RenderArgs, made_by};
+pub use report::{ReportArgs, ReportKind};
 pub use seen::Seen;
 pub use sweep::SweepArgs;
 
@@ -50,6 +52,7 @@ impl Command {
         let mut parser = lexopt::Parser::from_args(words);
         let named: fn(lexopt::Parser) -> Result<Self, CliError> = match command.as_str() {
             "render" => render::parse,
+            "report" => report::parse,
             "compare" => compare::parse,
             "denoise" => denoise::parse,
             "merge" => merge::parse,

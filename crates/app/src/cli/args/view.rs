@@ -21,6 +21,12 @@ pub struct Reading {
     print: Option<String>,
 }
 
+impl AsMut<ViewArgs> for Reading {
+    fn as_mut(&mut self) -> &mut ViewArgs {
+        &mut self.args
+    }
+}
+
 impl AsMut<Seen> for Reading {
     fn as_mut(&mut self) -> &mut Seen {
         &mut self.seen
@@ -34,11 +40,11 @@ pub fn options() -> Vec<CommandOption<Reading>> {
 /// Beside which --help lists what may be changed in the scene.
 pub fn of_what_is_seen() -> Vec<CommandOption<Reading>> {
     let of_the_camera = seen::options().into_iter().filter(|option| !option.names.contains(&"--size"));
-    of_a_lecture().into_iter().chain(of_the_camera).collect()
+    of_a_lecture::<Reading>().into_iter().chain(of_the_camera).collect()
 }
 
 /// What is shown, and how it is made.
-fn of_a_lecture() -> Vec<CommandOption<Reading>> {
+pub fn of_a_lecture<A: AsMut<ViewArgs>>() -> Vec<CommandOption<A>> {
     vec![
         CommandOption {
             names: &["--a"],
@@ -47,13 +53,13 @@ fn of_a_lecture() -> Vec<CommandOption<Reading>> {
                    commas between (default raster), like raster,as-taught,segments=40 or 2e-0-bounces,spp=64; or picture=FILE, another \
                    program's picture, read again whenever it changes; or received, what another program sends to \
                    127.0.0.1:14158 as to tev, or received=PORT",
-            read: |reading, parser| a_pane(reading, PaneId::A, "--a", parser),
+            read: |reading, parser| a_pane(reading.as_mut(), PaneId::A, "--a", parser),
         },
         CommandOption {
             names: &["--b"],
             value: "SPEC",
             help: "the same of B (default path), like path,spp=64,bounces=2,mis",
-            read: |reading, parser| a_pane(reading, PaneId::B, "--b", parser),
+            read: |reading, parser| a_pane(reading.as_mut(), PaneId::B, "--b", parser),
         },
         CommandOption {
             names: &["--slide"],
@@ -64,7 +70,7 @@ fn of_a_lecture() -> Vec<CommandOption<Reading>> {
             read: |reading, parser| {
                 let names: Vec<_> = SLIDES.iter().map(|slide| slide.name).collect();
                 let slide = choice(parser, "--slide", Slide::named, &names.join(", "))?;
-                match reading.args.slide.replace(slide) {
+                match reading.as_mut().slide.replace(slide) {
                     Some(other) => usage(format!("--slide {}: --slide {} stands before it", slide.name, other.name)),
                     None => Ok(()),
                 }
@@ -75,7 +81,7 @@ fn of_a_lecture() -> Vec<CommandOption<Reading>> {
             value: "a|b|wipe|side|map",
             help: "what is shown: one of them, both, or where they differ (default wipe)",
             read: |reading, parser| {
-                reading.args.setup.view = Some(choice(parser, "--view", a_view, "a, b, wipe, side or map")?);
+                reading.as_mut().setup.view = Some(choice(parser, "--view", a_view, "a, b, wipe, side or map")?);
                 Ok(())
             },
         },
@@ -84,7 +90,7 @@ fn of_a_lecture() -> Vec<CommandOption<Reading>> {
             value: "other|reference",
             help: "what A and B are held against: each the other, or the reference (default other)",
             read: |reading, parser| {
-                reading.args.setup.with = Some(choice(parser, "--against", a_judge, "other or reference")?);
+                reading.as_mut().setup.with = Some(choice(parser, "--against", a_judge, "other or reference")?);
                 Ok(())
             },
         },
@@ -94,7 +100,7 @@ fn of_a_lecture() -> Vec<CommandOption<Reading>> {
             help: "stops added before display (default 0)",
             read: |reading, parser| {
                 let stops = number(parser, "--exposure", "stops from -30 to 30", |v| v.abs() <= 30.0)?;
-                reading.args.setup.exposure = Some(stops);
+                reading.as_mut().setup.exposure = Some(stops);
                 Ok(())
             },
         },
@@ -173,7 +179,21 @@ pub fn of_the_window() -> Vec<CommandOption<Reading>> {
 }
 
 pub fn parse(parser: lexopt::Parser) -> Result<Command, CliError> {
-    let args = ViewArgs {
+    let reading = Reading { args: blank(), seen: Seen::default(), print: None };
+    match read(parser, reading, &options(), 1, |reading, name, parser| {
+        set_in_the_scene(&mut reading.seen, name, parser)
+    })? {
+        Typed::Print(text) | Typed::Words(Reading { print: Some(text), .. }, _) => Ok(Command::Print(text)),
+        Typed::Words(Reading { args, seen, .. }, words) => {
+            let scene = words.into_iter().next().map(OsString::string).transpose()?;
+            Ok(Command::View(of_scene(args, seen, scene)?))
+        }
+    }
+}
+
+/// What is shown before anything is asked for.
+pub fn blank() -> ViewArgs {
+    ViewArgs {
         scene: String::new(),
         setup: Setup::default(),
         slide: None,
@@ -182,34 +202,27 @@ pub fn parse(parser: lexopt::Parser) -> Result<Command, CliError> {
         device: None,
         workspace: None,
         frame_stats: false,
-    };
-    let reading = Reading { args, seen: Seen::default(), print: None };
-    match read(parser, reading, &options(), 1, |reading, name, parser| {
-        set_in_the_scene(&mut reading.seen, name, parser)
-    })? {
-        Typed::Print(text) | Typed::Words(Reading { print: Some(text), .. }, _) => Ok(Command::Print(text)),
-        Typed::Words(Reading { args, seen, .. }, words) => {
-            let scene = words.into_iter().next().map(OsString::string).transpose()?;
-            let Seen { changes, eye, target, fov, size: _ } = seen;
-            let setup = Setup { changes, eye, target, fov, ..args.setup };
-            let scene = match (scene, args.slide) {
-                (Some(scene), Some(slide)) => {
-                    let (slide, of) = (slide.name, slide.scene);
-                    return usage(format!(
-                        "{scene} --slide {slide}: the scene of this slide is {of}; leave one of the two"
-                    ));
-                }
-                (Some(scene), None) => scene,
-                (None, slide) => slide.map_or("whitted", |slide| slide.scene).into(),
-            };
-            Ok(Command::View(ViewArgs { scene, setup, ..args }))
-        }
     }
 }
 
-fn a_pane(reading: &mut Reading, pane: PaneId, option: &str, parser: &mut lexopt::Parser) -> Result<(), CliError> {
+/// The same of the scene that was named, or of the slide's, or of the usual one, as it is seen.
+pub fn of_scene(args: ViewArgs, seen: Seen, scene: Option<String>) -> Result<ViewArgs, CliError> {
+    let Seen { changes, eye, target, fov, size: _ } = seen;
+    let setup = Setup { changes, eye, target, fov, ..args.setup };
+    let scene = match (scene, args.slide) {
+        (Some(scene), Some(slide)) => {
+            let (slide, of) = (slide.name, slide.scene);
+            return usage(format!("{scene} --slide {slide}: the scene of this slide is {of}; leave one of the two"));
+        }
+        (Some(scene), None) => scene,
+        (None, slide) => slide.map_or("whitted", |slide| slide.scene).into(),
+    };
+    Ok(ViewArgs { scene, setup, ..args })
+}
+
+fn a_pane(args: &mut ViewArgs, pane: PaneId, option: &str, parser: &mut lexopt::Parser) -> Result<(), CliError> {
     let words = text(parser)?;
-    let setup = &mut reading.args.setup;
+    let setup = &mut args.setup;
     if setup.panes.get(pane).is_some() || setup.sources.get(pane).is_some() {
         return usage(format!("{option} {words}: {option} is given twice"));
     }

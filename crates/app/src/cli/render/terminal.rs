@@ -6,9 +6,11 @@ use std::time::{Duration, Instant};
 use technique::{Frame, Pacing, Watch};
 
 /// Watches the time, and counts samples on stderr where someone can see it.
-pub struct Terminal {
+pub struct Terminal<'a> {
     /// Samples per pixel that are wanted, those of all runs together.
     pub spp: u32,
+    /// Is shown how the picture comes, where someone follows that.
+    pub follow: Option<&'a (dyn Fn(&Frame) + Sync)>,
     /// Whether someone sees the count.
     pub shown: bool,
     /// Whether what pixels show is wanted beside the picture.
@@ -23,7 +25,7 @@ pub struct Terminal {
     pub at_risk: Duration,
 }
 
-impl Watch for Terminal {
+impl Watch for Terminal<'_> {
     /// One sample of every pixel is made however late it is.
     fn ends_soon(&self, spp: u32) -> bool {
         spp > 0 && (interrupt::is_asked() || self.is_late())
@@ -46,12 +48,19 @@ impl Watch for Terminal {
     }
 
     /// Passes of a quarter of a second, or of what is left of the time.
-    fn pacing(&self, _spent: Duration) -> Pacing {
+    fn pacing(&self, spent: Duration) -> Pacing {
         let left = self.limit.map_or(Duration::MAX, |limit| limit.saturating_sub(self.start.elapsed()));
-        Pacing { pass: left.min(Duration::from_millis(250)), show: self.at_risk, growth: 3 }
+        let (pass, show) = (left.min(Duration::from_millis(250)), self.at_risk);
+        match self.follow {
+            // at every doubling, and so late that reading takes a small share of the time
+            Some(_) => Pacing { pass, show: show.min(spent / 4), growth: 1 },
+            None => Pacing { pass, show, growth: 3 },
+        }
     }
 
-    fn show(&self, _frame: Frame) {}
+    fn show(&self, frame: Frame) {
+        self.follow.iter().for_each(|follow| follow(&frame));
+    }
 
     fn count(&self, spp: u32) {
         if self.shown {
@@ -65,7 +74,7 @@ impl Watch for Terminal {
     }
 }
 
-impl Terminal {
+impl Terminal<'_> {
     fn is_late(&self) -> bool {
         self.limit.is_some_and(|limit| self.start.elapsed() >= limit)
     }

@@ -90,7 +90,8 @@ fn tiles(cx: &UiContext, share: [f32; 2]) -> Vec<Tile> {
         shown.image.as_ref()
     };
     let comparison = cx.model.session.comparison.mapped();
-    let reference = shown.get(comparison.of).and_then(|shown| shown.reference.as_ref());
+    let reference =
+        shown.get(comparison.of).and_then(|shown| shown.reference.as_ref()).map(|reference| &reference.image);
     let judge = match comparison.against {
         Against::Pane(judge) => image(judge),
         Against::Reference => reference,

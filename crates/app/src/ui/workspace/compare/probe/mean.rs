@@ -109,7 +109,7 @@ pub fn style_of(pane: PaneId) -> LineStyle {
 /// What the reference has there, where there is one.
 fn reference(cx: &UiContext) -> Option<film::Vec3> {
     let image = cx.shown.panes.values().find_map(|pane| pane.reference.as_ref())?;
-    radiance(cx, image)
+    radiance(cx, &image.image)
 }
 
 /// "A: 0.512 ± 0.013 of 256 samples", or why there is no such thing.

@@ -1,0 +1,118 @@
+//! What a window or a report begins with: a scene as its session, a picture of it or options set it up.
+
+use super::load::{self, Asked, Loaded, Opened, ReferenceFile};
+use super::memory;
+use crate::model::{Model, Remembered, SavedWindow, ViewArgs};
+use anyhow::bail;
+
+/// What a window begins with.
+pub struct Beginning {
+    /// The scene, or the picture that shows it.
+    pub opened: Opened,
+    /// What earlier windows have left.
+    pub remembered: Remembered,
+}
+
+impl Beginning {
+    /// Reads a scene, a session or a picture by its name or file.
+    ///
+    /// # Errors
+    /// If there is no scene to show.
+    pub fn read(scene: &str) -> anyhow::Result<Self> {
+        let remembered = recall();
+        let asked = Asked::Open { name: scene.to_owned(), recent: remembered.recent.clone() };
+        match load::read(&asked) {
+            Ok(Loaded::Scene(opened)) => Ok(Beginning { opened: *opened, remembered }),
+            Ok(Loaded::Reference(ReferenceFile { sceneless: Some(line), .. })) => bail!("{line}"),
+            Ok(Loaded::Reference(ReferenceFile { file, .. })) => bail!(
+                "this picture does not say how it was made; open its scene and compare with it there: {}",
+                image_file::shown(&file)
+            ),
+            Err(refusal) => bail!("{}", refusal.line),
+        }
+    }
+
+    /// The scene that was read, as the options and the session or the picture that was opened set it up.
+    ///
+    /// # Errors
+    /// If the camera that is asked for sees nothing.
+    pub fn model(&self, args: &ViewArgs) -> anyhow::Result<Model> {
+        let opened = &self.opened;
+        let setup = opened.setup.clone().unwrap_or_default().overridden_by(&args.setup);
+        let mut model = Model::new(opened.scene.clone(), opened.source.clone(), args.theme.unwrap_or_default());
+        if let Some(session) = &opened.session {
+            let theme = args.theme.or(session.window.theme);
+            model.restore_window(&SavedWindow { theme, ..session.window });
+            model.restore(session, &setup).map_err(anyhow::Error::msg)?;
+        } else {
+            // its scene is the one that is open
+            args.slide.into_iter().for_each(|slide| _ = model.show_slide(slide));
+            model.set_up(&setup).map_err(anyhow::Error::msg)?;
+        }
+        args.workspace.iter().for_each(|workspace| model.session.sweep.open = workspace == "sweep");
+        Ok(model)
+    }
+}
+
+/// What the program remembers of earlier windows; what cannot be read is told and left.
+fn recall() -> Remembered {
+    let file = memory::file_of_the_user();
+    file.as_deref().map_or(Ok(Remembered::default()), memory::recall).unwrap_or_else(|fault| {
+        note!("note: {fault}");
+        Remembered::default()
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::cli::Command;
+    use crate::model::{PaneId, Theme, View};
+    use technique::{Adapters, DeviceChoice};
+
+    fn opened_with(words: &[&str]) -> Model {
+        let Ok(Command::View(args)) = Command::parse(words.iter().map(Into::into)) else { panic!("{words:?}") };
+        let asked = Asked::Open { name: args.scene.clone(), recent: Vec::new() };
+        let Ok(Loaded::Scene(opened)) = load::read(&asked) else { panic!("{}", args.scene) };
+        Beginning { opened: *opened, remembered: Remembered::default() }
+            .model(&args)
+            .unwrap()
+            .beside(Adapters::default(), args.device)
+    }
+
+    #[test]
+    fn a_session_is_opened_as_it_was_and_what_else_is_said_changes_it() {
+        let folder = visavis_tests::TestFolder::new();
+        let file = folder.file("lecture.toml");
+        let text = "session = 1\nscene = \"cornell\"\n[camera]\nfov = 30\n[view]\nshow = \"side\"\nexposure = 2\n\
+                    [panes.A]\nsegments = 9\n[panes.B]\ndevice = \"cpu\"\nspp = 3\n[window]\ntheme = \"light\"\npanel = false\n";
+        std::fs::write(&file, text).unwrap();
+        let file = file.to_str().unwrap();
+        let [a, b] = [PaneId::A, PaneId::B];
+        let model = opened_with(&[file]);
+        assert_eq!((model.document.camera.fov_y, model.session.view), (30.0, View::SideBySide));
+        assert_eq!((model.session.panes[a].fake.knobs.segments, model.session.panes[b].truth.spp), (Some(9), 3));
+        assert_eq!((model.state.theme, model.state.panel), (Theme::Light, false));
+        assert_eq!(model.session.panes[b].device, DeviceChoice::Cpu);
+        assert!(!model.can_undo_and_redo()[0], "there is nothing behind it");
+        let words = [file, "--b", "path,spp=5", "--fov", "50", "--theme", "dark", "--view", "map", "--device", "gpu"];
+        let model = opened_with(&words);
+        assert_eq!((model.document.camera.fov_y, model.session.view), (50.0, View::ErrorMap));
+        assert_eq!((model.session.panes[a].fake.knobs.segments, model.session.panes[b].truth.spp), (Some(9), 5));
+        assert_eq!((model.state.theme, model.session.display.exposure), (Theme::Dark, 2.0));
+        assert_eq!(model.session.panes[b].device, DeviceChoice::Gpu);
+    }
+
+    #[test]
+    fn a_slide_is_shown_with_its_scene_and_what_else_is_said_changes_it() {
+        let paths = |model: &Model| {
+            [PaneId::A, PaneId::B]
+                .map(|id| (model.session.panes[id].truth.path.bounces, model.session.panes[id].truth.spp))
+        };
+        let slide = opened_with(&["--slide", "2e-0-1"]);
+        assert_eq!((slide.document.source.as_str(), paths(&slide)), ("cornell", [(Some(0), 20), (Some(1), 20)]));
+        assert_eq!(opened_with(&["--slide", "phong"]).session.view, View::SideBySide);
+        let changed = opened_with(&["--b", "2e-2-bounces,spp=64", "--slide", "2e-0-1", "--view", "map"]);
+        assert_eq!((changed.session.view, paths(&changed)), (View::ALL[4], [(Some(0), 20), (Some(2), 64)]));
+    }
+}
