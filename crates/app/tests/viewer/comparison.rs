@@ -9,7 +9,7 @@ use std::path::Path;
 use std::time::Duration;
 use visavis_tests::{Frame, TestFolder};
 
-const SCENE: &str = "hard/light-touching-wall";
+pub const SCENE: &str = "hard/light-touching-wall";
 
 /// What the viewer would have made, but for one picture and its numbers.
 fn almost_done(size: (u32, u32)) -> Reference {
@@ -21,7 +21,7 @@ fn almost_done(size: (u32, u32)) -> Reference {
 }
 
 /// Chooses the reference for two fakes, which are done at once, in a small window: its reference takes less time.
-fn choose_the_reference(user: &mut User) -> Frame {
+pub fn choose_the_reference(user: &mut User) -> Frame {
     let first = user.wait_for("both pictures", both_whole);
     assert!(!first.shows("text reference") && !first.shows("reference file"));
     user.click_nth("Fake", 1);

@@ -14,6 +14,7 @@ mod labels;
 mod layout;
 mod plots;
 mod probe;
+mod reports;
 mod scenes;
 mod sessions;
 mod settings;
