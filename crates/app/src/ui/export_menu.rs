@@ -1,5 +1,5 @@
-//! The export menu: the picture as seen or one pane, to a file or the clipboard, or as a command to type; and the session,
-//! which makes all of it again.
+//! The export menu: the picture as seen or one pane, to a file or the clipboard, or as a command to type; the session,
+//! which makes all of it again; and a report or a slide of it.
 
 use super::widgets::{Explained, framed, menu};
 use super::{UiCommand, UiContext, dialogue_button};
@@ -126,21 +126,22 @@ fn sweep_name(model: &Model) -> String {
     format!("sweep-{}{rows}", sweep.columns.setting)
 }
 
-/// What there is to export: of the comparison, or of the sweep.
-fn subjects(cx: &UiContext) -> Vec<ExportSubject> {
+/// What there is to export, of the comparison or of the sweep: pictures, and what is whole.
+fn subjects(cx: &UiContext) -> [Vec<ExportSubject>; 2] {
     if cx.model.session.sweep.open {
         let files = [SweepFile::Picture, SweepFile::Table].map(ExportSubject::Sweep);
-        return files.into_iter().chain([ExportSubject::Session]).collect();
+        return [files.to_vec(), vec![ExportSubject::Session]];
     }
     let panes = cx.model.session.panes.ids().map(ExportSubject::Pane);
     let map = cx.shown.map.is_some().then_some(ExportSubject::ErrorMap);
-    let whole = [ExportSubject::Session, ExportSubject::Report, ExportSubject::Slide(cx.model.state.export.slide)];
-    std::iter::once(ExportSubject::AsSeen).chain(panes).chain(map).chain(whole).collect()
+    let pictures = std::iter::once(ExportSubject::AsSeen).chain(panes).chain(map).collect();
+    let slide = ExportSubject::Slide(cx.model.state.export.slide);
+    [pictures, vec![ExportSubject::Session, ExportSubject::Report, slide]]
 }
 
 pub fn show(cx: &mut UiContext, ui: &mut Ui) {
     // what is not looked at is not there
-    if !subjects(cx).contains(&cx.model.state.export.subject) {
+    if !subjects(cx).concat().contains(&cx.model.state.export.subject) {
         cx.model.state.export.subject = seen_subject(cx.model);
     }
     let (response, _) = menu("Export").ui(ui, |ui| {
@@ -163,24 +164,9 @@ pub fn show(cx: &mut UiContext, ui: &mut Ui) {
 }
 
 fn choice(cx: &mut UiContext, ui: &mut Ui) {
-    let subjects = subjects(cx);
+    subjects(cx).into_iter().for_each(|subjects| row(subjects, cx, ui));
+    size_of_slide(cx, ui);
     let menu = &mut cx.model.state.export;
-    ui.horizontal(|ui| {
-        for subject in subjects {
-            let item = ui.radio_value(&mut menu.subject, subject, title(subject));
-            let item = about(subject).map_or(item.clone(), |about| item.explained(about));
-            cx.dump.note(&format!("export {}", title(subject)), menu.subject == subject, item);
-        }
-    });
-    if let ExportSubject::Slide(chosen) = &mut menu.subject {
-        ui.horizontal(|ui| {
-            for size in SlideSize::ALL {
-                let item = ui.radio_value(chosen, size, size.name().replace('x', " x "));
-                cx.dump.note(&format!("slide {}", size.name()), *chosen == size, item);
-            }
-        });
-        menu.slide = *chosen;
-    }
     if is_of_two_kinds(menu.subject) {
         ui.horizontal(|ui| {
             for (exr, text) in [(false, "PNG as shown"), (true, "EXR linear")] {
@@ -193,6 +179,33 @@ fn choice(cx: &mut UiContext, ui: &mut Ui) {
             }
         });
     }
+}
+
+/// Subjects to choose from, side by side.
+fn row(subjects: Vec<ExportSubject>, cx: &mut UiContext, ui: &mut Ui) {
+    let menu = &mut cx.model.state.export;
+    ui.horizontal(|ui| {
+        for subject in subjects {
+            let item = ui.radio_value(&mut menu.subject, subject, title(subject));
+            let item = match about(subject) {
+                Some(about) => item.explained(about),
+                None => item,
+            };
+            cx.dump.note(&format!("export {}", title(subject)), menu.subject == subject, item);
+        }
+    });
+}
+
+fn size_of_slide(cx: &mut UiContext, ui: &mut Ui) {
+    let menu = &mut cx.model.state.export;
+    let ExportSubject::Slide(chosen) = &mut menu.subject else { return };
+    ui.horizontal(|ui| {
+        for size in SlideSize::ALL {
+            let item = ui.radio_value(chosen, size, size.name().replace('x', " x "));
+            cx.dump.note(&format!("slide {}", size.name()), *chosen == size, item);
+        }
+    });
+    menu.slide = *chosen;
 }
 
 fn file(cx: &mut UiContext, ui: &mut Ui) {

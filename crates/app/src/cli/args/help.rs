@@ -22,8 +22,8 @@ Ctrl-C ends render and reference soon and saves what there is by then; a second 
 In the window: drag the line to wipe, drag the picture to orbit (Shift: pan, wheel: dolly, Ctrl+wheel: zoom), T swaps A
 and B, 1 2 3 4 5 show A, B, wipe, side by side, error map, P pauses, R restarts, C resets the camera, H hides the panel,
 L the labels, F11 fills the screen, Ctrl+Z undoes, Ctrl+S saves and Ctrl+C copies the picture as seen, Ctrl+Shift+S saves
-the session, Ctrl+R reads the scene's file again, Ctrl+Q quits, ? shows all keys. A file that is dropped onto the window is
-opened.
+the session, Ctrl+P a lab report, Ctrl+R reads the scene's file again, Ctrl+Q quits, ? shows all keys. A file that is dropped
+onto the window is opened.
 ";
 
 /// What `visavis --help` prints.
