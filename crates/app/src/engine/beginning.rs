@@ -67,7 +67,7 @@ fn recall() -> Remembered {
 mod tests {
     use super::*;
     use crate::cli::Command;
-    use crate::model::{PaneId, Theme, View};
+    use crate::model::{PaneId, Region, Theme, View};
     use technique::{Adapters, DeviceChoice};
 
     fn opened_with(words: &[&str]) -> Model {
@@ -85,7 +85,7 @@ mod tests {
         let folder = visavis_tests::TestFolder::new();
         let file = folder.file("lecture.toml");
         let text = "session = 1\nscene = \"cornell\"\n[camera]\nfov = 30\n[view]\nshow = \"side\"\nexposure = 2\n\
-                    [panes.A]\nsegments = 9\n[panes.B]\ndevice = \"cpu\"\nspp = 3\n[window]\ntheme = \"light\"\npanel = false\n";
+                    [panes.A]\nsegments = 9\n[panes.B]\ndevice = \"cpu\"\nspp = 3\n[comparison]\nregion = [0.25, 0.5, 0.75, 1]\n[window]\ntheme = \"light\"\npanel = false\n";
         std::fs::write(&file, text).unwrap();
         let file = file.to_str().unwrap();
         let [a, b] = [PaneId::A, PaneId::B];
@@ -94,6 +94,7 @@ mod tests {
         assert_eq!((model.session.panes[a].fake.knobs.segments, model.session.panes[b].truth.spp), (Some(9), 3));
         assert_eq!((model.state.theme, model.state.panel), (Theme::Light, false));
         assert_eq!(model.session.panes[b].device, DeviceChoice::Cpu);
+        assert_eq!(model.session.comparison.region, Region::between([0.25, 0.5], [0.75, 1.0]));
         assert!(!model.can_undo_and_redo()[0], "there is nothing behind it");
         let words = [file, "--b", "path,spp=5", "--fov", "50", "--theme", "dark", "--view", "map", "--device", "gpu"];
         let model = opened_with(&words);

@@ -100,6 +100,7 @@ impl Model {
             target: Some(camera.target),
             fov: Some(camera.fov_y),
             view: Some(session.view),
+            region: session.comparison.region,
             ..Setup::default()
         };
         self.set_up(&setup.overridden_by(beside))
