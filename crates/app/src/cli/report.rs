@@ -11,15 +11,20 @@ use crate::model::{
     View,
 };
 use crate::ruler::ReferenceImage;
-use anyhow::{Context, ensure};
+use anyhow::{Context, bail, ensure};
 use scene::Scene;
 use std::path::Path;
 use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};
 use technique::settings::{Value, of_panes};
-use technique::{BlindSpot, DenoiseSettings, Denoised, Frame, PaneSettings, Provenance, Shot, Technique};
+use technique::{BlindSpot, DenoiseSettings, Denoised, DeviceChoice, Frame, PaneSettings, Provenance, Shot, Technique};
 
 pub fn run(args: &ReportArgs) -> anyhow::Result<()> {
+    ensure!(
+        !image_file::is_same_file(Path::new(&args.view.scene), &args.out),
+        "-o would overwrite what is reported on; give another name: {}",
+        image_file::shown(&args.out)
+    );
     image_file::check_writable(&args.out)?;
     let beginning = Beginning::read(&args.view.scene)?;
     beginning.opened.notes.iter().for_each(|line| note!("note: {line}"));
@@ -96,6 +101,11 @@ fn check(model: &Model, pane: PaneId, settings: &PaneSettings) -> anyhow::Result
         "{pane} is another program's picture, which the window alone shows: save its report from there (Export, Report)"
     );
     let Technique::Traced(traced) = settings.in_use() else { return Ok(()) };
+    if let Some(why) = traced.needs_the_processor()
+        && settings.device == DeviceChoice::Gpu
+    {
+        bail!("{pane} cannot be made by the gpu: {why}");
+    }
     traced.integrator.check().with_context(|| format!("{pane} cannot be made"))
 }
 

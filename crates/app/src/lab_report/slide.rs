@@ -3,7 +3,7 @@
 use super::pictures::Shown;
 use super::{LabReport, Measured, ReportedPicture, duration};
 use crate::lettering::{Canvas, Lettering, Type};
-use crate::model::{Against, PaneId, SlideSize, View};
+use crate::model::{Against, IN_THE_REGION, PaneId, SlideSize, View};
 use crate::ruler::{brief, error_words};
 use anyhow::ensure;
 use compare::{ColourScale, CompareError, ErrorMetric};
@@ -151,7 +151,8 @@ impl LabReport {
                 Against::Reference => None,
             };
             let [off, _] = error_words(&measured.errors, judge);
-            facts.push(off);
+            let place = if measured.in_the_region { format!(", {IN_THE_REGION}") } else { String::new() };
+            facts.push(format!("{off}{place}"));
             facts.push(format!("relMSE {}, FLIP {}", brief(measured.errors.rel_mse), brief(measured.flip)));
         }
         Column {
@@ -173,7 +174,7 @@ impl LabReport {
         Ok(chosen.map(|(pane, against, map)| Column {
             picture: Shown { size: (map.width, map.height()), rgba: map.rgba() },
             pane: None,
-            name: format!("Errors of {pane} against {}: {}", against.name(), map.map.name()),
+            name: format!("{pane} against {}, {}", against.name(), map.map.name()),
             facts: meaning_of(map.map).map(str::to_owned).into_iter().collect(),
             scale: Some(map.scale),
         }))

@@ -88,6 +88,17 @@ fn pictures_of_their_room_are_there_pixel_by_pixel() {
 }
 
 #[test]
+fn figures_of_a_region_say_so() {
+    let mut report = of_view(View::SideBySide);
+    let facts = |report: &LabReport| report.columns().unwrap()[0].facts.clone();
+    let whole = facts(&report);
+    assert!(whole[1].ends_with("off on average") && whole[2].starts_with("relMSE "), "{whole:?}");
+    report.session.comparison.region = crate::model::Region::between([0.5, 0.0], [1.0, 1.0]);
+    let part = facts(&report);
+    assert!(part[1].ends_with("off on average, in the region") && part[2] != whole[2], "{part:?}");
+}
+
+#[test]
 fn nothing_is_written_in_the_margin_however_long_a_name_is() {
     let mut report = of_view(View::ErrorMap);
     let mut scene = (*report.scene).clone();

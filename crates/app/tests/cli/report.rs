@@ -125,6 +125,15 @@ fn what_makes_no_report_is_refused_in_a_line_and_nothing_is_left() {
     let session = folder.file("faulty.toml");
     std::fs::write(&session, "session = 1\nscene = \"cornell\"\n[view]\nshow = \"all\"\n").expect("a file");
     assert_refused(&["report", text(&session), "-o", out], 1, &["faulty.toml:4:", "show"]);
+    let guided = ["report", "cornell", "--a", "path,guided", "--device", "gpu", "-o", out];
+    assert_refused(&guided, 1, &["A cannot be made by the gpu"]);
+    let picture = folder.file("seen.png");
+    let render = ["render", "cornell", "--size", "4x4", "--spp", "1", "-o", text(&picture)];
+    assert!(visavis(&render).status.success());
+    let before = std::fs::read(&picture).expect("the picture");
+    assert_refused(&["report", text(&picture), "-o", text(&picture)], 1, &["overwrite", "seen.png"]);
+    assert!(std::fs::read(&picture).expect("the picture") == before);
+    std::fs::remove_file(picture).expect("gone");
     assert!(!page.exists());
     let left: Vec<_> =
         std::fs::read_dir(folder.file("")).expect("the folder").flatten().map(|f| f.file_name()).collect();
