@@ -4,7 +4,7 @@ use super::comparison::{SCENE, choose_the_reference};
 use super::export::export;
 use super::{User, both_whole, says};
 use egui::{Key, Modifiers};
-use visavis::model::PaneId;
+use visavis::model::{PaneId, View};
 use visavis_tests::Frame;
 
 #[test]
@@ -60,8 +60,9 @@ fn export_to_nowhere(user: &mut User, file: &std::path::Path) -> String {
 #[test]
 fn a_slide_is_as_large_as_chosen_and_opens_as_the_window_was() {
     let mut user = User::of("cornell");
+    // before the first pictures: those of another view's size would be whole too
+    user.change(|model| model.session.view = View::SideBySide);
     user.wait_for("both pictures", both_whole);
-    user.key(Key::Num4);
     for (size, pixels) in [("1920 x 1080", (1920, 1080)), ("3840 x 2160", (3840, 2160))] {
         let slide = user.file(&format!("{}.png", pixels.0));
         export(&mut user, &["Slide", size], &slide);
