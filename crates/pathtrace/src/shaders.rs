@@ -22,6 +22,7 @@ pub const SOURCES: &[Source<'static>] = gpu::wgsl_sources![
     "pathtrace/features.wgsl",
     "pathtrace/integrator/chain_state.wgsl",
     "pathtrace/integrator/connected.wgsl",
+    "pathtrace/integrator/light_paths.wgsl",
     "pathtrace/integrator/normals.wgsl",
     "pathtrace/integrator/path.wgsl",
     "pathtrace/integrator/path_state.wgsl",

@@ -13,6 +13,7 @@ use crate::features::lanes::MOST_SPECULARS;
 use crate::integrator::Integrator;
 use crate::integrator::chain_state;
 use crate::integrator::forks::MOST_FORKS;
+use crate::integrator::light_paths::{ACCEPTS, BEGINS};
 use crate::integrator::normals::NormalsSettings;
 use crate::integrator::path_plan::{BY_BOTH, BY_CHANCE, BY_SAMPLING};
 use crate::integrator::path_state::{ALREADY_COUNTED, CONNECTION, MET_BY_CHANCE};
@@ -45,9 +46,11 @@ pub fn shared_constants() -> Vec<(&'static str, f64)> {
     const STAGE_THROUGH: u32 = chain_state::THROUGH;
     const SMALLEST_POSITIVE: f32 = f32::MIN_POSITIVE;
     gpu::named_values![
+        ACCEPTS,
         ALL_DIRECTIONS,
         ALREADY_COUNTED,
         ALWAYS_REFRACTED,
+        BEGINS,
         BEHIND_THE_END,
         BY_BOTH,
         BY_CHANCE,

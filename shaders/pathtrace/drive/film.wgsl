@@ -34,6 +34,8 @@ struct RenderParams {
     // Whitted's: shadow rays to each area light, and radiance of the ambient light
     shadow_rays: u32,
     ambient: f32,
+    // rows of the automaton that tells which light counts
+    light_paths: array<vec4u, 8>,
 }
 
 struct Pixel {

@@ -2,6 +2,7 @@
 //#import pathtrace/caster/cone.wgsl
 //#import pathtrace/drive/film.wgsl
 //#import pathtrace/integrator/chain_state.wgsl
+//#import pathtrace/integrator/light_paths.wgsl
 //#import pathtrace/integrator/path_state.wgsl
 //#import pathtrace/prepared.wgsl
 // What paths do beside sampling lights where a scene has casters: at vertices they connect to a light by way of a sphere,
@@ -18,6 +19,9 @@ fn connect(at: Interaction, u: vec4f) {
     if path.vertices + select(1u, 2u, chain.through) >= params.limit {
         return;
     }
+    if LIGHT_PATHS && !counts(behind_chain(chain.through)) {
+        return;
+    }
     let sample = sample_light(chain.center, u.z, u.xy);
     if is_left_to_chance(sample) {
         return;
@@ -32,6 +36,12 @@ fn connect(at: Interaction, u: vec4f) {
             receive_by(at, by, connected_ray(by, root));
         }
     }
+}
+
+// The row of light paths behind the specular vertices of a chain.
+fn behind_chain(through: bool) -> u32 {
+    let first = light_path_after(light_path, LOBE_DIELECTRIC);
+    return select(first, light_path_after(first, LOBE_DIELECTRIC), through);
 }
 
 // Whether a sample is of a sky that is a picture, and connections are not weighed against chance, which finds what comes

@@ -3,6 +3,7 @@
 //#import pathtrace/caster/cone.wgsl
 //#import pathtrace/integrator/path_state.wgsl
 //#import pathtrace/integrator/connected.wgsl
+//#import pathtrace/integrator/light_paths.wgsl
 //#import pathtrace/integrator/roulette.wgsl
 //#import pathtrace/drive/pixels.wgsl
 // One path: the tutorial's `shade`, turned from recursion into a state that moves from vertex to vertex (Task 2 d).
@@ -53,6 +54,9 @@ var<private> split_directions: array<vec3f, SPLITTING_VERTICES>;
 var<private> split_throughputs: array<vec3f, SPLITTING_VERTICES>;
 var<private> split_numbers: array<vec2u, SPLITTING_VERTICES>;
 var<private> split_off: u32;
+// rows of the light paths of both
+var<private> fork_light_paths: array<u32, MOST_FORKS>;
+var<private> split_light_paths: array<u32, SPLITTING_VERTICES>;
 
 // Begins a sample.
 fn begin(ray: Ray) {
@@ -63,6 +67,9 @@ fn begin(ray: Ray) {
     }
     from_camera = true;
     split_off = 0u;
+    if LIGHT_PATHS {
+        light_path = light_path_row(BEGINS);
+    }
 }
 
 // One segment, or one more branch of a vertex that waits; false when the sample is done.
@@ -70,6 +77,10 @@ fn step_on() -> bool {
     var then = PATH_SCATTERS;
     if !BRANCHING || !at_fork() {
         then = segment();
+    }
+    if LIGHT_PATHS && then == PATH_SCATTERS {
+        light_path = light_path_after(light_path, vertex.lobe);
+        then = select(PATH_SCATTERS, PATH_ENDS, light_path == 0u);
     }
     if then == PATH_SCATTERS {
         then = select(PATH_ENDS, PATH_GOES_ON, scatter());
@@ -101,6 +112,9 @@ fn next_branch() {
     path.forked = counts.y;
     path.branch = child(counts.z, params.branches, params.branches - counts.w);
     path.ray.tmax = 0.0;
+    if LIGHT_PATHS {
+        light_path = fork_light_paths[top];
+    }
     fork_counts[top] = vec4u(counts.xyz, counts.w - 1u);
     if counts.w == 1u {
         waiting = top;
@@ -117,6 +131,9 @@ fn fork() {
     fork_albedos[waiting] = vertex.colour;
     fork_throughputs[waiting] = path.throughput;
     fork_counts[waiting] = vec4u(path.vertices, path.forked, path.branch, params.branches - 1u);
+    if LIGHT_PATHS {
+        fork_light_paths[waiting] = light_path;
+    }
     waiting += 1u;
 }
 
@@ -129,6 +146,9 @@ fn next_split() {
     from_camera = true;
     if CASTERS && CONNECTIONS {
         chain_state.stage = STAGE_NONE;
+    }
+    if LIGHT_PATHS {
+        light_path = split_light_paths[split_off];
     }
 }
 
@@ -151,6 +171,9 @@ fn split() {
         split_directions[split_off] = wi;
         split_throughputs[split_off] = path.throughput * share;
         split_numbers[split_off] = vec2u(path.vertices + 1u, child(path.branch, 2u, 1u));
+        if LIGHT_PATHS {
+            split_light_paths[split_off] = light_path;
+        }
         split_off += 1u;
     }
     path.throughput *= 1.0 - share;
@@ -166,6 +189,9 @@ fn child(parent: u32, branches: u32, index: u32) -> u32 {
 fn segment() -> u32 {
     outcome.rays += 1u;
     let nearest = closest(path.ray);
+    if nearest.index == NOTHING && !counts(light_path) {
+        return PATH_ENDS;
+    }
     if nearest.index == NOTHING {
         let weight = weight_of_endless(header.sun_pdf);
         outcome.radiance += path.throughput * environment(weight, path.ray.direction);
@@ -177,7 +203,7 @@ fn segment() -> u32 {
     }
     let hit = hit_of(nearest, path.ray);
     vertex = interaction_of(hit, -path.ray.direction);
-    if materials[hit.material].emitting_sides != 0u {
+    if materials[hit.material].emitting_sides != 0u && counts(light_path) {
         var weight = 1.0;
         if LIGHT_SAMPLING != BY_CHANCE {
             weight = weight_of_hit(hit);
@@ -296,6 +322,9 @@ fn goes_on(delta: bool, deserved: vec3f, u_roulette: f32) -> bool {
 // Takes the light of one sample of the lights, unless it is in shadow. Under MIS weighted against meeting the same light
 // by chance.
 fn sample_lights(u: vec4f) {
+    if !counts(light_path) {
+        return;
+    }
     let sample = sample_light(vertex.point.position, u.z, u.xy);
     let cosine = dot(vertex.normal, sample.wi);
     if sample.pdf == 0.0 || cosine <= 0.0 {

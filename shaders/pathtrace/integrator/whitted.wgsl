@@ -1,8 +1,10 @@
 //#import pathtrace/prepared.wgsl
 //#import pathtrace/bsdf/bsdf.wgsl
+//#import pathtrace/integrator/light_paths.wgsl
 //#import pathtrace/drive/pixels.wgsl
 // Whitted-style ray tracing, "An improved illumination model for shaded display" (1980), as on the slides: L = ka La +
-// kd Id N.L + ks S + kt T. Twin: crates/pathtrace/src/integrator/whitted.rs.
+// kd Id N.L + ks S + kt T. Twins:
+// crates/pathtrace/src/integrator/whitted.rs and branches.rs.
 //
 // Each step follows one branch to the next surface; where glass splits a ray the reflected branch waits on a small
 // stack.
@@ -31,6 +33,7 @@ var<private> waiting_origins: array<vec3f, MOST_DEPTH>;
 var<private> waiting_directions: array<vec3f, MOST_DEPTH>;
 var<private> waiting_weights: array<vec3f, MOST_DEPTH>;
 var<private> waiting_depths: array<u32, MOST_DEPTH>;
+var<private> waiting_light_paths: array<u32, MOST_DEPTH>;
 var<private> waiting: u32;
 // the next block of random numbers; the camera took block 0
 var<private> dimension: u32;
@@ -43,6 +46,9 @@ fn begin(ray: Ray) {
     waiting = 0u;
     dimension = 1u;
     followed = 0u;
+    if LIGHT_PATHS {
+        light_path = light_path_row(BEGINS);
+    }
 }
 
 // Follows one branch; false when the tree is done.
@@ -66,6 +72,9 @@ fn push(waits: Branch) {
     waiting_directions[waiting] = waits.ray.direction;
     waiting_weights[waiting] = waits.weight;
     waiting_depths[waiting] = waits.depth;
+    if LIGHT_PATHS {
+        waiting_light_paths[waiting] = light_path;
+    }
     waiting += 1u;
 }
 
@@ -73,6 +82,9 @@ fn pop() {
     waiting -= 1u;
     let ray = Ray(waiting_origins[waiting], waiting_directions[waiting], FAR);
     branch = Branch(ray, waiting_weights[waiting], waiting_depths[waiting]);
+    if LIGHT_PATHS {
+        light_path = waiting_light_paths[waiting];
+    }
 }
 
 // Follows the branch to the next surface; false if it ends there.
@@ -80,6 +92,9 @@ fn follow() -> bool {
     followed += 1u;
     outcome.rays += 1u;
     let nearest = closest(branch.ray);
+    if nearest.index == NOTHING && !counts(light_path) {
+        return false;
+    }
     if nearest.index == NOTHING {
         outcome.radiance += branch.weight * environment(1.0, branch.ray.direction);
         if ENVIRONMENT {
@@ -89,7 +104,12 @@ fn follow() -> bool {
     }
     let hit = hit_of(nearest, branch.ray);
     let at = interaction_of(hit, -branch.ray.direction);
-    outcome.radiance += branch.weight * emitted(at);
+    if counts(light_path) {
+        outcome.radiance += branch.weight * emitted(at);
+    }
+    if LIGHT_PATHS {
+        light_path = light_path_after(light_path, at.lobe);
+    }
     if !is_diffuse(at) {
         return branch.depth < params.limit && send_on(at);
     }
@@ -97,7 +117,12 @@ fn follow() -> bool {
     if any(at.colour != vec3f(0.0)) {
         direct = irradiance(at.point, at.normal);
     }
-    outcome.radiance += branch.weight * at.colour * (direct * FRAC_1_PI + params.ambient);
+    // ambient light stands for what comes from other diffuse surfaces
+    var ambient = params.ambient;
+    if LIGHT_PATHS && !counts(light_path_after(light_path, LOBE_LAMBERT)) {
+        ambient = 0.0;
+    }
+    outcome.radiance += branch.weight * at.colour * (direct * FRAC_1_PI + ambient);
     return false;
 }
 
@@ -145,7 +170,7 @@ fn unshadowed(at: SurfacePoint, normal: vec3f, turn: u32, each: bool, u: vec4f) 
     let chosen = select(choose(u.z), turn, each);
     var sample = sample_one(chosen, at.position, u.xy);
     let cosine = dot(normal, sample.wi);
-    if sample.pdf == 0.0 || cosine <= 0.0 {
+    if sample.pdf == 0.0 || cosine <= 0.0 || !counts(light_path) {
         return vec3f(0.0);
     }
     outcome.rays += 1u;

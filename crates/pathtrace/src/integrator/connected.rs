@@ -7,6 +7,7 @@ use crate::caster::connect::{ConnectedRays, Connections, End, facing};
 use crate::caster::sphere_chain::MOST_ROOTS;
 use crate::integrator::chain_state::SeenFromCenter;
 use crate::integrator::directions::DirectionsAt;
+use crate::integrator::light_paths::counts;
 use crate::integrator::path::PathLanes;
 use crate::integrator::path_state::balance;
 use crate::integrator::settings::LightSampling;
@@ -60,7 +61,12 @@ impl<F: Float> PathLanes<'_, F> {
         let light = self.scene.lights.table().sample(chain.center, u[2], [u[0], u[1]]);
         let connections = Connections::new(at.point.position, chain, light);
         let fits = fits & !self.is_left_to_chance(&connections.light);
-        let wanted = from.here & fits & connections.possible & !connections.is_behind(at.normal);
+        let mut wanted = from.here & fits & connections.possible & !connections.is_behind(at.normal);
+        if let Some(counted) = &self.plan.counted {
+            let first = counted.after_specular(from.light_path);
+            let last = F::U::select(connections.chain.through, counted.after_specular(first), first);
+            wanted = wanted & counts(last);
+        }
         for index in 0..MOST_ROOTS {
             let root = connections.root(index, wanted);
             if root.found.any() {

@@ -4,12 +4,14 @@
 //! A new integrator is a file here with its settings and lanes, its twin in `shaders/pathtrace/integrator/`, and a
 //! variant of [`Integrator`] with an arm in each of the matches below: all that the machines ask an integrator for.
 
+mod branches;
 pub(crate) mod chain_state;
 mod connected;
 pub(crate) mod directions;
 pub(crate) mod first_vertex;
 pub(crate) mod forks;
 pub(crate) mod guide;
+pub mod light_paths;
 pub mod metropolis;
 pub mod normals;
 pub mod path;

@@ -17,6 +17,7 @@ use crate::integrator::chain_state::ChainStates;
 use crate::integrator::directions::{DirectionsAt, Drawn};
 use crate::integrator::forks::{Forks, child};
 use crate::integrator::guide::guidance::Guidance;
+use crate::integrator::light_paths::{Scattering, counts};
 use crate::integrator::path_plan::Plan;
 use crate::integrator::path_state::{ALREADY_COUNTED, DiffuseVertices, MET_BY_CHANCE, PathStates, balance};
 use crate::integrator::roulette::{SPARED_VERTICES, survivors};
@@ -57,7 +58,11 @@ impl<'a, F: Float, S: RandomNumbers<F::U>> LaneIntegrator<F, S> for PathLanes<'a
     /// Starts paths along camera rays where `here` says so.
     #[inline(always)]
     fn begin(&mut self, here: F::M, rays: &Rays<F>) {
-        self.path = PathStates::select(here, PathStates::leaving_camera(rays), self.path);
+        let mut leaving = PathStates::leaving_camera(rays);
+        if let Some(counted) = &self.plan.counted {
+            leaving.light_path = counted.begin();
+        }
+        self.path = PathStates::select(here, leaving, self.path);
         self.from_camera = self.from_camera | here;
         self.outcome.radiance = Vector::select(here, Vector::zero(), self.outcome.radiance);
         self.outcome.cut = self.outcome.cut & !here;
@@ -99,6 +104,10 @@ impl<'a, F: Float, S: RandomNumbers<F::U>> LaneIntegrator<F, S> for PathLanes<'a
             let DiffuseVertices { point, normal, albedo } = &self.vertex;
             vertex = vertex.or_diffuse(self.resumed, point, *normal, *albedo);
             scattering = scattering | self.resumed;
+        }
+        if let Some(counted) = &self.plan.counted {
+            self.path.light_path = counted.after(self.path.light_path, Scattering::at(&vertex));
+            scattering = scattering & !self.path.light_path.eq(F::U::splat(0));
         }
         let u = sampler.unit4(self.path.direction_dimension());
         let mut deserved = self.path.throughput;
@@ -188,9 +197,10 @@ impl<'a, F: Float> PathLanes<'a, F> {
         if self.connecting { radiance + self.waiting.found } else { radiance }
     }
 
-    /// Adds radiance that came along the path, where `here` says so.
+    /// Adds radiance that came along the path, where `here` says so and it counts.
     #[inline(always)]
     pub(super) fn receive(&mut self, here: F::M, radiance: Vector<F>) {
+        let here = if self.plan.counted.is_some() { here & counts(self.path.light_path) } else { here };
         let sum = self.outcome.radiance + self.path.throughput * radiance;
         self.outcome.radiance = Vector::select(here, sum, self.outcome.radiance);
     }

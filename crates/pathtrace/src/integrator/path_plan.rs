@@ -6,6 +6,7 @@ use crate::drive::lanes::{FilmJob, LanePlan};
 use crate::integrator::forks::MOST_FORKS;
 use crate::integrator::guide::Guide;
 use crate::integrator::guide::training::Notes;
+use crate::integrator::light_paths::{self, CountedPaths};
 use crate::integrator::path::PathLanes;
 use crate::integrator::settings::{ConesAt, Directions, LightSampling, PathSettings, Roulette};
 use crate::prepared::PreparedScene;
@@ -34,6 +35,8 @@ pub struct Plan<'n> {
     pub(super) branching_vertices: u32,
     /// `branches` to the power of the vertices that branched.
     pub(super) paths_after: Column,
+    /// Which light counts; `None` where all does.
+    pub(super) counted: Option<CountedPaths>,
     /// Where light comes from, if that was learned.
     pub(super) guide: Option<Arc<Guide>>,
     /// What is found is written here, for a guide to learn from.
@@ -75,6 +78,7 @@ impl<'n> Plan<'n> {
             splits: settings.splits(),
             branching_vertices: settings.branching_vertices().min(MOST_FORKS as u32),
             paths_after: Column::new(forks.map(|forks| (branches as f32).powi(forks))),
+            counted: CountedPaths::of(&settings.paths),
             guide: None,
             notes: None,
         }
@@ -115,6 +119,7 @@ impl PathSettings {
             ("CONNECTIONS", flag(self.connections && self.estimator.samples_lights())),
             ("SPLITTING", flag(self.splits())),
             ("CONES", f64::from(self.cones() as u8)),
+            ("LIGHT_PATHS", flag(!self.paths.is_all())),
         ];
         Ok(PipelineKey::new("pathtrace/integrator/path.wgsl", self.sampler, &constants))
     }
@@ -127,6 +132,7 @@ impl PathSettings {
             branching_vertices: self.branching_vertices().min(MOST_FORKS as u32),
             by_throughput: u32::from(self.roulette.throughput),
             probability: self.roulette.probability.unwrap_or(1.0),
+            light_paths: light_paths::rows(&self.paths),
             ..params
         }
     }

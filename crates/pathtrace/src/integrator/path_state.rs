@@ -24,6 +24,8 @@ pub struct PathStates<F: Float> {
     pub direction_pdf: F,
     /// How many times as dense as without a guide its directions were drawn, all together.
     pub guided: F,
+    /// The row of [`crate::integrator::light_paths`] behind the last vertex, where not all light counts.
+    pub light_path: F::U,
 }
 
 /// No light was sampled at the last vertex, or none could be: the camera, a mirror, glass.
@@ -58,6 +60,7 @@ impl<F: Float> PathStates<F> {
             from: rays.origin,
             direction_pdf: F::splat(MET_BY_CHANCE),
             guided: F::splat(1.0),
+            light_path: none,
         }
     }
 
@@ -79,6 +82,7 @@ impl<F: Float> PathStates<F> {
             from: Vector::select(mask, yes.from, no.from),
             direction_pdf: F::select(mask, yes.direction_pdf, no.direction_pdf),
             guided: F::select(mask, yes.guided, no.guided),
+            light_path: F::U::select(mask, yes.light_path, no.light_path),
         }
     }
 

@@ -2,6 +2,7 @@
 //! into how many they branch, and where the random numbers come from. All freely combined; [`Estimator`] names the
 //! usual pairs.
 
+use crate::integrator::light_paths::LightPaths;
 use crate::integrator::path_plan::MOST_BRANCHES;
 use crate::integrator::photon::MOST_PHOTONS;
 use crate::sampling::sampler::SamplerKind;
@@ -208,6 +209,8 @@ pub struct PathSettings {
     /// Whether glass that the camera sees, straight or by mirrors and glass, sends a path on both ways at the first
     /// vertices, rather than one by chance. Not with more than one branch, which are the tutorial's alone.
     pub split_glass: bool,
+    /// Which light counts. What is drawn does not depend on it, but paths end where none can count any more.
+    pub paths: LightPaths,
     /// Where random numbers come from.
     pub sampler: SamplerKind,
     /// Selects one of 2^32 independent pictures.
@@ -313,6 +316,7 @@ impl Default for PathSettings {
             connections: true,
             cones: ConesAt::Usual,
             split_glass: true,
+            paths: LightPaths::ALL,
             sampler: SamplerKind::default(),
             seed: 1,
         }

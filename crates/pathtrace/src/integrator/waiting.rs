@@ -24,6 +24,8 @@ pub struct ConnectingVertices<F: Float> {
     pub vertices: F::U,
     /// The block of its random numbers.
     pub dimension: F::U,
+    /// Which light counts behind it.
+    pub light_path: F::U,
 }
 
 /// Vertices that wait for their connections, and what others have found.
@@ -41,7 +43,7 @@ impl<F: Float> ConnectingVertices<F> {
     #[inline(always)]
     fn none() -> Self {
         let (here, at, zero) = (F::M::splat(false), Interactions::none(), F::U::splat(0));
-        ConnectingVertices { here, at, throughput: Vector::zero(), vertices: zero, dimension: zero }
+        ConnectingVertices { here, at, throughput: Vector::zero(), vertices: zero, dimension: zero, light_path: zero }
     }
 
     /// These as well, where `mask` says so.
@@ -51,6 +53,7 @@ impl<F: Float> ConnectingVertices<F> {
         self.throughput = Vector::select(mask, others.throughput, self.throughput);
         self.vertices = F::U::select(mask, others.vertices, self.vertices);
         self.dimension = F::U::select(mask, others.dimension, self.dimension);
+        self.light_path = F::U::select(mask, others.light_path, self.light_path);
         self.here = self.here | mask;
     }
 }
@@ -72,9 +75,9 @@ impl<F: Float> WaitingVertices<F> {
     /// Vertices of paths as they arrive there, to be connected to lights.
     #[inline(always)]
     pub fn arrive(&mut self, here: F::M, at: &Interactions<F>, path: &PathStates<F>) {
-        let PathStates { throughput, vertices, .. } = *path;
-        self.arrived =
-            ConnectingVertices { here, at: *at, throughput, vertices, dimension: path.connection_dimension() };
+        let PathStates { throughput, vertices, light_path, .. } = *path;
+        let dimension = path.connection_dimension();
+        self.arrived = ConnectingVertices { here, at: *at, throughput, vertices, dimension, light_path };
     }
 }
 

@@ -15,6 +15,8 @@ use crate::bsdf::Interactions;
 use crate::drive::gpu::film_data::RenderParams;
 use crate::drive::gpu::{PipelineKey, flag};
 use crate::drive::lanes::{LaneIntegrator, LanePlan};
+use crate::integrator::branches::{Branches, Waiting};
+use crate::integrator::light_paths::{self, CountedPaths, LightPaths, Scattering, counts};
 use crate::intersect::shape_list::Scratch;
 use crate::intersect::{Rays, SurfacePoints};
 use crate::prepared::{Outcomes, PreparedScene};
@@ -65,6 +67,9 @@ pub struct WhittedSettings {
     /// Radiance of the ambient light that diffuse surfaces send back, at least 0, grey; `None` is the scene's
     /// [`scene::stand_ins::FakeNumbers::ambient`].
     pub ambient: Option<f32>,
+    /// Which light counts. Ambient light stands for what comes from other diffuse surfaces, and counts where light would
+    /// that one of these sends.
+    pub paths: LightPaths,
     /// Where random numbers come from.
     pub sampler: SamplerKind,
     /// Selects one of 2^32 independent pictures.
@@ -83,6 +88,7 @@ impl Default for WhittedSettings {
             glass_shadows: GlassShadows::Opaque,
             shadow_rays: 1,
             ambient: None,
+            paths: LightPaths::ALL,
             sampler: SamplerKind::default(),
             seed: 1,
         }
@@ -96,7 +102,10 @@ impl WhittedSettings {
     }
 
     pub(super) fn pipeline_key(&self) -> PipelineKey {
-        let constants = [("CLEAR_GLASS", flag(self.glass_shadows == GlassShadows::Clear))];
+        let constants = [
+            ("CLEAR_GLASS", flag(self.glass_shadows == GlassShadows::Clear)),
+            ("LIGHT_PATHS", flag(!self.paths.is_all())),
+        ];
         PipelineKey::new("pathtrace/integrator/whitted.wgsl", self.sampler, &constants)
     }
 
@@ -105,6 +114,7 @@ impl WhittedSettings {
             limit: self.depth.min(Self::MOST_DEPTH),
             shadow_rays: self.shadow_rays.max(1),
             ambient: self.ambient_radiance(stand_ins),
+            light_paths: light_paths::rows(&self.paths),
             ..params
         }
     }
@@ -115,12 +125,15 @@ pub struct Plan {
     settings: WhittedSettings,
     /// Ambient radiance.
     ambient: f32,
+    /// Which light counts; `None` where all does.
+    counted: Option<CountedPaths>,
 }
 
 impl Plan {
     /// Reads the settings, and what stands in for them in the scene.
     pub fn new(settings: &WhittedSettings, stand_ins: &FakeNumbers) -> Self {
-        Plan { settings: *settings, ambient: settings.ambient_radiance(stand_ins) }
+        let counted = CountedPaths::of(&settings.paths);
+        Plan { settings: *settings, ambient: settings.ambient_radiance(stand_ins), counted }
     }
 }
 
@@ -129,7 +142,7 @@ impl LanePlan for Plan {
 
     #[inline(always)]
     fn lane_state<'a, F: Float>(&'a self, scene: &'a PreparedScene) -> WhittedLanes<'a, F> {
-        WhittedLanes::new(scene, &self.settings, self.ambient)
+        WhittedLanes::new(scene, self)
     }
 }
 
@@ -140,83 +153,10 @@ pub const MOST_BRANCHES: u32 = 65_536;
 /// Lights up to which each is sampled; of more, this many are chosen by power.
 pub(crate) const MOST_LIGHTS: usize = 16;
 
-/// A ray on its way, or waiting, in each lane.
-#[derive(Clone, Copy)]
-struct Branches<F: Float> {
-    rays: Rays<F>,
-    /// What radiance met now is worth at the camera.
-    weight: Vector<F>,
-    /// Specular scatterings so far.
-    depth: F::U,
-}
-
-impl<F: Float> Branches<F> {
-    /// As they leave the camera.
-    #[inline(always)]
-    fn leaving_camera(rays: &Rays<F>) -> Self {
-        Branches { rays: *rays, weight: Vector::along_all(F::splat(1.0)), depth: F::U::splat(0) }
-    }
-
-    #[inline(always)]
-    fn select(mask: F::M, yes: Self, no: Self) -> Self {
-        Branches {
-            rays: Rays::select(mask, yes.rays, no.rays),
-            weight: Vector::select(mask, yes.weight, no.weight),
-            depth: F::U::select(mask, yes.depth, no.depth),
-        }
-    }
-
-    /// The branch that leaves a surface in the unit direction `wi`.
-    #[inline(always)]
-    fn leave(&self, from: &SurfacePoints<F>, wi: Vector<F>, weight: Vector<F>) -> Self {
-        let depth = self.depth.wrapping_add(F::U::splat(1));
-        Branches { rays: Rays::new(from.leaving_towards(wi), wi), weight, depth }
-    }
-}
-
-/// Reflected branches that wait, deepest last, in each lane: at most one for each level.
-struct Waiting<F: Float> {
-    branches: Vec<Branches<F>>,
-    count: F::U,
-}
-
-impl<F: Float> Waiting<F> {
-    #[inline(always)]
-    fn push(&mut self, here: F::M, branch: &Branches<F>) {
-        for depth in 0..(self.branches.len() + 1).min(WhittedSettings::MOST_DEPTH as usize) {
-            let at = here & self.count.eq(F::U::splat(depth as u32));
-            if at.any() {
-                if depth == self.branches.len() {
-                    self.branches.push(*branch);
-                }
-                self.branches[depth] = Branches::select(at, *branch, self.branches[depth]);
-            }
-        }
-        self.count = F::U::select(here, self.count.wrapping_add(F::U::splat(1)), self.count);
-    }
-
-    /// Takes the deepest where `here` says so and one waits, and says where.
-    #[inline(always)]
-    fn pop(&mut self, here: F::M, branch: &mut Branches<F>) -> F::M {
-        let mut found = F::M::splat(false);
-        for (depth, waiting) in (0..).zip(&self.branches) {
-            let at = here & self.count.eq(F::U::splat(depth + 1));
-            if at.any() {
-                *branch = Branches::select(at, *waiting, *branch);
-                found = found | at;
-            }
-        }
-        self.count = F::U::select(found, self.count.wrapping_sub(F::U::splat(1)), self.count);
-        found
-    }
-}
-
 /// A tree of rays in each lane, and where they grow.
 pub struct WhittedLanes<'a, F: Float> {
     scene: &'a PreparedScene,
-    settings: &'a WhittedSettings,
-    /// Ambient radiance.
-    ambient: f32,
+    plan: &'a Plan,
     branch: Branches<F>,
     waiting: Waiting<F>,
     /// The next block of random numbers; the camera took block 0.
@@ -233,7 +173,11 @@ impl<'a, F: Float> LaneIntegrator<F> for WhittedLanes<'a, F> {
     /// Starts trees with camera rays where `here` says so.
     #[inline(always)]
     fn begin(&mut self, here: F::M, rays: &Rays<F>) {
-        self.branch = Branches::select(here, Branches::leaving_camera(rays), self.branch);
+        let mut leaving = Branches::leaving_camera(rays);
+        if let Some(counted) = &self.plan.counted {
+            leaving.light_path = counted.begin();
+        }
+        self.branch = Branches::select(here, leaving, self.branch);
         self.outcome.radiance = Vector::select(here, Vector::zero(), self.outcome.radiance);
         self.outcome.cut = self.outcome.cut & !here;
         let (none, one) = (F::U::splat(0), F::U::splat(1));
@@ -284,12 +228,11 @@ impl<'a, F: Float> LaneIntegrator<F> for WhittedLanes<'a, F> {
 impl<'a, F: Float> WhittedLanes<'a, F> {
     /// No tree yet.
     #[inline(always)]
-    pub fn new(scene: &'a PreparedScene, settings: &'a WhittedSettings, ambient: f32) -> Self {
+    pub fn new(scene: &'a PreparedScene, plan: &'a Plan) -> Self {
         let none = F::U::splat(0);
         WhittedLanes {
             scene,
-            settings,
-            ambient,
+            plan,
             branch: Branches::leaving_camera(&Rays::new(Vector::zero(), Vector::splat([0.0, 0.0, 1.0]))),
             waiting: Waiting { branches: Vec::new(), count: none },
             dimension: none,
@@ -300,9 +243,20 @@ impl<'a, F: Float> WhittedLanes<'a, F> {
         }
     }
 
-    /// Adds radiance that came along the branch, where `here` says so.
+    /// Adds radiance that came along the branch, where `here` says so and it counts.
     #[inline(always)]
     fn receive(&mut self, here: F::M, radiance: Vector<F>) {
+        self.add(self.counting(here), radiance);
+    }
+
+    /// Where light counts that is found now.
+    #[inline(always)]
+    fn counting(&self, here: F::M) -> F::M {
+        if self.plan.counted.is_some() { here & counts(self.branch.light_path) } else { here }
+    }
+
+    #[inline(always)]
+    fn add(&mut self, here: F::M, radiance: Vector<F>) {
         let sum = self.outcome.radiance + self.branch.weight * radiance;
         self.outcome.radiance = Vector::select(here, sum, self.outcome.radiance);
     }
@@ -310,13 +264,14 @@ impl<'a, F: Float> WhittedLanes<'a, F> {
     /// Lights diffuse surfaces, and sends branches on from others; where they go on.
     #[inline(always)]
     fn scatter(&mut self, met: F::M, at: &Interactions<F>, sampler: &Sampler<F::U>) -> F::M {
+        if let Some(counted) = &self.plan.counted {
+            self.branch.light_path = counted.after(self.branch.light_path, Scattering::at(at));
+        }
         let lit = met & at.is_diffuse() & !at.colour.is_zero();
         if lit.any() {
-            let direct = self.irradiance(lit, &at.point, at.normal, sampler);
-            let ambient = Vector::along_all(F::splat(self.ambient));
-            self.receive(lit, at.colour * (direct * F::splat(FRAC_1_PI) + ambient));
+            self.light(lit, at, sampler);
         }
-        let most_depth = self.settings.depth.min(WhittedSettings::MOST_DEPTH);
+        let most_depth = self.plan.settings.depth.min(WhittedSettings::MOST_DEPTH);
         let deeper = met & !at.is_diffuse() & self.branch.depth.lt(F::U::splat(most_depth));
         if !deeper.any() {
             return deeper;
@@ -332,6 +287,18 @@ impl<'a, F: Float> WhittedLanes<'a, F> {
         goes_on
     }
 
+    /// Lights diffuse surfaces.
+    #[inline(always)]
+    fn light(&mut self, lit: F::M, at: &Interactions<F>, sampler: &Sampler<F::U>) {
+        let direct = self.irradiance(lit, &at.point, at.normal, sampler);
+        let mut ambient = Vector::along_all(F::splat(self.plan.ambient));
+        if let Some(counted) = &self.plan.counted {
+            let arrives = counts(counted.after_diffuse(self.branch.light_path));
+            ambient = Vector::select(arrives, ambient, Vector::zero());
+        }
+        self.add(lit, at.colour * (direct * F::splat(FRAC_1_PI) + ambient));
+    }
+
     /// Light that arrives at surfaces: every light by itself, or of very many a choice.
     #[inline(always)]
     fn irradiance(
@@ -342,8 +309,10 @@ impl<'a, F: Float> WhittedLanes<'a, F> {
         sampler: &Sampler<F::U>,
     ) -> Vector<F> {
         let lights = &self.scene.lights;
-        let rays = self.settings.shadow_rays.max(1);
-        let opaque = self.settings.glass_shadows == GlassShadows::Clear;
+        let rays = self.plan.settings.shadow_rays.max(1);
+        // the others draw their random numbers all the same: those of other branches do not depend on what counts
+        let counting = self.counting(here);
+        let opaque = self.plan.settings.glass_shadows == GlassShadows::Clear;
         let mut sum = Vector::zero();
         for turn in 0..lights.len().min(MOST_LIGHTS) {
             let each = lights.len() <= MOST_LIGHTS;
@@ -361,7 +330,7 @@ impl<'a, F: Float> WhittedLanes<'a, F> {
                     lights.table().sample(at.position, u[2], [u[0], u[1]])
                 };
                 let cosine = normal.dot(sample.wi);
-                let faced = here & sample.shines & cosine.gt(F::splat(0.0));
+                let faced = counting & sample.shines & cosine.gt(F::splat(0.0));
                 self.rays += u64::from(faced.count());
                 if faced.any() {
                     let shadow = self.scene.in_shadow(at, &sample, faced, opaque, &mut self.scratch);

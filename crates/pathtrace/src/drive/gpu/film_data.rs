@@ -66,6 +66,8 @@ pub struct RenderParams {
     pub ambient: f32,
     /// Padding.
     pub unused: [u32; 3],
+    /// Rows of the automaton that tells which light counts, see [`crate::integrator::light_paths`].
+    pub light_paths: [[u32; 4]; 8],
 }
 
 /// A pixel's sums.
