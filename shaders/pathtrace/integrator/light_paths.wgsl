@@ -1,8 +1,8 @@
 //#import pathtrace/bsdf/interaction.wgsl
 //#import pathtrace/drive/film.wgsl
 // Which light counts: paths are read from the eye, a vertex at a time, by an automaton whose rows hold the states that
-// follow a diffuse, a glossy and a specular vertex. Twin: crates/pathtrace/src/integrator/light_paths/automaton.rs and
-// counting.rs.
+// follow a diffuse, a glossy and a specular vertex. Twins:
+// crates/pathtrace/src/integrator/light_paths/mod.rs, automaton.rs and counting.rs.
 
 // whether not all light counts
 override LIGHT_PATHS: bool = true;

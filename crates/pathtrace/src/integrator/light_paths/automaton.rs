@@ -1,5 +1,7 @@
 //! An expression as a deterministic automaton that reads paths from the eye: the subset construction over its positions,
 //! last letter first.
+//!
+//! Twin: `shaders/pathtrace/integrator/light_paths.wgsl`.
 
 use super::expression::{D, E, Expression, G, L, LightPathsError, Positions, S};
 
@@ -19,7 +21,7 @@ pub const ACCEPTS: u32 = 1 << 31;
 const SURFACES: [u8; 3] = [D, G, S];
 
 /// A row for each state: the states that follow a diffuse, a glossy and a specular vertex, in its lowest three bytes, and
-/// [`ACCEPTS`]. Twin: `shaders/pathtrace/integrator/light_paths.wgsl`.
+/// [`ACCEPTS`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Automaton {
     /// The rows of all states; those that there are not are 0.
