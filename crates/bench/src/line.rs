@@ -3,8 +3,8 @@
 
 use crate::variant::{MakeTracer, Variant};
 use pathtrace::{
-    ConesAt, Directions, Estimator, Integrator, LightTracingSettings, MetropolisSettings, PathSettings, PhotonSettings,
-    Roulette, SamplerKind,
+    ConesAt, Directions, Estimator, Integrator, LightPaths, LightTracingSettings, MetropolisSettings, PathSettings,
+    PhotonSettings, Roulette, SamplerKind,
 };
 use raster::Fake;
 use scene::Scene;
@@ -28,6 +28,7 @@ const COMPLETE: PathSettings = PathSettings {
     connections: true,
     cones: ConesAt::Usual,
     split_glass: true,
+    paths: LightPaths::ALL,
     seed: 1,
 };
 

@@ -1,6 +1,6 @@
 //! What pictures are called beside each other: by their techniques, or by the settings in which they differ.
 
-use crate::settings::{Setting, Value, all_of_panes, grouped};
+use crate::settings::{Setting, Value, all_of_panes, grouped, light_words};
 use crate::{FakeSettings, PaneSettings, Technique, TracedSettings};
 use film::Feature;
 use pathtrace::Integrator;
@@ -25,17 +25,27 @@ impl Technique {
                 Integrator::Normals(normals) => format!("{} axes", normals.space.name()),
             },
         };
-        format!("{}, {says_most}", self.title())
+        let light = self.light_words().map_or_else(String::new, |light| format!("{light}, "));
+        format!("{}, {light}{says_most}", self.title())
     }
 
     /// What tells it from another picture of `scene`: of one technique all settings that differ, as "Path tracing,
     /// 0 bounces" beside "Path tracing, 1 bounce"; else [`Technique::label`].
     pub fn label_beside(&self, other: &Technique, scene: &Scene) -> String {
-        let differing = self.settings_unlike(other, scene);
+        let mut differing = self.settings_unlike(other, scene);
         if self.title() != other.title() || differing.is_empty() {
             return self.label();
         }
+        if self.light() == other.light() {
+            differing.splice(..0, self.light_words());
+        }
         format!("{}, {}", self.title(), differing.join(", "))
+    }
+
+    /// "only direct light", where not all light counts.
+    fn light_words(&self) -> Option<String> {
+        let light = self.light();
+        (!light.is_all()).then(|| light_words(light))
     }
 
     /// Its name; or what it shows in place of the scene's light.
@@ -188,6 +198,20 @@ mod tests {
         assert_eq!(sky_light, ["Fake, fair"; 2], "fair scales the light of a sky that is black there");
         let point = |rays| [("traced-sun", "0"), ("shadow-rays", rays)];
         assert_eq!(labels("whitted", Whitted, [&point("1"), &point("4")]), ["Whitted, depth 8"; 2]);
+    }
+
+    #[test]
+    fn a_part_of_the_light_is_called_so_beside_any_picture() {
+        use TechniqueName::{Path, Whitted};
+        let direct = ("light", "direct");
+        assert_eq!(with(Whitted, &[direct]).label(), "Whitted, only direct light, depth 8");
+        let parts = labels("cornell", Path, [&[direct], &[("light", "LDDE")]]);
+        assert_eq!(parts, ["Path tracing, only direct light", "Path tracing, only LDDE"]);
+        let same = labels("cornell", Path, [&[direct, ("seed", "2")], &[direct]]);
+        assert_eq!(same, ["Path tracing, only direct light, seed 2", "Path tracing, only direct light, seed 1"]);
+        let part = with(Path, &[direct]);
+        assert!(part.shows_the_scene() && !part.has_a_reference() && with(Path, &[]).has_a_reference());
+        assert!(with(TechniqueName::Photon, &[direct]).has_a_reference(), "photons show all light");
     }
 
     #[test]

@@ -67,7 +67,7 @@ pub use traced::{
 };
 
 use film::Feature;
-use pathtrace::Integrator;
+use pathtrace::{Integrator, LightPaths};
 
 /// A way to turn a scene into a film, by the name on the command line.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -242,6 +242,36 @@ impl Technique {
             Technique::Fake(fake) => fake.shows_the_scene(),
             Technique::Traced(traced) => self.traces_light() && !traced.denoise.shows_the_weight(),
         }
+    }
+
+    /// Which of the scene's light counts.
+    pub fn light(&self) -> LightPaths {
+        match self {
+            Technique::Traced(TracedSettings { integrator, feature: None, .. }) => match integrator {
+                Integrator::Path(path) => path.paths,
+                Integrator::Whitted(tree) => tree.paths,
+                Integrator::Metropolis(metropolis) => metropolis.path.paths,
+                Integrator::Photon(_) | Integrator::LightTracing(_) | Integrator::Normals(_) => LightPaths::ALL,
+            },
+            Technique::Traced(_) | Technique::Fake(_) => LightPaths::ALL,
+        }
+    }
+
+    /// The same, where this light counts, if it can choose.
+    pub fn with_light(mut self, light: LightPaths) -> Option<Self> {
+        let Technique::Traced(TracedSettings { integrator, feature: None, .. }) = &mut self else { return None };
+        match integrator {
+            Integrator::Path(path) => path.paths = light,
+            Integrator::Whitted(tree) => tree.paths = light,
+            Integrator::Metropolis(metropolis) => metropolis.path.paths = light,
+            Integrator::Photon(_) | Integrator::LightTracing(_) | Integrator::Normals(_) => return None,
+        }
+        Some(self)
+    }
+
+    /// Whether its errors against the scene's reference mean something: a reference has all light.
+    pub fn has_a_reference(&self) -> bool {
+        self.shows_the_scene() && self.light().is_all()
     }
 
     /// Whether rays gather the scene's light, whatever is shown of that.

@@ -54,6 +54,8 @@ pub enum Look {
     /// Words to choose from, with spaces where they read better than the option's hyphens, and what each means. Words
     /// that are left out can be chosen by the option alone.
     Words(&'static [(&'static str, &'static str)]),
+    /// Names of parts of the light with their number, and an expression to be typed.
+    LightPaths,
 }
 
 /// Decimals of a number that is told, where its step has no more.
@@ -160,7 +162,9 @@ mod tests {
             (Kind::Whole(accepted), Look::Doubling(exponents)) => {
                 [exponents.start(), exponents.end()].iter().all(|exponent| accepted.contains(&(1 << **exponent)))
             }
-            (Kind::Whole(_), Look::Typed) | (Kind::Bounces, Look::WholeOrNone(_)) => true,
+            (Kind::Whole(_), Look::Typed)
+            | (Kind::Bounces, Look::WholeOrNone(_))
+            | (Kind::LightPaths, Look::LightPaths) => true,
             (Kind::Choice(accepted), Look::Words(words)) => {
                 words.iter().all(|(word, _)| accepted.contains(&word.replace(' ', "-").as_str()))
             }

@@ -5,7 +5,7 @@ mod control;
 mod rows;
 
 pub use control::{Control, Look, capitalised, grouped};
-pub use rows::{OF_SCENES, all_of_panes};
+pub use rows::{OF_SCENES, all_of_panes, light_words};
 
 use crate::{
     ChainSettings, LightPaneSettings, NormalsPaneSettings, PhotonPaneSettings, TracedSettings, TreeSettings,
@@ -13,7 +13,7 @@ use crate::{
 };
 use crate::{PaneSettings, SceneChanges, Technique, TechniqueName, roulette_name};
 use image_file::Records;
-use pathtrace::{Integrator, Roulette};
+use pathtrace::{Integrator, LightPaths, Roulette};
 use raster::Show;
 use scene::Scene;
 use std::fmt;
@@ -69,6 +69,8 @@ pub enum Kind {
     Bounces,
     /// When paths end early.
     Roulette,
+    /// Which light counts.
+    LightPaths,
 }
 
 /// A value of a setting.
@@ -84,6 +86,8 @@ pub enum Value {
     Bounces(Option<u32>),
     /// When paths end early.
     Roulette(Roulette),
+    /// Which light counts.
+    LightPaths(LightPaths),
 }
 
 /// What a scene must have.
@@ -136,6 +140,7 @@ impl Kind {
             Kind::Bounces if word == "inf" => Some(Value::Bounces(None)),
             Kind::Bounces => word.parse().ok().map(|n| Value::Bounces(Some(n))),
             Kind::Roulette => roulette(word).map(Value::Roulette),
+            Kind::LightPaths => return rows::light_paths(word),
         };
         value.ok_or_else(|| self.expected())
     }
@@ -154,6 +159,7 @@ impl Kind {
             },
             Kind::Bounces => format!("a whole number from 0 to {} or inf", u32::MAX),
             Kind::Roulette => "a probability above 0 and at most 1, throughput, both as P+throughput, or off".into(),
+            Kind::LightPaths => rows::LIGHT_PATHS.into(),
         }
     }
 
@@ -191,6 +197,7 @@ impl fmt::Display for Value {
             Value::Word(word) => f.write_str(word),
             Value::Bounces(bounces) => f.write_str(&bounces_name(*bounces)),
             Value::Roulette(roulette) => f.write_str(&roulette_name(*roulette)),
+            Value::LightPaths(paths) => paths.fmt(f),
         }
     }
 }

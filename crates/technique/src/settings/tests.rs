@@ -81,5 +81,18 @@ fn examples(kind: &Kind) -> Vec<String> {
         Kind::Choice(words) => words.iter().map(|word| (*word).to_owned()).collect(),
         Kind::Bounces => ["0", "7", "inf"].map(str::to_owned).into(),
         Kind::Roulette => ["off", "throughput", "0.5", "0.8+throughput"].map(str::to_owned).into(),
+        Kind::LightPaths => ["all", "direct", "bounce-3", "L(D|S)*[GS]+.?E"].map(str::to_owned).into(),
     }
+}
+
+#[test]
+fn light_paths_are_refused_with_the_column_and_told_as_they_are_read() {
+    let row = of_panes("light").unwrap();
+    let refused = row.kind.parse("LDxE").unwrap_err();
+    assert!(refused.starts_with("all, direct") && refused.contains(": column 3: expected L, D"), "{refused}");
+    let brief = |word: &str| row.brief(row.kind.parse(word).unwrap());
+    let told = ["all", "direct", "bounce-2", "up-to-0", "from-9", "L S+ D E"].map(brief);
+    let words = ["all light", "only direct light", "only bounce 2", "only up to bounce 0", "only from bounce 9 on"];
+    assert_eq!(told[..5], words);
+    assert_eq!(told[5], "only LS+DE");
 }

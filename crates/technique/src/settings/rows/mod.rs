@@ -3,10 +3,13 @@
 mod caustics;
 mod denoise;
 mod fake;
+mod light;
 mod metropolis;
 mod photon;
 mod show;
 mod traced;
+
+pub use light::{LIGHT_PATHS, light_paths, light_words};
 
 use super::{Control, Kind, Look, Need, Setting, Value};
 use crate::{PaneSettings, SceneChanges, TechniqueName};
@@ -133,6 +136,7 @@ pub fn all_of_panes() -> impl Iterator<Item = &'static Setting<PaneSettings>> {
         .chain(denoise::ROWS)
         .chain(fake::ROWS)
         .chain(show::ROWS)
+        .chain(light::ROWS)
 }
 
 /// How the paths of the technique in use walk.
