@@ -99,6 +99,13 @@ fn reference_of(file: &Path, picture: &Image) -> anyhow::Result<Reference> {
         image_file::shown(file)
     );
     ensure!(
+        made.pane.in_use().has_a_reference(),
+        "this shows a part of the light (--light {}), and references have all of it; name another picture of that part to compare \
+         with: {}",
+        made.pane.in_use().light(),
+        image_file::shown(file)
+    );
+    ensure!(
         made.seen.size == picture.size(),
         "its records are of another size, {}x{}: {}",
         made.seen.size.0,

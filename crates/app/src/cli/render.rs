@@ -50,6 +50,10 @@ pub fn run(args: &mut RenderArgs) -> anyhow::Result<()> {
         !args.errors || technique.shows_the_scene(),
         "what shows no light has no errors: --errors needs a picture of it (--show picture, and not --technique normals)"
     );
+    anyhow::ensure!(
+        !args.errors || technique.has_a_reference(),
+        "a part of the light has no errors: the reference has all of it; leave out --errors or --light"
+    );
     image_file::check_writable(&args.out)?;
     let _heeded = interrupt::heed();
     let Timed { rendered, seconds } = match technique {

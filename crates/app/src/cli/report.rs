@@ -115,7 +115,7 @@ fn reference_of(
     shot: &Shot,
     panes: &[(PaneId, PaneSettings)],
 ) -> anyhow::Result<Option<ReportedReference>> {
-    let is_judged = panes.iter().any(|(_, settings)| settings.in_use().shows_the_scene());
+    let is_judged = panes.iter().any(|(_, settings)| settings.in_use().has_a_reference());
     if model.session.comparison.with == CompareWith::EachOther || !is_judged {
         return Ok(None);
     }
@@ -140,7 +140,7 @@ fn picture(
 ) -> anyhow::Result<(ReportedPicture, Vec<ErrorPoint>)> {
     let technique = settings.in_use();
     let own = render_args(args, shot, settings);
-    let judge = reference.filter(|_| technique.shows_the_scene()).map(|reference| &reference.image);
+    let judge = reference.filter(|_| technique.has_a_reference()).map(|reference| &reference.image);
     let follower = Follower::new(judge.filter(|_| technique.runs() == 1 && !technique.denoise().is_on()));
     let before = core_seconds();
     let timed = match technique {

@@ -19,6 +19,10 @@ pub fn run(args: &SweepArgs) -> anyhow::Result<()> {
         args.errors.is_none() || plan.tiles.iter().all(|tile| tile.pane.in_use().shows_the_scene()),
         "what shows no light has no errors: --errors needs pictures of it (show=picture, and no normals)"
     );
+    anyhow::ensure!(
+        args.errors.is_none() || plan.tiles.iter().any(|tile| tile.pane.in_use().has_a_reference()),
+        "a part of the light has no errors: the reference has all of it; leave out --errors or light="
+    );
     for file in std::iter::once(&args.out).chain(&args.csv) {
         image_file::check_writable(file)?;
     }
@@ -106,7 +110,8 @@ fn facts_of(
     (reference, display): (Option<&ReferenceImage>, &DisplayTransform),
 ) -> anyhow::Result<Vec<TileFacts>> {
     let facts = |tile: &Tile| {
-        let errors = reference.map(|reference| measure(&tile.image, reference, display)).transpose()?;
+        let judged = reference.filter(|_| tile.provenance.technique.has_a_reference());
+        let errors = judged.map(|reference| measure(&tile.image, reference, display)).transpose()?;
         Ok(TileFacts { errors, ..tile.facts.clone() })
     };
     let mut all: Vec<TileFacts> = tiles.iter().map(facts).collect::<anyhow::Result<_>>()?;

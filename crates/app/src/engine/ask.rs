@@ -12,7 +12,7 @@ use super::reference::{ReferenceUpdate, ReferenceWorker, Wish};
 use super::sweep::Sweeper;
 use super::thumbnails::Thumbnails;
 use super::watch::{News, Watched, Watcher};
-use super::{Order, STEPS_BACK, Wake, step_farther_back};
+use super::{Order, STEPS_BACK, Wake, light::LightMeter, step_farther_back};
 use crate::model::{Against, Comparison, ErrorMap, FilePurpose, MapWish, Origin, PaneId, Panes, Wanted, WantedPane};
 use anyhow::Context;
 use film::DisplayTransform;
@@ -47,6 +47,7 @@ pub struct Engine {
     pub(super) sweeper: Option<Sweeper>,
     /// Looks into a pixel.
     pub probes: super::probe::Probes,
+    pub(crate) light: LightMeter,
     pub(super) wake: Wake,
     asked: Asked,
 }
@@ -91,6 +92,7 @@ impl Engine {
             post_process: Arc::new(post_process),
             error_map_worker,
             reference_worker: None,
+            light: LightMeter::new(threads.clone(), wake.clone()),
             open_store,
             threads,
             exporter: Exporter::start(wake.clone()).context("no thread for exports")?,
@@ -172,6 +174,7 @@ impl Engine {
             }
         }
         self.measure_fakes();
+        self.light.measure(&wanted.light);
         self.compare(wanted);
         self.ask_sweep(wanted);
         self.probes.follow(wanted, &self.threads, &self.wake);

@@ -294,7 +294,7 @@ impl Latest {
     fn reference_of(&self, picture: &Picture) -> Option<&ReferenceImage> {
         let (view, reference_image) = self.reference.as_ref()?;
         let fits = *view == picture.order.view && reference_image.image.size() == picture.image.size();
-        (fits && picture.order.provenance.technique.shows_the_scene()).then_some(reference_image)
+        (fits && picture.order.provenance.technique.has_a_reference()).then_some(reference_image)
     }
 
     /// What is known of the noise of a pane's picture.
@@ -371,7 +371,9 @@ fn undenoised(picture: &Picture) -> Option<&Image> {
 
 fn comparable(a: &Picture, b: &Picture) -> bool {
     let shows_the_scene = |picture: &Picture| picture.order.provenance.technique.shows_the_scene();
-    (a.image.size(), a.order.view) == (b.image.size(), b.order.view) && shows_the_scene(a) && shows_the_scene(b)
+    let light = |picture: &Picture| picture.order.provenance.technique.light();
+    let same = (a.image.size(), a.order.view, light(a)) == (b.image.size(), b.order.view, light(b));
+    same && shows_the_scene(a) && shows_the_scene(b)
 }
 
 #[cfg(test)]

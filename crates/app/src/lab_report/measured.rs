@@ -69,9 +69,14 @@ impl LabReport {
         let mut pairs = Vec::new();
         if let Some(reference) = &self.reference {
             let judge = &reference.image.image;
-            pairs.extend(pictures.iter().map(|of| Held { of, against: Against::Reference, judge }));
+            // the reference has all light
+            let judged = pictures.iter().filter(|of| of.provenance.technique.has_a_reference());
+            pairs.extend(judged.map(|of| Held { of, against: Against::Reference, judge }));
         }
-        if let [a, b] = pictures[..] {
+        let light = |picture: &ReportedPicture| picture.provenance.technique.light();
+        if let [a, b] = pictures[..]
+            && light(a) == light(b)
+        {
             pairs.push(Held { of: a, against: Against::Pane(b.pane), judge: &b.image });
         }
         pairs.retain(|held| held.of.image.size() == held.judge.size());

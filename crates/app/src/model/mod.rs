@@ -13,6 +13,7 @@ mod export;
 mod file_wish;
 mod first_line;
 mod history;
+mod light_parts;
 mod magnification;
 mod message;
 mod pane;
@@ -43,6 +44,7 @@ pub use errors::{ErrorHistory, ErrorPoint};
 pub use export::{Destination, ExportMenu, ExportRequest, ExportSubject, PlotFile, SlideSize, SweepFile};
 pub use file_wish::{FilePurpose, FileWish};
 pub use history::{History, Settings};
+pub use light_parts::{LightByBounce, LightWish, light_parts};
 pub use magnification::Magnification;
 pub use message::Message;
 pub use pane::{PaneId, Panes};
@@ -240,6 +242,7 @@ impl Model {
             sweep: None,
             histograms: false,
             probe: None,
+            light: Vec::new(),
             display: session.display,
             paused: state.paused,
             restarts: state.restarts,

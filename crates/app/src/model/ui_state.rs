@@ -50,6 +50,8 @@ pub struct UiState {
     pub probed_sample: Option<u32>,
     /// Whether histograms are in sight.
     pub histograms: bool,
+    /// Panes whose light by bounce is in sight.
+    pub light_bars: Vec<PaneId>,
     /// The pane whose turn it is while A and B flicker.
     pub flicker: Option<PaneId>,
     /// What is wrong with the scene's file as it stands on disk, until it is mended; the scene before is shown.
@@ -147,6 +149,7 @@ impl UiState {
             loupe: false,
             probed_sample: None,
             histograms: false,
+            light_bars: Vec::new(),
             flicker: None,
             scene_fault: None,
             neighbours: Vec::new(),

@@ -1,8 +1,8 @@
 //! What there is to show: results, as those who draw them take them.
 
 use super::{
-    Against, Effort, ErrorHistory, ErrorMap, ErrorPoint, External, PaneId, PaneProbe, PaneSource, Panes, Progress,
-    Region, TileFacts,
+    Against, Effort, ErrorHistory, ErrorMap, ErrorPoint, External, LightByBounce, PaneId, PaneProbe, PaneSource, Panes,
+    Progress, Region, TileFacts,
 };
 use crate::ruler::ReferenceImage;
 use compare::{Errors, Histogram};
@@ -21,6 +21,8 @@ pub struct ViewModel {
     pub probe: Panes<PaneProbe>,
     /// How far the reference has come, while it is asked for.
     pub reference: Option<Progress>,
+    /// How much light each bounce brings, of panes where that is looked at.
+    pub light: Panes<LightByBounce>,
     /// What is known of a sweep's tiles.
     pub sweep: SweepView,
 }

@@ -1,6 +1,6 @@
 //! What shall be made: a plain value, stated anew in every frame. Who makes it compares it with what was wanted before.
 
-use super::{Comparison, MapWish, PaneSource, Panes, ProbeWish, SweepPlan};
+use super::{Comparison, LightWish, MapWish, PaneSource, Panes, ProbeWish, SweepPlan};
 use film::DisplayTransform;
 use scene::Camera;
 use technique::Shot;
@@ -23,6 +23,8 @@ pub struct Wanted {
     pub histograms: bool,
     /// The pixel that is looked into, if one is.
     pub probe: Option<ProbeWish>,
+    /// Whose light by bounce is looked at.
+    pub light: Vec<LightWish>,
     /// How all are shown.
     pub display: DisplayTransform,
     /// Whether what is traced waits.

@@ -86,6 +86,9 @@ impl Viewer {
         self.collect_sweep(textures);
         self.presentation.update_probe(self.engine.probes.collect());
         self.collect_files();
+        for (pane, light) in self.engine.light.measured().iter() {
+            self.presentation.shown.light.insert(pane, light.clone());
+        }
         self.presentation.update_thumbnails(self.engine.thumbnails(), textures);
         self.engine.exported().into_iter().for_each(|outcome| self.model.say(outcome));
     }

@@ -11,6 +11,7 @@ mod files;
 mod films;
 #[cfg(unix)]
 mod interrupts;
+mod light;
 mod merge;
 mod pictures;
 mod references;

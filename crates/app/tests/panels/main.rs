@@ -3,6 +3,7 @@
 #![expect(clippy::expect_used, reason = "a test stops at the first thing that is not as it must be")]
 
 mod closer;
+mod light;
 mod numbers;
 mod plots;
 mod probe;
@@ -105,13 +106,14 @@ impl Panels {
 
     /// Unfolds the rare settings of the `nth` pane.
     fn unfold_more(&mut self, nth: usize) {
-        self.harness.query_all_by_label_contains("more settings").nth(nth).expect("the title").click();
+        self.harness.query_all_by_label_contains("more settings").nth(nth).expect("the title").click_accesskit();
         self.harness.run_steps(3);
     }
 
     /// Clicks the `nth` widget of that label, from the top.
     fn click(&mut self, label: &str, nth: usize) {
-        self.harness.get_all_by_label(label).nth(nth).expect("the widget").click();
+        // by its name, wherever the panel is scrolled to
+        self.harness.get_all_by_label(label).nth(nth).expect("the widget").click_accesskit();
         self.harness.run_steps(3);
     }
 }

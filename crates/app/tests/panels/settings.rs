@@ -25,6 +25,7 @@ fn control_names<T>(
         (Kind::Choice(_), _) => {
             setting.words(technique, scene).into_iter().map(|(word, ..)| (Role::Button, of_word(word))).collect()
         }
+        (Kind::LightPaths, _) => ["all", "direct", "bounce", "up to"].map(|word| (Role::Button, of_word(word))).into(),
         (_, Look::Typed) => one(Role::SpinButton),
         _ => one(Role::Slider),
     }
@@ -70,6 +71,12 @@ fn move_control(node: &Node, (look, kind): (&Look, &Kind), name: &str, value: Va
                 "Roulette: survive" => Roulette { probability: Some(0.8), ..before },
                 _ => Roulette { throughput: !before.throughput, ..before },
             })
+        }
+        (Look::LightPaths, _) => {
+            node.click_accesskit();
+            let word = name.rsplit(": ").next().unwrap_or_default();
+            let named = if matches!(word, "all" | "direct") { word.to_owned() } else { format!("{word}-0") };
+            kind.parse(&named.replace(' ', "-")).expect("a part of the light")
         }
         (Look::Words(_), Value::Word(_)) => {
             node.click_accesskit();

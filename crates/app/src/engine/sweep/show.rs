@@ -103,7 +103,7 @@ impl Shower {
         let same = |(of, by, display, _): &(Arc<Tile>, Arc<ReferenceImage>, DisplayTransform, _)| {
             Arc::ptr_eq(of, tile) && Arc::ptr_eq(by, reference) && *display == show.display
         };
-        let has_light = tile.provenance.technique.shows_the_scene() && tile.facts.has_a_picture();
+        let has_light = tile.provenance.technique.has_a_reference() && tile.facts.has_a_picture();
         if done.measured.as_ref().is_some_and(same) || !has_light {
             return;
         }

@@ -5,6 +5,7 @@ mod device;
 mod display;
 mod external;
 mod head;
+mod light;
 mod pane;
 mod presets;
 mod scene;

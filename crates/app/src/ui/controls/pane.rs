@@ -1,7 +1,7 @@
 //! The settings of a pane's technique: in which order they stand, and what is no setting. Their table says the rest.
 
 use super::setting::{Change, Place};
-use super::{device, external};
+use super::{device, external, light};
 use crate::model::{PaneId, PaneSource};
 use crate::ui::UiContext;
 use crate::ui::theme::palette;
@@ -31,6 +31,7 @@ fn order(technique: TechniqueName) -> &'static [&'static str] {
         ],
         TechniqueName::Whitted => &[
             "depth",
+            "light",
             "glass-shadows",
             "ambient",
             "traced-sun",
@@ -67,6 +68,7 @@ fn order(technique: TechniqueName) -> &'static [&'static str] {
             "denoise",
             "trust",
             "runs",
+            "light",
             "connections",
             "chains",
             "large-step",
@@ -85,6 +87,7 @@ fn order(technique: TechniqueName) -> &'static [&'static str] {
             "denoise",
             "trust",
             "runs",
+            "light",
             "connections",
             "bounces",
             "branches",
@@ -117,7 +120,12 @@ fn of_technique(cx: &mut UiContext, pane: PaneId, ui: &mut Ui) {
     usable.sort_by_key(|row| order.iter().position(|name| *name == row.name).unwrap_or(order.len()));
     let settings = &cx.model.session.panes[pane];
     let (more, first): (Vec<_>, Vec<_>) = usable.into_iter().partition(|row| is_rare(row, settings));
-    rows(cx, pane, &first, ui);
+    let light = first.iter().position(|row| row.name == "light").map_or(0, |light| light + 1);
+    rows(cx, pane, &first[..light], ui);
+    if light > 0 {
+        light::bars(cx, pane, ui);
+    }
+    rows(cx, pane, &first[light..], ui);
     let id = ui.make_persistent_id(("more", pane));
     let chooses_device = matches!(cx.model.session.panes[pane].in_use(), Technique::Traced(_));
     let count = more.len() + usize::from(chooses_device && !cx.model.adapters.0.is_empty());

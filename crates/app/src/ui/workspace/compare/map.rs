@@ -59,6 +59,10 @@ fn why_not(cx: &UiContext) -> String {
         if shown.provenance.as_ref().is_some_and(|provenance| !provenance.technique.shows_the_scene()) {
             return format!("{pane} does not show the light of the scene: it has no errors");
         }
+        let light = shown.provenance.as_ref().map(|provenance| provenance.technique.light());
+        if light.is_some_and(|light| !light.is_all()) && against == Against::Reference {
+            return format!("{pane} shows a part of the light, the reference all of it: there is no error to tell");
+        }
     }
     match against {
         Against::Pane(_) => "rendering ...".into(),

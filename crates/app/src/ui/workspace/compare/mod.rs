@@ -18,7 +18,7 @@ mod probe;
 mod region;
 
 use super::Workspace;
-use crate::model::{CompareWith, Model, PaneId, ProbeWish, View, Wanted};
+use crate::model::{CompareWith, LightWish, Model, PaneId, ProbeWish, View, Wanted};
 use crate::ui::pressed::{HelpLine, Keys};
 use crate::ui::widgets::{Icon, choice, icon_button};
 use crate::ui::{UiContext, controls};
@@ -94,6 +94,7 @@ impl Workspace for Compare {
     fn ui(&mut self, cx: &mut UiContext, ui: &mut Ui) {
         // until the card is found open
         cx.model.state.histograms = false;
+        cx.model.state.light_bars.clear();
         controls::panel(cx, ui, heads, cards);
         plots::drawer(cx, ui);
         probe::drawer(cx, ui);
@@ -109,6 +110,7 @@ impl Workspace for Compare {
             comparisons: panes.map(|id| session.comparison.comparison(id)).collect(),
             histograms: model.state.histograms,
             probe: session.probe.open.then_some(ProbeWish { at: session.probe.at, sample: model.state.probed_sample }),
+            light: light_wishes(model),
             map: (session.view == View::ErrorMap).then(|| session.comparison.map()),
             ..model.wanted(session.panes.ids())
         }
@@ -184,4 +186,15 @@ fn explain(view: View) -> &'static str {
         View::SideBySide => "Both whole, each in half of the window (4)",
         View::ErrorMap => "Where the errors are, and how large (5)",
     }
+}
+
+/// The pictures whose light by bounce is in sight.
+fn light_wishes(model: &Model) -> Vec<LightWish> {
+    let (bars, picture) = (&model.state.light_bars, &model.state.picture);
+    if bars.is_empty() || picture.size.0 == 0 || picture.size.1 == 0 {
+        return Vec::new();
+    }
+    let shot = model.document.shot(picture);
+    let technique = |id: PaneId| Some(model.session.panes.get(id)?.in_use());
+    bars.iter().filter_map(|id| LightWish::of(*id, &shot, technique(*id)?)).collect()
 }

@@ -63,6 +63,7 @@ impl LabelText {
             text.notes.extend(missing(&traced.blind_spots(&made.shot.scene)));
             let source = traced.noise_source(&made.shot.scene).filter(|_| shown.noisy);
             text.notes.extend(source.map(|source| source.words().to_owned()));
+            text.notes.extend(part_of_the_light(&made.technique).filter(|_| told.is_none()));
             text.facts.extend(branching(traced, shown, beside));
             text.facts.extend(shown.lag.map(|lag| format!("+ {lag} (lag)")));
             text.facts.extend(denoised(shown, made.technique.denoise()));
@@ -204,6 +205,13 @@ fn troubles(shown: &PaneView) -> Vec<String> {
     let left_out = format!("{} samples were not finite and are left out", shown.nonfinite);
     let filter_fault = shown.filter_fault.as_ref().map(|fault| fault.to_string());
     refused.into_iter().chain(filter_fault).chain(cut).chain((shown.nonfinite > 0).then_some(left_out)).collect()
+}
+
+/// Why a picture of a part of the light has no errors.
+fn part_of_the_light(technique: &Technique) -> Option<String> {
+    let paths = technique.light();
+    let expression = paths.named().map_or_else(|| paths.to_string(), |named| named.expression());
+    (!paths.is_all()).then(|| format!("only {expression}: no error against other light"))
 }
 
 /// "missing: light behind glass, indirect light (biased)".
