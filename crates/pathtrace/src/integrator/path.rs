@@ -200,9 +200,15 @@ impl<'a, F: Float> PathLanes<'a, F> {
     /// Adds radiance that came along the path, where `here` says so and it counts.
     #[inline(always)]
     pub(super) fn receive(&mut self, here: F::M, radiance: Vector<F>) {
-        let here = if self.plan.counted.is_some() { here & counts(self.path.light_path) } else { here };
+        let here = self.counting(here);
         let sum = self.outcome.radiance + self.path.throughput * radiance;
         self.outcome.radiance = Vector::select(here, sum, self.outcome.radiance);
+    }
+
+    /// Where light counts that is found now.
+    #[inline(always)]
+    fn counting(&self, here: F::M) -> F::M {
+        if self.plan.counted.is_some() { here & counts(self.path.light_path) } else { here }
     }
 
     /// Notes paths that end although no setting asked for it.
@@ -327,7 +333,7 @@ impl<'a, F: Float> PathLanes<'a, F> {
     fn sample_lights(&mut self, here: F::M, at: &Interactions<F>, directions: &DirectionsAt<F>, u: [F; 4]) {
         let sample = self.scene.lights.table().sample(at.point.position, u[2], [u[0], u[1]]);
         let cosine = at.normal.dot(sample.wi);
-        let faced = here & sample.shines & cosine.gt(F::splat(0.0));
+        let faced = self.counting(here) & sample.shines & cosine.gt(F::splat(0.0));
         self.rays += u64::from(faced.count());
         if !faced.any() {
             return;
