@@ -26,14 +26,14 @@ fn sphere_distance(center: vec3f, radius: f32, ray: Ray) -> f32 {
     return max(select(max(t0, t1), near, near > 0.0), 0.0);
 }
 
-// Of the square of a radius.
+// Of the square of a radius. Here alone: the processor's roots are exact.
 const AN_ULP_OUTSIDE: f32 = 1.0000001;
 
 // The point at the distance t of sphere_distance, relative to the centre. From the point of the ray nearest to the
 // centre, not along the ray: what a long t rounds does not turn the normal. A device's roots and quotients are off by
 // some ulp, always to the same side. Where that draws each meeting a little inwards, a ray that came into a glass ball at
 // a grazing angle is beyond the critical one after some ten reflections and never leaves; so a step of Newton's along
-// the ray ends an ulp outside, from where rounding lets it leave a little sooner. Here alone: the processor's are exact.
+// the ray ends an ulp outside, from where rounding lets it leave a little sooner.
 fn sphere_meeting(center: vec3f, radius: f32, ray: Ray, t: f32) -> vec3f {
     let f = ray.origin - center;
     let d = ray.direction;
