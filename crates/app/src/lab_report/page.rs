@@ -193,7 +193,8 @@ impl LabReport {
         let names =
             ["Picture", "Samples per pixel", "Time", "Processor time", "Samples a second", "Rays a second", "Made by"];
         let rows: String = self.pictures.iter().map(row_of_times).collect();
-        let on_gpu = self.pictures.iter().filter(|picture| picture.provenance.device == Device::Gpu);
+        let made_here = self.pictures.iter().filter(|picture| picture.external.is_none());
+        let on_gpu = made_here.filter(|picture| picture.provenance.device == Device::Gpu);
         let mut adapters: Vec<&str> = on_gpu.map(|picture| picture.adapter.as_str()).collect();
         adapters.dedup();
         let adapter = if adapters.is_empty() { "not used".to_owned() } else { adapters.join(", ") };
@@ -216,10 +217,14 @@ impl LabReport {
         let reference = reference.map(|picture| format!("{}\n", picture.provenance.shot.reference_command()));
         let commands: String = self.pictures.iter().map(line).chain(reference).collect();
         let session = data_uri("application/toml", self.session_text.as_bytes());
+        let page = if self.pictures.iter().any(|picture| picture.external.is_some()) {
+            "from there such a page is saved."
+        } else {
+            "<code>visavis report session.toml -o report.html</code> makes such a page."
+        };
         format!(
             "<p>Each of these lines makes one picture:</p>\n<pre><code>{}</code></pre>\n\
-             <p>The session makes all of it: saved as a file, <code>visavis session.toml</code> opens it in a window, and \
-             <code>visavis report session.toml -o report.html</code> makes such a page.</p>\n\
+             <p>The session makes all of it: saved as a file, <code>visavis session.toml</code> opens it in a window, and {page}</p>\n\
              <details>\n<summary>The session</summary>\n\
              <p><a download=\"session.toml\" href=\"{session}\">Save as session.toml</a></p>\n\
              <pre><code>{}</code></pre>\n</details>\n",
@@ -318,12 +323,13 @@ fn row_of_times(picture: &ReportedPicture) -> String {
         1 => picture.spp_of_run().to_string(),
         runs => format!("{runs} × {}", picture.spp_of_run()),
     });
+    let stats = picture.stats.filter(|_| picture.external.is_none());
     let cells = [
         known(samples),
-        number(&duration(picture.seconds)),
+        known(Some(duration(picture.seconds)).filter(|_| picture.external.is_none())),
         known(picture.core_seconds.map(|seconds| format!("{seconds:.2} core-seconds"))),
-        known(picture.stats.map(|stats| a_second(stats.samples))),
-        known(picture.stats.map(|stats| a_second(stats.rays))),
+        known(stats.map(|stats| a_second(stats.samples))),
+        known(stats.map(|stats| a_second(stats.rays))),
         cell(&match &picture.external {
             Some(external) => external.source.to_string(),
             None => format!("{}: {}", picture.provenance.device.name(), picture.adapter),

@@ -1,6 +1,6 @@
-//! What undo gives back: the camera, the settings of all panes, the scene's sliders and the display.
+//! What undo gives back: the camera, the settings of all panes, what a sweep varies, the scene's sliders and the display.
 
-use super::{Document, PaneSource, Panes, Resolution, Session};
+use super::{Axis, Document, Equal, PaneSource, Panes, Resolution, Session};
 use film::DisplayTransform;
 use scene::Camera;
 use technique::{PaneSettings, SceneChanges};
@@ -16,6 +16,8 @@ pub struct Settings {
     pub panes: Panes<PaneSettings>,
     /// Where the pictures come from that are not made here.
     pub sources: Panes<PaneSource>,
+    /// What a sweep varies along columns and rows, what is equal of its tiles, and their seconds.
+    pub sweep: (Axis, Axis, Equal, f32),
     /// How all are shown.
     pub display: DisplayTransform,
     /// How many pixels pictures have.
@@ -25,12 +27,13 @@ pub struct Settings {
 impl Settings {
     /// The settings as they stand now.
     pub fn of(document: &Document, session: &Session) -> Self {
-        let Session { panes, sources, display, resolution, .. } = session;
+        let Session { panes, sources, sweep, display, resolution, .. } = session;
         Settings {
             camera: document.camera,
             changes: document.changes,
             panes: panes.clone(),
             sources: sources.clone(),
+            sweep: (sweep.columns.clone(), sweep.rows.clone(), sweep.equal, sweep.seconds),
             display: *display,
             resolution: *resolution,
         }
@@ -40,6 +43,8 @@ impl Settings {
     pub fn restore(self, document: &mut Document, session: &mut Session) {
         (document.camera, document.changes) = (self.camera, self.changes);
         (session.panes, session.sources) = (self.panes, self.sources);
+        let sweep = &mut session.sweep;
+        (sweep.columns, sweep.rows, sweep.equal, sweep.seconds) = self.sweep;
         (session.display, session.resolution) = (self.display, self.resolution);
     }
 }

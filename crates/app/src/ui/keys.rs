@@ -37,7 +37,9 @@ pub fn listen(workspaces: &mut Workspaces, cx: &mut UiContext, context: &Context
         let to = Destination::File(export_menu::session_file(cx.model));
         cx.commands.push(UiCommand::Export(ExportRequest { subject: ExportSubject::Session, to }));
     }
-    if keys.command(Key::P) > 0 {
+    if keys.command(Key::P) > 0 && cx.model.session.sweep.open {
+        cx.model.say(Err("a report is of the comparison: S or Esc goes back to it".into()));
+    } else if keys.command(Key::P) > 0 {
         let to = Destination::File(export_menu::report_file(cx.model));
         cx.commands.push(UiCommand::Export(ExportRequest { subject: ExportSubject::Report, to }));
     }

@@ -220,7 +220,8 @@ impl WindowState {
         let painting = Painting { jobs: &jobs, screen };
         self.viewer.take_commands().into_iter().for_each(|command| self.handle(command));
         self.viewer.ask();
-        self.stats.note(self.viewer.model.session.view.name(), clock.elapsed());
+        let session = &self.viewer.model.session;
+        self.stats.note(if session.sweep.open { "Sweep" } else { session.view.name() }, clock.elapsed());
         poses.into_iter().for_each(|to| self.capture(&painting, to));
         let shown = self.surface.present(&self.gpu, &painting);
         for id in &textures.free {

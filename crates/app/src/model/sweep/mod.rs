@@ -9,7 +9,7 @@ pub use caption::{TileErrors, TileFacts, best, captions, sweep_csv};
 pub use plan::{Line, MOST_TILES, MOST_VALUES, PlannedTile, SweepPlan, TECHNIQUE};
 pub use presets::{SWEEPS, SweepPreset};
 
-use super::{Model, PaneId};
+use super::{Model, PaneId, PaneSource};
 use scene::Scene;
 use technique::settings::{Kind, Look, Setting, Value, all_of_panes};
 use technique::{PaneSettings, TechniqueName};
@@ -180,6 +180,13 @@ impl Model {
     pub fn sweep_plan(&self) -> Result<SweepPlan, String> {
         let sweep = &self.session.sweep;
         let base = self.session.panes.get(sweep.of).ok_or_else(|| format!("there is no pane {}", sweep.of))?;
+        if *self.session.source(sweep.of) != PaneSource::Made {
+            let of = sweep.of;
+            return Err(format!(
+                "{of} shows another program's picture, of which nothing can be varied: choose the other pane above, a technique \
+                 for {of}, or a ready sweep"
+            ));
+        }
         let seconds = (sweep.equal == Equal::Time).then_some(sweep.seconds);
         SweepPlan::of(base, [&sweep.columns, &sweep.rows], seconds)
     }
@@ -187,6 +194,9 @@ impl Model {
     /// Notes what can be made of the sweep as it is set, before it is drawn.
     pub fn follow_the_sweep(&mut self) {
         let plan = self.sweep_plan();
+        if *self.session.source(self.session.sweep.of) != PaneSource::Made {
+            self.state.sweep.plan = None;
+        }
         self.state.sweep.fault = plan.as_ref().err().cloned();
         self.state.sweep.plan = plan.ok().or(self.state.sweep.plan.take());
     }
@@ -197,7 +207,9 @@ impl Model {
         (sweep.columns, sweep.rows) = (Axis::new(preset.columns.0, preset.columns.1), preset.rows());
         sweep.equal = if preset.seconds.is_some() { Equal::Time } else { Equal::Samples };
         sweep.seconds = preset.seconds.unwrap_or(sweep.seconds);
-        let pane = &mut self.session.panes[sweep.of];
+        let of = sweep.of;
+        self.session.set_source(of, PaneSource::Made);
+        let pane = &mut self.session.panes[of];
         preset.base().apply(pane, &self.document.scene);
         self.say(Ok(format!("{}: {}", preset.title, preset.about)));
     }

@@ -25,13 +25,21 @@ const LEAST_HEIGHT: f32 = 120.0;
 /// What stands for nothing, as the name of a line that has none in the legend.
 const UNNAMED: &str = "";
 
+/// Height that a drawer below the pictures may take at most, in points: all that are open leave them two fifths of the window.
+pub fn drawer_room(cx: &UiContext, ui: &Ui) -> f32 {
+    let open = [cx.model.session.plots.open, cx.model.session.probe.open].iter().filter(|open| **open).count();
+    0.6 * ui.ctx().content_rect().height() / open.max(1) as f32
+}
+
 /// Draws the drawer, if it is open.
 pub fn drawer(cx: &mut UiContext, ui: &mut Ui) {
     if !cx.model.session.plots.open {
         return;
     }
     let frame = Frame::new().fill(palette(ui).panel).inner_margin(Margin::symmetric(10, 6));
-    let panel = egui::Panel::bottom("plots").resizable(true).default_size(HEIGHT).min_size(LEAST_HEIGHT).frame(frame);
+    let most = drawer_room(cx, ui);
+    let panel = egui::Panel::bottom("plots").resizable(true).default_size(HEIGHT.min(most)).frame(frame);
+    let panel = panel.size_range(LEAST_HEIGHT.min(most)..=most);
     panel.show(ui, |ui| {
         let mut curves = cx.shown.curves();
         head(cx, ui, &curves);

@@ -76,7 +76,8 @@ pub fn show(cx: &mut UiContext, ui: &mut Ui) {
     };
     let font = figures().resolve(ui.style());
     let row = 1.3 * font.size;
-    let lines = 2 + plan.tiles.first().map_or(1, |tile| tile.names.len());
+    let labels = cx.model.state.labels;
+    let lines = if labels { 2 + plan.tiles.first().map_or(1, |tile| tile.names.len()) } else { 0 };
     let grid = Grid::of(&plan, room.size(), lines as f32 * row);
     note_area(cx, ui, &grid);
     let measure = cx.model.session.sweep.measure;
@@ -89,7 +90,9 @@ pub fn show(cx: &mut UiContext, ui: &mut Ui) {
         let rect = grid.rect(index, corner);
         let best = best.contains(&index);
         show_tile(cx, ui, rect, (index, tile), (&caption, best));
-        letter(ui, rect, (&caption, best), (&fitting, row));
+        if labels {
+            letter(ui, rect, (&caption, best), (&fitting, row));
+        }
     }
     speak(cx, ui, room, "");
 }

@@ -6,6 +6,7 @@ mod mean;
 mod spread;
 
 use super::magnify;
+use super::plots::drawer_room;
 use crate::model::{Channel, Destination, ExportRequest, ExportSubject, PaneId, pixel_at};
 use crate::ui::pressed::Keys;
 use crate::ui::theme::palette;
@@ -92,7 +93,9 @@ pub fn drawer(cx: &mut UiContext, ui: &mut Ui) {
     }
     let frame = Frame::new().fill(palette(ui).panel).inner_margin(Margin::symmetric(10, 6));
     let height = HEIGHT.max(ROWS * ui.text_style_height(&TextStyle::Body));
-    let panel = egui::Panel::bottom("probe").resizable(true).default_size(height).min_size(LEAST_HEIGHT).frame(frame);
+    let most = drawer_room(cx, ui);
+    let panel = egui::Panel::bottom("probe").resizable(true).default_size(height.min(most)).frame(frame);
+    let panel = panel.size_range(LEAST_HEIGHT.min(most)..=most);
     panel.show(ui, |ui| {
         head(cx, ui);
         let room = ui.available_width();
