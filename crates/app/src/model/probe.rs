@@ -225,8 +225,13 @@ pub struct Bin {
     pub count: u32,
 }
 
-/// Bins of a histogram.
-const BINS: usize = 40;
+/// Bins of a histogram, at least and at most: few samples in many bins would be a thicket of ones and noughts.
+const BINS: RangeInclusive<f64> = 8.0..=40.0;
+
+/// In proportion to the square root, so that of more samples there are both more bins and more in each.
+fn bins_for(samples: usize) -> usize {
+    (2.0 * (samples as f64).sqrt()).clamp(*BINS.start(), *BINS.end()) as usize
+}
 
 /// The largest of so many times the mean of those above 0 has a tail.
 const HEAVY: f64 = 8.0;
@@ -257,10 +262,10 @@ fn bins(values: &[f64], from: f64, to: f64, place: impl Fn(f64) -> f64, value: i
     if values.is_empty() {
         return Vec::new();
     }
-    let width = (to - from).max(1e-9) / BINS as f64;
-    let mut counts = [0; BINS];
+    let mut counts = vec![0; bins_for(values.len())];
+    let (width, last) = ((to - from).max(1e-9) / counts.len() as f64, counts.len() - 1);
     for at in values {
-        counts[(((place(*at) - from) / width).max(0.0) as usize).min(BINS - 1)] += 1;
+        counts[(((place(*at) - from) / width).max(0.0) as usize).min(last)] += 1;
     }
     let edge = |index: usize| value(from + width * index as f64);
     counts.into_iter().enumerate().map(|(i, count)| Bin { range: edge(i)..=edge(i + 1), count }).collect()
@@ -336,6 +341,18 @@ mod tests {
         assert_eq!(heavy.logarithmic.last().map(|bin| bin.count), Some(1), "alone at the end");
         assert_eq!((Spread::of(&[0.0; 3]).even, Spread::of(&[]).zeros), (Vec::new(), 0));
         assert_eq!(Spread::of(&[2.0; 3]).logarithmic.iter().map(|bin| bin.count).sum::<u32>(), 3);
+    }
+
+    #[test]
+    fn few_samples_have_few_bins_and_many_no_more_than_can_be_told_apart() {
+        let values = |samples: u32| (1..=samples).map(f64::from).collect::<Vec<_>>();
+        let bins = [1, 16, 100, 1000, 65_536].map(|samples| Spread::of(&values(samples)).even.len());
+        assert_eq!(bins, [8, 8, 20, 40, 40]);
+        assert_eq!(
+            Spread::of(&[[0.0; 384].as_slice(), &values(16)].concat()).logarithmic.len(),
+            8,
+            "zeros are in none"
+        );
     }
 
     #[test]
