@@ -114,7 +114,9 @@ impl Presentation {
         self.shown.panes.retain(|pane, _| is_wanted(pane));
         self.textures.panes.retain(|pane, _| is_wanted(pane));
         self.pictures.retain(|pane, _| is_wanted(pane));
-        self.shown.probe.retain(|pane, _| wanted.probe.is_some() && is_wanted(pane));
+        let is_traced =
+            |pane| wanted.panes.get(pane).is_some_and(|pane| matches!(pane.technique, Technique::Traced(_)));
+        self.shown.probe.retain(|pane, _| wanted.probe.is_some() && is_traced(pane));
         if wanted.map.is_none() {
             (self.shown.map, self.textures.map) = (None, None);
         }
@@ -222,4 +224,34 @@ fn records_of(picture: &Picture, display: DisplayTransform) -> Records {
 fn filter_of(picture: &Picture) -> TextureFilter {
     let is_map = matches!(picture.order.provenance.technique, Technique::Fake(fake) if fake.show.is_map());
     if picture.rough || is_map { TextureFilter::Linear } else { TextureFilter::Nearest }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::model::{PaneSource, ProbeWish, Theme};
+    use technique::TechniqueName;
+
+    /// The panes of which samples are kept, where B is changed after both were traced.
+    fn sampled_after(change: impl FnOnce(&mut Model)) -> Vec<PaneId> {
+        let mut model = Model::new(scene::builtin::named("cornell").unwrap(), "cornell".into(), Theme::Dark);
+        model.state.picture.size = (1, 1);
+        let panes = [PaneId::A, PaneId::B];
+        panes.iter().for_each(|pane| model.session.panes[*pane].technique = TechniqueName::Path);
+        let mut presentation = Presentation::default();
+        presentation.update_probe(panes.into_iter().map(|pane| (pane, PaneProbe::default())).collect());
+        change(&mut model);
+        presentation.keep(&Wanted { probe: Some(ProbeWish { at: [0.5; 2], sample: None }), ..model.wanted(panes) });
+        presentation.shown.probe.ids().collect()
+    }
+
+    #[test]
+    fn samples_go_with_the_technique_that_they_are_of() {
+        assert_eq!(sampled_after(|_| ()), [PaneId::A, PaneId::B]);
+        assert_eq!(
+            sampled_after(|model| model.session.panes[PaneId::B].technique = TechniqueName::Raster),
+            [PaneId::A]
+        );
+        assert_eq!(sampled_after(|model| model.session.set_source(PaneId::B, PaneSource::Received(9))), [PaneId::A]);
+    }
 }

@@ -63,9 +63,11 @@ fn the_mean_of_the_samples_is_the_pixel_of_the_picture_and_follows_it() {
     }
     user.change(|model| model.state.probed_sample = Some(7));
     user.wait_for("another sample", |f| f.value("integral B").contains("sample 8 is "));
-    user.change(|model| model.session.panes[PaneId::B].technique = TechniqueName::Metropolis);
-    user.wait_for("why there are none", |f| f.value("integral B").contains("choose their pixels themselves"));
     user.change(|model| model.session.panes[PaneId::B].technique = TechniqueName::Raster);
     user.wait_for("the fake's one value", |f| f.value("integral B").contains("there are no samples"));
+    let table = save_samples(&mut user, "of-a-alone.csv");
+    assert_eq!(["A", "B"].map(|pane| samples(&table, pane).len()), [16, 0], "a fake has none");
+    user.change(|model| model.session.panes[PaneId::B].technique = TechniqueName::Metropolis);
+    user.wait_for("why there are none", |f| f.value("integral B").contains("choose their pixels themselves"));
     assert!(!user.key(Key::B).shows("integral B"));
 }
