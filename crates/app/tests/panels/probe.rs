@@ -2,12 +2,13 @@
 
 use crate::Panels;
 use egui::{Event, Key, Modifiers, PointerButton, Pos2, Vec2, pos2, vec2};
-use film::Vec3;
+use film::{Image, Vec3};
 use pathtrace::{FirstVertex, Met, Term, Terms};
 use std::sync::Arc;
-use technique::TechniqueName;
+use technique::{Device, PaneSettings, Provenance, Shot, TechniqueName};
 use visavis::model::{
-    Channel, Destination, ExportRequest, ExportSubject, Model, PaneId, PaneProbe, PixelSamples, Theme, ViewModel,
+    Channel, Destination, ExportRequest, ExportSubject, External, Model, PaneId, PaneProbe, PaneSource, PixelSamples,
+    Theme, ViewModel,
 };
 use visavis::ui::{UiCommand, Workspaces};
 
@@ -32,17 +33,35 @@ fn vertex() -> FirstVertex {
 
 /// A window in which this is known of B's pixel.
 fn panels(probe: PaneProbe) -> Panels {
-    let scene = scene::builtin::named("cornell").expect("a built-in scene");
     let mut shown = ViewModel::default();
     shown.probe.insert(PaneId::B, probe);
+    panels_that_show(shown)
+}
+
+fn panels_that_show(shown: ViewModel) -> Panels {
+    let scene = scene::builtin::named("cornell").expect("a built-in scene");
     let mut panels = Panels::with(Model::new(scene, "cornell".into(), Theme::Dark), Workspaces::default(), shown);
     panels.harness.run_steps(2);
     panels
 }
 
-fn with_samples() -> Panels {
+fn probe_of_samples() -> PaneProbe {
     let samples = Some(Arc::new(PixelSamples::new([3, 4], 64, samples())));
-    panels(PaneProbe { samples, vertex: Some((63, vertex())), fault: None })
+    PaneProbe { samples, vertex: Some((63, vertex())), fault: None }
+}
+
+fn with_samples() -> Panels {
+    panels(probe_of_samples())
+}
+
+/// What there is to show where B was traced and then had a picture of one grey.
+fn with_a_picture(external: Option<External>) -> ViewModel {
+    let mut shown = ViewModel::default();
+    shown.probe.insert(PaneId::B, probe_of_samples());
+    let pane = shown.panes.entry(PaneId::B);
+    pane.image = Image::new(8, 8, vec![Vec3::splat(0.25); 64]);
+    pane.external = external.map(Arc::new);
+    shown
 }
 
 impl Panels {
@@ -157,4 +176,46 @@ fn what_has_no_samples_of_one_pixel_says_why() {
     panels.press_with(Key::B, Modifiers::NONE);
     assert!(panels.shows("B: no samples of one pixel: the chains of Metropolis choose their pixels themselves"));
     assert!(!panels.shows("Sample before"));
+}
+
+#[test]
+fn another_programs_picture_has_one_value_whatever_the_pane_was_before() {
+    let source = PaneSource::Followed("/pictures/mine.exr".into());
+    let (name, notes, fault) = ("mine.exr".to_owned(), Vec::new(), None);
+    let external = External { name, source: source.clone(), changes: 0, notes, fault };
+    for (shown, words) in [
+        (with_a_picture(Some(external)), "B: 0.250, one value: the picture of another program has no samples here"),
+        (with_a_picture(None), "B: no picture yet"),
+    ] {
+        let mut panels = panels_that_show(shown);
+        panels.model.borrow_mut().session.set_source(PaneId::B, source.clone());
+        panels.press_with(Key::B, Modifiers::NONE);
+        assert!(panels.shows(words), "{words}");
+        for of_samples in ["B: tracing", "N = 64", "of 64 samples", "are 0", "Sample before"] {
+            assert!(!panels.shows(of_samples), "{words}: {of_samples}");
+        }
+    }
+}
+
+/// The same picture, made so.
+fn with_a_picture_by(technique: TechniqueName, device: Device) -> ViewModel {
+    let mut shown = with_a_picture(None);
+    let scene = scene::builtin::named("cornell").expect("a built-in scene");
+    let provenance =
+        Provenance { shot: Shot::of(scene, (8, 8)), technique: PaneSettings::of(technique).in_use(), device };
+    shown.panes[PaneId::B].provenance = Some(Arc::new(provenance));
+    shown
+}
+
+#[test]
+fn a_fake_has_the_value_of_its_own_picture_and_of_none_that_was_traced_before() {
+    for (shown_is, words) in [
+        (TechniqueName::Raster, "B: 0.250, one value: there are no samples"),
+        (TechniqueName::Path, "B: no picture yet"),
+    ] {
+        let mut panels = panels_that_show(with_a_picture_by(shown_is, Device::Cpu));
+        panels.model.borrow_mut().session.panes[PaneId::B].technique = TechniqueName::Raster;
+        panels.press_with(Key::B, Modifiers::NONE);
+        assert!(panels.shows(words) && !panels.shows("of 64 samples"), "{words}");
+    }
 }

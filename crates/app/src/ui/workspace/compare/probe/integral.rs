@@ -1,7 +1,7 @@
 //! The tutorial's integral with the numbers of one sample in it, and what all samples make of it.
 
 use super::mean::ERRORS;
-use super::{spread, value_without_samples};
+use super::{is_external, probed, samples, spread, traced, value_without_samples};
 use crate::model::{Channel, PaneId, PaneProbe, PixelSamples};
 use crate::ruler::brief;
 use crate::ui::UiContext;
@@ -26,8 +26,7 @@ pub fn turn(cx: &mut UiContext, by: i64) {
 }
 
 fn most_samples(cx: &UiContext) -> u32 {
-    let counts = cx.shown.probe.values().filter_map(|probe| Some(probe.samples.as_ref()?.samples.len() as u32));
-    counts.max().unwrap_or(0)
+    samples(cx).map(|(_, samples)| samples.samples.len() as u32).max().unwrap_or(0)
 }
 
 pub fn show(cx: &mut UiContext, ui: &mut Ui) {
@@ -72,10 +71,10 @@ fn stepper(cx: &mut UiContext, ui: &mut Ui) {
 /// What is known of a pane's pixel, its name first.
 fn lines(cx: &UiContext, pane: PaneId) -> Vec<String> {
     let channel = cx.model.session.probe.channel;
-    if let Some(value) = value_without_samples(cx, pane) {
-        return vec![format!("{pane}: {}, one value: there are no samples", brief(channel.of(value)))];
+    if traced(cx, pane).is_none() {
+        return vec![without_samples(cx, pane, channel)];
     }
-    match cx.shown.probe.get(pane) {
+    match probed(cx, pane) {
         None => vec![format!("{pane}: tracing ...")],
         Some(PaneProbe { fault: Some(fault), .. }) => vec![format!("{pane}: no samples of one pixel: {fault}")],
         Some(PaneProbe { samples, vertex, .. }) => {
@@ -89,6 +88,16 @@ fn lines(cx: &UiContext, pane: PaneId) -> Vec<String> {
             lines
         }
     }
+}
+
+/// What there is of a picture whose pixels have one value each.
+fn without_samples(cx: &UiContext, pane: PaneId, channel: Channel) -> String {
+    let Some(value) = value_without_samples(cx, pane) else { return format!("{pane}: no picture yet") };
+    let value = brief(channel.of(value));
+    if is_external(cx, pane) {
+        return format!("{pane}: {value}, one value: the picture of another program has no samples here");
+    }
+    format!("{pane}: {value}, one value: there are no samples")
 }
 
 fn met_words(met: Met) -> &'static str {
@@ -166,18 +175,19 @@ fn of_all(cx: &UiContext, pane: PaneId, samples: &PixelSamples, channel: Channel
     if samples.wished > last.samples && last.samples >= crate::model::MOST_PROBED {
         lines.push(format!("the first {} of {} samples", last.samples, samples.wished));
     }
-    if sampler(cx, pane) == Some(SamplerKind::Sobol) {
+    let Some(technique) = traced(cx, pane) else { return lines };
+    if sampler(&technique) == Some(SamplerKind::Sobol) {
         lines.push("Sobol's points keep apart: the error is smaller than their spread says".into());
     }
-    let traced = cx.shown.panes.get(pane).and_then(|shown| shown.provenance.as_ref());
-    if traced.is_some_and(|made| made.technique.denoise().is_on()) {
+    let made = cx.shown.panes.get(pane).and_then(|shown| shown.provenance.as_ref());
+    if made.is_some_and(|made| made.technique.denoise().is_on()) {
         lines.push("before the denoiser".into());
     }
     lines
 }
 
-fn sampler(cx: &UiContext, pane: PaneId) -> Option<SamplerKind> {
-    match cx.model.session.panes.get(pane)?.in_use() {
+fn sampler(technique: &Technique) -> Option<SamplerKind> {
+    match technique {
         Technique::Traced(settings) => Some(settings.integrator.sampler()),
         Technique::Fake(_) => None,
     }

@@ -1,7 +1,7 @@
 //! How the mean of a pixel's samples settles: over their number, on a logarithmic axis, with two standard errors about it.
 
 use super::super::plots::{decades, fixed, tick_of};
-use super::{radiance, value_without_samples};
+use super::{probed, radiance, value_without_samples};
 use crate::model::{Channel, PaneId, RunningMean};
 use crate::ruler::brief;
 use crate::ui::UiContext;
@@ -78,7 +78,7 @@ fn draw(cx: &UiContext, plot: &mut PlotUi, pane: PaneId, channel: Channel, palet
         plot.hline(HLine::new(pane.name(), channel.of(value)).color(colour).style(style).width(2.5));
         return;
     }
-    let Some(samples) = cx.shown.probe.get(pane).and_then(|probe| probe.samples.as_ref()) else { return };
+    let Some(samples) = probed(cx, pane).and_then(|probe| probe.samples.as_ref()) else { return };
     let course = &samples.drawn(channel).course;
     band(plot, pane, course, colour);
     let places: PlotPoints = course.iter().map(|mean| [place(mean), mean.mean]).collect();
@@ -117,7 +117,7 @@ fn in_words(cx: &UiContext, pane: PaneId, channel: Channel) -> Option<String> {
     if let Some(value) = value_without_samples(cx, pane) {
         return Some(format!("{pane}: {}, one value without samples", brief(channel.of(value))));
     }
-    let probe = cx.shown.probe.get(pane)?;
+    let probe = probed(cx, pane)?;
     if let Some(fault) = &probe.fault {
         return Some(format!("{pane}: {fault}"));
     }

@@ -7,7 +7,9 @@ mod spread;
 
 use super::magnify;
 use super::plots::drawer_room;
-use crate::model::{Channel, Destination, ExportRequest, ExportSubject, PaneId, pixel_at};
+use crate::model::{
+    Channel, Destination, ExportRequest, ExportSubject, PaneId, PaneProbe, PaneSource, PixelSamples, pixel_at,
+};
 use crate::ui::pressed::Keys;
 use crate::ui::theme::palette;
 use crate::ui::widgets::{Explained, Icon, choice, framed, icon_button};
@@ -121,7 +123,7 @@ fn head(cx: &mut UiContext, ui: &mut Ui) {
         if let Some(index) = choice(("samples of", "Samples"), words, ui, cx.dump) {
             *chosen = Channel::ALL[index];
         }
-        let any = cx.shown.probe.values().any(|probe| probe.samples.is_some());
+        let any = samples(cx).next().is_some();
         let button = ui.add_enabled(any, framed("CSV", ui)).explained("All samples as comma-separated values");
         let button = button.accessible_name("Save the samples as CSV");
         if cx.dump.note("samples CSV", any, button).clicked() {
@@ -141,10 +143,32 @@ fn radiance(cx: &UiContext, image: &Image) -> Option<Vec3> {
     image.at(column, row)
 }
 
-/// The one value of a pane whose technique takes no samples.
+/// Whether another program makes a pane's picture, so that the settings of the pane say nothing about it.
+fn is_external(cx: &UiContext, pane: PaneId) -> bool {
+    *cx.model.session.source(pane) != PaneSource::Made
+}
+
+/// The technique of a pane whose pixels have samples that can be traced again.
+fn traced(cx: &UiContext, pane: PaneId) -> Option<Technique> {
+    let technique = cx.model.session.panes.get(pane)?.in_use();
+    (matches!(technique, Technique::Traced(_)) && !is_external(cx, pane)).then_some(technique)
+}
+
+/// What is known of a pane's pixel, where it has samples: none of the technique that the pane had before.
+fn probed<'a>(cx: &UiContext<'a>, pane: PaneId) -> Option<&'a PaneProbe> {
+    cx.shown.probe.get(pane).filter(|_| traced(cx, pane).is_some())
+}
+
+/// The samples of each pane that has any.
+fn samples<'a>(cx: &UiContext<'a>) -> impl Iterator<Item = (PaneId, &'a PixelSamples)> {
+    let of = |pane| Some((pane, probed(cx, pane)?.samples.as_deref()?));
+    cx.shown.probe.ids().filter_map(of)
+}
+
+/// The one value of a pane whose pixels have no samples.
 fn value_without_samples(cx: &UiContext, pane: PaneId) -> Option<Vec3> {
-    let settings = cx.model.session.panes.get(pane)?;
-    let sampled = matches!(settings.in_use(), Technique::Traced(_));
-    let image = cx.shown.panes.get(pane)?.image.as_ref()?;
-    radiance(cx, image).filter(|_| !sampled)
+    let shown = cx.shown.panes.get(pane)?;
+    let was_traced = shown.provenance.as_ref().is_some_and(|made| matches!(made.technique, Technique::Traced(_)));
+    let is_of_before = was_traced || shown.external.is_some() != is_external(cx, pane);
+    radiance(cx, shown.image.as_ref()?).filter(|_| traced(cx, pane).is_none() && !is_of_before)
 }

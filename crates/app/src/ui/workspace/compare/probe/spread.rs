@@ -60,11 +60,7 @@ fn count_of(mark: GridMark) -> String {
 
 /// Of each pane that has samples.
 pub fn spreads(cx: &UiContext, channel: Channel) -> Vec<(PaneId, Spread)> {
-    let spread = |(id, probe): (PaneId, &crate::model::PaneProbe)| {
-        Some((id, probe.samples.as_ref()?.drawn(channel).spread.clone()))
-    };
-    let sampled = |(id, _): &(PaneId, Spread)| super::value_without_samples(cx, *id).is_none();
-    cx.shown.probe.iter().filter_map(spread).filter(sampled).collect()
+    super::samples(cx).map(|(id, samples)| (id, samples.drawn(channel).spread.clone())).collect()
 }
 
 /// Steps of the logarithms of its counts.
