@@ -219,3 +219,15 @@ fn a_fake_has_the_value_of_its_own_picture_and_of_none_that_was_traced_before() 
         assert!(panels.shows(words) && !panels.shows("of 64 samples"), "{words}");
     }
 }
+
+#[test]
+fn it_says_of_which_picture_the_samples_are_where_what_is_shown_is_another() {
+    let mut of_the_gpu = panels_that_show(with_a_picture_by(TechniqueName::Path, Device::Gpu));
+    of_the_gpu.press_with(Key::B, Modifiers::NONE);
+    assert!(of_the_gpu.shows("by the processor: the GPU, which made the picture, rounds differently"));
+    assert!(!of_the_gpu.shows("runs"));
+    let mut of_runs = with_samples();
+    of_runs.model.borrow_mut().session.panes[PaneId::B].runs = 4;
+    of_runs.press_with(Key::B, Modifiers::NONE);
+    assert!(of_runs.shows("the first of 4 runs") && !of_runs.shows("by the processor"));
+}

@@ -11,7 +11,7 @@ use egui::text::{LayoutJob, TextFormat};
 use egui::{Align, Color32, DragValue, FontId, Response, RichText, TextStyle, Ui};
 use film::Vec3;
 use pathtrace::{FirstVertex, Met, SamplerKind, Term, Terms};
-use technique::Technique;
+use technique::{Device, Technique};
 
 /// As the lecture writes it.
 const INTEGRAL: &str = "L_o = L_e + ∫ f_r L_i cosθ dω ≈ L_e + 1/N Σ f_r L_i cosθ / p(ω)";
@@ -176,12 +176,18 @@ fn of_all(cx: &UiContext, pane: PaneId, samples: &PixelSamples, channel: Channel
         lines.push(format!("the first {} of {} samples", last.samples, samples.wished));
     }
     let Some(technique) = traced(cx, pane) else { return lines };
+    if technique.runs() > 1 {
+        lines.push(format!("the first of {} runs", technique.runs()));
+    }
     if sampler(&technique) == Some(SamplerKind::Sobol) {
         lines.push("Sobol's points keep apart: the error is smaller than their spread says".into());
     }
     let made = cx.shown.panes.get(pane).and_then(|shown| shown.provenance.as_ref());
     if made.is_some_and(|made| made.technique.denoise().is_on()) {
         lines.push("before the denoiser".into());
+    }
+    if made.is_some_and(|made| made.device == Device::Gpu && matches!(made.technique, Technique::Traced(_))) {
+        lines.push("by the processor: the GPU, which made the picture, rounds differently".into());
     }
     lines
 }
