@@ -1,7 +1,7 @@
 //! The probe: a pixel looked into.
 
 use crate::Panels;
-use egui::{Event, Key, Modifiers, PointerButton, Pos2, Vec2, pos2, vec2};
+use egui::{Event, Key, Modifiers, PointerButton, Pos2, Shape, Vec2, pos2, vec2};
 use film::{Image, Vec3};
 use pathtrace::{FirstVertex, Met, Term, Terms};
 use std::sync::Arc;
@@ -230,4 +230,27 @@ fn it_says_of_which_picture_the_samples_are_where_what_is_shown_is_another() {
     of_runs.model.borrow_mut().session.panes[PaneId::B].runs = 4;
     of_runs.press_with(Key::B, Modifiers::NONE);
     assert!(of_runs.shows("the first of 4 runs") && !of_runs.shows("by the processor"));
+}
+
+/// Whether a shape is a line of many steps, each upright or level.
+fn is_of_steps(shape: &Shape) -> bool {
+    let is_step = |ends: &[Pos2]| (ends[1] - ends[0]).abs().min_elem() < 1e-3;
+    match shape {
+        Shape::Vec(shapes) => shapes.iter().any(is_of_steps),
+        Shape::Path(path) => path.points.len() > 20 && path.points.windows(2).all(is_step),
+        _ => false,
+    }
+}
+
+/// A is drawn solid, and plots make bands of solid lines.
+#[test]
+fn the_outline_of_a_histogram_has_upright_steps() {
+    let mut shown = ViewModel::default();
+    shown.probe.insert(PaneId::A, probe_of_samples());
+    let mut panels = panels_that_show(shown);
+    panels.model.borrow_mut().session.panes[PaneId::A].technique = TechniqueName::Path;
+    let has_steps = |panels: &Panels| panels.harness.output().shapes.iter().any(|drawn| is_of_steps(&drawn.shape));
+    assert!(!has_steps(&panels), "closed");
+    panels.press_with(Key::B, Modifiers::NONE);
+    assert!(has_steps(&panels));
 }

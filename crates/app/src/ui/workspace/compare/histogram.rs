@@ -7,7 +7,7 @@ use crate::ui::theme::palette;
 use crate::ui::widgets::Explained;
 use compare::{Histogram, tick_text};
 use egui::{Rangef, RichText, Ui};
-use egui_plot::{AxisHints, Line, LineStyle, Plot, PlotPoint, PlotPoints, VLine, uniform_grid_spacer};
+use egui_plot::{AxisHints, LineStyle, Plot, PlotPoint, PlotPoints, VLine, uniform_grid_spacer};
 
 /// Of the plot, in points.
 const HEIGHT: f32 = 130.0;
@@ -40,7 +40,7 @@ pub fn show(cx: &mut UiContext, ui: &mut Ui) {
         plot.vline(VLine::new("white", white).color(palette.dim).style(LineStyle::Dotted { spacing: 5.0 }));
         for (id, histogram) in &histograms {
             let style = if *id == PaneId::A { LineStyle::Solid } else { LineStyle::Dashed { length: 7.0 } };
-            let line = Line::new(id.name(), PlotPoints::Owned(outline(histogram)));
+            let line = plots::line(id.name(), PlotPoints::Owned(outline(histogram)));
             plot.line(line.color(palette.pane(*id)).style(style).width(2.0));
         }
     });

@@ -125,7 +125,7 @@ fn plot(cx: &mut UiContext, ui: &mut Ui, curves: &[Curve], width: f32) {
         }
         if let Some(ends) = guide(curves, settings) {
             let (colour, style, width) = GUIDE.of(palette);
-            let line = Line::new(settings.measure.slope_name(), logs(ends.into_iter())).color(colour);
+            let line = line(settings.measure.slope_name(), logs(ends.into_iter())).color(colour);
             plot.line(line.style(style).width(width).allow_hover(false));
         }
         if let Some(floor) = floor {
@@ -144,6 +144,12 @@ fn plot(cx: &mut UiContext, ui: &mut Ui, curves: &[Curve], width: f32) {
 pub fn fixed(plot: Plot) -> Plot {
     let plot = plot.allow_drag(false).allow_zoom(false).allow_scroll(false);
     plot.allow_boxed_zoom(false).allow_axis_zoom_drag(false)
+}
+
+/// A line that goes through all of its points. By itself a plot merges those that lie within a pixel of each other to a band
+/// from the lowest to the highest: that slants the steps of an outline and thins what is steep.
+pub fn line<'a>(name: impl Into<String>, points: impl Into<PlotPoints<'a>>) -> Line<'a> {
+    Line::new(name, points).allow_band(false)
 }
 
 /// What lines are, each with its latest error: beside the plot, where no line is hidden.
@@ -206,7 +212,7 @@ fn draw(plot: &mut PlotUi, curve: &Curve, settings: PlotSettings, palette: &Pale
         return;
     }
     let places = curve.places(settings);
-    plot.line(Line::new(&*curve.name, logs(places.iter().copied())).color(colour).style(style).width(width));
+    plot.line(line(&*curve.name, logs(places.iter().copied())).color(colour).style(style).width(width));
     let last = places.into_iter().last();
     let mark = Points::new(UNNAMED, logs(last.into_iter())).color(colour).radius(1.5 * width + 1.0);
     plot.points(mark.shape(MarkerShape::Circle).allow_hover(false));

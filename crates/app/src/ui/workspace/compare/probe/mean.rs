@@ -1,6 +1,6 @@
 //! How the mean of a pixel's samples settles: over their number, on a logarithmic axis, with two standard errors about it.
 
-use super::super::plots::{decades, fixed, tick_of};
+use super::super::plots::{decades, fixed, line, tick_of};
 use super::{probed, radiance, value_without_samples};
 use crate::model::{Channel, PaneId, RunningMean};
 use crate::ruler::brief;
@@ -8,9 +8,7 @@ use crate::ui::UiContext;
 use crate::ui::theme::{Palette, palette};
 use crate::ui::widgets::Explained;
 use egui::{Color32, Rangef, Ui};
-use egui_plot::{
-    AxisHints, FilledArea, GridMark, HLine, Line, LineStyle, Plot, PlotPoints, PlotUi, uniform_grid_spacer,
-};
+use egui_plot::{AxisHints, FilledArea, GridMark, HLine, LineStyle, Plot, PlotPoints, PlotUi, uniform_grid_spacer};
 
 /// Standard errors at each side of the mean, between which the truth lies in 95 of 100 pixels.
 pub const ERRORS: f64 = 2.0;
@@ -82,7 +80,7 @@ fn draw(cx: &UiContext, plot: &mut PlotUi, pane: PaneId, channel: Channel, palet
     let course = &samples.drawn(channel).course;
     band(plot, pane, course, colour);
     let places: PlotPoints = course.iter().map(|mean| [place(mean), mean.mean]).collect();
-    plot.line(Line::new(pane.name(), places).color(colour).style(style).width(2.5));
+    plot.line(line(pane.name(), places).color(colour).style(style).width(2.5));
 }
 
 /// Two standard errors at each side, from where they are known.

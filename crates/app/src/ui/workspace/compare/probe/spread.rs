@@ -1,7 +1,7 @@
 //! How a pixel's samples are spread: their number over their size, on an axis of ratios where some are far larger than the
 //! mean.
 
-use super::super::plots::{decades, fixed, tick_of};
+use super::super::plots::{decades, fixed, line, tick_of};
 use super::mean::style_of;
 use crate::model::{Bin, Channel, PaneId, Spread};
 use crate::ruler::brief;
@@ -10,7 +10,7 @@ use crate::ui::theme::palette;
 use crate::ui::widgets::Explained;
 use compare::tick_text;
 use egui::{Rangef, Ui};
-use egui_plot::{AxisHints, GridMark, Line, Plot, PlotPoints};
+use egui_plot::{AxisHints, GridMark, Plot, PlotPoints};
 
 /// Under one sample, on a logarithmic axis.
 const NONE: f64 = -0.3;
@@ -31,7 +31,7 @@ pub fn plot(cx: &mut UiContext, ui: &mut Ui, width: f32) {
     let drawn = fixed(plot).show(ui, |plot| {
         for (pane, spread) in &spreads {
             let bins = if heavy { &spread.logarithmic } else { &spread.even };
-            let line = Line::new(pane.name(), outline(bins, heavy)).color(palette.pane(*pane));
+            let line = line(pane.name(), outline(bins, heavy)).color(palette.pane(*pane));
             plot.line(line.style(style_of(*pane)).width(1.5));
         }
     });
