@@ -217,6 +217,7 @@ impl Model {
     /// Gives a pane the settings of a tile, and goes back to the comparison.
     pub fn compare_tile(&mut self, tile: &PlannedTile, pane: PaneId) {
         self.session.panes.insert(pane, tile.pane);
+        self.session.set_source(pane, PaneSource::Made);
         self.session.sweep.open = false;
         self.say(Ok(format!("{pane} is {}", tile.name())));
     }
@@ -249,11 +250,15 @@ mod tests {
         model.session.sweep.open = true;
         let before = model.session.panes.clone();
         let plan = model.sweep_plan().unwrap();
+        let received = PaneSource::Received(14158);
+        model.session.set_source(PaneId::A, received.clone());
+        model.settle(false);
         model.compare_tile(&plan.tiles[1], PaneId::A);
         model.settle(false);
         assert!(!model.session.sweep.open);
         assert_eq!(model.session.panes[PaneId::A].wished_spp(), Some(4));
+        assert_eq!(model.session.source(PaneId::A), &PaneSource::Made, "another program's picture makes room");
         model.undo();
-        assert_eq!(model.session.panes, before);
+        assert_eq!((&model.session.panes, model.session.source(PaneId::A)), (&before, &received));
     }
 }
