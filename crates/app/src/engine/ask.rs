@@ -200,8 +200,11 @@ impl Engine {
         let gone: Vec<PaneId> = self.asked.panes.ids().filter(|id| wanted.panes.get(*id).is_none()).collect();
         for id in gone {
             self.asked.panes.remove(id);
-            self.pane_workers.get_mut(id).into_iter().for_each(PaneWorkers::rest);
+            self.pane_workers.get_mut(id).into_iter().for_each(PaneWorkers::rest_unseen);
             self.post_process.forget_pane(id);
+        }
+        for (id, workers) in self.pane_workers.iter_mut().filter(|(id, _)| wanted.panes.get(*id).is_none()) {
+            workers.follow_unseen(wanted.sources.get(id));
         }
     }
 

@@ -21,6 +21,8 @@ pub struct PaneWorkers {
     fake: Option<FakeWorker>,
     rays: Option<RayWorker>,
     external: Option<ExternalWorker>,
+    /// Where another program's picture comes from, while one is listened to.
+    listened_to: Option<PaneSource>,
     held: bool,
 }
 
@@ -32,7 +34,8 @@ impl PaneWorkers {
         (adapters, threads): (Adapters, Arc<Threads>),
         post_process: Arc<PostProcess>,
     ) -> Self {
-        PaneWorkers { pane, gpu, adapters, threads, post_process, fake: None, rays: None, external: None, held: false }
+        let (fake, rays, external, listened_to) = (None, None, None, None);
+        PaneWorkers { pane, gpu, adapters, threads, post_process, fake, rays, external, listened_to, held: false }
     }
 
     /// Draws the fake on another device of the window's from now on.
@@ -46,7 +49,7 @@ impl PaneWorkers {
         if *source != PaneSource::Made {
             return self.show_external(source.clone(), order);
         }
-        self.external.iter().for_each(ExternalWorker::cancel);
+        self.listen_to_nobody();
         let begun = match technique {
             Technique::Traced(settings) if settings.integrator.check().is_err() => {
                 self.rest();
@@ -70,6 +73,7 @@ impl PaneWorkers {
     fn show_external(&mut self, source: PaneSource, order: Order) {
         self.fake.iter().for_each(FakeWorker::cancel);
         self.rays.iter_mut().for_each(RayWorker::cancel);
+        self.listened_to = Some(source.clone());
         match self.external() {
             Ok(worker) => worker.submit(ExternalJob { source, order }),
             Err(fault) => self.post_process.report(self.pane, order, format!("{fault:#}")),
@@ -85,7 +89,28 @@ impl PaneWorkers {
     pub fn rest(&mut self) {
         self.fake.iter().for_each(FakeWorker::cancel);
         self.rays.iter_mut().for_each(RayWorker::cancel);
+        self.listen_to_nobody();
+    }
+
+    /// Makes nothing while the pane is not seen. What another program sends is still taken.
+    pub fn rest_unseen(&mut self) {
+        self.fake.iter().for_each(FakeWorker::cancel);
+        self.rays.iter_mut().for_each(RayWorker::cancel);
+        if let Some((worker, source)) = self.external.as_ref().zip(self.listened_to.clone()) {
+            worker.keep(source);
+        }
+    }
+
+    /// Follows what an unseen pane's picture comes from: closes what was listened to where that is now another.
+    pub fn follow_unseen(&mut self, source: Option<&PaneSource>) {
+        if self.listened_to.as_ref() != source {
+            self.listen_to_nobody();
+        }
+    }
+
+    fn listen_to_nobody(&mut self) {
         self.external.iter().for_each(ExternalWorker::cancel);
+        self.listened_to = None;
     }
 
     /// Holds the tracing of rays, or lets it go on.

@@ -237,6 +237,7 @@ impl Model {
         Wanted {
             opened: document.opened,
             panes: panes.filter_map(pane).collect(),
+            sources: session.sources.clone(),
             comparisons: Vec::new(),
             map: None,
             sweep: None,

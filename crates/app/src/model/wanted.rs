@@ -13,6 +13,9 @@ pub struct Wanted {
     pub opened: u64,
     /// For each pane the picture that is to be made.
     pub panes: Panes<WantedPane>,
+    /// Where the pictures of all panes come from that are not made here, also of those that are not seen: what another
+    /// program sends meanwhile is not lost.
+    pub sources: Panes<PaneSource>,
     /// Whose errors are measured, and by what.
     pub comparisons: Vec<Comparison>,
     /// The map of errors that is looked at, if one is.

@@ -100,6 +100,36 @@ fn what_a_program_sends_is_measured_against_the_other_pane_at_its_own_size() {
 }
 
 #[test]
+fn a_receiver_outlives_a_visit_to_the_sweep_unless_the_pane_is_made_here_again() {
+    let mut user = User::of(SCENE);
+    let port = free_port();
+    user.change(|model| model.session.set_source(PaneId::B, PaneSource::Received(port)));
+    user.wait_for("nothing yet", |f| f.value("label fault B").contains("no picture yet"));
+    let mut stream = TcpStream::connect(("127.0.0.1", port)).expect("a connection");
+    stream.write_all(&[begin(24, 16), tile(24, 16, 0.5)].concat()).expect("packets");
+    user.wait_for("the picture", |f| of_size([24, 16])(f) && f.state("b")["changes"] == 1);
+    let in_the_sweep = |user: &mut User, open| {
+        user.change(|model| model.session.sweep.open = open);
+        user.wait_for("the other workspace", |f| f.state("sweep")["open"] == open);
+    };
+    in_the_sweep(&mut user, true);
+    stream.write_all(&tile(24, 16, 0.25)).expect("a packet meanwhile");
+    in_the_sweep(&mut user, false);
+    let back = user.wait_for("both tiles", |f| of_size([24, 16])(f) && f.state("b")["changes"] == 2);
+    assert!(!says(&back, "closed"), "{back:?}");
+    stream.write_all(&tile(24, 16, 0.125)).expect("a packet");
+    user.wait_for("the third", |f| f.state("b")["changes"] == 3);
+
+    in_the_sweep(&mut user, true);
+    user.change(|model| model.session.set_source(PaneId::B, PaneSource::Made));
+    let start = std::time::Instant::now();
+    while TcpStream::connect(("127.0.0.1", port)).is_ok() {
+        user.frame();
+        assert!(start.elapsed().as_secs() < 60, "it still listens");
+    }
+}
+
+#[test]
 fn a_followed_file_is_measured_against_the_reference_and_again_when_it_is_written() {
     let mut user = User::of(SCENE);
     let file = user.file("mine.exr");

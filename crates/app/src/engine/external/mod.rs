@@ -41,7 +41,18 @@ pub struct ExternalJob {
 }
 
 /// The worker; dropping it ends its thread.
-pub struct ExternalWorker(Worker<Option<ExternalJob>>);
+pub struct ExternalWorker(Worker<Task>);
+
+/// What the thread of a pane does next.
+#[derive(Debug, Default)]
+enum Task {
+    /// Listens to nobody and follows nothing.
+    #[default]
+    Close,
+    /// Shows nothing, and goes on with what comes from here.
+    Keep(PaneSource),
+    Show(ExternalJob),
+}
 
 impl ExternalWorker {
     /// Starts the thread of a pane.
@@ -58,7 +69,12 @@ impl ExternalWorker {
 
     /// Shows this from now on.
     pub fn submit(&self, job: ExternalJob) {
-        self.0.post(|slot| *slot = Some(job));
+        self.0.post(|slot| *slot = Task::Show(job));
+    }
+
+    /// Shows nothing for now; what comes from this source meanwhile is there with the next job.
+    pub fn keep(&self, source: PaneSource) {
+        self.0.post(|slot| *slot = Task::Keep(source));
     }
 
     /// Listens to nobody and follows nothing any more.
@@ -91,11 +107,15 @@ struct Sight {
 }
 
 impl Service for Externals {
-    type Job = Option<ExternalJob>;
+    type Job = Task;
     type Update = ();
 
-    fn serve(&mut self, job: Option<ExternalJob>, control: &Control<Option<ExternalJob>, ()>) {
-        let Some(ExternalJob { source, order }) = job else { return self.open = None };
+    fn serve(&mut self, task: Task, control: &Control<Task, ()>) {
+        let (source, order) = match task {
+            Task::Close => return self.open = None,
+            Task::Keep(source) => return drop(self.open.take_if(|(before, _)| *before != source)),
+            Task::Show(ExternalJob { source, order }) => (source, order),
+        };
         self.order = Some(order.clone());
         // a port is free again before another is listened on
         self.open.take_if(|(before, _)| *before != source);
@@ -121,7 +141,7 @@ impl Service for Externals {
         }
     }
 
-    fn recover(&mut self, _control: &Control<Option<ExternalJob>, ()>) {
+    fn recover(&mut self, _control: &Control<Task, ()>) {
         self.open = None;
         if let Some(order) = self.order.take() {
             self.post_process.report(self.pane, order, FAULT.into());
