@@ -67,7 +67,11 @@ impl Gallery {
     pub fn take(&mut self, packet: Packet) -> Result<(), String> {
         match packet {
             Packet::Create(new) => self.begin(new)?,
-            Packet::Update(tile) => self.put(&tile)?,
+            Packet::Update(tile) => {
+                let tile = self.fitting(tile)?;
+                self.put(&tile)?;
+                self.note(&tile);
+            }
             Packet::Close(name) => self.pictures.retain(|canvas| canvas.name != name),
             Packet::Open(file) => self.fault = Some(not_opened(&file)),
             Packet::Graphics => return Ok(()),
@@ -101,13 +105,41 @@ impl Gallery {
         Ok(())
     }
 
-    fn put(&mut self, tile: &Tile) -> Result<(), String> {
-        let canvas = self.pictures.iter_mut().find(|canvas| canvas.name == tile.name);
-        let canvas = canvas.ok_or_else(|| {
-            let name = image_file::escaped(&tile.name);
+    /// A tile that is a part of a picture, with those of its channels alone that are colours there.
+    ///
+    /// # Errors
+    /// If it is none, in one line.
+    pub fn fitting<'a>(&mut self, mut tile: Tile<'a>) -> Result<Tile<'a>, String> {
+        let canvas = self.canvas(&tile.name)?;
+        canvas.holds(&tile)?;
+        let colours = tile.channels.iter().map(|channel| canvas.colours(&channel.name));
+        let mut colours = colours.collect::<Result<Vec<_>, _>>()?.into_iter();
+        tile.channels.retain(|_| colours.next().is_some_and(|colours| colours.contains(&true)));
+        Ok(tile)
+    }
+
+    /// Puts a tile in its place, or nothing of it.
+    ///
+    /// # Errors
+    /// As [`Gallery::fitting`].
+    pub fn put(&mut self, tile: &Tile) -> Result<(), String> {
+        self.canvas(&tile.name)?.put(tile)
+    }
+
+    /// Counts a tile that was put in its place.
+    pub fn note(&mut self, tile: &Tile) {
+        if let Ok(canvas) = self.canvas(&tile.name) {
+            (canvas.changed, canvas.changes) = (Instant::now(), canvas.changes + 1);
+        }
+        self.version += 1;
+    }
+
+    fn canvas(&mut self, name: &str) -> Result<&mut Canvas, String> {
+        let canvas = self.pictures.iter_mut().find(|canvas| canvas.name == name);
+        canvas.ok_or_else(|| {
+            let name = image_file::escaped(name);
             format!("a tile of {name}, which was not begun, or {MOST_PICTURES} pictures ago")
-        })?;
-        canvas.put(tile)
+        })
     }
 
     /// The picture that was begun last, if something has changed since a version.
@@ -134,13 +166,17 @@ impl Gallery {
 }
 
 impl Canvas {
-    /// Puts a tile in its place, or nothing of it.
-    fn put(&mut self, tile: &Tile) -> Result<(), String> {
-        let ((x, y), (width, height)) = (tile.corner, tile.size);
-        if x + width > self.size.0 || y + height > self.size.1 {
-            let (w, h) = self.size;
-            return Err(format!("a tile of {width}x{height} pixels at {x}, {y} of a picture of {w}x{h}"));
+    fn holds(&self, tile: &Tile) -> Result<(), String> {
+        let ((x, y), (width, height), (w, h)) = (tile.corner, tile.size, self.size);
+        if x + width <= w && y + height <= h {
+            return Ok(());
         }
+        Err(format!("a tile of {width}x{height} pixels at {x}, {y} of a picture of {w}x{h}"))
+    }
+
+    fn put(&mut self, tile: &Tile) -> Result<(), String> {
+        self.holds(tile)?;
+        let ((x, y), (width, height)) = (tile.corner, tile.size);
         let channels = tile.channels.iter().map(|channel| Ok((channel, self.colours(&channel.name)?)));
         for (channel, colours) in channels.collect::<Result<Vec<_>, String>>()? {
             let stride = self.size.0 as usize;
@@ -150,7 +186,6 @@ impl Canvas {
                 (0..3).filter(|colour| colours[*colour]).for_each(|colour| pixel[colour] = value);
             }
         }
-        (self.changed, self.changes) = (Instant::now(), self.changes + 1);
         Ok(())
     }
 

@@ -56,6 +56,16 @@ fn tiles_in_any_order_and_of_any_kind_make_the_picture_to_the_bit() {
 }
 
 #[test]
+fn channels_without_a_colour_are_left_out_before_any_pixel_is_looked_at() {
+    let mut gallery = Gallery::default();
+    all(&mut gallery, &[create("a", (2, 1), &["A", "R", "Z", "G", "B"])]);
+    let sent = update_planes("a", &["Z", "B", "A"], [0, 0, 2, 1], &[0.5; 6]);
+    let Ok(Packet::Update(tile)) = parse(&sent) else { panic!("no tile") };
+    let fitting = gallery.fitting(tile).expect("a part of the picture");
+    assert_eq!(fitting.channels.iter().map(|channel| channel.name.as_str()).collect::<Vec<_>>(), ["B"]);
+}
+
+#[test]
 fn what_is_not_finite_is_kept_as_it_was_sent() {
     let mut gallery = Gallery::default();
     let sent = [f32::NAN, f32::INFINITY, -0.0];

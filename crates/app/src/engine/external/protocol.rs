@@ -9,6 +9,8 @@ pub const MOST_SIDE: u32 = 8192;
 pub const MOST_PIXELS: u64 = 1 << 24;
 /// Bytes that a packet has at most: whole pictures of four channels up to 2896 x 2896. Larger ones come in tiles.
 pub const MOST_BYTES: usize = 1 << 27;
+/// Bytes that all packets together have at most which are not whole yet.
+pub const MOST_BEGUN: usize = 1 << 28;
 /// Channels that a picture or a packet has at most.
 pub const MOST_CHANNELS: usize = 64;
 /// Bytes that a name has at most.
@@ -67,7 +69,21 @@ pub struct TileChannel {
     stride: usize,
 }
 
-impl Tile<'_> {
+impl<'a> Tile<'a> {
+    /// The same in parts of whole rows, each of a row or of at most so many pixels.
+    pub fn parts(&self, most_pixels: usize) -> impl Iterator<Item = Tile<'a>> {
+        let ((x, y), (width, height)) = (self.corner, self.size);
+        let rows = u32::try_from(most_pixels / width as usize).unwrap_or(u32::MAX).max(1);
+        (0..height).step_by(rows as usize).map(move |row| {
+            let mut part = self.clone();
+            (part.corner, part.size) = ((x, y + row), (width, rows.min(height - row)));
+            for channel in &mut part.channels {
+                channel.offset += row as usize * width as usize * channel.stride;
+            }
+            part
+        })
+    }
+
     /// A channel's numbers, rows from the top.
     pub fn values(&self, channel: &TileChannel) -> impl Iterator<Item = f32> {
         let numbers = self.values.chunks_exact(4).skip(channel.offset).step_by(channel.stride.max(1));
@@ -142,8 +158,10 @@ fn tile(mut rest: Rest<'_>, kind: u8) -> Result<Tile<'_>, String> {
         match needed.filter(|needed| *needed <= numbers) {
             Some(_) => Ok(TileChannel { name, offset, stride }),
             None => Err(format!(
-                "a tile of {}x{} pixels with {numbers} numbers, too few for its channel {name}",
-                size.0, size.1
+                "a tile of {}x{} pixels with {numbers} numbers, too few for its channel {}",
+                size.0,
+                size.1,
+                image_file::escaped(&name)
             )),
         }
     };
@@ -198,7 +216,13 @@ impl<'a> Rest<'a> {
 
     fn channels(&mut self, count: i32) -> Result<Vec<String>, String> {
         match usize::try_from(count) {
-            Ok(count @ 1..=MOST_CHANNELS) => (0..count).map(|_| self.name()).collect(),
+            Ok(count @ 1..=MOST_CHANNELS) => {
+                let names = (0..count).map(|_| self.name()).collect::<Result<Vec<_>, String>>()?;
+                match names.iter().enumerate().find(|(place, name)| names[..*place].contains(name)) {
+                    Some((_, twice)) => Err(format!("a packet with two channels {}", image_file::escaped(twice))),
+                    None => Ok(names),
+                }
+            }
             _ => Err(format!("{count} channels, where 1 to {MOST_CHANNELS} are possible")),
         }
     }
@@ -220,6 +244,9 @@ impl<'a> Rest<'a> {
     }
 }
 
+/// Room for bytes that is kept for the next packet.
+const KEPT: usize = 1 << 20;
+
 /// Puts packets together from what comes of them, in pieces of any size.
 #[derive(Debug, Default)]
 pub struct Assembler {
@@ -240,7 +267,16 @@ impl Assembler {
             done += length;
         }
         self.begun.drain(..done);
+        // a large packet leaves no room behind
+        if self.begun.capacity() > KEPT.max(4 * self.begun.len()) {
+            self.begun.shrink_to(KEPT);
+        }
         Ok(())
+    }
+
+    /// How many bytes are kept of a packet that is not whole yet.
+    pub fn bytes(&self) -> usize {
+        self.begun.len()
     }
 
     /// Whether a packet has begun and not ended.

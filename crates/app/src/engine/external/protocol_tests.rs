@@ -83,6 +83,26 @@ fn all_three_kinds_of_tiles_say_the_same() {
 }
 
 #[test]
+fn a_tile_in_parts_has_the_same_numbers_in_the_same_places() {
+    let values: Vec<f32> = (0..2 * 5 * 3).map(|i| i as f32).collect();
+    let woven = update_strided("a", &["R", "B"], [3, 4, 5, 3], [&[1, 0], &[2, 2]], &values);
+    let Ok(Packet::Update(tile)) = parse(&woven) else { panic!("no tile") };
+    let numbers = |tile: &Tile, channel: usize| tile.values(&tile.channels[channel]).collect::<Vec<_>>();
+    for (most, corners, last) in [(1, vec![4, 5, 6], 1), (12, vec![4, 6], 1), (15, vec![4], 3)] {
+        let parts: Vec<Tile> = tile.parts(most).collect();
+        assert_eq!(
+            parts.iter().map(|part| part.corner).collect::<Vec<_>>(),
+            corners.into_iter().map(|y| (3, y)).collect::<Vec<_>>()
+        );
+        assert_eq!(parts.last().map(|part| part.size), Some((5, last)));
+        for channel in [0, 1] {
+            let put_together: Vec<f32> = parts.iter().flat_map(|part| numbers(part, channel)).collect();
+            assert_eq!(put_together, numbers(&tile, channel), "of {most} pixels");
+        }
+    }
+}
+
+#[test]
 fn files_graphics_and_ends_are_told_apart() {
     let named = |kind: u8, grabs: bool| packet(kind, &[if grabs { vec![1] } else { vec![] }, text("a.exr")].concat());
     assert_eq!(parse(&named(0, true)), Ok(Packet::Open("a.exr".into())));
@@ -103,6 +123,8 @@ fn what_is_no_packet_is_refused_in_words() {
     assert!(fault(&create("a", (-4, 1), &["R"])).contains("-4x1"));
     assert!(fault(&create("a", (4, 4), &[])).contains("0 channels"));
     assert!(fault(&create("a", (4, 4), &["R"; 65])).contains("65 channels"));
+    assert!(fault(&create("a", (4, 4), &["R", "G", "R"])).contains("two channels R"));
+    assert!(fault(&update_planes("a", &["\n", "\n"], [0, 0, 1, 1], &[0.0; 2])).contains("two channels \\n"));
     assert!(fault(&create(&"a".repeat(4097), (4, 4), &["R"])).contains("more than 4096 bytes"));
     assert!(parse(&create(&"a".repeat(4096), (4, 4), &["R"])).is_ok());
     assert!(fault(&packet(4, b"\x01name without end")).contains("does not end"));
@@ -149,4 +171,7 @@ fn a_length_that_no_packet_has_is_refused_before_the_rest_comes() {
     let mut begun = Assembler::default();
     assert_eq!(begun.push(&(1u32 << 27).to_le_bytes(), |_| Ok(())), Ok(()));
     assert!(begun.is_midway() && begun.begun.capacity() < 1024, "nothing is kept for what has not come");
+    let mut large = Assembler::default();
+    assert_eq!(large.push(&packet(8, &vec![0; 2 * KEPT]), |_| Ok(())), Ok(()));
+    assert!(large.begun.capacity() <= KEPT, "nor for what has gone");
 }

@@ -2,10 +2,10 @@
 //! connections, and one for each of them; a sender that is faster than they are has to wait.
 
 use super::gallery::{Gallery, Snapshot};
-use super::protocol::{Assembler, parse};
+use super::protocol::{Assembler, MOST_BEGUN, Packet, parse};
 use std::io::{ErrorKind, Read};
 use std::net::{Ipv4Addr, SocketAddr, TcpListener, TcpStream};
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::thread::JoinHandle;
 use std::time::Duration;
@@ -16,6 +16,8 @@ const PATIENCE: Duration = Duration::from_millis(50);
 const MOST_CONNECTIONS: usize = 8;
 /// Bytes that are read at a time.
 const CHUNK: usize = 1 << 17;
+/// Pixels of a tile that are put in their place at a time: so soon all end that are asked to.
+const PART: usize = 1 << 18;
 
 /// Listens on a port; dropping it ends that and all connections.
 #[derive(Debug)]
@@ -28,6 +30,49 @@ pub struct Receiver {
 struct Shared {
     gallery: Mutex<Gallery>,
     ends: AtomicBool,
+    begun: Room,
+}
+
+/// Bytes of packets that are not whole yet, of all connections together.
+#[derive(Debug)]
+struct Room {
+    most: usize,
+    taken: AtomicUsize,
+}
+
+impl Default for Room {
+    fn default() -> Self {
+        Room { most: MOST_BEGUN, taken: AtomicUsize::new(0) }
+    }
+}
+
+/// What a connection takes of it; dropping it leaves that to others.
+struct Share<'a> {
+    room: &'a Room,
+    bytes: usize,
+}
+
+impl Share<'_> {
+    /// Takes so much from now on.
+    fn take(&mut self, bytes: usize) -> Result<(), String> {
+        // round the end of all numbers where it is less than before
+        let more = bytes.wrapping_sub(self.bytes);
+        let taken = self.room.taken.fetch_add(more, Ordering::Relaxed).wrapping_add(more);
+        self.bytes = bytes;
+        if taken > self.room.most {
+            let most = self.room.most;
+            return Err(format!(
+                "all packets that have begun have more than {most} bytes together: send pictures in tiles"
+            ));
+        }
+        Ok(())
+    }
+}
+
+impl Drop for Share<'_> {
+    fn drop(&mut self) {
+        self.room.taken.fetch_sub(self.bytes, Ordering::Relaxed);
+    }
 }
 
 impl Shared {
@@ -48,12 +93,12 @@ impl Receiver {
     /// One line, if the port is taken or the system gives no thread.
     pub fn start(port: u16) -> Result<Self, String> {
         let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, port)).map_err(|why| not_listening(port, &why))?;
-        Self::on(listener).map_err(|why| not_listening(port, &why))
+        Self::on(listener, Shared::default()).map_err(|why| not_listening(port, &why))
     }
 
-    pub(super) fn on(listener: TcpListener) -> std::io::Result<Self> {
+    fn on(listener: TcpListener, shared: Shared) -> std::io::Result<Self> {
         listener.set_nonblocking(true)?;
-        let shared = Arc::new(Shared::default());
+        let shared = Arc::new(shared);
         let thread = std::thread::Builder::new().name("receiver".into()).spawn({
             let shared = shared.clone();
             move || take_connections(&listener, &shared)
@@ -124,18 +169,37 @@ fn begin(stream: TcpStream, from: SocketAddr, shared: &Arc<Shared>) -> std::io::
 /// Takes what a program sends until it ends, or sends what cannot be taken.
 fn hear(mut stream: TcpStream, shared: &Shared) -> Result<(), String> {
     let (mut assembler, mut chunk) = (Assembler::default(), vec![0; CHUNK]);
+    let mut begun = Share { room: &shared.begun, bytes: 0 };
     while !shared.ends() {
         match stream.read(&mut chunk) {
             Ok(0) if assembler.is_midway() => return Err("it ended within a packet".into()),
             Ok(0) => return Ok(()),
-            Ok(count) => assembler.push(&chunk[..count], |packet| {
-                let packet = parse(packet)?;
-                shared.gallery().take(packet)
-            })?,
+            Ok(count) => {
+                begun.take(assembler.bytes() + count)?;
+                assembler.push(&chunk[..count], |packet| take(parse(packet)?, shared))?;
+                begun.take(assembler.bytes())?;
+            }
             Err(why) if [ErrorKind::WouldBlock, ErrorKind::TimedOut, ErrorKind::Interrupted].contains(&why.kind()) => {}
             Err(why) => return Err(why.to_string()),
         }
     }
+    Ok(())
+}
+
+/// Does what a packet asks for, or as much of it as there is time for.
+fn take(packet: Packet, shared: &Shared) -> Result<(), String> {
+    if shared.ends() {
+        return Ok(());
+    }
+    let Packet::Update(tile) = packet else { return shared.gallery().take(packet) };
+    let tile = shared.gallery().fitting(tile)?;
+    for part in tile.parts(PART) {
+        if shared.ends() {
+            return Ok(());
+        }
+        shared.gallery().put(&part)?;
+    }
+    shared.gallery().note(&tile);
     Ok(())
 }
 

@@ -1,6 +1,6 @@
 //! Connections of this machine: what comes, in whatever pieces, and what is closed.
 
-use super::super::protocol::tests::{create, update};
+use super::super::protocol::tests::{create, update, update_strided};
 use super::*;
 use film::Vec3;
 use std::io::Write;
@@ -8,9 +8,13 @@ use std::time::Instant;
 
 /// A receiver on a port that nobody else has, and the port.
 fn receiver() -> (Receiver, SocketAddr) {
+    receiver_with(Shared::default())
+}
+
+fn receiver_with(shared: Shared) -> (Receiver, SocketAddr) {
     let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, 0)).expect("a port");
     let address = listener.local_addr().expect("its number");
-    (Receiver::on(listener).expect("a thread"), address)
+    (Receiver::on(listener, shared).expect("a thread"), address)
 }
 
 fn connect(address: SocketAddr) -> TcpStream {
@@ -126,4 +130,39 @@ fn who_sends_faster_than_it_is_shown_loses_nothing() {
     let tile = update("a", "Y", [0, 0, side as i32, side as i32], &values);
     (0..200).for_each(|_| stream.write_all(&tile).expect("a packet"));
     assert!(pixels(&wait_for(&receiver, |seen| seen.changes == 200)).iter().all(|pixel| *pixel == Vec3::ONE));
+}
+
+#[test]
+fn what_has_begun_on_all_connections_has_room_together_and_one_too_many_is_closed() {
+    let begun = Room { most: 1000, ..Room::default() };
+    let (receiver, address) = receiver_with(Shared { begun, ..Shared::default() });
+    let sent = create(&"a".repeat(800), (1, 1), &["Y"]);
+    let mut streams = [connect(address), connect(address)];
+    streams.iter_mut().for_each(|stream| stream.write_all(&sent[..600]).expect("a part"));
+    wait_for(&receiver, says("have more than 1000 bytes together: send pictures in tiles"));
+    // one of them is closed
+    streams.iter_mut().for_each(|stream| drop(stream.write_all(&sent[600..])));
+    wait_for(&receiver, |seen| seen.picture.is_some());
+    // and what it had is there for others
+    connect(address).write_all(&create(&"b".repeat(900), (1, 1), &["Y"])).expect("a packet");
+    wait_for(&receiver, |seen| seen.picture.as_ref().is_some_and(|(name, _)| name.starts_with('b')));
+}
+
+#[test]
+fn a_tile_of_any_size_is_left_where_it_is_once_all_shall_end() {
+    let shared = Shared::default();
+    let side = 1024;
+    let names: Vec<String> = (0..61).map(|number| format!("c{number}")).collect();
+    let names: Vec<&str> = names.iter().map(String::as_str).chain(["R", "G", "B"]).collect();
+    let values = vec![1.0; (side * side) as usize];
+    let tile = update_strided("a", &names, [0, 0, side, side], [&[0; 64], &[1; 64]], &values);
+    let send = |packet: &[u8]| take(parse(packet).expect("a packet"), &shared).expect("it fits");
+    send(&create("a", (side, side), &names));
+    send(&tile);
+    let seen = shared.gallery().since(None).expect("a state");
+    assert_eq!(seen.changes, 1, "in parts it is still one tile");
+    assert!(pixels(&seen).iter().all(|pixel| *pixel == Vec3::ONE));
+    shared.ends.store(true, Ordering::Relaxed);
+    send(&tile);
+    assert!(shared.gallery().since(Some(seen.version)).is_none());
 }
