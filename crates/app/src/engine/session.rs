@@ -43,7 +43,9 @@ pub fn read(path: &Path, recent: &[PathBuf]) -> Result<Opened, String> {
     let kept = Kept { scene, scene_hash: draft.scene_hash, setup: Setup::default(), session: None };
     let opened = scene_of(&kept, path, recent)?;
     let mut session = draft.beside(&opened.scene, path)?;
-    files_as(&mut session, |file| std::path::absolute(path.with_file_name(file)).unwrap_or_else(|_| file.to_owned()));
+    files_as(&mut session, |file| {
+        std::path::absolute(path.with_file_name(file)).map_or_else(|_| file.to_owned(), |file| without_detours(&file))
+    });
     let notes = opened.notes.iter().cloned().chain(kept.note(path, &opened.scene)).collect();
     Ok(Opened { asked: path.display().to_string(), session: Some(Box::new(session)), notes, ..opened })
 }
@@ -68,7 +70,7 @@ pub fn of_picture(kept: &Kept, scene: &Scene, picture: &Path) -> Result<Option<B
 fn source_beside(session: &Path, scene: &str) -> String {
     match builtin::text(scene) {
         Some(_) => scene.to_owned(),
-        None => session.with_file_name(scene).display().to_string(),
+        None => without_detours(&session.with_file_name(scene)).display().to_string(),
     }
 }
 
@@ -96,14 +98,20 @@ impl SessionToSave {
     /// Writes it to a file; where there is one, to another beside it. Returns where.
     ///
     /// # Errors
-    /// If its name is none of a session, or if it cannot be written.
+    /// If its name is none of a session, if it cannot be written, or if a picture's name cannot be kept.
     pub fn save(&self, path: &Path) -> anyhow::Result<PathBuf> {
         if !path.extension().is_some_and(|kind| kind.eq_ignore_ascii_case("toml")) {
             bail!("the name of a session must end in .toml: {}", shown(path));
         }
         let path = std::path::absolute(path).with_context(|| format!("cannot save to {}", shown(path)))?;
-        let text = self.text_in(path.parent().unwrap_or(Path::new("")));
-        Ok(image_file::write_new(&path, text.as_bytes())?)
+        let folder = path.parent().unwrap_or(Path::new(""));
+        if let Some((pane, file)) = self.in_folder(folder).files_without_a_text().next() {
+            bail!(
+                "a session is a text in UTF-8, and the name of {pane}'s picture is none: rename it or its folder: {}",
+                shown(file)
+            );
+        }
+        Ok(image_file::write_new(&path, self.text_in(folder).as_bytes())?)
     }
 
     /// Its text for any folder.
@@ -113,36 +121,72 @@ impl SessionToSave {
 
     /// Its text for a file in this folder.
     pub fn text_in(&self, folder: &Path) -> String {
+        self.in_folder(folder).text(&self.scene, &source_from(folder, &self.source))
+    }
+
+    /// With pictures as a file in this folder names them.
+    fn in_folder(&self, folder: &Path) -> SavedSession {
         let mut session = self.session.clone();
-        files_as(&mut session, |file| PathBuf::from(source_from(folder, &file.display().to_string())));
-        session.text(&self.scene, &source_from(folder, &self.source))
+        files_as(&mut session, |file| file_from(folder, file));
+        session
     }
 }
 
-/// A scene's file as a folder finds it, also after both were moved; its whole path where they have nothing in common.
+/// A built-in scene's name, or its file as a folder finds it.
 fn source_from(folder: &Path, source: &str) -> String {
-    let file = std::path::absolute(source).unwrap_or_else(|_| PathBuf::from(source));
-    if builtin::text(source).is_some() {
-        return source.to_owned();
+    match builtin::text(source) {
+        Some(_) => source.to_owned(),
+        None => file_from(folder, Path::new(source)).display().to_string(),
     }
-    // through a link the folder above may be another
-    let near = relative(folder, &file).filter(|near| image_file::is_same_file(&folder.join(near), &file));
-    near.unwrap_or_else(|| file.display().to_string())
 }
 
-/// The way from a folder to a file, by names that both systems' paths read; `None` where they meet in the root alone.
+/// A file as a folder finds it, also after both were moved; its whole path where they have nothing in common.
+fn file_from(folder: &Path, file: &Path) -> PathBuf {
+    let file = std::path::absolute(file).unwrap_or_else(|_| file.to_owned());
+    // through a link the folder above may be another
+    let near = relative(folder, &file).filter(|near| is_same_place(&folder.join(near), &file));
+    near.map_or(file, PathBuf::from)
+}
+
+/// Whether two names stand for one file. It need not be there yet: then the nearest folder decides that is.
+fn is_same_place(a: &Path, b: &Path) -> bool {
+    if a.exists() || b.exists() {
+        return image_file::is_same_file(a, b);
+    }
+    let name = |path: &Path| path.file_name().map(ToOwned::to_owned);
+    let folders = a.parent().zip(b.parent()).filter(|_| name(a).is_some() && name(a) == name(b));
+    folders.is_some_and(|(a, b)| is_same_place(a, b))
+}
+
+/// Without `folder/..`, where that is no way through a link: each time that a session is saved elsewhere it would grow.
+fn without_detours(path: &Path) -> PathBuf {
+    let mut short = PathBuf::new();
+    for part in path.components() {
+        let is_below_a_name = matches!(short.components().next_back(), Some(Component::Normal(_)));
+        match part {
+            Component::ParentDir if is_below_a_name => drop(short.pop()),
+            part => short.push(part),
+        }
+    }
+    if is_same_place(&short, path) { short } else { path.to_owned() }
+}
+
+/// The way from a folder to a file, by names that both systems' paths read; `None` where they meet in the root alone, or where
+/// names have no text.
 fn relative(folder: &Path, file: &Path) -> Option<String> {
     let (from, to): (Vec<_>, Vec<_>) = (folder.components().collect(), file.components().collect());
     let shared = from.iter().zip(&to).take_while(|(a, b)| a == b).count();
     let has_a_name = from[..shared].iter().any(|part| matches!(part, Component::Normal(_)));
     let up = from[shared..].iter().map(|_| "..".to_owned());
-    let down = to[shared..].iter().map(|part| part.as_os_str().to_string_lossy().into_owned());
-    has_a_name.then(|| up.chain(down).collect::<Vec<_>>().join("/"))
+    let down = to[shared..].iter().map(|part| part.as_os_str().to_str().map(str::to_owned));
+    let way: Option<Vec<_>> = up.map(Some).chain(down).collect();
+    way.filter(|_| has_a_name).map(|way| way.join("/"))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::model::{Model, PaneId, Theme};
     use visavis_tests::TestFolder;
 
     #[test]
@@ -159,6 +203,61 @@ mod tests {
         assert_eq!(from("course/scenes"), "a.toml");
         assert_eq!(source_from(&test.file("course"), "cornell"), "cornell");
         assert_eq!(relative(Path::new("/a"), Path::new("/b/c.toml")), None, "nothing in common");
+        let later = test.file("course/pictures/later/mine.exr");
+        let from = |folder: &str| file_from(&test.file(folder), &later);
+        assert_eq!(from("course/sessions"), Path::new("../pictures/later/mine.exr"), "it is not there yet");
+    }
+
+    /// A session that follows this picture in B.
+    fn following(picture: &Path) -> SessionToSave {
+        let scene = Arc::new(builtin::named("cornell").expect("a built-in scene"));
+        let mut model = Model::new((*scene).clone(), "cornell".into(), Theme::Dark);
+        model.session.set_source(PaneId::B, PaneSource::Followed(picture.to_owned()));
+        SessionToSave { session: SavedSession::of(&model, None), scene, source: "cornell".into() }
+    }
+
+    fn followed(session: &Path) -> PathBuf {
+        let opened = read(session, &[]).expect("a session").session.expect("all of it");
+        match opened.session.source(PaneId::B) {
+            PaneSource::Followed(file) => file.clone(),
+            other => panic!("{other}"),
+        }
+    }
+
+    #[test]
+    fn a_picture_that_sessions_follow_from_folder_to_folder_keeps_one_path() {
+        let test = TestFolder::new();
+        for folder in ["a", "b", "pictures"] {
+            std::fs::create_dir_all(test.file(folder)).expect("a folder");
+        }
+        let picture = test.file("pictures/mine.exr");
+        for is_there in [false, true] {
+            if is_there {
+                std::fs::write(&picture, "").expect("a file");
+            }
+            let first = following(&picture).save(&test.file("a/first.toml")).expect("a session");
+            let opened = followed(&first);
+            assert_eq!(opened, std::path::absolute(&picture).expect("a path"));
+            let second = following(&opened).save(&test.file("b/second.toml")).expect("a session");
+            let text = std::fs::read_to_string(&second).expect("a text");
+            assert!(text.contains("\npicture = \"../pictures/mine.exr\"\n"), "{text}");
+        }
+        assert_eq!(source_beside(&test.file("a/b.toml"), "../c/d.toml"), test.file("c/d.toml").display().to_string());
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_picture_whose_name_is_no_text_is_not_saved_as_another() {
+        use std::os::unix::ffi::OsStrExt;
+        let test = TestFolder::new();
+        let picture = test.file("").join(std::ffi::OsStr::from_bytes(b"mine\xff.exr"));
+        let session = following(&picture);
+        let fault = session.save(&test.file("a.toml")).expect_err("no text");
+        assert!(format!("{fault:#}").contains("B's picture is none: rename it"), "{fault:#}");
+        assert!(!test.file("a.toml").exists());
+        let text = session.text();
+        assert!(text.contains("\n# picture, whose name") && !text.contains("picture ="), "{text}");
+        assert!(SessionDraft::parse(&text, Path::new("a.toml")).is_ok());
     }
 
     #[test]
@@ -187,5 +286,7 @@ mod tests {
         std::fs::write(&scene, "").expect("a file");
         let source = source_from(&test.file("linked"), &scene.display().to_string());
         assert_eq!(source, scene.display().to_string());
+        let through = test.file("linked/../b.toml");
+        assert_eq!(without_detours(&through), through, "nor is it made shorter");
     }
 }

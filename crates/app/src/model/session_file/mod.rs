@@ -8,8 +8,9 @@ mod write;
 
 pub use read::SessionDraft;
 
-use super::{Model, PaneId, Panes, Session, Setup, Theme};
+use super::{Model, PaneId, PaneSource, Panes, Session, Setup, Theme};
 use scene::{Camera, Scene};
+use std::path::Path;
 use technique::{PaneSettings, SceneChanges};
 
 /// The version that is written, and the latest that is read.
@@ -65,6 +66,14 @@ fn new_pane(id: PaneId, scene: &Scene) -> PaneSettings {
 }
 
 impl SavedSession {
+    /// Pictures that are followed and whose names no text can have, with their panes.
+    pub fn files_without_a_text(&self) -> impl Iterator<Item = (PaneId, &Path)> {
+        self.session.sources.iter().filter_map(|(pane, source)| match source {
+            PaneSource::Followed(file) if file.to_str().is_none() => Some((pane, file.as_path())),
+            _ => None,
+        })
+    }
+
     /// All that is to be kept, seen in a window of this size in points.
     pub fn of(model: &Model, size: Option<[f64; 2]>) -> Self {
         let Model { document, session, state, .. } = model;

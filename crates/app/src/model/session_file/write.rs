@@ -5,6 +5,7 @@ use crate::model::{
     Axis, ComparisonSettings, PaneId, PaneSource, PlotSettings, ProbeSettings, Region, Session, SweepSettings,
 };
 use compare::ErrorMetric;
+use image_file::shown;
 use scene::{Camera, Scene, Vec3};
 use std::fmt::Write;
 use technique::settings::{OF_SCENES, Value, all_of_panes};
@@ -90,7 +91,10 @@ fn panes(text: &mut String, (id, pane): (PaneId, &PaneSettings), source: &PaneSo
     match source {
         PaneSource::Made => {}
         PaneSource::Received(port) => lines.push(("received", port.to_string())),
-        PaneSource::Followed(file) => lines.push(("picture", quoted(&file.to_string_lossy()))),
+        PaneSource::Followed(file) => lines.push(match file.to_str() {
+            Some(file) => ("picture", quoted(file)),
+            None => ("# picture, whose name is no text in UTF-8", quoted(&shown(file))),
+        }),
     }
     lines.extend(unlike(pane, &mut told, pane.technique));
     table(text, &format!("[panes.{id}]"), lines);
