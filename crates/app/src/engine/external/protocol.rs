@@ -4,9 +4,9 @@
 
 /// The longest side of a picture: what every graphics device can show.
 pub const MOST_SIDE: u32 = 8192;
-/// Pixels that a picture has at most, and all received ones together: 4096 x 4096. More would hold a frame up while they
-/// are put on the screen.
-pub const MOST_PIXELS: u64 = 1 << 24;
+/// Pixels that a picture has at most, and all received ones together: 4096 x 2048. More would hold a frame up while they
+/// are put on the screen, and take gigabytes where they are measured.
+pub const MOST_PIXELS: u64 = 1 << 23;
 /// Bytes that a packet has at most: whole pictures of four channels up to 2896 x 2896. Larger ones come in tiles.
 pub const MOST_BYTES: usize = 1 << 27;
 /// Bytes that all packets together have at most which are not whole yet.
