@@ -29,6 +29,10 @@ impl PaneSource {
     pub fn parse(words: &str) -> Option<Result<Self, String>> {
         let (name, value) = words.split_once('=').map_or((words, None), |(name, value)| (name, Some(value)));
         match (name.trim(), value) {
+            (name, _) if name.starts_with("received,") => Some(Err(format!(
+                "nothing is set of a picture that another program makes: expected received, or received=PORT as \
+                 received={USUAL_PORT}"
+            ))),
             ("received", None) => Some(Ok(PaneSource::Received(USUAL_PORT))),
             ("received", Some(port)) => Some(Self::received_on(port)),
             ("picture", Some(file)) => Some(Self::of_file(Path::new(file))),
@@ -157,6 +161,8 @@ mod tests {
             ("received=0", "a port from 1 to 65535"),
             ("received=70000", "a port from 1 to 65535"),
             ("picture", "picture=FILE"),
+            ("received,spp=4", "expected received, or received=PORT as received=14158"),
+            ("received=14158,spp=4", "a port from 1 to 65535"),
             ("picture=mine.gif", "ends in .png or .exr: mine.gif"),
         ] {
             let fault = PaneSource::parse(words).expect("words of a source").expect_err(words);

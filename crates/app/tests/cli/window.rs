@@ -23,6 +23,8 @@ fn options_of_the_window_are_those_of_render_and_faults_name_the_word() {
         (&["--b", "spp=4,spp=5"], &["spp=4 and spp=5 both say spp"]),
         (&["--a", "raster", "--a", "path"], &["--a path", "given twice"]),
         (&["--b", "received=0"], &["--b received=0", "a port from 1 to 65535"]),
+        (&["--b", "received,spp=4"], &["--b received,spp=4", "expected received, or received=PORT"]),
+        (&["--b", "recieved"], &["another program's picture (picture=FILE, received, received=PORT), a preset ("]),
         (&["--b", "picture=mine.gif"], &["--b picture=mine.gif", "ends in .png or .exr"]),
         (&["--b", "received", "--b", "path"], &["--b path", "given twice"]),
         (&["--view", "A"], &["--view A", "did you mean a?"]),

@@ -157,7 +157,8 @@ fn commands() -> Vec<Block> {
             "visavis report SCENE -o OUT",
             "make both pictures and their reference, and of them a lab report (.html: one page that needs no other file, with \
              pictures, errors, plots, settings, times, machine and session) or a slide (.png); SCENE is what the window opens, and \
-             the window's --a, --b, --slide, --view, --against, --exposure and camera say what is on it",
+             the window's --a, --b, --slide, --view, --against, --exposure and camera say what is on it; another program's picture \
+             (picture=FILE, received) is refused: the window alone shows it, and saves its report",
             &report::own_options(),
         ),
         Block::new(

@@ -229,9 +229,17 @@ fn a_pane(args: &mut ViewArgs, pane: PaneId, option: &str, parser: &mut lexopt::
     let usual = Session::default().panes[pane].technique;
     let taken = match PaneSource::parse(&words) {
         Some(source) => source.map(|source| drop(setup.sources.insert(pane, source))),
-        None => PaneSetup::parse(&words, usual).map(|made| drop(setup.panes.insert(pane, made))),
+        None => PaneSetup::parse(&words, usual)
+            .map(|made| drop(setup.panes.insert(pane, made)))
+            .map_err(|fault| beside_sources(&fault)),
     };
     taken.or_else(|fault| usage(format!("{option} {}: {fault}", shown(&words))))
+}
+
+/// What is expected in the place of a pane's first word may be another program's picture too, of which its settings do not
+/// know.
+fn beside_sources(fault: &str) -> String {
+    fault.replacen(", a preset (", ", another program's picture (picture=FILE, received, received=PORT), a preset (", 1)
 }
 
 fn a_view(name: &str) -> Option<View> {

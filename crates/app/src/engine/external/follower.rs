@@ -6,6 +6,7 @@ use crate::engine::bare;
 use crate::engine::watch::Stamp;
 use film::Image;
 use image_file::{Loaded, shown};
+use std::io::ErrorKind;
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
@@ -63,13 +64,13 @@ impl Follower {
         match self.read {
             None => true,
             Some((then, _)) if then != self.seen => before == self.seen,
-            Some((_, when)) => self.state.fault.is_some() && self.seen.is_some() && when.elapsed() >= RETRY,
+            Some((_, when)) => self.state.fault.is_some() && when.elapsed() >= RETRY,
         }
     }
 
     fn look_into(&mut self) {
         let now = Instant::now();
-        match self.seen.map_or_else(|| Err(not_there(&self.path)), |_| load(&self.path)) {
+        match self.seen.map_or_else(|| Err(self.not_there()), |_| load(&self.path)) {
             Ok(Loaded { image, notes }) => {
                 let begun = *self.begun.get_or_insert(now);
                 let FileState { version, changes, picture, .. } = &self.state;
@@ -83,10 +84,19 @@ impl Follower {
             Err(_) => {}
         }
     }
-}
 
-fn not_there(path: &std::path::Path) -> String {
-    format!("there is no picture {} yet: it is shown as soon as it is written", shown(path))
+    /// Why there is nothing to read.
+    fn not_there(&self) -> String {
+        let path = shown(&self.path);
+        match std::fs::metadata(&self.path) {
+            Ok(_) => format!("this is not a file, and a picture is shown as soon as it is one: {path}"),
+            Err(why) if why.kind() != ErrorKind::NotFound => format!("cannot look at the picture ({why}): {path}"),
+            Err(_) if self.state.picture.is_some() => {
+                format!("the picture {path} is gone: what it was is shown until it is written again")
+            }
+            Err(_) => format!("there is no picture {path} yet: it is shown as soon as it is written"),
+        }
+    }
 }
 
 fn load(path: &std::path::Path) -> Result<Loaded, String> {
@@ -168,6 +178,25 @@ mod tests {
         std::fs::remove_file(&file).expect("a file");
         let gone = next(&mut follower);
         assert_eq!(grey(&gone), Some(0.5), "what was there is still shown");
-        assert!(gone.fault.is_some_and(|fault| fault.contains("there is no picture")));
+        assert!(gone.fault.is_some_and(|fault| fault.contains("mine.exr is gone")));
+    }
+
+    #[test]
+    fn what_is_no_file_is_told_from_what_is_not_there() {
+        let folder = TestFolder::new();
+        let path = folder.file("mine.exr");
+        let mut follower = Follower::new(path.clone());
+        let said = |follower: &mut Follower| follower.state.fault.clone().expect("a fault");
+        follower.since(None);
+        assert!(said(&mut follower).contains("yet"));
+        std::fs::create_dir(&path).expect("a folder");
+        let folder = next(&mut follower);
+        assert!(
+            folder.fault.is_some_and(|fault| fault.starts_with("this is not a file") && fault.contains("mine.exr"))
+        );
+        #[cfg(unix)]
+        assert!(Follower::new("/dev/null".into()).since(None).is_some_and(|state| {
+            state.fault.as_ref().is_some_and(|fault| fault.starts_with("this is not a file"))
+        }));
     }
 }

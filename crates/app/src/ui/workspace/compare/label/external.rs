@@ -12,7 +12,6 @@ pub fn tell(text: &mut LabelText, shown: &PaneView, external: &External) {
     }
     text.figures.extend(changes(external, shown.seconds));
     text.facts.push(match &external.source {
-        // whose folders are nobody's business on a projector
         PaneSource::Followed(_) => "a file, read again whenever it changes".into(),
         source => source.to_string(),
     });
@@ -22,8 +21,16 @@ pub fn tell(text: &mut LabelText, shown: &PaneView, external: &External) {
     let nonfinite = shown.nonfinite;
     text.notes
         .extend((nonfinite > 0).then(|| format!("{} pixels are not finite, and not measured", grouped_of(nonfinite))));
-    text.notes.extend(external.fault.clone());
+    text.notes.extend(external.fault.as_ref().map(|fault| without_folders(fault, external)));
     text.notes.extend(external.notes.iter().cloned());
+}
+
+/// A file's folders are nobody's business on a projector: the message that says it once has all of its path.
+fn without_folders(fault: &str, external: &External) -> String {
+    match &external.source {
+        PaneSource::Followed(file) => fault.replace(&image_file::shown(file), &external.title()),
+        _ => fault.to_owned(),
+    }
 }
 
 /// "changed 41 times in 12.3 s"; nothing of one that came as it is.
@@ -72,6 +79,16 @@ mod tests {
         assert_eq!(text.facts, ["received on 127.0.0.1:14158"]);
         assert_eq!(text.notes, ["1 pixels are not finite, and not measured", "closed", "a note"]);
         assert_eq!(text.explanations, [""; 0]);
+    }
+
+    #[test]
+    fn of_a_file_that_cannot_be_read_the_label_has_the_name_alone() {
+        let source = PaneSource::Followed("/home/me/mine.exr".into());
+        let fault = Some("cannot read the picture (half): /home/me/mine.exr; tried again when it changes".into());
+        let external = External { name: "mine.exr".into(), source, changes: 0, notes: Vec::new(), fault };
+        let shown = PaneView { external: Some(Arc::new(external)), nonfinite: 0, ..shown((2, 1)) };
+        let text = LabelText::of(PaneId::B, &shown, None, None, false);
+        assert_eq!(text.notes, ["cannot read the picture (half): mine.exr; tried again when it changes"]);
     }
 
     #[test]
