@@ -22,7 +22,7 @@ pub struct Course {
 
 #[derive(Debug)]
 struct State {
-    /// Samples, or changes.
+    /// Samples so far; of another program's picture, which may not tell them, how often it has changed.
     steps: u32,
     spp: Option<u32>,
     seconds: f64,

@@ -94,7 +94,7 @@ impl Probes {
     }
 }
 
-/// Looks into pixels.
+/// The thread that makes the samples of one pixel, step by step.
 struct Prober {
     threads: Arc<Threads>,
     /// The job in hand, and whom it is for.

@@ -24,7 +24,7 @@ fn names(channels: &[&str]) -> Vec<u8> {
     channels.iter().flat_map(|name| text(name)).collect()
 }
 
-/// A picture begins.
+/// The packet by which a picture of this name, size and channels begins.
 pub fn create(name: &str, (width, height): (i32, i32), channels: &[&str]) -> Vec<u8> {
     let sides = wholes(&[width, height, channels.len() as i32]);
     packet(4, &[vec![1], text(name), sides, names(channels)].concat())
