@@ -73,6 +73,8 @@ fn colour(visuals: &mut Visuals, palette: &Palette, projector: bool) {
     visuals.window_fill = palette.panel;
     visuals.extreme_bg_color = palette.ground;
     visuals.faint_bg_color = palette.card;
+    // where cards are as the ground, what is typed in stands out from them
+    visuals.text_edit_bg_color = (palette.ground == palette.card).then_some(palette.hovered);
     visuals.window_stroke = Stroke::new(1.0, palette.line);
     visuals.weak_text_color = Some(palette.dim);
     visuals.error_fg_color = palette.error;
@@ -125,4 +127,21 @@ fn space(style: &mut Style, sizes: Sizes) {
     spacing.window_margin = Margin::same(12);
     spacing.tooltip_width = 320.0 * unit;
     spacing.scroll.floating = true;
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_typed_in_stands_out_from_its_card() {
+        for theme in Theme::ALL {
+            let palette = Palette::of(theme);
+            let mut visuals = Visuals::light();
+            colour(&mut visuals, palette, theme == Theme::Projector);
+            let has_an_edge = visuals.widgets.inactive.bg_stroke.color.a() > 0;
+            assert!(has_an_edge || visuals.text_edit_bg_color() != palette.card, "{theme:?}");
+            assert_ne!(visuals.text_edit_bg_color(), visuals.selection.bg_fill, "{theme:?}: what is chosen is seen");
+        }
+    }
 }
