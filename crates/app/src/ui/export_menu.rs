@@ -148,9 +148,13 @@ pub fn show(cx: &mut UiContext, ui: &mut Ui) {
         ui.set_min_width(300.0);
         choice(cx, ui);
         file(cx, ui);
-        ui.separator();
-        for (pane, shown) in cx.shown.panes.iter() {
-            let Some(command) = command(cx.model, pane, shown) else { continue };
+        let panes = cx.shown.panes.iter();
+        let commands: Vec<_> =
+            panes.filter_map(|(pane, shown)| Some((pane, command(cx.model, pane, shown)?))).collect();
+        if !commands.is_empty() {
+            ui.separator();
+        }
+        for (pane, command) in commands {
             let text = format!("Copy {pane} as command");
             let button = ui.add(framed(&text, ui)).explained(&command);
             if cx.dump.note(&format!("command {pane}"), &command, button).clicked() {
