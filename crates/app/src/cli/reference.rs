@@ -1,7 +1,7 @@
 //! `visavis reference`: references made, fetched and thrown away; and how other commands come by one.
 
 use super::{ReferenceArgs, interrupt};
-use crate::ruler::brief;
+use crate::ruler::{brief, counted};
 use anyhow::Context;
 use pathtrace::FEWEST_REPLICATES;
 use reference::{Goal, Key, Maker, Reference, Store};
@@ -127,11 +127,8 @@ impl Progress {
         if self.shown {
             let left = time_left(self.before, maker.progress(goal), self.start.elapsed());
             let left = left.map_or_else(String::new, |left| format!(", about {:.0} s left", left.as_secs_f64()));
-            let made = maker.replicates();
-            crate::console::to_stderr(format_args!(
-                "\r\x1b[Kreference: {made} pictures, {:.1} s{left} ",
-                maker.seconds()
-            ));
+            let made = counted(maker.replicates() as usize, "picture");
+            crate::console::to_stderr(format_args!("\r\x1b[Kreference: {made}, {:.1} s{left} ", maker.seconds()));
         }
     }
 

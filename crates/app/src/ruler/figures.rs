@@ -13,6 +13,11 @@ pub fn brief(value: f64) -> String {
     }
 }
 
+/// So many of what is called `one`: "1 picture", "4 pictures".
+pub fn counted(count: usize, one: &str) -> String {
+    format!("{count} {one}{}", if count == 1 { "" } else { "s" })
+}
+
 /// How far off a picture is and how much too bright or too dark, in words for people: "12 % off on average", "0.3 % too
 /// bright overall". Where `judge` names another picture, which need not be right itself, they are differences: "differs
 /// from B by 12 % on average", "0.3 % brighter overall".

@@ -7,7 +7,9 @@ mod kept_scene;
 mod noise;
 mod reference_image;
 
-pub use figures::{FEWEST_RUNS_OF_A_BIAS, bias_words, brief, error_records, error_words, formulas, noise_line};
+pub use figures::{
+    FEWEST_RUNS_OF_A_BIAS, bias_words, brief, counted, error_records, error_words, formulas, noise_line,
+};
 pub use heat_map::{GREY, HeatMap, Pair};
 pub use kept_scene::{kept_scene, made_before};
 pub use noise::Noise;

@@ -3,7 +3,7 @@
 use crate::model::{
     Axis, Destination, Equal, ExportRequest, ExportSubject, PaneId, Progress, SWEEPS, SweepFile, SweepMeasure, variable,
 };
-use crate::ruler::brief;
+use crate::ruler::{brief, counted};
 use crate::ui::theme::palette;
 use crate::ui::widgets::{Explained, NumberRow, Scale, choice, framed, menu, rows_of_menu};
 use crate::ui::{Dump, UiCommand, UiContext, export_menu};
@@ -144,10 +144,24 @@ fn reference_state(progress: Option<&Progress>, paused: bool) -> String {
     } else {
         " ..."
     };
-    format!("Against the reference: {pictures} pictures{noise}, {seconds:.0} s{course}")
+    let pictures = counted(*pictures as usize, "picture");
+    format!("Against the reference: {pictures}{noise}, {seconds:.0} s{course}")
 }
 
 /// What a pane that a tile is given to is called in explanations.
 pub fn hover_of_tiles() -> String {
     format!("Click: {} becomes it; Shift: {}", PaneId::A, PaneId::B)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::model::Origin;
+
+    #[test]
+    fn how_far_the_reference_is_is_told_in_the_right_number() {
+        let of = |pictures| Progress { view: 1, origin: Origin::Made, pictures, noise: None, seconds: 2.0, done: true };
+        assert_eq!(reference_state(Some(&of(1)), false), "Against the reference: 1 picture, 2 s");
+        assert_eq!(reference_state(Some(&of(4)), false), "Against the reference: 4 pictures, 2 s");
+    }
 }
