@@ -52,6 +52,9 @@ impl std::error::Error for SheetError {}
 /// Size of the type as a share of the height of a screen of 16 : 9 that the picture fills; at half of that it can still be read.
 const TYPE: f32 = 1.0 / 36.0;
 
+/// The smallest type of a caption, as a share of that.
+const SMALLEST: f32 = 0.5;
+
 /// Width over height of that screen.
 const SCREEN: f32 = 16.0 / 9.0;
 
@@ -90,6 +93,16 @@ struct Layout {
 }
 
 impl Layout {
+    /// One that has room in a picture.
+    fn checked(plan: &SweepPlan, size: (u32, u32), lines: usize) -> Result<Self, SheetError> {
+        let layout = Layout::of(plan, size, lines);
+        let (width, height) = layout.whole;
+        if u64::from(width) * u64::from(height) > MOST_PIXELS {
+            return Err(SheetError::TooLarge(width, height));
+        }
+        Ok(layout)
+    }
+
     fn of(plan: &SweepPlan, size: (u32, u32), lines: usize) -> Self {
         let columns = columns_of(plan);
         let rows = (plan.tiles.len() as u32).div_ceil(columns);
@@ -101,7 +114,14 @@ impl Layout {
         let by_height = pictures as f32 * TYPE / (1.0 - rows as f32 * lines * ROW * TYPE).max(0.2);
         let letters = by_height.max(width as f32 / SCREEN * TYPE).max(10.0).ceil();
         let caption = (lines * ROW * letters).ceil() as u32;
-        Layout { columns, size, gap, letters, caption, whole: (width, pictures + rows * caption) }
+        Layout {
+            columns,
+            size,
+            gap,
+            letters,
+            caption,
+            whole: (width, pictures.saturating_add(rows.saturating_mul(caption))),
+        }
     }
 
     /// Left upper corner of a tile.
@@ -121,6 +141,15 @@ fn columns_of(plan: &SweepPlan) -> u32 {
 const LONG: u32 = 5;
 
 impl Sheet {
+    /// Whether tiles of this size will make one picture with what stands below them.
+    ///
+    /// # Errors
+    /// [`SheetError::TooLarge`].
+    pub fn check_size(plan: &SweepPlan, size: (u32, u32), with_errors: bool) -> Result<(), SheetError> {
+        let names = plan.tiles.first().map_or(0, |tile| tile.names.len());
+        Layout::checked(plan, size, names + 1 + usize::from(with_errors)).map(|_| ())
+    }
+
     /// The whole as a picture.
     ///
     /// # Errors
@@ -130,13 +159,10 @@ impl Sheet {
         let size = self.tiles.iter().flatten().find(shown).map_or((320, 180), |tile| tile.image.size());
         let captions = captions(&self.plan, &self.facts, self.measure);
         let lines = captions.iter().map(Vec::len).max().unwrap_or_default();
-        let layout = Layout::of(&self.plan, size, lines);
-        let (width, height) = layout.whole;
-        if u64::from(width) * u64::from(height) > MOST_PIXELS {
-            return Err(SheetError::TooLarge(width, height));
-        }
+        let layout = Layout::checked(&self.plan, size, lines)?;
         let mut canvas = Canvas::filled(layout.whole, GROUND);
         let mut lettering = Lettering::default();
+        let letters = fitting(&mut lettering, captions.iter().flatten(), (layout.letters, size.0));
         let best = best(&self.facts, self.measure);
         for (index, (tile, caption)) in self.tiles.iter().zip(&captions).enumerate() {
             let best = best.contains(&index);
@@ -146,7 +172,7 @@ impl Sheet {
             if let Some(tile) = tile.as_ref().filter(shown) {
                 canvas.place(layout.corner(index), (size.0, &self.display.rgba8_of(&tile.image)));
             }
-            letter(&mut canvas, &mut lettering, &layout, (index, caption, best));
+            letter(&mut canvas, (&mut lettering, letters), &layout, (index, caption, best));
         }
         Ok(canvas)
     }
@@ -198,9 +224,16 @@ fn mark(canvas: &mut Canvas, layout: &Layout, index: usize) {
     canvas.fill(corner, (layout.size.0 + 2 * wide, layout.size.1 + 2 * wide), BEST);
 }
 
+/// The size of type at which the longest line fits below a tile of this width, if that can still be read.
+fn fitting<'a>(lettering: &mut Lettering, lines: impl Iterator<Item = &'a String>, (size, room): (f32, u32)) -> f32 {
+    let look = Type { size, semi_bold: true, colour: TEXT };
+    let longest = lines.map(|line| lettering.lay_out(line, look, u32::MAX, 1).rect.width()).fold(1.0, f32::max);
+    size * (0.98 * room as f32 / longest).clamp(SMALLEST, 1.0)
+}
+
 fn letter(
     canvas: &mut Canvas,
-    lettering: &mut Lettering,
+    (lettering, letters): (&mut Lettering, f32),
     layout: &Layout,
     (index, caption, best): (usize, &[String], bool),
 ) {
@@ -213,7 +246,7 @@ fn letter(
             last if best && last + 1 == caption.len() => BEST,
             _ => DIM,
         };
-        let look = Type { size: layout.letters, semi_bold: number == 0, colour };
+        let look = Type { size: letters, semi_bold: number == 0, colour };
         let line = lettering.lay_out(text, look, layout.size.0, 1);
         lettering.draw(canvas, &line, (left, (top + number as f32 * row).round() as u32), colour);
     }
@@ -228,6 +261,18 @@ mod tests {
     fn plan(columns: &str, rows: Option<&str>) -> SweepPlan {
         let rows = rows.map_or_else(Axis::default, |values| Axis::new("seed", values));
         SweepPlan::of(&PaneSettings::of(TechniqueName::Path), [&Axis::new("spp", columns), &rows], None).unwrap()
+    }
+
+    #[test]
+    fn a_long_line_below_a_narrow_tile_is_in_smaller_type_and_none_becomes_larger() {
+        let mut lettering = Lettering::default();
+        let long = "roulette P 0.8 and throughput".to_owned();
+        let look = |size| Type { size, semi_bold: true, colour: TEXT };
+        assert!(lettering.lay_out(&long, look(24.0), 320, 1).elided);
+        let letters = fitting(&mut lettering, [&long, &"4 spp".to_owned()].into_iter(), (24.0, 320));
+        assert!(!lettering.lay_out(&long, look(letters), 320, 1).elided && letters > 12.0, "{letters}");
+        assert_eq!(fitting(&mut lettering, std::iter::once(&"4 spp".to_owned()), (24.0, 320)), 24.0);
+        assert_eq!(fitting(&mut lettering, std::iter::once(&"m".repeat(200)), (24.0, 320)), 12.0);
     }
 
     /// On a screen that the whole fills, in either direction, letters are at least a fortieth of the height; of more rows than

@@ -47,13 +47,21 @@ impl TileErrors {
     }
 }
 
-/// The tiles of the least error as it is told, once all have one; none where all are alike.
+/// The tiles of the least error as it is told, once all have one; none where all are alike, or not told apart from another by
+/// more than the noise of the reference.
 pub fn best(tiles: &[TileFacts], measure: SweepMeasure) -> Vec<usize> {
     let error = |tile: &TileFacts| Some(tile.errors.filter(|_| tile.done)?.measured(measure)).filter(|e| e.is_finite());
     let Some(errors) = tiles.iter().map(error).collect::<Option<Vec<f64>>>() else { return Vec::new() };
     let Some(least) = errors.iter().copied().reduce(f64::min).map(brief) else { return Vec::new() };
-    let best: Vec<usize> = (0..errors.len()).filter(|index| brief(errors[*index]) == least).collect();
-    if best.len() == errors.len() { Vec::new() } else { best }
+    let (best, others): (Vec<usize>, Vec<usize>) = (0..errors.len()).partition(|index| brief(errors[*index]) == least);
+    let drowned = best.iter().any(|best| others.iter().any(|other| drown(&tiles[*best], &tiles[*other])));
+    if others.is_empty() || drowned { Vec::new() } else { best }
+}
+
+/// Whether the reference's own noise is larger than what tells two tiles apart; that is known as relMSE alone.
+fn drown(one: &TileFacts, other: &TileFacts) -> bool {
+    let (Some(one), Some(other)) = (one.errors, other.errors) else { return false };
+    one.errors.reference_noise.is_some_and(|noise| (one.errors.rel_mse - other.errors.rel_mse).abs() < noise)
 }
 
 /// The lines below each tile: its values; then what it took; then how far off it is, where that is known.
@@ -71,11 +79,16 @@ pub fn captions(plan: &SweepPlan, tiles: &[TileFacts], measure: SweepMeasure) ->
     plan.tiles.iter().enumerate().map(caption).collect()
 }
 
-/// "20 spp, 0.14 s".
+/// "20 spp, 0.14 s", and what went wrong.
 fn took(facts: &TileFacts) -> String {
-    if let Some(fault) = &facts.fault {
-        return fault.clone();
+    match &facts.fault {
+        None => spent(facts),
+        Some(fault) if facts.has_a_picture() => format!("{}; {fault}", spent(facts)),
+        Some(fault) => fault.clone(),
     }
+}
+
+fn spent(facts: &TileFacts) -> String {
     let seconds = format!("{:.2} s", facts.seconds);
     match (facts.spp, facts.done) {
         (None, false) => "waits ...".into(),
@@ -151,8 +164,26 @@ mod tests {
         assert!(best(&tiles, SweepMeasure::Flip).is_empty(), "all are alike");
         let nearly = [facts(1, 0.4), facts(1, 0.100_02), facts(1, 0.100_01)];
         assert_eq!(best(&nearly, SweepMeasure::RelMse), [1, 2], "no caption tells them apart");
+        let noisy = |rel_mse, noise| {
+            let TileErrors { errors, flip } = facts(1, rel_mse).errors.unwrap();
+            TileFacts {
+                errors: Some(TileErrors { errors: errors.with_reference_noise(noise), flip }),
+                ..facts(1, rel_mse)
+            }
+        };
+        let of_noise = |noise| best(&[noisy(0.4, noise), noisy(0.2, noise), noisy(0.23, noise)], SweepMeasure::RelMse);
+        assert_eq!(of_noise(0.02), [1]);
+        assert_eq!(of_noise(0.04), [0; 0], "the reference is not good enough to tell");
         let unmeasured = [facts(1, 0.4), TileFacts { errors: None, ..facts(4, 0.1) }];
         assert!(best(&unmeasured, SweepMeasure::RelMse).is_empty(), "one is not known yet");
+    }
+
+    #[test]
+    fn what_went_wrong_is_told_beside_what_the_picture_took() {
+        let mut tile = TileFacts { fault: Some("not denoised: no memory".into()), ..facts(4, 0.1) };
+        assert_eq!(took(&tile), "4 spp, 0.13 s; not denoised: no memory");
+        tile.spp = None;
+        assert_eq!(took(&tile), "not denoised: no memory", "there is no picture");
     }
 
     #[test]
