@@ -107,7 +107,7 @@ fn of_tiles() -> Vec<CommandOption<Reading>> {
         CommandOption {
             names: &["--time"],
             value: "SECONDS",
-            help: "rendering time of every tile, in place of a number of samples",
+            help: "rendering time of every tile, in place of a number of samples; not of several runs, which end with their samples",
             read: |reading, parser| {
                 reading.args.seconds = Some(seconds(parser)? as f32);
                 Ok(())

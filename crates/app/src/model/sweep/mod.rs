@@ -11,7 +11,7 @@ pub use presets::{SWEEPS, SweepPreset};
 
 use super::{Model, PaneId, PaneSource};
 use scene::Scene;
-use technique::settings::{Kind, Look, Setting, Value, all_of_panes};
+use technique::settings::{Kind, Look, Setting, Value, all_of_panes, of_panes};
 use technique::{PaneSettings, TechniqueName};
 
 /// What is varied, and how pictures of different values are kept comparable.
@@ -124,8 +124,12 @@ impl SweepMeasure {
 
 /// What can be varied of a pane of this technique, by its name: the technique itself, and its settings.
 pub fn variable(technique: TechniqueName) -> impl Iterator<Item = &'static str> {
-    let rows = all_of_panes().filter(move |row| row.is_of(technique)).map(|row| row.name);
-    std::iter::once(TECHNIQUE).chain(rows)
+    variable_of_any().filter(move |name| *name == TECHNIQUE || of_panes(name).is_some_and(|row| row.is_of(technique)))
+}
+
+/// What can be varied of a pane of some technique.
+fn variable_of_any() -> impl Iterator<Item = &'static str> {
+    std::iter::once(TECHNIQUE).chain(all_of_panes().map(|row| row.name).filter(|name| *name != plan::HISTORY))
 }
 
 fn usual_values(setting: &str, technique: TechniqueName, scene: &Scene) -> String {
@@ -260,5 +264,15 @@ mod tests {
         assert_eq!(model.session.source(PaneId::A), &PaneSource::Made, "another program's picture makes room");
         model.undo();
         assert_eq!((&model.session.panes, model.session.source(PaneId::A)), (&before, &received));
+    }
+
+    #[test]
+    fn tiles_are_made_without_earlier_views_which_cannot_be_varied() {
+        let mut base = PaneSettings::of(TechniqueName::Path);
+        base.denoise.history = 64;
+        let plan = SweepPlan::of(&base, [&Axis::new("spp", "1, 2"), &Axis::default()], None).unwrap();
+        assert!(plan.tiles.iter().all(|tile| tile.pane.denoise.history == 0));
+        assert!(TechniqueName::ALL.into_iter().flat_map(variable).all(|setting| setting != "history"));
+        assert!(Axis::parse("history=0,64").is_err_and(|fault| fault.contains("history changes no tile")));
     }
 }

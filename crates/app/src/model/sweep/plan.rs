@@ -2,7 +2,7 @@
 
 use super::Axis;
 use scene::nearest_or_begun;
-use technique::settings::{Setting, Value, all_of_panes, of_panes};
+use technique::settings::{Setting, Value, of_panes};
 use technique::{PaneSettings, Technique, TechniqueName};
 
 /// The most values of one setting, and the fewest.
@@ -27,6 +27,9 @@ pub struct SweepPlan {
     /// Seconds of rendering that each tile has; `None` where it has the samples that it is set to.
     pub seconds: Option<f32>,
 }
+
+/// What acts from view to view, of which a tile has one alone.
+pub(super) const HISTORY: &str = "history";
 
 /// A setting with its values.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -67,6 +70,9 @@ impl SweepPlan {
     /// The word that is wrong, and what was expected: one line.
     pub fn of(base: &PaneSettings, [columns, rows]: [&Axis; 2], seconds: Option<f32>) -> Result<Self, String> {
         let axes = [columns, rows];
+        let mut base = *base;
+        base.denoise.history = 0;
+        let base = &base;
         if !rows.is_empty() && rows.setting == columns.setting {
             return Err(format!("{0} is varied along columns and rows: choose another setting for one", rows.setting));
         }
@@ -81,6 +87,13 @@ impl SweepPlan {
             return Err(format!("{} x {} are {count} tiles: {MOST_TILES} at most", in_columns.len(), in_rows.len()));
         }
         let tiles = tiles(base, (&in_columns, &in_rows))?;
+        if let Some(tile) = tiles.iter().find(|tile| seconds.is_some() && tile.pane.in_use().runs() > 1) {
+            let runs = tile.pane.in_use().runs();
+            return Err(format!(
+                "{}: a mean of {runs} runs ends with their samples, not at equal time: set runs to 1",
+                tile.name()
+            ));
+        }
         let line =
             |values: &[Varied]| Line { setting: name_of(values), values: values.iter().map(|v| v.word()).collect() };
         let rows = (!in_rows.is_empty()).then(|| line(&in_rows));
@@ -103,7 +116,7 @@ impl Axis {
             Some(row) => words.into_iter().try_for_each(|word| value_of(row, word, &[]).map(|_| ()))?,
             None if axis.setting == TECHNIQUE => words.into_iter().try_for_each(|word| technique(word).map(|_| ()))?,
             None => {
-                let known: Vec<_> = std::iter::once(TECHNIQUE).chain(all_of_panes().map(|row| row.name)).collect();
+                let known: Vec<_> = super::variable_of_any().collect();
                 let meant = did_you_mean(&axis.setting, &known);
                 return Err(format!("{} is no setting: expected {}{meant}", axis.setting, known.join(", ")));
             }
@@ -139,6 +152,9 @@ fn did_you_mean(word: &str, known: &[&'static str]) -> String {
 fn words(axis: &Axis) -> Result<Vec<&str>, String> {
     let words: Vec<&str> = axis.values.split(',').map(str::trim).collect();
     let setting = &axis.setting;
+    if setting == HISTORY {
+        return Err(format!("{HISTORY} changes no tile: each is of one view, without earlier ones"));
+    }
     if axis.values.trim().is_empty() || words.len() < FEWEST_VALUES || words.len() > MOST_VALUES {
         let count = if axis.values.trim().is_empty() { 0 } else { words.len() };
         let expected = format!("expected {FEWEST_VALUES} to {MOST_VALUES} values with commas between");
@@ -296,6 +312,7 @@ mod tests {
                 ("estimator", "light, guided"),
                 "Metropolis, guided: a guide is learned for paths",
             ),
+            (("history", "0, 64"), ("", ""), "history changes no tile"),
             (("branches", "1, 2"), ("", ""), "need a limit of bounces"),
             (("spp", "1, 2"), ("spp", "3, 4"), "spp is varied along columns and rows"),
             (("spp", "1,2,3,4,5,6"), ("seed", "1,2,3"), "6 x 3 are 18 tiles: 16 at most"),
@@ -307,5 +324,8 @@ mod tests {
         let axis = Axis::new("spp", "1, 2");
         let at_equal_time = SweepPlan::of(&PaneSettings::of(Path), [&axis, &Axis::default()], Some(1.0));
         assert!(at_equal_time.is_err_and(|fault| fault.contains("at equal time nothing is left of spp")));
+        let axis = Axis::new("runs", "1, 4");
+        let of_runs = SweepPlan::of(&PaneSettings::of(Path), [&axis, &Axis::default()], Some(1.0));
+        assert!(of_runs.is_err_and(|fault| fault.contains("a mean of 4 runs ends with their samples")));
     }
 }
