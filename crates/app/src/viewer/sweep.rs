@@ -63,6 +63,8 @@ impl Viewer {
             return self.model.say(Err("not all tiles are done yet; try again in a moment".into()));
         };
         let (measure, display) = (self.model.session.sweep.measure, self.model.session.display);
+        let mut saved = SavedSession::of(&self.model, None);
+        saved.session.show_sweep(&plan);
         let content = match file {
             SweepFile::Table => Content::Text(sweep_csv(&plan, facts)),
             SweepFile::Picture => Content::Sweep(Box::new(Sheet {
@@ -74,7 +76,7 @@ impl Viewer {
             })),
         };
         let document = &self.model.document;
-        let session = SavedSession::of(&self.model, None).text(&document.scene, &document.source);
+        let session = saved.text(&document.scene, &document.source);
         self.engine.export(Export { content, records: vec![(SESSION, session)], to });
     }
 

@@ -101,3 +101,17 @@ fn a_sweep_that_is_left_or_changed_ends_at_once() {
     user.click("Save the sweep as PNG");
     user.wait_for("a refusal", |frame| says(frame, "not all tiles are done yet"));
 }
+
+#[test]
+fn a_picture_that_is_saved_in_the_middle_of_typing_opens_as_what_it_shows() {
+    let mut user = User::beside("cornell", egui::vec2(800.0, 500.0), 1.0, technique::DeviceChoice::Cpu);
+    sweep(&mut user, Axis::new("bounces", "0, 1, 2"));
+    user.change(|model| model.session.sweep.columns = Axis::new("bounces", "0, 1, mny"));
+    user.wait_for("the fault", |frame| frame.value("text sweep fault").contains("bounces=mny"));
+    let file = user.file("sweep.png");
+    export(&mut user, &["The sweep"], &file);
+    user.change(|model| model.session.sweep = SweepSettings::default());
+    user.drop_file(&file);
+    let opened = user.wait_for("the sweep again", |frame| frame.state("sweep")["open"] == true && all_done(frame));
+    assert_eq!(opened.value("Values of Columns"), "0, 1, 2");
+}

@@ -81,7 +81,7 @@ impl SavedSession {
             changes: document.changes,
             camera: document.camera,
             bookmarks: document.bookmarks.clone(),
-            session: session.clone(),
+            session: Session { sweep: model.sweep_to_save(), ..session.clone() },
             line_placed: true,
             window: SavedWindow {
                 size,

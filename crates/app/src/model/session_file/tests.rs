@@ -124,6 +124,15 @@ fn a_sweep_comes_back_as_it_was_and_what_it_cannot_mean_is_told_with_its_place()
         parsed(&text(&model), &model.document.scene).unwrap().session.sweep.columns,
         Axis::new("spp", "1, 4, 16")
     );
+    model.session.sweep.of = PaneId::B;
+    model.session.sweep.columns = Axis::new("bounces", "0, 1");
+    model.session.sweep.rows = Axis::default();
+    model.follow_the_sweep();
+    // what tiles show comes back, whatever would not be made
+    model.session.sweep.columns.values = "0, mny".into();
+    model.session.sweep.equal = Equal::Samples;
+    let read = parsed(&text(&model), &model.document.scene).unwrap().session.sweep;
+    assert_eq!((read.columns, read.equal), (Axis::new("bounces", "0, 1"), Equal::Time));
     for (line, said) in [
         ("columns = \"bounces=0,many\"", "4:11: columns: bounces=many: expected a whole number"),
         ("rows = \"bouncs=0,1\"", "4:8: rows: bouncs is no setting"),

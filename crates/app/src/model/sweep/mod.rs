@@ -9,7 +9,7 @@ pub use caption::{TileErrors, TileFacts, best, captions, sweep_csv};
 pub use plan::{Line, MOST_TILES, MOST_VALUES, PlannedTile, SweepPlan, TECHNIQUE};
 pub use presets::{SWEEPS, SweepPreset};
 
-use super::{Model, PaneId, PaneSource};
+use super::{Model, PaneId, PaneSource, Session};
 use scene::Scene;
 use technique::settings::{Kind, Look, Setting, Value, all_of_panes, of_panes};
 use technique::{PaneSettings, TechniqueName};
@@ -176,15 +176,38 @@ fn numbers_of(look: &Look) -> Vec<String> {
     [least, middle, most].map(|number| look.rounded(Value::Number(number)).to_string()).into()
 }
 
-impl Model {
+impl SweepSettings {
+    /// Varies what a plan does.
+    fn follow(&mut self, plan: &SweepPlan) {
+        self.columns = plan.columns.axis();
+        self.rows = plan.rows.as_ref().map(Line::axis).unwrap_or_default();
+        self.equal = if plan.seconds.is_some() { Equal::Time } else { Equal::Samples };
+        self.seconds = plan.seconds.unwrap_or(self.seconds);
+    }
+}
+
+impl Session {
+    /// Opens the sweep of these tiles, whatever has been typed since they were planned.
+    pub fn show_sweep(&mut self, plan: &SweepPlan) {
+        self.sweep.open = true;
+        let is_shown = |session: &Session| session.sweep_plan().as_ref() == Ok(plan);
+        if !is_shown(self) {
+            self.sweep.follow(plan);
+        }
+        if !is_shown(self) {
+            // the pane is another by now, and each tile has all of what it was
+            self.panes.insert(self.sweep.of, plan.tiles[0].pane);
+        }
+    }
+
     /// What the sweep is to show.
     ///
     /// # Errors
     /// Why it shows nothing: one line.
-    pub fn sweep_plan(&self) -> Result<SweepPlan, String> {
-        let sweep = &self.session.sweep;
-        let base = self.session.panes.get(sweep.of).ok_or_else(|| format!("there is no pane {}", sweep.of))?;
-        if *self.session.source(sweep.of) != PaneSource::Made {
+    fn sweep_plan(&self) -> Result<SweepPlan, String> {
+        let sweep = &self.sweep;
+        let base = self.panes.get(sweep.of).ok_or_else(|| format!("there is no pane {}", sweep.of))?;
+        if *self.source(sweep.of) != PaneSource::Made {
             let of = sweep.of;
             return Err(format!(
                 "{of} shows another program's picture, of which nothing can be varied: choose the other pane above, a technique \
@@ -193,6 +216,24 @@ impl Model {
         }
         let seconds = (sweep.equal == Equal::Time).then_some(sweep.seconds);
         SweepPlan::of(base, [&sweep.columns, &sweep.rows], seconds)
+    }
+}
+
+impl Model {
+    /// What the sweep is to show.
+    ///
+    /// # Errors
+    /// Why it shows nothing: one line.
+    pub fn sweep_plan(&self) -> Result<SweepPlan, String> {
+        self.session.sweep_plan()
+    }
+
+    /// What is set up of the sweep; where that is none, as in the middle of typing, what its tiles show.
+    pub(super) fn sweep_to_save(&self) -> SweepSettings {
+        let mut sweep = self.session.sweep.clone();
+        let shown = self.state.sweep.plan.as_ref().filter(|_| self.sweep_plan().is_err());
+        shown.into_iter().for_each(|plan| sweep.follow(plan));
+        sweep
     }
 
     /// Notes what can be made of the sweep as it is set, before it is drawn.
@@ -264,6 +305,20 @@ mod tests {
         assert_eq!(model.session.source(PaneId::A), &PaneSource::Made, "another program's picture makes room");
         model.undo();
         assert_eq!((&model.session.panes, model.session.source(PaneId::A)), (&before, &received));
+    }
+
+    #[test]
+    fn a_session_shows_the_sweep_of_a_plan_whatever_its_pane_has_become() {
+        let mut session = Session::default();
+        (session.sweep.of, session.sweep.columns) = (PaneId::A, Axis::new("bounces", "0, 1"));
+        session.panes.insert(PaneId::A, PaneSettings::of(TechniqueName::Path));
+        let plan = session.sweep_plan().unwrap();
+        // of which there is no such sweep
+        session.panes.insert(PaneId::A, PaneSettings::of(TechniqueName::Raster));
+        assert!(session.sweep_plan().is_err());
+        session.show_sweep(&plan);
+        assert!(session.sweep.open);
+        assert_eq!(session.sweep_plan(), Ok(plan));
     }
 
     #[test]

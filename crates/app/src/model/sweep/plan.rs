@@ -40,6 +40,13 @@ pub struct Line {
     pub values: Vec<String>,
 }
 
+impl Line {
+    /// As it is typed to be this again.
+    pub(super) fn axis(&self) -> Axis {
+        Axis::new(self.setting, &self.values.join(", "))
+    }
+}
+
 /// A picture that is to be made.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PlannedTile {
