@@ -1,13 +1,16 @@
 //! `visavis sweep`: many pictures of one scene with their captions as one picture, without a window.
 
 use super::{SweepArgs, interrupt, reference};
-use crate::model::{SweepMeasure, SweepPlan, TileFacts, best, captions, sweep_csv};
+use crate::engine::restore::SESSION;
+use crate::model::{Model, SavedSession, SweepMeasure, SweepPlan, Theme, TileFacts, best, captions, sweep_csv};
 use crate::ruler::ReferenceImage;
 use crate::sweep::{Asked, Devices, Onlooker, Sheet, Tile, TileMaker, measure};
 use anyhow::Context;
 use film::DisplayTransform;
 use gpu::Gpu;
+use scene::Scene;
 use serde_json::{Value, json};
+use std::path::Path;
 use std::sync::Arc;
 use std::time::Duration;
 use technique::{Backend, DeviceChoice, INSTEAD, Shot, Threads};
@@ -23,9 +26,8 @@ pub fn run(args: &SweepArgs) -> anyhow::Result<()> {
         args.errors.is_none() || plan.tiles.iter().any(|tile| tile.pane.in_use().has_a_reference()),
         "a part of the light has no errors: the reference has all of it; leave out --errors or light="
     );
-    for file in std::iter::once(&args.out).chain(&args.csv) {
-        image_file::check_writable(file)?;
-    }
+    check_files(args)?;
+    Sheet::check_size(&plan, shot.size, args.errors.is_some())?;
     let _heeded = interrupt::heed();
     let tiles = make(&plan, &shot)?;
     let display = DisplayTransform { exposure: args.exposure };
@@ -37,7 +39,7 @@ pub fn run(args: &SweepArgs) -> anyhow::Result<()> {
     padded.resize(plan.tiles.len(), None);
     let figure = args.errors.unwrap_or(SweepMeasure::RelMse);
     let sheet = Sheet { plan, tiles: padded, facts, measure: figure, display };
-    save(args, &sheet)?;
+    save(args, &sheet, session_text(args, &shot, &sheet))?;
     let out = image_file::shown(&args.out);
     let count = sheet.plan.tiles.len();
     measured.with_context(|| format!("{made} tiles are saved, without their errors: {out}"))?;
@@ -51,6 +53,36 @@ pub fn run(args: &SweepArgs) -> anyhow::Result<()> {
     }
     anyhow::ensure!(!interrupt::is_asked(), "{made} of {count} tiles are saved: {out}");
     Ok(())
+}
+
+/// Each is another file, and none the scene's.
+fn check_files(args: &SweepArgs) -> anyhow::Result<()> {
+    let scene = Path::new(&args.scene);
+    for (option, file) in std::iter::once(("-o", &args.out)).chain(args.csv.iter().map(|csv| ("--csv", csv))) {
+        let shown = image_file::shown(file);
+        anyhow::ensure!(
+            !image_file::is_same_file(scene, file),
+            "{option} would overwrite the scene; give another name: {shown}"
+        );
+        image_file::check_writable(file)?;
+    }
+    let twice = args.csv.as_ref().filter(|csv| will_be_same_file(&args.out, csv));
+    match twice {
+        Some(csv) => anyhow::bail!(
+            "-o and --csv are one file, which cannot be both; give another name: {}",
+            image_file::shown(csv)
+        ),
+        None => Ok(()),
+    }
+}
+
+/// Whether two names stand for one file, or will once it is there.
+fn will_be_same_file(a: &Path, b: &Path) -> bool {
+    let place = |file: &Path| {
+        let file = std::path::absolute(file).ok()?;
+        Some((file.parent()?.canonicalize().ok()?, file.file_name()?.to_owned()))
+    };
+    image_file::is_same_file(a, b) || matches!((place(a), place(b)), (Some(a), Some(b)) if a == b)
 }
 
 /// Whoever has asked at a terminal can end it.
@@ -119,8 +151,18 @@ fn facts_of(
     Ok(all)
 }
 
-fn save(args: &SweepArgs, sheet: &Sheet) -> anyhow::Result<()> {
-    image_file::write_or_keep(&args.out, &sheet.png(Vec::new())?)?;
+/// The session of a window that shows these tiles.
+fn session_text(args: &SweepArgs, shot: &Shot, sheet: &Sheet) -> String {
+    let mut model = Model::new(Scene::clone(&shot.scene), shot.source.clone(), Theme::default());
+    (model.document.changes, model.session.display) = (shot.changes, sheet.display);
+    model.session.sweep.measure = sheet.measure;
+    model.session.panes.insert(model.session.sweep.of, args.base(Some(&shot.scene)));
+    model.session.show_sweep(&sheet.plan);
+    SavedSession::of(&model, None).text(&shot.scene, &shot.source)
+}
+
+fn save(args: &SweepArgs, sheet: &Sheet, session: String) -> anyhow::Result<()> {
+    image_file::write_or_keep(&args.out, &sheet.png(vec![(SESSION, session)])?)?;
     if let Some(csv) = &args.csv {
         image_file::write_or_keep(csv, sweep_csv(&sheet.plan, &sheet.facts).as_bytes())?;
     }

@@ -137,3 +137,40 @@ fn what_cannot_be_varied_is_wrong_usage_and_writes_nothing() {
     assert_refused(&normals, 1, &["what shows no light has no errors"]);
     assert_eq!(folder.names(), [""; 0]);
 }
+
+#[test]
+fn no_file_is_written_over_another_of_the_same_sweep() {
+    let folder = TestFolder::new();
+    let scene = folder.file("my.toml");
+    let text = scene::builtin::text("cornell").expect("a built-in scene");
+    std::fs::write(&scene, text).expect("a file");
+    let own = scene.to_str().expect("a name");
+    let [out, through] = ["new.png", "../new.png"].map(|name| match name.strip_prefix("../") {
+        None => folder.file(name).display().to_string(),
+        Some(name) => format!("{}/../{}/{name}", own.trim_end_matches("/my.toml"), name_of(&folder)),
+    });
+    let sweep = ["sweep", own, "bounces=0,1", "--spp", "1", "--size", "16x16", "-o", &out, "--csv"];
+    assert_refused(&[&sweep[..], &[own]].concat(), 1, &["--csv would overwrite the scene", "my.toml"]);
+    // the second is a longer way to the file of the first, and neither is there yet
+    for csv in [&out, &through] {
+        assert_refused(&[&sweep[..], &[csv]].concat(), 1, &["-o and --csv are one file", "new.png"]);
+    }
+    assert_eq!(folder.names(), ["my.toml"]);
+    assert_eq!(std::fs::read_to_string(&scene).expect("the scene"), text);
+}
+
+/// The name of a folder in that above it.
+fn name_of(folder: &TestFolder) -> String {
+    let file = folder.file("a");
+    file.parent().and_then(Path::file_name).expect("a folder").display().to_string()
+}
+
+/// Were a tile of it rendered, this took minutes.
+#[test]
+fn a_sheet_that_would_be_too_large_is_refused_before_a_tile_is_made() {
+    let folder = TestFolder::new();
+    let out = folder.file("big.png").display().to_string();
+    let words = ["sweep", "cornell", "seed=1,2,3", "--spp", "1000", "--size", "8000x6000", "-o", &out];
+    assert_refused(&words, 1, &["all tiles together are", "make them smaller, or fewer"]);
+    assert_eq!(folder.names(), [""; 0]);
+}

@@ -115,3 +115,21 @@ fn a_picture_that_is_saved_in_the_middle_of_typing_opens_as_what_it_shows() {
     let opened = user.wait_for("the sweep again", |frame| frame.state("sweep")["open"] == true && all_done(frame));
     assert_eq!(opened.value("Values of Columns"), "0, 1, 2");
 }
+
+#[test]
+fn a_picture_of_the_command_line_opens_as_its_sweep() {
+    let mut user = User::beside("whitted", egui::vec2(800.0, 500.0), 1.0, technique::DeviceChoice::Cpu);
+    let file = user.file("sheet.png");
+    run(
+        "visavis sweep cornell technique=path,whitted,photon --of path,spp=3,seed=5 --size 32x24 --exposure 1 -o s.png --device cpu",
+        &file,
+    );
+    user.drop_file(&file);
+    let opened = user.wait_for("its sweep", |frame| frame.state("sweep")["open"] == true && all_done(frame));
+    assert_eq!(opened.value("Values of Columns"), "path, whitted, photon");
+    assert!(tiles(&opened).iter().all(|tile| tile["spp"] == 3), "{opened:?}");
+    user.change(|model| {
+        assert_eq!((model.document.source.as_str(), model.session.display.exposure), ("cornell", 1.0));
+        assert_eq!(model.session.panes[visavis::model::PaneId::B].truth.path.seed, 5);
+    });
+}

@@ -140,7 +140,7 @@ fn of_files() -> Vec<CommandOption<Reading>> {
             names: &["--errors"],
             value: "relMSE|RMSE|FLIP",
             help: "measure every tile against the scene's reference, which is made if it is not there; captions tell this figure, and \
-                   the best is marked",
+                   the best is marked where the reference's noise is small enough to tell",
             read: |reading, parser| {
                 let named = |name: &str| SweepMeasure::ALL.into_iter().find(|measure| measure.name() == name);
                 reading.args.errors = Some(choice(parser, "--errors", named, "relMSE, RMSE or FLIP")?);
@@ -252,12 +252,17 @@ impl SweepArgs {
     /// # Errors
     /// What cannot be made: one line.
     pub fn plan(&self, scene: Option<&Scene>) -> Result<SweepPlan, String> {
+        SweepPlan::of(&self.base(scene), [&self.axes[0], &self.axes[1]], self.seconds)
+    }
+
+    /// What all tiles are set to, but for what is varied.
+    pub fn base(&self, scene: Option<&Scene>) -> PaneSettings {
         let mut base = PaneSettings::of(TechniqueName::Path);
         // other techniques too have what the scene asks for
         scene.into_iter().for_each(|scene| base.take_usual_estimator(scene));
         self.of.add_to(&mut base);
         base.device = self.device;
-        SweepPlan::of(&base, [&self.axes[0], &self.axes[1]], self.seconds)
+        base
     }
 
     /// What no scene would mend.
