@@ -95,9 +95,8 @@ impl SweepPlan {
         }
         let tiles = tiles(base, (&in_columns, &in_rows))?;
         if let Some(tile) = tiles.iter().find(|tile| seconds.is_some() && tile.pane.in_use().runs() > 1) {
-            let runs = tile.pane.in_use().runs();
             return Err(format!(
-                "{}: a mean of {runs} runs ends with their samples, not at equal time: set runs to 1",
+                "{}: several runs end with their samples, not at equal time: set runs to 1",
                 tile.name()
             ));
         }
@@ -333,6 +332,6 @@ mod tests {
         assert!(at_equal_time.is_err_and(|fault| fault.contains("at equal time nothing is left of spp")));
         let axis = Axis::new("runs", "1, 4");
         let of_runs = SweepPlan::of(&PaneSettings::of(Path), [&axis, &Axis::default()], Some(1.0));
-        assert!(of_runs.is_err_and(|fault| fault.contains("a mean of 4 runs ends with their samples")));
+        assert!(of_runs.is_err_and(|fault| fault.contains("4 runs: several runs end with their samples")));
     }
 }
