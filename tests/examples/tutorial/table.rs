@@ -275,13 +275,7 @@ pub const POINTS: &[Point] = &[
             Way { name: PRESET, steps: &[SCENE, IN_CORNELL, Click("A presets"), Click("A preset 2e-2-bounces")] },
             Way {
                 name: BY_HAND,
-                steps: &[
-                    SCENE,
-                    IN_CORNELL,
-                    Click("A path"),
-                    Type("A bounces", "2"),
-                    Type("A spp", "20"),
-                ],
+                steps: &[SCENE, IN_CORNELL, Click("A path"), Type("A bounces", "2"), Type("A spp", "20")],
             },
         ],
         shows: &[Sign::Value("A bounces", "2"), Sign::Samples("a", 20)],
