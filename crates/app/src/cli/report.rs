@@ -151,21 +151,24 @@ fn picture(
     let (measuring, mut points) = follower.into_points();
     let seconds = seconds - measuring.as_secs_f64();
     let core_seconds = core_seconds().zip(before).map(|(after, before)| after - before - measuring.as_secs_f64());
+    let spp = matches!(technique, Technique::Traced(_)).then(|| rendered.film.samples_per_pixel());
+    let ended = ended_early(&technique, rendered.runs, spp);
     let (image, mut technique) = (render::picture_of(&rendered), technique.with_runs(rendered.runs));
-    if let (Some(Err(_)), Technique::Traced(traced)) = (&rendered.denoised, &mut technique) {
+    let was_to_be_denoised = technique.denoise().is_on();
+    if let (None | Some(Err(_)), Technique::Traced(traced)) = (&rendered.denoised, &mut technique) {
         traced.denoise = DenoiseSettings::OFF;
     }
-    let spp = matches!(technique, Technique::Traced(_)).then(|| rendered.film.samples_per_pixel());
     if let Some(errors) = judge.map(|judge| judge.errors(&image)).transpose()? {
         points.retain(|point| point.spp < spp);
         points.push(ErrorPoint { spp, seconds, errors });
     }
     let mut notes = notes(&technique, &shot.scene, rendered.film.nonfinite);
-    if let Some(Err(fault)) = &rendered.denoised {
-        notes.push(format!("not denoised: {fault}"));
-    }
-    if let Some(Ok(Denoised { seconds, .. })) = &rendered.denoised {
-        notes.push(format!("denoised by {} in {seconds:.2} s", technique.denoise().denoiser.name()));
+    notes.extend(ended);
+    match &rendered.denoised {
+        Some(Ok(Denoised { seconds, .. })) => notes.push(format!("denoising took {seconds:.2} s")),
+        Some(Err(fault)) => notes.push(format!("not denoised: {fault}")),
+        None if was_to_be_denoised => notes.push("not denoised, for it was ended before".into()),
+        None => {}
     }
     let picture = ReportedPicture {
         pane,
@@ -181,6 +184,16 @@ fn picture(
         notes,
     };
     Ok((picture, points))
+}
+
+/// "ended at 1 of 100000 samples per pixel": what an interruption or a limit of time has left of what was asked for.
+fn ended_early(wished: &Technique, runs: u32, spp: Option<u32>) -> Option<String> {
+    let Technique::Traced(traced) = wished else { return None };
+    let spp = spp? / runs.max(1);
+    let samples = (spp < traced.spp).then(|| format!("{spp} of {} samples per pixel", traced.spp));
+    let runs = (runs < wished.runs()).then(|| format!("{runs} of {} runs", wished.runs()));
+    let parts: Vec<String> = samples.into_iter().chain(runs).collect();
+    (!parts.is_empty()).then(|| format!("ended at {}", parts.join(", ")))
 }
 
 /// What of a picture is to be known where it is read.

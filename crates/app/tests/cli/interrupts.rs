@@ -98,6 +98,24 @@ fn render_saves_the_samples_that_there_are_and_ends_by_the_signal() {
     }
 }
 
+#[test]
+fn a_report_that_was_interrupted_says_so() {
+    let folder = TestFolder::new();
+    let (scene, page) = (folder.file("a.toml"), folder.file("a.html"));
+    std::fs::write(&scene, UNSEEN_LIGHT).expect("the scene");
+    let mut command = program();
+    command.arg("report").arg(scene).args(["--a", "path,estimator=uniform,denoise=atrous", "--b", "path,spp=1"]);
+    command.args(["--against", "other", "--size", "8x8", "--spp", "65536", "--device", "cpu", "-o"]).arg(&page);
+    let making = Begun::new(&mut command);
+    assert!(making.first_line.starts_with("note: "), "{}", making.first_line);
+    making.send(Signal::INT);
+    let (said, end) = making.end();
+    assert_eq!(end.signal(), Some(Signal::INT.as_raw()), "{said}");
+    let html = std::fs::read_to_string(page).expect("the page");
+    assert!(html.contains(" of 65536 samples per pixel"), "{said}");
+    assert!(html.contains("not denoised, for it was ended before") && !html.contains("denoised by atrous"));
+}
+
 /// One sample of every pixel is made in any case: of so many that the second signal comes before.
 #[test]
 fn the_second_signal_ends_at_once_and_leaves_no_half_a_file() {

@@ -105,6 +105,24 @@ fn a_slide_is_exactly_as_large_as_it_says_and_opens_as_what_it_shows() {
     assert!(html.contains("A: Path tracing, 0 bounces"), "what the slide shows");
 }
 
+/// More samples than a tenth of a second has room for.
+#[test]
+fn a_page_says_what_a_limit_of_time_has_left() {
+    let folder = TestFolder::new();
+    let page = folder.file("report.html");
+    let panes =
+        ["report", "cornell", "--a", "path,spp=1", "--b", "path,spp=65536,denoise=atrous", "--against", "other"];
+    let made = beside(&folder, &[&panes[..], &["--size", "64x64", "--time", "0.1", "-o", text(&page)]].concat());
+    assert_done(&made);
+    let html = std::fs::read_to_string(page).expect("the page");
+    assert_eq!(
+        html.matches(" of 65536 samples per pixel").count(),
+        2,
+        "under B, and in the words for who cannot see it"
+    );
+    assert!(!html.contains(" of 1 samples"), "A is whole");
+}
+
 #[test]
 fn what_makes_no_report_is_refused_in_a_line_and_nothing_is_left() {
     let folder = TestFolder::new();
