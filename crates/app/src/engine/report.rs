@@ -20,11 +20,11 @@ pub struct ReportToSave {
 /// A slide to write.
 #[derive(Debug, Clone)]
 pub struct SlideToSave {
-    /// What it shows.
+    /// All that is known of the pictures, of which the slide shows those of the view.
     pub report: LabReport,
     /// How large it is.
     pub size: SlideSize,
-    /// Dark or light.
+    /// Those of its ground and of its text: dark, or light.
     pub colours: SlideColours,
 }
 
@@ -44,7 +44,7 @@ impl ReportToSave {
 }
 
 impl SlideToSave {
-    /// Draws it.
+    /// Draws the slide where time does not matter: off the UI thread.
     ///
     /// # Errors
     /// If there is no memory, or nothing to show.

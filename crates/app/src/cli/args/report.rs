@@ -32,7 +32,7 @@ pub struct ReportArgs {
 pub enum ReportKind {
     /// A page with pictures of this size.
     Page((u32, u32)),
-    /// A slide.
+    /// A slide as large as this, as a picture.
     Slide(SlideSize),
 }
 
