@@ -1,7 +1,7 @@
 //! The figures of a report: of each picture against the reference, of A against B, and of the region alone.
 
 use super::{LabReport, ReportedPicture};
-use crate::model::{Against, PaneId};
+use crate::model::{Against, CompareWith, PaneId};
 use crate::ruler::{HeatMap, Noise, Pair};
 use compare::{CompareError, ErrorMetric, Errors, PixelRect, errors, errors_within, finite_mean};
 use film::Image;
@@ -62,6 +62,11 @@ impl LabReport {
         Ok(Measured { of: held.of.pane, against: held.against, in_the_region: rect.is_some(), errors, flip })
     }
 
+    /// Whether a picture that is to be held against the reference cannot be, for the reference has all light.
+    pub(super) fn shows_too_little(&self, picture: &ReportedPicture) -> bool {
+        self.session.comparison.with == CompareWith::Reference && picture.shows_a_part_of_the_light()
+    }
+
     /// Each picture against the reference, then A against B.
     fn pairs(&self) -> Vec<Held<'_>> {
         let shows = |picture: &&ReportedPicture| picture.provenance.technique.shows_the_scene();
@@ -89,14 +94,31 @@ impl LabReport {
     /// # Errors
     /// If there is no memory for FLIP.
     pub(super) fn maps(&self) -> Result<Vec<(PaneId, Against, HeatMap)>, CompareError> {
-        let mut pairs = self.pairs();
-        if self.reference.is_some() {
-            pairs.retain(|held| held.against == Against::Reference);
-        }
+        let pairs = self.mapped_pairs();
         let wish = self.session.comparison.map();
         let fitted = pairs.iter().map(|held| self.map(held, wish.held)).collect::<Result<Vec<_>, _>>()?;
         let end = fitted.iter().map(|(.., map)| map.scale.high).fold(f32::MIN_POSITIVE, f32::max);
         pairs.iter().map(|held| self.map(held, Some(end))).collect()
+    }
+
+    /// The map that the view shows, or the other pane's where there is none of it, under a scale of its own.
+    ///
+    /// # Errors
+    /// If there is no memory for FLIP.
+    pub(super) fn map_of_the_view(&self) -> Result<Option<(PaneId, Against, HeatMap)>, CompareError> {
+        let wish = self.session.comparison.map();
+        let mut pairs = self.mapped_pairs();
+        let place = pairs.iter().position(|held| held.of.pane == wish.comparison.of).unwrap_or(0);
+        (!pairs.is_empty()).then(|| self.map(&pairs.swap_remove(place), wish.held)).transpose()
+    }
+
+    /// Those against the reference, or A against B where there is none.
+    fn mapped_pairs(&self) -> Vec<Held<'_>> {
+        let mut pairs = self.pairs();
+        if self.reference.is_some() {
+            pairs.retain(|held| held.against == Against::Reference);
+        }
+        pairs
     }
 
     fn map(&self, held: &Held, end: Option<f32>) -> Result<(PaneId, Against, HeatMap), CompareError> {

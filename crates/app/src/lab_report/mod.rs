@@ -88,6 +88,37 @@ impl ReportedPicture {
         }
     }
 
+    /// Its label, and its denoiser: no biased picture goes by the plain name of an unbiased one.
+    fn title(&self, others: &[ReportedPicture]) -> String {
+        std::iter::once(self.label(others)).chain(self.untold_denoiser(others)).collect::<Vec<_>>().join(", ")
+    }
+
+    /// "denoised by atrous (biased)", where it is and its label does not say so.
+    fn untold_denoiser(&self, others: &[ReportedPicture]) -> Option<String> {
+        self.denoised().filter(|denoised| !self.label(others).contains(denoised))
+    }
+
+    fn denoised(&self) -> Option<String> {
+        let technique = &self.provenance.technique;
+        let denoise = technique.denoise();
+        let is_denoised = self.external.is_none() && technique.shows_the_scene() && denoise.is_on();
+        is_denoised.then(|| format!("denoised by {} (biased)", denoise.denoiser.name()))
+    }
+
+    /// Whether it shows light, but not all of it.
+    fn shows_a_part_of_the_light(&self) -> bool {
+        let technique = &self.provenance.technique;
+        self.external.is_none() && technique.shows_the_scene() && !technique.light().is_all()
+    }
+
+    /// "64 samples per pixel, 2.50 s"; what another program's picture took is not known here.
+    fn cost(&self) -> String {
+        if self.external.is_some() {
+            return "made by another program".into();
+        }
+        self.samples().into_iter().chain([duration(self.seconds)]).collect::<Vec<_>>().join(", ")
+    }
+
     /// Samples per pixel of one run.
     fn spp_of_run(&self) -> u32 {
         self.spp.unwrap_or(1) / self.runs.max(1)
@@ -111,6 +142,9 @@ impl ReportedPicture {
         self.provenance.command(self.spp_of_run(), exposure, &format!("{}.png", self.pane.name().to_lowercase()))
     }
 }
+
+/// Why a picture of some of the light is not held against the reference.
+const NO_REFERENCE_OF_A_PART: &str = "a part of the light has no reference";
 
 /// A time for people: "4.2 ms", "1.3 s", "12 min".
 fn duration(seconds: f64) -> String {

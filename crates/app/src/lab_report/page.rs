@@ -2,9 +2,9 @@
 
 use super::pictures::{LONGEST_SIDE, Shown};
 use super::settings::Row;
-use super::{LabReport, Measured, ReportedPicture, duration, plot};
+use super::{LabReport, Measured, NO_REFERENCE_OF_A_PART, ReportedPicture, duration, plot};
 use crate::model::{Against, Cost, Curve, IN_THE_REGION, Measure, Owner, PlotSettings};
-use crate::ruler::{GREY, HeatMap, error_words, noise_line};
+use crate::ruler::{GREY, HeatMap, error_words, marks, noise_line};
 use anyhow::Context;
 use bench::{Host, data_uri};
 use compare::{ColourScale, ErrorMetric, REL_MSE_FLOOR, escaped};
@@ -46,7 +46,7 @@ impl LabReport {
 
     /// What it is about, in one line.
     fn head(&self) -> String {
-        let of = |picture: &ReportedPicture| format!("{}: {}", picture.pane, picture.label(&self.pictures));
+        let of = |picture: &ReportedPicture| format!("{}: {}", picture.pane, picture.title(&self.pictures));
         let pictures: Vec<String> = self.pictures.iter().map(of).collect();
         format!("{}. {}.", pictures.join("; "), self.date)
     }
@@ -56,9 +56,10 @@ impl LabReport {
         for picture in &self.pictures {
             let shown = shown(&self.session.display.rgba8_of(&picture.image), picture.image.size());
             let judged = measured.iter().find(|measured| measured.of == picture.pane && !measured.in_the_region);
-            let heading = format!("{}: {}", picture.pane, picture.label(&self.pictures));
-            let facts = picture.samples().into_iter().chain([duration(picture.seconds)]);
-            let facts = facts.chain(judged.map(in_words)).chain(picture.notes.iter().cloned());
+            let heading = format!("{}: {}", picture.pane, picture.title(&self.pictures));
+            let too_little = self.shows_too_little(picture).then(|| NO_REFERENCE_OF_A_PART.to_owned());
+            let facts = std::iter::once(picture.cost()).chain(judged.map(in_words)).chain(too_little);
+            let facts = facts.chain(picture.notes.iter().cloned());
             html += &figure(&shown, &heading, &facts.collect::<Vec<_>>().join("; "), "")?;
         }
         if let Some(reference) = &self.reference {
@@ -85,7 +86,7 @@ impl LabReport {
 
     fn errors(&self, measured: &[Measured]) -> String {
         if measured.is_empty() {
-            return "<p>None of these pictures shows light that could be held against another.</p>\n".into();
+            return format!("<p>{}</p>\n", self.why_nothing_is_measured());
         }
         let rows: String = measured.iter().map(row_of_errors).collect();
         let names = ["Picture", "Held against", "In words", "relMSE", "RMSE", "MAE", "Mean difference", "FLIP"];
@@ -94,6 +95,9 @@ impl LabReport {
             measured.iter().filter(|measured| measured.against == Against::Reference && !measured.in_the_region);
         if let Some(line) = noise.filter_map(|measured| noise_line(&measured.errors)).next() {
             html += &format!("<p>The reference's own error: {}.</p>\n", escaped(&line));
+        }
+        for part in self.pictures.iter().filter(|picture| self.shows_too_little(picture)) {
+            html += &format!("<p class=\"note\">{}: {NO_REFERENCE_OF_A_PART}.</p>\n", part.pane);
         }
         if self.reference.is_none() {
             html += "<p class=\"note\">No reference judges these pictures: they are held against each other, and either may be \
@@ -113,6 +117,14 @@ impl LabReport {
              channels. FLIP is the mean difference that people see, of the pictures as they are shown here. The same figures \
              as those of <code>visavis compare</code>.</p>\n"
         )
+    }
+
+    fn why_nothing_is_measured(&self) -> &'static str {
+        if self.pictures.iter().any(ReportedPicture::shows_a_part_of_the_light) {
+            "A part of the light has no reference, and pictures of different light are not held against each other."
+        } else {
+            "None of these pictures shows light that could be held against another."
+        }
     }
 
     fn plots(&self) -> String {
@@ -148,7 +160,7 @@ impl LabReport {
         for curve in &mut curves {
             let own = |picture: &&ReportedPicture| curve.owner == Owner::Pane(picture.pane);
             if let Some(picture) = self.pictures.iter().find(own) {
-                curve.name = format!("{}: {}", picture.pane, picture.label(&self.pictures));
+                curve.name = format!("{}: {}", picture.pane, picture.title(&self.pictures));
             }
         }
         curves
@@ -266,9 +278,9 @@ fn bar(scale: &ColourScale) -> anyhow::Result<String> {
     let mark = |tick: &compare::Tick| {
         format!("<span style=\"left:{:.1}%\">{}</span>", 100.0 * tick.position, escaped(&tick.text))
     };
-    let marks: String = scale.ticks(4).iter().map(mark).collect();
+    let numbers: String = marks(scale, 4).iter().map(mark).collect();
     let (low, high) = (scale.low, scale.high);
-    Ok(format!("<div class=\"bar\"><img src=\"{address}\" alt=\"Colours from {low} to {high}\">{marks}</div>\n"))
+    Ok(format!("<div class=\"bar\"><img src=\"{address}\" alt=\"Colours from {low} to {high}\">{numbers}</div>\n"))
 }
 
 fn map_words(map: &HeatMap) -> String {

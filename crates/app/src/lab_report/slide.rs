@@ -1,12 +1,12 @@
 //! A slide: the pictures beside each other, with what the last row of seats is to know of them.
 
 use super::pictures::Shown;
-use super::{LabReport, Measured, ReportedPicture, duration};
+use super::{LabReport, Measured, NO_REFERENCE_OF_A_PART, ReportedPicture};
 use crate::lettering::{Canvas, Lettering, Type};
 use crate::model::{Against, IN_THE_REGION, PaneId, SlideSize, View};
-use crate::ruler::{brief, error_words};
+use crate::ruler::{brief, error_words, marks};
 use anyhow::ensure;
-use compare::{ColourScale, CompareError, ErrorMetric};
+use compare::{ColourScale, CompareError, ErrorMetric, Tick};
 
 /// Sizes, in parts of 1080 of the slide's height. Capitals of the smallest type have 1/43 of it, so that a slide at half its
 /// size is read from where the whole one is.
@@ -63,6 +63,8 @@ struct Column {
     name: String,
     facts: Vec<String>,
     scale: Option<ColourScale>,
+    /// Whether it is, or was measured, against the reference.
+    is_judged: bool,
 }
 
 /// A slide on its way.
@@ -114,13 +116,14 @@ impl LabReport {
         ensure!(!columns.is_empty(), "there is no picture for a slide yet; try again in a moment");
         let canvas = Canvas::filled(size.pixels(), colours.ground);
         let mut drawing = Drawing { size, colours, canvas, lettering: Lettering::default() };
-        drawing.title(&self.title());
+        drawing.title(&self.title_over(&columns));
         drawing.columns(&columns);
         Ok(drawing.canvas.rgba())
     }
 
-    fn title(&self) -> String {
-        let against = if self.reference.is_some() { ", held against the reference" } else { "" };
+    fn title_over(&self, columns: &[Column]) -> String {
+        let is_judged = columns.iter().any(|column| column.is_judged);
+        let against = if is_judged { ", held against the reference" } else { "" };
         format!("{}{against}", self.scene.name)
     }
 
@@ -144,8 +147,9 @@ impl LabReport {
             measured.of == picture.pane && measured.in_the_region == self.session.comparison.region.is_some()
         };
         let mut facts: Vec<String> =
-            vec![picture.samples().into_iter().chain([duration(picture.seconds)]).collect::<Vec<_>>().join(", ")];
-        if let Some(measured) = measured.iter().find(own) {
+            std::iter::once(picture.cost()).chain(picture.untold_denoiser(&self.pictures)).collect();
+        let measured = measured.iter().find(own);
+        if let Some(measured) = measured {
             let judge = match measured.against {
                 Against::Pane(pane) => Some(pane.name()),
                 Against::Reference => None,
@@ -154,6 +158,8 @@ impl LabReport {
             let place = if measured.in_the_region { format!(", {IN_THE_REGION}") } else { String::new() };
             facts.push(format!("{off}{place}"));
             facts.push(format!("relMSE {}, FLIP {}", brief(measured.errors.rel_mse), brief(measured.flip)));
+        } else if self.shows_too_little(picture) {
+            facts.push(NO_REFERENCE_OF_A_PART.to_owned());
         }
         Column {
             picture: Shown { size: picture.image.size(), rgba: self.session.display.rgba8_of(&picture.image) },
@@ -161,22 +167,18 @@ impl LabReport {
             name: format!("{}: {}", picture.pane, picture.label(&self.pictures)),
             facts,
             scale: None,
+            is_judged: measured.is_some_and(|measured| measured.against == Against::Reference),
         }
     }
 
     fn column_of_the_map(&self) -> Result<Option<Column>, CompareError> {
-        let wished = self.session.comparison.mapped().of;
-        let (mut chosen, mut maps) = (None, self.maps()?);
-        if !maps.is_empty() {
-            let place = maps.iter().position(|(pane, ..)| *pane == wished).unwrap_or(0);
-            chosen = Some(maps.swap_remove(place));
-        }
-        Ok(chosen.map(|(pane, against, map)| Column {
+        Ok(self.map_of_the_view()?.map(|(pane, against, map)| Column {
             picture: Shown { size: (map.width, map.height()), rgba: map.rgba() },
             pane: None,
             name: format!("{pane} against {}, {}", against.name(), map.map.name()),
             facts: meaning_of(map.map).map(str::to_owned).into_iter().collect(),
             scale: Some(map.scale),
+            is_judged: against == Against::Reference,
         }))
     }
 }
@@ -253,16 +255,30 @@ impl Drawing {
         self.canvas.place((left, top), (width, &scale.bar(width, height)));
         let look = self.fact();
         let below = top + height;
-        // as many as have room
-        for tick in scale.ticks(3) {
-            let text = self.lettering.lay_out(&tick.text, look, width, 1);
-            let half = (text.rect.width() / 2.0) as u32;
-            let middle = left + (tick.position * width as f32) as u32;
-            let at = middle.saturating_sub(half).clamp(left, (left + width).saturating_sub(2 * half).max(left));
-            self.lettering.draw(&mut self.canvas, &text, (at, below), look.colour);
+        let mut taken: Vec<[u32; 2]> = Vec::new();
+        for mark in ends_first(marks(scale, 3)) {
+            let text = self.lettering.lay_out(&mark.text, look, width, 1);
+            let wide = text.rect.width().ceil() as u32;
+            let middle = left + (mark.position * width as f32) as u32;
+            let at = middle.saturating_sub(wide / 2).clamp(left, (left + width).saturating_sub(wide).max(left));
+            let room = [at.saturating_sub(wide / 8), at + wide + wide / 8];
+            // what has no room beside the ends is left out
+            if taken.iter().all(|other| room[1] <= other[0] || other[1] <= room[0]) {
+                self.lettering.draw(&mut self.canvas, &text, (at, below), look.colour);
+                taken.push(room);
+            }
         }
         height + self.size.parts(ROW)
     }
+}
+
+/// In the order in which they are given room.
+fn ends_first(mut marks: Vec<Tick>) -> Vec<Tick> {
+    let last = marks.len().saturating_sub(1);
+    if last > 1 {
+        marks.swap(1, last);
+    }
+    marks
 }
 
 #[cfg(test)]

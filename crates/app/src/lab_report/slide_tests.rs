@@ -1,6 +1,7 @@
-use super::super::tests::{picture, report};
+use super::super::tests::{changed, made_elsewhere, picture, report};
 use super::*;
 use crate::lettering::CAPITALS;
+use crate::model::CompareWith;
 use film::colour::srgb_decode;
 use technique::TechniqueName;
 
@@ -129,4 +130,64 @@ fn a_picture_of_another_size_keeps_its_shape() {
     let high = |part| rows_of(&rgba, SlideSize::FullHd.pixels().0, grey, part).len() as u32;
     assert_eq!(high([0, half]), 100 * (room.0 / 300), "larger by a whole factor");
     assert!(high([half, 2 * half]).abs_diff(room.0 / 3) <= 1, "smaller by as much as it must be");
+}
+
+#[test]
+fn the_map_of_a_slide_has_a_scale_of_its_own() {
+    let mut report = of_view(View::ErrorMap);
+    report.session.comparison.with = CompareWith::Reference;
+    let ends = [PaneId::A, PaneId::B].map(|pane| {
+        report.session.comparison.of = pane;
+        let columns = report.columns().unwrap();
+        assert!(columns[2].name.starts_with(&format!("{pane} against reference")), "{}", columns[2].name);
+        columns[2].scale.unwrap().high
+    });
+    // 0.5 - 0.3 and 0.5 - 0.45, each to the 99th percentile
+    assert!((ends[0] - 0.2).abs() < 1e-4 && (ends[1] - 0.05).abs() < 1e-4, "{ends:?}");
+}
+
+#[test]
+fn both_ends_of_the_bar_of_a_map_have_numbers() {
+    let canvas = Canvas::filled((600, 100), DARK.ground);
+    // of 0.95 the only round value a third apart is 0
+    let scale = ColourScale::up_to(ErrorMetric::Signed, 0.95);
+    let mut drawing = Drawing { size: SlideSize::FullHd, colours: DARK, canvas, lettering: Lettering::default() };
+    let below = drawing.bar(&scale, (0, 0), 600) - SlideSize::FullHd.parts(ROW);
+    let rgba = drawing.canvas.rgba();
+    let inked = |part| rows_of(&rgba, 600, DARK.text, part).iter().any(|y| *y > below);
+    assert_eq!([[0, 100], [120, 280], [280, 320], [320, 480], [500, 600]].map(inked), [true, false, true, false, true]);
+}
+
+#[test]
+fn a_denoised_picture_is_called_so() {
+    let mut report = of_view(View::SideBySide);
+    report.pictures[1] = changed(&report.pictures[1], &[("denoise", "atrous")]);
+    let facts = |report: &LabReport, column: usize| report.columns().unwrap()[column].facts.clone();
+    assert_eq!(facts(&report, 1)[1], "denoised by atrous (biased)", "beside another technique");
+    assert!(!facts(&report, 0).concat().contains("denoised"));
+    report.pictures[0] = picture(PaneId::A, TechniqueName::Path, report.pictures[1].image.size(), 0.3);
+    let columns = report.columns().unwrap();
+    assert_eq!(columns[1].name, "B: Path tracing, denoised by atrous (biased)", "where they differ by that");
+    assert!(!columns[1].facts.concat().contains("denoised"), "and not twice");
+}
+
+#[test]
+fn what_another_programs_picture_took_is_not_told() {
+    let mut report = of_view(View::Pane(PaneId::B));
+    report.pictures[1] = made_elsewhere(&report.pictures[1]);
+    assert_eq!(report.columns().unwrap()[0].facts[0], "made by another program");
+}
+
+#[test]
+fn the_title_names_the_reference_only_over_what_it_judges() {
+    let mut report = of_view(View::Pane(PaneId::B));
+    report.session.comparison.with = CompareWith::Reference;
+    let title = |report: &LabReport| report.title_over(&report.columns().unwrap());
+    let judged = title(&report);
+    assert!(judged.ends_with(", held against the reference"), "{judged}");
+    report.pictures[1] = changed(&report.pictures[1], &[("light", "direct")]);
+    assert_eq!(title(&report), report.scene.name);
+    assert_eq!(report.columns().unwrap()[0].facts[1..], ["a part of the light has no reference"]);
+    report.session.view = View::SideBySide;
+    assert_eq!(title(&report), judged, "A is judged");
 }

@@ -1,7 +1,8 @@
 use super::*;
-use crate::model::{Against, ErrorPoint, Owner, Region};
+use crate::model::{Against, CompareWith, ErrorPoint, Owner, PaneSource, Region};
 use compare::{ErrorMetric, Errors, errors, finite_mean};
 use film::Vec3;
+use technique::settings::of_panes;
 use technique::{Device, PaneSettings, Shot, TechniqueName};
 
 /// A picture of this grey beside a brighter edge, as a pane's.
@@ -24,6 +25,27 @@ pub(super) fn picture(pane: PaneId, technique: TechniqueName, size: (u32, u32), 
         adapter: "2 threads".into(),
         notes: Vec::new(),
     }
+}
+
+/// The same picture by changed settings.
+pub(super) fn changed(picture: &ReportedPicture, changes: &[(&str, &str)]) -> ReportedPicture {
+    let mut pane = PaneSettings::from(picture.provenance.technique);
+    for (name, word) in changes {
+        let row = of_panes(name).unwrap();
+        pane.set(row, row.kind.parse(word).unwrap());
+    }
+    let provenance = Provenance { technique: pane.in_use(), ..picture.provenance.clone() };
+    ReportedPicture { provenance, ..picture.clone() }
+}
+
+/// The same picture by another program.
+pub(super) fn made_elsewhere(picture: &ReportedPicture) -> ReportedPicture {
+    let source = PaneSource::Received(14158);
+    let external = External { name: "mine".into(), source, changes: 1, notes: Vec::new(), fault: None };
+    let provenance =
+        Provenance { technique: PaneSettings::of(TechniqueName::Raster).in_use(), ..picture.provenance.clone() };
+    let (external, stats) = (Some(Arc::new(external)), None);
+    ReportedPicture { provenance, external, spp: None, stats, seconds: 0.0, core_seconds: None, ..picture.clone() }
 }
 
 /// The fake beside path tracing and a reference with an error of its own.
@@ -196,4 +218,34 @@ fn the_session_is_text_and_a_file_to_save() {
     for picture in &report.pictures {
         assert!(html.contains(&compare::escaped(&picture.command(0.0))), "the line that makes it");
     }
+}
+
+#[test]
+fn a_denoised_picture_and_one_made_elsewhere_are_called_so_wherever_the_page_names_them() {
+    let mut report = report((8, 8));
+    report.pictures[1] = changed(&report.pictures[1], &[("denoise", "atrous")]);
+    report.pictures[0] = made_elsewhere(&report.pictures[0]);
+    let html = report.html().unwrap();
+    let name = "B: Path tracing, light, denoised by atrous (biased)";
+    assert!(html.contains(&format!("<p>A: mine; {name}. ")), "the head");
+    assert!(html.contains(&format!("<figcaption><b>{name}</b>")), "the picture");
+    assert!(html.contains("<b>A: mine</b><br>made by another program; "), "and not what it took");
+}
+
+#[test]
+fn why_a_part_of_the_light_has_no_row_of_errors_is_told() {
+    let mut report = report((8, 8));
+    report.session.comparison.with = CompareWith::Reference;
+    let words = "a part of the light has no reference";
+    assert!(!report.html().unwrap().contains(words));
+    report.pictures[1] = changed(&report.pictures[1], &[("light", "direct")]);
+    let html = report.html().unwrap();
+    assert!(html.contains(&format!("<p class=\"note\">B: {words}.</p>")) && html.contains(&format!("; {words}")));
+    let size = report.pictures[1].image.size();
+    let indirect = picture(PaneId::A, TechniqueName::Path, size, 0.3);
+    report.pictures[0] = changed(&indirect, &[("light", "indirect")]);
+    report.reference = None;
+    let html = report.html().unwrap();
+    assert!(html.contains("pictures of different light are not held against each other"));
+    assert!(!html.contains("None of these pictures"), "that is not why");
 }

@@ -4,6 +4,7 @@
 mod figures;
 mod heat_map;
 mod kept_scene;
+mod marks;
 mod noise;
 mod reference_image;
 
@@ -12,5 +13,6 @@ pub use figures::{
 };
 pub use heat_map::{GREY, HeatMap, Pair};
 pub use kept_scene::{kept_scene, made_before};
+pub use marks::marks;
 pub use noise::Noise;
 pub use reference_image::ReferenceImage;

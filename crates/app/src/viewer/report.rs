@@ -7,6 +7,7 @@ use crate::engine::report::{ReportToSave, SlideToSave};
 use crate::lab_report::{LabReport, ReportedPicture, ReportedReference, SlideColours};
 use crate::model::{Destination, Effort, PaneId, Progress, SlideSize, Theme};
 use std::sync::Arc;
+use technique::{Denoiser, Technique};
 
 impl Viewer {
     /// Writes all that is known of the pictures as a page.
@@ -70,10 +71,14 @@ fn reported(pane: PaneId, picture: &Picture) -> ReportedPicture {
     let unfinished = picture.unfinished.then(|| "still being made".to_owned());
     let lag = picture.lag.map(|lag| format!("earlier views count in it: {lag}"));
     let told = [&picture.refused, &picture.filter_fault, &picture.cut].into_iter().flatten().map(Arc::to_string);
+    let (mut provenance, _) = picture.made();
+    if let (None, Technique::Traced(traced)) = (&picture.before, &mut provenance.technique) {
+        traced.denoise.denoiser = Denoiser::Off;
+    }
     ReportedPicture {
         pane,
         image,
-        provenance: picture.made().0,
+        provenance,
         external: picture.external.clone(),
         spp: picture.spp,
         runs: picture.runs,
