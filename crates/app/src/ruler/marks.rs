@@ -12,11 +12,18 @@ pub fn marks(scale: &ColourScale, count: u32) -> Vec<Tick> {
     let round = scale.ticks(count);
     let end = |value: f32, position: f32| {
         let is_there = |tick: &&Tick| (tick.position - position).abs() < 1e-4;
-        let text = round.iter().find(is_there).map_or_else(|| number(value, scale), |tick| tick.text.clone());
+        let text = round.iter().find(is_there).map_or_else(|| number(value, scale), |tick| text(tick, scale));
         Tick { position, value, text }
     };
-    let between = round.iter().filter(|tick| BETWEEN.contains(&tick.position)).cloned();
+    let between = round.iter().filter(|tick| BETWEEN.contains(&tick.position));
+    let between = between.map(|tick| Tick { text: text(tick, scale), ..*tick });
     [end(scale.low, 0.0)].into_iter().chain(between).chain([end(scale.high, 1.0)]).collect()
+}
+
+/// A round value as the scale tells it, where that is in plain decimals: of powers of ten it has a single digit.
+fn text(tick: &Tick, scale: &ColourScale) -> String {
+    let is_plain = tick.value == 0.0 || (1e-3..1e4).contains(&tick.value.abs());
+    if is_plain { tick.text.clone() } else { number(tick.value, scale) }
 }
 
 /// With a sign where the scale has both.
@@ -40,11 +47,12 @@ mod tests {
                     let marks = marks(&scale, count);
                     let (first, last) = (&marks[0], &marks[marks.len() - 1]);
                     assert_eq!((first.position, last.position), (0.0, 1.0), "{scale:?}");
-                    for (mark, end) in [(first, scale.low), (last, scale.high)] {
-                        let told: f32 = mark.text.parse().unwrap();
+                    assert_eq!((first.value, last.value), (scale.low, scale.high));
+                    for mark in &marks {
+                        let (told, value): (f32, f32) = (mark.text.parse().unwrap(), mark.value);
                         // two digits at the least
-                        assert!((told - end).abs() <= 0.051 * end.abs(), "{told} for {end}");
-                        assert_eq!(mark.text.starts_with('+'), metric == ErrorMetric::Signed && end > 0.0);
+                        assert!((told - value).abs() <= 0.051 * value.abs(), "{told} for {value}");
+                        assert_eq!(mark.text.starts_with('+'), metric == ErrorMetric::Signed && value > 0.0);
                     }
                     assert!(marks.is_sorted_by(|a, b| a.position < b.position), "{marks:?}");
                     let has_zero = marks.iter().any(|mark| mark.text == "0");

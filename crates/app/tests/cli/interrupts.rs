@@ -105,7 +105,7 @@ fn a_report_that_was_interrupted_says_so() {
     std::fs::write(&scene, UNSEEN_LIGHT).expect("the scene");
     let mut command = program();
     command.arg("report").arg(scene).args(["--a", "path,estimator=uniform,denoise=atrous", "--b", "path,spp=1"]);
-    command.args(["--against", "other", "--size", "8x8", "--spp", "65536", "--device", "cpu", "-o"]).arg(&page);
+    command.args(["--against", "other", "--size", "128x128", "--spp", "65536", "--device", "cpu", "-o"]).arg(&page);
     let making = Begun::new(&mut command);
     assert!(making.first_line.starts_with("note: "), "{}", making.first_line);
     making.send(Signal::INT);
