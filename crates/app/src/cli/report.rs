@@ -154,8 +154,7 @@ fn picture(
     let spp = matches!(technique, Technique::Traced(_)).then(|| rendered.film.samples_per_pixel());
     let ended = ended_early(&technique, rendered.runs, spp);
     let (image, mut technique) = (render::picture_of(&rendered), technique.with_runs(rendered.runs));
-    let was_to_be_denoised = technique.denoise().is_on();
-    if let (None | Some(Err(_)), Technique::Traced(traced)) = (&rendered.denoised, &mut technique) {
+    if let (Some(Err(_)), Technique::Traced(traced)) = (&rendered.denoised, &mut technique) {
         traced.denoise = DenoiseSettings::OFF;
     }
     if let Some(errors) = judge.map(|judge| judge.errors(&image)).transpose()? {
@@ -167,7 +166,6 @@ fn picture(
     match &rendered.denoised {
         Some(Ok(Denoised { seconds, .. })) => notes.push(format!("denoising took {seconds:.2} s")),
         Some(Err(fault)) => notes.push(format!("not denoised: {fault}")),
-        None if was_to_be_denoised => notes.push("not denoised, for it was ended before".into()),
         None => {}
     }
     let picture = ReportedPicture {

@@ -113,7 +113,7 @@ fn a_report_that_was_interrupted_says_so() {
     assert_eq!(end.signal(), Some(Signal::INT.as_raw()), "{said}");
     let html = std::fs::read_to_string(page).expect("the page");
     assert!(html.contains(" of 65536 samples per pixel"), "{said}");
-    assert!(html.contains("not denoised, for it was ended before") && !html.contains("denoised by atrous"));
+    assert!(html.contains("not denoised: stopped before") && !html.contains("denoised by atrous"));
 }
 
 /// One sample of every pixel is made in any case: of so many that the second signal comes before.
