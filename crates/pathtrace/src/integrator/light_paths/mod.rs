@@ -117,18 +117,25 @@ impl LightPaths {
     /// # Errors
     /// What is wrong, and in which column.
     pub fn parse(text: &str) -> Result<Self, LightPathsError> {
-        let written: String = text.chars().filter(|letter| *letter != ' ').collect();
         let named = Named::parse(text.trim());
-        if named.is_none() {
-            Automaton::new(&Expression::parse(text)?)?;
-        }
-        let kept = named.map_or(written, |named| named.to_string());
-        if kept.len() > MOST_LETTERS {
-            return Err(LightPathsError::TooLong);
-        }
+        let kept = match named {
+            Some(named) => named.to_string(),
+            None => Self::written(text)?,
+        };
         let mut paths = LightPaths { text: [0; MOST_LETTERS] };
         paths.text[..kept.len()].copy_from_slice(kept.as_bytes());
         Ok(paths)
+    }
+
+    /// An expression that says something, without its spaces.
+    fn written(text: &str) -> Result<String, LightPathsError> {
+        let written: String = text.chars().filter(|letter| *letter != ' ').collect();
+        // before it is read: its groups are read one in another
+        if written.len() > MOST_LETTERS {
+            return Err(LightPathsError::TooLong);
+        }
+        Automaton::new(&Expression::parse(text)?)?;
+        Ok(written)
     }
 
     /// Whether every path counts.

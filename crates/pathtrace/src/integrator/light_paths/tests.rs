@@ -167,3 +167,15 @@ fn what_is_no_path_is_refused_in_its_column() {
     // whether the sixth surface from the light is D: from the eye that takes a state for each set of the last six
     assert_eq!(refused("L.....D.*E"), "this takes more than 31 states to read: say less at once");
 }
+
+/// Each group is read inside the one around it: so many would take more than a thread's stack.
+#[test]
+fn an_expression_of_any_length_is_refused_without_being_read() {
+    let groups = 100_000;
+    let nested = format!("L{}D{}E", "(".repeat(groups), ")".repeat(groups));
+    for text in ["L".to_owned() + &"(".repeat(groups), nested, "(".repeat(33), "ä".repeat(groups)] {
+        assert_eq!(LightPaths::parse(&text), Err(LightPathsError::TooLong), "{} bytes", text.len());
+    }
+    let spaced = format!("L{}D E", " ".repeat(groups));
+    assert_eq!(LightPaths::parse(&spaced).unwrap().to_string(), "LDE", "spaces are of no account");
+}
