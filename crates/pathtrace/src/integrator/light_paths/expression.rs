@@ -38,8 +38,11 @@ pub enum LightPathsError {
     )]
     Nothing,
     /// More than fits in a setting.
-    #[error("an expression has at most {MOST_LETTERS} letters")]
+    #[error("an expression has at most {MOST_LETTERS} letters and signs")]
     TooLong,
+    /// A number of bounces that no name has.
+    #[error("K in bounce-K, up-to-K and from-K is a number from 0 to {}", super::Named::MOST_BOUNCES)]
+    NoBounces,
     /// More states than there is room for.
     #[error("this takes more than {} states to read: say less at once", super::MOST_STATES - 1)]
     TooManyStates,

@@ -23,7 +23,7 @@ pub use expression::LightPathsError;
 use expression::Expression;
 use std::fmt;
 
-/// Letters that an expression may have.
+/// Letters and signs that an expression may have.
 pub const MOST_LETTERS: usize = 32;
 
 /// Which light paths count, by a name or an expression. Kept as text: settings are copied.
@@ -72,6 +72,11 @@ impl Named {
                 _ => return None,
             },
         })
+    }
+
+    /// Whether a word begins as those do that have a number.
+    fn counts_bounces(word: &str) -> bool {
+        ["bounce-", "up-to-", "from-"].iter().any(|begin| word.starts_with(begin))
     }
 
     /// The same as an expression.
@@ -129,6 +134,9 @@ impl LightPaths {
 
     /// An expression that says something, without its spaces.
     fn written(text: &str) -> Result<String, LightPathsError> {
+        if Named::counts_bounces(text.trim()) {
+            return Err(LightPathsError::NoBounces);
+        }
         let written: String = text.chars().filter(|letter| *letter != ' ').collect();
         // before it is read: its groups are read one in another
         if written.len() > MOST_LETTERS {

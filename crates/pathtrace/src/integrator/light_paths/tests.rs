@@ -154,7 +154,10 @@ fn what_is_no_path_is_refused_in_its_column() {
         ("LD)E", "column 3: this ) has no ("),
         ("L[DX]E", "column 4: expected one or more of D, G and S"),
         ("L[]E", "column 3: expected one or more of D, G and S"),
-        ("bounce-21", "column 1: expected L, D, G"),
+        ("bounce-21", "K in bounce-K, up-to-K and from-K is a number from 0 to 20"),
+        ("up-to-", "K in bounce-K"),
+        (" from-1.5", "K in bounce-K"),
+        ("bounced", "column 1: expected L, D, G"),
         ("Lä", "column 2: expected L, D, G"),
         ("LD", "no path is like that"),
         ("EDL", "no path is like that"),
@@ -163,7 +166,7 @@ fn what_is_no_path_is_refused_in_its_column() {
     for (text, begin) in begins {
         assert!(refused(text).starts_with(begin), "{text}: {}", refused(text));
     }
-    assert_eq!(refused(&format!("L{}E", "D".repeat(31))), "an expression has at most 32 letters");
+    assert_eq!(refused(&format!("L{}E", "D".repeat(31))), "an expression has at most 32 letters and signs");
     // whether the sixth surface from the light is D: from the eye that takes a state for each set of the last six
     assert_eq!(refused("L.....D.*E"), "this takes more than 31 states to read: say less at once");
 }
