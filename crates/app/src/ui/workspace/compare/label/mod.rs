@@ -9,7 +9,7 @@ use crate::ui::{UiContext, theme};
 use egui::text::{LayoutJob, TextWrapping};
 use egui::{Align2, Color32, FontId, Galley, Rect, Stroke, TextFormat, Ui, Vec2, vec2};
 use std::sync::Arc;
-use text::{Beside, LabelText, Told};
+use text::{Beside, LabelText, Told, no_error};
 
 /// Between a label's text and the edge of what is seen of its picture, in points. Half of the line's handle is 7 wide.
 const INSET: Vec2 = vec2(22.0, 18.0);
@@ -28,7 +28,9 @@ pub fn show(cx: &mut UiContext, ui: &Ui, clip: Rect, pane: PaneId) {
     if !cx.model.state.labels {
         return;
     }
-    let text = LabelText::of(pane, shown, beside(cx, pane), told(cx, pane, shown), cx.model.state.paused);
+    let beside = beside(cx, pane);
+    let mut text = LabelText::of(pane, shown, beside, told(cx, pane, shown), cx.model.state.paused);
+    text.notes.extend(no_error(shown, cx.model.session.comparison.comparison(pane).against, beside));
     let room = room(cx, clip, pane);
     let Some(galley) = fitting(ui, &text, pane, room.size()) else { return };
     let place = align(cx.model, pane).align_size_within_rect(galley.size(), room);

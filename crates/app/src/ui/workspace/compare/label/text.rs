@@ -63,7 +63,6 @@ impl LabelText {
             text.notes.extend(missing(&traced.blind_spots(&made.shot.scene)));
             let source = traced.noise_source(&made.shot.scene).filter(|_| shown.noisy);
             text.notes.extend(source.map(|source| source.words().to_owned()));
-            text.notes.extend(part_of_the_light(&made.technique).filter(|_| told.is_none()));
             text.facts.extend(branching(traced, shown, beside));
             text.facts.extend(shown.lag.map(|lag| format!("+ {lag} (lag)")));
             text.facts.extend(denoised(shown, made.technique.denoise()));
@@ -207,11 +206,26 @@ fn troubles(shown: &PaneView) -> Vec<String> {
     refused.into_iter().chain(filter_fault).chain(cut).chain((shown.nonfinite > 0).then_some(left_out)).collect()
 }
 
-/// Why a picture of a part of the light has no errors.
+/// "only LDE", of a picture of a part of the light.
 fn part_of_the_light(technique: &Technique) -> Option<String> {
     let paths = technique.light();
     let expression = paths.named().map_or_else(|| paths.to_string(), |named| named.expression());
-    (!paths.is_all()).then(|| format!("only {expression}: no error against other light"))
+    (!paths.is_all()).then(|| format!("only {expression}"))
+}
+
+/// Why a picture of a part of the light has no errors, where what it is held against has other light.
+pub fn no_error(shown: &PaneView, against: Against, beside: Option<Beside>) -> Option<String> {
+    let technique_of = |shown: &PaneView| Some(shown.provenance.as_ref()?.technique);
+    let technique = technique_of(shown).filter(|_| shown.errors.is_none())?;
+    let has_other_light = match against {
+        Against::Reference => true,
+        Against::Pane(judge) => {
+            let (_, judge) = beside.filter(|(id, _)| *id == judge)?;
+            technique_of(judge)?.light() != technique.light()
+        }
+    };
+    let only = part_of_the_light(&technique).filter(|_| has_other_light)?;
+    Some(format!("{only}: no error against other light"))
 }
 
 /// "missing: light behind glass, indirect light (biased)".

@@ -225,3 +225,20 @@ fn large_numbers_have_words() {
     let words = [12.0, 999.6, 27_000.0, 4_512_000.0, 999_960_000.0].map(large);
     assert_eq!(words, ["12", "1 thousand", "27 thousand", "4.5 million", "1.0 thousand million"]);
 }
+
+/// Those of two pictures against each other stand on A's label alone: B has one all the same.
+#[test]
+fn a_part_of_the_light_lacks_errors_only_against_other_light() {
+    let of = |light, errors| PaneView { errors, ..path(&[("light", light)], 16) };
+    let (direct, indirect, all) = (of("direct", None), of("indirect", None), of("all", None));
+    let against_a =
+        |shown: &PaneView, other: &PaneView| no_error(shown, Against::Pane(PaneId::A), Some((PaneId::A, other)));
+    let why = Some("only L.+[DG]S*E: no error against other light".to_owned());
+    assert_eq!(no_error(&indirect, Against::Reference, Some((PaneId::A, &indirect))), why);
+    assert_eq!((against_a(&indirect, &direct), against_a(&indirect, &all)), (why.clone(), why));
+    assert_eq!(against_a(&indirect, &indirect), None, "it is still to come");
+    let measured = of("indirect", Some((Against::Pane(PaneId::A), Errors::default())));
+    assert_eq!(against_a(&measured, &indirect), None);
+    assert_eq!(no_error(&all, Against::Reference, None), None);
+    assert_eq!(label(&indirect, None).notes, [""; 0]);
+}
