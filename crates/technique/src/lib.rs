@@ -52,7 +52,7 @@ pub use presets::Preset;
 pub use progressive::{NoMemory, ProgressiveRenderer, Request};
 pub use provenance::{
     DENOISE, EARLIER_VIEWS, FILTER, Made, NONFINITE, OWN_FOV, Provenance, Recorded, SAMPLES, WEIGHTS, denoised_by,
-    is_of_its_pixels, made_from, sample_ranges, scene_hash, tell_samples,
+    is_of_its_pixels, light_of, made_from, sample_ranges, scene_hash, tell_samples,
 };
 pub use renderer::{Frame, Pacing, Rendered, Renderer, Watch};
 pub use runs::Runs;

@@ -119,6 +119,13 @@ pub fn denoised_by(records: &[(String, String)]) -> Option<&str> {
         .map(|(_, filter)| filter.as_str())
 }
 
+/// Which light a picture shows by its records, in the words of `--light`; `None` of records that say nothing of how it was made.
+pub fn light_of(records: &[(String, String)]) -> Option<&str> {
+    let value = |name: &str| records.iter().find(|(known, _)| known == name).map(|(_, value)| value.as_str());
+    // references, and what cannot choose, have all light and need not say so
+    value("scene").map(|_| value("light").unwrap_or("all"))
+}
+
 /// Whether a record says something of the noisy picture that does not hold once it is denoised, or of denoising itself.
 pub fn is_of_its_pixels(name: &str) -> bool {
     let is_of_halves = HALVES.iter().any(|half| name.starts_with(half));

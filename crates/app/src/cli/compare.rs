@@ -32,6 +32,7 @@ pub fn run(args: &CompareArgs) -> anyhow::Result<()> {
     tell_of_denoising(args);
     let r = match &args.reference {
         Some(file) => {
+            refuse_other_light(&args.film, file)?;
             tell_of_two_scenes(&args.film, file);
             let (reference, notes) = Reference::load_with_notes(file)?;
             tell(&notes);
@@ -115,6 +116,24 @@ fn reference_of(file: &Path, picture: &Image) -> anyhow::Result<Reference> {
     let shot = made.shot()?;
     made.check_truth(&shot.scene)?;
     reference::obtain(&shot, None)
+}
+
+/// What differs between two parts of the light is no error. A picture that does not say what it shows is believed.
+fn refuse_other_light(a: &Path, b: &Path) -> anyhow::Result<()> {
+    // a file that cannot be read is told by who reads the picture
+    let [of_a, of_b] = [a, b].map(|file| image_file::records(file).unwrap_or_default());
+    let (Some(light_of_a), Some(light_of_b)) = (technique::light_of(&of_a), technique::light_of(&of_b)) else {
+        return Ok(());
+    };
+    ensure!(
+        light_of_a == light_of_b,
+        "these show other parts of the light (--light {} and --light {}), which is no error; compare pictures of the same part: {}, {}",
+        image_file::escaped(light_of_a),
+        image_file::escaped(light_of_b),
+        image_file::shown(a),
+        image_file::shown(b)
+    );
+    Ok(())
 }
 
 /// Pictures of two scenes may well be compared, but then somebody meant it.

@@ -1,7 +1,8 @@
 //! Pictures of a part of the light.
 
 use super::{assert_refused, visavis};
-use film::Image;
+use film::{DisplayTransform, Image};
+use image_file::{Kind, Records};
 use std::path::Path;
 use visavis_tests::TestFolder;
 
@@ -43,4 +44,40 @@ fn what_is_no_path_and_what_has_no_error_is_refused_and_what_does_not_act_is_tol
         ["render", "cornell", "--size", "8x8", "--spp", "1", "--technique", "photon", "--light", "LDE", "-o", out];
     let said = String::from_utf8_lossy(&visavis(&photons).stderr).into_owned();
     assert!(said.contains("note: --light has no effect with --technique photon"), "{said}");
+}
+
+#[test]
+fn pictures_of_other_light_are_not_compared_and_those_of_the_same_are() {
+    let folder = TestFolder::new();
+    let file = |name: &str| folder.file(name).to_str().expect("a plain path").to_owned();
+    let [all, direct, whitted, indirect] = ["all.exr", "direct.exr", "whitted.exr", "indirect.exr"].map(file);
+    let pictures = [
+        (&all, "path", "all"),
+        (&direct, "path", "direct"),
+        (&whitted, "whitted", "direct"),
+        (&indirect, "path", "indirect"),
+    ];
+    for (out, technique, light) in pictures {
+        let size = ["render", "cornell", "--size", "16x12", "--spp", "2", "--device", "cpu"];
+        let words = [&size[..], &["--technique", technique, "--light", light, "-o", out]].concat();
+        assert!(visavis(&words).status.success());
+    }
+    let reference = file("reference.exr");
+    let words = ["reference", "cornell", "--size", "16x12", "--spp", "64", "-o", &reference];
+    assert!(visavis(&words).status.success());
+    let map = file("map.png");
+    let refused = [(&direct, &indirect), (&direct, &all), (&all, &direct), (&direct, &reference)];
+    for (a, b) in refused {
+        let said = ["show other parts of the light (--light ", "compare pictures of the same part", a, b];
+        assert_refused(&["compare", a, b, "--heatmap", &map], 1, &said);
+    }
+    assert!(!Path::new(&map).exists());
+    // a picture without records is taken for what it is compared with
+    let plain = file("plain.exr");
+    let bytes = image_file::encode(Kind::Exr, &film(&direct), &DisplayTransform::default(), &Records::new());
+    std::fs::write(&plain, bytes.expect("an EXR")).expect("a file");
+    for (a, b) in [(&direct, &whitted), (&all, &reference), (&direct, &plain), (&plain, &reference)] {
+        let compared = visavis(&["compare", a, b]);
+        assert!(compared.status.success(), "{a} {b}: {}", String::from_utf8_lossy(&compared.stderr));
+    }
 }
