@@ -31,7 +31,7 @@ mod vectors;
 pub use caster::cone::shapes_with_cones;
 pub use features::{FeatureFilm, FeaturePass};
 pub use integrator::Integrator;
-pub use integrator::first_vertex::{FirstVertex, Met, Term, Terms};
+pub use integrator::first_vertex::{FirstVertex, LeftOut, Met, Term, Terms};
 pub use integrator::light_paths::{LightPaths, LightPathsError, Named as NamedLightPaths};
 pub use integrator::metropolis::MetropolisSettings;
 pub use integrator::normals::{NormalsSettings, Space};

@@ -4,8 +4,9 @@
 
 use film::{Film, Pixel};
 use pathtrace::{
-    ConesAt, Directions, Estimator, Integrator, LightSampling, Met, MetropolisSettings, NormalsSettings, PathSettings,
-    ProbedPixel, Roulette, SamplerKind, Terms, Tracer, WhittedSettings,
+    ConesAt, Directions, Estimator, FirstVertex, Integrator, LeftOut, LightPaths, LightSampling, Met,
+    MetropolisSettings, NormalsSettings, PathSettings, ProbedPixel, Roulette, SamplerKind, Term, Terms, Tracer,
+    WhittedSettings,
 };
 use scene::{Scene, Vec3, builtin};
 use std::path::Path;
@@ -16,6 +17,10 @@ const SPP: u32 = 150;
 
 fn named(name: &str) -> Scene {
     builtin::named(name).expect("a built-in scene")
+}
+
+fn parsed(text: &str) -> Scene {
+    scene::parse(text, "a scene", Path::new("scene.toml")).expect("a scene")
 }
 
 fn at(scene: &Scene, pixel: [u32; 2]) -> ProbedPixel {
@@ -95,11 +100,7 @@ fn is_close(a: Vec3, b: Vec3) -> bool {
 }
 
 /// All first vertices of some pixels, with the samples that a film has.
-fn taken_apart(
-    scene: &Scene,
-    settings: PathSettings,
-    mut check: impl FnMut(&str, pathtrace::FirstVertex, Option<Terms>),
-) {
+fn taken_apart(scene: &Scene, settings: PathSettings, mut check: impl FnMut(&str, FirstVertex, Option<Terms>)) {
     let (tracer, integrator) = (Tracer::new(scene), Integrator::from(settings));
     for pixel in (0..SIZE[0] * SIZE[1]).map(|index| [index % SIZE[0], index / SIZE[0]]) {
         let probed = at(scene, pixel);
@@ -113,48 +114,110 @@ fn taken_apart(
     }
 }
 
+/// Every way in which directions and lights are sampled one at a time.
+const WAYS: [(Directions, LightSampling); 4] = [
+    (Directions::Uniform, LightSampling::BsdfOnly),
+    (Directions::Cosine, LightSampling::BsdfOnly),
+    (Directions::Cosine, LightSampling::NextEvent),
+    (Directions::Cosine, LightSampling::Mis),
+];
+
+fn limited((directions, light): (Directions, LightSampling)) -> PathSettings {
+    let estimator = Estimator { directions, light };
+    PathSettings { estimator, bounces: Some(3), connections: false, ..PathSettings::default() }
+}
+
+fn parts(terms: &Terms) -> impl Iterator<Item = Term> + Clone {
+    [terms.light, terms.by_chance, terms.onward].into_iter().flatten()
+}
+
+/// What a sample is, of the numbers that are told of it.
+fn check_numbers(place: &str, vertex: &FirstVertex, terms: &Terms) {
+    let sum = parts(terms).map(|term| term.product).sum::<Vec3>() + vertex.emitted;
+    assert!(is_close(sum, vertex.value), "{place}");
+    for term in parts(terms) {
+        let product = term.f_r * term.radiance * (term.cosine.max(0.0) / term.pdf * term.weight * term.survival);
+        // what has come to other light was rounded with it
+        let rounding = 3e-7 * vertex.value.max_element();
+        let off = (product - term.product).abs().max_element();
+        assert!(is_close(product, term.product) || off <= rounding, "{product}: {place}");
+        assert!(term.product.min_element() >= 0.0 && term.radiance.min_element() >= 0.0, "{place}");
+    }
+}
+
 #[test]
 fn the_numbers_of_the_integral_are_those_that_make_the_sample() {
-    let (uniform, cosine) = (Directions::Uniform, Directions::Cosine);
-    let ways = [
-        (uniform, LightSampling::BsdfOnly),
-        (cosine, LightSampling::BsdfOnly),
-        (cosine, LightSampling::NextEvent),
-        (cosine, LightSampling::Mis),
-    ];
-    let [mut with_light, mut both] = [0, 0];
-    for (directions, light) in ways {
+    let scenes = [named("cornell"), parsed(LAMP)];
+    let [mut with_light, mut both, mut by_chance] = [0, 0, 0];
+    for (scene, way) in scenes.iter().flat_map(|scene| WAYS.map(|way| (scene, way))) {
         for roulette in [Roulette::OFF, Roulette { probability: Some(0.5), throughput: false }] {
-            let bounces = Some(3);
-            let settings = PathSettings {
-                estimator: Estimator { directions, light },
-                roulette,
-                bounces,
-                connections: false,
-                ..PathSettings::default()
-            };
-            taken_apart(&named("cornell"), settings, |place, vertex, terms| {
+            taken_apart(scene, PathSettings { roulette, ..limited(way) }, |place, vertex, terms| {
                 let terms = terms.expect("one direction");
-                let parts = [terms.light, terms.onward].into_iter().flatten();
-                let sum = parts.clone().map(|term| term.product).sum::<Vec3>() + vertex.emitted;
-                assert!(is_close(sum, vertex.value), "{place}");
-                for term in parts {
-                    let product = term.f_r * term.radiance * (term.cosine.max(0.0) / term.pdf * term.weight);
-                    assert!(is_close(product, term.product), "{product}: {place}");
-                    with_light += u32::from(term.product != Vec3::ZERO);
-                }
-                both +=
-                    u32::from(terms.light.zip(terms.onward).is_some_and(|(a, b)| a.product * b.product != Vec3::ZERO));
-                let Some(onward) = terms.onward else { return };
+                check_numbers(place, &vertex, &terms);
+                assert_eq!(vertex.left_out, LeftOut::default(), "{place}");
+                let lit = |term: Option<Term>| term.is_some_and(|term| term.product != Vec3::ZERO);
+                with_light += parts(&terms).filter(|term| term.product != Vec3::ZERO).count() as u32;
+                both += u32::from(lit(terms.light) && lit(terms.onward));
+                by_chance += u32::from(lit(terms.by_chance));
+                assert!(way.1 == LightSampling::Mis || terms.by_chance.is_none(), "{place}");
+                let Some(leaving) = terms.by_chance.or(terms.onward) else { return };
                 // 0.5 is a multiple of the steps of a probability
-                let weight = if roulette == Roulette::OFF { 1.0 } else { 2.0 };
-                assert!((onward.weight - weight).abs() < 1e-5, "{place}");
-                let density = if directions == uniform { 0.5 } else { onward.cosine } / std::f32::consts::PI;
-                assert!((onward.pdf - density).abs() < 1e-5, "{place}");
+                let survival = if roulette == Roulette::OFF { 1.0 } else { 2.0 };
+                assert!((leaving.survival - survival).abs() < 1e-5, "{place}");
+                let density = if way.0 == Directions::Uniform { 0.5 } else { leaving.cosine } / std::f32::consts::PI;
+                assert!((leaving.pdf - density).abs() < 1e-5, "{place}");
             });
         }
     }
-    assert!(with_light > 1000 && both > 100, "{with_light}, {both}");
+    assert!(with_light > 1000 && both > 100 && by_chance > 100, "{with_light}, {both}, {by_chance}");
+}
+
+/// In the middle of a ball that shines and reflects half, everywhere.
+const FURNACE: &str = r#"
+camera = { eye = [0, 0, 0], target = [0, 0, 1], fov_y = 90 }
+[material.wall]
+diffuse.albedo = [0.5, 0.5, 0.5]
+emissive = { radiance = [1, 1, 1], two_sided = true }
+[[sphere]]
+center = [0, 0, 0]
+radius = 1
+material = "wall"
+"#;
+
+#[test]
+fn the_numbers_of_a_part_of_the_light_are_those_that_make_its_sample() {
+    let mut skies = 0;
+    // whether light that is seen counts, and light straight from a lamp to a diffuse surface
+    let classes = [
+        ("direct", [true, true]),
+        ("indirect", [false, false]),
+        ("bounce-0", [false, true]),
+        ("emitted", [true, false]),
+    ];
+    for scene in [named("cornell"), named("whitted"), parsed(FURNACE)] {
+        for (way, (class, [seen, straight])) in WAYS.into_iter().flat_map(|way| classes.map(|class| (way, class))) {
+            let paths = LightPaths::parse(class).expect("light paths");
+            let settings = PathSettings { paths, roulette: Roulette::OFF, ..limited(way) };
+            taken_apart(&scene, settings, |place, vertex, terms| {
+                let place = format!("{class}, {place}");
+                terms.iter().for_each(|terms| check_numbers(&place, &vertex, terms));
+                assert!(seen || vertex.emitted == Vec3::ZERO, "{place}");
+                assert!(!vertex.left_out.emitted || !seen, "{place}");
+                assert!(vertex.met != Met::Light || vertex.left_out.emitted != seen, "{place}");
+                skies += u32::from(vertex.met == Met::Sky && vertex.left_out.emitted);
+                if vertex.met == Met::Diffuse {
+                    assert_eq!(vertex.left_out.direct, !straight, "{place}");
+                }
+                let Some(terms) = terms else { return };
+                let lights = [terms.light, terms.by_chance];
+                assert!(straight || lights == [None; 2], "{place}");
+                // nothing but a light that is met there comes from where the walk went on
+                let rest = terms.onward.filter(|_| terms.light.is_some() && class != "indirect");
+                assert!(rest.is_none_or(|rest| rest.product == Vec3::ZERO), "{place}");
+            });
+        }
+    }
+    assert!(skies > 0, "that of one scene shines");
 }
 
 /// A floor under a lamp, and nothing else.
@@ -178,7 +241,9 @@ material = "lamp"
 fn what_arrives_at_a_floor_is_the_lamps_radiance_or_nothing() {
     let lamp = Vec3::new(5.0, 4.0, 3.0);
     let f_r = Vec3::new(0.6, 0.3, 0.1) / std::f32::consts::PI;
-    let scene = scene::parse(LAMP, "lamp", Path::new("lamp.toml")).expect("a scene");
+    let scene = parsed(LAMP);
+    // sampled evenly over its area, or where it is near over its solid angle
+    let over_area = |cosine: f32| (3.0 / cosine).powi(2) / (16.0 * cosine);
     for light in [LightSampling::BsdfOnly, LightSampling::Mis] {
         let estimator = Estimator { directions: Directions::Cosine, light };
         let settings = PathSettings { estimator, roulette: Roulette::OFF, bounces: Some(0), ..PathSettings::default() };
@@ -189,19 +254,24 @@ fn what_arrives_at_a_floor_is_the_lamps_radiance_or_nothing() {
             }
             floor += 1;
             let terms = terms.expect("one direction");
-            let onward = terms.onward.expect("a direction");
-            assert!(is_close(onward.f_r, f_r), "{place}");
-            if light == LightSampling::Mis {
-                let sampled = terms.light.expect("a light");
-                assert!(is_close(sampled.radiance, lamp), "nothing is in the way: {place}");
+            let leaving = terms.by_chance.or(terms.onward).expect("a direction");
+            assert!(is_close(leaving.f_r, f_r), "{place}");
+            let dark = leaving.radiance == Vec3::ZERO;
+            assert!(dark || is_close(leaving.radiance, lamp), "{place}");
+            lit += u32::from(!dark);
+            if light == LightSampling::BsdfOnly {
+                assert_eq!((terms.light, terms.by_chance), (None, None), "{place}");
                 return;
             }
-            assert_eq!(terms.light, None, "{place}");
-            let dark = onward.radiance == Vec3::ZERO;
-            assert!(dark || is_close(onward.radiance, lamp), "{place}");
-            lit += u32::from(!dark);
+            let sampled = terms.light.expect("a light");
+            assert!(is_close(sampled.radiance, lamp), "nothing is in the way: {place}");
+            assert_eq!((terms.by_chance.is_none(), terms.onward.is_some()), (dark, dark), "one direction: {place}");
+            let is_over_area = (over_area(sampled.cosine) / sampled.pdf - 1.0).abs() < 1e-3;
+            let light_pdf = if is_over_area { over_area(leaving.cosine) } else { sampled.pdf };
+            let weight = if dark { 1.0 } else { leaving.pdf / (leaving.pdf + light_pdf) };
+            assert!((leaving.weight - weight).abs() < 1e-4, "{weight}: {place}");
         });
-        assert!(floor > 300 && (light == LightSampling::Mis || (50..floor - 50).contains(&lit)), "{lit} of {floor}");
+        assert!(floor > 300 && (50..floor - 50).contains(&lit), "{lit} of {floor}");
     }
 }
 

@@ -3,7 +3,7 @@
 use crate::Panels;
 use egui::{Event, Key, Modifiers, PointerButton, Pos2, Shape, Vec2, pos2, vec2};
 use film::{Image, Vec3};
-use pathtrace::{FirstVertex, Met, Term, Terms};
+use pathtrace::{FirstVertex, LeftOut, LightPaths, Met, Term, Terms};
 use std::sync::Arc;
 use technique::{Device, PaneSettings, Provenance, Shot, TechniqueName};
 use visavis::model::{
@@ -19,16 +19,18 @@ fn samples() -> Vec<Vec3> {
 }
 
 fn vertex() -> FirstVertex {
-    let term = |radiance: f32, weight| Term {
+    let term = |radiance: f32, survival| Term {
         f_r: Vec3::splat(0.25),
         cosine: 0.5,
         pdf: 2.0,
         radiance: Vec3::splat(radiance),
-        weight,
-        product: Vec3::splat(radiance * weight / 16.0),
+        weight: 1.0,
+        survival,
+        product: Vec3::splat(radiance * survival / 16.0),
     };
-    let terms = Terms { light: Some(term(8.0, 1.0)), onward: Some(term(4.0, 2.0)) };
-    FirstVertex { met: Met::Diffuse, emitted: Vec3::ZERO, value: Vec3::ONE, terms: Ok(terms) }
+    let terms = Terms { light: Some(term(8.0, 1.0)), by_chance: None, onward: Some(term(4.0, 2.0)) };
+    let left_out = LeftOut::default();
+    FirstVertex { met: Met::Diffuse, emitted: Vec3::ZERO, value: Vec3::ONE, terms: Ok(terms), left_out }
 }
 
 /// A window in which this is known of B's pixel.
@@ -253,4 +255,16 @@ fn the_outline_of_a_histogram_has_upright_steps() {
     assert!(!has_steps(&panels), "closed");
     panels.press_with(Key::B, Modifiers::NONE);
     assert!(has_steps(&panels));
+}
+
+#[test]
+fn a_part_of_the_light_is_named_in_the_head() {
+    let mut panels = with_samples();
+    let indirect = LightPaths::parse("indirect").expect("light paths");
+    panels.model.borrow_mut().session.panes[PaneId::B].truth.path.paths = indirect;
+    panels.press_with(Key::B, Modifiers::NONE);
+    assert!(panels.shows("B: only L.+[DG]S*E"));
+    panels.model.borrow_mut().session.set_source(PaneId::B, PaneSource::Followed("theirs.exr".into()));
+    panels.harness.run_steps(2);
+    assert!(!panels.shows("B: only"), "another program's light is not known");
 }

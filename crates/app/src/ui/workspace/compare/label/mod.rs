@@ -11,6 +11,8 @@ use egui::{Align2, Color32, FontId, Galley, Rect, Stroke, TextFormat, Ui, Vec2, 
 use std::sync::Arc;
 use text::{Beside, LabelText, Told, no_error};
 
+pub(super) use text::part_of_the_light;
+
 /// Between a label's text and the edge of what is seen of its picture, in points. Half of the line's handle is 7 wide.
 const INSET: Vec2 = vec2(22.0, 18.0);
 /// The ground around the text.

@@ -207,7 +207,7 @@ fn troubles(shown: &PaneView) -> Vec<String> {
 }
 
 /// "only LDE", of a picture of a part of the light.
-fn part_of_the_light(technique: &Technique) -> Option<String> {
+pub fn part_of_the_light(technique: &Technique) -> Option<String> {
     let paths = technique.light();
     let expression = paths.named().map_or_else(|| paths.to_string(), |named| named.expression());
     (!paths.is_all()).then(|| format!("only {expression}"))

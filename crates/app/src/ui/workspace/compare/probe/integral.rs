@@ -10,7 +10,7 @@ use crate::ui::widgets::{Explained, framed};
 use egui::text::{LayoutJob, TextFormat};
 use egui::{Align, Color32, DragValue, FontId, Response, RichText, TextStyle, Ui};
 use film::Vec3;
-use pathtrace::{FirstVertex, Met, SamplerKind, Term, Terms};
+use pathtrace::{FirstVertex, LeftOut, Met, SamplerKind, Term, Terms};
 use technique::{Device, Technique};
 
 /// As the lecture writes it.
@@ -113,48 +113,61 @@ fn met_words(met: Met) -> &'static str {
 
 /// One sample with its numbers.
 fn of_sample(vertex: &FirstVertex, channel: Channel) -> Vec<String> {
+    let left_out = left_out(vertex.left_out);
     let terms = match vertex.terms {
         Ok(terms) => terms,
-        Err(why) => return vec![why.to_owned()],
+        Err(why) => return left_out.into_iter().chain([why.to_owned()]).collect(),
     };
     let multiplied = channel_of_factors(&terms, channel);
-    let mut lines = Vec::new();
+    let mut lines = Vec::from_iter(left_out);
     if multiplied != channel {
         lines.push("in green, for luminances of colours are not multiplied:".to_owned());
     }
     if vertex.emitted != Vec3::ZERO {
         lines.push(format!("L_e = {}", brief(multiplied.of(vertex.emitted))));
     }
-    let name = if terms.light.is_some() { "L_indir" } else { "f_r L_i cosθ / p" };
-    lines.extend(terms.light.iter().map(|term| of_term("L_dir", term, "w", multiplied)));
-    lines.extend(terms.onward.iter().map(|term| of_term(name, term, "1/q", multiplied)));
+    let is_indirect = terms.light.is_some() || vertex.left_out.direct;
+    let name = if is_indirect { "L_indir" } else { "f_r L_i cosθ / p" };
+    lines.extend(terms.light.iter().map(|term| of_term("L_dir", term, multiplied)));
+    lines.extend(terms.by_chance.iter().map(|term| of_term("L_dir by chance", term, multiplied)));
+    lines.extend(terms.onward.iter().map(|term| of_term(name, term, multiplied)));
     lines
+}
+
+/// Which of its light a picture of a part of the light does not count.
+fn left_out(LeftOut { emitted, direct }: LeftOut) -> Option<String> {
+    let words = [(emitted, "what shines here"), (direct, "light straight from a light")];
+    let words: Vec<&str> = words.into_iter().filter(|(is_left_out, _)| *is_left_out).map(|(_, words)| words).collect();
+    (!words.is_empty()).then(|| format!("not counted: {}", words.join(", ")))
 }
 
 /// In which channel the factors of all terms make their products: of luminances only where surface or light is grey.
 fn channel_of_factors(terms: &Terms, channel: Channel) -> Channel {
     let is_grey = |colour: Vec3| colour.max_element() - colour.min_element() <= 1e-4 * colour.max_element();
-    let parts = [terms.light, terms.onward];
+    let parts = [terms.light, terms.by_chance, terms.onward];
     let all_grey = parts.iter().flatten().all(|term| is_grey(term.f_r) || is_grey(term.radiance));
     if channel == Channel::Luminance && !all_grey { Channel::Green } else { channel }
 }
 
-/// "L_dir = 0.159 (f_r) · 12.000 (L_i) · 0.860 (cosθ) / 2.100 (p) = 0.781": what is not 1 among its weights is told by `weight`'s name.
-fn of_term(name: &str, term: &Term, weight: &str, channel: Channel) -> String {
+/// "L_dir = 0.159 (f_r) · 12.000 (L_i) · 0.860 (cosθ) / 2.100 (p) · 0.187 (w) = 0.146", without the weights that are 1.
+fn of_term(name: &str, term: &Term, channel: Channel) -> String {
     let value = |radiance: Vec3| brief(channel.of(radiance));
     let cosine = brief(f64::from(term.cosine.max(0.0)));
     let (f_r, product) = (value(term.f_r), value(term.product));
     let light = value(term.radiance);
-    let weighted = if (term.weight - 1.0).abs() < 5e-4 || !term.weight.is_finite() {
-        String::new()
-    } else {
-        format!(" · {} ({weight})", brief(f64::from(term.weight)))
-    };
+    let weighted = weighted(term.weight, "w") + &weighted(term.survival, "1/q");
     if term.pdf.is_finite() {
         let pdf = brief(f64::from(term.pdf));
         return format!("{name} = {f_r} (f_r) · {light} (L_i) · {cosine} (cosθ) / {pdf} (p){weighted} = {product}");
     }
     format!("{name} = {f_r} (f_r) · {light} (L_i / p, from one direction) · {cosine} (cosθ) = {product}")
+}
+
+fn weighted(weight: f32, name: &str) -> String {
+    if (weight - 1.0).abs() < 5e-4 || !weight.is_finite() {
+        return String::new();
+    }
+    format!(" · {} ({name})", brief(f64::from(weight)))
 }
 
 /// What all samples make of it.
@@ -224,13 +237,16 @@ mod tests {
 
     fn term(f_r: Vec3, radiance: Vec3) -> Term {
         let product = f_r * radiance * (0.5 / 2.0);
-        Term { f_r, cosine: 0.5, pdf: 2.0, radiance, weight: 1.0, product }
+        Term { f_r, cosine: 0.5, pdf: 2.0, radiance, weight: 1.0, survival: 1.0, product }
+    }
+
+    fn vertex(terms: Terms) -> FirstVertex {
+        let value = terms.onward.map_or(Vec3::ZERO, |term| term.product);
+        FirstVertex { met: Met::Diffuse, emitted: Vec3::ZERO, value, terms: Ok(terms), left_out: LeftOut::default() }
     }
 
     fn lines(onward: Term) -> Vec<String> {
-        let terms = Ok(Terms { light: None, onward: Some(onward) });
-        let vertex = FirstVertex { met: Met::Diffuse, emitted: Vec3::ZERO, value: onward.product, terms };
-        of_sample(&vertex, Channel::Luminance)
+        of_sample(&vertex(Terms { onward: Some(onward), ..Terms::default() }), Channel::Luminance)
     }
 
     /// What stands in a line comes to what it says.
@@ -246,6 +262,30 @@ mod tests {
         }
         assert_eq!(lines(term(red, blue))[0], "in green, for luminances of colours are not multiplied:");
         assert_eq!(lines(term(grey, blue)).len(), 1);
+    }
+
+    #[test]
+    fn light_met_by_chance_is_direct_and_both_of_its_weights_are_told() {
+        let light = term(Vec3::splat(0.4), Vec3::splat(5.0));
+        let by_chance = Term { weight: 0.25, survival: 2.0, product: 0.5 * light.product, ..light };
+        let terms = Terms { light: Some(light), by_chance: Some(by_chance), onward: None };
+        let lines = of_sample(&vertex(terms), Channel::Luminance);
+        assert_eq!(
+            lines[1..],
+            [
+                "L_dir by chance = 0.400 (f_r) · 5.000 (L_i) · 0.500 (cosθ) / 2.000 (p) · 0.250 (w) · 2.000 (1/q) = 0.250"
+            ]
+        );
+    }
+
+    #[test]
+    fn light_that_does_not_count_is_told_and_what_is_left_is_indirect() {
+        let onward = Some(term(Vec3::splat(0.4), Vec3::splat(5.0)));
+        let left_out = LeftOut { emitted: true, direct: true };
+        let vertex = FirstVertex { left_out, ..vertex(Terms { onward, ..Terms::default() }) };
+        let lines = of_sample(&vertex, Channel::Luminance);
+        assert_eq!(lines[0], "not counted: what shines here, light straight from a light");
+        assert!(lines.len() == 2 && lines[1].starts_with("L_indir = 0.400 (f_r) · 5.000 (L_i)"), "{lines:?}");
     }
 
     #[test]

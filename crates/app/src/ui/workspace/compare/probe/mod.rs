@@ -5,8 +5,8 @@ mod integral;
 mod mean;
 mod spread;
 
-use super::magnify;
 use super::plots::drawer_room;
+use super::{label, magnify};
 use crate::model::{
     Channel, Destination, ExportRequest, ExportSubject, PaneId, PaneProbe, PaneSource, PixelSamples, pixel_at,
 };
@@ -118,6 +118,12 @@ fn head(cx: &mut UiContext, ui: &mut Ui) {
         let said = ui.label(RichText::new(&text).strong());
         let said = said.explained("A click on the pictures chooses it, Alt and an arrow key moves it");
         cx.dump.note("text pixel", &text, said);
+        for pane in cx.model.session.panes.ids() {
+            if let Some(counted) = counted(cx, pane) {
+                let said = ui.label(RichText::new(&counted).color(palette(ui).pane(pane)));
+                cx.dump.note(&format!("probed light {pane}"), &counted, said);
+            }
+        }
         let chosen = &mut cx.model.session.probe.channel;
         let words = Channel::ALL.map(|c| (c.name().to_owned(), "Which number of each sample is drawn", *chosen == c));
         if let Some(index) = choice(("samples of", "Samples"), words, ui, cx.dump) {
@@ -135,6 +141,12 @@ fn head(cx: &mut UiContext, ui: &mut Ui) {
             cx.model.session.probe.open = false;
         }
     });
+}
+
+/// "A: only LDE", of a pane whose samples are of a part of the light.
+fn counted(cx: &UiContext, pane: PaneId) -> Option<String> {
+    let settings = cx.model.session.panes.get(pane).filter(|_| traced(cx, pane))?;
+    Some(format!("{pane}: {}", label::part_of_the_light(&settings.in_use())?))
 }
 
 /// The radiance that a picture has at the pixel.
