@@ -216,7 +216,7 @@ pub fn part_of_the_light(technique: &Technique) -> Option<String> {
 /// Why a picture of a part of the light has no errors, where what it is held against has other light.
 pub fn no_error(shown: &PaneView, against: Against, beside: Option<Beside>) -> Option<String> {
     let technique_of = |shown: &PaneView| Some(shown.provenance.as_ref()?.technique);
-    let technique = technique_of(shown).filter(|_| shown.errors.is_none())?;
+    let technique = technique_of(shown)?;
     let has_other_light = match against {
         Against::Reference => true,
         Against::Pane(judge) => {
