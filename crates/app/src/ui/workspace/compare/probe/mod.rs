@@ -145,7 +145,7 @@ fn head(cx: &mut UiContext, ui: &mut Ui) {
 
 /// "A: only LDE", of a pane whose samples are of a part of the light.
 fn counted(cx: &UiContext, pane: PaneId) -> Option<String> {
-    let settings = cx.model.session.panes.get(pane).filter(|_| traced(cx, pane))?;
+    let settings = cx.model.session.panes.get(pane).filter(|_| traced(cx, pane).is_some())?;
     Some(format!("{pane}: {}", label::part_of_the_light(&settings.in_use())?))
 }
 
