@@ -77,7 +77,7 @@ impl Canvas {
         }
     }
 
-    /// As RGBA bytes.
+    /// All pixels as bytes of RGBA, opaque, rows from the top.
     pub fn rgba(&self) -> Vec<u8> {
         self.pixels.iter().flat_map(|[r, g, b]| [*r, *g, *b, 255]).collect()
     }
@@ -86,11 +86,11 @@ impl Canvas {
 /// How a text looks.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Type {
-    /// In pixels.
+    /// Size of the type in pixels; its capitals are [`CAPITALS`] of that.
     pub size: f32,
     /// Whether it is a heading.
     pub semi_bold: bool,
-    /// As sRGB bytes.
+    /// The colour that letters are drawn in, as sRGB bytes.
     pub colour: [u8; 3],
 }
 

@@ -59,7 +59,7 @@ pub struct Picture {
     pub spp: Option<u32>,
     /// Pictures of which it is the mean, each of as many samples.
     pub runs: u32,
-    /// Seconds of rendering.
+    /// Seconds that rendering has taken so far.
     pub seconds: f64,
     /// How they were spent.
     pub effort: Effort,

@@ -22,7 +22,7 @@ const MOST_OF_A_STEP: u32 = 8192;
 pub struct Probes {
     worker: Option<Worker<Option<ProbeJob>, Probed>>,
     last: Option<ProbeJob>,
-    /// Counts the jobs.
+    /// The number of jobs so far: answers to older ones are dropped.
     jobs: u64,
 }
 

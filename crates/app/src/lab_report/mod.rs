@@ -33,7 +33,7 @@ pub struct LabReport {
     pub reference: Option<ReportedReference>,
     /// How errors have fallen, those that were pinned too.
     pub curves: Vec<Curve>,
-    /// The session's file.
+    /// The text of the session's file, which makes all of it again.
     pub session_text: String,
     /// The day on which it was made: "2026-03-01".
     pub date: String,
@@ -42,9 +42,9 @@ pub struct LabReport {
 /// A pane's picture and what it took.
 #[derive(Debug, Clone)]
 pub struct ReportedPicture {
-    /// Whose it is.
+    /// The pane whose picture it is.
     pub pane: PaneId,
-    /// Its linear radiance.
+    /// Its linear radiance, through no display transform.
     pub image: Image,
     /// What makes it again, with the runs that it has.
     pub provenance: Provenance,
@@ -54,7 +54,7 @@ pub struct ReportedPicture {
     pub spp: Option<u32>,
     /// Pictures of which it is the mean.
     pub runs: u32,
-    /// Seconds of rendering.
+    /// Seconds that rendering has taken in all.
     pub seconds: f64,
     /// Seconds of processor time that all threads took together, where that is known.
     pub core_seconds: Option<f64>,

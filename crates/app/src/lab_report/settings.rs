@@ -14,7 +14,7 @@ pub struct Row {
     pub values: Vec<Option<String>>,
     /// What it would be in each where nobody says otherwise.
     pub usual: Vec<Option<String>>,
-    /// What it does.
+    /// What the setting does, as `--help` says it.
     pub help: &'static str,
 }
 

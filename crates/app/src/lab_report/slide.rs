@@ -37,7 +37,7 @@ const DARK: SlideColours = SlideColours {
     panes: [[0x6c, 0xb2, 0xff], [0xff, 0xb0, 0x57]],
 };
 
-/// As the projector's.
+/// The colours of the projector's theme.
 const LIGHT: SlideColours =
     SlideColours { ground: [0xff; 3], text: [0x0d, 0x11, 0x17], panes: [[0x0a, 0x4a, 0xa6], [0x86, 0x3d, 0x00]] };
 

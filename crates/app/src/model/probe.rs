@@ -113,7 +113,7 @@ pub struct PaneProbe {
 /// The first samples of a pixel, in their order.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PixelSamples {
-    /// Column and row.
+    /// Column and row of the pixel, from the upper left corner.
     pub pixel: [u32; 2],
     /// The samples that its picture is to have.
     pub wished: u32,
@@ -137,7 +137,7 @@ pub struct Drawn {
 pub struct RunningMean {
     /// How many they are.
     pub samples: u32,
-    /// Their mean.
+    /// The mean of the samples so far.
     pub mean: f64,
     /// Its standard error by their spread; 0 below two samples, where nothing is known about it.
     pub error: f64,
@@ -221,7 +221,7 @@ pub struct Spread {
 pub struct Bin {
     /// From where to where.
     pub range: RangeInclusive<f64>,
-    /// How many.
+    /// How many samples there are in all.
     pub count: u32,
 }
 

@@ -144,7 +144,7 @@ impl Sheet {
     /// Whether tiles of this size will make one picture with what stands below them.
     ///
     /// # Errors
-    /// [`SheetError::TooLarge`].
+    /// [`SheetError::TooLarge`] of more pixels than a picture may have.
     pub fn check_size(plan: &SweepPlan, size: (u32, u32), with_errors: bool) -> Result<(), SheetError> {
         let names = plan.tiles.first().map_or(0, |tile| tile.names.len());
         Layout::checked(plan, size, names + 1 + usize::from(with_errors)).map(|_| ())

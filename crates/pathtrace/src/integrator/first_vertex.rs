@@ -31,9 +31,9 @@ pub enum Met {
     Light,
     /// A surface that scatters by Lambert's law.
     Diffuse,
-    /// Rough metal.
+    /// Rough metal, whose directions lie about that of a mirror.
     RoughMetal,
-    /// A mirror.
+    /// A perfect mirror, which leaves no directions to choose from.
     Mirror,
     /// Glass, whose surface reflects or refracts.
     Glass,

@@ -69,7 +69,7 @@ pub enum Kind {
     Bounces,
     /// When paths end early.
     Roulette,
-    /// Which light counts.
+    /// The part of the light that counts, by a name or an expression.
     LightPaths,
 }
 
@@ -86,7 +86,7 @@ pub enum Value {
     Bounces(Option<u32>),
     /// When paths end early.
     Roulette(Roulette),
-    /// Which light counts.
+    /// The part of the light that counts.
     LightPaths(LightPaths),
 }
 

@@ -121,7 +121,7 @@ impl Gallery {
     /// Puts a tile in its place, or nothing of it.
     ///
     /// # Errors
-    /// As [`Gallery::fitting`].
+    /// The faults of [`Gallery::fitting`], in the same words.
     pub fn put(&mut self, tile: &Tile) -> Result<(), String> {
         self.canvas(&tile.name)?.put(tile)
     }

@@ -20,8 +20,8 @@ pub const ACCEPTS: u32 = 1 << 31;
 /// Surfaces in the order in which a row has what follows them, 8 bits each.
 const SURFACES: [u8; 3] = [D, G, S];
 
-/// A row for each state: the states that follow a diffuse, a glossy and a specular vertex, in its lowest three bytes, and
-/// [`ACCEPTS`].
+/// A row for each state: the states that follow a diffuse, a glossy and a specular vertex, in its lowest three bytes,
+/// and the bit [`ACCEPTS`] where what has been read is whole.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Automaton {
     /// The rows of all states; those that there are not are 0.
@@ -29,7 +29,7 @@ pub struct Automaton {
 }
 
 impl Automaton {
-    /// Of an expression.
+    /// The automaton that accepts what an expression describes.
     ///
     /// # Errors
     /// If no path is like that, or it takes too many states.

@@ -16,9 +16,9 @@ pub struct CountedPaths {
 /// Where a path scatters: at surfaces that are neither are diffuse.
 #[derive(Clone, Copy)]
 pub struct Scattering<M> {
-    /// At rough metal.
+    /// In which lanes it is at rough metal.
     pub glossy: M,
-    /// At mirrors and glass.
+    /// In which lanes it is at a mirror or glass.
     pub specular: M,
 }
 

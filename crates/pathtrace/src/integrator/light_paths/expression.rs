@@ -3,15 +3,15 @@
 
 use super::MOST_LETTERS;
 
-/// A light.
+/// The light at which a path begins.
 pub const L: u8 = 1;
-/// A diffuse surface.
+/// A vertex at a surface that reflects to all sides alike.
 pub const D: u8 = 1 << 1;
-/// A glossy surface.
+/// A vertex at rough metal, which reflects about one direction.
 pub const G: u8 = 1 << 2;
 /// A mirror or glass.
 pub const S: u8 = 1 << 3;
-/// The eye.
+/// The eye at which a path ends.
 pub const E: u8 = 1 << 4;
 
 /// An expression that says nothing about paths.
@@ -60,7 +60,7 @@ pub struct Expression {
     pub before: Vec<Positions>,
     /// Where a path may begin ...
     pub first: Positions,
-    /// ... and end.
+    /// Those at which a path that it describes may end.
     pub last: Positions,
 }
 

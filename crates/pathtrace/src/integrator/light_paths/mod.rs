@@ -36,7 +36,7 @@ pub struct LightPaths {
 /// What has a name, and what it stands for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Named {
-    /// Every path.
+    /// All light, by whatever path it comes.
     All,
     /// Light that is seen itself.
     Emitted,
@@ -110,7 +110,7 @@ impl fmt::Display for Named {
 }
 
 impl LightPaths {
-    /// Every path counts.
+    /// All light, by whatever path it comes.
     pub const ALL: Self = {
         let mut text = [0; MOST_LETTERS];
         (text[0], text[1], text[2]) = (b'a', b'l', b'l');
