@@ -287,7 +287,7 @@ impl<'a, F: Float> WhittedLanes<'a, F> {
         goes_on
     }
 
-    /// Lights diffuse surfaces.
+    /// Adds the light that diffuse surfaces send along the branches: direct, and the ambient that stands for the rest.
     #[inline(always)]
     fn light(&mut self, lit: F::M, at: &Interactions<F>, sampler: &Sampler<F::U>) {
         let direct = self.irradiance(lit, &at.point, at.normal, sampler);

@@ -58,7 +58,7 @@ pub struct Expression {
     pub letters: Vec<u8>,
     /// Positions that may stand right before each.
     pub before: Vec<Positions>,
-    /// Where a path may begin ...
+    /// Those at which a path that it describes may begin.
     pub first: Positions,
     /// Those at which a path that it describes may end.
     pub last: Positions,
