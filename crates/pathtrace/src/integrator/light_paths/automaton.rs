@@ -5,7 +5,7 @@
 
 use super::expression::{D, E, Expression, G, L, LightPathsError, Positions, S};
 
-/// States of an automaton, [`DEAD`] among them.
+/// States of an automaton, the dead one among them.
 pub const MOST_STATES: usize = 32;
 
 /// The state from which no path counts any more: its row is 0.
