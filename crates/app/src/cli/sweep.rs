@@ -2,7 +2,9 @@
 
 use super::{SweepArgs, interrupt, reference};
 use crate::engine::restore::SESSION;
-use crate::model::{Model, SavedSession, SweepMeasure, SweepPlan, Theme, TileFacts, best, captions, sweep_csv};
+use crate::model::{
+    Model, PlannedTile, SavedSession, SweepMeasure, SweepPlan, Theme, TileFacts, best, captions, sweep_csv,
+};
 use crate::ruler::ReferenceImage;
 use crate::sweep::{Asked, Devices, Onlooker, Sheet, Tile, TileMaker, measure};
 use anyhow::Context;
@@ -13,7 +15,7 @@ use serde_json::{Value, json};
 use std::path::Path;
 use std::sync::Arc;
 use std::time::Duration;
-use technique::{Backend, DeviceChoice, INSTEAD, Shot, Threads};
+use technique::{Backend, Device, DeviceChoice, INSTEAD, Provenance, Shot, Technique, Threads};
 
 pub fn run(args: &SweepArgs) -> anyhow::Result<()> {
     let shot = args.seen.of(&args.scene)?;
@@ -26,6 +28,9 @@ pub fn run(args: &SweepArgs) -> anyhow::Result<()> {
         args.errors.is_none() || plan.tiles.iter().any(|tile| tile.pane.in_use().has_a_reference()),
         "a part of the light has no errors: the reference has all of it; leave out --errors or light="
     );
+    if args.jobs {
+        return super::print(&jobs(args, &plan, &shot));
+    }
     check_files(args)?;
     Sheet::check_size(&plan, shot.size, args.errors.is_some())?;
     let _heeded = interrupt::heed();
@@ -53,6 +58,22 @@ pub fn run(args: &SweepArgs) -> anyhow::Result<()> {
     }
     anyhow::ensure!(!interrupt::is_asked(), "{made} of {count} tiles are saved: {out}");
     Ok(())
+}
+
+/// For each tile the line that makes it, for other machines.
+fn jobs(args: &SweepArgs, plan: &SweepPlan, shot: &Shot) -> String {
+    let line = |(index, tile): (usize, &PlannedTile)| {
+        let technique = tile.pane.in_use();
+        let spp = match technique {
+            Technique::Fake(_) => 1,
+            Technique::Traced(traced) => traced.spp,
+        };
+        let out = args.out.with_extension(format!("{}.png", index + 1)).display().to_string();
+        // a fake is drawn by the device that there is, and rays where each machine finds it best
+        let device = if args.device == DeviceChoice::Gpu { Device::Gpu } else { technique.name().usual_device() };
+        format!("{}\n", Provenance { shot: shot.clone(), technique, device }.command(spp, args.exposure, &out))
+    };
+    plan.tiles.iter().enumerate().map(line).collect()
 }
 
 /// Each is another file, and none the scene's.

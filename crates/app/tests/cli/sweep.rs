@@ -139,6 +139,26 @@ fn what_cannot_be_varied_is_wrong_usage_and_writes_nothing() {
 }
 
 #[test]
+fn a_list_of_jobs_has_the_line_of_each_tile_and_renders_nothing() {
+    let folder = TestFolder::new();
+    let out = folder.file("strip.png").display().to_string();
+    let words = ["sweep", "cornell", "bounces=0,1,inf", "--spp", "2", "--size", "16x12", "-o", &out];
+    let listed = visavis(&[&words[..], &["--jobs"]].concat());
+    assert!(listed.status.success(), "{}", String::from_utf8_lossy(&listed.stderr));
+    let listed = String::from_utf8(listed.stdout).expect("a text");
+    let lines: Vec<&str> = listed.lines().collect();
+    assert!(lines.len() == 3 && !Path::new(&out).exists(), "{listed}");
+    let report = json(&visavis(&[&words[..], &["--json"]].concat()));
+    for (index, (tile, line)) in tiles(&report).iter().zip(lines).enumerate() {
+        let own = out.replace(".png", &format!(".{}.png", index + 1));
+        assert_eq!(tile["command"].as_str().expect("a command").replace("tile.png", &own), line);
+    }
+    let jobs = |more: &[&'static str]| [&["sweep", "cornell", "bounces=0,1", "-o", "out.png", "--jobs"], more].concat();
+    assert_refused(&jobs(&["--time", "1"]), 2, &["--jobs", "say --spp N"]);
+    assert_refused(&jobs(&["--errors", "RMSE"]), 2, &["--jobs renders nothing", "--errors"]);
+}
+
+#[test]
 fn no_file_is_written_over_another_of_the_same_sweep() {
     let folder = TestFolder::new();
     let scene = folder.file("my.toml");

@@ -31,6 +31,7 @@ pub struct SweepArgs {
     pub exposure: f32,
     pub errors: Option<SweepMeasure>,
     pub json: bool,
+    pub jobs: bool,
 }
 
 /// The words on their way.
@@ -157,6 +158,16 @@ fn of_files() -> Vec<CommandOption<Reading>> {
             },
         },
         CommandOption {
+            names: &["--jobs"],
+            value: "",
+            help: "render nothing, but print for each tile the line of render that makes it, for as many machines or jobs: of \
+                   OUT.png they make OUT.1.png and so on (docs/many-machines.md)",
+            read: |reading, _| {
+                reading.args.jobs = true;
+                Ok(())
+            },
+        },
+        CommandOption {
             names: &["--json"],
             value: "",
             help: "print one JSON object about the tiles on stdout",
@@ -184,6 +195,7 @@ pub fn parse(parser: lexopt::Parser) -> Result<Command, CliError> {
         exposure: 0.0,
         errors: None,
         json: false,
+        jobs: false,
     };
     let reading = Reading { args: blank, of: None, spp: None, out: None, preset: None };
     let in_the_scene = |reading: &mut Reading, name: &str, parser: &mut lexopt::Parser| {
@@ -265,6 +277,12 @@ impl SweepArgs {
         base
     }
 
+    /// An option that a list of jobs has no use for.
+    fn beside_jobs(&self) -> Option<&'static str> {
+        let given = [("--errors", self.errors.is_some()), ("--csv", self.csv.is_some()), ("--json", self.json)];
+        given.into_iter().find(|(_, given)| *given).map(|(option, _)| option)
+    }
+
     /// What no scene would mend.
     fn check(&self) -> Result<(), CliError> {
         let plan = self.plan(None).or_else(usage)?;
@@ -280,6 +298,12 @@ impl SweepArgs {
                 }
                 Technique::Fake(_) | Technique::Traced(_) => {}
             }
+        }
+        if self.jobs && self.seconds.is_some() {
+            return usage("--jobs: equal time is told apart on one machine alone; say --spp N in place of --time");
+        }
+        if let Some(option) = self.beside_jobs().filter(|_| self.jobs) {
+            return usage(format!("--jobs renders nothing, and {option} speaks of what is rendered: leave one out"));
         }
         let spp = of_panes("spp").filter(|row| plan.tiles.iter().any(|tile| row.is_of(tile.pane.technique)));
         if self.seconds.is_some() && spp.is_none() {
