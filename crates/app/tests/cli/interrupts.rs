@@ -98,21 +98,23 @@ fn render_saves_the_samples_that_there_are_and_ends_by_the_signal() {
     }
 }
 
+/// What is to be said of A is said once it is made, and B has no end.
 #[test]
 fn a_report_that_was_interrupted_says_so() {
     let folder = TestFolder::new();
     let (scene, page) = (folder.file("a.toml"), folder.file("a.html"));
     std::fs::write(&scene, UNSEEN_LIGHT).expect("the scene");
     let mut command = program();
-    command.arg("report").arg(scene).args(["--a", "path,estimator=uniform,denoise=atrous", "--b", "path,spp=1"]);
-    command.args(["--against", "other", "--size", "128x128", "--spp", "65536", "--device", "cpu", "-o"]).arg(&page);
+    let (a, b) = ("path,estimator=uniform,spp=1", "path,estimator=uniform,denoise=atrous,spp=2000000");
+    command.arg("report").arg(scene).args(["--a", a, "--b", b, "--against", "other", "--size", "64x64"]);
+    command.args(["--device", "cpu", "-o"]).arg(&page);
     let making = Begun::new(&mut command);
     assert!(making.first_line.starts_with("note: "), "{}", making.first_line);
     making.send(Signal::INT);
     let (said, end) = making.end();
     assert_eq!(end.signal(), Some(Signal::INT.as_raw()), "{said}");
     let html = std::fs::read_to_string(page).expect("the page");
-    assert!(html.contains(" of 65536 samples per pixel"), "{said}");
+    assert!(html.contains(" of 2000000 samples per pixel"), "{said}");
     assert!(html.contains("not denoised: stopped before") && !html.contains("denoised by atrous"));
 }
 
