@@ -110,9 +110,9 @@ fn a_report_that_was_interrupted_says_so() {
     command.args(["--device", "cpu", "-o"]).arg(&page);
     let making = Begun::new(&mut command);
     assert!(making.first_line.starts_with("note: "), "{}", making.first_line);
-    making.send(Signal::INT);
+    making.send(Signal::TERM);
     let (said, end) = making.end();
-    assert_eq!(end.signal(), Some(Signal::INT.as_raw()), "{said}");
+    assert_eq!(end.signal(), Some(Signal::TERM.as_raw()), "{said}");
     let html = std::fs::read_to_string(page).expect("the page");
     assert!(html.contains(" of 2000000 samples per pixel"), "{said}");
     assert!(html.contains("not denoised: stopped before") && !html.contains("denoised by atrous"));
