@@ -176,7 +176,7 @@ pub fn sample_ranges(records: &[(String, String)]) -> anyhow::Result<Option<Samp
 /// Says in a picture's records which samples it has the sums of, and by which command they are made, if there is one.
 ///
 /// # Errors
-/// As [`made_from`].
+/// Those of [`made_from`], in the same words.
 pub fn tell_samples(records: &mut Vec<(String, String)>, samples: &SampleRanges) -> anyhow::Result<()> {
     records.retain(|(name, _)| ![SPP, SAMPLES, "command"].contains(&name.as_str()));
     records.push((SPP.into(), samples.count().to_string()));

@@ -1,5 +1,5 @@
-//! The thread that makes the reference of what is seen, or reads it from a file, while the panes are at rest, for they have
-//! priority.
+//! The thread that makes the reference of what is seen, or reads it from a file, while the panes are at rest,
+//! for they have priority.
 
 use super::make_reference::{OpenStore, ReferenceMaking, ReferenceWatch};
 use super::post_process::PostProcess;

@@ -98,8 +98,8 @@ impl SlideSize {
         (width, height - self.parts(rest))
     }
 
-    /// How large pictures of this view are rendered for it, so that a pixel is a pixel: at most 16:9, and not higher than
-    /// wide.
+    /// How large pictures of this view are rendered for it, so that a pixel is a pixel: at most 16:9, and
+    /// not higher than wide.
     pub fn size_of_pictures(self, view: View) -> (u32, u32) {
         let (width, height) = self.room(count(view));
         (width.min(height * 16 / 9), height.min(width))

@@ -32,8 +32,8 @@ fn a_slide_has_the_size_that_is_asked_for() {
     assert!(none.slide(SlideSize::FullHd, DARK).unwrap_err().to_string().contains("no picture"));
 }
 
-/// At half of its size a slide is read as far away as its whole height is 45 capitals, twice what books on legibility ask of a
-/// screen.
+/// At half of its size a slide is read as far away as its whole height is 45 capitals, twice what books on legibility
+/// ask of a screen.
 #[test]
 fn capitals_of_the_smallest_type_are_a_45th_of_the_height_and_more() {
     for size in SlideSize::ALL {

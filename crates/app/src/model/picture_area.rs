@@ -31,8 +31,8 @@ impl PictureArea {
         PictureArea { size: (side(part[0]), side(part[1])), corners, shrink, widening }
     }
 
-    /// An area for pictures of this size, whatever it is itself: that of one that another program made from the camera's own
-    /// field of view.
+    /// An area for pictures of this size, whatever it is itself: that of one that another program made from the camera's
+    /// own field of view.
     pub fn of_size(size: (u32, u32), corners: [f32; 4]) -> Self {
         PictureArea { size, corners, ..PictureArea::default() }
     }

@@ -121,8 +121,8 @@ impl Course {
 }
 
 impl PaneView {
-    /// Width and height of a picture that another program has made, where they are not those of what is seen: then nothing
-    /// judges it.
+    /// Width and height of a picture that another program has made, where they are not those of what is seen:
+    /// then nothing judges it.
     pub fn misfit(&self) -> Option<[(u32, u32); 2]> {
         let (image, made) = (self.image.as_ref()?, self.provenance.as_ref()?);
         let sizes = [image.size(), made.shot.size];

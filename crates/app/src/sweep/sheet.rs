@@ -1,5 +1,5 @@
-//! All tiles with their captions as one picture: every tile pixel for pixel as it was made, and text that can be read from the last
-//! row of seats.
+//! All tiles with their captions as one picture: every tile pixel for pixel as it was made, and text that can be read from the
+//! last row of seats.
 
 use super::tile::Tile;
 use crate::lettering::{Canvas, Lettering, Type};

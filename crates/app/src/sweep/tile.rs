@@ -1,5 +1,5 @@
-//! One tile: the picture that `visavis render` makes of the same settings, with as many samples or for as long as the
-//! sweep says.
+//! One tile: the picture that `visavis render` makes of the same settings, with as many samples or for as long
+//! as the sweep says.
 
 use crate::model::{TileErrors, TileFacts};
 use crate::ruler::ReferenceImage;
@@ -124,8 +124,8 @@ impl TileMaker {
         Ok(Some(film))
     }
 
-    /// The whole picture, beginning with a film of [`TileMaker::begin`] if there is one. What `onlooker` ends is as far
-    /// as it came.
+    /// The whole picture, beginning with a film of [`TileMaker::begin`] if there is one. What `onlooker` ends is as
+    /// far as it came.
     ///
     /// # Errors
     /// Why there is none: one line.

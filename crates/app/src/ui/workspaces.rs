@@ -10,8 +10,8 @@ use super::workspace::sweep::Sweep;
 use crate::model::Model;
 use egui::{Frame, Margin, Ui};
 
-/// All that there are, in the order of the rail; the first one is the usual one. The first two are everybody's, to choose from in the
-/// bar.
+/// All that there are, in the order of the rail; the first one is the usual one. The first two are everybody's, to choose
+/// from in the bar.
 fn registry() -> Vec<Box<dyn Workspace>> {
     vec![Box::new(Compare), Box::new(Sweep), Box::new(Empty)]
 }

@@ -236,8 +236,8 @@ fn a_pane(args: &mut ViewArgs, pane: PaneId, option: &str, parser: &mut lexopt::
     taken.or_else(|fault| usage(format!("{option} {}: {fault}", shown(&words))))
 }
 
-/// What is expected in the place of a pane's first word may be another program's picture too, of which its settings do not
-/// know.
+/// What is expected in the place of a pane's first word may be another program's picture too, of which its
+/// settings do not know.
 fn beside_sources(fault: &str) -> String {
     fault.replacen(", a preset (", ", another program's picture (picture=FILE, received, received=PORT), a preset (", 1)
 }

@@ -1,5 +1,5 @@
-//! An expression as a deterministic automaton that reads paths from the eye: the subset construction over its positions,
-//! last letter first.
+//! An expression as a deterministic automaton that reads paths from the eye: the subset construction over its
+//! positions, last letter first.
 //!
 //! Twin: `shaders/pathtrace/integrator/light_paths.wgsl`.
 

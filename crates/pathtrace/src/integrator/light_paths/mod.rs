@@ -5,8 +5,8 @@
 //! renderers call them light path expressions.
 //!
 //! Paths are walked from the eye, so an [`Automaton`] reads them backwards, a vertex at a time. What is drawn does not
-//! depend on what counts: pictures of classes that have no path in common and leave out none add up to the whole picture,
-//! sample by sample.
+//! depend on what counts: pictures of classes that have no path in common and leave out none add up to the whole
+//! picture, sample by sample.
 //!
 //! Twin: `shaders/pathtrace/integrator/light_paths.wgsl`.
 

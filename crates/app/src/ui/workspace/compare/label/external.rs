@@ -1,5 +1,5 @@
-//! What a label says of a picture that another program has made: no samples, no settings, but how large it is and how it
-//! came here.
+//! What a label says of a picture that another program has made: no samples, no settings, but how large it is and
+//! how it came here.
 
 use super::text::{LabelText, duration};
 use crate::model::{External, PaneSource, PaneView};

@@ -1,5 +1,5 @@
-//! How a pixel's samples are spread: their number over their size, on an axis of ratios where some are far larger than the
-//! mean.
+//! How a pixel's samples are spread: their number over their size, on an axis of ratios where some are far
+//! larger than the mean.
 
 use super::super::plots::{decades, fixed, line, tick_of};
 use super::mean::style_of;
