@@ -32,10 +32,10 @@ struct Body {
 impl Body {
     fn new(scene: &Scene, shape: &Shape, segments: u32) -> Body {
         let material = scene.material_of(shape);
-        let (kd, glass) = match material.bsdf {
+        let (kd, glass) = match material.bsdf.clone() {
             Bsdf::Diffuse { albedo } => (albedo, None),
             Bsdf::Mirror { reflectance } => (Texture::Constant(reflectance), None),
-            Bsdf::RoughConductor { .. } => panic!("no scene here has any"),
+            Bsdf::RoughConductor { .. } | Bsdf::MetallicRoughness(_) => panic!("no scene here has any"),
             Bsdf::Dielectric { .. } => (
                 Texture::Constant(Vec3::ONE),
                 Some((material.fake.refraction_ratio.unwrap(), material.fake.reflectivity)),
@@ -159,7 +159,7 @@ impl Twin {
         }
         let n = mixed(&|c| c.normal).normalize() * if hit.front { 1.0 } else { -1.0 };
         let l = Vec3::new(10.0, 13.0, -2.0).normalize();
-        let kd = body.kd.at(p);
+        let kd = body.kd.at(p, Vec2::ZERO);
         let lit = shading::three_blinn_phong(n, l, -ray.d, kd, 17.0 / 255.0, 30.0, Vec3::ONE);
         Some((kd * 0.23 + self.shadow(p, hidden) * lit).clamp(Vec3::ZERO, Vec3::ONE))
     }
@@ -227,7 +227,7 @@ impl Twin {
         let hit = self.seen(&ray, None);
         // what is interpolated over glass is far from linear, so that a pixel on two of its triangles is a mixture
         let triangle = |h: &Hit| if self.bodies[h.body].glass.is_some() { h.triangle } else { 0 };
-        (hit, hit.map(|h| (h.body, triangle(&h), self.bodies[h.body].kd.at(ray.origin + ray.d * h.t))))
+        (hit, hit.map(|h| (h.body, triangle(&h), self.bodies[h.body].kd.at(ray.origin + ray.d * h.t, Vec2::ZERO))))
     }
 }
 
@@ -308,6 +308,7 @@ fn at_the_limits() -> Scene {
         name: "matt".into(),
         bsdf: Bsdf::Diffuse { albedo: Texture::Constant(Vec3::new(0.2, 0.7, 0.4)) },
         emission: None,
+        surface: Default::default(),
         fake: Default::default(),
     };
     scene.materials.push(matt);

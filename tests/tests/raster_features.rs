@@ -87,7 +87,7 @@ fn glass_and_mirrors_show_their_own_surface_as_far_away_as_for_rays() {
         let own = match scene.material_of(shape).bsdf {
             Bsdf::Dielectric { .. } => Vec3::ONE,
             Bsdf::Mirror { reflectance } => reflectance,
-            Bsdf::Diffuse { .. } | Bsdf::RoughConductor { .. } => continue,
+            Bsdf::Diffuse { .. } | Bsdf::RoughConductor { .. } | Bsdf::MetallicRoughness(_) => continue,
         };
         let to = shape.geometry.center() - frame.eye;
         let along = to / to.dot(frame.forward);

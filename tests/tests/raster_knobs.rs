@@ -4,6 +4,7 @@ use film::DisplayTransform;
 use film::{Film, colour};
 use gpu::Gpu;
 use raster::{Fake, FakeKnobs, MOST_CUBE_MAPS, Raster, RasterError, RasterSettings, Shading, ShadowFilter, Show, maps};
+use scene::glam::Vec2;
 use scene::{Bsdf, Camera, Geometry, Scene, Shape, Vec3, builtin};
 
 struct Studio {
@@ -243,7 +244,7 @@ fn cube_faces_join_to_a_cross_seen_from_inside() {
             if reach > 5.0 && row == 1 || metal || shadow || !(0.02..0.98).contains(&s) || !(0.02..0.98).contains(&t) {
                 continue;
             }
-            let green = floor.unwrap().at(p).y > 0.5;
+            let green = floor.unwrap().at(p, Vec2::ZERO).y > 0.5;
             assert_eq!(bytes(cell(&film, column, row, s, t))[1] > 100, green, "{p} at {s}, {t} of {column}, {row}");
             if row == 1 { around += 1 } else { below += 1 }
         }

@@ -22,9 +22,10 @@ pub fn placed(mut scene: Scene, camera: Camera, scale: f32, shift: f32) -> (Scen
                 (*corner, *edge_u, *edge_v) = (point(*corner), *edge_u * scale, *edge_v * scale);
             }
             Geometry::Box { corner, size, .. } => (*corner, *size) = (point(*corner), *size * scale),
-            Geometry::Mesh(mesh) => {
-                let positions = mesh.positions().iter().map(|p| point(*p)).collect();
-                shape.geometry = Geometry::mesh(positions, mesh.triangles().to_vec());
+            Geometry::Mesh(_) | Geometry::Instance(_) => {
+                let (positions, triangles) = shape.geometry.flat_triangles();
+                let positions = positions.iter().map(|p| point(*p)).collect();
+                shape.geometry = Geometry::mesh(positions, triangles.into_owned());
             }
         }
     }

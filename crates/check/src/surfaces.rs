@@ -116,7 +116,7 @@ fn turn(place: Place) -> Place {
             [corner, edge_u, edge_v].into_iter().for_each(|v| *v = by * *v);
         }
         Geometry::Disk { center, normal, .. } => [center, normal].into_iter().for_each(|v| *v = by * *v),
-        Geometry::Box { .. } | Geometry::Mesh(_) => {
+        Geometry::Box { .. } | Geometry::Mesh(_) | Geometry::Instance(_) => {
             let (positions, triangles) = geometry.flat_triangles();
             let positions = positions.iter().map(|p| by * *p).collect();
             *geometry = Geometry::mesh(positions, triangles.into_owned());

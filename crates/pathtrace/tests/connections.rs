@@ -200,7 +200,7 @@ fn moved(scene: &Scene, by: f32) -> Scene {
         match &mut shape.geometry {
             Geometry::Sphere { center, .. } | Geometry::Disk { center, .. } => *center += by,
             Geometry::Rectangle { corner, .. } => *corner += by,
-            Geometry::Box { .. } | Geometry::Mesh(_) => panic!("not in this scene"),
+            Geometry::Box { .. } | Geometry::Mesh(_) | Geometry::Instance(_) => panic!("not in this scene"),
         }
         shape
     });

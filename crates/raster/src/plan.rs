@@ -11,7 +11,7 @@ use crate::targets::{CubePlan, PicturePlan, ShadowPlan, TargetPlan};
 use crate::tessellation::unit_normal;
 use bytemuck::Zeroable;
 use scene::glam::{Mat4, Vec2};
-use scene::{Bsdf, Camera, Geometry, Scene, Texture, Vec3};
+use scene::{Bsdf, Camera, Geometry, MetallicRoughness, Scene, Texture, Vec3};
 use std::f32::consts::SQRT_2;
 use std::ops::Range;
 
@@ -188,7 +188,7 @@ fn casting(scene: &Scene, index: usize, fake: Fake) -> Casting {
             if hides_something(scene, index, *corner, normal) { Casting::BothSides } else { Casting::Nothing }
         }
         _ if glass => Casting::FrontFaces,
-        (Geometry::Box { .. } | Geometry::Mesh(_), Fake::Fair) => Casting::BothSides,
+        (Geometry::Box { .. } | Geometry::Mesh(_) | Geometry::Instance(_), Fake::Fair) => Casting::BothSides,
         _ => Casting::BackFaces,
     }
 }
@@ -224,13 +224,11 @@ fn object(scene: &Scene, index: usize, casting: Casting, settings: &RasterSettin
         slack: if own_lit_side { settings.knobs.filter.reach() } else { 0.0 },
         ..Object::zeroed()
     };
-    match material.bsdf {
-        Bsdf::Diffuse { albedo: Texture::Constant(colour) } => (object.even, object.odd) = (colour, colour),
-        Bsdf::Diffuse { albedo: Texture::Checkerboard(board) } => {
-            (object.even, object.odd) = (board.even, board.odd);
-            (object.origin, object.cells_per_unit) = (board.origin, board.cells_per_unit());
+    match &material.bsdf {
+        Bsdf::Diffuse { albedo: colour } | Bsdf::MetallicRoughness(MetallicRoughness { base_colour: colour, .. }) => {
+            paint(&mut object, colour);
         }
-        Bsdf::Mirror { reflectance } => (object.even, object.odd) = (reflectance, reflectance),
+        Bsdf::Mirror { reflectance } => (object.even, object.odd) = (*reflectance, *reflectance),
         // as a mirror, whose highlight is as wide as the metal's lobe
         Bsdf::RoughConductor { conductor, .. } => {
             (object.even, object.odd) = (conductor.at_normal_incidence(), conductor.at_normal_incidence());
@@ -245,4 +243,16 @@ fn object(scene: &Scene, index: usize, casting: Casting, settings: &RasterSettin
         object.emitting_sides = if emission.two_sided { 2 } else { 1 };
     }
     object
+}
+
+fn paint(object: &mut Object, colour: &Texture) {
+    match colour {
+        Texture::Constant(colour) | Texture::Image { factor: colour, .. } => {
+            (object.even, object.odd) = (*colour, *colour);
+        }
+        Texture::Checkerboard(board) => {
+            (object.even, object.odd) = (board.even, board.odd);
+            (object.origin, object.cells_per_unit) = (board.origin, board.cells_per_unit());
+        }
+    }
 }

@@ -2,7 +2,7 @@
 
 use bytemuck::{Pod, Zeroable};
 use gpu::{Gpu, GpuError};
-use scene::{Geometry, Scene, Shape, Vec3};
+use scene::{Geometry, Instance, Scene, Shape, Vec3};
 use std::f32::consts::{PI, TAU};
 use std::ops::Range;
 use std::sync::Arc;
@@ -81,7 +81,7 @@ fn index_bytes(scene: &Scene, segments: u32) -> u64 {
         Geometry::Rectangle { .. } => 2,
         Geometry::Disk { .. } => u64::from(scene::shape::DISK_SEGMENTS),
         Geometry::Box { .. } => 12,
-        Geometry::Mesh(mesh) => mesh.triangles().len() as u64,
+        Geometry::Mesh(mesh) | Geometry::Instance(Instance { mesh, .. }) => mesh.triangles().len() as u64,
     };
     scene.shapes.iter().map(|s| triangles(&s.geometry) * 12).sum()
 }

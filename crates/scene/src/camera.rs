@@ -23,6 +23,15 @@ pub struct Camera {
     pub far: Option<f32>,
 }
 
+/// A camera that a file names.
+#[derive(Debug, Clone, PartialEq)]
+pub struct NamedCamera {
+    /// What it is chosen by.
+    pub name: String,
+    /// Where it stands.
+    pub camera: Camera,
+}
+
 /// A camera's orthonormal axes scaled so that `forward + x * right + y * up` passes through the point (x, y) of the
 /// picture, x and y in [-1, 1].
 #[derive(Debug, Clone, Copy, PartialEq)]

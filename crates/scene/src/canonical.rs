@@ -6,10 +6,13 @@
 //! called, how they are sorted and whether some are worn by nothing is seen in no picture. Structures are taken apart
 //! without `..`: a new field does not compile before it has found its place here, or its reason not to have one.
 
-use crate::light::{PointLight, Sun};
-use crate::material::{Checkerboard, Emission};
+use crate::image_texture::{Sampling, Wrap};
+use crate::light::{PointLight, Spot, Sun};
+use crate::material::{Alpha, Checkerboard, Emission, MetallicRoughness, NormalMap, SurfaceDetail};
 use crate::stand_ins::{FakeMaterial, FakeNumbers};
-use crate::{Bsdf, Camera, Conductor, EnvironmentMap, Geometry, Material, Mesh, Scene, Shape, Texture};
+use crate::{
+    Bsdf, Camera, Conductor, EnvironmentMap, Geometry, ImageTexture, Instance, Material, Mesh, Scene, Shape, Texture,
+};
 use glam::Vec3;
 
 /// Takes the bytes, one piece after the other.
@@ -17,6 +20,10 @@ pub struct Canonical<'a>(&'a mut dyn FnMut(&[u8]));
 
 /// As many bytes as are hashed at once: blake3 is several times as fast on many as on the four of a number.
 const CHUNK: usize = 1 << 16;
+
+/// Stands before what few scenes have, so that the bytes of all others are what they were: no choice and no list begins
+/// with it.
+const EXTRA: u32 = 0xe0e0_0000;
 
 /// A hash of all that is written.
 pub fn hash(write: impl FnOnce(&mut Canonical)) -> u128 {
@@ -36,8 +43,20 @@ pub fn hash(write: impl FnOnce(&mut Canonical)) -> u128 {
 impl Canonical<'_> {
     /// All that light meets in a scene. Not its name, not its own camera, and not the fake's numbers.
     pub fn scene(&mut self, scene: &Scene) {
-        let Scene { name: _, camera: _, materials, shapes, sun, point_lights, sky, environment, fake: _, as_read: _ } =
-            scene;
+        let Scene {
+            name: _,
+            camera: _,
+            cameras: _,
+            materials,
+            shapes,
+            sun,
+            point_lights,
+            sky,
+            environment,
+            fake: _,
+            remarks: _,
+            as_read: _,
+        } = scene;
         self.count(shapes.len());
         for Shape { geometry, material } in shapes.iter() {
             self.geometry(geometry);
@@ -55,6 +74,7 @@ impl Canonical<'_> {
         let Scene {
             name: _,
             camera,
+            cameras: _,
             materials,
             shapes,
             sun: _,
@@ -62,13 +82,14 @@ impl Canonical<'_> {
             sky: _,
             environment: _,
             fake,
+            remarks: _,
             as_read: _,
         } = scene;
         let Camera { eye: _, target: _, up: _, fov_y: _, near, far } = camera;
         [near, far].into_iter().for_each(|plane| self.option(plane.as_ref(), |this, distance| this.number(*distance)));
         self.count(shapes.len());
         for Shape { geometry: _, material } in shapes.iter() {
-            let Material { name: _, bsdf: _, emission: _, fake } = &materials[*material];
+            let Material { name: _, bsdf: _, emission: _, surface: _, fake } = &materials[*material];
             self.fake_material(fake);
         }
         self.fake_numbers(fake);
@@ -110,7 +131,7 @@ impl Canonical<'_> {
     }
 
     fn material(&mut self, material: &Material) {
-        let Material { name: _, bsdf, emission, fake: _ } = material;
+        let Material { name: _, bsdf, emission, surface, fake: _ } = material;
         match bsdf {
             Bsdf::Diffuse { albedo } => {
                 self.word(0);
@@ -124,6 +145,10 @@ impl Canonical<'_> {
                 self.word(2);
                 self.number(*ior);
             }
+            Bsdf::MetallicRoughness(model) => {
+                self.word(4);
+                self.metallic_roughness(model);
+            }
             Bsdf::RoughConductor { conductor, roughness } => {
                 self.word(3);
                 self.conductor(conductor);
@@ -134,6 +159,56 @@ impl Canonical<'_> {
             this.vector(*radiance);
             this.word(u32::from(*two_sided));
         });
+        if *surface != SurfaceDetail::default() {
+            self.word(EXTRA);
+            self.surface(surface);
+        }
+    }
+
+    fn surface(&mut self, SurfaceDetail { normal_map, alpha, emission }: &SurfaceDetail) {
+        self.option(normal_map.as_ref(), |this, NormalMap { image, scale }| {
+            this.content(image.content());
+            this.number(*scale);
+        });
+        match alpha {
+            Alpha::Opaque => self.word(0),
+            Alpha::Mask { cutoff, factor, image } => {
+                self.word(1);
+                self.number(*cutoff);
+                self.number(*factor);
+                self.option(image.as_ref(), |this, image| this.content(image.content()));
+            }
+        }
+        self.option(emission.as_ref(), |this, image| this.content(image.content()));
+    }
+
+    fn metallic_roughness(&mut self, model: &MetallicRoughness) {
+        let MetallicRoughness { base_colour, metallic, roughness, metallic_roughness, ior } = model;
+        self.texture(base_colour);
+        [metallic, roughness, ior].into_iter().for_each(|number| self.number(*number));
+        self.option(metallic_roughness.as_ref(), |this, image| this.content(image.content()));
+    }
+
+    /// The sixteen bytes of a hash of what is large.
+    fn content(&mut self, hash: u128) {
+        (self.0)(&hash.to_le_bytes());
+    }
+
+    /// All that a picture on a surface depends on.
+    pub(crate) fn image_texture(&mut self, image: &ImageTexture) {
+        let (width, height) = image.size();
+        [width, height].into_iter().for_each(|side| self.word(side));
+        image.texels().iter().flatten().for_each(|number| self.number(*number));
+        let Sampling { wrap, bilinear, turn_and_scale, offset } = image.sampling;
+        wrap.into_iter().for_each(|wrap| {
+            self.word(match wrap {
+                Wrap::Repeat => 0,
+                Wrap::Clamp => 1,
+                Wrap::Mirror => 2,
+            })
+        });
+        self.word(u32::from(bilinear));
+        turn_and_scale.to_cols_array().into_iter().chain(offset.to_array()).for_each(|number| self.number(number));
     }
 
     fn conductor(&mut self, conductor: &Conductor) {
@@ -174,6 +249,11 @@ impl Canonical<'_> {
                 self.word(1);
                 [even, odd, origin, cell].into_iter().for_each(|v| self.vector(*v));
             }
+            Texture::Image { image, factor } => {
+                self.word(2);
+                self.content(image.content());
+                self.vector(*factor);
+            }
         }
     }
 
@@ -200,19 +280,37 @@ impl Canonical<'_> {
                 self.vector(*size);
                 self.number(*turn_y);
             }
+            Geometry::Mesh(mesh) if mesh.is_large() => {
+                self.word(5);
+                self.content(mesh.content());
+            }
             Geometry::Mesh(mesh) => {
                 self.word(4);
                 self.mesh(mesh);
             }
+            Geometry::Instance(Instance { mesh, to_world }) => {
+                self.word(6);
+                self.content(mesh.content());
+                to_world.to_cols_array().into_iter().for_each(|number| self.number(number));
+            }
         }
     }
 
-    fn mesh(&mut self, mesh: &Mesh) {
+    /// All that a mesh holds.
+    pub(crate) fn mesh(&mut self, mesh: &Mesh) {
         self.count(mesh.positions().len());
         mesh.positions().iter().for_each(|position| self.vector(*position));
         self.count(mesh.triangles().len());
         for triangle in mesh.triangles() {
             triangle.iter().for_each(|corner| self.word(*corner));
+        }
+        if !mesh.normals().is_empty() {
+            self.word(EXTRA);
+            mesh.normals().iter().for_each(|normal| self.vector(*normal));
+        }
+        if !mesh.uvs().is_empty() {
+            self.word(EXTRA + 1);
+            mesh.uvs().iter().flat_map(|uv| uv.to_array()).for_each(|number| self.number(number));
         }
     }
 
@@ -231,9 +329,14 @@ impl Canonical<'_> {
         self.vector(*irradiance);
     }
 
-    fn point_light(&mut self, PointLight { position, intensity }: &PointLight) {
+    fn point_light(&mut self, PointLight { position, intensity, spot }: &PointLight) {
         self.vector(*position);
         self.vector(*intensity);
+        if let Some(Spot { towards, inner, outer }) = spot {
+            self.word(EXTRA);
+            self.vector(*towards);
+            [inner, outer].into_iter().for_each(|angle| self.number(*angle));
+        }
     }
 }
 

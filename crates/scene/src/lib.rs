@@ -11,8 +11,10 @@ pub mod direction;
 pub mod environment;
 pub mod file;
 mod hash;
+pub mod image_texture;
 pub mod light;
 pub mod material;
+mod mesh;
 mod nearest;
 mod needs;
 pub mod nesting;
@@ -20,17 +22,19 @@ mod notes;
 pub mod shape;
 pub mod stand_ins;
 
-pub use camera::Camera;
+pub use camera::{Camera, NamedCamera};
 pub use conductor::Conductor;
 pub use environment::EnvironmentMap;
 pub use file::{SceneError, load, parse};
 pub use glam::{self, Vec3};
 pub use hash::SceneHash;
-pub use light::{PointLight, Sun};
-pub use material::{Bsdf, Material, Texture};
+pub use image_texture::ImageTexture;
+pub use light::{PointLight, Spot, Sun};
+pub use material::{Alpha, Bsdf, Material, MetallicRoughness, NormalMap, SurfaceDetail, Texture};
+pub use mesh::{Instance, Mesh};
 pub use nearest::{nearest, nearest_or_begun};
 pub use needs::Needs;
-pub use shape::{Geometry, Mesh, Shape};
+pub use shape::{Geometry, Shape};
 
 use stand_ins::FakeNumbers;
 use std::sync::Arc;
@@ -42,6 +46,8 @@ pub struct Scene {
     pub name: String,
     /// Where the scene is seen from unless the user moves.
     pub camera: Camera,
+    /// Cameras that the file has beside it, by name; shared.
+    pub cameras: Arc<[NamedCamera]>,
     /// Materials; [`Shape::material`] indexes this list.
     pub materials: Vec<Material>,
     /// Shapes in file order; shared, because copies of a scene differ in settings and not in geometry.
@@ -57,6 +63,8 @@ pub struct Scene {
     pub environment: Option<Arc<EnvironmentMap>>,
     /// Numbers that stand in for physics.
     pub fake: FakeNumbers,
+    /// What the file asks for and does not get, or gets otherwise: a line each.
+    pub remarks: Arc<[String]>,
     /// Of what was read: what is changed afterwards does not change it.
     pub as_read: SceneHash,
 }

@@ -22,6 +22,30 @@ pub struct PointLight {
     pub position: Vec3,
     /// Radiant intensity, power per solid angle, RGB: the irradiance on a surface that faces it at distance 1.
     pub intensity: Vec3,
+    /// The cone that it shines into; `None` shines everywhere.
+    pub spot: Option<Spot>,
+}
+
+/// A cone of light with a soft edge (glTF's KHR_lights_punctual).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Spot {
+    /// Unit direction of its axis, away from the light.
+    pub towards: Vec3,
+    /// Degrees from the axis up to which it shines in full, from 0.
+    pub inner: f32,
+    /// Degrees from the axis from which on it is dark, above `inner`, at most 180.
+    pub outer: f32,
+}
+
+impl Spot {
+    /// Share of the intensity in a unit direction away from the light: the square of the cosine's way from the outer to
+    /// the inner cone, in [0, 1].
+    pub fn share(&self, direction: Vec3) -> f32 {
+        let [inner, outer] = [self.inner, self.outer].map(|angle| angle.to_radians().cos());
+        let way = (direction.dot(self.towards) - outer) / (inner - outer).max(1e-3);
+        let way = way.clamp(0.0, 1.0);
+        way * way
+    }
 }
 
 impl Sun {

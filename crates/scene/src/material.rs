@@ -2,9 +2,11 @@
 //!
 //! Twin of [`Checkerboard::at`]: `shaders/shared/checkerboard.wgsl`.
 
+use crate::ImageTexture;
 use crate::conductor::Conductor;
 use crate::stand_ins::FakeMaterial;
-use glam::Vec3;
+use glam::{Vec2, Vec3};
+use std::sync::Arc;
 
 /// How a surface looks.
 #[derive(Debug, Clone, PartialEq)]
@@ -15,6 +17,8 @@ pub struct Material {
     pub bsdf: Bsdf,
     /// The light that it sends out itself, if any.
     pub emission: Option<Emission>,
+    /// What pictures say of its surface beside its colour.
+    pub surface: SurfaceDetail,
     /// What the fake shows instead where physics is beyond it.
     pub fake: FakeMaterial,
 }
@@ -26,8 +30,68 @@ impl Material {
     }
 }
 
+impl Material {
+    /// Every picture that it is made of.
+    pub fn images(&self) -> impl Iterator<Item = &Arc<ImageTexture>> {
+        let (colour, metallic_roughness) = match &self.bsdf {
+            Bsdf::Diffuse { albedo } => (albedo.image(), None),
+            Bsdf::MetallicRoughness(model) => (model.base_colour.image(), model.metallic_roughness.as_ref()),
+            Bsdf::Mirror { .. } | Bsdf::RoughConductor { .. } | Bsdf::Dielectric { .. } => (None, None),
+        };
+        let emitted = self.surface.emission.as_ref();
+        let normals = self.surface.normal_map.as_ref().map(|map| &map.image);
+        let alpha = match &self.surface.alpha {
+            Alpha::Opaque => None,
+            Alpha::Mask { image, .. } => image.as_ref(),
+        };
+        [colour, metallic_roughness, emitted, normals, alpha].into_iter().flatten()
+    }
+
+    /// Whether any picture is part of it.
+    pub fn has_images(&self) -> bool {
+        self.images().next().is_some()
+    }
+}
+
+/// What pictures say of a surface beside its colour.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct SurfaceDetail {
+    /// Shading normals, in the frame that the places in textures span.
+    pub normal_map: Option<NormalMap>,
+    /// Where there is a surface at all.
+    pub alpha: Alpha,
+    /// What the radiance of its emission is multiplied by from place to place.
+    pub emission: Option<Arc<ImageTexture>>,
+}
+
+/// Shading normals from a picture.
+#[derive(Debug, Clone, PartialEq)]
+pub struct NormalMap {
+    /// x, y and z as red, green and blue, each from [0, 1] for [-1, 1]; +x along u, +y against v (up in the picture).
+    pub image: Arc<ImageTexture>,
+    /// What x and y are multiplied by.
+    pub scale: f32,
+}
+
+/// Where a surface is there for rays.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub enum Alpha {
+    /// Everywhere.
+    #[default]
+    Opaque,
+    /// Where the product of factor and the picture's alpha is at least `cutoff`.
+    Mask {
+        /// Least alpha that is a surface.
+        cutoff: f32,
+        /// What the picture's alpha is multiplied by.
+        factor: f32,
+        /// The picture; of none alpha is 1.
+        image: Option<Arc<ImageTexture>>,
+    },
+}
+
 /// How a surface scatters light.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub enum Bsdf {
     /// Lambert's law on both sides: BRDF = albedo / pi. Black for an area light that scatters nothing.
     Diffuse {
@@ -46,6 +110,8 @@ pub enum Bsdf {
         /// From .01, all but a mirror, to 1. The distribution's width, alpha, is its square.
         roughness: f32,
     },
+    /// glTF's metallic-roughness model, on both sides: a mix of metal and of a coated matt body.
+    MetallicRoughness(MetallicRoughness),
     /// Smooth clear glass inside a closed shape.
     Dielectric {
         /// Index of refraction of the inside over what is around the shape, > 0: 1.5 for glass in air, 1 / 1.5 for a
@@ -53,6 +119,22 @@ pub enum Bsdf {
         /// in, and a camera inside glass sees rightly; see [`crate::nesting`] for what that asks of the shapes.
         ior: f32,
     },
+}
+
+/// The material of glTF 2.0, its appendix B: metal whose facets reflect the base colour at normal incidence, mixed with a
+/// matt body of that colour under a clear coat, whose facets reflect by the index of refraction.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MetallicRoughness {
+    /// Albedo of the body and reflectance of the metal.
+    pub base_colour: Texture,
+    /// Share of metal, in [0, 1].
+    pub metallic: f32,
+    /// In [0, 1]; the distribution's width, alpha, is its square.
+    pub roughness: f32,
+    /// What both are multiplied by: roughness by green, the share of metal by blue.
+    pub metallic_roughness: Option<Arc<ImageTexture>>,
+    /// Index of refraction of the coat, from 1; usually 1.5.
+    pub ior: f32,
 }
 
 /// Light that a surface sends out, the same in all directions.
@@ -65,12 +147,19 @@ pub struct Emission {
 }
 
 /// A colour that may vary over space.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub enum Texture {
     /// One colour.
     Constant(Vec3),
     /// A solid checkerboard: the parity of the cell that a point lies in.
     Checkerboard(Checkerboard),
+    /// A picture, where a mesh says which part of it lies where.
+    Image {
+        /// The picture.
+        image: Arc<ImageTexture>,
+        /// What its colours are multiplied by, each channel in [0, 1].
+        factor: Vec3,
+    },
 }
 
 /// Cells of two colours that fill space, so that no shape needs texture coordinates.
@@ -87,11 +176,20 @@ pub struct Checkerboard {
 }
 
 impl Texture {
-    /// The colour at a point of world space.
-    pub fn at(&self, point: Vec3) -> Vec3 {
+    /// The picture, if it is one.
+    pub fn image(&self) -> Option<&Arc<ImageTexture>> {
+        match self {
+            Texture::Image { image, .. } => Some(image),
+            Texture::Constant(_) | Texture::Checkerboard(_) => None,
+        }
+    }
+
+    /// The colour at a point of world space that lies at `uv` in textures.
+    pub fn at(&self, point: Vec3, uv: Vec2) -> Vec3 {
         match self {
             Texture::Constant(colour) => *colour,
             Texture::Checkerboard(board) => board.at(point),
+            Texture::Image { image, factor } => image.at(uv).truncate() * *factor,
         }
     }
 }

@@ -2,7 +2,7 @@
 //!
 //! Twin: `shaders/pathtrace/needs.wgsl`.
 
-use crate::{Bsdf, Geometry, Scene, Shape, Texture};
+use crate::{Alpha, Bsdf, Geometry, Scene, Shape, SurfaceDetail, Texture};
 
 /// Which features occur in a scene.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -19,12 +19,22 @@ pub struct Needs {
     pub mirror: bool,
     /// Rough metal.
     pub rough_conductor: bool,
+    /// glTF's metallic-roughness model.
+    pub metallic_roughness: bool,
     /// Glass.
     pub dielectric: bool,
     /// A sphere of glass, denser than what is around it, or of a perfect mirror: what casts caustics that can be aimed at.
     pub casters: bool,
     /// Glass or a mirror that is none of these.
     pub other_speculars: bool,
+    /// A picture on a surface: its colour, its normals, its alpha or what it sends out.
+    pub image_textures: bool,
+    /// A mesh with shading normals of its own, or a material with a normal map.
+    pub shading_normals: bool,
+    /// A surface that is there in part only.
+    pub alpha_masks: bool,
+    /// A large mesh, which keeps a tree of its own.
+    pub large_meshes: bool,
     /// A shape that shines.
     pub area_lights: bool,
     /// A point light.
@@ -52,8 +62,18 @@ impl Scene {
             needs.triangles |= !sphere && !disk;
             let material = self.material_of(shape);
             needs.area_lights |= material.emission.is_some();
-            match material.bsdf {
+            let SurfaceDetail { normal_map, alpha, emission: _ } = &material.surface;
+            needs.alpha_masks |= *alpha != Alpha::Opaque;
+            needs.image_textures |= material.has_images();
+            let mesh = shape.geometry.mesh_of();
+            needs.shading_normals |= normal_map.is_some() || mesh.is_some_and(|mesh| !mesh.normals().is_empty());
+            needs.large_meshes |= mesh.is_some_and(|mesh| mesh.is_large());
+            match &material.bsdf {
                 Bsdf::Diffuse { albedo } => needs.checkerboard |= matches!(albedo, Texture::Checkerboard(_)),
+                Bsdf::MetallicRoughness(model) => {
+                    needs.metallic_roughness = true;
+                    needs.checkerboard |= matches!(model.base_colour, Texture::Checkerboard(_));
+                }
                 Bsdf::Mirror { .. } => {
                     needs.mirror = true;
                     needs.other_speculars |= !self.is_caster(shape);
@@ -77,7 +97,7 @@ impl Scene {
             && match self.material_of(shape).bsdf {
                 Bsdf::Mirror { .. } => true,
                 Bsdf::Dielectric { ior } => ior > 1.0,
-                Bsdf::Diffuse { .. } | Bsdf::RoughConductor { .. } => false,
+                Bsdf::Diffuse { .. } | Bsdf::RoughConductor { .. } | Bsdf::MetallicRoughness(_) => false,
             }
     }
 }

@@ -71,7 +71,10 @@ impl Solid {
                 let center = corner.as_dvec3() + DVec3::new(middle.x, half.y, middle.y);
                 Form::Block(Block { center, half, x })
             }
-            Geometry::Mesh(mesh) => Form::Mesh { corners: mesh.positions().iter().map(|p| p.as_dvec3()).collect() },
+            Geometry::Mesh(_) | Geometry::Instance(_) => {
+                let (corners, _) = geometry.flat_triangles();
+                Form::Mesh { corners: corners.iter().map(|p| p.as_dvec3()).collect() }
+            }
         };
         let (lo, hi) = geometry.bounds();
         Some(Solid { index, lo: lo.as_dvec3(), hi: hi.as_dvec3(), form })
@@ -165,6 +168,7 @@ mod tests {
             name: "glass".into(),
             bsdf: Bsdf::Dielectric { ior: 1.5 },
             emission: None,
+            surface: Default::default(),
             fake: FakeMaterial::default(),
         };
         let shapes = geometry.map(|geometry| Shape { geometry, material: 0 });

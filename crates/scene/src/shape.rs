@@ -1,6 +1,7 @@
 //! Shapes and what a material sits on. Flat shapes become triangles for whoever wants triangles; spheres, and disks for
 //! rays, stay analytic.
 
+use crate::mesh::{Instance, Mesh, bounds_of};
 use glam::Vec3;
 use std::borrow::Cow;
 use std::sync::Arc;
@@ -51,48 +52,24 @@ pub enum Geometry {
         /// Turn in degrees: (x, z) becomes (x cos - z sin, x sin + z cos).
         turn_y: f32,
     },
-    /// Triangles; shared, so that a copy of a shape costs nothing however many there are.
+    /// Triangles in the world's space; shared, so that a copy of a shape costs nothing however many there are.
     Mesh(Arc<Mesh>),
-}
-
-/// Triangles with shared corners; normals follow the winding (counter-clockwise seen from outside). Never changed once
-/// it is made: what was derived from it holds for as long as it is there.
-#[derive(Debug)]
-pub struct Mesh {
-    positions: Vec<Vec3>,
-    triangles: Vec<[u32; 3]>,
-    bounds: (Vec3, Vec3),
-}
-
-impl Mesh {
-    /// Of corners, and of three indices into them for each triangle.
-    pub fn new(positions: Vec<Vec3>, triangles: Vec<[u32; 3]>) -> Self {
-        let bounds = bounds_of(&positions);
-        Mesh { positions, triangles, bounds }
-    }
-
-    /// Corners in world space, in the order in which triangles name them.
-    pub fn positions(&self) -> &[Vec3] {
-        &self.positions
-    }
-
-    /// Three indices into [`Mesh::positions`] for each triangle.
-    pub fn triangles(&self) -> &[[u32; 3]] {
-        &self.triangles
-    }
-}
-
-impl PartialEq for Mesh {
-    /// One mesh is equal to itself without a look at its corners.
-    fn eq(&self, other: &Mesh) -> bool {
-        std::ptr::eq(self, other) || (self.positions == other.positions && self.triangles == other.triangles)
-    }
+    /// Triangles that are put into the world by a map.
+    Instance(Instance),
 }
 
 impl Geometry {
     /// A [`Geometry::Mesh`] of its own.
     pub fn mesh(positions: Vec<Vec3>, triangles: Vec<[u32; 3]>) -> Self {
         Geometry::Mesh(Arc::new(Mesh::new(positions, triangles)))
+    }
+
+    /// The triangles of a mesh, wherever it stands.
+    pub fn mesh_of(&self) -> Option<&Arc<Mesh>> {
+        match self {
+            Geometry::Mesh(mesh) | Geometry::Instance(Instance { mesh, .. }) => Some(mesh),
+            Geometry::Sphere { .. } | Geometry::Rectangle { .. } | Geometry::Disk { .. } | Geometry::Box { .. } => None,
+        }
     }
 
     /// Smallest axis-parallel box: (lower corner, upper corner).
@@ -104,7 +81,8 @@ impl Geometry {
                 (center - reach, center + reach)
             }
             Geometry::Rectangle { .. } | Geometry::Box { .. } => bounds_of(&self.flat_triangles().0),
-            Geometry::Mesh(mesh) => mesh.bounds,
+            Geometry::Mesh(mesh) => mesh.bounds(),
+            Geometry::Instance(instance) => instance.bounds(),
         }
     }
 
@@ -126,13 +104,10 @@ impl Geometry {
             Geometry::Disk { center, normal, radius } => disk_triangles(*center, *normal, *radius),
             Geometry::Box { corner, size, turn_y } => box_triangles(*corner, *size, *turn_y),
             Geometry::Mesh(mesh) => return (mesh.positions().into(), mesh.triangles().into()),
+            Geometry::Instance(instance) => (instance.positions(), instance.triangles()),
         };
         (positions.into(), triangles.into())
     }
-}
-
-fn bounds_of(positions: &[Vec3]) -> (Vec3, Vec3) {
-    positions.iter().fold((Vec3::INFINITY, Vec3::NEG_INFINITY), |(lo, hi), p| (lo.min(*p), hi.max(*p)))
 }
 
 /// Triangles of the fan that stands for a disk.

@@ -28,6 +28,7 @@ impl Default for FakeMaterial {
 pub fn usual_shininess(bsdf: &Bsdf) -> f32 {
     match bsdf {
         Bsdf::RoughConductor { roughness, .. } => (2.0 / roughness.powi(4) - 2.0).clamp(1.0, 1000.0),
+        Bsdf::MetallicRoughness(model) => (2.0 / model.roughness.powi(4) - 2.0).clamp(1.0, 1000.0),
         _ => FakeMaterial::default().shininess,
     }
 }

@@ -6,7 +6,7 @@ use super::Interactions;
 use super::rough_conductor::RoughConductors;
 use crate::intersect::SurfacePoints;
 use crate::vectors::VectorColumn;
-use scene::{Bsdf, Conductor, Material, Texture, Vec3};
+use scene::{Bsdf, Conductor, Material, MetallicRoughness, Texture, Vec3};
 use simd::{Column, Float, Vector, Word, WordColumn};
 
 /// All materials.
@@ -131,10 +131,13 @@ impl Materials {
         let kinds = materials.iter().map(kind_of);
         let any = |bit: u32| kinds.clone().any(|kind| kind & bit != 0);
         Materials {
-            colour: vectors(|material| match material.bsdf {
-                Bsdf::Diffuse { albedo: Texture::Constant(colour) } => colour,
-                Bsdf::Diffuse { albedo: Texture::Checkerboard(board) } => board.even,
-                Bsdf::Mirror { reflectance } => reflectance,
+            colour: vectors(|material| match &material.bsdf {
+                Bsdf::Diffuse { albedo: colour }
+                | Bsdf::MetallicRoughness(MetallicRoughness { base_colour: colour, .. }) => match colour {
+                    Texture::Constant(colour) | Texture::Image { factor: colour, .. } => *colour,
+                    Texture::Checkerboard(board) => board.even,
+                },
+                Bsdf::Mirror { reflectance } => *reflectance,
                 Bsdf::RoughConductor { conductor, .. } => conductor.at_normal_incidence(),
                 Bsdf::Dielectric { .. } => Vec3::ONE,
             }),
@@ -224,7 +227,8 @@ impl Materials {
 
 fn board_of(material: &Material) -> Option<scene::material::Checkerboard> {
     match material.bsdf {
-        Bsdf::Diffuse { albedo: Texture::Checkerboard(board) } => Some(board),
+        Bsdf::Diffuse { albedo: Texture::Checkerboard(board) }
+        | Bsdf::MetallicRoughness(MetallicRoughness { base_colour: Texture::Checkerboard(board), .. }) => Some(board),
         _ => None,
     }
 }
@@ -240,8 +244,9 @@ fn index_of(material: &Material) -> (Vec3, Vec3) {
 /// The code of a lobe, and of what varies it.
 pub fn lobe_of(bsdf: &Bsdf) -> u32 {
     match bsdf {
-        Bsdf::Diffuse { albedo: Texture::Constant(_) } => LOBE_LAMBERT,
-        Bsdf::Diffuse { albedo: Texture::Checkerboard(_) } => LOBE_LAMBERT | CHECKERED,
+        Bsdf::Diffuse { albedo: colour } | Bsdf::MetallicRoughness(MetallicRoughness { base_colour: colour, .. }) => {
+            LOBE_LAMBERT | if matches!(colour, Texture::Checkerboard(_)) { CHECKERED } else { 0 }
+        }
         Bsdf::Mirror { .. } => LOBE_MIRROR,
         Bsdf::RoughConductor { conductor: Conductor::Constant(_), .. } => LOBE_ROUGH_CONDUCTOR,
         Bsdf::RoughConductor { conductor: Conductor::Fresnel { .. }, .. } => LOBE_ROUGH_CONDUCTOR | HAS_INDEX,

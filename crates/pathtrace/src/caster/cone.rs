@@ -157,7 +157,7 @@ fn bounding_sphere(geometry: &Geometry) -> Sphere {
         Geometry::Sphere { center, radius } | Geometry::Disk { center, radius, .. } => {
             Sphere { center: *center, radius: *radius }
         }
-        Geometry::Rectangle { .. } | Geometry::Box { .. } | Geometry::Mesh(_) => {
+        Geometry::Rectangle { .. } | Geometry::Box { .. } | Geometry::Mesh(_) | Geometry::Instance(_) => {
             around(geometry.center(), &geometry.flat_triangles().0)
         }
     }
@@ -179,8 +179,13 @@ mod tests {
     /// A point of a diffuse floor.
     fn floor_at(position: Vec3) -> Interactions<f32> {
         let bsdf = Bsdf::Diffuse { albedo: Texture::Constant(Vec3::ONE) };
-        let materials =
-            Materials::new(&[Material { name: String::new(), bsdf, emission: None, fake: FakeMaterial::default() }]);
+        let materials = Materials::new(&[Material {
+            name: String::new(),
+            bsdf,
+            emission: None,
+            surface: Default::default(),
+            fake: FakeMaterial::default(),
+        }]);
         let (position, up) = (lane_vector(position), lane_vector(Vec3::Y));
         let point = SurfacePoints { normal: up, ..SurfacePoints::in_the_air(position) };
         Interactions { point, normal: up, wo: up, colour: up, kinds: materials.kinds(0), material: 0 }
@@ -228,8 +233,13 @@ mod tests {
     fn directions_at_a_rim_below_the_horizon_weigh_nothing() {
         let at = floor_at(Vec3::new(1.0, 0.0, 2.0));
         let bsdf = Bsdf::Diffuse { albedo: Texture::Constant(Vec3::ONE) };
-        let materials =
-            Materials::new(&[Material { name: String::new(), bsdf, emission: None, fake: FakeMaterial::default() }]);
+        let materials = Materials::new(&[Material {
+            name: String::new(),
+            bsdf,
+            emission: None,
+            surface: Default::default(),
+            fake: FakeMaterial::default(),
+        }]);
         let mut undrawn = 0;
         for place in 0..40 {
             let cones = around(&[([4.0 + 0.1 * place as f32, 0.1, 2.3], 0.7)]).seen_from(&at);

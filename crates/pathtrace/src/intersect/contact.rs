@@ -156,7 +156,7 @@ fn touches(c: DVec3, r: f64, (other, faces): Other) -> Vec<Touch> {
             let near = middle + (off - n * n.dot(off)).clamp_length_max(f64::from(radius));
             vec![Touch::at(near, c, middle.abs() + DVec3::splat(f64::from(radius)))]
         }
-        Geometry::Rectangle { .. } | Geometry::Box { .. } | Geometry::Mesh(_) => {
+        Geometry::Rectangle { .. } | Geometry::Box { .. } | Geometry::Mesh(_) | Geometry::Instance(_) => {
             let SortedFaces { faces, boxes } = faces.get_or_init(|| SortedFaces::of(other));
             let around = grown(((c - r).as_vec3(), (c + r).as_vec3()));
             let near = boxes.meeting(around).map(|index| &faces[index]);
@@ -255,6 +255,7 @@ fn moved_inwards<'a>(geometry: &Geometry, neighbours: impl Iterator<Item = &'a G
         }
         Geometry::Box { corner, size, turn_y } => smaller_box(*corner, *size, *turn_y, &ways),
         Geometry::Mesh(mesh) => Geometry::Mesh(pushed_in(mesh, &faces, &ways).into()),
+        Geometry::Instance(instance) => Geometry::Mesh(pushed_in(&instance.baked(), &faces, &ways).into()),
         Geometry::Sphere { .. } => return None,
     })
 }

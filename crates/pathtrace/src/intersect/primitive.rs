@@ -107,7 +107,7 @@ pub(super) fn primitives(scene: &Scene, light_of_shape: &[u32]) -> (Vec<Primitiv
         let material = shape.material as u32;
         let first_light = light_of_shape[index];
         let mut light = first_light;
-        let is_large = matches!(&shape.geometry, Geometry::Mesh(mesh) if mesh.triangles().len() > MOST_TRIANGLES);
+        let is_large = shape.geometry.mesh_of().is_some_and(|mesh| mesh.triangles().len() > MOST_TRIANGLES);
         let others = is_large.then(|| others_than(index, scene));
         let mut add = |primitive: Primitive, normal, light| {
             let is_near = |others: &SortedBoxes| others.meeting(primitive.bounds()).next().is_some();
@@ -122,7 +122,7 @@ pub(super) fn primitives(scene: &Scene, light_of_shape: &[u32]) -> (Vec<Primitiv
             Geometry::Disk { center, normal, radius } => {
                 add(Primitive::Disk(Disk { center, normal, radius }), normal, light);
             }
-            Geometry::Rectangle { .. } | Geometry::Box { .. } | Geometry::Mesh(_) => {
+            Geometry::Rectangle { .. } | Geometry::Box { .. } | Geometry::Mesh(_) | Geometry::Instance(_) => {
                 let (positions, triangles) = shape.geometry.flat_triangles();
                 // the two halves of a rectangle are one light, other triangles are each their own
                 let step = u32::from(first_light != NO_LIGHT && !matches!(shape.geometry, Geometry::Rectangle { .. }));

@@ -202,7 +202,7 @@ fn push_area_lights(shape: &Shape, emission: Emission, lights: &mut Vec<Light>) 
         Geometry::Sphere { center, radius } => lights.push(Light::Sphere(Sphere { center, radius }, emission)),
         Geometry::Rectangle { corner, edge_u, edge_v } => push(Flat::parallelogram(corner, edge_u, edge_v)),
         Geometry::Disk { center, normal, radius } => push(Some(Flat::disk(center, normal, radius))),
-        Geometry::Box { .. } | Geometry::Mesh(_) => {
+        Geometry::Box { .. } | Geometry::Mesh(_) | Geometry::Instance(_) => {
             let (positions, triangles) = shape.geometry.flat_triangles();
             for corners in triangles.iter().map(|t| t.map(|i| positions[i as usize])) {
                 push(triangle_normal(corners).map(|normal| Flat::triangle(corners, normal)));

@@ -55,15 +55,27 @@ impl<'a> Numbers<'a> {
     /// All of a scene but those of its meshes and of its sky's picture, which nothing can change.
     fn of(scene: &'a mut Scene) -> Self {
         let mut numbers = Numbers::default();
-        let Scene { name: _, camera, materials, shapes, sun, point_lights, sky, environment: _, fake, as_read: _ } =
-            scene;
+        let Scene {
+            name: _,
+            camera,
+            cameras: _,
+            materials,
+            shapes,
+            sun,
+            point_lights,
+            sky,
+            environment: _,
+            fake,
+            remarks: _,
+            as_read: _,
+        } = scene;
         numbers.add(sky.as_mut());
         if let Some(Sun { towards, angular_radius, irradiance }) = sun {
             numbers.add(towards.as_mut());
             numbers.physical.push(angular_radius);
             numbers.add(irradiance.as_mut());
         }
-        for PointLight { position, intensity } in point_lights {
+        for PointLight { position, intensity, spot: _ } in point_lights {
             numbers.add(position.as_mut());
             numbers.add(intensity.as_mut());
         }
@@ -93,7 +105,7 @@ impl<'a> Numbers<'a> {
     }
 
     fn add_material(&mut self, material: &'a mut Material) {
-        let Material { name: _, bsdf, emission, fake } = material;
+        let Material { name: _, bsdf, emission, surface: _, fake } = material;
         match bsdf {
             Bsdf::Diffuse { albedo: Texture::Constant(colour) } => self.add(colour.as_mut()),
             Bsdf::Diffuse { albedo: Texture::Checkerboard(Checkerboard { even, odd, origin, cell }) } => {
@@ -108,6 +120,7 @@ impl<'a> Numbers<'a> {
                 self.physical.push(roughness);
             }
             Bsdf::Dielectric { ior } => self.physical.push(ior),
+            Bsdf::Diffuse { albedo: Texture::Image { .. } } | Bsdf::MetallicRoughness(_) => {}
         }
         if let Some(Emission { radiance, two_sided: _ }) = emission {
             self.add(radiance.as_mut());
@@ -134,7 +147,7 @@ impl<'a> Numbers<'a> {
                 [corner, size].into_iter().for_each(|v| self.add(v.as_mut()));
                 self.physical.push(turn_y);
             }
-            Geometry::Mesh(_) => {}
+            Geometry::Mesh(_) | Geometry::Instance(_) => {}
         }
     }
 }

@@ -10,14 +10,15 @@ use crate::direction::unit;
 use crate::material::{Checkerboard, Emission};
 use crate::stand_ins::{FakeMaterial, FakeNumbers};
 use crate::{
-    Bsdf, Camera, Conductor, Geometry, Material, PointLight, Scene, SceneHash, Shape, Sun, Texture, nearest, nesting,
-    stand_ins,
+    Bsdf, Camera, Conductor, Geometry, Material, PointLight, Scene, SceneHash, Shape, Sun, SurfaceDetail, Texture,
+    nearest, nesting, stand_ins,
 };
 use glam::Vec3;
 use number::Three;
 use raw::{CornerIndex, RawMaterial, RawScene, RawTexture, Table};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use toml::Spanned;
 
 /// Why there is no scene.
@@ -225,7 +226,8 @@ fn build(raw: RawScene, name: &str, folder: &Path) -> Result<Scene, Fault> {
     let sun = raw.sun.map(|Table(raw)| sun(raw)).transpose()?;
     let (sky, environment) = sky::sky(raw.sky.0, folder)?;
     let points = raw.point_light.into_iter();
-    let point_lights = points.map(|Table(p)| PointLight { position: p.position.into(), intensity: p.intensity.into() });
+    let point_lights =
+        points.map(|Table(p)| PointLight { position: p.position.into(), intensity: p.intensity.into(), spot: None });
     let (d, raw_fake) = (FakeNumbers::default(), raw.fake.0);
     let fake = FakeNumbers {
         ambient: raw_fake.ambient.map_or(d.ambient, |v| v.get()),
@@ -239,6 +241,7 @@ fn build(raw: RawScene, name: &str, folder: &Path) -> Result<Scene, Fault> {
     let scene = Scene {
         name: name.to_owned(),
         camera,
+        cameras: Arc::default(),
         materials,
         shapes: shapes.into(),
         sun,
@@ -246,6 +249,7 @@ fn build(raw: RawScene, name: &str, folder: &Path) -> Result<Scene, Fault> {
         sky,
         environment,
         fake,
+        remarks: Arc::default(),
         as_read: SceneHash::default(),
     };
     Ok(Scene { as_read: SceneHash::of(&scene), ..scene })
@@ -315,7 +319,7 @@ fn material(name: String, raw: Spanned<Table<RawMaterial>>) -> Result<Material, 
         specular: raw_fake.specular.map_or(d.specular, |v| v.get()),
         shininess: raw_fake.shininess.map_or_else(|| stand_ins::usual_shininess(&bsdf), |v| v.get()),
     };
-    Ok(Material { name, bsdf, emission, fake })
+    Ok(Material { name, bsdf, emission, surface: SurfaceDetail::default(), fake })
 }
 
 /// Ways to scatter.

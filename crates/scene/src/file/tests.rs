@@ -151,7 +151,7 @@ fn disks_and_point_lights_are_read() {
     let scene = parse(&format!("{SMALL}{more}"), "more", Path::new("more.toml")).unwrap();
     let disk = Geometry::Disk { center: Vec3::Y * 2.0, normal: -Vec3::Y, radius: 3.0 };
     assert_eq!(scene.shapes[1].geometry, disk);
-    let light = PointLight { position: Vec3::new(1.0, 2.0, 3.0), intensity: Vec3::new(4.0, 5.0, 6.0) };
+    let light = PointLight { position: Vec3::new(1.0, 2.0, 3.0), intensity: Vec3::new(4.0, 5.0, 6.0), spot: None };
     assert_eq!(scene.point_lights, [light]);
     assert!(scene.needs().disks && scene.needs().point_lights);
     let said = fault_of(&format!("{SMALL}{}", more.replace("[0, -2, 0]", "[0, 0, 0]")));

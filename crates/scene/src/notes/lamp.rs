@@ -1,6 +1,6 @@
 //! Flat lamps that were made the wrong way round: all that they light is a surface a hand's breadth away, or nothing.
 
-use crate::{Bsdf, Geometry, Scene, Shape, Vec3};
+use crate::{Bsdf, Geometry, Instance, Scene, Shape, Vec3};
 
 /// Of the lamp's size. Between two equal squares a tenth of their side apart more than four fifths of the light goes
 /// from the one straight to the other (J. R. Howell, "A Catalog of Radiation Configuration Factors", C-11); at half the
@@ -63,7 +63,7 @@ fn shines_on_one_side(scene: &Scene, shape: &Shape) -> bool {
 
 fn triangle_count(geometry: &Geometry) -> usize {
     match geometry {
-        Geometry::Mesh(mesh) => mesh.triangles().len(),
+        Geometry::Mesh(mesh) | Geometry::Instance(Instance { mesh, .. }) => mesh.triangles().len(),
         Geometry::Disk { .. } => crate::shape::DISK_SEGMENTS as usize,
         _ => 12,
     }

@@ -140,7 +140,7 @@ impl Scene {
             Geometry::Rectangle { .. } => "rectangle",
             Geometry::Disk { .. } => "disk",
             Geometry::Box { .. } => "box",
-            Geometry::Mesh(_) => "mesh",
+            Geometry::Mesh(_) | Geometry::Instance(_) => "mesh",
         };
         format!("{kind} of '{}' around {}", self.material_of(shape).name, shape.geometry.center().map(tidy))
     }

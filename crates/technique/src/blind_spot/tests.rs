@@ -48,7 +48,7 @@ fn what_a_picture_lacks_is_said_whatever_else_it_lacks() {
 
 #[test]
 fn what_has_no_extent_is_named_with_all_its_words_where_light_is_met_by_chance() {
-    let light = scene::PointLight { position: scene::Vec3::Y, intensity: scene::Vec3::ONE };
+    let light = scene::PointLight { position: scene::Vec3::Y, intensity: scene::Vec3::ONE, spot: None };
     let lamps = Scene { point_lights: vec![light], ..builtin::named("cornell").unwrap() };
     assert_eq!(missing(&path(Estimator::COSINE, None), &lamps), ["the point lights' light"]);
     assert_eq!(missing(&path(Estimator::LIGHT, None), &lamps), [""; 0]);

@@ -12,7 +12,7 @@ use crate::light::{Environment, Light as HostLight, Lights, SunDisc};
 use crate::sampling::sobol::reversed_point;
 use bytemuck::{Pod, Zeroable};
 use scene::material::Emission;
-use scene::{Bsdf, Conductor, Scene, Texture, Vec3};
+use scene::{Bsdf, Conductor, MetallicRoughness, Scene, Texture, Vec3};
 
 /// What the whole scene shares.
 #[repr(C)]
@@ -194,27 +194,31 @@ pub fn materials(scene: &Scene, casters: &Casters) -> Vec<Material> {
 fn material(from: &scene::Material) -> Material {
     let mut to = Material::zeroed();
     to.lobe = lobe_of(&from.bsdf);
-    match from.bsdf {
-        Bsdf::Diffuse { albedo: Texture::Constant(albedo) } => to.colour.even = albedo,
-        Bsdf::Diffuse { albedo: Texture::Checkerboard(board) } => {
-            to.colour.even = board.even;
-            to.colour.odd = board.odd;
-            to.colour.origin = board.origin;
-            to.colour.cells_per_unit = board.cells_per_unit();
+    match &from.bsdf {
+        Bsdf::Diffuse { albedo: colour } | Bsdf::MetallicRoughness(MetallicRoughness { base_colour: colour, .. }) => {
+            match colour {
+                Texture::Constant(colour) | Texture::Image { factor: colour, .. } => to.colour.even = *colour,
+                Texture::Checkerboard(board) => {
+                    to.colour.even = board.even;
+                    to.colour.odd = board.odd;
+                    to.colour.origin = board.origin;
+                    to.colour.cells_per_unit = board.cells_per_unit();
+                }
+            }
         }
-        Bsdf::Mirror { reflectance } => to.colour.even = reflectance,
+        Bsdf::Mirror { reflectance } => to.colour.even = *reflectance,
         Bsdf::RoughConductor { conductor, roughness } => {
             to.colour.even = conductor.at_normal_incidence();
             to.alpha = roughness * roughness;
             if let Conductor::Fresnel { eta, k } = conductor {
-                (to.eta, to.k) = (eta, k);
+                (to.eta, to.k) = (*eta, *k);
             }
         }
         Bsdf::Dielectric { ior } => {
-            let n = f64::from(ior);
+            let n = f64::from(*ior);
             let root = ((n - 1.0) * (n + 1.0)).abs().sqrt();
             to.colour.even = Vec3::ONE;
-            to.ior = ior;
+            to.ior = *ior;
             to.root = root as f32;
             to.root_low = (root - f64::from(to.root)) as f32;
         }

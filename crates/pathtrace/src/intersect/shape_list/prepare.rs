@@ -8,7 +8,7 @@ use crate::intersect::primitive::{area_lights_first, lights_after};
 use crate::intersect::sphere::Sphere;
 use crate::intersect::{NO_LIGHT, triangle_normal};
 use scene::glam::DVec3;
-use scene::{Bsdf, Geometry, Scene, Vec3};
+use scene::{Bsdf, Geometry, Instance, Scene, Vec3};
 
 /// A shape of the list.
 #[derive(Debug, Clone, Copy)]
@@ -97,12 +97,16 @@ fn parts(scene: &Scene, light_of_shape: &[u32]) -> Option<Vec<Part>> {
             Geometry::Disk { center, normal, radius } => {
                 add(Piece::Disk { center, normal, radius }, normal, first_light);
             }
-            Geometry::Mesh(ref mesh) if mesh.triangles().len() > 2 * ShapeList::MOST => return None,
-            Geometry::Rectangle { .. } | Geometry::Box { .. } | Geometry::Mesh(_) => {
+            Geometry::Mesh(ref mesh) | Geometry::Instance(Instance { ref mesh, .. })
+                if mesh.triangles().len() > 2 * ShapeList::MOST =>
+            {
+                return None;
+            }
+            Geometry::Rectangle { .. } | Geometry::Box { .. } | Geometry::Mesh(_) | Geometry::Instance(_) => {
                 let rectangle = matches!(shape.geometry, Geometry::Rectangle { .. });
                 // of a box or mesh that shines, each triangle is a light
                 let halves = first_light != NO_LIGHT && !rectangle;
-                let paired = !halves && !matches!(shape.geometry, Geometry::Mesh(_));
+                let paired = !halves && shape.geometry.mesh_of().is_none();
                 for (piece, normal, at) in flat_pieces(&shape.geometry, paired) {
                     let light = if rectangle || first_light == NO_LIGHT { first_light } else { first_light + at };
                     add(piece, normal, light);
