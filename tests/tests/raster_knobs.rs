@@ -219,7 +219,7 @@ fn cube_faces_join_to_a_cross_seen_from_inside() {
     assert!(off(bytes(cell(&film, 1, 0, 0.5, 0.5)), sky) <= Some(1));
     // each place on the floor is found where its direction from the middle of the glass falls
     let eye = Vec3::new(4.2, 2.6, -4.2);
-    let floor = scene.materials.iter().find_map(|m| match m.bsdf {
+    let floor = scene.materials.iter().find_map(|m| match &m.bsdf {
         Bsdf::Diffuse { albedo } => Some(albedo),
         _ => None,
     });

@@ -21,6 +21,7 @@ pub mod coincident;
 pub(crate) mod contact;
 pub mod disk;
 mod hit;
+pub mod mesh_tree;
 pub(crate) mod pairs;
 pub(crate) mod primitive;
 pub(crate) mod ray;
