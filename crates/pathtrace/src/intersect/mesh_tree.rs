@@ -44,7 +44,8 @@ impl MeshTree {
             Boxed(a.min(b).min(c) - padding, a.max(b).max(c) + padding)
         };
         let boxes: Vec<Boxed> = mesh.triangles().iter().map(boxed).collect();
-        let tree = build_cwbvh(&boxes, BvhBuildParams::medium_build(), &mut Duration::ZERO);
+        let mut took = Duration::ZERO;
+        let tree = build_cwbvh(&boxes, BvhBuildParams::medium_build(), &mut took);
         let triangles = tree.primitive_indices.iter().map(|&index| mesh.triangles()[index as usize]).collect();
         MeshTree { mesh: mesh.clone(), nodes: tree.nodes, triangles }
     }
