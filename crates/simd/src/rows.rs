@@ -16,6 +16,8 @@ pub trait Row<const N: usize>: Copy + Add<Output = Self> + Sub<Output = Self> + 
     fn splat(value: f32) -> Self;
     /// From memory.
     fn load(from: &[f32; N]) -> Self;
+    /// The floats of these values, each at most 255.
+    fn of_bytes(from: &[u8; N]) -> Self;
     /// To memory.
     fn to_array(self) -> [f32; N];
     /// `self * factor + term`, rounded once or twice: for bounds with a margin, not for what must be the same
@@ -154,6 +156,14 @@ impl<const N: usize> Row<N> for Plain<N> {
         Plain(*from)
     }
     #[inline(always)]
+    fn of_bytes(from: &[u8; N]) -> Self {
+        let mut to = [0.0; N];
+        for i in 0..N {
+            to[i] = f32::from(from[i]);
+        }
+        Plain(to)
+    }
+    #[inline(always)]
     fn to_array(self) -> [f32; N] {
         self.0
     }
@@ -225,7 +235,7 @@ mod x86 {
     }
 
     macro_rules! row {
-        ($type:ident $n:literal $register:ident $splat:ident $load:ident $store:ident
+        ($type:ident $n:literal $register:ident $splat:ident $load:ident $of_bytes:ident $store:ident
          $add:ident $sub:ident $mul:ident $mul_add:ident $min:ident $max:ident $compare:ident $bits:ident) => {
             #[derive(Clone, Copy)]
             pub struct $type($register);
@@ -243,6 +253,11 @@ mod x86 {
                 fn load(from: &[f32; $n]) -> Self {
                     // SAFETY: as above; the array is as long as the row
                     $type(unsafe { $load(from.as_ptr()) })
+                }
+                #[inline(always)]
+                fn of_bytes(from: &[u8; $n]) -> Self {
+                    // SAFETY: as above
+                    $type(unsafe { $of_bytes(*from) })
                 }
                 #[inline(always)]
                 fn to_array(self) -> [f32; $n] {
@@ -275,8 +290,20 @@ mod x86 {
         };
     }
 
-    row!(Four 4 __m128 _mm_set1_ps _mm_loadu_ps _mm_storeu_ps _mm_add_ps _mm_sub_ps _mm_mul_ps _mm_fmadd_ps
+    #[inline]
+    #[target_feature(enable = "avx2")]
+    fn four_of_bytes(bytes: [u8; 4]) -> __m128 {
+        _mm_cvtepi32_ps(_mm_cvtepu8_epi32(_mm_cvtsi32_si128(i32::from_le_bytes(bytes))))
+    }
+
+    #[inline]
+    #[target_feature(enable = "avx2")]
+    fn eight_of_bytes(bytes: [u8; 8]) -> __m256 {
+        _mm256_cvtepi32_ps(_mm256_cvtepu8_epi32(_mm_cvtsi64_si128(i64::from_le_bytes(bytes))))
+    }
+
+    row!(Four 4 __m128 _mm_set1_ps _mm_loadu_ps four_of_bytes _mm_storeu_ps _mm_add_ps _mm_sub_ps _mm_mul_ps _mm_fmadd_ps
         _mm_min_ps _mm_max_ps _mm_cmp_ps _mm_movemask_ps);
-    row!(Eight 8 __m256 _mm256_set1_ps _mm256_loadu_ps _mm256_storeu_ps _mm256_add_ps _mm256_sub_ps _mm256_mul_ps
+    row!(Eight 8 __m256 _mm256_set1_ps _mm256_loadu_ps eight_of_bytes _mm256_storeu_ps _mm256_add_ps _mm256_sub_ps _mm256_mul_ps
         _mm256_fmadd_ps _mm256_min_ps _mm256_max_ps _mm256_cmp_ps _mm256_movemask_ps);
 }
