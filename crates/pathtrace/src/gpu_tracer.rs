@@ -17,7 +17,7 @@ use crate::drive::gpu::{GpuFilm, GpuTraceError, environment_data, scene_data};
 use crate::features::{self, gpu::FeatureWork};
 use crate::integrator::Integrator;
 use crate::integrator::photon::PhotonSettings;
-use crate::intersect::contact::held_apart;
+use crate::intersect::baking::made_ready;
 use crate::light::Lights;
 use crate::stats::Stats;
 use bytemuck::Zeroable;
@@ -76,7 +76,7 @@ impl GpuTracer {
     }
 
     fn leaving_out(gpu: &Gpu, scene: &Scene, leaves: Leaves) -> Result<Self, GpuTraceError> {
-        let scene = &*held_apart(scene);
+        let scene = &*made_ready(scene);
         let made = Made::of(scene, leaves)?;
         let pipelines = Pipelines::new(gpu, made.needs)?;
         Ok(GpuTracer {
@@ -100,7 +100,7 @@ impl GpuTracer {
     /// # Errors
     /// As [`GpuTracer::new`]; the scene before is then still there.
     pub fn set_scene(&mut self, scene: &Scene) -> Result<(), GpuTraceError> {
-        let scene = &*held_apart(scene);
+        let scene = &*made_ready(scene);
         let made = Made::of(scene, self.leaves)?;
         if made.needs != self.pipelines.needs() {
             let pipelines = Pipelines::new(&self.gpu, made.needs)?;

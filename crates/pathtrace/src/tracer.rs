@@ -8,7 +8,7 @@ use crate::integrator::guide::{cells::Cells, guides::Guides};
 use crate::integrator::{guide::Guide, path_plan::Plan, settings::PathSettings};
 use crate::intersect::Accel;
 use crate::intersect::aggregate::Aggregate;
-use crate::intersect::contact::held_apart;
+use crate::intersect::baking::made_ready;
 use crate::light::Lights;
 use crate::prepared::PreparedScene;
 use crate::stats::Stats;
@@ -28,7 +28,7 @@ pub struct Tracer {
 impl Tracer {
     /// Builds the acceleration structure and the list of lights.
     pub fn new(scene: &Scene) -> Self {
-        let scene = &*held_apart(scene);
+        let scene = &*made_ready(scene);
         Tracer {
             scene: PreparedScene::new(scene),
             stand_ins: scene.fake,

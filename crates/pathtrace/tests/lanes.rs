@@ -6,12 +6,16 @@ use film::Film;
 use pathtrace::{
     ConesAt, Estimator, GlassShadows, Lanes, PathSettings, Roulette, SamplerKind, Stats, Tracer, WhittedSettings,
 };
+use scene::glam::{Affine3A, Quat};
 use scene::{Scene, builtin};
 use std::f64::consts::{PI, TAU};
 use std::path::Path;
-use std::sync::Mutex;
 use std::sync::atomic::{AtomicU32, Ordering};
+use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
+
+#[path = "../examples/meshes/statue.rs"]
+mod statue;
 
 /// Not a multiple of any number of lanes, and more than one chunk of pixels.
 const SIZE: (u32, u32) = (37, 29);
@@ -46,10 +50,35 @@ fn a_tree() -> Scene {
     scene
 }
 
+/// With large meshes, one of them mirrored, which are met beside the other shapes.
+fn with_statues(mut scene: Scene) -> Scene {
+    let (positions, triangles) = statue::statue(5);
+    let mesh = Arc::new(scene::Mesh::new(positions, triangles));
+    let shape = |x: f32, material| {
+        let to_world = Affine3A::from_scale_rotation_translation(
+            scene::Vec3::new(-0.3 * x, 0.4, 0.4),
+            Quat::from_rotation_y(x),
+            scene::Vec3::new(x, 0.8, 0.5),
+        );
+        let geometry = scene::Geometry::Instance(scene::Instance { mesh: mesh.clone(), to_world });
+        scene::Shape { geometry, material }
+    };
+    // whatever stands last and first in the list, opaque and clear
+    let statues: Vec<_> = (0..scene.materials.len())
+        .filter(|material| !scene.materials[*material].shines())
+        .map(|material| shape(material as f32 - 1.5, material))
+        .collect();
+    scene.shapes = scene.shapes.iter().cloned().chain(statues).collect();
+    scene
+}
+
 /// All scenes that this test knows.
 fn scenes() -> Vec<Scene> {
     let built_in = builtin::names().chain(builtin::hard_names());
-    built_in.map(|name| builtin::named(name).expect("built in")).chain([everything(), a_tree()]).collect()
+    built_in
+        .map(|name| builtin::named(name).expect("built in"))
+        .chain([everything(), a_tree(), with_statues(everything()), with_statues(a_tree())])
+        .collect()
 }
 
 fn all_settings() -> Vec<PathSettings> {

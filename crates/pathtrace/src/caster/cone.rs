@@ -141,7 +141,7 @@ pub fn shapes_with_cones(at: ConesAt, scene: &Scene) -> Vec<&Shape> {
     let several_balls = speculars.iter().filter(|shape| is_ball(shape)).count() > 1;
     let gets_one = |shape: &&Shape| match at {
         ConesAt::Nothing => false,
-        ConesAt::Usual => matches!(shape.geometry, Geometry::Mesh(_)) || (several_balls && is_ball(shape)),
+        ConesAt::Usual => shape.geometry.mesh_of().is_some() || (several_balls && is_ball(shape)),
         ConesAt::Everything => true,
     };
     speculars.into_iter().filter(gets_one).collect()

@@ -1,18 +1,23 @@
 //! The acceleration structure over triangles, spheres and disks: two children a node (`bvh2`) where they are
-//! few, eight (`bvh8`) where they are many. Both give the same hits.
+//! few, eight (`bvh8`) where they are many. Both give the same hits. Large meshes stand beside it as
+//! [`super::instances`].
 
+use super::baking::is_instanced;
 use super::bvh2::Bvh2;
 use super::bvh8::Bvh8;
 use super::bvh8_collapse::Shapes;
 use super::coincident::Groups;
+use super::instances::Instances;
 use super::primitive::primitives;
-use super::{Blocker, Hit, Intersection, Ray};
+use super::{Blocker, Hit, Intersection, NO_INSTANCE, Ray};
 use scene::Scene;
 use simd::{Lanes, RowLanes};
 
 /// All shapes of a scene, ready for rays.
 pub struct Accel {
     hierarchy: Hierarchy,
+    instances: Instances,
+    /// Triangles, spheres and disks in the hierarchy.
     count: usize,
 }
 
@@ -28,7 +33,7 @@ impl Accel {
     /// Builds the structure. Triangles without area, which no ray can meet, are left out. `light_of_shape` is
     /// [`crate::light::Lights::light_of_shape`] of the scene.
     pub fn new(scene: &Scene, light_of_shape: &[u32]) -> Self {
-        let (primitives, surfaces, groups) = primitives(scene, light_of_shape);
+        let (primitives, surfaces, groups) = primitives(scene, light_of_shape, |shape| is_instanced(scene, shape));
         let count = primitives.len();
         let shapes = Shapes { primitives: &primitives, surfaces: &surfaces };
         let eight = if count < LARGE { None } else { Bvh8::new(shapes, RowLanes::nearest_to(Lanes::best())) };
@@ -36,22 +41,38 @@ impl Accel {
             Some(bvh) => Hierarchy::Eight(Bvh8 { groups, ..bvh }),
             None => Hierarchy::Two(Bvh2 { groups, ..Bvh2::new(&primitives, &surfaces) }),
         };
-        Accel { hierarchy, count }
+        Accel { hierarchy, instances: Instances::new(scene), count }
     }
 
-    /// Number of triangles, spheres and disks.
+    /// Number of triangles, spheres and disks, those of a large mesh as often as it stands in the scene.
     pub fn len(&self) -> usize {
-        self.count
+        self.count + self.instances.triangles()
     }
 
     /// Whether there is nothing to hit.
     pub fn is_empty(&self) -> bool {
-        self.count == 0
+        self.len() == 0
+    }
+
+    /// The large meshes.
+    pub fn instances(&self) -> &Instances {
+        &self.instances
     }
 
     /// The nearest hit before `ray.tmax`; of several at one distance an area light, else the primitive that comes
-    /// first in the scene.
+    /// first in the scene; large meshes after all others.
     pub fn closest(&self, ray: &Ray) -> Option<Hit> {
+        let nearest = self.closest_beside_instances(ray);
+        if self.instances.is_empty() {
+            return nearest;
+        }
+        let tmax = nearest.map_or(ray.tmax, |hit| hit.t);
+        self.instances.closest(&Ray { tmax, ..*ray }).or(nearest)
+    }
+
+    /// As [`Accel::closest`], of all that is no large mesh.
+    #[inline]
+    pub fn closest_beside_instances(&self, ray: &Ray) -> Option<Hit> {
         match &self.hierarchy {
             Hierarchy::Two(bvh) => bvh.closest(ray),
             Hierarchy::Eight(bvh) => bvh.closest(ray),
@@ -60,6 +81,9 @@ impl Accel {
 
     /// What the ray has met that has this hit.
     pub fn intersection(&self, ray: &Ray, hit: &Hit) -> Intersection {
+        if hit.instance != NO_INSTANCE {
+            return self.instances.intersection(hit);
+        }
         match &self.hierarchy {
             Hierarchy::Two(bvh) => bvh.intersection(ray, hit),
             Hierarchy::Eight(bvh) => bvh.intersection(ray, hit),
@@ -74,7 +98,7 @@ impl Accel {
     /// Whether anything lies on the ray before `ray.tmax`.
     #[inline]
     pub fn occluded(&self, ray: &Ray) -> bool {
-        self.occluded_by(ray, |_| true)
+        self.occluded_by(ray, |_| true) || (!self.instances.is_empty() && self.instances.occluded(ray, |_| true))
     }
 
     /// Which of the shapes coincide, by their places in the scene's order.
@@ -85,7 +109,7 @@ impl Accel {
         }
     }
 
-    /// Whether anything that `blocks` lies on the ray before `ray.tmax`.
+    /// Whether anything beside large meshes that `blocks` lies on the ray before `ray.tmax`.
     #[inline]
     pub fn occluded_by(&self, ray: &Ray, blocks: impl Fn(Blocker) -> bool) -> bool {
         match &self.hierarchy {

@@ -1,14 +1,14 @@
 //! What rays are traced through: all shapes at once in each lane while they are few, else one ray at a time through a
-//! tree.
+//! tree; then, one ray at a time, the large meshes, with what is nearest so far.
 //!
 //! Twin: `shaders/pathtrace/intersect/aggregate.wgsl`.
 
 use super::coincident::NO_GROUP;
+use super::hit::EachIntersection;
 use super::ray::BEHIND_THE_END;
 use super::shape_list::{Scratch, ShapeList};
-use super::{Accel, Hit, Hits, Intersections, NO_LIGHT, NO_PRIMITIVE, Ray, Rays, SurfacePoints};
-use crate::vectors::of_lanes;
-use scene::{Bsdf, Scene, Vec3};
+use super::{Accel, Hits, Intersections, NO_INSTANCE, NO_LIGHT, NO_PRIMITIVE, Ray, Rays};
+use scene::{Bsdf, Scene};
 use simd::{Float, MOST_LANES, Mask, Word};
 
 /// A scene's shapes, ready for rays in lanes.
@@ -47,22 +47,24 @@ impl Aggregate {
     }
 
     /// The nearest hits of the `wanted` rays before `rays.tmax`; of several at one distance an area light, else the
-    /// shape that comes first in the scene.
+    /// shape that comes first in the scene, large meshes after all others.
     #[inline(always)]
     pub fn closest<F: Float>(&self, rays: &Rays<F>, wanted: F::M, scratch: &mut Scratch<F>) -> Hits<F> {
-        match &self.shape_list {
+        let hits = match &self.shape_list {
             Some(shape_list) => shape_list.closest(rays, scratch),
             None => self.closest_one_by_one(rays, wanted),
-        }
+        };
+        if self.accel.instances().is_empty() { hits } else { self.or_instances(rays, wanted, hits) }
     }
 
     /// What the rays have met that have these hits.
     #[inline(always)]
     pub fn intersections<F: Float>(&self, rays: &Rays<F>, hits: &Hits<F>) -> Intersections<F> {
-        match &self.shape_list {
+        let met = match &self.shape_list {
             Some(shape_list) => shape_list.intersections(rays, hits),
-            None => self.interactions_one_by_one(rays, hits),
-        }
+            None => self.intersections_one_by_one(rays, hits),
+        };
+        if self.accel.instances().is_empty() { met } else { self.or_on_instances(hits, met) }
     }
 
     /// Where anything lies on the `wanted` shadow rays before `rays.tmax`; if `opaque`, glass does not count. A ray to a
@@ -77,10 +79,14 @@ impl Aggregate {
         opaque: bool,
         scratch: &mut Scratch<F>,
     ) -> F::M {
-        match &self.shape_list {
+        let occluded = match &self.shape_list {
             Some(shape_list) => shape_list.occluded(rays, to_light, wanted, opaque, scratch),
             None => self.occluded_one_by_one(rays, to_light, wanted, opaque),
+        };
+        if self.accel.instances().is_empty() {
+            return occluded;
         }
+        occluded | self.occluded_by_instances(rays, wanted & !occluded, opaque)
     }
 
     #[inline(always)]
@@ -89,46 +95,58 @@ impl Aggregate {
         let (mut t, mut primitive) = ([0.0; MOST_LANES], [NO_PRIMITIVE; MOST_LANES]);
         let [mut u, mut v, mut w] = [[0.0; MOST_LANES]; 3];
         for lane in lanes_of(wanted) {
-            if let Some(hit) = self.accel.closest(&rays[lane]) {
+            if let Some(hit) = self.accel.closest_beside_instances(&rays[lane]) {
                 (t[lane], primitive[lane]) = (hit.t, hit.primitive);
                 [u[lane], v[lane], w[lane]] = hit.barycentrics;
             }
         }
         let barycentrics = [F::load(&u), F::load(&v), F::load(&w)];
-        Hits { t: F::load(&t), primitive: F::U::load(&primitive), barycentrics }
+        Hits { t: F::load(&t), primitive: F::U::load(&primitive), instance: F::U::splat(NO_INSTANCE), barycentrics }
+    }
+
+    /// The hits, but those of large meshes where these are nearer.
+    #[inline(always)]
+    fn or_instances<F: Float>(&self, rays: &Rays<F>, wanted: F::M, hits: Hits<F>) -> Hits<F> {
+        let until = Rays { tmax: F::select(hits.met(), hits.t, rays.tmax), ..*rays }.each();
+        let mut found = [None; MOST_LANES];
+        for lane in lanes_of(wanted) {
+            found[lane] = self.accel.instances().closest(&until[lane]);
+        }
+        hits.replaced(&found)
+    }
+
+    /// What has been met, but on large meshes what was met of them.
+    #[inline(always)]
+    fn or_on_instances<F: Float>(&self, hits: &Hits<F>, met: Intersections<F>) -> Intersections<F> {
+        let on_instance = hits.on_instance();
+        if !on_instance.any() {
+            return met;
+        }
+        let each = hits.each();
+        let mut found = EachIntersection::none();
+        for lane in lanes_of(on_instance) {
+            found.set(lane, &self.accel.instances().intersection(&each[lane]));
+        }
+        Intersections::select(on_instance, found.in_lanes(on_instance), met)
     }
 
     #[inline(always)]
-    fn interactions_one_by_one<F: Float>(&self, rays: &Rays<F>, hits: &Hits<F>) -> Intersections<F> {
+    fn occluded_by_instances<F: Float>(&self, rays: &Rays<F>, wanted: F::M, opaque: bool) -> F::M {
         let rays = rays.each();
-        let (mut t, mut primitive) = ([0.0; MOST_LANES], [0; MOST_LANES]);
-        let mut barycentrics = [[0.0; MOST_LANES]; 3];
-        hits.t.store(&mut t);
-        hits.primitive.store(&mut primitive);
-        for (to, from) in barycentrics.iter_mut().zip(hits.barycentrics) {
-            from.store(to);
+        let blocks = |material: u32| !(opaque && self.clear[material as usize]);
+        let occluded = lanes_of(wanted).filter(|&lane| self.accel.instances().occluded(&rays[lane], blocks));
+        F::M::from_bits(occluded.fold(0, |bits, lane| bits | 1 << lane))
+    }
+
+    #[inline(always)]
+    fn intersections_one_by_one<F: Float>(&self, rays: &Rays<F>, hits: &Hits<F>) -> Intersections<F> {
+        let rays = rays.each();
+        let each = hits.each();
+        let mut found = EachIntersection::none();
+        for lane in lanes_of(hits.met() & !hits.on_instance()) {
+            found.set(lane, &self.accel.intersection(&rays[lane], &each[lane]));
         }
-        let [mut position, mut error, mut normal] = [[Vec3::ZERO; MOST_LANES]; 3];
-        let mut radius = [0.0; MOST_LANES];
-        let (mut material, mut light) = ([0; MOST_LANES], [NO_LIGHT; MOST_LANES]);
-        for lane in lanes_of(hits.met()) {
-            let barycentrics = barycentrics.map(|weights| weights[lane]);
-            let hit = Hit { t: t[lane], primitive: primitive[lane], barycentrics };
-            let met = self.accel.intersection(&rays[lane], &hit);
-            (position[lane], error[lane], normal[lane]) = (met.point.position, met.point.error, met.point.normal);
-            (radius[lane], material[lane], light[lane]) = (met.point.radius, met.material, met.light);
-        }
-        Intersections {
-            met: hits.met(),
-            point: SurfacePoints {
-                position: of_lanes(&position),
-                error: of_lanes(&error),
-                normal: of_lanes(&normal),
-                radius: F::load(&radius),
-            },
-            material: F::U::load(&material),
-            light: F::U::load(&light),
-        }
+        found.in_lanes(hits.met())
     }
 
     #[inline(always)]

@@ -6,7 +6,7 @@
 use super::coincident::Groups;
 use super::primitive::{Primitive, Surface, padding, primitives};
 use super::triangle::ShearedRay;
-use super::{Blocker, Hit, Intersection, NO_PRIMITIVE, Ray};
+use super::{Blocker, Hit, Intersection, NO_INSTANCE, NO_PRIMITIVE, Ray};
 use obvhs::BvhBuildParams;
 use obvhs::aabb::Aabb;
 use obvhs::bvh2::Bvh2 as Tree;
@@ -38,9 +38,9 @@ pub(super) struct Nearest {
 }
 
 impl Bvh2 {
-    /// Of a whole scene, however large.
+    /// Of a whole scene, however large, large meshes with all their triangles.
     pub(crate) fn of(scene: &Scene, light_of_shape: &[u32]) -> Self {
-        let (primitives, surfaces, groups) = primitives(scene, light_of_shape);
+        let (primitives, surfaces, groups) = primitives(scene, light_of_shape, |_| false);
         Bvh2 { groups, ..Bvh2::new(&primitives, &surfaces) }
     }
 
@@ -66,7 +66,7 @@ impl Bvh2 {
     /// The nearest hit before `ray.tmax`, see [`super::Accel::closest`].
     pub(super) fn closest(&self, ray: &Ray) -> Option<Hit> {
         let Nearest { t, primitive, barycentrics, .. } = self.nearest(ray);
-        (primitive != NO_PRIMITIVE).then_some(Hit { t, primitive, barycentrics })
+        (primitive != NO_PRIMITIVE).then_some(Hit { t, primitive, instance: NO_INSTANCE, barycentrics })
     }
 
     /// What the ray has met that has this hit.

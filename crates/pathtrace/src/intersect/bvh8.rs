@@ -11,7 +11,7 @@
 use super::bvh8_leaf::{Closest, Occluded};
 use super::coincident::Groups;
 use super::primitive::{Primitive, Surface};
-use super::{Blocker, Hit, Intersection, Ray, SurfacePoints};
+use super::{Blocker, Hit, Intersection, NO_INSTANCE, Ray, SurfacePoints};
 use crate::vectors::lane_vector;
 use obvhs::aabb::Aabb;
 use scene::Vec3;
@@ -42,7 +42,8 @@ pub(super) struct Curved {
 pub(super) struct Child(pub u32);
 
 impl Child {
-    const LEAF: u32 = 1 << 31;
+    /// Set where it is no node.
+    pub const LEAF: u32 = 1 << 31;
     const CURVED: u32 = 1 << 30;
     /// No leaf: the first block.
     pub const ROOT: Self = Child(0);
@@ -263,7 +264,7 @@ impl Bvh8 {
         }
         let sum = u + v + w;
         let barycentrics = if child.is_curved() { [0.0; 3] } else { [u / sum, v / sum, w / sum] };
-        Some(Hit { t, primitive: child.primitive(lane), barycentrics })
+        Some(Hit { t, primitive: child.primitive(lane), instance: NO_INSTANCE, barycentrics })
     }
 
     /// What the ray has met that has this hit.

@@ -10,26 +10,26 @@ use super::{Blocker, Ray};
 use simd::{Row, RowKernel, Rows};
 
 /// A [`ShearedRay`] in rows.
-struct LeafRay<F> {
+pub(super) struct LeafRay<F> {
     /// The sheared axes x, y and z.
-    axes: [usize; 3],
+    pub axes: [usize; 3],
     origin: [F; 3],
     shear: [F; 2],
     inverse_depth: F,
 }
 
 /// What the rows say of a leaf's triangles: those that the ray may meet, as bits, and what to find out more with.
-struct Candidates<F> {
-    bits: u32,
+pub(super) struct Candidates<F> {
+    pub bits: u32,
     /// Twice the areas opposite of the corners.
-    areas: [F; 3],
+    pub areas: [F; 3],
     /// Of the corners, in the ray's frame.
-    z: [F; 3],
+    pub z: [F; 3],
 }
 
 impl<F: Row<LEAF_WIDTH>> LeafRay<F> {
     #[inline(always)]
-    fn new(ray: &ShearedRay) -> Self {
+    pub fn new(ray: &ShearedRay) -> Self {
         let z = ray.main_axis;
         let (x, y) = ((z + 1) % 3, (z + 2) % 3);
         let origin = ray.origin.to_array();
@@ -41,20 +41,27 @@ impl<F: Row<LEAF_WIDTH>> LeafRay<F> {
         }
     }
 
+    /// One corner of all triangles of a leaf, along the sheared axes.
     #[inline(always)]
-    fn apply(&self, leaf: Leaf, corner: usize) -> [F; 3] {
+    fn corner(&self, leaf: Leaf, corner: usize) -> [F; 3] {
         let [x, y, z] = self.axes;
-        let z = F::load(leaf.corner(corner, z)) - self.origin[2];
-        let x = F::load(leaf.corner(corner, x)) - self.origin[0];
-        let y = F::load(leaf.corner(corner, y)) - self.origin[1];
+        [F::load(leaf.corner(corner, x)), F::load(leaf.corner(corner, y)), F::load(leaf.corner(corner, z))]
+    }
+
+    /// The corner in the ray's frame.
+    #[inline(always)]
+    fn apply(&self, [x, y, z]: [F; 3]) -> [F; 3] {
+        let z = z - self.origin[2];
+        let x = x - self.origin[0];
+        let y = y - self.origin[1];
         [x - self.shear[0] * z, y - self.shear[1] * z, z]
     }
 
     /// Triangles whose areas are of one sign and not all 0, unless all their corners lie behind the ray's start or
-    /// beyond `tmax`, seen with a margin for the inverse.
+    /// beyond `tmax`, seen with a margin for the inverse. Corners are given along the sheared axes.
     #[inline(always)]
-    fn candidates(&self, leaf: Leaf, tmax: f32) -> Candidates<F> {
-        let (a, b, c) = (self.apply(leaf, 0), self.apply(leaf, 1), self.apply(leaf, 2));
+    pub fn candidates(&self, [a, b, c]: [[F; 3]; 3], tmax: f32) -> Candidates<F> {
+        let (a, b, c) = (self.apply(a), self.apply(b), self.apply(c));
         // the one of a and c has its sign turned by turning the difference, which is exact
         let areas = [edge(b, c), edge(c, a), edge(a, b)];
         let zero = F::splat(0.0);
@@ -76,13 +83,13 @@ fn edge<F: Row<LEAF_WIDTH>>(p: [F; 3], q: [F; 3]) -> F {
 
 /// The same element of three rows.
 #[inline(always)]
-fn element<F: Row<LEAF_WIDTH>>(rows: [F; 3], lane: usize) -> [f32; 3] {
+pub(super) fn element<F: Row<LEAF_WIDTH>>(rows: [F; 3], lane: usize) -> [f32; 3] {
     [rows[0].to_array()[lane], rows[1].to_array()[lane], rows[2].to_array()[lane]]
 }
 
 /// The next candidate, taken from the bits.
 #[inline(always)]
-fn take(bits: &mut u32) -> usize {
+pub(super) fn take(bits: &mut u32) -> usize {
     let lane = bits.trailing_zeros() as usize % LEAF_WIDTH;
     *bits &= *bits - 1;
     lane
@@ -137,7 +144,8 @@ impl<F: Row<LEAF_WIDTH>> Visitor for ClosestVisitor<'_, F> {
             return Some(self.nearest.t);
         }
         let leaf = Leaf(&bvh.blocks.all()[child.index()]);
-        let mut candidates = self.leaf_ray.candidates(leaf, tmax);
+        let corners = [self.leaf_ray.corner(leaf, 0), self.leaf_ray.corner(leaf, 1), self.leaf_ray.corner(leaf, 2)];
+        let mut candidates = self.leaf_ray.candidates(corners, tmax);
         while candidates.bits != 0 {
             let lane = take(&mut candidates.bits);
             let triangle = Triangle::sorted(leaf.corners(lane));
@@ -199,7 +207,8 @@ impl<B: Fn(Blocker) -> bool, F: Row<LEAF_WIDTH>> Visitor for OccludedVisitor<'_,
             return (!self.occluded).then_some(tmax);
         }
         let leaf = Leaf(&bvh.blocks.all()[child.index()]);
-        let mut candidates = self.leaf_ray.candidates(leaf, tmax);
+        let corners = [self.leaf_ray.corner(leaf, 0), self.leaf_ray.corner(leaf, 1), self.leaf_ray.corner(leaf, 2)];
+        let mut candidates = self.leaf_ray.candidates(corners, tmax);
         while candidates.bits != 0 {
             let lane = take(&mut candidates.bits);
             let triangle = Triangle::sorted(leaf.corners(lane));

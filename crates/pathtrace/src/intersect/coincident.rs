@@ -2,6 +2,9 @@
 //! meet must not hang on how each one's distance was rounded: the one that comes first in the scene's order is there, and
 //! the others are not, to the nearest hit, to shadow rays and to light sampling alike.
 //!
+//! Large meshes, instances of trees of their own, are not held against anything: of what coincides with one the nearer
+//! is met, and at one distance what is no instance.
+//!
 //! Found once, when a scene is made ready. Where nothing coincides, as in most scenes, there are no groups, and nothing
 //! is asked of them.
 //!

@@ -6,8 +6,10 @@
 //! shrinks, of two spheres that of the larger, and a flat face of glass moves inwards, by about 1e-6 of the coordinates
 //! there. Never by more than a small share of the shape, see [`most_of_sphere`] and [`MOST_OF_GLASS`]: what is smaller
 //! than that where it is stays as it is, and so does what cuts deeper into each other, and what shines. Opaque flat faces
-//! are left to [`super::coincident`].
+//! are left to [`super::coincident`]. Large meshes, which are instances of trees of their own, neither move nor are they
+//! asked about: what touches one, or stands on it, is not held apart from it.
 
+use super::baking::is_instanced;
 use super::coincident::overlap;
 use super::gamma;
 use super::pairs::{Bounds, SortedBoxes, for_each_pair, meet};
@@ -20,7 +22,10 @@ use std::sync::OnceLock;
 /// The scene with those shapes held apart that touch.
 pub(crate) fn held_apart(scene: &Scene) -> Cow<'_, Scene> {
     let is_sphere = |shape: &Shape| matches!(shape.geometry, Geometry::Sphere { .. });
-    let gives_way = |shape: &Shape| is_glass(scene, shape) || (is_sphere(shape) && !scene.material_of(shape).shines());
+    let gives_way = |shape: &Shape| {
+        let is_soft = is_glass(scene, shape) || (is_sphere(shape) && !scene.material_of(shape).shines());
+        is_soft && !is_instanced(scene, shape)
+    };
     if !scene.shapes.iter().any(gives_way) {
         return Cow::Borrowed(scene);
     }
@@ -28,7 +33,7 @@ pub(crate) fn held_apart(scene: &Scene) -> Cow<'_, Scene> {
     let mut neighbours = vec![Vec::new(); scene.shapes.len()];
     for_each_pair(&bounds, |a, b| {
         for (one, other) in [(a, b), (b, a)] {
-            if gives_way(&scene.shapes[one]) {
+            if gives_way(&scene.shapes[one]) && !is_instanced(scene, &scene.shapes[other]) {
                 neighbours[one].push(other);
             }
         }

@@ -33,6 +33,11 @@ impl Boundable for Boxed {
 }
 
 impl MeshTree {
+    /// The tree of a mesh.
+    pub fn of(mesh: &Arc<Mesh>) -> Arc<Self> {
+        Arc::new(MeshTree::new(mesh))
+    }
+
     /// Builds it on all threads.
     pub fn new(mesh: &Arc<Mesh>) -> Self {
         let (lo, hi) = mesh.bounds();

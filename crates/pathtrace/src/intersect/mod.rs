@@ -2,13 +2,15 @@
 //!
 //! [`triangle`] is watertight, [`sphere`] holds far away and huge, [`disk`] is flat; [`accel`] puts them into a BVH
 //! whose boxes are padded against the rounding of its box test, [`shape_list`] tests all of a small scene against a ray
-//! in each lane, and [`aggregate`] chooses between these. All find a [`Hit`], and fetch a [`Intersection`] for the
+//! in each lane, and [`aggregate`] chooses between these. A large
+//! mesh is in none of them: it has a [`mesh_tree`] in its own space, and [`instances`] say where it stands. All find a [`Hit`], and fetch a [`Intersection`] for the
 //! one that is left; its [`SurfacePoint`] says how far to step off the surface.
 //!
 //! Of lights nothing is known here but their numbers, which hits bring along.
 
 pub mod accel;
 pub mod aggregate;
+pub(crate) mod baking;
 pub(crate) mod bvh2;
 mod bvh8;
 mod bvh8_build;
@@ -21,7 +23,11 @@ pub mod coincident;
 pub(crate) mod contact;
 pub mod disk;
 mod hit;
+#[cfg(test)]
+mod instance_tests;
+pub mod instances;
 pub mod mesh_tree;
+mod mesh_walk;
 pub(crate) mod pairs;
 pub(crate) mod primitive;
 pub(crate) mod ray;
@@ -31,7 +37,7 @@ mod surface_point;
 pub mod triangle;
 
 pub use accel::Accel;
-pub use hit::{Blocker, Hit, Hits, Intersection, Intersections, NO_LIGHT, NO_PRIMITIVE};
+pub use hit::{Blocker, Hit, Hits, Intersection, Intersections, NO_INSTANCE, NO_LIGHT, NO_PRIMITIVE};
 pub use ray::{Ray, Rays, SHADOW_END};
 pub use surface_point::{SurfacePoint, SurfacePoints};
 pub use triangle::triangle_normal;

@@ -1,5 +1,6 @@
 //! What a ray can hit, made from a scene's shapes.
 
+use super::baking::is_instanced;
 use super::coincident::{FLAT, Groups, MOST_TRIANGLES, Outline};
 use super::disk::Disk;
 use super::pairs::SortedBoxes;
@@ -8,7 +9,7 @@ use super::triangle::{ShearedRay, Triangle, triangle_normal};
 use super::{Hit, Intersection, NO_LIGHT, Ray, Rays, SurfacePoints, gamma};
 use crate::vectors::lane_vector;
 use rayon::prelude::*;
-use scene::{Geometry, Scene, Vec3};
+use scene::{Geometry, Scene, Shape, Vec3};
 
 /// What a ray can hit.
 #[derive(Debug, Clone, Copy)]
@@ -98,11 +99,15 @@ pub fn area_lights_first(scene: &Scene) -> impl Iterator<Item = usize> {
 }
 
 /// A scene's primitives in the order that decides ties, without triangles that have no area: no ray can meet them. And
-/// which of them coincide.
-pub(super) fn primitives(scene: &Scene, light_of_shape: &[u32]) -> (Vec<Primitive>, Vec<Surface>, Groups) {
+/// which of them coincide. Large meshes are left out where they are instances of trees of their own.
+pub(super) fn primitives(
+    scene: &Scene,
+    light_of_shape: &[u32],
+    is_left_out: impl Fn(&Shape) -> bool,
+) -> (Vec<Primitive>, Vec<Surface>, Groups) {
     let (mut primitives, mut surfaces) = (Vec::new(), Vec::new());
     let mut outlines = Vec::new();
-    for index in area_lights_first(scene) {
+    for index in area_lights_first(scene).filter(|index| !is_left_out(&scene.shapes[*index])) {
         let shape = &scene.shapes[index];
         let material = shape.material as u32;
         let first_light = light_of_shape[index];
@@ -145,7 +150,8 @@ fn others_than(index: usize, scene: &Scene) -> SortedBoxes {
         let room = Vec3::splat(FLAT as f32 * low.abs().max(high.abs()).max_element());
         (low - room, high + room)
     };
-    let others = scene.shapes.iter().enumerate().filter(|(other, _)| *other != index);
+    let is_other = |(other, shape): &(usize, &Shape)| *other != index && !is_instanced(scene, shape);
+    let others = scene.shapes.iter().enumerate().filter(is_other);
     SortedBoxes::new(others.map(|(_, shape)| grown(shape.geometry.bounds())).collect())
 }
 

@@ -2,6 +2,7 @@
 //! by one, many in a tree. A test compares every offset with the shader compiler's.
 
 use super::GpuTraceError;
+use crate::intersect::baking::is_instanced;
 use crate::intersect::bvh2::Bvh2;
 use crate::intersect::coincident::Groups;
 use crate::intersect::primitive::{self, Primitive};
@@ -147,8 +148,10 @@ impl Shapes {
     /// [`GpuTraceError::TooDeep`] and [`GpuTraceError::TooMany`] where the shader's stack or a node's bits do not
     /// suffice.
     pub fn new(scene: &Scene, light_of_shape: &[u32]) -> Result<Self, GpuTraceError> {
+        // large meshes are none of the list's, and triangles like others here
+        let has_large = scene.shapes.iter().any(|shape| is_instanced(scene, shape));
         match ShapeList::new(scene, light_of_shape) {
-            Some(shape_list) if shape_list.len()[0] <= FEW => Ok(Shapes::few(&shape_list)),
+            Some(shape_list) if shape_list.len()[0] <= FEW && !has_large => Ok(Shapes::few(&shape_list)),
             _ => Shapes::in_a_tree(scene, light_of_shape),
         }
     }

@@ -20,7 +20,7 @@ pub(crate) use pieces::{ListedForm, ListedPlane};
 use super::coincident::{Groups, NO_GROUP};
 use super::disk::Disk;
 use super::sphere::Sphere;
-use super::{Hits, Intersections, NO_LIGHT, NO_PRIMITIVE, Rays};
+use super::{Hits, Intersections, NO_INSTANCE, NO_LIGHT, NO_PRIMITIVE, Rays};
 use simd::{Double, Float, Mask, Word};
 use surfaces::Surfaces;
 
@@ -161,7 +161,7 @@ impl ShapeList {
         for (place, disk) in &self.seen.disks {
             (t, id) = self.nearer(disk.intersect(rays), place, (t, id));
         }
-        Hits { t, primitive: id, barycentrics: [F::splat(0.0); 3] }
+        Hits { t, primitive: id, instance: F::U::splat(NO_INSTANCE), barycentrics: [F::splat(0.0); 3] }
     }
 
     /// What the rays have met that have these hits.

@@ -2,6 +2,7 @@
 
 use super::surfaces::{Form, Surface, Surfaces};
 use super::{Facet, Place, PlaneNormal, ShapeList, Shapes};
+use crate::intersect::baking::is_instanced;
 use crate::intersect::coincident::{FLAT, Groups, NO_GROUP, Outline};
 use crate::intersect::disk::Disk;
 use crate::intersect::primitive::{area_lights_first, lights_after};
@@ -54,7 +55,7 @@ impl ShapeList {
     /// picture.
     pub const MOST: usize = 128;
 
-    /// The scene's shapes, if they are few enough; `light_of_shape` is [`crate::light::Lights::light_of_shape`] of it.
+    /// The scene's shapes but for large meshes, if they are few enough; `light_of_shape` is [`crate::light::Lights::light_of_shape`] of it.
     pub fn new(scene: &Scene, light_of_shape: &[u32]) -> Option<Self> {
         let parts = parts(scene, light_of_shape)?;
         let outlines: Vec<Outline> = (0..).zip(&parts).filter_map(|(id, part)| part.outline(id)).collect();
@@ -84,7 +85,7 @@ impl ShapeList {
 /// Area lights first, so that an area light in the plane of a wall wins the tie against the wall.
 fn parts(scene: &Scene, light_of_shape: &[u32]) -> Option<Vec<Part>> {
     let mut parts = Vec::new();
-    for index in area_lights_first(scene) {
+    for index in area_lights_first(scene).filter(|index| !is_instanced(scene, &scene.shapes[*index])) {
         let shape = &scene.shapes[index];
         let material = shape.material as u32;
         let clear = matches!(scene.material_of(shape).bsdf, Bsdf::Dielectric { .. });
@@ -263,6 +264,11 @@ impl Reach {
                     balls.push((center.as_dvec3(), f64::from(radius)));
                 }
             }
+        }
+        for shape in scene.shapes.iter().filter(|shape| is_instanced(scene, shape)) {
+            let (low, high) = shape.geometry.bounds();
+            let (low, high) = (low.as_dvec3(), high.as_dvec3());
+            balls.push((0.5 * (low + high), 0.5 * (high - low).length()));
         }
         Reach { balls, endless: scene.sun.is_some() || scene.environment.is_some() }
     }
