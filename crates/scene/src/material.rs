@@ -40,10 +40,7 @@ impl Material {
         };
         let emitted = self.surface.emission.as_ref();
         let normals = self.surface.normal_map.as_ref().map(|map| &map.image);
-        let alpha = match &self.surface.alpha {
-            Alpha::Opaque => None,
-            Alpha::Mask { image, .. } => image.as_ref(),
-        };
+        let alpha = self.surface.alpha.image();
         [colour, metallic_roughness, emitted, normals, alpha].into_iter().flatten()
     }
 
@@ -88,6 +85,16 @@ pub enum Alpha {
         /// The picture; of none alpha is 1.
         image: Option<Arc<ImageTexture>>,
     },
+}
+
+impl Alpha {
+    /// The picture, if there is one.
+    pub fn image(&self) -> Option<&Arc<ImageTexture>> {
+        match self {
+            Alpha::Opaque => None,
+            Alpha::Mask { image, .. } => image.as_ref(),
+        }
+    }
 }
 
 /// How a surface scatters light.
