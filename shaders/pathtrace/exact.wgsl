@@ -3,6 +3,9 @@
 // cancel sums, which breaks the usual algorithms. Here products have few enough bits to be exact, fused or not, and
 // every rounded sum passes through `opaque`, which no compiler sees through. No twin: the processor has f64.
 
+// A float that is not 0 is larger, whatever its sign, unless it is so small that devices may take it for 0.
+const SMALLEST_POSITIVE: f32 = 1.1754944e-38;
+
 // The same vector, as far as a compiler knows another one.
 fn opaque(x: vec3f) -> vec3f {
     return bitcast<vec3f>(bitcast<vec3u>(x) ^ vec3u(header.zero));

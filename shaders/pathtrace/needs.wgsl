@@ -28,6 +28,10 @@ override CASTERS: bool = true;
 // whether there are meshes of mirror or glass that get cones, or any shapes
 override USUAL_CONES: bool = true;
 override ALL_CONES: bool = true;
+// whether any surface is shaded by other normals than its own, wears pictures, or has holes
+override SHADING_NORMALS: bool = true;
+override IMAGE_TEXTURES: bool = true;
+override ALPHA_MASKS: bool = true;
 // whether random numbers are Sobol points; independent ones if not
 override SOBOL: bool = true;
 // whether shadow rays pass glass

@@ -1,6 +1,8 @@
 //#import pathtrace/intersect/aggregate.wgsl
 //#import pathtrace/light/light.wgsl
 //#import pathtrace/bsdf/interaction.wgsl
+//#import pathtrace/bsdf/shading.wgsl
+//#import pathtrace/bsdf/pictures.wgsl
 // What a ray meets in the scene. Twins: crates/pathtrace/src/prepared.rs and
 // crates/pathtrace/src/bsdf/materials.rs.
 
@@ -37,12 +39,27 @@ fn interaction_of(hit: Hit, wo: vec3f) -> Interaction {
         let upper = hit.point.position + hit.point.error * abs(hit.point.normal);
         colour = checkerboard(materials[hit.material].colour, upper);
     }
-    return Interaction(hit.point, facing(hit.point.normal, wo), wo, colour, lobe, hit.material);
+    var normal = facing(hit.point.normal, wo);
+    var uv = vec2f(0.0);
+    if SHADING_NORMALS || IMAGE_TEXTURES {
+        let attributes = attributes_of(hit);
+        uv = attributes.uv;
+        if SHADING_NORMALS {
+            normal = shading_normal(hit, attributes, wo);
+        }
+    }
+    if IMAGE_TEXTURES && materials[hit.material].colour_picture != 0u {
+        colour *= picture_at(materials[hit.material].colour_picture, uv).xyz;
+    }
+    return Interaction(hit.point, normal, wo, colour, lobe, hit.material, uv);
 }
 
 // What the surface sends out towards wo.
 fn emitted(at: Interaction) -> vec3f {
     let sides = materials[at.material].emitting_sides;
     let shines = sides == 2u || (sides == 1u && dot(at.point.normal, at.wo) > 0.0);
+    if IMAGE_TEXTURES && shines && materials[at.material].emission_picture != 0u {
+        return materials[at.material].emission * picture_at(materials[at.material].emission_picture, at.uv).xyz;
+    }
     return select(vec3f(0.0), materials[at.material].emission, shines);
 }

@@ -27,6 +27,11 @@ struct Header {
     chains: u32,
     // whether nothing lies inside of any sphere that they go through
     hollow: u32,
+    // where attributes of corners begin in mesh_data, and where pictures do
+    attributes: u32,
+    pictures: u32,
+    // rows in each layer of texels
+    texel_rows: u32,
     // of few shapes: where among them quadrilaterals, triangles, spheres and disks end
     seen: vec4u,
     // the same of those that shadow rays may meet, which stand first in each kind
@@ -96,6 +101,8 @@ struct Surface {
     light: u32,
     // of what it coincides with, or NO_GROUP
     group: u32,
+    // place of its row in mesh_data, 0 if it has none
+    triangle: u32,
 }
 
 const NO_LIGHT: u32 = 0xffffffffu;
@@ -122,6 +129,19 @@ struct Material {
     // with which a chain off such a sphere is chosen, or through it; 0 if none is
     off: f32,
     through: f32,
+    // places among the pictures, 1 for the first, of what colour and light sent out are multiplied by, of normals and alpha;
+    // 0 for none
+    colour_picture: u32,
+    emission_picture: u32,
+    normal_picture: u32,
+    alpha_picture: u32,
+    // by which x and y of normals are multiplied, and alpha
+    normal_scale: f32,
+    alpha_factor: f32,
+    // least alpha that is a surface; 0 where there is one everywhere
+    alpha_cutoff: f32,
+    // place among the pictures of what multiplies the share of metal and the roughness
+    metallic_roughness_picture: u32,
 }
 
 // Codes of lobes and of what varies them. Mirror: crates/pathtrace/src/bsdf/materials.rs.
@@ -157,8 +177,10 @@ struct Light {
     cumulative: f32,
     // of what its surface coincides with, or NO_GROUP
     group: u32,
-    // of a caster
+    // of a caster, or of what wears pictures
     material: u32,
+    // where the places of its corners in pictures begin in mesh_data, 0 if it wears none
+    corners: u32,
 }
 
 const LIGHT_RECTANGLE: u32 = 0u;
@@ -185,3 +207,7 @@ const CHAIN_THROUGH: u32 = 8u;
 // one texel for each row: the running sum of the rows' probabilities, and minus the height on the unit sphere where the
 // row ends
 @group(0) @binding(9) var environment_rows: texture_2d<f32>;
+// what meshes and pictures say of surfaces, behind one word that stands for nothing
+@group(0) @binding(10) var<storage, read> mesh_data: array<u32>;
+// of all pictures, one after the other
+@group(0) @binding(11) var texels: texture_2d_array<f32>;

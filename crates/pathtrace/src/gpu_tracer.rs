@@ -7,6 +7,7 @@
 use crate::caster::Casters;
 use crate::drive::gpu::dispatch::Dispatcher;
 use crate::drive::gpu::film_data::RenderParams;
+use crate::drive::gpu::mesh_data::MeshData;
 use crate::drive::gpu::photon_maps::{PhotonMaps, PhotonWork};
 use crate::drive::gpu::photon_sources::{PhotonScene, PhotonSources};
 use crate::drive::gpu::pipelines::{PipelineKey, Pipelines, SceneNeeds};
@@ -314,20 +315,22 @@ struct Made {
     lights: Lights,
     casters: Casters,
     shapes: Shapes,
+    mesh_data: MeshData,
     needs: SceneNeeds,
 }
 
 impl Made {
     fn of(scene: &Scene, leaves: Leaves) -> Result<Self, GpuTraceError> {
         let lights = Lights::new(scene);
-        let shapes = if leaves.always_a_tree {
+        let mut shapes = if leaves.always_a_tree {
             Shapes::in_a_tree(scene, lights.light_of_shape())
         } else {
             Shapes::new(scene, lights.light_of_shape())
         }?;
         let needs = SceneNeeds::of(scene, &lights, shapes.kinds());
         let needs = if leaves.nothing_out { needs.with_everything() } else { needs };
-        Ok(Made { lights, casters: Casters::new(scene), shapes, needs })
+        let mesh_data = MeshData::new(scene, &mut shapes, &lights);
+        Ok(Made { lights, casters: Casters::new(scene), shapes, mesh_data, needs })
     }
 
     fn upload(
@@ -336,13 +339,14 @@ impl Made {
         layout: &wgpu::BindGroupLayout,
         scene: &Scene,
     ) -> Result<wgpu::BindGroup, GpuTraceError> {
-        let Made { lights, casters, shapes, .. } = self;
-        let mut aims = scene_data::lights(lights, &shapes.groups);
+        let Made { lights, casters, shapes, mesh_data, .. } = self;
+        let mut aims = scene_data::lights(lights, &shapes.groups, mesh_data);
         aims.extend(scene_data::chains(casters));
         let mut few = [FewShape::zeroed(); MOST_SHAPES];
         few[..shapes.few.len()].copy_from_slice(&shapes.few);
+        let header = scene_data::header(scene, shapes, lights, casters, mesh_data);
         let buffers = [
-            gpu.buffer("the scene", &[scene_data::header(scene, shapes, lights, casters)], BufferUsages::UNIFORM)?,
+            gpu.buffer("the scene", &[header], BufferUsages::UNIFORM)?,
             storage(gpu, "the tree of boxes", &shapes.nodes)?,
             storage(gpu, "the shapes", &shapes.primitives)?,
             storage(gpu, "the surfaces", &shapes.surfaces)?,
@@ -354,7 +358,14 @@ impl Made {
         let sky = scene.environment.as_deref().zip(lights.environment());
         let views = environment_data::textures(gpu, sky)?.map(|texture| texture.create_view(&Default::default()));
         let views = views.iter().map(wgpu::BindingResource::TextureView);
+        let words = storage(gpu, "what meshes say of their surfaces", &mesh_data.words)?;
+        let layers = wgpu::TextureViewDescriptor {
+            dimension: Some(wgpu::TextureViewDimension::D2Array),
+            ..wgpu::TextureViewDescriptor::default()
+        };
+        let texels = mesh_data.texture(gpu)?.create_view(&layers);
         let resources = buffers.iter().map(wgpu::Buffer::as_entire_binding).chain(views);
+        let resources = resources.chain([words.as_entire_binding(), wgpu::BindingResource::TextureView(&texels)]);
         let bound = resources.zip(0..).map(|(resource, binding)| wgpu::BindGroupEntry { binding, resource });
         let entries: Vec<_> = bound.collect();
         let descriptor = wgpu::BindGroupDescriptor { label: Some("the scene"), layout, entries: &entries };

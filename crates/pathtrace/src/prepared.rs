@@ -2,16 +2,16 @@
 //!
 //! Twin: `shaders/pathtrace/prepared.wgsl`.
 
-use crate::bsdf::Interactions;
 use crate::bsdf::interaction::facing;
 use crate::bsdf::materials::Materials;
+use crate::bsdf::{Interactions, shading};
 use crate::caster::Casters;
 use crate::caster::cone::Cones;
 use crate::integrator::photon::usual_radius;
 use crate::integrator::settings::ConesAt;
 use crate::intersect::aggregate::Aggregate;
 use crate::intersect::shape_list::Scratch;
-use crate::intersect::{Intersections, NO_LIGHT, Rays, SHADOW_END, SurfacePoints};
+use crate::intersect::{Intersections, NO_LIGHT, Rays, SHADOW_END, SurfaceAttributes, SurfacePoints};
 use crate::light::{Emitters, LightSamples, Lights, SunDisc};
 use crate::vectors::in_all_lanes;
 use scene::{Scene, Vec3};
@@ -76,7 +76,7 @@ impl PreparedScene {
         let lights = Lights::new(scene);
         PreparedScene {
             aggregate: Aggregate::new(scene, lights.light_of_shape()),
-            materials: Materials::new(&scene.materials),
+            materials: Materials::new(&scene.materials).with_shading_normals(scene.needs().shading_normals),
             sky: if scene.environment.is_some() { Vec3::ZERO } else { scene.sky },
             sun_disc: scene.sun.as_ref().and_then(SunDisc::new),
             sun_pdf: lights.sun_pdf(),
@@ -104,16 +104,42 @@ impl PreparedScene {
     /// What the surfaces that were met send out towards `wo`.
     #[inline(always)]
     pub fn emitted<F: Float>(&self, hit: &Intersections<F>, wo: Vector<F>) -> Vector<F> {
-        self.materials.emitted(hit.material, hit.point.normal.dot(wo))
+        let radiance = self.materials.emitted(hit.material, hit.point.normal.dot(wo));
+        let pictures = self.materials.pictures();
+        match self.aggregate.attributes(hit) {
+            Some(attributes) if pictures.has_emission() => radiance * pictures.emission(hit.material, attributes.uv),
+            _ => radiance,
+        }
     }
 
     /// The surfaces that were met, seen from `wo`.
     #[inline(always)]
     pub fn interaction<F: Float>(&self, hit: &Intersections<F>, wo: Vector<F>) -> Interactions<F> {
         let kinds = self.materials.kinds(hit.material);
-        let colour = self.materials.colour(hit.material, kinds, &hit.point);
-        let normal = facing(hit.point.normal, wo);
-        Interactions { point: hit.point, normal, wo, colour, kinds, material: hit.material }
+        let (mut normal, mut uv) = (facing(hit.point.normal, wo), [F::splat(0.0); 2]);
+        if let Some(attributes) = self.aggregate.attributes(hit) {
+            uv = attributes.uv;
+            normal = self.shading_normal(hit, &attributes, normal, wo);
+        }
+        let colour = self.materials.colour(hit.material, kinds, &hit.point, uv);
+        Interactions { point: hit.point, normal, wo, colour, kinds, material: hit.material, uv }
+    }
+
+    /// The normal on the side of `wo` that surfaces are shaded by; their own where nothing says another.
+    #[inline(always)]
+    fn shading_normal<F: Float>(
+        &self,
+        hit: &Intersections<F>,
+        attributes: &SurfaceAttributes<F>,
+        own: Vector<F>,
+        wo: Vector<F>,
+    ) -> Vector<F> {
+        if !self.materials.has().shading_normals {
+            return own;
+        }
+        let pictures = self.materials.pictures();
+        let bumps = pictures.has_normals().then(|| pictures.normals(hit.material, attributes.uv));
+        shading::shading_normal(hit.point.normal, attributes, bumps, wo)
     }
 
     /// Where something stands between the `wanted` points and what shines on them; if `opaque`, glass does not count.

@@ -6,6 +6,7 @@ use crate::caster::cone::{CONE_DENSITY, MOST_CONES, MOST_SHARE, NARROWEST, WIDES
 use crate::caster::sphere_chain::{LAST_STEP, MOST_ROOTS, MOST_STEPS, NEAR_AXIS};
 use crate::drive::gpu::dispatch::GROUP;
 use crate::drive::gpu::film_data::CUT_SHIFT;
+use crate::drive::gpu::mesh_data::{ATTRIBUTE_WORDS, BILINEAR, PICTURE_WORDS, TEXEL_ROW, WRAP_CLAMP, WRAP_MIRROR};
 use crate::drive::gpu::scene_data::*;
 use crate::drive::gpu::shape_data::*;
 use crate::drive::gpu::{PipelineKey, SceneNeeds};
@@ -50,8 +51,10 @@ pub fn shared_constants() -> Vec<(&'static str, f64)> {
         ALL_DIRECTIONS,
         ALREADY_COUNTED,
         ALWAYS_REFRACTED,
+        ATTRIBUTE_WORDS,
         BEGINS,
         BEHIND_THE_END,
+        BILINEAR,
         BY_BOTH,
         BY_CHANCE,
         BY_SAMPLING,
@@ -106,6 +109,7 @@ pub fn shared_constants() -> Vec<(&'static str, f64)> {
         NO_LIGHT,
         NO_GROUP,
         ONE_SURFACE,
+        PICTURE_WORDS,
         ROULETTE_SLOPE,
         SHADOW_END,
         SPARED_VERTICES,
@@ -119,8 +123,11 @@ pub fn shared_constants() -> Vec<(&'static str, f64)> {
         STAGE_THROUGH,
         STEPS,
         TAU,
+        TEXEL_ROW,
         UNIFORM_HEMISPHERE_PDF,
         WIDEST,
+        WRAP_CLAMP,
+        WRAP_MIRROR,
     ]
 }
 

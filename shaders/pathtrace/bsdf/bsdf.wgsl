@@ -2,11 +2,20 @@
 //#import pathtrace/bsdf/mirror.wgsl
 //#import pathtrace/bsdf/dielectric.wgsl
 //#import pathtrace/bsdf/rough_conductor.wgsl
+//#import pathtrace/bsdf/shading.wgsl
 // How surfaces scatter light: what integrators ask of whatever lobe a surface has. Directions point away from the
 // surface; wo is where the path came from, wi where it goes on. Twin: crates/pathtrace/src/bsdf/mod.rs.
 
 // Draws a direction, from two random numbers for the direction and one for the choice among several.
 fn sample_bsdf(at: Interaction, u: vec3f) -> BsdfSample {
+    var sample = sample_lobe(at, u);
+    if SHADING_NORMALS {
+        sample.weight *= kept(at, sample.wi);
+    }
+    return sample;
+}
+
+fn sample_lobe(at: Interaction, u: vec3f) -> BsdfSample {
     if MIRROR && at.lobe == LOBE_MIRROR {
         return sample_mirror(at);
     }
@@ -21,6 +30,11 @@ fn sample_bsdf(at: Interaction, u: vec3f) -> BsdfSample {
 
 // The BSDF for light from the unit direction wi, on the side of wo. Not of lobes that leave no choice.
 fn eval_bsdf(at: Interaction, wi: vec3f) -> ScaledColour {
+    let value = eval_lobe(at, wi);
+    return ScaledColour(value.colour, shadowed(at.normal, at.point.normal, wi, value.factor));
+}
+
+fn eval_lobe(at: Interaction, wi: vec3f) -> ScaledColour {
     if ROUGH_CONDUCTOR && (at.lobe & LOBE_ROUGH_CONDUCTOR) != 0u {
         return eval_rough_conductor(at, wi);
     }
@@ -47,6 +61,16 @@ struct Specular {
 
 // Both directions in which a mirror or glass sends light on. Rough metal is taken for a mirror that reflects as much.
 fn specular_of(at: Interaction) -> Specular {
+    var specular = specular_of_lobe(at);
+    if SHADING_NORMALS {
+        let g = facing(at.point.normal, at.normal);
+        specular.reflects = specular.reflects && dot(g, specular.reflected) > 0.0;
+        specular.refracts = specular.refracts && dot(g, specular.refracted) < 0.0;
+    }
+    return specular;
+}
+
+fn specular_of_lobe(at: Interaction) -> Specular {
     let mirrored = reflect(at.wo, at.normal);
     if DIELECTRIC && at.lobe == LOBE_DIELECTRIC {
         let boundary = interface_of(at);

@@ -7,7 +7,7 @@
 struct Interaction {
     // where, with the bound on its error and the outward normal
     point: SurfacePoint,
-    // unit normal on the side of wo
+    // unit normal on the side of wo that it is shaded by
     normal: vec3f,
     // unit direction back along the ray
     wo: vec3f,
@@ -17,6 +17,8 @@ struct Interaction {
     lobe: u32,
     // index into the scene's materials
     material: u32,
+    // place in textures
+    uv: vec2f,
 }
 
 // A BSDF's value: a colour times a number, kept apart so that products are rounded in one order whatever the lobe.

@@ -105,7 +105,7 @@ fn at_fork() -> bool {
 fn next_branch() {
     let top = waiting - 1u;
     let point = SurfacePoint(fork_positions[top], fork_errors[top], fork_normals[top], fork_radii[top]);
-    vertex = Interaction(point, fork_sides[top], fork_sides[top], fork_albedos[top], LOBE_LAMBERT, 0u);
+    vertex = Interaction(point, fork_sides[top], fork_sides[top], fork_albedos[top], LOBE_LAMBERT, 0u, vec2f(0.0));
     let counts = fork_counts[top];
     path.throughput = fork_throughputs[top];
     path.vertices = counts.x;
@@ -287,7 +287,7 @@ fn sample_with_cones(u: vec3f) -> BsdfSample {
     let lobe = pdf_lambert(max(dot(vertex.normal, wi), 0.0));
     let pdf = pdf_with_cones(wi, lobe);
     // rounding takes a direction at a rim out of its cone, and it may lie below the horizon: then neither draws it
-    let weight = lobe / max(pdf, SMALLEST_POSITIVE);
+    let weight = shadowed(vertex.normal, vertex.point.normal, wi, lobe / max(pdf, SMALLEST_POSITIVE));
     return BsdfSample(wi, vertex.colour * weight, pdf);
 }
 

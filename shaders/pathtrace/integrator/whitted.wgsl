@@ -177,7 +177,8 @@ fn unshadowed(at: SurfacePoint, normal: vec3f, turn: u32, each: bool, u: vec4f) 
     if in_shadow(at, sample) {
         return vec3f(0.0);
     }
-    return sample.radiance_over_pdf * (cosine * select(1.0 / lights[chosen].probability, 1.0, each));
+    let counted = shadowed(normal, at.normal, sample.wi, cosine);
+    return sample.radiance_over_pdf * (counted * select(1.0 / lights[chosen].probability, 1.0, each));
 }
 
 // Whether one sample of this light is exact: it shines from one direction.

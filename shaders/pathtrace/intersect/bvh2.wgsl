@@ -1,4 +1,5 @@
 //#import pathtrace/intersect/nearest.wgsl
+//#import pathtrace/intersect/cutouts.wgsl
 //#import pathtrace/intersect/triangle.wgsl
 //#import pathtrace/intersect/sphere.wgsl
 //#import pathtrace/intersect/disk.wgsl
@@ -52,7 +53,7 @@ fn traverse(ray: Ray, query: Query) -> Nearest {
         for (var index = first; index < end; index++) {
             let primitive = primitives[index];
             let t = primitive_distance(primitive, ray, sheared);
-            if t > 0.0 && (t <= nearest.t || COINCIDENT) {
+            if t > 0.0 && (t <= nearest.t || COINCIDENT) && !passes(index, primitive, ray, sheared) {
                 let id = primitive.tag & ((1u << KIND_SHIFT) - 1u);
                 if query.shadow {
                     if t < nearest.t && blocks(query, index, t) {
@@ -96,6 +97,15 @@ fn box_distance(node: Node, origin: vec3f, inverse: vec3f, tmax: f32) -> f32 {
     return select(FAR, enters, leaves * BOX_SLACK >= max(enters, 0.0) && enters / BOX_SLACK < tmax);
 }
 
+// Whether a ray that meets a primitive goes through a hole in it.
+fn passes(index: u32, primitive: Primitive, ray: Ray, sheared: ShearedRay) -> bool {
+    if !ALPHA_MASKS || materials[surfaces[index].material].alpha_cutoff <= 0.0 {
+        return false;
+    }
+    let areas = triangle_areas(Triangle(primitive.a, primitive.b, primitive.c), ray.origin, sheared);
+    return is_hole(index, areas / (areas.x + areas.y + areas.z));
+}
+
 fn primitive_distance(primitive: Primitive, ray: Ray, sheared: ShearedRay) -> f32 {
     let kind = primitive.tag >> KIND_SHIFT;
     if TRIANGLES && (kind == KIND_TRIANGLE || !(SPHERES || DISKS)) {
@@ -118,10 +128,11 @@ fn hit_of_primitive(nearest: Nearest, ray: Ray) -> Hit {
     let surface = surfaces[nearest.index];
     let kind = primitive.tag >> KIND_SHIFT;
     var point: SurfacePoint;
+    var barycentrics: vec3f;
     if TRIANGLES && (kind == KIND_TRIANGLE || !(SPHERES || DISKS)) {
         let triangle = Triangle(primitive.a, primitive.b, primitive.c);
         let areas = triangle_areas(triangle, ray.origin, sheared_ray(ray.direction));
-        let barycentrics = areas / (areas.x + areas.y + areas.z);
+        barycentrics = areas / (areas.x + areas.y + areas.z);
         point = on_triangle(primitive.a, primitive.b, primitive.c, barycentrics, surface.normal);
     } else if SPHERES && (kind == KIND_SPHERE || !DISKS) {
         let from_center = sphere_meeting(primitive.a, primitive.normal_x, ray, nearest.t);
@@ -129,5 +140,5 @@ fn hit_of_primitive(nearest: Nearest, ray: Ray) -> Hit {
     } else if DISKS {
         point = on_disk(primitive.a, ray.origin + ray.direction * nearest.t, primitive.b);
     }
-    return Hit(point, surface.material, surface.light);
+    return Hit(point, surface.material, surface.light, surface.triangle, barycentrics);
 }

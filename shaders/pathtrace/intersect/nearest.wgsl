@@ -23,6 +23,9 @@ struct Hit {
     material: u32,
     // index into the lights, or NO_LIGHT
     light: u32,
+    // place of its row in mesh_data, 0 if it has none, and the weights of its corners
+    triangle: u32,
+    barycentrics: vec3f,
 }
 
 // What is asked of the shapes on a ray: the nearest, or of a shadow ray whether any blocks the light.

@@ -79,6 +79,7 @@ fn hit_of_shape(nearest: Nearest, ray: Ray) -> Hit {
     let shape = shapes[nearest.index];
     let starts = header.seen;
     var point: SurfacePoint;
+    var barycentrics: vec3f;
     if QUADRILATERALS && nearest.index < starts.x {
         // of a parallelogram, the areas beside two neighbouring edges over half of all four
         let areas = quadrilateral_areas(quadrilateral_at(nearest.index), ray.origin, sheared_ray(ray.direction));
@@ -88,7 +89,7 @@ fn hit_of_shape(nearest: Nearest, ray: Ray) -> Hit {
         point.error += vec3f(shape.flatness);
     } else if TRIANGLES && nearest.index < starts.y {
         let areas = triangle_areas(triangle_at(nearest.index), ray.origin, sheared_ray(ray.direction));
-        let barycentrics = areas / (areas.x + areas.y + areas.z);
+        barycentrics = areas / (areas.x + areas.y + areas.z);
         point = on_triangle(shape.a, shape.b, shape.c, barycentrics, surface.normal);
         point.error += vec3f(shape.flatness);
     } else if SPHERES && nearest.index < starts.z {
@@ -97,5 +98,5 @@ fn hit_of_shape(nearest: Nearest, ray: Ray) -> Hit {
     } else if DISKS {
         point = on_disk(shape.a, ray.origin + ray.direction * nearest.t, shape.b);
     }
-    return Hit(point, surface.material, surface.light);
+    return Hit(point, surface.material, surface.light, surface.triangle, barycentrics);
 }

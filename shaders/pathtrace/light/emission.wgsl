@@ -84,7 +84,9 @@ fn leaving_emitter(emitter: u32, choice: EmissionChoice) -> Leaving {
         let sample = environment_sample(choice.place);
         return coming_from_afar(sample.wi, sample.radiance_over_pdf, choice);
     }
-    return leaving_surface(flat_point(light, choice.place), light, light.area, choice);
+    var leaving = leaving_surface(flat_point(light, choice.place), light, light.area, choice);
+    leaving.power *= worn_at(light, flat_place(light, choice.place));
+    return leaving;
 }
 
 fn leaving_surface(at: SurfacePoint, light: Light, area: f32, choice: EmissionChoice) -> Leaving {

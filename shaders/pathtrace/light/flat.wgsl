@@ -1,6 +1,7 @@
 //#import pathtrace/needs.wgsl
 //#import pathtrace/light/light_sample.wgsl
 //#import pathtrace/light/spherical_rectangle.wgsl
+//#import pathtrace/light/textured.wgsl
 //#import pathtrace/sampling/warp.wgsl
 //#import pathtrace/intersect/surface_point.wgsl
 // A flat area light: the tutorial's L cos' S / |x - x'|^2. From nearby that weight has no bound; a rectangle is then
@@ -11,13 +12,19 @@ const SMALLEST_SOLID_ANGLE: f32 = 0.05;
 
 // The point of the area light for two numbers in [0, 1): uniform on it, but for rectangles that are seen from nearby.
 fn flat_point(area_light: Light, u: vec2f) -> SurfacePoint {
-    var place = u;
-    if DISK_LIGHTS && area_light.outline == LIGHT_DISK {
-        place = disk(u).xy;
-    } else if TRIANGLE_LIGHTS && area_light.outline == LIGHT_TRIANGLE {
-        place = triangle(u).yz;
-    }
+    let place = flat_place(area_light, u);
     return on_plane(area_light.position, area_light.u * place.x, area_light.v * place.y, area_light.normal);
+}
+
+// How far along its edges that point lies.
+fn flat_place(area_light: Light, u: vec2f) -> vec2f {
+    if DISK_LIGHTS && area_light.outline == LIGHT_DISK {
+        return disk(u).xy;
+    }
+    if TRIANGLE_LIGHTS && area_light.outline == LIGHT_TRIANGLE {
+        return triangle(u).yz;
+    }
+    return u;
 }
 
 // Light from the area light at x.
@@ -46,7 +53,8 @@ fn flat_sample(area_light: Light, x: vec3f, u: vec2f) -> LightSample {
     if inverse_pdf <= SMALLEST_POSITIVE {
         return no_light();
     }
-    return LightSample(wi, 1.0 / inverse_pdf, area_light.radiance * inverse_pdf, false, leaving_towards(point, -wi), 0u);
+    let radiance = area_light.radiance * worn_at(area_light, flat_place(area_light, place));
+    return LightSample(wi, 1.0 / inverse_pdf, radiance * inverse_pdf, false, leaving_towards(point, -wi), 0u);
 }
 
 // Density per solid angle of the direction from x to `met` on the area light; INFINITE_PDF for an edge that no sample

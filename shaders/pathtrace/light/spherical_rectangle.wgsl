@@ -1,3 +1,4 @@
+//#import pathtrace/exact.wgsl
 //#import pathtrace/sampling/angles.wgsl
 //#import pathtrace/intersect/sphere.wgsl
 // A rectangle sampled uniformly in the solid angle that it fills: Ureña, Fajardo and King, "An Area-Preserving
@@ -18,8 +19,6 @@ struct SphericalRectangle {
     // in [0, 2 pi]; off by about 1e-6
     solid_angle: f32,
 }
-
-const SMALLEST_POSITIVE: f32 = 1.1754944e-38;
 
 // The rectangle with this corner and these edges at right angles, seen from `eye`.
 fn spherical_rectangle(eye: vec3f, corner: vec3f, edge_u: vec3f, edge_v: vec3f) -> SphericalRectangle {

@@ -10,7 +10,7 @@ use simd::{Float, Vector, Word};
 pub struct Interactions<F: Float> {
     /// Where, with the bound on its error and the outward normal.
     pub point: SurfacePoints<F>,
-    /// Unit normal on the side of `wo`.
+    /// Unit normal on the side of `wo` that it is shaded by: see [`super::shading`].
     pub normal: Vector<F>,
     /// Unit direction back along the ray.
     pub wo: Vector<F>,
@@ -20,6 +20,8 @@ pub struct Interactions<F: Float> {
     pub kinds: Kinds<F::U>,
     /// Index into the scene's materials.
     pub material: F::U,
+    /// Place in textures.
+    pub uv: [F; 2],
 }
 
 impl<F: Float> Interactions<F> {
@@ -52,7 +54,15 @@ impl<F: Float> Interactions<F> {
     #[inline(always)]
     pub fn none() -> Self {
         let (zero, point) = (Vector::zero(), SurfacePoints::in_the_air(Vector::zero()));
-        Interactions { point, normal: zero, wo: zero, colour: zero, kinds: Kinds::none(), material: F::U::splat(0) }
+        Interactions {
+            point,
+            normal: zero,
+            wo: zero,
+            colour: zero,
+            kinds: Kinds::none(),
+            material: F::U::splat(0),
+            uv: [F::splat(0.0); 2],
+        }
     }
 
     /// `mask ? yes : no`.
@@ -65,6 +75,7 @@ impl<F: Float> Interactions<F> {
             colour: Vector::select(mask, yes.colour, no.colour),
             kinds: Kinds::select(mask, yes.kinds, no.kinds),
             material: F::U::select(mask, yes.material, no.material),
+            uv: [0, 1].map(|axis| F::select(mask, yes.uv[axis], no.uv[axis])),
         }
     }
 }

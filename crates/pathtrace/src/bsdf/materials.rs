@@ -3,6 +3,7 @@
 //! Twins: `shaders/pathtrace/prepared.wgsl` and `shaders/shared/checkerboard.wgsl`.
 
 use super::Interactions;
+use super::pictures::Pictures;
 use super::rough_conductor::RoughConductors;
 use crate::intersect::SurfacePoints;
 use crate::vectors::VectorColumn;
@@ -24,6 +25,7 @@ pub struct Materials {
     radiance: VectorColumn,
     kind: WordColumn,
     has: Has,
+    pictures: Pictures,
 }
 
 /// What occurs among them.
@@ -38,6 +40,8 @@ pub struct Has {
     /// Any rough metal.
     pub rough_conductors: bool,
     checkerboards: bool,
+    /// Any surface that is shaded by other normals than its own.
+    pub shading_normals: bool,
 }
 
 /// What the materials in the lanes are, as bits.
@@ -161,14 +165,36 @@ impl Materials {
                 glass: any(LOBE_DIELECTRIC),
                 rough_conductors: any(LOBE_ROUGH_CONDUCTOR),
                 checkerboards: any(CHECKERED),
+                shading_normals: false,
             },
+            pictures: Pictures::new(materials),
             kind: WordColumn::new(kinds),
         }
     }
 
     /// Looks for every kind of material from now on.
     pub fn expect_everything(&mut self) {
-        self.has = Has { area_lights: true, mirrors: true, glass: true, rough_conductors: true, checkerboards: true };
+        let shading_normals = self.has.shading_normals;
+        self.has = Has {
+            area_lights: true,
+            mirrors: true,
+            glass: true,
+            rough_conductors: true,
+            checkerboards: true,
+            shading_normals,
+        };
+    }
+
+    /// Those of a scene whose meshes, or whose pictures, say anything of normals.
+    pub fn with_shading_normals(mut self, there: bool) -> Self {
+        self.has.shading_normals = there;
+        self
+    }
+
+    /// What they are made of beside numbers.
+    #[inline(always)]
+    pub fn pictures(&self) -> &Pictures {
+        &self.pictures
     }
 
     /// What occurs among them.
@@ -187,8 +213,11 @@ impl Materials {
     /// two cells belongs to the upper one, wherever its points are rounded to: along its normal, what is not known to lie
     /// below the side lies above.
     #[inline(always)]
-    pub fn colour<F: Float>(&self, material: F::U, kinds: Kinds<F::U>, at: &SurfacePoints<F>) -> Vector<F> {
-        let colour = self.colour.look_up(material);
+    pub fn colour<F: Float>(&self, material: F::U, kinds: Kinds<F::U>, at: &SurfacePoints<F>, uv: [F; 2]) -> Vector<F> {
+        let mut colour = self.colour.look_up(material);
+        if !self.pictures.is_empty() {
+            colour = colour * self.pictures.colour(material, uv);
+        }
         if !self.has.checkerboards {
             return colour;
         }

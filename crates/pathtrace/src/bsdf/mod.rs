@@ -11,10 +11,13 @@ pub mod interaction;
 pub mod lambert;
 pub mod materials;
 pub mod mirror;
+pub mod pictures;
 pub mod rough_conductor;
+pub mod shading;
 
 pub use dielectric::{Interface, Interfaces};
 pub use interaction::Interactions;
+use interaction::facing;
 use materials::Materials;
 pub use rough_conductor::RoughConductor;
 use simd::{Float, Mask, Vector};
@@ -60,6 +63,15 @@ impl Materials {
     /// Draws a direction `here`, from two random numbers for the direction and one for the choice among several.
     #[inline(always)]
     pub fn sample<F: Float>(&self, here: F::M, at: &Interactions<F>, u: [F; 3]) -> BsdfSamples<F> {
+        let sample = self.sample_lobe(here, at, u);
+        if self.has().shading_normals {
+            return BsdfSamples { weight: sample.weight * shading::kept(at, sample.wi), ..sample };
+        }
+        sample
+    }
+
+    #[inline(always)]
+    fn sample_lobe<F: Float>(&self, here: F::M, at: &Interactions<F>, u: [F; 3]) -> BsdfSamples<F> {
         let diffuse = here & at.kinds.diffuse();
         let mut sample = if diffuse.any() { lambert::sample(at, [u[0], u[1]]) } else { BsdfSamples::delta(at) };
         let mirrors = here & at.kinds.mirror();
@@ -87,6 +99,18 @@ impl Materials {
     /// The BSDF for light from the unit direction `wi`, on the side of `wo`. Not of lobes that leave no choice.
     #[inline(always)]
     pub fn eval<F: Float>(&self, at: &Interactions<F>, wi: Vector<F>) -> ScaledColours<F> {
+        let ScaledColours { colour, factor } = self.eval_lobe(at, wi);
+        ScaledColours { colour, factor: self.shadowed(at.normal, at.point.normal, wi, factor) }
+    }
+
+    /// A value or a cosine for light from `wi`, with what shading normals leave of it.
+    #[inline(always)]
+    pub fn shadowed<F: Float>(&self, normal: Vector<F>, outwards: Vector<F>, wi: Vector<F>, value: F) -> F {
+        if self.has().shading_normals { value * shading::terminator(normal, outwards, wi) } else { value }
+    }
+
+    #[inline(always)]
+    fn eval_lobe<F: Float>(&self, at: &Interactions<F>, wi: Vector<F>) -> ScaledColours<F> {
         let rough = at.kinds.rough_conductor();
         if self.has().rough_conductors && rough.any() {
             let value = rough_conductor::eval(at, &self.rough_conductor(at), wi);
@@ -110,6 +134,18 @@ impl Materials {
     /// much: what a tree of rays, of which each has one direction, can follow.
     #[inline(always)]
     pub fn speculars<F: Float>(&self, here: F::M, at: &Interactions<F>) -> Speculars<F> {
+        let mut speculars = self.speculars_of_lobe(here, at);
+        if self.has().shading_normals {
+            let g = facing(at.point.normal, at.normal);
+            let zero = F::splat(0.0);
+            speculars.reflects = speculars.reflects & g.dot(speculars.reflected).gt(zero);
+            speculars.refracts = speculars.refracts & g.dot(speculars.refracted).lt(zero);
+        }
+        speculars
+    }
+
+    #[inline(always)]
+    fn speculars_of_lobe<F: Float>(&self, here: F::M, at: &Interactions<F>) -> Speculars<F> {
         let (nowhere, one) = (F::M::splat(false), F::splat(1.0));
         let mirrors = here & at.kinds.mirror() & !at.colour.is_zero();
         let mut speculars = Speculars {

@@ -188,7 +188,7 @@ mod tests {
         }]);
         let (position, up) = (lane_vector(position), lane_vector(Vec3::Y));
         let point = SurfacePoints { normal: up, ..SurfacePoints::in_the_air(position) };
-        Interactions { point, normal: up, wo: up, colour: up, kinds: materials.kinds(0), material: 0 }
+        Interactions { point, normal: up, wo: up, colour: up, kinds: materials.kinds(0), material: 0, uv: [0.0; 2] }
     }
 
     fn around(spheres: &[([f32; 3], f32)]) -> Cones {

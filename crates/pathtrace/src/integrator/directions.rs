@@ -55,7 +55,9 @@ impl<F: Float> DirectionsAt<'_, F> {
         }
         let diffuse = here & at.is_diffuse();
         match &self.cones {
-            Some(cones) if diffuse.any() => Drawn::select(diffuse, by_lobe.or_into(cones, at, throughput, u), by_lobe),
+            Some(cones) if diffuse.any() => {
+                Drawn::select(diffuse, by_lobe.or_into((cones, self.materials), at, throughput, u), by_lobe)
+            }
             _ => by_lobe,
         }
     }
@@ -87,14 +89,21 @@ impl<F: Float> Drawn<F> {
 
     /// Directions of Lambert's lobe, some of them replaced by directions in cones; all weighted by the density of both.
     #[inline(always)]
-    fn or_into(&self, cones: &SeenCones<F>, at: &Interactions<F>, throughput: Vector<F>, u: [F; 3]) -> Self {
+    fn or_into(
+        &self,
+        (cones, materials): (&SeenCones<F>, &Materials),
+        at: &Interactions<F>,
+        throughput: Vector<F>,
+        u: [F; 3],
+    ) -> Self {
         let (into_cone, towards_shape) = cones.sample(u[2], [u[0], u[1]]);
         let wi = Vector::select(into_cone, towards_shape, self.sample.wi);
         let lobe = lambert::pdf(at.normal.dot(wi).max(F::splat(0.0)));
         let pdf = cones.pdf(wi, lobe);
         let deserved = throughput * at.colour;
         // rounding takes a direction at a rim out of its cone, and it may lie below the horizon: then neither draws it
-        let weight = at.colour * (lobe / pdf.max(F::splat(f32::MIN_POSITIVE)));
+        let weight = lobe / pdf.max(F::splat(f32::MIN_POSITIVE));
+        let weight = at.colour * materials.shadowed(at.normal, at.point.normal, wi, weight);
         Drawn { sample: BsdfSamples { wi, weight, pdf }, throughput: throughput * weight, deserved }
     }
 

@@ -334,6 +334,7 @@ impl<'a, F: Float> WhittedLanes<'a, F> {
                 self.rays += u64::from(faced.count());
                 if faced.any() {
                     let shadow = self.scene.in_shadow(at, &sample, faced, opaque, &mut self.scratch);
+                    let cosine = self.scene.materials.shadowed(normal, at.normal, sample.wi, cosine);
                     let arrives = of_light + sample.radiance_over_pdf * cosine;
                     of_light = Vector::select(faced & !shadow, arrives, of_light);
                 }

@@ -7,6 +7,7 @@ use super::bvh2::Bvh2;
 use super::bvh8::Bvh8;
 use super::bvh8_collapse::Shapes;
 use super::coincident::Groups;
+use super::cutouts::Cutouts;
 use super::instances::Instances;
 use super::primitive::primitives;
 use super::{Blocker, Hit, Intersection, NO_INSTANCE, Ray};
@@ -37,9 +38,10 @@ impl Accel {
         let count = primitives.len();
         let shapes = Shapes { primitives: &primitives, surfaces: &surfaces };
         let eight = if count < LARGE { None } else { Bvh8::new(shapes, RowLanes::nearest_to(Lanes::best())) };
+        let cutouts = Cutouts::of(scene);
         let hierarchy = match eight {
-            Some(bvh) => Hierarchy::Eight(Bvh8 { groups, ..bvh }),
-            None => Hierarchy::Two(Bvh2 { groups, ..Bvh2::new(&primitives, &surfaces) }),
+            Some(bvh) => Hierarchy::Eight(Bvh8 { groups, cutouts, ..bvh }),
+            None => Hierarchy::Two(Bvh2 { groups, cutouts, ..Bvh2::new(&primitives, &surfaces) }),
         };
         Accel { hierarchy, instances: Instances::new(scene), count }
     }
@@ -87,6 +89,14 @@ impl Accel {
         match &self.hierarchy {
             Hierarchy::Two(bvh) => bvh.intersection(ray, hit),
             Hierarchy::Eight(bvh) => bvh.intersection(ray, hit),
+        }
+    }
+
+    /// The place in the scene's order, area lights first, of what was hit.
+    pub(super) fn id(&self, hit: &Hit) -> u32 {
+        match &self.hierarchy {
+            Hierarchy::Two(bvh) => bvh.ids[hit.primitive as usize],
+            Hierarchy::Eight(bvh) => bvh.id(hit),
         }
     }
 

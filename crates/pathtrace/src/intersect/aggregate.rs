@@ -3,6 +3,9 @@
 //!
 //! Twin: `shaders/pathtrace/intersect/aggregate.wgsl`.
 
+use super::attributes::{
+    AttributeColumns, EachAttributes, MeshAttributes, RowColumns, SurfaceAttributes, rows_of_tree,
+};
 use super::coincident::NO_GROUP;
 use super::hit::EachIntersection;
 use super::ray::BEHIND_THE_END;
@@ -18,17 +21,60 @@ pub struct Aggregate {
     shape_list: Option<ShapeList>,
     /// Which materials are glass.
     clear: Vec<bool>,
+    attributes: Option<Attributes>,
+}
+
+/// What meshes say of their surfaces, where any says anything.
+struct Attributes {
+    columns: AttributeColumns,
+    of_tree: RowColumns,
+    of_list: RowColumns,
 }
 
 impl Aggregate {
     /// Builds what the scene asks for; `light_of_shape` is [`crate::light::Lights::light_of_shape`] of it.
     pub fn new(scene: &Scene, light_of_shape: &[u32]) -> Self {
         let clear = scene.materials.iter().map(|material| matches!(material.bsdf, Bsdf::Dielectric { .. }));
+        let shape_list = ShapeList::new(scene, light_of_shape);
         Aggregate {
             accel: Accel::new(scene, light_of_shape),
-            shape_list: ShapeList::new(scene, light_of_shape),
             clear: clear.collect(),
+            attributes: MeshAttributes::of(scene).map(|all| Attributes::new(scene, &all, shape_list.as_ref())),
+            shape_list,
         }
+    }
+
+    /// Whether meshes say anything of their surfaces.
+    pub fn has_attributes(&self) -> bool {
+        self.attributes.is_some()
+    }
+
+    /// What meshes say of the surfaces that were met; `None` where none of the scene's says anything.
+    #[inline(always)]
+    pub fn attributes<F: Float>(&self, met: &Intersections<F>) -> Option<SurfaceAttributes<F>> {
+        let Attributes { columns, of_tree, of_list } = self.attributes.as_ref()?;
+        let rows = if self.shape_list.is_some() { of_list } else { of_tree };
+        let on_instance = met.on_instance();
+        // a mesh of its own has no row here
+        let triangle = F::U::select(on_instance, F::U::splat(0), met.triangle);
+        let said = columns.of(rows, triangle, met.barycentrics);
+        Some(if on_instance.any() { self.or_of_instances(met, on_instance, said) } else { said })
+    }
+
+    /// What was said, but on large meshes what those say.
+    #[inline(never)]
+    fn or_of_instances<F: Float>(
+        &self,
+        met: &Intersections<F>,
+        on_instance: F::M,
+        said: SurfaceAttributes<F>,
+    ) -> SurfaceAttributes<F> {
+        let hits = met.hits_on_instances().each();
+        let mut each = EachAttributes::none();
+        for lane in lanes_of(on_instance) {
+            each.set(lane, &self.accel.instances().attributes(&hits[lane]));
+        }
+        SurfaceAttributes::select(on_instance, each.in_lanes(), said)
     }
 
     /// The shapes, ready for single rays.
@@ -126,8 +172,9 @@ impl Aggregate {
         let mut found = EachIntersection::none();
         for lane in lanes_of(on_instance) {
             found.set(lane, &self.accel.instances().intersection(&each[lane]));
+            found.set_triangle(lane, each[lane].primitive);
         }
-        Intersections::select(on_instance, found.in_lanes(on_instance), met)
+        Intersections::select(on_instance, found.in_lanes(hits, on_instance), met)
     }
 
     #[inline(always)]
@@ -145,8 +192,11 @@ impl Aggregate {
         let mut found = EachIntersection::none();
         for lane in lanes_of(hits.met() & !hits.on_instance()) {
             found.set(lane, &self.accel.intersection(&rays[lane], &each[lane]));
+            if self.attributes.is_some() {
+                found.set_triangle(lane, self.accel.id(&each[lane]));
+            }
         }
-        found.in_lanes(hits.met())
+        found.in_lanes(hits, hits.met())
     }
 
     #[inline(always)]
@@ -172,6 +222,17 @@ impl Aggregate {
             }
             met.t < ray.tmax
         })
+    }
+}
+
+impl Attributes {
+    fn new(scene: &Scene, all: &MeshAttributes, shape_list: Option<&ShapeList>) -> Self {
+        let of_list = shape_list.map_or(Vec::new(), |list| list.rows(all));
+        Attributes {
+            columns: AttributeColumns::new(all),
+            of_tree: RowColumns::new(&rows_of_tree(scene, all), all),
+            of_list: RowColumns::new(&of_list, all),
+        }
     }
 }
 

@@ -1,14 +1,17 @@
 //! Which meshes keep a tree of their own, and those that do not put into the world before anything else looks at a scene.
 
 use super::contact::held_apart;
-use scene::{Geometry, Scene, Shape};
+use scene::{Alpha, Geometry, Scene, Shape};
 use std::borrow::Cow;
 use std::sync::Arc;
 
-/// Whether a shape is met as an instance of its mesh's tree: the mesh is large, and does not shine. Lights are sampled
-/// triangle by triangle in the world, so what shines lies there as triangles.
+/// Whether a shape is met as an instance of its mesh's tree: the mesh is large, does not shine and has no holes. Lights are
+/// sampled triangle by triangle in the world, so what shines lies there as triangles; and holes are asked for in the trees of
+/// these alone.
 pub(crate) fn is_instanced(scene: &Scene, shape: &Shape) -> bool {
-    shape.geometry.mesh_of().is_some_and(|mesh| mesh.is_large()) && !scene.material_of(shape).shines()
+    let material = scene.material_of(shape);
+    let is_large = shape.geometry.mesh_of().is_some_and(|mesh| mesh.is_large());
+    is_large && !material.shines() && material.surface.alpha == Alpha::Opaque
 }
 
 /// The scene as rays meet it: small instances are meshes in the world's space, and shapes that touch are held apart.

@@ -4,6 +4,7 @@
 //! Twin: `shaders/pathtrace/intersect/bvh2.wgsl`.
 
 use super::coincident::Groups;
+use super::cutouts::Cutouts;
 use super::primitive::{Primitive, Surface, padding, primitives};
 use super::triangle::ShearedRay;
 use super::{Blocker, Hit, Intersection, NO_INSTANCE, NO_PRIMITIVE, Ray};
@@ -25,6 +26,8 @@ pub(crate) struct Bvh2 {
     pub(crate) surfaces: Vec<Surface>,
     /// Which of them coincide, by their places in the scene's order.
     pub(crate) groups: Groups,
+    /// Holes in them, if there are any.
+    pub(super) cutouts: Option<Box<Cutouts>>,
 }
 
 /// The nearest candidate so far, as little as can be carried through the traversal.
@@ -60,6 +63,7 @@ impl Bvh2 {
             surfaces: order.iter().map(|&i| surfaces[i as usize]).collect(),
             ids: order,
             groups: Groups::default(),
+            cutouts: None,
         }
     }
 
@@ -81,7 +85,9 @@ impl Bvh2 {
         self.traverse(ray, |index, tmax| {
             // one step beyond, so that equal distances reach the comparison of ids
             let reach = if self.groups.any() { f32::INFINITY } else { tmax.next_up() };
-            if let Some((t, barycentrics)) = self.primitives[index].intersect(ray, &sheared, reach) {
+            if let Some((t, barycentrics)) = self.primitives[index].intersect(ray, &sheared, reach)
+                && !self.is_hole(index, barycentrics)
+            {
                 let id = self.ids[index];
                 if self.groups.comes_first((t, id), (nearest.t, nearest.id)) {
                     nearest = Nearest { t, primitive: index as u32, id, barycentrics };
@@ -97,13 +103,19 @@ impl Bvh2 {
         let sheared = ShearedRay::new(ray);
         let mut occluded = false;
         self.traverse(ray, |index, tmax| {
-            occluded = self.primitives[index].intersect(ray, &sheared, tmax).is_some_and(|(t, _)| {
+            occluded = self.primitives[index].intersect(ray, &sheared, tmax).is_some_and(|(t, barycentrics)| {
                 let Surface { material, light, .. } = self.surfaces[index];
-                blocks(Blocker { t, id: self.ids[index], material, light })
+                !self.is_hole(index, barycentrics) && blocks(Blocker { t, id: self.ids[index], material, light })
             });
             if occluded { Visit::Stop } else { Visit::Before(tmax) }
         });
         occluded
+    }
+
+    #[inline(always)]
+    fn is_hole(&self, index: usize, barycentrics: [f32; 3]) -> bool {
+        let material = self.surfaces[index].material;
+        self.cutouts.as_ref().is_some_and(|cutouts| cutouts.is_hole(self.ids[index], material, barycentrics))
     }
 
     #[inline(always)]

@@ -10,6 +10,7 @@
 
 use super::bvh8_leaf::{Closest, Occluded};
 use super::coincident::Groups;
+use super::cutouts::Cutouts;
 use super::primitive::{Primitive, Surface};
 use super::{Blocker, Hit, Intersection, NO_INSTANCE, Ray, SurfacePoints};
 use crate::vectors::lane_vector;
@@ -27,6 +28,8 @@ pub(super) struct Bvh8 {
     pub curved: Vec<Curved>,
     /// Which shapes coincide, by their places in the scene's order.
     pub groups: Groups,
+    /// Holes in them, if there are any.
+    pub cutouts: Option<Box<Cutouts>>,
     pub lanes: RowLanes,
 }
 
@@ -277,6 +280,28 @@ impl Bvh8 {
         let leaf = Leaf(&self.blocks.all()[child.index()]);
         let (corners, surface) = (leaf.corners(lane).map(lane_vector), leaf.surface(lane));
         surface.intersection(SurfacePoints::on_triangle(corners, hit.barycentrics, lane_vector(surface.normal)))
+    }
+
+    /// The place in the scene's order of what was hit.
+    pub fn id(&self, hit: &Hit) -> u32 {
+        let (child, lane) = Child::of_primitive(hit.primitive);
+        match child.is_curved() {
+            true => self.curved[child.index()].id,
+            false => Leaf(&self.blocks.all()[child.index()]).id(lane),
+        }
+    }
+
+    /// Whether a ray that cuts a leaf's triangle into these areas passes a hole in it.
+    #[inline(always)]
+    pub fn is_hole(&self, leaf: Leaf, lane: usize, areas: impl FnOnce() -> [f32; 3]) -> bool {
+        let hole = |cutouts: &Cutouts| cutouts.is_hole(leaf.id(lane), leaf.surface(lane).material, areas());
+        self.cutouts.as_deref().is_some_and(hole)
+    }
+
+    /// Whether a ray passes what is round, which has one place in textures.
+    pub fn is_curved_hole(&self, curved: &Curved) -> bool {
+        let material = curved.surface.material;
+        self.cutouts.as_ref().is_some_and(|cutouts| cutouts.is_hole(curved.id, material, [0.0; 3]))
     }
 
     /// The nearest hit, as little of it as the walk carries; none has the id `u32::MAX`.

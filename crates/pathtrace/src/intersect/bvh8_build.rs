@@ -178,5 +178,5 @@ fn join(mut top: Vec<Block>, links: &[Link], parts: Vec<Part>, lanes: RowLanes) 
             copy_moved(to, from, blocks, curved);
         }
     });
-    Bvh8 { root, blocks, curved, groups: Groups::default(), lanes }
+    Bvh8 { root, blocks, curved, groups: Groups::default(), cutouts: None, lanes }
 }

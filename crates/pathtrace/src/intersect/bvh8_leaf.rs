@@ -138,7 +138,9 @@ impl<F: Row<LEAF_WIDTH>> Visitor for ClosestVisitor<'_, F> {
         let reach = |t: f32| if bvh.groups.any() { f32::INFINITY } else { t.next_up() };
         if child.is_curved() {
             let round = &bvh.curved[child.index()];
-            if let Some(t) = round.distance(ray, reach(tmax)) {
+            if let Some(t) = round.distance(ray, reach(tmax))
+                && !bvh.is_curved_hole(round)
+            {
                 self.nearest.offer(Nearest { t, id: round.id, child, lane: 0, areas: [0.0; 3] }, &bvh.groups);
             }
             return Some(self.nearest.t);
@@ -149,8 +151,11 @@ impl<F: Row<LEAF_WIDTH>> Visitor for ClosestVisitor<'_, F> {
         while candidates.bits != 0 {
             let lane = take(&mut candidates.bits);
             let triangle = Triangle::sorted(leaf.corners(lane));
-            if let Some(t) = triangle.distance(&self.sheared, element(candidates.z, lane), reach(self.nearest.t)) {
-                let areas = element(candidates.areas, lane);
+            let areas = || element(candidates.areas, lane);
+            if let Some(t) = triangle.distance(&self.sheared, element(candidates.z, lane), reach(self.nearest.t))
+                && !bvh.is_hole(leaf, lane, areas)
+            {
+                let areas = areas();
                 self.nearest.offer(Nearest { t, id: leaf.id(lane), child, lane, areas }, &bvh.groups);
             }
         }
@@ -202,7 +207,7 @@ impl<B: Fn(Blocker) -> bool, F: Row<LEAF_WIDTH>> Visitor for OccludedVisitor<'_,
         if child.is_curved() {
             let round = &bvh.curved[child.index()];
             let Surface { material, light, .. } = round.surface;
-            let met = round.distance(ray, tmax);
+            let met = round.distance(ray, tmax).filter(|_| !bvh.is_curved_hole(round));
             self.occluded = met.is_some_and(|t| blocks(Blocker { t, id: round.id, material, light }));
             return (!self.occluded).then_some(tmax);
         }
@@ -212,7 +217,9 @@ impl<B: Fn(Blocker) -> bool, F: Row<LEAF_WIDTH>> Visitor for OccludedVisitor<'_,
         while candidates.bits != 0 {
             let lane = take(&mut candidates.bits);
             let triangle = Triangle::sorted(leaf.corners(lane));
-            if let Some(t) = triangle.distance(&self.sheared, element(candidates.z, lane), tmax) {
+            if let Some(t) = triangle.distance(&self.sheared, element(candidates.z, lane), tmax)
+                && !bvh.is_hole(leaf, lane, || element(candidates.areas, lane))
+            {
                 let Surface { material, light, .. } = leaf.surface(lane);
                 if blocks(Blocker { t, id: leaf.id(lane), material, light }) {
                     self.occluded = true;

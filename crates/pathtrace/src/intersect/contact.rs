@@ -316,7 +316,8 @@ fn pushed_in(mesh: &Mesh, faces: &[Face], ways: &[f64]) -> Mesh {
         triangle.iter().for_each(|corner| planes[*corner as usize].push((face.normal(), *way)));
     }
     let moved = |(position, planes): (&Vec3, &Vec<(DVec3, f64)>)| (position.as_dvec3() + behind(planes)).as_vec3();
-    Mesh::new(mesh.positions().iter().zip(&planes).map(moved).collect(), mesh.triangles().to_vec())
+    let positions = mesh.positions().iter().zip(&planes).map(moved).collect();
+    Mesh::with_attributes(positions, mesh.triangles().to_vec(), mesh.normals().to_vec(), mesh.uvs().to_vec())
 }
 
 /// A way that leads so far behind each of these planes: from one to the next, until all are passed (Kaczmarz). Between

@@ -128,9 +128,28 @@ pub struct Intersections<F: Float> {
     pub material: F::U,
     /// Index into the list of lights, or [`NO_LIGHT`].
     pub light: F::U,
+    /// Which one, by its place in the order of the structure that has found it, for what its mesh says of it; of no meaning
+    /// where no mesh of the scene says anything. Of an instance the triangle's place in its tree.
+    pub triangle: F::U,
+    /// As [`Hit::instance`].
+    pub instance: F::U,
+    /// Weights of the triangle's corners.
+    pub barycentrics: [F; 3],
 }
 
 impl<F: Float> Intersections<F> {
+    /// Whether an instance of a large mesh was met.
+    #[inline(always)]
+    pub fn on_instance(&self) -> F::M {
+        self.met & !self.instance.eq(F::U::splat(NO_INSTANCE))
+    }
+
+    /// The hits that these are of where [`Intersections::on_instance`], without their distances.
+    #[inline(always)]
+    pub(super) fn hits_on_instances(&self) -> Hits<F> {
+        Hits { t: F::splat(0.0), primitive: self.triangle, instance: self.instance, barycentrics: self.barycentrics }
+    }
+
     /// `mask ? yes : no`.
     #[inline(always)]
     pub fn select(mask: F::M, yes: Self, no: Self) -> Self {
@@ -139,6 +158,9 @@ impl<F: Float> Intersections<F> {
             point: SurfacePoints::select(mask, yes.point, no.point),
             material: F::U::select(mask, yes.material, no.material),
             light: F::U::select(mask, yes.light, no.light),
+            triangle: F::U::select(mask, yes.triangle, no.triangle),
+            instance: F::U::select(mask, yes.instance, no.instance),
+            barycentrics: [0, 1, 2].map(|i| F::select(mask, yes.barycentrics[i], no.barycentrics[i])),
         }
     }
 }
@@ -151,6 +173,7 @@ pub(super) struct EachIntersection {
     radius: [f32; MOST_LANES],
     material: [u32; MOST_LANES],
     light: [u32; MOST_LANES],
+    triangle: [u32; MOST_LANES],
 }
 
 impl EachIntersection {
@@ -159,7 +182,7 @@ impl EachIntersection {
     pub fn none() -> Self {
         let [position, error, normal] = [[Vec3::ZERO; MOST_LANES]; 3];
         let (radius, material, light) = ([0.0; MOST_LANES], [0; MOST_LANES], [NO_LIGHT; MOST_LANES]);
-        EachIntersection { position, error, normal, radius, material, light }
+        EachIntersection { position, error, normal, radius, material, light, triangle: [0; MOST_LANES] }
     }
 
     #[inline(always)]
@@ -170,8 +193,15 @@ impl EachIntersection {
         (self.radius[lane], self.material[lane], self.light[lane]) = (met.point.radius, met.material, met.light);
     }
 
+    /// Says which triangle it is, see [`Intersections::triangle`].
     #[inline(always)]
-    pub fn in_lanes<F: Float>(&self, met: F::M) -> Intersections<F> {
+    pub fn set_triangle(&mut self, lane: usize, triangle: u32) {
+        self.triangle[lane] = triangle;
+    }
+
+    /// Those of these hits, where `met`.
+    #[inline(always)]
+    pub fn in_lanes<F: Float>(&self, hits: &Hits<F>, met: F::M) -> Intersections<F> {
         Intersections {
             met,
             point: SurfacePoints {
@@ -182,6 +212,9 @@ impl EachIntersection {
             },
             material: F::U::load(&self.material),
             light: F::U::load(&self.light),
+            triangle: F::U::load(&self.triangle),
+            instance: hits.instance,
+            barycentrics: hits.barycentrics,
         }
     }
 }

@@ -15,7 +15,7 @@ use obvhs::aabb::Aabb;
 use obvhs::cwbvh::builder::build_cwbvh;
 use obvhs::cwbvh::node::CwBvhNode;
 use scene::glam::{DAffine3, DMat3, DVec3, Vec3A};
-use scene::{Geometry, Instance, Mesh, Scene, Shape};
+use scene::{Geometry, Instance, Mesh, Scene, Shape, Vec3};
 use simd::{Lanes, RowLanes};
 use std::sync::Arc;
 use std::time::Duration;
@@ -51,8 +51,18 @@ pub struct MeshPoint<'a> {
     pub corners: [u32; 3],
     /// Weights of these corners, adding up to 1.
     pub barycentrics: [f32; 3],
+    /// From the mesh's space to the world's.
+    pub to_world: DAffine3,
     /// Takes normals of the mesh's space to the world's, of any length there.
     pub normals_to_world: DMat3,
+}
+
+impl MeshPoint<'_> {
+    /// The triangle's corners in the world.
+    pub fn places(&self) -> [Vec3; 3] {
+        let place = |corner: u32| self.mesh.positions()[corner as usize].as_dvec3();
+        self.corners.map(|corner| self.to_world.transform_point3(place(corner)).as_vec3())
+    }
 }
 
 impl Instances {
@@ -124,11 +134,12 @@ impl Instances {
     /// What the attributes of a hit are mixed from.
     pub fn attributes(&self, hit: &Hit) -> MeshPoint<'_> {
         debug_assert_ne!(hit.instance, NO_INSTANCE);
-        let Placed { tree, normals_to_world, .. } = &self.placed[hit.instance as usize];
+        let Placed { tree, to_world, normals_to_world, .. } = &self.placed[hit.instance as usize];
         MeshPoint {
             mesh: &tree.mesh,
             corners: tree.triangles[hit.primitive as usize],
             barycentrics: hit.barycentrics,
+            to_world: *to_world,
             normals_to_world: *normals_to_world,
         }
     }

@@ -10,6 +10,7 @@
 
 pub mod accel;
 pub mod aggregate;
+pub(crate) mod attributes;
 pub(crate) mod baking;
 pub(crate) mod bvh2;
 mod bvh8;
@@ -21,6 +22,7 @@ mod bvh8_tests;
 mod bvh8_walk;
 pub mod coincident;
 pub(crate) mod contact;
+pub(crate) mod cutouts;
 pub mod disk;
 mod hit;
 #[cfg(test)]
@@ -37,6 +39,7 @@ mod surface_point;
 pub mod triangle;
 
 pub use accel::Accel;
+pub use attributes::SurfaceAttributes;
 pub use hit::{Blocker, Hit, Hits, Intersection, Intersections, NO_INSTANCE, NO_LIGHT, NO_PRIMITIVE};
 pub use ray::{Ray, Rays, SHADOW_END};
 pub use surface_point::{SurfacePoint, SurfacePoints};

@@ -5,7 +5,8 @@
 
 use super::aim::{Aim, Bounds, around_each};
 use super::ball::ALL_DIRECTIONS;
-use super::{Environment, Light, Lights, mixed_probabilities};
+use super::textured::TexturedLights;
+use super::{Environment, Light, Lights, mixed_probabilities, powers};
 use crate::intersect::{Ray, SurfacePoint, SurfacePoints};
 use crate::sampling::{self, UNIFORM_HEMISPHERE_PDF, warp};
 use crate::vectors::{glam_vector, lane_vector};
@@ -20,6 +21,7 @@ use std::sync::Arc;
 pub struct Emitters {
     lights: Vec<Light>,
     environment: Option<Arc<Environment>>,
+    textured: Option<Arc<TexturedLights>>,
     /// Of a sky of one colour, which light sampling leaves to chance and which is the last of the emitters.
     sky: Vec3,
     probabilities: Vec<f32>,
@@ -67,7 +69,7 @@ impl Emitters {
         let sky = if scene.environment.is_some() { Vec3::ZERO } else { scene.sky };
         let bounds = Bounds::of((lo, hi));
         let of_sky = 4.0 * PI * PI * bounds.radius * bounds.radius * colour::luminance(sky);
-        let of_lights = lights.lights.iter().map(|light| light.power(bounds.radius));
+        let of_lights = powers(&lights.lights, &lights.textured, bounds.radius);
         let powers: Vec<f64> = of_lights.chain((of_sky > 0.0).then_some(of_sky)).map(f64::from).collect();
         let focuses = |bsdf: &Bsdf| !matches!(bsdf, Bsdf::Diffuse { .. });
         let casters = scene.shapes.iter().filter(|shape| focuses(&scene.material_of(shape).bsdf));
@@ -79,6 +81,7 @@ impl Emitters {
         Emitters {
             lights: lights.lights.clone(),
             environment: lights.environment.clone(),
+            textured: lights.textured.clone(),
             sky,
             cumulative: sums.collect(),
             probabilities,
@@ -116,7 +119,8 @@ impl Emitters {
                 let [corner, u, v, normal] =
                     [flat.corner, flat.edge_u * s, flat.edge_v * t, flat.normal].map(lane_vector);
                 let point = SurfacePoints::on_plane(corner, u, v, normal);
-                leaving_surface((&point.into(), flat.area), emission, aim, choice)
+                let (ray, power) = leaving_surface((&point.into(), flat.area), emission, aim, choice);
+                (ray, power * self.textured.as_ref().map_or(Vec3::ONE, |textured| textured.at_one(index, [s, t])))
             }
             Some(Light::Sphere(sphere, emission)) => {
                 let out = warp::cone(ALL_DIRECTIONS, choice.place);

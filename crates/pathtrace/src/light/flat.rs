@@ -104,6 +104,8 @@ pub struct FlatSamples<F: Float> {
     /// Of the density per solid angle.
     pub inverse_pdf: F,
     pub point: SurfacePoints<F>,
+    /// How far along its edges the point lies.
+    pub place: [F; 2],
 }
 
 impl<F: Float> Flats<F> {
@@ -135,7 +137,7 @@ impl<F: Float> Flats<F> {
         let cos_light = self.cosine(wi);
         let inverse_pdf = F::select(by_angle, solid_angle, cos_light * self.area / distance_squared);
         // also refuses x on the area light itself, where wi is NaN
-        FlatSamples { shines: cos_light.gt(F::splat(0.0)), wi, inverse_pdf, point }
+        FlatSamples { shines: cos_light.gt(F::splat(0.0)), wi, inverse_pdf, point, place }
     }
 
     /// Density per solid angle of the direction from `x` to the point `on` the area light; infinite for an edge that no

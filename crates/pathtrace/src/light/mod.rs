@@ -10,6 +10,7 @@ pub(crate) mod flat;
 mod spherical_rectangle;
 mod sun;
 mod table;
+pub(crate) mod textured;
 
 pub(crate) use aim::{Aim, Bounds};
 pub use emission::{EmissionChoice, Emitted, Emitters};
@@ -30,6 +31,7 @@ use scene::{Geometry, PointLight, Scene, Shape, Sun, Vec3};
 use std::f32::consts::PI;
 use std::sync::Arc;
 use table::Table;
+use textured::TexturedLights;
 
 /// A light that can be sampled from a point.
 #[derive(Debug, Clone, Copy)]
@@ -53,6 +55,8 @@ pub struct Lights {
     /// Index of the sun.
     sun: Option<usize>,
     environment: Option<Arc<Environment>>,
+    /// What they wear, where any wears pictures.
+    pub(crate) textured: Option<Arc<TexturedLights>>,
     /// All of this as lanes look it up.
     table: Table,
 }
@@ -103,13 +107,14 @@ impl Lights {
         });
         let (lo, hi) = scene.bounds();
         let scene_radius = 0.5 * (hi - lo).length();
-        let powers: Vec<f64> = lights.iter().map(|light| f64::from(light.power(scene_radius))).collect();
+        let textured = TexturedLights::of(scene, &light_of_shape, lights.len());
+        let powers: Vec<f64> = powers(&lights, &textured, scene_radius).map(f64::from).collect();
         let probabilities = mixed_probabilities(&powers);
         let choice = Discrete::new(probabilities.iter().copied());
         let probabilities: Vec<f32> = probabilities.iter().map(|&p| p as f32).collect();
         let environment = environment.zip(probabilities.last()).map(|(map, &last)| Arc::new(map.chosen_with(last)));
-        let table = Table::new(&lights, &probabilities, choice, environment.clone());
-        Lights { lights, probabilities, light_of_shape, sun, environment, table }
+        let table = Table::new(&lights, &probabilities, choice, environment.clone(), textured.clone());
+        Lights { lights, probabilities, light_of_shape, sun, environment, textured, table }
     }
 
     /// Number of lights; each triangle of a mesh that shines is one.
@@ -187,6 +192,19 @@ impl Lights {
             Light::Flat(..) | Light::Sphere(..) | Light::Environment(_) => false,
         }
     }
+}
+
+/// Emitted power of each light as far as choosing needs it, with what pictures leave of it.
+fn powers<'a>(
+    lights: &'a [Light],
+    textured: &'a Option<Arc<TexturedLights>>,
+    scene_radius: f32,
+) -> impl Iterator<Item = f32> + 'a {
+    let mean = move |index: usize, light: &Light| match (textured, light) {
+        (Some(textured), Light::Flat(_, emission)) => textured.mean(index, emission.radiance),
+        _ => 1.0,
+    };
+    lights.iter().enumerate().map(move |(index, light)| light.power(scene_radius) * mean(index, light))
 }
 
 fn mixed_probabilities(powers: &[f64]) -> Vec<f64> {

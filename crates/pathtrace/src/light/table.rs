@@ -4,6 +4,7 @@
 
 use super::ball;
 use super::flat::{Flats, Outline};
+use super::textured::TexturedLights;
 use super::{Environment, Light};
 use crate::intersect::sphere::SphereLanes;
 use crate::intersect::{NO_LIGHT, SurfacePoints};
@@ -32,6 +33,7 @@ pub struct Table {
     kind: WordColumn,
     has: Has,
     environment: Option<Arc<Environment>>,
+    textured: Option<Arc<TexturedLights>>,
 }
 
 /// Which kinds of lights there are.
@@ -111,6 +113,7 @@ impl Table {
         probabilities: &[f32],
         choice: Discrete,
         environment: Option<Arc<Environment>>,
+        textured: Option<Arc<TexturedLights>>,
     ) -> Self {
         let vectors = |of: fn(&Light) -> Vec3| VectorColumn::new(lights.iter().map(of));
         let of_flat = |light: &Light, of: fn(&super::Flat) -> Vec3| match light {
@@ -152,6 +155,7 @@ impl Table {
                 sun: lights.iter().any(|light| matches!(light, Light::Sun(_))),
             },
             environment,
+            textured,
         }
     }
 
@@ -191,6 +195,10 @@ impl Table {
         let mut sample = LightSamples::nowhere(light);
         if self.has.flats {
             let of = self.flats(light, kind).sample(x, u);
+            let mut radiance = radiance;
+            if let Some(textured) = &self.textured {
+                radiance = radiance * textured.at(light, of.place);
+            }
             let flat = LightSamples {
                 shines: of.shines,
                 wi: of.wi,

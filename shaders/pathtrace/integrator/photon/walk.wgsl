@@ -89,7 +89,11 @@ fn segment() -> bool {
     let u = unit4(sampler_, FIRST_DIMENSION + 2u + vertices);
     let sample = sample_bsdf(vertex, u.xyw);
     let spared = is_delta(vertex) && vertices < SPARED_VERTICES;
-    throughput = surviving(throughput * sample.weight, spared, u.z);
+    var weight = sample.weight;
+    if SHADING_NORMALS {
+        weight *= adjoint(vertex, sample.wi);
+    }
+    throughput = surviving(throughput * weight, spared, u.z);
     if DIELECTRIC && dot(vertex.normal, sample.wi) < 0.0 {
         power *= basic(vertex);
     }
@@ -124,8 +128,12 @@ fn basic(vertex: Interaction) -> f32 {
 fn keep(vertex: Interaction) {
     let place = atomicAdd(&list.found, 1u);
     if place < asked.capacity {
+        var arriving = power * throughput;
+        if SHADING_NORMALS {
+            arriving *= of_arriving(vertex);
+        }
         let order = (sampler_.sample << VERTEX_BITS) | vertices;
         list.photons[place] =
-            Photon(vertex.point.position, packed_normal(vertex.normal), power * throughput, order);
+            Photon(vertex.point.position, packed_normal(vertex.normal), arriving, order);
     }
 }

@@ -9,6 +9,7 @@ pub(crate) mod environment_data;
 mod error;
 mod film;
 pub mod film_data;
+pub(crate) mod mesh_data;
 pub mod photon_data;
 pub(crate) mod photon_maps;
 pub(crate) mod photon_sources;

@@ -161,6 +161,9 @@ impl SceneNeeds {
             ("CASTERS", self.flag(self.needs.casters)),
             ("USUAL_CONES", self.flag(self.usual_cones)),
             ("ALL_CONES", self.flag(self.all_cones)),
+            ("SHADING_NORMALS", self.flag(self.needs.shading_normals)),
+            ("IMAGE_TEXTURES", self.flag(self.needs.image_textures)),
+            ("ALPHA_MASKS", self.flag(self.needs.alpha_masks)),
         ]);
         constants
     }
@@ -200,7 +203,7 @@ impl Pipelines {
     /// # Errors
     /// [`GpuTraceError::Unable`] if the device has too few bindings for storage or no compute shaders.
     pub fn new(gpu: &Gpu, needs: SceneNeeds) -> Result<Self, GpuTraceError> {
-        enough_storage(gpu, 7)?;
+        enough_storage(gpu, 8)?;
         enough(gpu, "threads in a group", gpu.device.limits().max_compute_invocations_per_workgroup, 64)?;
         let [scene_layout, film_layout, photon_layout, map_layout, feature_layout] =
             gpu.checked("the path tracer's bindings", || {
@@ -210,6 +213,7 @@ impl Pipelines {
                 scene.push(buffer(BufferBindingType::Uniform, MOST_SHAPES * size_of::<FewShape>()));
                 // the sky's
                 scene.extend([TEXTURE; 2]);
+                scene.extend([buffer(read, 0), TEXTURES]);
                 let written = buffer(BufferBindingType::Storage { read_only: false }, 0);
                 let film = [buffer(BufferBindingType::Uniform, size_of::<RenderParams>()), written];
                 let photons = [BufferKind::Uniform, BufferKind::Read, BufferKind::Written];
@@ -243,7 +247,7 @@ impl Pipelines {
         let module = shaders::compose(key.shader)?.create(gpu)?;
         let constants = [self.needs.constants(), key.constants.clone()].concat();
         if matches!(key.bound, Bound::FilmAndMap | Bound::Photons) {
-            enough_storage(gpu, 8)?;
+            enough_storage(gpu, 9)?;
         }
         let own = match key.bound {
             Bound::Features => vec![&self.feature_layout],
@@ -332,6 +336,13 @@ fn buffer(ty: BufferBindingType, size: usize) -> BindingType {
 const TEXTURE: BindingType = BindingType::Texture {
     sample_type: wgpu::TextureSampleType::Float { filterable: false },
     view_dimension: wgpu::TextureViewDimension::D2,
+    multisampled: false,
+};
+
+/// The same in several layers.
+const TEXTURES: BindingType = BindingType::Texture {
+    sample_type: wgpu::TextureSampleType::Float { filterable: false },
+    view_dimension: wgpu::TextureViewDimension::D2Array,
     multisampled: false,
 };
 

@@ -1,8 +1,10 @@
 //! Mirrors of the structs in `shaders/pathtrace/scene.wgsl`, field for field, and what fills them. A test compares
 //! every offset with the shader compiler's. Padding is spelled out as `unused*`.
 
+use super::mesh_data::MeshData;
 use super::shape_data::Shapes;
 use crate::bsdf::materials::lobe_of;
+use crate::bsdf::pictures::{Places, places};
 use crate::caster::cone::{Cones, MOST_CONES};
 use crate::caster::{Casters, THROUGH};
 use crate::integrator::settings::ConesAt;
@@ -12,7 +14,7 @@ use crate::light::{Environment, Light as HostLight, Lights, SunDisc};
 use crate::sampling::sobol::reversed_point;
 use bytemuck::{Pod, Zeroable};
 use scene::material::Emission;
-use scene::{Bsdf, Conductor, MetallicRoughness, Scene, Texture, Vec3};
+use scene::{Alpha, Bsdf, Conductor, MetallicRoughness, Scene, Texture, Vec3};
 
 /// What the whole scene shares.
 #[repr(C)]
@@ -44,6 +46,14 @@ pub struct Header {
     pub chains: u32,
     /// 1 if nothing lies inside of any sphere that they go through.
     pub hollow: u32,
+    /// Where attributes of corners begin in `mesh_data`.
+    pub attributes: u32,
+    /// Where pictures begin there.
+    pub pictures: u32,
+    /// Rows in each layer of the pictures' texture.
+    pub texel_rows: u32,
+    /// Padding.
+    pub unused: u32,
     /// Of few shapes: where among them quadrilaterals, triangles, spheres and disks end.
     pub seen: [u32; 4],
     /// The same of those that shadow rays may meet, which stand first in each kind.
@@ -104,6 +114,22 @@ pub struct Material {
     pub off: f32,
     /// The same through it.
     pub through: f32,
+    /// Place among the pictures of what the colour is multiplied by, 1 for the first; 0 for none.
+    pub colour_picture: u32,
+    /// The same of what is sent out.
+    pub emission_picture: u32,
+    /// The same of the normals.
+    pub normal_picture: u32,
+    /// The same of the alpha.
+    pub alpha_picture: u32,
+    /// By which x and y of normals are multiplied.
+    pub normal_scale: f32,
+    /// By which alpha is multiplied.
+    pub alpha_factor: f32,
+    /// Least alpha that is a surface; 0 where there is one everywhere.
+    pub alpha_cutoff: f32,
+    /// Place among the pictures of what multiplies the share of metal and the roughness.
+    pub metallic_roughness_picture: u32,
     /// Padding.
     pub unused: [u32; 3],
 }
@@ -148,14 +174,20 @@ pub struct Light {
     pub cumulative: f32,
     /// Of what its surface coincides with, or [`NO_GROUP`](crate::intersect::coincident::NO_GROUP).
     pub group: u32,
-    /// Of a chain: index of its sphere's material.
+    /// Of a chain: index of its sphere's material. Of what wears pictures its own.
     pub material: u32,
-    /// Padding.
-    pub unused: u32,
+    /// Where the places of its corners in pictures begin in `mesh_data`, 0 if it wears none.
+    pub corners: u32,
 }
 
 /// The header of a scene.
-pub(crate) fn header(scene: &Scene, shapes: &Shapes, lights: &Lights, casters: &Casters) -> Header {
+pub(crate) fn header(
+    scene: &Scene,
+    shapes: &Shapes,
+    lights: &Lights,
+    casters: &Casters,
+    mesh_data: &MeshData,
+) -> Header {
     let disc = scene.sun.as_ref().and_then(SunDisc::new);
     let environment = lights.environment();
     Header {
@@ -173,6 +205,10 @@ pub(crate) fn header(scene: &Scene, shapes: &Shapes, lights: &Lights, casters: &
         environment_probability: environment.map_or(0.0, Environment::probability),
         chains: casters.len() as u32,
         hollow: u32::from(casters.are_hollow()),
+        attributes: mesh_data.attributes,
+        pictures: mesh_data.pictures,
+        texel_rows: mesh_data.texel_rows(),
+        unused: 0,
         seen: shapes.seen,
         shading: shapes.shading,
         usual_cones: Cones::new(ConesAt::Usual, scene, lights).spheres(),
@@ -182,13 +218,32 @@ pub(crate) fn header(scene: &Scene, shapes: &Shapes, lights: &Lights, casters: &
 
 /// The scene's materials.
 pub fn materials(scene: &Scene, casters: &Casters) -> Vec<Material> {
+    let (_, places) = places(&scene.materials);
     let one = |(from, index): (&scene::Material, u32)| {
         let chosen = |through| casters.materials().of::<f32>(index, through).probability;
         let casts = !casters.is_empty();
         let [off, through] = [false, true].map(|through| if casts { chosen(through) } else { 0.0 });
-        Material { off, through, ..material(from) }
+        with_pictures(Material { off, through, ..material(from) }, from, &places[index as usize])
     };
     scene.materials.iter().zip(0..).map(one).collect()
+}
+
+fn with_pictures(to: Material, from: &scene::Material, places: &Places) -> Material {
+    let (alpha_cutoff, alpha_factor) = match from.surface.alpha {
+        Alpha::Opaque => (0.0, 1.0),
+        Alpha::Mask { cutoff, factor, .. } => (cutoff, factor),
+    };
+    Material {
+        colour_picture: places.colour,
+        emission_picture: places.emission,
+        normal_picture: places.normals,
+        alpha_picture: places.alpha,
+        metallic_roughness_picture: places.metallic_roughness,
+        normal_scale: from.surface.normal_map.as_ref().map_or(1.0, |map| map.scale),
+        alpha_factor,
+        alpha_cutoff,
+        ..to
+    }
 }
 
 fn material(from: &scene::Material) -> Material {
@@ -243,12 +298,14 @@ pub fn chains(casters: &Casters) -> impl Iterator<Item = Light> {
 }
 
 /// What is sampled as a light, and which of its surfaces coincide.
-pub fn lights(lights: &Lights, groups: &Groups) -> Vec<Light> {
+pub(crate) fn lights(lights: &Lights, groups: &Groups, mesh_data: &MeshData) -> Vec<Light> {
     let chances = lights.probabilities.iter().zip(lights.table().running_sums());
     let one = |((from, (&probability, &cumulative)), index)| Light {
         probability,
         cumulative,
         group: groups.of_light(index),
+        corners: mesh_data.light_corners[index as usize][0],
+        material: mesh_data.light_corners[index as usize][1],
         ..light(from)
     };
     lights.lights.iter().zip(chances).zip(0u32..).map(one).collect()

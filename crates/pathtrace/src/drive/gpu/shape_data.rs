@@ -2,6 +2,7 @@
 //! by one, many in a tree. A test compares every offset with the shader compiler's.
 
 use super::GpuTraceError;
+use crate::intersect::attributes::{MeshAttributes, TriangleRow, rows_of_tree};
 use crate::intersect::baking::is_instanced;
 use crate::intersect::bvh2::Bvh2;
 use crate::intersect::coincident::Groups;
@@ -60,8 +61,10 @@ pub struct Surface {
     pub light: u32,
     /// Of what it coincides with, or [`NO_GROUP`](crate::intersect::coincident::NO_GROUP).
     pub group: u32,
+    /// Place of its row in `mesh_data`, 0 if it has none.
+    pub triangle: u32,
     /// Padding.
-    pub unused: [u32; 2],
+    pub unused: u32,
 }
 
 /// One of few shapes: `Shape` in the shader.
@@ -124,6 +127,8 @@ pub(crate) struct Shapes {
     pub nodes: Vec<Node>,
     pub primitives: Vec<ShapeData>,
     pub surfaces: Vec<Surface>,
+    /// What meshes say of these, where any of the scene says anything.
+    pub rows: Vec<TriangleRow>,
     /// Which of them coincide.
     pub groups: Groups,
 }
@@ -151,7 +156,7 @@ impl Shapes {
         // large meshes are none of the list's, and triangles like others here
         let has_large = scene.shapes.iter().any(|shape| is_instanced(scene, shape));
         match ShapeList::new(scene, light_of_shape) {
-            Some(shape_list) if shape_list.len()[0] <= FEW && !has_large => Ok(Shapes::few(&shape_list)),
+            Some(shape_list) if shape_list.len()[0] <= FEW && !has_large => Ok(Shapes::few(scene, &shape_list)),
             _ => Shapes::in_a_tree(scene, light_of_shape),
         }
     }
@@ -163,11 +168,15 @@ impl Shapes {
     pub fn in_a_tree(scene: &Scene, light_of_shape: &[u32]) -> Result<Self, GpuTraceError> {
         let tree = Bvh2::of(scene, light_of_shape);
         let surfaces = surfaces(tree.surfaces.iter().zip(tree.ids.iter().copied()), &tree.groups);
+        let rows = MeshAttributes::of(scene).map_or(Vec::new(), |attributes| {
+            let rows = rows_of_tree(scene, &attributes);
+            tree.ids.iter().map(|&id| rows[id as usize]).collect()
+        });
         let (nodes, primitives, groups) = (nodes(&tree)?, primitives(&tree), tree.groups);
-        Ok(Shapes { nodes, primitives, surfaces, groups, ..Shapes::default() })
+        Ok(Shapes { nodes, primitives, surfaces, rows, groups, ..Shapes::default() })
     }
 
-    fn few(shape_list: &ShapeList) -> Self {
+    fn few(scene: &Scene, shape_list: &ShapeList) -> Self {
         // by kind, those that shade before those that do not
         let mut lists: [Vec<FewShape>; 8] = Default::default();
         for shape in shape_list.shapes() {
@@ -197,7 +206,8 @@ impl Shapes {
         }
         let groups = shape_list.groups().clone();
         let surfaces = surfaces(shape_list.surfaces().iter().zip(0..), &groups);
-        let mut shapes = Shapes { surfaces, groups, ..Shapes::default() };
+        let rows = MeshAttributes::of(scene).map_or(Vec::new(), |attributes| shape_list.sorted_rows(&attributes));
+        let mut shapes = Shapes { surfaces, rows, groups, ..Shapes::default() };
         for kind in 0..4 {
             let [shading, others] = [2 * kind, 2 * kind + 1].map(|list| std::mem::take(&mut lists[list]));
             shapes.few.extend(shading);
@@ -318,7 +328,8 @@ fn surfaces<'a>(all: impl Iterator<Item = (&'a primitive::Surface, u32)>, groups
         material: s.material,
         light: s.light,
         group: groups.of_surface(id),
-        unused: [0; 2],
+        triangle: 0,
+        unused: 0,
     };
     all.map(one).collect()
 }

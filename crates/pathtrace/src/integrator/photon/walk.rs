@@ -8,7 +8,7 @@
 
 use super::map::Photon;
 use super::pinhole::Pinhole;
-use crate::bsdf::Interactions;
+use crate::bsdf::{Interactions, shading};
 use crate::drive::lanes::{FilmJob, Stop};
 use crate::integrator::PathSettings;
 use crate::integrator::path_state::PathStates;
@@ -268,7 +268,10 @@ impl<'a, F: Float> PhotonLanes<'a, F> {
         let sample = self.scene.materials.sample(scattering, &vertex, [u[0], u[1], u[3]]);
         let refracted = vertex.normal.dot(sample.wi).lt(F::splat(0.0));
         let spared = vertex.is_delta() & self.path.vertices.lt(F::U::splat(SPARED_VERTICES));
-        let throughput = self.path.throughput * sample.weight;
+        let mut throughput = self.path.throughput * sample.weight;
+        if self.scene.materials.has().shading_normals {
+            throughput = throughput * shading::adjoint(&vertex, sample.wi);
+        }
         let (survives, throughput) =
             survivors(throughput, throughput, F::splat(1.0), spared, Roulette::THROUGHPUT, u[2]);
         if self.scene.materials.has().glass {
@@ -318,7 +321,10 @@ impl<'a, F: Float> PhotonLanes<'a, F> {
                 let (power, scene) = (self.power * self.path.throughput, self.scene);
                 let seen = pinhole.connect(here, vertex, scene, &mut self.scratch);
                 self.stats.rays += u64::from(here.count());
-                let radiance = scene.materials.eval(vertex, seen.wi).times(power * seen.weight);
+                let mut radiance = scene.materials.eval(vertex, seen.wi).times(power * seen.weight);
+                if scene.materials.has().shading_normals {
+                    radiance = radiance * shading::adjoint(vertex, seen.wi);
+                }
                 self.splat(seen.seen, seen.pixel, radiance);
             }
             Purpose::Marks(pinhole) if diffuse.any() => {
@@ -334,7 +340,11 @@ impl<'a, F: Float> PhotonLanes<'a, F> {
     #[inline(always)]
     fn keep(&mut self, here: F::M, vertex: &Interactions<F>) {
         let (positions, normals) = (each_lane(vertex.point.position), each_lane(vertex.normal));
-        let powers = each_lane(self.power * self.path.throughput);
+        let mut power = self.power * self.path.throughput;
+        if self.scene.materials.has().shading_normals {
+            power = power * shading::of_arriving(vertex);
+        }
+        let powers = each_lane(power);
         let mut vertices = [0; MOST_LANES];
         self.path.vertices.store(&mut vertices);
         for lane in lanes_of(here) {

@@ -16,6 +16,7 @@ mod prepare;
 mod surfaces;
 
 pub(crate) use pieces::{ListedForm, ListedPlane};
+pub(crate) use prepare::Origin;
 
 use super::coincident::{Groups, NO_GROUP};
 use super::disk::Disk;
@@ -32,6 +33,8 @@ pub struct ShapeList {
     shading: Shapes,
     surfaces: Surfaces,
     groups: Groups,
+    /// Where each comes from.
+    origins: Vec<Origin>,
 }
 
 /// A list of shapes. Their ids decide ties: the lower wins.

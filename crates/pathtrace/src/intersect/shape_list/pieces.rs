@@ -1,7 +1,8 @@
 //! A shape_list's shapes one by one, for a machine that lays them out in its own way.
 
 use super::surfaces::Surface;
-use super::{Facet, PlaneNormal, ShapeList, Shapes};
+use super::{Facet, Origin, PlaneNormal, ShapeList, Shapes};
+use crate::intersect::attributes::{MeshAttributes, TriangleRow};
 use crate::intersect::coincident::Groups;
 use crate::intersect::disk::Disk;
 use crate::intersect::primitive;
@@ -51,6 +52,23 @@ impl ShapeList {
     pub(crate) fn surfaces(&self) -> Vec<primitive::Surface> {
         let entry = |of: &Surface| primitive::Surface { normal: of.normal, material: of.material, light: of.light };
         self.surfaces.entries().iter().map(entry).collect()
+    }
+
+    /// What the meshes say of the shapes, in the order of their ids.
+    pub(crate) fn rows(&self, attributes: &MeshAttributes) -> Vec<TriangleRow> {
+        let row = |&Origin { shape, triangle }: &Origin| {
+            triangle.map_or(TriangleRow::default(), |(corners, places)| attributes.row(shape, corners, places))
+        };
+        self.origins.iter().map(row).collect()
+    }
+
+    /// The same for a machine that sorts triangles' corners.
+    pub(crate) fn sorted_rows(&self, attributes: &MeshAttributes) -> Vec<TriangleRow> {
+        let sorted = |(row, origin): (TriangleRow, &Origin)| match origin.triangle {
+            Some((_, places)) => row.sorted(places),
+            None => row,
+        };
+        self.rows(attributes).into_iter().zip(&self.origins).map(sorted).collect()
     }
 
     /// Which of the shapes coincide.

@@ -30,8 +30,18 @@ enum Piece {
     },
 }
 
+/// Where a piece of the list comes from.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Origin {
+    /// Index of the shape.
+    pub shape: usize,
+    /// Of a triangle of a mesh: corners as the mesh names them, and their places.
+    pub triangle: Option<([u32; 3], [Vec3; 3])>,
+}
+
 /// A piece and what it is.
 struct Part {
+    origin: Origin,
     piece: Piece,
     normal: Vec3,
     material: u32,
@@ -57,6 +67,10 @@ impl ShapeList {
 
     /// The scene's shapes but for large meshes, if they are few enough; `light_of_shape` is [`crate::light::Lights::light_of_shape`] of it.
     pub fn new(scene: &Scene, light_of_shape: &[u32]) -> Option<Self> {
+        // trees alone look for holes
+        if scene.needs().alpha_masks {
+            return None;
+        }
         let parts = parts(scene, light_of_shape)?;
         let outlines: Vec<Outline> = (0..).zip(&parts).filter_map(|(id, part)| part.outline(id)).collect();
         let groups = Groups::of(&outlines, parts.len(), lights_after(scene, parts.iter().map(|part| part.light)));
@@ -73,7 +87,8 @@ impl ShapeList {
                 shading.add(id, part, group(id));
             }
         }
-        Some(ShapeList { seen, shading, surfaces: Surfaces::new(&surfaces), groups })
+        let origins = parts.iter().map(|part| part.origin).collect();
+        Some(ShapeList { seen, shading, surfaces: Surfaces::new(&surfaces), groups, origins })
     }
 
     /// Number of shapes that a ray may meet, and that a shadow ray may.
@@ -90,13 +105,16 @@ fn parts(scene: &Scene, light_of_shape: &[u32]) -> Option<Vec<Part>> {
         let material = shape.material as u32;
         let clear = matches!(scene.material_of(shape).bsdf, Bsdf::Dielectric { .. });
         let first_light = light_of_shape[index];
-        let mut add = |piece, normal, light| parts.push(Part { piece, normal, material, light, clear });
+        let mut add = |piece, normal, light, triangle| {
+            let origin = Origin { shape: index, triangle };
+            parts.push(Part { origin, piece, normal, material, light, clear });
+        };
         match shape.geometry {
             Geometry::Sphere { center, radius } => {
-                add(Piece::Sphere { center, radius }, Vec3::ZERO, first_light);
+                add(Piece::Sphere { center, radius }, Vec3::ZERO, first_light, None);
             }
             Geometry::Disk { center, normal, radius } => {
-                add(Piece::Disk { center, normal, radius }, normal, first_light);
+                add(Piece::Disk { center, normal, radius }, normal, first_light, None);
             }
             Geometry::Mesh(ref mesh) | Geometry::Instance(Instance { ref mesh, .. })
                 if mesh.triangles().len() > 2 * ShapeList::MOST =>
@@ -108,9 +126,9 @@ fn parts(scene: &Scene, light_of_shape: &[u32]) -> Option<Vec<Part>> {
                 // of a box or mesh that shines, each triangle is a light
                 let halves = first_light != NO_LIGHT && !rectangle;
                 let paired = !halves && shape.geometry.mesh_of().is_none();
-                for (piece, normal, at) in flat_pieces(&shape.geometry, paired) {
+                for (piece, normal, at, triangle) in flat_pieces(&shape.geometry, paired) {
                     let light = if rectangle || first_light == NO_LIGHT { first_light } else { first_light + at };
-                    add(piece, normal, light);
+                    add(piece, normal, light, triangle.filter(|_| shape.geometry.mesh_of().is_some()));
                 }
             }
         }
@@ -121,22 +139,26 @@ fn parts(scene: &Scene, light_of_shape: &[u32]) -> Option<Vec<Part>> {
     Some(parts)
 }
 
-/// Triangles with area, each with its normal and its number among those; `paired`: two and two as the parallelogram
-/// that they came from.
-fn flat_pieces(geometry: &Geometry, paired: bool) -> Vec<(Piece, Vec3, u32)> {
+/// A piece with its normal, its number among the triangles with area, and corners and their places of a triangle.
+type FlatPiece = (Piece, Vec3, u32, Option<([u32; 3], [Vec3; 3])>);
+
+/// Triangles with area; `paired`: two and two as the parallelogram that they came from.
+fn flat_pieces(geometry: &Geometry, paired: bool) -> Vec<FlatPiece> {
     let (positions, triangles) = geometry.flat_triangles();
     let corners: Vec<[Vec3; 3]> = triangles.iter().map(|t| t.map(|i| positions[i as usize])).collect();
+    let size = if paired { 2 } else { 1 };
     let mut pieces = Vec::new();
     let mut count = 0;
-    for pair in corners.chunks(if paired { 2 } else { 1 }) {
+    for (pair, indices) in corners.chunks(size).zip(triangles.chunks(size)) {
         let normals: Vec<Option<Vec3>> = pair.iter().map(|&corners| triangle_normal(corners)).collect();
         if let ([[a, b, c], [.., d]], [Some(normal), Some(_)]) = (pair, &normals[..]) {
-            pieces.push((Piece::Flat { corners: [*a, *b, *c, *d], half: false }, *normal, 0));
+            pieces.push((Piece::Flat { corners: [*a, *b, *c, *d], half: false }, *normal, 0, None));
             continue;
         }
-        for ([a, b, c], normal) in pair.iter().zip(normals) {
+        for ((places @ [a, b, c], normal), indices) in pair.iter().zip(normals).zip(indices) {
             if let Some(normal) = normal {
-                pieces.push((Piece::Flat { corners: [*a, *b, *c, *c], half: true }, normal, count));
+                let piece = Piece::Flat { corners: [*a, *b, *c, *c], half: true };
+                pieces.push((piece, normal, count, Some((*indices, *places))));
                 count += 1;
             }
         }
@@ -147,7 +169,7 @@ fn flat_pieces(geometry: &Geometry, paired: bool) -> Vec<(Piece, Vec3, u32)> {
 impl Shapes {
     /// Adds a piece; what shading needs of it.
     fn add(&mut self, id: u32, part: &Part, group: u32) -> Surface {
-        let Part { piece, normal, material, light, clear } = *part;
+        let Part { piece, normal, material, light, clear, .. } = *part;
         let place = Place { id, light, group, clear };
         let form = match piece {
             Piece::Flat { corners, half } => {

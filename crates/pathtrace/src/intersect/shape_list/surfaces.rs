@@ -3,7 +3,7 @@
 //! Twin: `shaders/pathtrace/intersect/shape_list.wgsl`.
 
 use crate::intersect::sphere::SphereLanes;
-use crate::intersect::{Hits, Intersections, Rays, SurfacePoints};
+use crate::intersect::{Hits, Intersections, NO_INSTANCE, Rays, SurfacePoints};
 use crate::vectors::VectorColumn;
 use scene::Vec3;
 use scene::glam::DVec3;
@@ -118,8 +118,10 @@ impl Surfaces {
         let near = rays.origin + rays.direction * t;
         let form = id.look_up_word(&self.form);
         let mut point = SurfacePoints { position: corner, error: corner, normal, radius: F::splat(0.0) };
+        let mut barycentrics = [F::splat(0.0); 3];
         if has_flat {
-            point = self.on_flat(id, near, corner, normal);
+            let (on_flat, [u, v]) = self.on_flat(id, near, corner, normal);
+            (point, barycentrics) = (on_flat, [F::splat(1.0) - u - v, u, v]);
         }
         if has_spheres {
             let radius = id.look_up(&self.radius);
@@ -136,13 +138,22 @@ impl Surfaces {
             point,
             material: id.look_up_word(&self.material),
             light: id.look_up_word(&self.light),
+            triangle: id,
+            instance: F::U::splat(NO_INSTANCE),
+            barycentrics,
         }
     }
 
     /// The point of the shape that is nearest to where the ray met its plane. From places along its edges, far more
-    /// exact than `origin + t * direction`: whatever these are, it lies on the shape.
+    /// exact than `origin + t * direction`: whatever these are, it lies on the shape. And those places.
     #[inline(always)]
-    fn on_flat<F: Float>(&self, id: F::U, near: Vector<F>, corner: Vector<F>, normal: Vector<F>) -> SurfacePoints<F> {
+    fn on_flat<F: Float>(
+        &self,
+        id: F::U,
+        near: Vector<F>,
+        corner: Vector<F>,
+        normal: Vector<F>,
+    ) -> (SurfacePoints<F>, [F; 2]) {
         let (zero, one) = (F::splat(0.0), F::splat(1.0));
         let from_corner = near - corner;
         let u = from_corner.dot(self.dual_u.look_up(id)).clamp(zero, one);
@@ -157,7 +168,7 @@ impl Surfaces {
         };
         let point = SurfacePoints::on_plane(corner, self.edge_u.look_up(id) * u, self.edge_v.look_up(id) * v, normal);
         let flatness = Vector::along_all(id.look_up(&self.flatness));
-        SurfacePoints { error: point.error + flatness, ..point }
+        (SurfacePoints { error: point.error + flatness, ..point }, [u, v])
     }
 }
 

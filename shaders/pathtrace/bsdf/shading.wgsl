@@ -1,0 +1,128 @@
+//#import pathtrace/exact.wgsl
+//#import pathtrace/bsdf/interaction.wgsl
+//#import pathtrace/bsdf/pictures.wgsl
+//#import pathtrace/intersect/attributes.wgsl
+// Shading normals, and what keeps light from coming through surfaces where they and the triangles disagree: turned as in
+// Cycles (Blender, ensure_valid_specular_reflection); Veach, "Robust Monte Carlo Methods for Light Transport Simulation"
+// (1997), 5.3; Chiang, Li and Burley, "Taming the Shadow Terminator" (SIGGRAPH Talks 2019). Twin:
+// crates/pathtrace/src/bsdf/shading.rs.
+
+// The unit normal that a surface is shaded by, on the side of wo.
+fn shading_normal(hit: Hit, attributes: SurfaceAttributes, wo: vec3f) -> vec3f {
+    let outwards = hit.point.normal;
+    var normal = outwards;
+    if dot(attributes.normal, attributes.normal) > SMALLEST_POSITIVE {
+        normal = facing(unit_vector(attributes.normal), outwards);
+    }
+    let picture = materials[hit.material].normal_picture;
+    if IMAGE_TEXTURES && picture != 0u {
+        let found = 2.0 * picture_at(picture, attributes.uv).xyz - 1.0;
+        let scale = materials[hit.material].normal_scale;
+        normal = bumped(normal, tangent_of(hit), found * vec3f(scale, scale, 1.0));
+    }
+    if dot(outwards, wo) < 0.0 {
+        return bent(-outwards, -normal, wo);
+    }
+    return bent(outwards, normal, wo);
+}
+
+// A normal of a picture, put onto a surface.
+fn bumped(normal: vec3f, tangent: vec4f, bumps: vec3f) -> vec3f {
+    let along = tangent.xyz - normal * dot(normal, tangent.xyz);
+    if dot(along, along) <= SMALLEST_POSITIVE {
+        return normal;
+    }
+    let s = unit_vector(along);
+    let t = cross(normal, s) * tangent.w;
+    let sum = s * bumps.x + t * bumps.y + normal * bumps.z;
+    if dot(sum, sum) <= SMALLEST_POSITIVE {
+        return normal;
+    }
+    return unit_vector(sum);
+}
+
+// The normal n, turned towards g, that of the triangle on the side of wo, as far as the mirror direction of wo asks that
+// is to lie above the triangle.
+fn bent(g: vec3f, n: vec3f, wo: vec3f) -> vec3f {
+    let height = dot(g, wo);
+    let along_g = dot(n, g);
+    let least = min(0.9 * height, 0.01);
+    if along_g > 0.0 && 2.0 * dot(n, wo) * along_g - height >= least {
+        return n;
+    }
+    let sideways = n - g * along_g;
+    if dot(sideways, sideways) <= SMALLEST_POSITIVE {
+        return g;
+    }
+    let x = unit_vector(sideways);
+    let across = dot(x, wo);
+    let a = across * across + height * height;
+    if a <= SMALLEST_POSITIVE {
+        return g;
+    }
+    let b = 2.0 * (a + height * least);
+    let c = (height + least) * (height + least);
+    let root = sqrt(max(b * b - 4.0 * a * c, 0.0));
+    let squared = clamp(select(b - root, b + root, across < 0.0) / (4.0 * a), 0.0, 1.0);
+    return x * sqrt(1.0 - squared) + g * sqrt(squared);
+}
+
+// Share of light from wi that a lobe which leaves a choice keeps.
+fn terminator(normal: vec3f, outwards: vec3f, wi: vec3f) -> f32 {
+    let g = facing(outwards, normal);
+    let above = dot(g, wi);
+    let cosine = dot(normal, wi);
+    if above <= 0.0 || cosine <= 0.0 {
+        return 0.0;
+    }
+    let product = cosine * dot(g, normal);
+    if above >= product {
+        return 1.0;
+    }
+    let ratio = above / product;
+    return ratio * (1.0 + ratio * (1.0 - ratio));
+}
+
+// A value or a cosine for light from wi, with what shading normals leave of it.
+fn shadowed(normal: vec3f, outwards: vec3f, wi: vec3f, value: f32) -> f32 {
+    if SHADING_NORMALS {
+        return value * terminator(normal, outwards, wi);
+    }
+    return value;
+}
+
+// What remains of the weight of a direction that was drawn.
+fn kept(at: Interaction, wi: vec3f) -> f32 {
+    if is_delta(at) {
+        // whichever side it is, if it is one
+        return select(0.0, 1.0, dot(facing(at.point.normal, at.normal), wi) * dot(at.normal, wi) > 0.0);
+    }
+    return terminator(at.normal, at.point.normal, wi);
+}
+
+// By how much more light from w counts that is shaded by the normal than falls onto the triangle.
+fn over_geometric(at: Interaction, w: vec3f) -> f32 {
+    let cosine = abs(dot(at.point.normal, w));
+    if cosine <= SMALLEST_POSITIVE {
+        return 0.0;
+    }
+    if is_delta(at) {
+        return abs(dot(at.normal, w)) / cosine;
+    }
+    return abs(dot(at.normal, w)) * terminator(at.normal, at.point.normal, w) / cosine;
+}
+
+// By what the power of a photon is multiplied that comes from wo and stays where photons are counted by the triangle's
+// area.
+fn of_arriving(at: Interaction) -> f32 {
+    return over_geometric(at, at.wo);
+}
+
+// By what the weight of a direction wi is multiplied that a photon takes.
+fn adjoint(at: Interaction, wi: vec3f) -> f32 {
+    let leaves = over_geometric(at, wi);
+    if leaves <= SMALLEST_POSITIVE {
+        return 0.0;
+    }
+    return over_geometric(at, at.wo) / leaves;
+}
