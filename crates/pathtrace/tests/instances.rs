@@ -3,9 +3,10 @@
 #![expect(clippy::expect_used, reason = "a scene that does not load is a failure")]
 
 use film::Film;
-use pathtrace::{PathSettings, Tracer};
-use scene::glam::{Affine3A, Quat};
-use scene::{Geometry, Instance, Mesh, Scene, Shape, Vec3, builtin};
+use pathtrace::{FeaturePass, PathSettings, SamplerKind, Tracer};
+use scene::glam::{Affine3A, Quat, Vec2};
+use scene::image_texture::{ImageTexture, Sampling};
+use scene::{Alpha, Bsdf, Geometry, Instance, Mesh, NormalMap, Scene, Shape, Texture, Vec3, builtin};
 use std::sync::Arc;
 
 #[path = "../examples/meshes/statue.rs"]
@@ -56,4 +57,52 @@ fn an_instance_looks_as_its_triangles_in_the_world() {
     let differ = |(a, b): (Vec3, Vec3)| (a - b).abs().max_element() > 0.02 * b.max_element();
     let differing = instanced.radiances().zip(baked.radiances()).filter(|pair| differ(*pair)).count();
     assert!(differing < 80, "{differing} of 1600 pixels");
+}
+
+/// A mesh whose every attribute varies, turned, mirrored and squeezed, in a material of pictures. Where `alpha` is a mask of no holes it
+/// keeps no tree of its own.
+fn ornate(alpha: Alpha) -> Scene {
+    let (positions, triangles) = statue::statue(5);
+    let normals = positions.iter().map(|p| (p + Vec3::new(0.1, 0.0, 0.2)).normalize()).collect();
+    let uvs = positions.iter().map(|p| Vec2::new(3.0 * p.x + p.y, 2.0 * p.z - p.y)).collect();
+    let mesh = Arc::new(Mesh::with_attributes(positions, triangles, normals, uvs));
+    let to_world =
+        Affine3A::from_scale_rotation_translation(Vec3::new(-90.0, 110.0, 70.0), Quat::from_rotation_y(0.6), CENTER);
+    let mut scene = room_with([Geometry::Instance(Instance { mesh, to_world })]);
+    let shape = scene.shapes.last().expect("the mesh").material;
+    let picture =
+        |texels: [[f32; 4]; 4]| Arc::new(ImageTexture::new(2, 2, texels.into(), Sampling::default()).expect("2 x 2"));
+    let colours = picture([[0.9, 0.1, 0.1, 1.0], [0.1, 0.9, 0.1, 1.0], [0.1, 0.1, 0.9, 1.0], [0.5, 0.5, 0.5, 1.0]]);
+    let bumps = picture([[0.6, 0.5, 0.9, 1.0], [0.5, 0.4, 0.9, 1.0], [0.5, 0.7, 0.9, 1.0], [0.4, 0.5, 0.9, 1.0]]);
+    let mut material = scene.materials[shape].clone();
+    material.bsdf = Bsdf::Diffuse { albedo: Texture::Image { image: colours, factor: Vec3::ONE } };
+    material.surface.normal_map = Some(NormalMap { image: bumps, scale: 1.0 });
+    material.surface.alpha = alpha;
+    scene.materials.push(material);
+    let mut shapes = scene.shapes.to_vec();
+    shapes.last_mut().expect("the mesh").material = scene.materials.len() - 1;
+    scene.shapes = shapes.into();
+    scene
+}
+
+const CENTER: Vec3 = Vec3::new(278.0, 250.0, 200.0);
+
+#[test]
+fn an_instance_has_the_normals_and_pictures_of_its_triangles_in_the_world() {
+    let seen = |alpha| {
+        let scene = ornate(alpha);
+        let pass = FeaturePass::new(&scene.camera, (48, 48), 1, (SamplerKind::Sobol, 1));
+        Tracer::new(&scene).features(&pass, &|| false).expect("nobody stops it")
+    };
+    let instanced = seen(Alpha::Opaque);
+    let baked = seen(Alpha::Mask { cutoff: 0.5, factor: 1.0, image: None });
+    let alike = |(a, b): (&Vec3, &Vec3)| a.abs_diff_eq(*b, 2e-3);
+    let same = |a: &[Vec3], b: &[Vec3]| a.iter().zip(b).filter(|pair| alike(*pair)).count();
+    let count = instanced.normal.len();
+    // rays at edges may meet the neighbour
+    assert!(same(&instanced.normal, &baked.normal) > count - 12);
+    assert!(same(&instanced.albedo, &baked.albedo) > count - 12);
+    let walls = [Vec3::X, Vec3::NEG_X, Vec3::Y, Vec3::NEG_Y, Vec3::Z, Vec3::NEG_Z];
+    let on_mesh = instanced.normal.iter().filter(|n| walls.iter().all(|wall| n.dot(*wall) < 0.999)).count();
+    assert!(on_mesh > count / 20, "{on_mesh} of {count}");
 }
