@@ -3,10 +3,14 @@
 use crate::{Scene, SceneError, file, nearest};
 use std::path::Path;
 
-const FILES: [(&str, &str); 3] = [
+const FILES: [(&str, &str); 7] = [
     ("whitted", include_str!("../../../assets/scenes/whitted.toml")),
     ("cornell", include_str!("../../../assets/scenes/cornell.toml")),
     ("phong", include_str!("../../../assets/scenes/phong.toml")),
+    ("cornell-balls", include_str!("../../../assets/scenes/cornell-balls.toml")),
+    ("veach", include_str!("../../../assets/scenes/veach.toml")),
+    ("caustic", include_str!("../../../assets/scenes/caustic.toml")),
+    ("door-ajar", include_str!("../../../assets/scenes/door-ajar.toml")),
 ];
 
 /// Scenes with known answers, which hard cases are made of: `hard/NAME`.
@@ -81,6 +85,7 @@ fn unknown(name: &str, known: String) -> SceneError {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::{Bsdf, Geometry, Vec3};
 
     #[test]
     fn every_scene_loads_and_every_hard_file_is_listed() {
@@ -96,5 +101,40 @@ mod tests {
         assert!(!named("nothing").unwrap_err().to_string().contains("mean"));
         let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../assets/scenes/hard");
         assert_eq!(std::fs::read_dir(folder).unwrap().count(), HARD.len());
+    }
+
+    /// Radiance times area, in luminance. Numbers in the file have four digits.
+    #[test]
+    fn veachs_lamps_are_of_one_power_and_of_four_sizes() {
+        let scene = named("veach").unwrap();
+        let lamps: Vec<(f32, f32)> = (scene.shapes.iter())
+            .filter_map(|shape| {
+                let Geometry::Sphere { radius, .. } = shape.geometry else { return None };
+                let radiance = scene.material_of(shape).emission?.radiance;
+                Some((radius, radiance.dot(Vec3::new(0.2126, 0.7152, 0.0722)) * radius * radius))
+            })
+            .collect();
+        assert_eq!(lamps.len(), 4);
+        assert!(lamps.iter().all(|(_, power)| (power / lamps[0].1 - 1.0).abs() < 1e-3), "{lamps:?}");
+        assert!(lamps.windows(2).all(|two| two[1].0 > 2.9 * two[0].0), "{lamps:?}");
+    }
+
+    /// Corners in the file have three digits, which turn a plate by up to a thousandth: 0.01 at the lamps' distance.
+    #[test]
+    fn veachs_plates_mirror_the_middle_of_the_lamps_into_the_camera_the_smoothest_behind() {
+        let scene = named("veach").unwrap();
+        let lamps = Vec3::new(0.0, 4.2, 0.0);
+        let mut roughnesses = Vec::new();
+        for shape in scene.shapes.iter() {
+            let Bsdf::RoughConductor { roughness, .. } = scene.material_of(shape).bsdf else { continue };
+            let Geometry::Rectangle { corner, edge_u, edge_v } = shape.geometry else { panic!("a plate") };
+            let (middle, normal) = (corner + 0.5 * (edge_u + edge_v), edge_u.cross(edge_v).normalize());
+            let mirrored = (middle - scene.camera.eye).reflect(normal).normalize();
+            let past = (lamps - middle).reject_from_normalized(mirrored).length();
+            assert!(past < 0.02, "the plate at {middle} shows what is {past} beside the lamps");
+            roughnesses.push(roughness);
+        }
+        assert_eq!(roughnesses.len(), 4);
+        assert!(roughnesses.is_sorted_by(|a, b| a < b), "{roughnesses:?}");
     }
 }

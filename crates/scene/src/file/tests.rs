@@ -20,7 +20,7 @@ pub(super) fn fault_of(text: &str) -> String {
 }
 
 #[test]
-fn both_built_in_scenes_load() {
+fn built_in_scenes_load() {
     for name in crate::builtin::names() {
         let scene = crate::builtin::named(name).unwrap();
         assert!(!scene.shapes.is_empty());

@@ -85,7 +85,7 @@ fn of_tiles() -> Vec<CommandOption<Reading>> {
             names: &["--ready"],
             value: "NAME",
             help: "what is varied, and of what, as the window has it ready: bounces (0, 1, 2 at 20 spp), spp (1, 4, 16), estimators, \
-                   samplers, roulettes, integrators or denoisers",
+                   samplers, roulettes, integrators, denoisers or mis (light sampling, BSDF sampling and both)",
             read: |reading, parser| {
                 let names: Vec<_> = SWEEPS.iter().map(|preset| preset.name).collect();
                 reading.preset = Some(choice(parser, "--ready", SweepPreset::named, &names.join(", "))?);

@@ -89,6 +89,15 @@ pub const SWEEPS: &[SweepPreset] = &[
         rows: STRIP,
         seconds: None,
     },
+    SweepPreset {
+        name: "mis",
+        title: "Light, BSDF, both (MIS)",
+        about: "light sampled, directions by the BSDF, and both, weighted: see the scene veach",
+        base: "path,spp=16",
+        columns: ("estimator", "light, cosine, mis"),
+        rows: STRIP,
+        seconds: None,
+    },
 ];
 
 impl SweepPreset {
@@ -116,7 +125,7 @@ mod tests {
 
     #[test]
     fn every_preset_can_be_made_in_every_scene_of_the_lecture() {
-        for scene in ["whitted", "cornell", "phong"] {
+        for scene in scene::builtin::names() {
             for preset in SWEEPS {
                 assert!(PaneSetup::parse(preset.base, TechniqueName::Path).is_ok(), "{}", preset.base);
                 let mut model = Model::new(scene::builtin::named(scene).unwrap(), scene.into(), Theme::Dark);

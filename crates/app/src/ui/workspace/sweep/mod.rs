@@ -14,7 +14,8 @@ use egui::{Key, Ui};
 pub struct Sweep;
 
 /// The keys of the presets, in their order.
-const PRESET_KEYS: [Key; SWEEPS.len()] = [Key::Num1, Key::Num2, Key::Num3, Key::Num4, Key::Num5, Key::Num6, Key::Num7];
+const PRESET_KEYS: [Key; SWEEPS.len()] =
+    [Key::Num1, Key::Num2, Key::Num3, Key::Num4, Key::Num5, Key::Num6, Key::Num7, Key::Num8];
 
 impl Workspace for Sweep {
     fn id(&self) -> &'static str {
@@ -67,7 +68,7 @@ impl Workspace for Sweep {
 
     fn help(&self) -> Vec<HelpLine> {
         vec![
-            ("1 ... 7", "the sweeps that are ready: bounces, samples, estimators, ..."),
+            ("1 ... 8", "the sweeps that are ready: bounces, samples, estimators, ..."),
             ("click a tile, Enter", "A becomes it, in the comparison"),
             ("Shift+click, Shift+Enter", "B becomes it"),
             ("Esc", "back to the comparison"),
