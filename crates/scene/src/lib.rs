@@ -19,8 +19,11 @@ mod nearest;
 mod needs;
 pub mod nesting;
 mod notes;
+pub mod progress;
 pub mod shape;
+mod smooth;
 pub mod stand_ins;
+pub mod statue;
 
 pub use camera::{Camera, NamedCamera};
 pub use conductor::Conductor;
@@ -34,7 +37,10 @@ pub use material::{Alpha, Bsdf, Material, MetallicRoughness, NormalMap, SurfaceD
 pub use mesh::{Instance, Mesh};
 pub use nearest::{nearest, nearest_or_begun};
 pub use needs::Needs;
+pub use progress::Progress;
 pub use shape::{Geometry, Shape};
+pub use smooth::smooth_normals;
+pub use statue::statue;
 
 use stand_ins::FakeNumbers;
 use std::sync::Arc;
