@@ -302,7 +302,7 @@ impl Canonical<'_> {
         mesh.positions().iter().for_each(|position| self.vector(*position));
         self.count(mesh.triangles().len());
         for triangle in mesh.triangles() {
-            triangle.iter().for_each(|corner| self.word(*corner));
+            (self.0)(triangle.map(u32::to_le_bytes).as_flattened());
         }
         if !mesh.normals().is_empty() {
             self.word(EXTRA);

@@ -72,8 +72,11 @@ impl Mesh {
 }
 
 impl PartialEq for Mesh {
-    /// One mesh is equal to itself without a look at its corners.
+    /// One mesh is equal to itself without a look at its corners, and so are two whose hashes are known.
     fn eq(&self, other: &Mesh) -> bool {
+        if let (Some(one), Some(another)) = (self.content.get(), other.content.get()) {
+            return one == another;
+        }
         std::ptr::eq(self, other)
             || (self.positions == other.positions
                 && self.triangles == other.triangles

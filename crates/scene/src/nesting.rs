@@ -14,17 +14,21 @@ use glam::{DVec2, DVec3, Vec3};
 const SMALLEST_GAP: f64 = 1e-6;
 
 /// A closed shape, in f64.
-struct Solid {
+struct Solid<'a> {
     index: usize,
     lo: DVec3,
     hi: DVec3,
-    form: Form,
+    form: Form<'a>,
 }
 
-enum Form {
-    Ball { center: DVec3, radius: f64 },
+enum Form<'a> {
+    Ball {
+        center: DVec3,
+        radius: f64,
+    },
     Block(Block),
-    Mesh { corners: Vec<DVec3> },
+    /// Its corners are looked at only where it may lie inside another: there may be millions.
+    Mesh(&'a Geometry),
 }
 
 /// A box turned about the vertical.
@@ -58,8 +62,8 @@ pub(crate) fn holds(geometry: &Geometry, point: Vec3) -> bool {
     solid.is_some_and(|solid| solid.holds(point.as_dvec3(), 0.0))
 }
 
-impl Solid {
-    fn new(index: usize, geometry: &Geometry) -> Option<Self> {
+impl<'a> Solid<'a> {
+    fn new(index: usize, geometry: &'a Geometry) -> Option<Self> {
         let form = match geometry {
             Geometry::Rectangle { .. } | Geometry::Disk { .. } => return None,
             Geometry::Sphere { center, radius } => Form::Ball { center: center.as_dvec3(), radius: f64::from(*radius) },
@@ -71,10 +75,7 @@ impl Solid {
                 let center = corner.as_dvec3() + DVec3::new(middle.x, half.y, middle.y);
                 Form::Block(Block { center, half, x })
             }
-            Geometry::Mesh(_) | Geometry::Instance(_) => {
-                let (corners, _) = geometry.flat_triangles();
-                Form::Mesh { corners: corners.iter().map(|p| p.as_dvec3()).collect() }
-            }
+            Geometry::Mesh(_) | Geometry::Instance(_) => Form::Mesh(geometry),
         };
         let (lo, hi) = geometry.bounds();
         Some(Solid { index, lo: lo.as_dvec3(), hi: hi.as_dvec3(), form })
@@ -85,7 +86,7 @@ impl Solid {
         match &self.form {
             Form::Ball { center, radius } => point.distance(*center) + margin <= *radius,
             Form::Block(block) => (block.local(point).abs() + margin).cmple(block.half).all(),
-            Form::Mesh { .. } => false,
+            Form::Mesh(_) => false,
         }
     }
 
@@ -154,7 +155,7 @@ fn inside(a: &Solid, b: &Solid) -> bool {
     match &a.form {
         Form::Ball { center, radius } => holds(*center, radius + a.gap()),
         Form::Block(block) => block.corners().all(|corner| holds(corner, a.gap())),
-        Form::Mesh { corners } => corners.iter().all(|&corner| holds(corner, a.gap())),
+        Form::Mesh(geometry) => geometry.flat_triangles().0.iter().all(|corner| holds(corner.as_dvec3(), a.gap())),
     }
 }
 
