@@ -1,9 +1,10 @@
 //! The scenes that are part of the program: the same files as under `assets/scenes`, embedded.
 
+use crate::progress::Progress;
 use crate::{Scene, SceneError, file, nearest};
 use std::path::Path;
 
-const FILES: [(&str, &str); 7] = [
+const FILES: [(&str, &str); 8] = [
     ("whitted", include_str!("../../../assets/scenes/whitted.toml")),
     ("cornell", include_str!("../../../assets/scenes/cornell.toml")),
     ("phong", include_str!("../../../assets/scenes/phong.toml")),
@@ -11,6 +12,7 @@ const FILES: [(&str, &str); 7] = [
     ("veach", include_str!("../../../assets/scenes/veach.toml")),
     ("caustic", include_str!("../../../assets/scenes/caustic.toml")),
     ("door-ajar", include_str!("../../../assets/scenes/door-ajar.toml")),
+    ("statues", include_str!("../../../assets/scenes/statues.toml")),
 ];
 
 /// Scenes with known answers, which hard cases are made of: `hard/NAME`.
@@ -63,8 +65,16 @@ pub fn about(name: &str) -> Option<String> {
 /// # Errors
 /// [`SceneError::Unknown`] lists the known names; the others say which file, line and column is wrong.
 pub fn named(name: &str) -> Result<Scene, SceneError> {
+    named_telling(name, &Progress::untold())
+}
+
+/// As [`named`], telling how far it is.
+///
+/// # Errors
+/// As those of [`named`], and [`SceneError::Stopped`].
+pub fn named_telling(name: &str, progress: &Progress) -> Result<Scene, SceneError> {
     if let Some(text) = text(name) {
-        return file::parse(text, name, Path::new(name));
+        return file::parse_telling(text, name, Path::new(name), progress);
     }
     let path = Path::new(name);
     if name == "hard/?" {
@@ -74,7 +84,7 @@ pub fn named(name: &str) -> Result<Scene, SceneError> {
         return Err(unknown(name, format!("{} and those that hard/? lists", names().collect::<Vec<_>>().join(", "))));
     }
     let like_a_file = path.extension().is_some() || path.components().count() > 1 || path.exists();
-    if like_a_file { file::load(path) } else { Err(unknown(name, names().collect::<Vec<_>>().join(", "))) }
+    if like_a_file { file::load(path, progress) } else { Err(unknown(name, names().collect::<Vec<_>>().join(", "))) }
 }
 
 fn unknown(name: &str, known: String) -> SceneError {

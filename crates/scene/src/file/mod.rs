@@ -2,24 +2,35 @@
 //! value), which becomes a [`Scene`] (what refers to what). Every fault is one line: `file:line:column: what`.
 
 mod advice;
+mod beside;
+mod meshes;
+mod model;
 mod number;
+mod obj;
+mod ply;
 mod raw;
+mod raw_mesh;
+mod showcase;
 mod sky;
+mod source;
 
 use crate::direction::unit;
 use crate::material::{Checkerboard, Emission};
+use crate::progress::Progress;
 use crate::stand_ins::{FakeMaterial, FakeNumbers};
 use crate::{
     Bsdf, Camera, Conductor, Geometry, Material, PointLight, Scene, SceneHash, Shape, Sun, SurfaceDetail, Texture,
     nearest, nesting, stand_ins,
 };
 use glam::Vec3;
-use number::Three;
-use raw::{CornerIndex, RawMaterial, RawScene, RawTexture, Table};
+use meshes::Meshes;
+use raw::{RawMaterial, RawScene, RawTexture, Table};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use toml::Spanned;
+
+pub use beside::allow_files_outside;
 
 /// Why there is no scene.
 #[derive(Debug, thiserror::Error)]
@@ -40,8 +51,8 @@ pub enum SceneError {
     },
     /// A file of another kind.
     #[error(
-        "{} is not a scene: a scene is a text in TOML with camera, materials and lights, into which triangles are \
-         written as [[mesh]]; `visavis cornell` is one, its file's format is described in assets/README.md",
+        "{} is not a scene: a scene is a text in TOML with camera, materials and lights, whose meshes are read from .ply \
+         or .obj files; `visavis cornell` is one, its file's format is described in assets/README.md",
         image_file::shown(path)
     )]
     OtherFormat {
@@ -70,6 +81,12 @@ pub enum SceneError {
         /// What is wrong and what was expected.
         message: String,
     },
+    /// The file does not hold a model: its name, the place and what is wrong.
+    #[error("{0}")]
+    Model(String),
+    /// Whoever asked for it wants it no more.
+    #[error("reading the scene was stopped")]
+    Stopped,
 }
 
 fn did_you_mean(meant: &Option<String>) -> String {
@@ -77,20 +94,21 @@ fn did_you_mean(meant: &Option<String>) -> String {
 }
 
 /// Suffixes of models and scenes that other programs write, and people try first.
-const OTHER_FORMATS: [&str; 17] = [
-    "obj", "mtl", "gltf", "glb", "ply", "stl", "off", "3ds", "dae", "fbx", "abc", "usd", "usda", "usdc", "usdz",
-    "blend", "pbrt",
-];
+const OTHER_FORMATS: [&str; 15] =
+    ["mtl", "gltf", "glb", "stl", "off", "3ds", "dae", "fbx", "abc", "usd", "usda", "usdc", "usdz", "blend", "pbrt"];
 
 /// Largest scene file that is read, in bytes; beyond it lies no scene that TOML is the right home for.
 const LARGEST_FILE: u64 = 256 << 20;
 
-/// Reads a scene file.
+/// Reads a scene file, or the file of a model, which is put into a scene of its own.
 ///
 /// # Errors
-/// [`SceneError::OtherFormat`] if its name says so, [`SceneError::Read`] if it cannot be read, [`SceneError::Wrong`] if
-/// it does not hold a scene.
-pub fn load(path: &Path) -> Result<Scene, SceneError> {
+/// [`SceneError::OtherFormat`] if its name says so, [`SceneError::Read`] if it cannot be read, [`SceneError::Wrong`] or
+/// [`SceneError::Model`] if it does not hold a scene or a model, [`SceneError::Stopped`] if it was told to stop.
+pub fn load(path: &Path, progress: &Progress) -> Result<Scene, SceneError> {
+    if model::is_model(path) {
+        return showcase::around(path, progress);
+    }
     let suffix = path.extension().unwrap_or_default().to_ascii_lowercase();
     if OTHER_FORMATS.iter().any(|other| suffix == *other) {
         return Err(SceneError::OtherFormat { path: path.to_owned() });
@@ -101,7 +119,7 @@ pub fn load(path: &Path) -> Result<Scene, SceneError> {
         SceneError::Read { path: path.to_owned(), why, meant }
     })?;
     let name = path.file_stem().map(|s| s.to_string_lossy().into_owned()).unwrap_or_default();
-    parse(&text, &name, path)
+    parse_telling(&text, &name, path, progress)
 }
 
 /// The scene file in a missing one's folder whose name is nearest to its.
@@ -132,12 +150,23 @@ fn read(path: &Path) -> std::io::Result<String> {
     String::from_utf8(bytes).map_err(|_| no_text())
 }
 
-/// Parses the text of a scene file. `path` is named in errors, and pictures that the scene names lie beside it.
+/// Parses the text of a scene file. `path` is named in errors, and files that the scene names lie beside it.
 ///
 /// # Errors
 /// [`SceneError::Wrong`] with the place of the first fault.
 pub fn parse(text: &str, name: &str, path: &Path) -> Result<Scene, SceneError> {
+    parse_telling(text, name, path, &Progress::untold())
+}
+
+/// As [`parse`], telling how far it is.
+///
+/// # Errors
+/// As those of [`parse`], and [`SceneError::Stopped`].
+pub fn parse_telling(text: &str, name: &str, path: &Path, progress: &Progress) -> Result<Scene, SceneError> {
     let wrong = |fault: Fault| {
+        if progress.is_stopped() {
+            return SceneError::Stopped;
+        }
         let (line, column) = line_and_column(text, fault.at.start);
         SceneError::Wrong { path: path.to_owned(), line, column, message: fault.message }
     };
@@ -145,7 +174,7 @@ pub fn parse(text: &str, name: &str, path: &Path) -> Result<Scene, SceneError> {
         let (at, message) = (e.span().unwrap_or(0..0), e.message().lines().collect::<Vec<_>>().join(", "));
         wrong(Fault { message: advice::advised(text, at.clone(), message), at })
     })?;
-    build(raw, name, path.parent().unwrap_or(Path::new(""))).map_err(wrong)
+    build(raw, name, path.parent().unwrap_or(Path::new("")), progress).map_err(wrong)
 }
 
 /// A fault at a byte range of the text.
@@ -164,7 +193,7 @@ fn line_and_column(text: &str, at: usize) -> (usize, usize) {
     (before.matches('\n').count() + 1, before[line_start..].chars().count() + 1)
 }
 
-fn build(raw: RawScene, name: &str, folder: &Path) -> Result<Scene, Fault> {
+fn build(raw: RawScene, name: &str, folder: &Path, progress: &Progress) -> Result<Scene, Fault> {
     let camera = camera(raw.camera)?;
     let materials = raw.material.into_iter().map(|(name, m)| material(name, m)).collect::<Result<Vec<_>, _>>()?;
     let (mut shapes, mut places) = (Vec::new(), Vec::new());
@@ -200,18 +229,18 @@ fn build(raw: RawScene, name: &str, folder: &Path) -> Result<Scene, Fault> {
     for Table(b) in raw.boxes {
         add(Geometry::Box { corner: b.corner.into(), size: b.size.into(), turn_y: b.turn_y.get() }, b.material)?;
     }
-    for Table(m) in raw.mesh {
-        let (corners, at) = (m.positions.len(), m.triangles.span());
-        let triangles = m.triangles.into_inner().into_iter().map(|Three(corners)| corners.map(CornerIndex::get));
-        let triangles: Vec<[u32; 3]> = triangles.collect();
-        if triangles.is_empty() {
-            return fault(at, "a mesh needs a triangle at least: expected lists of three corners");
-        }
-        if let Some(&index) = triangles.iter().flatten().find(|&&i| i as usize >= corners) {
-            return fault(at, format!("corner {index} is named, but positions has {corners}"));
-        }
-        let positions = m.positions.into_iter().map(Vec3::from).collect();
-        add(Geometry::mesh(positions, triangles), m.material)?;
+    let mut meshes = Meshes::new(folder, progress);
+    for raw in raw.mesh {
+        let (geometry, wears) = meshes.mesh(raw)?;
+        add(geometry, wears)?;
+    }
+    for raw in raw.statue {
+        let (geometry, wears) = meshes.statue(raw)?;
+        add(geometry, wears)?;
+    }
+    for raw in raw.instance {
+        let (geometry, wears) = meshes.instance(raw)?;
+        add(geometry, wears)?;
     }
     if let Some((first, second)) = nesting::overlap(&shapes, &materials) {
         let other = shapes[first].geometry.center();
@@ -249,7 +278,7 @@ fn build(raw: RawScene, name: &str, folder: &Path) -> Result<Scene, Fault> {
         sky,
         environment,
         fake,
-        remarks: Arc::default(),
+        remarks: meshes.remarks.into(),
         as_read: SceneHash::default(),
     };
     Ok(Scene { as_read: SceneHash::of(&scene), ..scene })
@@ -352,5 +381,9 @@ fn texture(raw: RawTexture) -> Texture {
     }
 }
 
+#[cfg(test)]
+mod fuzz_tests;
+#[cfg(test)]
+mod mesh_tests;
 #[cfg(test)]
 mod tests;

@@ -1,7 +1,7 @@
 //! Numbers with a range, and lists of three of them. Each says in its error what it expected, and TOML adds where; so a
 //! NaN, an infinity, a number too large for f32 or a list of another length never gets past the file.
 
-use glam::Vec3;
+use glam::{Vec2, Vec3};
 use serde::de::{Deserialize, Deserializer, Error, IgnoredAny, SeqAccess, Visitor};
 use std::fmt;
 use std::marker::PhantomData;
@@ -36,6 +36,7 @@ macro_rules! ranges {
 ranges! {
     Any, "a finite number within +-1e12", |v| v.abs() <= LARGEST;
     Length, "a finite number from 1e-12 to 1e12", |v| (SMALLEST..=LARGEST).contains(&v);
+    Factor, "a finite number from 1e-12 to 1e12, or its negative", |v| (SMALLEST..=LARGEST).contains(&v.abs());
     AboveZero, "a finite number above 0 and at most 1e12", |v| v > 0.0 && v <= LARGEST;
     AtLeastZero, "a finite number from 0 to 1e12", |v| (0.0..=LARGEST).contains(&v);
     ZeroToOne, "a number from 0 to 1", |v| (0.0..=1.0).contains(&v);
@@ -54,9 +55,20 @@ impl<R> Number<R> {
     }
 }
 
-/// A list of exactly three. An array of serde's own is filled from a longer list as well, whose rest is then lost.
+/// A list of exactly so many. An array of serde's own is filled from a longer list as well, whose rest is then lost.
 #[derive(Debug, Clone, Copy)]
-pub struct Three<T>(pub [T; 3]);
+pub struct List<T, const N: usize>(pub [T; N]);
+
+/// A list of exactly three.
+pub type Three<T> = List<T, 3>;
+
+/// Two numbers in a range: a place in textures.
+pub type Pair<R> = List<Number<R>, 2>;
+
+/// Such a list in the words of errors.
+const fn list_of(count: usize) -> &'static str {
+    if count == 2 { "a list of two numbers" } else { "a list of three numbers" }
+}
 
 /// Three numbers in a range: a point, a direction, a colour.
 pub type Triple<R> = Three<Number<R>>;
@@ -67,19 +79,19 @@ impl Default for Number<Any> {
     }
 }
 
-impl<'de, T: Deserialize<'de>> Deserialize<'de> for Three<T> {
+impl<'de, T: Deserialize<'de>, const N: usize> Deserialize<'de> for List<T, N> {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        struct List<T>(PhantomData<T>);
-        impl<'de, T: Deserialize<'de>> Visitor<'de> for List<T> {
-            type Value = Three<T>;
+        struct Exactly<T, const N: usize>(PhantomData<T>);
+        impl<'de, T: Deserialize<'de>, const N: usize> Visitor<'de> for Exactly<T, N> {
+            type Value = List<T, N>;
 
             fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
-                f.write_str("a list of three numbers")
+                f.write_str(list_of(N))
             }
 
-            fn visit_seq<A: SeqAccess<'de>>(self, mut list: A) -> Result<Three<T>, A::Error> {
-                let mut found = Vec::with_capacity(3);
-                while found.len() < 3
+            fn visit_seq<A: SeqAccess<'de>>(self, mut list: A) -> Result<List<T, N>, A::Error> {
+                let mut found = Vec::with_capacity(N);
+                while found.len() < N
                     && let Some(value) = list.next_element()?
                 {
                     found.push(value);
@@ -88,13 +100,19 @@ impl<'de, T: Deserialize<'de>> Deserialize<'de> for Three<T> {
                 while list.next_element::<IgnoredAny>()?.is_some() {
                     length += 1;
                 }
-                match <[T; 3]>::try_from(found) {
-                    Ok(three) if length == 3 => Ok(Three(three)),
-                    _ => Err(A::Error::custom(format_args!("expected a list of three numbers, found one of {length}"))),
+                match <[T; N]>::try_from(found) {
+                    Ok(all) if length == N => Ok(List(all)),
+                    _ => Err(A::Error::custom(format_args!("expected {}, found one of {length}", list_of(N)))),
                 }
             }
         }
-        deserializer.deserialize_seq(List(PhantomData))
+        deserializer.deserialize_seq(Exactly(PhantomData))
+    }
+}
+
+impl<R> From<Pair<R>> for Vec2 {
+    fn from(pair: Pair<R>) -> Vec2 {
+        Vec2::from_array(pair.0.map(|n| n.0))
     }
 }
 

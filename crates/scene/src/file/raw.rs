@@ -1,8 +1,9 @@
 //! The scene file as it is written, value by value.
 
 use super::number::{
-    AboveZero, Any, AtLeastZero, Extinction, Index, Length, Number, Roughness, Three, Triple, Whole, ZeroToOne,
+    AboveZero, Any, AtLeastZero, Extinction, Index, Length, Number, Roughness, Triple, Whole, ZeroToOne,
 };
+use super::raw_mesh::{RawInstance, RawMesh, RawStatue};
 use serde::Deserialize;
 use serde::de::value::{MapAccessDeserializer, SeqAccessDeserializer};
 use serde::de::{Deserializer, MapAccess, SeqAccess, Visitor};
@@ -48,7 +49,11 @@ pub struct RawScene {
     #[serde(default, rename = "box")]
     pub boxes: Vec<Table<RawBox>>,
     #[serde(default)]
-    pub mesh: Vec<Table<RawMesh>>,
+    pub mesh: Vec<Spanned<Table<RawMesh>>>,
+    #[serde(default)]
+    pub statue: Vec<Table<RawStatue>>,
+    #[serde(default)]
+    pub instance: Vec<Table<RawInstance>>,
     pub sun: Option<Table<RawSun>>,
     #[serde(default)]
     pub point_light: Vec<Table<RawPointLight>>,
@@ -201,16 +206,6 @@ pub struct RawBox {
 
 fn unturned() -> Number<Any> {
     Number::default()
-}
-
-pub type CornerIndex = Whole<0, { u32::MAX }>;
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct RawMesh {
-    pub positions: Vec<Triple<Any>>,
-    pub triangles: Spanned<Vec<Three<CornerIndex>>>,
-    pub material: Spanned<String>,
 }
 
 #[derive(Deserialize)]

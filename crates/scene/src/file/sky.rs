@@ -1,5 +1,6 @@
 //! The sky of a scene file: one colour, or a picture.
 
+use super::beside::beside;
 use super::raw::RawSky;
 use super::{Fault, fault};
 use crate::EnvironmentMap;
@@ -8,7 +9,7 @@ use image_file::Loaded;
 use std::path::Path;
 use std::sync::Arc;
 
-/// One colour, of a picture its mean; and the picture, which lies in `folder` unless its path is absolute.
+/// One colour, of a picture its mean; and the picture, which lies in `folder`.
 pub(super) fn sky(raw: RawSky, folder: &Path) -> Result<(Vec3, Option<Arc<EnvironmentMap>>), Fault> {
     let RawSky { radiance, image, scale, rotation } = raw;
     let Some(image) = image else {
@@ -22,7 +23,7 @@ pub(super) fn sky(raw: RawSky, folder: &Path) -> Result<(Vec3, Option<Arc<Enviro
     if radiance.is_some() {
         return fault(at, "a sky has a radiance or an image, not both");
     }
-    let path = folder.join(image.get_ref());
+    let path = beside(folder, image.get_ref()).or_else(|why| fault(at.clone(), why))?;
     let map = image_file::read(&path).map_err(|why| why.to_string()).and_then(|Loaded { image, notes }| {
         let number = |number: Option<f32>, usual| number.unwrap_or(usual);
         let scale = number(scale.map(|scale| scale.into_inner().get()), 1.0);

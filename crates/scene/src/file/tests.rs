@@ -188,13 +188,13 @@ fn files_that_are_no_scenes_are_refused_with_what_to_do() {
     )
     .unwrap();
     for (name, expected) in [
-        ("ball.obj", "ball.obj is not a scene: a scene is a text in TOML with camera, materials and lights"),
+        ("ball.stl", "ball.stl is not a scene: a scene is a text in TOML with camera, materials and lights"),
         ("ball.BLEND", "ball.BLEND is not a scene: "),
         ("wide.toml", "this is not a text in UTF-8"),
         ("", "this is a folder: name a .toml file in it"),
         ("lectrue.toml", "lecture.toml?"),
     ] {
-        let said = load(&folder.join(name)).expect_err("a fault").to_string();
+        let said = load(&folder.join(name), &Progress::untold()).expect_err("a fault").to_string();
         assert!(said.contains(expected) && said.lines().count() == 1, "{name}: {said}");
     }
     std::fs::remove_dir_all(folder).unwrap();

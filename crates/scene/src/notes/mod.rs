@@ -12,7 +12,7 @@ const DUSK: f32 = 5.0;
 const MOST_TARGETS: usize = 64;
 
 impl Scene {
-    /// What is probably not meant, and what of the scene's pictures is not shown: a line each.
+    /// What is probably not meant, and what of the scene's files is not shown: a line each.
     pub fn notes(&self) -> Vec<String> {
         let doubts = [
             self.without_light(),
@@ -24,7 +24,8 @@ impl Scene {
             self.angles_in_radians(),
         ];
         let of_pictures = self.environment.iter().flat_map(|map| map.notes()).cloned();
-        of_pictures.chain(doubts.into_iter().flatten()).collect()
+        let remarks = self.remarks.iter().cloned();
+        remarks.chain(of_pictures).chain(doubts.into_iter().flatten()).collect()
     }
 
     fn without_light(&self) -> Option<String> {

@@ -5,7 +5,7 @@ mod numbers;
 mod place;
 mod types;
 
-pub(super) use names::unknown_material;
+pub(super) use names::{unknown_material, unknown_mesh};
 
 use place::Place;
 use std::ops::Range;
@@ -37,7 +37,7 @@ const ASTRAY: [&str; 6] = [
 ];
 
 /// Names whose value is a word.
-const WORDS: [&str; 3] = ["material", "metal", "image"];
+const WORDS: [&str; 6] = ["material", "metal", "image", "file", "name", "of"];
 
 impl Place<'_> {
     /// A value that is not written in TOML's way.

@@ -15,6 +15,16 @@ pub fn unknown_material(name: &str, known: &[&str]) -> String {
     format!("no material is called '{name}': {there}")
 }
 
+/// An instance is of a mesh that there is not.
+pub fn unknown_mesh(name: &str, known: &[&str]) -> String {
+    let there = match (nearest(name, known.iter().copied()), known) {
+        (_, []) => format!("none has a name; write name = \"{name}\" below its [[mesh]] or [[statue]]"),
+        (Some(near), _) => format!("the file has {}; did you mean '{near}'?", known.join(", ")),
+        (None, _) => format!("the file has {}", known.join(", ")),
+    };
+    format!("no mesh and no statue is called '{name}': {there}")
+}
+
 /// Words of other programs and formats, and what they are called here: the first that is known where they stand.
 const ELSEWHERE: [(&str, &[&str]); 36] = [
     ("spheres", &["sphere"]),
@@ -51,12 +61,12 @@ const ELSEWHERE: [(&str, &[&str]); 36] = [
     ("look_at", &["target"]),
     ("lookat", &["target"]),
     ("fov", &["fov_y"]),
-    ("rotation", &["turn_y"]),
+    ("rotation", &["turn_y", "rotate"]),
     ("direction", &["towards", "normal", "target"]),
 ];
 
 const COLOURS: &[&str] = &["albedo", "radiance", "irradiance", "intensity", "reflectance"];
-const POINTS: &[&str] = &["center", "eye", "position", "corner"];
+const POINTS: &[&str] = &["center", "eye", "position", "corner", "translate"];
 
 /// What belongs into a table of a material: its name there, and the table.
 const OF_LOBES: [(&str, &str, &str); 16] = [

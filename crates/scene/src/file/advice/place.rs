@@ -81,7 +81,7 @@ impl<'a> Place<'a> {
         let header = self.line().trim().strip_prefix('[').filter(|_| message == "duplicate key")?;
         let name = header.split(']').next()?;
         Some(match name {
-            "sphere" | "rectangle" | "disk" | "box" | "mesh" | "point_light" => {
+            "sphere" | "rectangle" | "disk" | "box" | "mesh" | "statue" | "instance" | "point_light" => {
                 format!("a scene has a list of these: write each as [[{name}]], in double brackets")
             }
             name => format!("there is one [{name}]: put all of it under one header"),

@@ -1,0 +1,54 @@
+//! Which files a scene may name: those in its own folder, or in folders of that. A scene that was sent by somebody reads
+//! nothing else, unless the user of the program allows it.
+
+use std::path::{Component, Path, PathBuf};
+use std::sync::atomic::{AtomicBool, Ordering};
+
+static ALLOWS_OUTSIDE: AtomicBool = AtomicBool::new(false);
+
+/// Lets the scenes that this program reads from now on name any file.
+pub fn allow_files_outside() {
+    ALLOWS_OUTSIDE.store(true, Ordering::Relaxed);
+}
+
+/// The file of this name beside a scene in `folder`.
+///
+/// # Errors
+/// In words, if the name leads out of the folder and nobody has allowed that.
+pub(crate) fn beside(folder: &Path, name: &str) -> Result<PathBuf, String> {
+    if is_inside(Path::new(name)) || ALLOWS_OUTSIDE.load(Ordering::Relaxed) {
+        return Ok(folder.join(name));
+    }
+    Err(format!(
+        "'{}' lies outside of the scene's folder: put the file beside the scene, or allow it with --allow-outside",
+        image_file::escaped(name)
+    ))
+}
+
+/// Whether a path has no root and goes up no farther than it has gone down.
+fn is_inside(path: &Path) -> bool {
+    let depth = path.components().try_fold(0usize, |depth, part| match part {
+        Component::Normal(_) => Some(depth + 1),
+        Component::CurDir => Some(depth),
+        Component::ParentDir => depth.checked_sub(1),
+        Component::RootDir | Component::Prefix(_) => None,
+    });
+    depth.is_some()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_names_that_stay_in_the_folder_are_taken() {
+        let folder = Path::new("scenes");
+        for inside in ["a.ply", "models/a.ply", "./a.ply", "models/../a.ply"] {
+            assert_eq!(beside(folder, inside), Ok(folder.join(inside)), "{inside}");
+        }
+        for outside in ["../a.ply", "models/../../a.ply", "/a.ply", "/etc/passwd"] {
+            let said = beside(folder, outside).expect_err(outside);
+            assert!(said.contains("outside of the scene's folder") && said.contains("--allow-outside"), "{said}");
+        }
+    }
+}
