@@ -7,7 +7,7 @@ use crate::patience::Patient;
 use crate::renderer::{Renderer, Watch};
 use crate::speeds::Speeds;
 use crate::{Accumulation, Adapters, Backend, Device, Rank, Runs, Shot, Technique, Threads, TracedSettings};
-use scene::{Geometry, Scene, Shape};
+use scene::{Scene, Shape};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
@@ -318,10 +318,7 @@ impl ProgressiveRenderer {
     /// Rough pictures by the processor where the device has to compile first, which takes longer than anyone should
     /// look at the last picture.
     fn rough_by_whoever_is_ready(&mut self, renderer: &mut Renderer, request: &Request, watch: &impl Watch) {
-        let triangles = |shape: &Shape| match &shape.geometry {
-            Geometry::Mesh(mesh) => mesh.triangles().len(),
-            _ => 0,
-        };
+        let triangles = |shape: &Shape| shape.geometry.mesh_of().map_or(0, |mesh| mesh.triangles().len());
         // where the processor would take as long to make the scene ready, nothing is won
         let large = request.shot.scene.shapes.iter().map(triangles).sum::<usize>() > LARGE;
         if large || renderer.has_compiled(&request.settings.integrator) {

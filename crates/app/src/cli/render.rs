@@ -36,7 +36,7 @@ pub(super) struct Timed {
 
 pub fn run(args: &mut RenderArgs) -> anyhow::Result<()> {
     let shot = args.shot()?;
-    tell_what_has_no_effect(args, &builtin::named(&args.scene)?);
+    tell_what_has_no_effect(args, &shot.scene);
     args.tell_of_another_scene(&shot.scene);
     args.tell_of_what_is_not_made_again();
     args.pane.denoise.history = 0;

@@ -287,9 +287,14 @@ impl Engine {
         }
     }
 
-    /// What was read since the last call, or why nothing was.
-    pub fn loaded(&self) -> Option<Result<Loaded, Refusal>> {
-        self.loader.loaded().or_else(|| self.reference_loader.loaded())
+    /// What was read since the last call, or why nothing was; `doing` becomes what is being read.
+    pub fn loaded(&self, doing: &mut Option<String>) -> Option<Result<Loaded, Refusal>> {
+        self.loader.loaded(doing).or_else(|| self.reference_loader.loaded(&mut None))
+    }
+
+    /// Reads the scene no further that is being read; whether there was one.
+    pub fn stop_loading(&self) -> bool {
+        self.loader.stop()
     }
 
     /// Watches the file of the scene that is open, if it is one.

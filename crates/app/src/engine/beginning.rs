@@ -4,6 +4,7 @@ use super::load::{self, Asked, Loaded, Opened, ReferenceFile};
 use super::memory;
 use crate::model::{Model, Remembered, SavedWindow, ViewArgs};
 use anyhow::bail;
+use scene::Progress;
 
 /// What a window begins with.
 pub struct Beginning {
@@ -21,7 +22,7 @@ impl Beginning {
     pub fn read(scene: &str) -> anyhow::Result<Self> {
         let remembered = recall();
         let asked = Asked::Open { name: scene.to_owned(), recent: remembered.recent.clone() };
-        match load::read(&asked) {
+        match load::read(&asked, &Progress::untold()) {
             Ok(Loaded::Scene(opened)) => Ok(Beginning { opened: *opened, remembered }),
             Ok(Loaded::Reference(ReferenceFile { sceneless: Some(line), .. })) => bail!("{line}"),
             Ok(Loaded::Reference(ReferenceFile { file, .. })) => bail!(
@@ -73,7 +74,7 @@ mod tests {
     fn opened_with(words: &[&str]) -> Model {
         let Ok(Command::View(args)) = Command::parse(words.iter().map(Into::into)) else { panic!("{words:?}") };
         let asked = Asked::Open { name: args.scene.clone(), recent: Vec::new() };
-        let Ok(Loaded::Scene(opened)) = load::read(&asked) else { panic!("{}", args.scene) };
+        let Ok(Loaded::Scene(opened)) = load::read(&asked, &Progress::untold()) else { panic!("{}", args.scene) };
         Beginning { opened: *opened, remembered: Remembered::default() }
             .model(&args)
             .unwrap()

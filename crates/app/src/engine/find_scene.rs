@@ -5,17 +5,17 @@
 use super::load::{Opened, read_scene};
 use super::restore::Kept;
 use image_file::shown;
-use scene::{SceneError, builtin};
+use scene::{Progress, SceneError, builtin};
 use std::path::{Path, PathBuf};
 
 /// The scene that a picture shows; where there is none, another one of its name.
 ///
 /// # Errors
 /// One line that says where it was looked for, or what is wrong with it.
-pub fn scene_of(kept: &Kept, picture: &Path, recent: &[PathBuf]) -> Result<Opened, String> {
+pub fn scene_of(kept: &Kept, picture: &Path, recent: &[PathBuf], progress: &Progress) -> Result<Opened, String> {
     let (mut another, mut faults) = (None, Vec::new());
     for candidate in candidates(&kept.scene, picture, recent) {
-        match read_scene(&candidate) {
+        match read_scene(&candidate, progress) {
             Ok(opened) if kept.scene_hash.is_none_or(|then| then == opened.scene.as_read) => return Ok(opened),
             Ok(opened) => another = another.or(Some(opened)),
             Err(fault) => faults.push(fault),
@@ -78,7 +78,9 @@ mod tests {
         for name in ["moved.toml", "scenes/below.toml"] {
             write(&folder.file(name), "45");
         }
-        let source = |scene: &str| scene_of(&kept(scene, None), &folder.file("a.png"), &[]).map(|opened| opened.source);
+        let source = |scene: &str| {
+            scene_of(&kept(scene, None), &folder.file("a.png"), &[], &Progress::untold()).map(|opened| opened.source)
+        };
         for (scene, file) in [("elsewhere/moved.toml", "moved.toml"), ("scenes/below.toml", "scenes/below.toml")] {
             assert_eq!(source(scene).map(PathBuf::from), Ok(folder.file(file)));
         }
@@ -95,7 +97,11 @@ mod tests {
         let recent = [folder.file("before/other.toml"), before.clone()];
         let hashes = [(&there, "30"), (&beside, "40"), (&before, "50")].map(|(file, radiance)| write(file, radiance));
         let (asked, picture) = (there.display().to_string(), folder.file("pictures/a.png"));
-        let source = |hash| PathBuf::from(scene_of(&kept(&asked, hash), &picture, &recent).expect("a scene").source);
+        let source = |hash| {
+            PathBuf::from(
+                scene_of(&kept(&asked, hash), &picture, &recent, &Progress::untold()).expect("a scene").source,
+            )
+        };
         for (hash, file) in hashes.into_iter().zip([&there, &beside, &before]) {
             assert_eq!(source(Some(hash)), *file);
         }
@@ -111,7 +117,8 @@ mod tests {
         let folder = TestFolder::new();
         std::fs::write(folder.file("a.toml"), "camera = 1").expect("a file");
         let asked = folder.file("a.toml").display().to_string();
-        let fault = scene_of(&kept(&asked, None), &folder.file("a.png"), &[]).expect_err("a fault");
+        let fault =
+            scene_of(&kept(&asked, None), &folder.file("a.png"), &[], &Progress::untold()).expect_err("a fault");
         assert!(fault.contains("a.toml:1:"), "{fault}");
     }
 }

@@ -9,9 +9,11 @@ use super::worker::{Control, Service, Worker};
 use crate::model::{SavedSession, Setup};
 use image_file::{Kind, shown};
 use reference::Reference;
-use scene::{Scene, SceneError, builtin};
+use scene::{Progress, Scene, SceneError, builtin};
 use std::cell::RefCell;
 use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicU32, Ordering};
+use std::time::{Duration, Instant};
 
 /// Reads scenes and pictures; the last one asked for wins, and does not wait for the others.
 pub struct Loader {
@@ -20,7 +22,17 @@ pub struct Loader {
     last: RefCell<Option<Result<Reader, Refusal>>>,
 }
 
-type Reader = Worker<Option<Asked>, Option<Result<Loaded, Refusal>>>;
+type Reader = Worker<Option<Asked>, Heard>;
+
+/// What a reader has told since it was last asked.
+#[derive(Default)]
+struct Heard {
+    doing: Option<String>,
+    read: Option<Result<Loaded, Refusal>>,
+}
+
+/// How long reading takes before it is worth a word.
+const WORTH_A_WORD: Duration = Duration::from_millis(200);
 
 /// What was in a file, or under a name.
 #[derive(Debug)]
@@ -101,16 +113,19 @@ impl Asked {
 ///
 /// # Errors
 /// One line that says what is wrong, and where.
-pub fn read(asked: &Asked) -> Result<Loaded, Refusal> {
+pub fn read(asked: &Asked, progress: &Progress) -> Result<Loaded, Refusal> {
     match asked {
         Asked::Reference(file) => read_reference(file).map(Loaded::Reference),
         Asked::Open { name, recent } => match Kind::of(Path::new(name)) {
-            Some(kind) if builtin::text(name).is_none() => read_picture(Path::new(name), kind, recent),
+            Some(kind) if builtin::text(name).is_none() => read_picture(Path::new(name), kind, recent, progress),
             _ if builtin::text(name).is_none() && session::is_session_file(Path::new(name)) => {
-                let opened = session::read(Path::new(name), recent);
+                let opened = session::read(Path::new(name), recent, progress);
                 opened.map(|opened| Loaded::Scene(Box::new(opened))).map_err(|line| refuse(Path::new(name), line))
             }
-            _ => read_scene(name).map(|opened| Loaded::Scene(Box::new(opened))).map_err(|fault| refusal(name, &fault)),
+            _ => {
+                let opened = read_scene(name, progress);
+                opened.map(|opened| Loaded::Scene(Box::new(opened))).map_err(|fault| refusal(name, &fault))
+            }
         },
     }
 }
@@ -124,10 +139,10 @@ fn refusal(asked: &str, fault: &SceneError) -> Refusal {
 ///
 /// # Errors
 /// What is wrong with it.
-pub(super) fn read_scene(source: &str) -> Result<Opened, SceneError> {
+pub(super) fn read_scene(source: &str, progress: &Progress) -> Result<Opened, SceneError> {
     // before it is read, so that what is written meanwhile is newer
     let stamp = Stamp::of(Path::new(source)).filter(|_| builtin::text(source).is_none());
-    let scene = builtin::named(source)?;
+    let scene = builtin::named_telling(source, progress)?;
     let notes = scene.notes();
     Ok(Opened {
         asked: source.to_owned(),
@@ -141,16 +156,16 @@ pub(super) fn read_scene(source: &str) -> Result<Opened, SceneError> {
     })
 }
 
-fn read_picture(path: &Path, kind: Kind, recent: &[PathBuf]) -> Result<Loaded, Refusal> {
+fn read_picture(path: &Path, kind: Kind, recent: &[PathBuf], progress: &Progress) -> Result<Loaded, Refusal> {
     let refuse = |line: String| refuse(path, line);
     match (restore::read(path).map_err(|fault| refuse(format!("{fault:#}")))?, kind) {
         (Told::Picture(kept), _) => {
-            let opened = scene_of(&kept, path, recent).map_err(refuse)?;
+            let opened = scene_of(&kept, path, recent, progress).map_err(refuse)?;
             Ok(Loaded::Scene(Box::new(set_up(opened, kept, path))))
         }
         (Told::Reference(kept), _) => {
             let reference = read_reference(path)?;
-            Ok(match scene_of(&kept, path, recent) {
+            Ok(match scene_of(&kept, path, recent, progress) {
                 Ok(opened) => {
                     let opened = set_up(opened, kept, path);
                     Loaded::Scene(Box::new(Opened { reference: Some(reference), ..opened }))
@@ -215,16 +230,33 @@ impl Loader {
         if let Ok(reader) = &reader {
             reader.post(|slot| *slot = Some(asked));
         }
-        if let Some(Ok(before)) = self.last.replace(Some(reader)) {
-            before.leave();
+        self.end(self.last.replace(Some(reader)));
+    }
+
+    /// Reads no further; whether something was being read.
+    pub fn stop(&self) -> bool {
+        let last = self.last.take();
+        let reads = last.is_some();
+        self.end(last);
+        reads
+    }
+
+    /// Nobody waits for it: what is half read is given up.
+    fn end(&self, reader: Option<Result<Reader, Refusal>>) {
+        if let Some(Ok(reader)) = reader {
+            reader.cancel();
+            reader.leave();
         }
     }
 
-    /// What was read since the last call, or why nothing was.
-    pub fn loaded(&self) -> Option<Result<Loaded, Refusal>> {
+    /// What was read since the last call, or why nothing was. What is being read is put into `doing`, in words.
+    pub fn loaded(&self, doing: &mut Option<String>) -> Option<Result<Loaded, Refusal>> {
         let mut last = self.last.borrow_mut();
         if let Ok(reader) = last.as_ref()? {
-            let loaded = reader.collect().flatten()?;
+            let heard = reader.collect()?;
+            *doing = heard.doing.or(doing.take());
+            let loaded = heard.read?;
+            *doing = None;
             if let Some(Ok(reader)) = last.take() {
                 reader.leave();
             }
@@ -236,10 +268,8 @@ impl Loader {
 
 impl Drop for Loader {
     fn drop(&mut self) {
-        if let Some(Ok(reader)) = self.last.take() {
-            // a window does not stay open until a scene is read
-            reader.leave();
-        }
+        // a window does not stay open until a scene is read
+        self.stop();
     }
 }
 
@@ -249,32 +279,75 @@ struct Scenes {
 
 impl Service for Scenes {
     type Job = Option<Asked>;
-    type Update = Option<Result<Loaded, Refusal>>;
+    type Update = Heard;
 
     fn serve(&mut self, asked: Option<Asked>, control: &Control<Self::Job, Self::Update>) {
         let Some(asked) = asked else { return };
         self.asked = asked.name();
-        let read = read(&asked);
-        control.tell(|loaded| *loaded = Some(read));
+        let hear = hearing(control);
+        let read = read(&asked, &Progress::new(&hear));
+        control.tell(|heard| heard.read = Some(read));
     }
 
     fn recover(&mut self, control: &Control<Self::Job, Self::Update>) {
         let line = "reading the scene stopped at a fault of its own".into();
         let refusal = Refusal { asked: std::mem::take(&mut self.asked), line, missing: false };
-        control.tell(|loaded| *loaded = Some(Err(refusal)));
+        control.tell(|heard| heard.read = Some(Err(refusal)));
+    }
+}
+
+/// Tells the window what takes long, percent by percent, and stops when the job is cancelled.
+fn hearing(control: &Control<Option<Asked>, Heard>) -> impl Fn(&str, f32) -> bool + Sync {
+    let (begun, last) = (Instant::now(), AtomicU32::new(u32::MAX));
+    move |what, share| {
+        let percent = (100.0 * share) as u32;
+        if begun.elapsed() > WORTH_A_WORD && last.swap(percent, Ordering::Relaxed) != percent {
+            control.tell(|heard| heard.doing = Some(format!("{what}: {percent} % (Esc stops)")));
+        }
+        !control.ends_now()
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::sync::Arc;
     use visavis_tests::TestFolder;
+
+    #[test]
+    fn what_takes_long_is_told_of_and_given_up_when_it_is_not_wanted() {
+        let folder = TestFolder::new();
+        let large = folder.file("large.toml");
+        let statue = "[camera]\neye = [0, 1, 5]\ntarget = [0, 1, 0]\nfov_y = 45\n[material.a]\n\
+                      diffuse = { albedo = [1, 1, 1] }\n[[statue]]\nlevel = 11\nmaterial = \"a\"\n";
+        std::fs::write(&large, statue).expect("a file");
+        let open = |name: &str| Asked::Open { name: name.to_owned(), recent: Vec::new() };
+        let loader = Loader::new(Arc::new(|| {}));
+        let mut doing = None;
+        loader.load(open(&large.display().to_string()));
+        let begun = Instant::now();
+        while doing.is_none() {
+            assert!(loader.loaded(&mut doing).is_none() && begun.elapsed() < Duration::from_secs(60));
+            std::thread::yield_now();
+        }
+        assert!(doing.as_ref().is_some_and(|words| words.starts_with("making a statue of level 11: ")), "{doing:?}");
+        assert!(loader.stop() && !loader.stop());
+        loader.load(open("cornell"));
+        let loaded = loop {
+            assert!(begun.elapsed() < Duration::from_secs(60));
+            if let Some(loaded) = loader.loaded(&mut doing) {
+                break loaded.expect("a scene");
+            }
+            std::thread::yield_now();
+        };
+        assert!(matches!(loaded, Loaded::Scene(opened) if opened.source == "cornell") && doing.is_none());
+    }
 
     #[test]
     fn what_is_not_there_is_told_apart_from_what_is_wrong() {
         let folder = TestFolder::new();
         let asked = |name: &str| Asked::Open { name: folder.file(name).display().to_string(), recent: Vec::new() };
-        let missing = |name: &str| read(&asked(name)).expect_err(name).missing;
+        let missing = |name: &str| read(&asked(name), &Progress::untold()).expect_err(name).missing;
         std::fs::write(folder.file("wrong.toml"), "camera = 1").expect("a file");
         std::fs::write(folder.file("wrong.png"), "no picture").expect("a file");
         assert_eq!(["gone.toml", "gone.png", "wrong.toml", "wrong.png"].map(missing), [true, true, false, false]);

@@ -6,7 +6,7 @@ use super::restore::Kept;
 use crate::model::{PaneSource, SavedSession, SavedWindow, SessionDraft, Setup, is_session};
 use anyhow::{Context, bail};
 use image_file::shown;
-use scene::{Scene, builtin};
+use scene::{Progress, Scene, builtin};
 use std::path::{Component, Path, PathBuf};
 use std::sync::Arc;
 
@@ -31,7 +31,7 @@ fn head_of(path: &Path) -> Option<Vec<u8>> {
 ///
 /// # Errors
 /// One line that says what is wrong, and where.
-pub fn read(path: &Path, recent: &[PathBuf]) -> Result<Opened, String> {
+pub fn read(path: &Path, recent: &[PathBuf], progress: &Progress) -> Result<Opened, String> {
     let head = head_of(path).ok_or_else(|| format!("cannot read the session: {}", shown(path)))?;
     if head.len() as u64 > LARGEST_FILE {
         return Err(format!("a session has at most {LARGEST_FILE} bytes, and this file has more: {}", shown(path)));
@@ -41,7 +41,7 @@ pub fn read(path: &Path, recent: &[PathBuf]) -> Result<Opened, String> {
     let draft = SessionDraft::parse(&text, path)?;
     let scene = source_beside(path, &draft.scene);
     let kept = Kept { scene, scene_hash: draft.scene_hash, setup: Setup::default(), session: None };
-    let opened = scene_of(&kept, path, recent)?;
+    let opened = scene_of(&kept, path, recent, progress)?;
     let mut session = draft.beside(&opened.scene, path)?;
     files_as(&mut session, |file| {
         std::path::absolute(path.with_file_name(file)).map_or_else(|_| file.to_owned(), |file| without_detours(&file))

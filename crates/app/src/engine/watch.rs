@@ -3,7 +3,7 @@
 
 use super::Wake;
 use super::worker::{Control, Service, Worker};
-use scene::{Scene, builtin};
+use scene::{Progress, Scene, SceneError, builtin};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, SystemTime};
 
@@ -94,7 +94,12 @@ impl Service for Files {
         while !control.ends_soon() {
             if reads {
                 stamp = Stamp::of(&path);
-                let scene = builtin::named(&path.display().to_string()).map_err(|fault| fault.to_string());
+                let goes_on = |_: &str, _: f32| !control.ends_soon();
+                let scene = builtin::named_telling(&path.display().to_string(), &Progress::new(&goes_on));
+                if matches!(scene, Err(SceneError::Stopped)) {
+                    return;
+                }
+                let scene = scene.map_err(|fault| fault.to_string());
                 control.tell(|news| news.reread = Some(Reread { opened, scene }));
             }
             if let Some(scenes) = folder.look_again() {

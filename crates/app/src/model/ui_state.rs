@@ -56,6 +56,8 @@ pub struct UiState {
     pub flicker: Option<PaneId>,
     /// What is wrong with the scene's file as it stands on disk, until it is mended; the scene before is shown.
     pub scene_fault: Option<String>,
+    /// What is being read or made of a scene that takes its time, and how far it is.
+    pub loading: Option<String>,
     /// The scenes in the folder of the one that is open, if it is a file.
     pub neighbours: Vec<PathBuf>,
     /// The files that were opened last, and the window of before.
@@ -152,6 +154,7 @@ impl UiState {
             light_bars: Vec::new(),
             flicker: None,
             scene_fault: None,
+            loading: None,
             neighbours: Vec::new(),
             remembered: Remembered::default(),
             thumbnails: false,

@@ -33,11 +33,14 @@ fn promise(files: &[PathBuf]) -> Option<Result<String, String>> {
         Some(Kind::Exr) => {
             Ok(format!("Drop to see again what {name} shows; if it does not say that, to compare with it"))
         }
-        None if file.extension().is_some_and(|kind| kind.eq_ignore_ascii_case("toml")) => {
-            Ok(format!("Drop to open {name}, a scene or a session"))
-        }
-        None => Err(format!("{name} is neither a scene (.toml) nor a picture (.png, .exr)")),
+        None if is(file, &["toml"]) => Ok(format!("Drop to open {name}, a scene or a session")),
+        None if is(file, &["ply", "obj"]) => Ok(format!("Drop to look at {name}, a model, on a floor under sun and sky")),
+        None => Err(format!("{name} is neither a scene (.toml), nor a model (.ply, .obj), nor a picture (.png, .exr)")),
     })
+}
+
+fn is(file: &Path, kinds: &[&str]) -> bool {
+    file.extension().is_some_and(|suffix| kinds.iter().any(|kind| suffix.eq_ignore_ascii_case(kind)))
 }
 
 /// Over all that there is.
@@ -61,9 +64,10 @@ mod tests {
         let said = |names: &[&str]| promise(&names.iter().map(PathBuf::from).collect::<Vec<_>>());
         assert_eq!(said(&[]), None);
         assert_eq!(said(&["a/b.TOML"]), Some(Ok("Drop to open b.TOML, a scene or a session".into())));
+        assert!(said(&["bunny.OBJ"]).is_some_and(|it| it.is_ok_and(|line| line.contains("a model"))));
         assert!(said(&["b.png"]).is_some_and(|it| it.is_ok_and(|line| line.contains("what b.png shows"))));
         assert!(said(&["b.exr"]).is_some_and(|it| it.is_ok_and(|line| line.contains("compare with it"))));
-        for refused in [&["bunny.obj"][..], &["a.toml", "b.toml"], &["folder"]] {
+        for refused in [&["bunny.stl"][..], &["a.toml", "b.toml"], &["folder"]] {
             assert!(said(refused).is_some_and(|it| it.is_err()), "{refused:?}");
         }
     }

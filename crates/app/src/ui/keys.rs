@@ -56,7 +56,9 @@ pub fn listen(workspaces: &mut Workspaces, cx: &mut UiContext, context: &Context
     let was_typing = std::mem::replace(&mut cx.model.state.typing, context.text_edit_focused());
     // egui closes the menu that is open, and the help below waits for the next press
     if keys.presses(Key::Escape) > 0 && !was_typing && !Popup::is_any_open(context) {
-        if cx.model.state.help {
+        if cx.model.state.loading.is_some() {
+            cx.commands.push(UiCommand::StopLoading);
+        } else if cx.model.state.help {
             cx.model.state.help = false;
         } else {
             workspaces.open_mut().escape(cx);

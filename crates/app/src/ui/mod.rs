@@ -35,6 +35,8 @@ pub enum UiCommand {
     Export(ExportRequest),
     /// Read and open a scene, by name or file, or what a picture shows.
     Open(String),
+    /// Give up the scene that is being read.
+    StopLoading,
     /// Read the scene's file again.
     ReadAgain,
     /// Let the user choose a file in a dialogue of the system's.

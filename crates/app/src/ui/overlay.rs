@@ -14,6 +14,9 @@ pub fn say(cx: &mut UiContext, ui: &Ui, rect: Rect, hints: &[&str]) {
     cx.model.state.message.take_if(|message| expired(message) || (dismissed && message.is_old()));
     // a scene's file stays faulty until it is mended, whatever else is said meanwhile
     let (name, text, colour) = match &cx.model.state.message {
+        _ if cx.model.state.loading.is_some() => {
+            ("loading", cx.model.state.loading.clone().unwrap_or_default(), Color32::WHITE)
+        }
         Some(message) => {
             ui.ctx().request_repaint_after(message.remaining().unwrap_or(std::time::Duration::MAX));
             let colour = if message.failed { Color32::from_rgb(255, 150, 150) } else { Color32::WHITE };

@@ -80,7 +80,7 @@ impl Viewer {
 
     /// Takes what was read, chosen or found on disk since the last frame.
     pub(super) fn collect_files(&mut self) {
-        match self.engine.loaded() {
+        match self.engine.loaded(&mut self.model.state.loading) {
             Some(Ok(Loaded::Scene(opened))) => self.open(*opened),
             Some(Ok(Loaded::Reference(reference))) => self.judge = Some(Judge::alone(reference)),
             Some(Err(refusal)) => self.refuse(refusal),
@@ -95,6 +95,13 @@ impl Viewer {
         }
         if let Some(answer) = self.engine.chosen_file() {
             self.take_file(answer);
+        }
+    }
+
+    /// Gives up the scene that is being read; the one that is open stays.
+    pub(super) fn stop_loading(&mut self) {
+        if self.engine.stop_loading() && self.model.state.loading.take().is_some() {
+            self.model.say(Ok("Reading was stopped".into()));
         }
     }
 

@@ -149,8 +149,10 @@ impl Viewer {
             },
             UiCommand::Open(name) => {
                 let recent = self.model.state.remembered.recent.clone();
+                self.model.state.loading = None;
                 self.engine.load(Asked::Open { name, recent });
             }
+            UiCommand::StopLoading => self.stop_loading(),
             UiCommand::LoadReference(file) => self.engine.load(Asked::Reference(file)),
             UiCommand::ReadAgain => self.read_again(),
             UiCommand::DrawThumbnails => self.engine.draw_thumbnails(scene::builtin::hard_names()),
@@ -227,6 +229,7 @@ impl Viewer {
             "fov": document.camera.fov_y,
             "message": state.message.as_ref().map(|m| &m.text),
             "scene_fault": state.scene_fault,
+            "loading": state.loading,
             "title": self.title(),
             "neighbours": state.neighbours.len(),
             "focus_id": focused.map(|id| id.value()),

@@ -17,8 +17,8 @@ pub fn choose(wish: &FileWish, window: &Window) -> Choice {
     match wish.purpose {
         FilePurpose::Open => Box::pin(
             dialogue
-                .set_title("Open a scene or a session, or a picture to see again")
-                .add_filter("Scenes, sessions and pictures", &["toml", "png", "exr"])
+                .set_title("Open a scene, a session or a model, or a picture to see again")
+                .add_filter("Scenes, sessions, models and pictures", &["toml", "ply", "obj", "png", "exr"])
                 .pick_file(),
         ),
         FilePurpose::Reference => {

@@ -40,7 +40,7 @@ fn a_scene_that_changes_on_disk_is_shown_again_and_a_fault_stays_until_it_is_men
     let framed = user.key(Key::Num4);
     assert_ne!(moved.state("eye"), read.state("eye"));
     user.wait_for("both pictures", both_whole);
-    user.drop_file(Path::new("bunny.obj"));
+    user.drop_file(Path::new("bunny.stl"));
     write(&file, "many");
     let faulty = user.wait_for("the fault", |f| f.state("scene_fault").is_string());
     let fault = faulty.state("scene_fault").as_str().expect("a line").to_owned();
@@ -187,8 +187,8 @@ fn other_files_that_are_dropped_are_compared_with_or_refused_with_a_word() {
     }
     user.drop_file(&png);
     user.wait_for("the refusal", |f| says(f, "does not say how it was made"));
-    user.drop_file(Path::new("bunny.obj"));
-    user.wait_for("the refusal", |f| says(f, "bunny.obj is neither a scene (.toml) nor a picture"));
+    user.drop_file(Path::new("bunny.stl"));
+    user.wait_for("the refusal", |f| says(f, "bunny.stl is neither a scene (.toml), nor a model"));
     user.drop_file(&foreign);
     user.wait_for("the reference", |f| f.state("reference")[1] == 1 && says(f, "compared with"));
 }
@@ -317,4 +317,30 @@ fn hard_cases_are_offered_with_a_picture_and_a_word() {
     assert!(menu.shows("scene hard/slab"));
     user.click("hard/ball-on-floor");
     user.wait_for("the case", |f| f.state("scene") == "hard/ball-on-floor");
+}
+
+#[test]
+fn a_scene_that_takes_long_is_told_of_and_escape_gives_it_up() {
+    let mut user = User::of("whitted");
+    let file = user.file("large.toml");
+    let statue = "[camera]\neye = [0, 1, 5]\ntarget = [0, 1, 0]\nfov_y = 45\n[material.a]\n\
+                  diffuse = { albedo = [1, 1, 1] }\n[[statue]]\nlevel = 11\nmaterial = \"a\"\n";
+    std::fs::write(&file, statue).expect("a file");
+    user.drop_file(&file);
+    let told = user.wait_for("words on it", |f| f.state("loading").is_string());
+    assert!(told.value("loading").starts_with("making a statue of level 11: "), "{}", told.value("loading"));
+    let after = user.key(Key::Escape);
+    let after = if says(&after, "Reading was stopped") { after } else { user.frame() };
+    assert!(says(&after, "Reading was stopped") && after.state("loading").is_null());
+    assert_eq!(after.state("scene"), "whitted");
+}
+
+#[test]
+fn a_model_that_is_dropped_is_shown_with_a_note_on_what_is_not_shown_of_it() {
+    let mut user = User::of("whitted");
+    let file = user.file("flag.obj");
+    std::fs::write(&file, "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").expect("a file");
+    user.drop_file(&file);
+    let shown = user.wait_for("the model", |f| f.state("scene") == "flag");
+    assert!(says(&shown, "flag.obj: not read of it: mtllib"), "{}", shown.state("message"));
 }

@@ -134,9 +134,9 @@ fn commands() -> Vec<Block> {
     vec![
         Block::new(
             "visavis [SCENE]",
-            "open the viewer; SCENE is whitted, cornell, phong, cornell-balls, veach, caustic, door-ajar, hard/NAME, the .toml file of a \
-             scene or a session, or a picture of this program (.png, .exr), which is shown again as it was made (default \
-             whitted); hard/? lists the hard ones",
+            "open the viewer; SCENE is whitted, cornell, phong, cornell-balls, veach, caustic, door-ajar, statues, hard/NAME, the \
+             .toml file of a scene or a session, a model (.ply, .obj), or a picture of this program (.png, .exr), which is \
+             shown again as it was made (default whitted); hard/? lists the hard ones",
             &view::of_what_is_seen(),
         )
         .with_scene_settings()

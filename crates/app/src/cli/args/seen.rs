@@ -107,5 +107,14 @@ pub fn options<A: AsMut<Seen>>() -> Vec<CommandOption<A>> {
                 Ok(())
             },
         },
+        CommandOption {
+            names: &["--allow-outside"],
+            value: "",
+            help: "scenes may name files that lie outside of their folder: ../rock.ply, /models/rock.ply",
+            read: |_, _| {
+                scene::allow_files_outside();
+                Ok(())
+            },
+        },
     ]
 }
