@@ -1,6 +1,7 @@
 //! Pictures on disk: PNG through the display transform with its records in text chunks, EXR linear with its records in
 //! the header. Written beside the target and moved there, so that a file is whole or not there.
 
+mod codes;
 mod error;
 mod exr;
 mod folders;
@@ -12,6 +13,7 @@ mod primaries;
 mod whole;
 
 pub use self::exr::Layers;
+pub use codes::{CodeCurve, Codes, decode_codes};
 pub use error::{ImageFileError, escaped, shown};
 pub use folders::{cache_folder, default_folder, home_folder, state_folder};
 pub use lock::hold;

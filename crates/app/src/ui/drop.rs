@@ -34,7 +34,9 @@ fn promise(files: &[PathBuf]) -> Option<Result<String, String>> {
             Ok(format!("Drop to see again what {name} shows; if it does not say that, to compare with it"))
         }
         None if is(file, &["toml"]) => Ok(format!("Drop to open {name}, a scene or a session")),
-        None if is(file, &["ply", "obj"]) => Ok(format!("Drop to look at {name}, a model, on a floor under sun and sky")),
+        None if is(file, &["ply", "obj"]) => {
+            Ok(format!("Drop to look at {name}, a model, on a floor under sun and sky"))
+        }
         None => Err(format!("{name} is neither a scene (.toml), nor a model (.ply, .obj), nor a picture (.png, .exr)")),
     })
 }

@@ -3,6 +3,7 @@
 
 mod advice;
 mod beside;
+mod gltf;
 mod meshes;
 mod model;
 mod number;
@@ -59,6 +60,14 @@ pub enum SceneError {
         /// Where the file lies that is no scene.
         path: PathBuf,
     },
+    /// A model of another program that cannot be shown.
+    #[error("{}: {why}", image_file::shown(path))]
+    Model {
+        /// Where the model lies.
+        path: PathBuf,
+        /// What is wrong with which of its parts.
+        why: String,
+    },
     /// The file could not be read.
     #[error("cannot read the scene file ({why}): {}{}", image_file::shown(path), did_you_mean(meant))]
     Read {
@@ -81,9 +90,9 @@ pub enum SceneError {
         /// What is wrong and what was expected.
         message: String,
     },
-    /// The file does not hold a model: its name, the place and what is wrong.
+    /// The file does not hold a mesh: its name, the place and what is wrong.
     #[error("{0}")]
-    Model(String),
+    Mesh(String),
     /// Whoever asked for it wants it no more.
     #[error("reading the scene was stopped")]
     Stopped,
@@ -94,8 +103,8 @@ fn did_you_mean(meant: &Option<String>) -> String {
 }
 
 /// Suffixes of models and scenes that other programs write, and people try first.
-const OTHER_FORMATS: [&str; 15] =
-    ["mtl", "gltf", "glb", "stl", "off", "3ds", "dae", "fbx", "abc", "usd", "usda", "usdc", "usdz", "blend", "pbrt"];
+const OTHER_FORMATS: [&str; 13] =
+    ["mtl", "stl", "off", "3ds", "dae", "fbx", "abc", "usd", "usda", "usdc", "usdz", "blend", "pbrt"];
 
 /// Largest scene file that is read, in bytes; beyond it lies no scene that TOML is the right home for.
 const LARGEST_FILE: u64 = 256 << 20;
@@ -104,12 +113,15 @@ const LARGEST_FILE: u64 = 256 << 20;
 ///
 /// # Errors
 /// [`SceneError::OtherFormat`] if its name says so, [`SceneError::Read`] if it cannot be read, [`SceneError::Wrong`] or
-/// [`SceneError::Model`] if it does not hold a scene or a model, [`SceneError::Stopped`] if it was told to stop.
+/// [`SceneError::Mesh`] or [`SceneError::Model`] if it does not hold a scene or a model, [`SceneError::Stopped`] if it was told to stop.
 pub fn load(path: &Path, progress: &Progress) -> Result<Scene, SceneError> {
     if model::is_model(path) {
         return showcase::around(path, progress);
     }
     let suffix = path.extension().unwrap_or_default().to_ascii_lowercase();
+    if suffix == "gltf" || suffix == "glb" {
+        return gltf::load(path);
+    }
     if OTHER_FORMATS.iter().any(|other| suffix == *other) {
         return Err(SceneError::OtherFormat { path: path.to_owned() });
     }

@@ -16,14 +16,14 @@ const SEEN_FROM: Vec3 = Vec3::new(0.45, 0.3, 1.0);
 /// Reads a model and builds the scene around it.
 ///
 /// # Errors
-/// [`SceneError::Read`] if there is no such file, [`SceneError::Model`] if it holds no model.
+/// [`SceneError::Read`] if there is no such file, [`SceneError::Mesh`] if it holds no model.
 pub fn around(path: &Path, progress: &Progress) -> Result<Scene, SceneError> {
     std::fs::metadata(path).map_err(|why| SceneError::Read { path: path.to_owned(), why, meant: None })?;
-    let stopped = |why| if progress.is_stopped() { SceneError::Stopped } else { SceneError::Model(why) };
+    let stopped = |why| if progress.is_stopped() { SceneError::Stopped } else { SceneError::Mesh(why) };
     let (mesh, remarks) = model::read(path, false, progress).map_err(stopped)?;
     let name = path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
     let room = room(mesh.bounds()).and_then(|text| parse(&text, &name, path).ok()).ok_or_else(|| {
-        SceneError::Model(format!("{}: it is too small, or too far away, to be seen", image_file::shown(path)))
+        SceneError::Mesh(format!("{}: it is too small, or too far away, to be seen", image_file::shown(path)))
     })?;
     let shape = Shape { geometry: Geometry::Mesh(Arc::new(mesh)), material: 1 };
     let shapes = room.shapes.iter().cloned().chain([shape]).collect();

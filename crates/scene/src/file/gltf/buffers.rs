@@ -1,0 +1,94 @@
+//! Buffers, and the ranges of them that views name.
+
+use super::container::Parts;
+use super::json::Root;
+use super::{Refused, uri};
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+
+/// Bytes of a model at most, all of its buffers together.
+pub const MOST_BYTES: u64 = 4 << 30;
+
+/// A glTF file with all its buffers.
+pub struct Document {
+    pub root: Root,
+    /// Where the file lies: what it names lies there or below.
+    pub folder: PathBuf,
+    file: Vec<u8>,
+    buffers: Vec<Buffer>,
+}
+
+enum Buffer {
+    /// The binary chunk of the file itself.
+    Chunk(Range<usize>),
+    Read(Vec<u8>),
+}
+
+impl Document {
+    /// Reads the buffers that the JSON names.
+    pub fn new(root: Root, file: Vec<u8>, parts: &Parts, folder: &Path) -> Result<Self, Refused> {
+        let mut left = MOST_BYTES;
+        let mut buffers = Vec::with_capacity(root.buffers.len());
+        for (index, buffer) in root.buffers.iter().enumerate() {
+            let fault = |Refused(why)| Refused(format!("buffer {index}: {why}"));
+            let length = buffer.byte_length;
+            if length > left {
+                return Err(fault(Refused(format!("with it the buffers have more than {MOST_BYTES} bytes"))));
+            }
+            let read = match (&buffer.uri, &parts.binary) {
+                // files are often padded, and buffers share one
+                (Some(uri), _) => Buffer::Read(uri::bytes(uri, folder, MOST_BYTES).map_err(fault)?),
+                (None, Some(chunk)) if index == 0 => Buffer::Chunk(chunk.clone()),
+                (None, _) => return Err(fault(Refused("it names no file, and there is no binary data here".into()))),
+            };
+            let found = read.bytes(&file).len() as u64;
+            if found < length {
+                let line = format!("it should have {length} bytes, and has {found}: it is not whole");
+                return Err(fault(Refused(line)));
+            }
+            left = left.saturating_sub(found);
+            buffers.push(read);
+        }
+        Ok(Document { root, folder: folder.to_owned(), file, buffers })
+    }
+
+    /// The bytes of a view, and from one element to the next if it says so.
+    pub fn view(&self, index: u32) -> Result<View<'_>, Refused> {
+        let Some(view) = self.root.buffer_views.get(index as usize) else {
+            return Err(Refused(format!(
+                "bufferView {index} is named, but there are {}",
+                self.root.buffer_views.len()
+            )));
+        };
+        let Some(buffer) = self.buffers.get(view.buffer as usize) else {
+            return Err(Refused(format!("bufferView {index}: there is no buffer {}", view.buffer)));
+        };
+        let bytes = buffer.bytes(&self.file);
+        let end = u128::from(view.byte_offset) + u128::from(view.byte_length);
+        if end > bytes.len() as u128 {
+            let (buffer, length) = (view.buffer, bytes.len());
+            return Err(Refused(format!(
+                "bufferView {index} ends at byte {end} of buffer {buffer}, which has {length}"
+            )));
+        }
+        let bytes = &bytes[view.byte_offset as usize..end as usize];
+        Ok(View { bytes, offset: view.byte_offset, stride: view.byte_stride })
+    }
+}
+
+impl Buffer {
+    fn bytes<'a>(&'a self, file: &'a [u8]) -> &'a [u8] {
+        match self {
+            Buffer::Chunk(range) => &file[range.clone()],
+            Buffer::Read(bytes) => bytes,
+        }
+    }
+}
+
+/// A range of a buffer.
+pub struct View<'a> {
+    pub bytes: &'a [u8],
+    /// Where it begins in its buffer.
+    pub offset: u64,
+    pub stride: Option<u64>,
+}

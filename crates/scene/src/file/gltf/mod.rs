@@ -1,0 +1,209 @@
+//! glTF 2.0, .gltf and .glb: what a file of another program holds, as a [`Scene`]. Whoever wrote the file is not trusted:
+//! sizes are checked before memory is taken, and only files beside it are opened.
+//!
+//! What it has and this program lacks is told in [`Scene::remarks`]; what cannot be shown is refused in one line.
+
+mod accessors;
+mod buffers;
+mod cameras;
+mod container;
+mod json;
+mod lights;
+mod materials;
+mod meshes;
+mod nodes;
+mod remarks;
+mod textures;
+mod uri;
+
+use super::SceneError;
+use crate::mesh::{Instance, Mesh};
+use crate::stand_ins::FakeNumbers;
+use crate::{Geometry, Scene, SceneHash, Shape, nesting};
+use buffers::Document;
+use glam::{DAffine3, Vec3};
+use materials::Materials;
+use meshes::Meshes;
+use nodes::Placed;
+use remarks::Remarks;
+use std::collections::HashMap;
+use std::path::Path;
+use std::sync::Arc;
+
+/// Triangles of small meshes, each as often as it is shown: they are taken apart into triangles of the world.
+const MOST_SMALL: u64 = 1 << 24;
+
+/// Why a file is not shown, in one line.
+#[derive(Debug)]
+struct Refused(String);
+
+/// Reads a model as a scene of its own: with the first of its cameras, or with one that is fitted to it.
+pub(super) fn load(path: &Path) -> Result<Scene, SceneError> {
+    let read = uri::read(path, buffers::MOST_BYTES);
+    let file = read.map_err(|why| SceneError::Read { path: path.to_owned(), why, meant: None })?;
+    let name = path.file_stem().map(|s| s.to_string_lossy().into_owned()).unwrap_or_default();
+    let folder = path.parent().unwrap_or(Path::new(""));
+    scene(file, &name, folder).map_err(|Refused(why)| SceneError::Model { path: path.to_owned(), why })
+}
+
+fn scene(file: Vec<u8>, name: &str, folder: &Path) -> Result<Scene, Refused> {
+    let mut remarks = Remarks::default();
+    let parts = container::parts(&file)?;
+    let root = container::parse(&file[parts.json.clone()], &mut remarks)?;
+    let document = Document::new(root, file, &parts, folder)?;
+    tell_of_what_stays(&document, &mut remarks);
+    let placed = nodes::placed(&document, &mut remarks)?;
+    let mut materials = Materials::new(&document);
+    let shapes = shapes(&document, &placed, &mut materials, &mut remarks)?;
+    let materials = materials.list;
+    if nesting::overlap(&shapes, &materials).is_some() {
+        remarks.add("glass overlaps other glass: light is bent wrongly there");
+    }
+    let mut lights = lights::lights(&document, &placed, &mut remarks)?;
+    lights.light_models_without(&materials, &mut remarks);
+    let bounds = shapes.iter().map(|shape| shape.geometry.bounds());
+    let bounds = bounds.reduce(|a, b| (a.0.min(b.0), a.1.max(b.1))).unwrap_or((Vec3::ZERO, Vec3::ZERO));
+    let cameras = cameras::cameras(&document, &placed, bounds, &mut remarks)?;
+    let camera = cameras.first().map_or_else(|| cameras::fitted(bounds), |first| first.camera);
+    let scene = Scene {
+        name: name.to_owned(),
+        camera,
+        cameras: cameras.into(),
+        materials,
+        shapes: shapes.into(),
+        sun: lights.sun,
+        point_lights: lights.points,
+        sky: lights.sky,
+        environment: None,
+        fake: FakeNumbers::default(),
+        remarks: remarks.lines().collect(),
+        as_read: SceneHash::default(),
+    };
+    Ok(Scene { as_read: SceneHash::of(&scene), ..scene })
+}
+
+/// What no part of a picture shows.
+fn tell_of_what_stays(document: &Document, remarks: &mut Remarks) {
+    if !document.root.animations.is_empty() {
+        remarks.add("animations are left out: the model is shown at rest");
+    }
+    let variants = document.root.extensions.variants.as_ref().map_or(&[][..], |variants| &variants.variants);
+    for variant in variants {
+        let name = variant.name.as_deref().unwrap_or("unnamed");
+        remarks.of("of its variants none is chosen: materials are the usual ones", quoted(name));
+    }
+}
+
+/// A mesh where a node shows it.
+struct Use<'a> {
+    mesh: Arc<Mesh>,
+    material: usize,
+    place: &'a Placed<'a>,
+}
+
+fn shapes(
+    document: &Document,
+    placed: &[Placed],
+    materials: &mut Materials,
+    remarks: &mut Remarks,
+) -> Result<Vec<Shape>, Refused> {
+    let uses = uses(document, placed, materials, remarks)?;
+    let mut times: HashMap<*const Mesh, u64> = HashMap::new();
+    uses.iter().for_each(|found| *times.entry(Arc::as_ptr(&found.mesh)).or_default() += 1);
+    let small = uses.iter().filter(|found| !found.mesh.is_large());
+    let triangles: u64 = small.map(|found| found.mesh.triangles().len() as u64).sum();
+    if triangles > MOST_SMALL {
+        let line = format!("{triangles} triangles, each as often as it is shown: at most {MOST_SMALL}");
+        return Err(Refused(format!("its meshes of less than {} triangles have {line}", Mesh::LARGE)));
+    }
+    let mut shapes = Vec::with_capacity(uses.len());
+    for Use { mesh, material, place } in uses {
+        let once = times.get(&Arc::as_ptr(&mesh)) == Some(&1);
+        let geometry = put(mesh, &place.to_world, once, place, remarks)?;
+        shapes.extend(geometry.map(|geometry| Shape { geometry, material }));
+    }
+    Ok(shapes)
+}
+
+fn uses<'a>(
+    document: &Document,
+    placed: &'a [Placed],
+    materials: &mut Materials,
+    remarks: &mut Remarks,
+) -> Result<Vec<Use<'a>>, Refused> {
+    let mut meshes = Meshes::new(document);
+    let mut uses = Vec::new();
+    for place in placed {
+        let Some(index) = place.node.mesh else { continue };
+        let Some(mesh) = document.root.meshes.get(index as usize) else {
+            let count = document.root.meshes.len();
+            return Err(Refused(format!("{}: mesh {index} is named, but there are {count}", place.name())));
+        };
+        if place.node.skin.is_some() {
+            remarks.of("skins are left out: the model is shown at rest", place.name());
+        }
+        let name = named("mesh", index, mesh.name.as_deref());
+        for (number, primitive) in mesh.primitives.iter().enumerate() {
+            let fault = |Refused(why)| Refused(format!("{name}, primitive {number}: {why}"));
+            let made = materials.of(primitive.material, remarks).map_err(fault)?;
+            let mesh = meshes.of(primitive, made.uv_set, &name, remarks).map_err(fault)?;
+            uses.extend(mesh.map(|mesh| Use { mesh, material: made.index, place }));
+        }
+    }
+    Ok(uses)
+}
+
+/// A mesh at its place in the world: taken there if it is small and shown once, else as one of the instances that share it.
+fn put(
+    mesh: Arc<Mesh>,
+    to_world: &DAffine3,
+    once: bool,
+    place: &Placed,
+    remarks: &mut Remarks,
+) -> Result<Option<Geometry>, Refused> {
+    if *to_world == DAffine3::IDENTITY {
+        return Ok(Some(Geometry::Mesh(mesh)));
+    }
+    let instance = Instance { mesh, to_world: to_world.as_affine3a() };
+    let (lo, hi) = instance.bounds();
+    let reach = lo.abs().max(hi.abs()).max_element();
+    if !(instance.to_world.is_finite() && reach <= meshes::LARGEST) {
+        return Err(Refused(format!("{}: its mesh reaches farther than 1e12 from 0", place.name())));
+    }
+    let inverse = instance.to_world.inverse();
+    if !inverse.is_finite() || instance.to_world.matrix3.determinant() == 0.0 {
+        // squeezed flat: there is something to be seen, but no way back
+        remarks.of("what is scaled to nothing is flat", place.name());
+        return Ok(Some(Geometry::Mesh(Arc::new(Mesh::with_attributes(
+            instance.positions(),
+            instance.triangles(),
+            Vec::new(),
+            instance.mesh.uvs().to_vec(),
+        )))));
+    }
+    let bake = once && !instance.mesh.is_large();
+    Ok(Some(if bake { Geometry::Mesh(Arc::new(instance.baked())) } else { Geometry::Instance(instance) }))
+}
+
+/// What stands at an index of the file, with its name if it has one.
+fn named(kind: &str, index: u32, name: Option<&str>) -> String {
+    name.map_or_else(|| format!("{kind} {index}"), |name| format!("{kind} {index} {}", quoted(name)))
+}
+
+/// A text of the file in a line.
+fn quoted(text: &str) -> String {
+    const MOST: usize = 80;
+    match text.char_indices().nth(MOST) {
+        Some((end, _)) => format!("'{}...'", image_file::escaped(&text[..end])),
+        None => format!("'{}'", image_file::escaped(text)),
+    }
+}
+
+/// A name that nothing has yet: itself, or with a number behind it.
+fn free_name(name: String, taken: impl Fn(&str) -> bool) -> String {
+    let numbered = |number: u32| if number == 1 { name.clone() } else { format!("{name} {number}") };
+    (1..=u32::MAX).map(numbered).find(|name| !taken(name)).unwrap_or(name.clone())
+}
+
+#[cfg(test)]
+mod tests;
