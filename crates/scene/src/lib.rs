@@ -81,6 +81,19 @@ impl Scene {
         &self.materials[shape.material]
     }
 
+    /// The camera that the file calls so.
+    ///
+    /// # Errors
+    /// A line that lists those that there are.
+    pub fn camera_named(&self, name: &str) -> Result<Camera, String> {
+        if let Some(found) = self.cameras.iter().find(|camera| camera.name == name) {
+            return Ok(found.camera);
+        }
+        let names: Vec<&str> = self.cameras.iter().map(|camera| camera.name.as_str()).collect();
+        let known = if names.is_empty() { "it names none".into() } else { format!("it has {}", names.join(", ")) };
+        Err(format!("no camera of {} is called '{}': {known}", self.name, image_file::escaped(name)))
+    }
+
     /// Smallest axis-parallel box around all shapes: (lower corner, upper corner). The origin twice if there are none.
     pub fn bounds(&self) -> (Vec3, Vec3) {
         let all = self.shapes.iter().map(|s| s.geometry.bounds());

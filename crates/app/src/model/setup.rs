@@ -15,6 +15,8 @@ pub struct Setup {
     pub sources: Panes<PaneSource>,
     /// What is changed in the scene.
     pub changes: SceneChanges,
+    /// Which of the file's cameras it is, by name.
+    pub camera: Option<String>,
     /// Where the camera stands.
     pub eye: Option<Vec3>,
     /// What it looks at.
@@ -89,8 +91,9 @@ impl Model {
         self.begin_history();
     }
 
-    fn look(&mut self, Setup { eye, target, fov, .. }: &Setup) -> Result<(), String> {
-        let own = self.document.scene.camera;
+    fn look(&mut self, Setup { camera, eye, target, fov, .. }: &Setup) -> Result<(), String> {
+        let scene = &self.document.scene;
+        let own = camera.as_ref().map_or(Ok(scene.camera), |name| scene.camera_named(name))?;
         let (eye, target) = (eye.unwrap_or(own.eye), target.unwrap_or(own.target));
         let camera = Camera { eye, target, fov_y: fov.unwrap_or(own.fov_y), ..own };
         if let Some(fault) = camera.fault() {
@@ -125,13 +128,16 @@ impl Setup {
         for setting in OF_SCENES {
             (setting.get)(&other.changes).into_iter().for_each(|value| (setting.set)(&mut self.changes, value));
         }
+        // another camera stands elsewhere
+        let stays = other.camera.is_none();
         Setup {
             panes: self.panes,
             sources: self.sources,
             changes: self.changes,
-            eye: other.eye.or(self.eye),
-            target: other.target.or(self.target),
-            fov: other.fov.or(self.fov),
+            eye: other.eye.or(self.eye.filter(|_| stays)),
+            target: other.target.or(self.target.filter(|_| stays)),
+            fov: other.fov.or(self.fov.filter(|_| stays)),
+            camera: other.camera.clone().or(self.camera),
             view: other.view.or(self.view.filter(|view| other.is_seen_in(*view))),
             line: other.line.or(self.line),
             with: other.with.or(self.with),
@@ -161,5 +167,13 @@ mod tests {
         assert_eq!(view(&pane(PaneId::B)), None);
         let side = Setup { view: Some(View::SideBySide), ..pane(PaneId::B) };
         assert_eq!(view(&side), Some(View::SideBySide));
+    }
+
+    #[test]
+    fn a_camera_that_is_asked_for_by_name_stands_where_it_does_and_not_where_a_picture_was_seen_from() {
+        let picture = Setup { eye: Some(Vec3::X), fov: Some(20.0), ..Setup::default() };
+        let named = Setup { camera: Some("front".into()), fov: Some(30.0), ..Setup::default() };
+        assert_eq!(picture.clone().overridden_by(&named), named);
+        assert_eq!(picture.clone().overridden_by(&Setup::default()), picture);
     }
 }

@@ -33,15 +33,18 @@ fn promise(files: &[PathBuf]) -> Option<Result<String, String>> {
         Some(Kind::Exr) => {
             Ok(format!("Drop to see again what {name} shows; if it does not say that, to compare with it"))
         }
-        None if is(file, &["toml"]) => Ok(format!("Drop to open {name}, a scene or a session")),
-        None if is(file, &["ply", "obj"]) => {
+        None if is_a(file, &["toml"]) => Ok(format!("Drop to open {name}, a scene or a session")),
+        None if is_a(file, &["glb", "gltf"]) => Ok(format!("Drop to open {name}, a model")),
+        None if is_a(file, &["ply", "obj"]) => {
             Ok(format!("Drop to look at {name}, a model, on a floor under sun and sky"))
         }
-        None => Err(format!("{name} is neither a scene (.toml), nor a model (.ply, .obj), nor a picture (.png, .exr)")),
+        None => Err(format!(
+            "{name} is neither a scene (.toml), nor a model (.glb, .gltf, .ply, .obj), nor a picture (.png, .exr)"
+        )),
     })
 }
 
-fn is(file: &Path, kinds: &[&str]) -> bool {
+fn is_a(file: &Path, kinds: &[&str]) -> bool {
     file.extension().is_some_and(|suffix| kinds.iter().any(|kind| suffix.eq_ignore_ascii_case(kind)))
 }
 
@@ -67,6 +70,7 @@ mod tests {
         assert_eq!(said(&[]), None);
         assert_eq!(said(&["a/b.TOML"]), Some(Ok("Drop to open b.TOML, a scene or a session".into())));
         assert!(said(&["bunny.OBJ"]).is_some_and(|it| it.is_ok_and(|line| line.contains("a model"))));
+        assert_eq!(said(&["duck.glb"]), Some(Ok("Drop to open duck.glb, a model".into())));
         assert!(said(&["b.png"]).is_some_and(|it| it.is_ok_and(|line| line.contains("what b.png shows"))));
         assert!(said(&["b.exr"]).is_some_and(|it| it.is_ok_and(|line| line.contains("compare with it"))));
         for refused in [&["bunny.stl"][..], &["a.toml", "b.toml"], &["folder"]] {

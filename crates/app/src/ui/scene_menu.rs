@@ -127,9 +127,9 @@ fn files(title: &str, kind: &str, (files, all): (&[PathBuf], &[PathBuf]), cx: &m
 }
 
 fn by_name(cx: &mut UiContext, ui: &mut Ui) {
-    let label = ui.label("A scene file (.toml):").explained(
-        "Or a session (.toml), a model (.ply, .obj) or a picture of this program (.png, .exr), which is shown again",
-    );
+    let label = ui
+        .label("A scene (.toml) or a model (.glb, .gltf, .ply, .obj):")
+        .explained("Or a session (.toml) or a picture of this program (.png, .exr), which is shown again");
     let edit = egui::TextEdit::singleline(&mut cx.model.state.scene_file).hint_text("folder/scene.toml");
     let line = ui.add(edit).labelled_by(label.id);
     let entered = line.lost_focus() && ui.input(|i| i.key_pressed(egui::Key::Enter));

@@ -18,7 +18,10 @@ pub fn choose(wish: &FileWish, window: &Window) -> Choice {
         FilePurpose::Open => Box::pin(
             dialogue
                 .set_title("Open a scene, a session or a model, or a picture to see again")
-                .add_filter("Scenes, sessions, models and pictures", &["toml", "ply", "obj", "png", "exr"])
+                .add_filter(
+                    "Scenes, models, sessions and pictures",
+                    &["toml", "glb", "gltf", "ply", "obj", "png", "exr"],
+                )
                 .pick_file(),
         ),
         FilePurpose::Reference => {

@@ -1,7 +1,8 @@
 //! What keys and mouse do to the views: full screen, the wipe's line, and what each shows of the scene.
 
 use super::Panels;
-use visavis::model::{Line, PaneId};
+use egui_kittest::kittest::Queryable;
+use visavis::model::{Line, Model, PaneId, Theme};
 use visavis::ui::UiCommand;
 
 #[test]
@@ -85,4 +86,21 @@ fn no_view_crops_what_the_wipe_shows() {
         panels.click("A", 0);
         assert_eq!(seen(&panels), wipe, "one pane alone shows the same");
     }
+}
+
+#[test]
+fn the_cameras_of_a_file_are_looked_through_by_name() {
+    let whitted = scene::builtin::named("whitted").expect("a built-in scene");
+    let above = scene::Camera { eye: scene::Vec3::new(1.0, 30.0, 2.0), ..whitted.camera };
+    let named = |name: &str, camera| scene::NamedCamera { name: name.into(), camera };
+    let cameras = [named("front", whitted.camera), named("above", above)].into();
+    let with_cameras = scene::Scene { cameras, ..whitted };
+    let mut panels = Panels::showing(Model::new(with_cameras, "model.glb".into(), Theme::Dark));
+    panels.click("Camera (both)", 0);
+    panels.harness.get_by_label("The file's cameras").scroll_to_me();
+    panels.harness.run_steps(5);
+    panels.click("The file's cameras", 0);
+    panels.click("above", 0);
+    assert_eq!(panels.model.borrow().document.camera, above);
+    assert!(!Panels::of("whitted").shows("The file's cameras"), "a scene that names none");
 }

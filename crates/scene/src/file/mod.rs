@@ -38,7 +38,7 @@ pub use beside::allow_files_outside;
 pub enum SceneError {
     /// Neither a built-in name nor a file.
     #[error(
-        "unknown scene '{}': the built-in scenes are {known}; a file's name ends in .toml{}",
+        "unknown scene '{}': the built-in scenes are {known}; a file's name ends in .toml, .glb or .gltf{}",
         image_file::escaped(name),
         did_you_mean(meant)
     )]
@@ -53,7 +53,8 @@ pub enum SceneError {
     /// A file of another kind.
     #[error(
         "{} is not a scene: a scene is a text in TOML with camera, materials and lights, whose meshes are read from .ply \
-         or .obj files; `visavis cornell` is one, its file's format is described in assets/README.md",
+         or .obj files, or a glTF model (.glb, .gltf); `visavis cornell` is one, its file's format is described in \
+         assets/README.md",
         image_file::shown(path)
     )]
     OtherFormat {

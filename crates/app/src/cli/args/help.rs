@@ -135,8 +135,8 @@ fn commands() -> Vec<Block> {
         Block::new(
             "visavis [SCENE]",
             "open the viewer; SCENE is whitted, cornell, phong, cornell-balls, veach, caustic, door-ajar, statues, hard/NAME, the \
-             .toml file of a scene or a session, a model (.ply, .obj), or a picture of this program (.png, .exr), which is \
-             shown again as it was made (default whitted); hard/? lists the hard ones",
+             .toml file of a scene or a session, a model (.glb, .gltf, .ply, .obj), or a picture of this program (.png, \
+             .exr), which is shown again as it was made (default whitted); hard/? lists the hard ones",
             &view::of_what_is_seen(),
         )
         .with_scene_settings()

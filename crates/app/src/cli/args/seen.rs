@@ -15,6 +15,7 @@ use technique::{SceneChanges, Shot};
 pub struct Seen {
     pub changes: SceneChanges,
     pub size: (u32, u32),
+    pub camera: Option<String>,
     pub eye: Option<Vec3>,
     pub target: Option<Vec3>,
     pub fov: Option<f32>,
@@ -22,7 +23,7 @@ pub struct Seen {
 
 impl Default for Seen {
     fn default() -> Self {
-        Seen { changes: SceneChanges::default(), size: (1280, 720), eye: None, target: None, fov: None }
+        Seen { changes: SceneChanges::default(), size: (1280, 720), camera: None, eye: None, target: None, fov: None }
     }
 }
 
@@ -42,11 +43,13 @@ impl Seen {
 
     /// The scene's camera with what the command line changes in it.
     fn camera(&self, scene: &Scene) -> anyhow::Result<Camera> {
+        let own = self.camera.as_ref().map_or(Ok(scene.camera), |name| scene.camera_named(name));
+        let own = own.map_err(anyhow::Error::msg)?;
         let camera = Camera {
-            eye: self.eye.unwrap_or(scene.camera.eye),
-            target: self.target.unwrap_or(scene.camera.target),
-            fov_y: self.fov.unwrap_or(scene.camera.fov_y),
-            ..scene.camera
+            eye: self.eye.unwrap_or(own.eye),
+            target: self.target.unwrap_or(own.target),
+            fov_y: self.fov.unwrap_or(own.fov_y),
+            ..own
         };
         match camera.fault() {
             Some(fault) => anyhow::bail!("this camera sees nothing: {fault}; change --eye, --target or --fov"),
@@ -76,6 +79,18 @@ pub fn options<A: AsMut<Seen>>() -> Vec<CommandOption<A>> {
             help: "pixels (default 1280x720)",
             read: |args, parser| {
                 args.as_mut().size = size(&text(parser)?)?;
+                Ok(())
+            },
+        },
+        CommandOption {
+            names: &["--camera"],
+            value: "NAME",
+            help: "which of the cameras of a model is looked through (default the first); options behind it move it",
+            read: |args, parser| {
+                let seen = args.as_mut();
+                seen.camera = Some(text(parser)?);
+                // where a picture's camera stood that is made again
+                (seen.eye, seen.target, seen.fov) = (None, None, None);
                 Ok(())
             },
         },

@@ -4,7 +4,7 @@ use crate::model::Resolution;
 use crate::ui::theme::palette;
 use crate::ui::widgets::{Explained, NumberRow, Scale};
 use crate::ui::{Dump, UiContext};
-use egui::Ui;
+use egui::{ComboBox, Ui};
 use scene::{Camera, Vec3};
 
 pub fn show(cx: &mut UiContext, ui: &mut Ui) {
@@ -25,7 +25,32 @@ pub fn show(cx: &mut UiContext, ui: &mut Ui) {
         cx.model.say(Err(fault));
     }
     resolutions(cx, ui);
+    of_the_file(cx, ui);
     bookmarks(cx, ui);
+}
+
+/// The cameras that the scene's file names.
+fn of_the_file(cx: &mut UiContext, ui: &mut Ui) {
+    let cameras = cx.model.document.scene.cameras.clone();
+    if cameras.is_empty() {
+        return;
+    }
+    let here = cameras.iter().find(|named| named.camera == cx.model.document.camera);
+    let chosen = here.map_or("The file's cameras", |named| named.name.as_str());
+    let combo = ComboBox::from_id_salt("cameras").selected_text(chosen).width(ui.available_width() - 8.0).truncate();
+    let response = combo.show_ui(ui, |ui| {
+        for named in cameras.iter() {
+            let item = ui.selectable_label(cx.model.document.camera == named.camera, &named.name);
+            if cx.dump.note(&format!("camera {}", named.name), "", item).clicked() {
+                cx.model.document.camera = named.camera;
+            }
+        }
+    });
+    let response = response
+        .response
+        .explained("Looks through one of the cameras that the scene's file has")
+        .accessible_name("The file's cameras");
+    cx.dump.note("cameras", chosen, response);
 }
 
 fn field_of_view(cx: &mut UiContext, camera: &mut Camera, ui: &mut Ui) -> Option<String> {

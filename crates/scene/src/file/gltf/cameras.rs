@@ -4,6 +4,7 @@ use super::buffers::Document;
 use super::nodes::Placed;
 use super::{Refused, Remarks};
 use crate::{Camera, NamedCamera, Vec3};
+use glam::DVec3;
 
 /// From the middle of a model towards the camera that is fitted to it: from the front, which faces +z, a little to the right
 /// and above.
@@ -51,7 +52,7 @@ fn looking(node: &Placed, fov_y: f32, (lo, hi): (Vec3, Vec3)) -> Camera {
     let m = node.to_world.matrix3;
     let eye = node.to_world.translation;
     let forward = (-m.z_axis).normalize_or_zero();
-    let up = m.y_axis.normalize_or_zero().as_vec3();
+    let up = upright(forward, m.y_axis.normalize_or_zero()).as_vec3();
     let middle = 0.5 * (lo.as_dvec3() + hi.as_dvec3());
     let size = (hi - lo).as_dvec3().length();
     let distance = forward.dot(middle - eye);
@@ -59,6 +60,12 @@ fn looking(node: &Placed, fov_y: f32, (lo, hi): (Vec3, Vec3)) -> Camera {
     let distance = if distance > 0.05 * size { distance } else { (0.25 * size).max(1.0) };
     let target = (eye + forward * distance).as_vec3();
     Camera { eye: eye.as_vec3(), target, up, fov_y, near: None, far: None }
+}
+
+/// Straight up, for a camera that is not rolled: one turns about it. It shows the same.
+fn upright(forward: DVec3, up: DVec3) -> DVec3 {
+    let level = forward.cross(up).y.abs() < 1e-4;
+    if level && up.y > 1e-2 { DVec3::Y } else { up }
 }
 
 /// A camera from which a model is seen in whole.

@@ -9,10 +9,13 @@ use super::nodes::Placed;
 use super::{Refused, Remarks, named};
 use crate::{Material, PointLight, Spot, Sun, Vec3};
 use glam::DVec3;
-use std::f32::consts::{FRAC_PI_2, FRAC_PI_4};
+use std::f32::consts::{FRAC_PI_2, FRAC_PI_4, PI};
 
 /// Radiance of the sky where a file has no light: white paper under it is .8.
 const SKY: f32 = 0.8;
+
+/// Radiance of white paper from which on a picture is little but white.
+const GLARE: f32 = 16.0;
 
 /// The lights of a scene.
 #[derive(Default)]
@@ -77,6 +80,22 @@ impl Lights {
         if self.points.is_empty() && self.sun.is_none() && !materials.iter().any(lamp) {
             self.sky = Vec3::splat(SKY);
             remarks.add("it has no light: a grey sky of radiance 0.8 shows it");
+        }
+    }
+
+    /// Tells of lights that leave all white, as those do whose watts an exporter has made candela.
+    pub fn tell_of_glare(&self, (lo, hi): (Vec3, Vec3), remarks: &mut Remarks) {
+        let (middle, reach) = (0.5 * (lo + hi), 0.5 * (hi - lo).length());
+        let of_point = |light: &PointLight| {
+            light.intensity.max_element() / light.position.distance(middle).max(reach).max(1e-6).powi(2)
+        };
+        let points: f32 = self.points.iter().map(of_point).sum();
+        let paper = (points + self.sun.map_or(0.0, |sun| sun.irradiance.max_element())) / PI;
+        if paper > GLARE {
+            let stops = paper.log2().round();
+            let line = "its lights leave white what they light: export them without units (Blender: Lighting Mode, \
+                        Unitless), or lower the exposure";
+            remarks.of(line, format!("about -{stops} stops"));
         }
     }
 }

@@ -63,6 +63,7 @@ fn scene(file: Vec<u8>, name: &str, folder: &Path) -> Result<Scene, Refused> {
     lights.light_models_without(&materials, &mut remarks);
     let bounds = shapes.iter().map(|shape| shape.geometry.bounds());
     let bounds = bounds.reduce(|a, b| (a.0.min(b.0), a.1.max(b.1))).unwrap_or((Vec3::ZERO, Vec3::ZERO));
+    lights.tell_of_glare(bounds, &mut remarks);
     let cameras = cameras::cameras(&document, &placed, bounds, &mut remarks)?;
     let camera = cameras.first().map_or_else(|| cameras::fitted(bounds), |first| first.camera);
     let scene = Scene {

@@ -104,9 +104,24 @@ fn all_cameras_are_found_by_name_and_the_first_is_looked_through() {
     // what one turns about is as far away as the model
     assert!(!far_apart(scene.camera.target, Vec3::ZERO), "{}", scene.camera.target);
     assert!((scene.camera.fov_y - 0.5f32.to_degrees()).abs() < 1e-4);
+    // from an eye above and before, the camera's own up leans back; one turns about what is up in the world
     let above = scene.cameras[1].camera;
     assert!(!far_apart(above.up, Vec3::NEG_Z) && above.target.y < above.eye.y && above.fault().is_none());
     assert!(model.remark("orthographic").ends_with("node 2 'flat'"));
+}
+
+#[test]
+fn a_camera_that_is_not_rolled_stands_upright() {
+    let mut model = Model::triangle();
+    model.json["cameras"] = json!([{"type": "perspective", "perspective": {"yfov": 0.5, "znear": 0.1}}]);
+    let (sin, cos) = 0.25f64.sin_cos();
+    let up = |turn: [f64; 4]| {
+        let mut model = model.clone();
+        model.json["nodes"].as_array_mut().unwrap().push(json!({"camera": 0, "rotation": turn}));
+        model.scene().camera.up
+    };
+    assert_eq!(up([-sin, 0.0, 0.0, cos]), Vec3::Y, "it looks half a radian down");
+    assert!(!far_apart(up([0.0, 0.0, sin, cos]), Vec3::new(-0.5f32.sin(), 0.5f32.cos(), 0.0)), "it is rolled");
 }
 
 #[test]
@@ -168,6 +183,17 @@ fn the_brightest_directional_light_is_the_sun() {
     let sun = model.scene().sun.unwrap();
     assert_eq!((sun.towards, sun.angular_radius, sun.irradiance), (Vec3::Z, 0.0, Vec3::splat(3.0)));
     model.remark("only the brightest");
+}
+
+#[test]
+fn lights_of_thousands_of_candela_are_told_with_the_exposure_that_bears_them() {
+    let shine = |intensity: f32| {
+        let light = json!({"extensions": {"KHR_lights_punctual": {"light": 0}}, "translation": [0.5, 0.5, 10]});
+        lit(json!([{"type": "point", "intensity": intensity}]), json!([light]))
+    };
+    // 1000 W by Blender's rule; paper has 54351 / 100 / pi, which is 2^7.4
+    assert!(shine(54_351.0).remark("white").ends_with("lower the exposure: about -7 stops"));
+    assert!(shine(1000.0).scene().remarks.is_empty());
 }
 
 #[test]
