@@ -207,6 +207,7 @@ impl<'a> Sparse<'a> {
         }
         let place = |view, offset, size, align| Strided::new(document, view, offset, *few, size, align);
         let found = place(indices.buffer_view, indices.byte_offset, component.size(), component.size())?;
+        document.count_sparse(*few)?;
         let values = place(values.buffer_view, values.byte_offset, size, align)?;
         let indices: Vec<u32> = (0..*few as usize).map(|i| component.whole(found.bytes, i * found.stride)).collect();
         let ascending = indices.windows(2).all(|pair| pair[0] < pair[1]);

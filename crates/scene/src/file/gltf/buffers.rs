@@ -3,11 +3,15 @@
 use super::container::Parts;
 use super::json::Root;
 use super::{Refused, uri};
+use std::cell::Cell;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 /// Bytes of a model at most, all of its buffers together.
 pub const MOST_BYTES: u64 = 4 << 30;
+
+/// Sparse elements that are read at most, as often as a primitive names them.
+const MOST_SPARSE: u64 = 1 << 26;
 
 /// A glTF file with all its buffers.
 pub struct Document {
@@ -16,6 +20,7 @@ pub struct Document {
     pub folder: PathBuf,
     file: Vec<u8>,
     buffers: Vec<Buffer>,
+    sparse_left: Cell<u64>,
 }
 
 enum Buffer {
@@ -49,7 +54,14 @@ impl Document {
             left = left.saturating_sub(found);
             buffers.push(read);
         }
-        Ok(Document { root, folder: folder.to_owned(), file, buffers })
+        Ok(Document { root, folder: folder.to_owned(), file, buffers, sparse_left: Cell::new(MOST_SPARSE) })
+    }
+
+    /// Takes so many sparse elements off those that may be read.
+    pub fn count_sparse(&self, count: u64) -> Result<(), Refused> {
+        let left = self.sparse_left.get().checked_sub(count);
+        self.sparse_left.set(left.ok_or_else(|| Refused(format!("more than {MOST_SPARSE} sparse elements")))?);
+        Ok(())
     }
 
     /// The bytes of a view, and from one element to the next if it says so.

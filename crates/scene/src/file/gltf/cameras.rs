@@ -1,6 +1,7 @@
 //! Cameras: those of the file, and one for a file that has none.
 
 use super::buffers::Document;
+use super::names::Names;
 use super::nodes::Placed;
 use super::{Refused, Remarks};
 use crate::{Camera, NamedCamera, Vec3};
@@ -21,7 +22,7 @@ pub fn cameras(
     bounds: (Vec3, Vec3),
     remarks: &mut Remarks,
 ) -> Result<Vec<NamedCamera>, Refused> {
-    let mut found: Vec<NamedCamera> = Vec::new();
+    let (mut found, mut names) = (Vec::new(), Names::default());
     for node in placed {
         let Some(index) = node.node.camera else { continue };
         let Some(camera) = document.root.cameras.get(index as usize) else {
@@ -39,10 +40,7 @@ pub fn cameras(
         }
         let name = node.node.name.as_ref().or(camera.name.as_ref());
         let name = name.map_or_else(|| format!("camera {}", found.len() + 1), |name| image_file::escaped(name));
-        found.push(NamedCamera {
-            name: super::free_name(name, |name| found.iter().any(|c| c.name == name)),
-            camera: seen,
-        });
+        found.push(NamedCamera { name: names.free(name), camera: seen });
     }
     Ok(found)
 }

@@ -11,7 +11,7 @@ const MOST_JSON: usize = 512 << 20;
 const MOST_OBJECTS: usize = 1 << 21;
 
 /// Values in lists that the JSON may have.
-const MOST_VALUES: usize = 1 << 26;
+const MOST_VALUES: usize = 1 << 24;
 
 /// Extensions that change nothing else if they are not there: what they say is read.
 const READ: [&str; 9] = [

@@ -2,8 +2,9 @@
 
 use super::buffers::Document;
 use super::json::{self, AlphaMode, TextureInfo};
+use super::names::Names;
 use super::textures::Textures;
-use super::{Refused, Remarks, free_name, named};
+use super::{Refused, Remarks, named};
 use crate::material::{Emission, MetallicRoughness, NormalMap, SurfaceDetail};
 use crate::stand_ins::{FakeMaterial, usual_shininess};
 use crate::{Alpha, Bsdf, ImageTexture, Material, Texture, Vec3};
@@ -34,6 +35,9 @@ pub struct Materials<'a> {
     document: &'a Document,
     textures: Textures<'a>,
     made: HashMap<Option<u32>, Made>,
+    names: Names,
+    /// Of each picture that was looked through.
+    least_alphas: HashMap<*const ImageTexture, f32>,
     pub list: Vec<Material>,
 }
 
@@ -49,7 +53,14 @@ struct Pictures {
 
 impl<'a> Materials<'a> {
     pub fn new(document: &'a Document) -> Self {
-        Materials { document, textures: Textures::new(document), made: HashMap::new(), list: Vec::new() }
+        Materials {
+            document,
+            textures: Textures::new(document),
+            made: HashMap::new(),
+            names: Names::default(),
+            least_alphas: HashMap::new(),
+            list: Vec::new(),
+        }
     }
 
     /// The material at an index of the file; without one that which the specification gives.
@@ -70,11 +81,19 @@ impl<'a> Materials<'a> {
         let uv_set = pictures.uv_set;
         let usual = || index.map_or_else(|| "default".into(), |index| format!("material {index}"));
         let name = raw.name.as_ref().map_or_else(usual, |name| image_file::escaped(name));
-        let name = free_name(name, |name| self.list.iter().any(|material| material.name == name));
-        self.list.push(material(name, raw, pictures, &shown, remarks).map_err(fault)?);
+        let name = self.names.free(name);
+        let least_alpha = self.least_alpha(raw.alpha_mode, &pictures);
+        self.list.push(material(name, raw, pictures, least_alpha, &shown, remarks).map_err(fault)?);
         let made = Made { index: self.list.len() - 1, uv_set };
         self.made.insert(index, made);
         Ok(made)
+    }
+
+    /// The least alpha of the base colour's picture, where it counts; of none 1.
+    fn least_alpha(&mut self, mode: AlphaMode, pictures: &Pictures) -> f32 {
+        let Some(image) = pictures.base_colour.as_ref().filter(|_| mode != AlphaMode::Opaque) else { return 1.0 };
+        let least = || image.texels().iter().fold(1.0, |least: f32, texel| least.min(texel[3]));
+        *self.least_alphas.entry(Arc::as_ptr(image)).or_insert_with(least)
     }
 
     fn pictures(&mut self, raw: &json::Material, shown: &str, remarks: &mut Remarks) -> Result<Pictures, Refused> {
@@ -119,12 +138,13 @@ fn material(
     name: String,
     raw: &json::Material,
     pictures: Pictures,
+    least_alpha: f32,
     shown: &str,
     remarks: &mut Remarks,
 ) -> Result<Material, Refused> {
     let [r, g, b, opacity] = raw.pbr_metallic_roughness.base_color_factor.unwrap_or([1.0; 4]).map(share);
     let (factor, two_sided) = (Vec3::new(r, g, b), raw.double_sided);
-    let alpha = alpha(raw, opacity, pictures.base_colour.as_ref(), shown, remarks);
+    let alpha = alpha(raw, opacity, least_alpha, pictures.base_colour.as_ref(), shown, remarks);
     let normals = |image| NormalMap { image, scale: raw.normal_texture.as_ref().and_then(|n| n.scale).unwrap_or(1.0) };
     let normal_map = pictures.normals.clone().map(normals);
     let (bsdf, emission, image) = if raw.extensions.unlit.is_some() {
@@ -202,12 +222,12 @@ fn tell_of_glass(raw: &json::Material, factor: Vec3, pictures: &Pictures, shown:
 fn alpha(
     raw: &json::Material,
     factor: f32,
+    least_alpha: f32,
     image: Option<&Arc<ImageTexture>>,
     shown: &str,
     remarks: &mut Remarks,
 ) -> Alpha {
-    let least = image.map_or(1.0, |image| image.texels().iter().fold(1.0, |least: f32, texel| least.min(texel[3])));
-    let least = factor * least;
+    let least = factor * least_alpha;
     let cutoff = match raw.alpha_mode {
         AlphaMode::Opaque => return Alpha::Opaque,
         AlphaMode::Mask => raw.alpha_cutoff.unwrap_or(0.5),

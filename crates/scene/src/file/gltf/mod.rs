@@ -11,6 +11,7 @@ mod json;
 mod lights;
 mod materials;
 mod meshes;
+mod names;
 mod nodes;
 mod remarks;
 mod textures;
@@ -19,7 +20,7 @@ mod uri;
 use super::SceneError;
 use crate::mesh::{Instance, Mesh};
 use crate::stand_ins::FakeNumbers;
-use crate::{Geometry, Scene, SceneHash, Shape, nesting};
+use crate::{Bsdf, Geometry, Material, Scene, SceneHash, Shape, nesting};
 use buffers::Document;
 use glam::{DAffine3, Vec3};
 use materials::Materials;
@@ -32,6 +33,13 @@ use std::sync::Arc;
 
 /// Triangles of small meshes, each as often as it is shown: they are taken apart into triangles of the world.
 const MOST_SMALL: u64 = 1 << 24;
+
+/// Shapes that a scene may have.
+const MOST_SHAPES: u64 = 1 << 20;
+
+/// Shapes of glass, and their corners, that are looked at for overlaps: it takes the square of the one in time, and memory
+/// for the other.
+const MOST_GLASS: (usize, usize) = (256, 1 << 22);
 
 /// Why a file is not shown, in one line.
 #[derive(Debug)]
@@ -56,7 +64,7 @@ fn scene(file: Vec<u8>, name: &str, folder: &Path) -> Result<Scene, Refused> {
     let mut materials = Materials::new(&document);
     let shapes = shapes(&document, &placed, &mut materials, &mut remarks)?;
     let materials = materials.list;
-    if nesting::overlap(&shapes, &materials).is_some() {
+    if glass_overlaps(&shapes, &materials) {
         remarks.add("glass overlaps other glass: light is bent wrongly there");
     }
     let mut lights = lights::lights(&document, &placed, &mut remarks)?;
@@ -81,6 +89,13 @@ fn scene(file: Vec<u8>, name: &str, folder: &Path) -> Result<Scene, Refused> {
         as_read: SceneHash::default(),
     };
     Ok(Scene { as_read: SceneHash::of(&scene), ..scene })
+}
+
+fn glass_overlaps(shapes: &[Shape], materials: &[Material]) -> bool {
+    let is_glass = |shape: &&Shape| matches!(materials[shape.material].bsdf, Bsdf::Dielectric { .. });
+    let glass = shapes.iter().filter(is_glass).filter_map(|shape| shape.geometry.mesh_of());
+    let (count, corners) = glass.fold((0, 0), |(count, corners), mesh| (count + 1, corners + mesh.positions().len()));
+    count <= MOST_GLASS.0 && corners <= MOST_GLASS.1 && nesting::overlap(shapes, materials).is_some()
 }
 
 /// What no part of a picture shows.
@@ -133,13 +148,17 @@ fn uses<'a>(
     remarks: &mut Remarks,
 ) -> Result<Vec<Use<'a>>, Refused> {
     let mut meshes = Meshes::new(document);
-    let mut uses = Vec::new();
+    let (mut uses, mut shown) = (Vec::new(), 0);
     for place in placed {
         let Some(index) = place.node.mesh else { continue };
         let Some(mesh) = document.root.meshes.get(index as usize) else {
             let count = document.root.meshes.len();
             return Err(Refused(format!("{}: mesh {index} is named, but there are {count}", place.name())));
         };
+        shown += mesh.primitives.len() as u64;
+        if shown > MOST_SHAPES {
+            return Err(Refused(format!("its nodes show more than {MOST_SHAPES} primitives of meshes")));
+        }
         if place.node.skin.is_some() {
             remarks.of("skins are left out: the model is shown at rest", place.name());
         }
@@ -198,12 +217,6 @@ fn quoted(text: &str) -> String {
         Some((end, _)) => format!("'{}...'", image_file::escaped(&text[..end])),
         None => format!("'{}'", image_file::escaped(text)),
     }
-}
-
-/// A name that nothing has yet: itself, or with a number behind it.
-fn free_name(name: String, taken: impl Fn(&str) -> bool) -> String {
-    let numbered = |number: u32| if number == 1 { name.clone() } else { format!("{name} {number}") };
-    (1..=u32::MAX).map(numbered).find(|name| !taken(name)).unwrap_or(name.clone())
 }
 
 #[cfg(test)]

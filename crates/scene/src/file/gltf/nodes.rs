@@ -22,6 +22,14 @@ impl Placed<'_> {
 /// The nodes of the scene that the file shows first, parents before their children. However deep, with a stack of its own.
 pub fn placed<'a>(document: &'a Document, remarks: &mut Remarks) -> Result<Vec<Placed<'a>>, Refused> {
     let nodes = &document.root.nodes;
+    // of a tree each node is named once at most: else no memory is taken for all that is named
+    let named_ones: usize = nodes.iter().map(|node| node.children.len()).sum();
+    if named_ones > nodes.len() {
+        return Err(Refused(format!(
+            "{} nodes are named as children {named_ones} times: nodes must be a tree",
+            nodes.len()
+        )));
+    }
     let mut seen = vec![false; nodes.len()];
     let mut found = Vec::new();
     let mut open: Vec<(u32, DAffine3)> =
@@ -54,6 +62,9 @@ fn roots(document: &Document, remarks: &mut Remarks) -> Result<Vec<u32>, Refused
     }
     let first = document.root.scene.unwrap_or(0);
     if let Some(scene) = scenes.get(first as usize) {
+        if scene.nodes.len() > nodes.len() {
+            return Err(Refused(format!("scene {first} begins with more nodes than there are: nodes must be a tree")));
+        }
         return Ok(scene.nodes.clone());
     }
     if document.root.scene.is_some() {

@@ -1,5 +1,8 @@
 //! What a file asks for and does not get: a line for each kind, whoever asks for it named.
 
+use std::collections::HashSet;
+use std::hash::{DefaultHasher, Hash, Hasher};
+
 /// Names that a line has at most.
 const MOST_NAMED: usize = 4;
 
@@ -11,6 +14,8 @@ struct Remark {
     line: &'static str,
     named: Vec<String>,
     others: usize,
+    /// Hashes of all names.
+    seen: HashSet<u64>,
 }
 
 impl Remarks {
@@ -22,7 +27,9 @@ impl Remarks {
     /// Something that one of the file's parts has, which is told once.
     pub fn of(&mut self, line: &'static str, name: String) {
         let remark = self.find(line);
-        if remark.named.contains(&name) {
+        let mut hasher = DefaultHasher::new();
+        name.hash(&mut hasher);
+        if !remark.seen.insert(hasher.finish()) {
             return;
         }
         if remark.named.len() < MOST_NAMED {
@@ -34,14 +41,14 @@ impl Remarks {
 
     fn find(&mut self, line: &'static str) -> &mut Remark {
         let place = self.0.iter().position(|remark| remark.line == line).unwrap_or_else(|| {
-            self.0.push(Remark { line, named: Vec::new(), others: 0 });
+            self.0.push(Remark { line, named: Vec::new(), others: 0, seen: HashSet::new() });
             self.0.len() - 1
         });
         &mut self.0[place]
     }
 
     pub fn lines(self) -> impl Iterator<Item = String> {
-        self.0.into_iter().map(|Remark { line, named, others }| match (named.is_empty(), others) {
+        self.0.into_iter().map(|Remark { line, named, others, .. }| match (named.is_empty(), others) {
             (true, _) => line.to_owned(),
             (false, 0) => format!("{line}: {}", named.join(", ")),
             (false, _) => format!("{line}: {} and {others} more", named.join(", ")),

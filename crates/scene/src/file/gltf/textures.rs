@@ -14,8 +14,8 @@ use std::sync::Arc;
 /// Texels of all pictures of a file at most; they take 2 GiB.
 const MOST_TEXELS: u64 = 1 << 27;
 
-/// Bytes of a picture's file at most.
-const MOST_BYTES: u64 = 512 << 20;
+/// Bytes that are read of pictures in files of their own, as often as they are.
+const MOST_BYTES: u64 = 4 << 30;
 
 /// A picture as it is used: pictures that are used alike are one.
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
@@ -32,11 +32,12 @@ pub struct Textures<'a> {
     document: &'a Document,
     made: HashMap<Key, Arc<ImageTexture>>,
     texels_left: u64,
+    bytes_left: u64,
 }
 
 impl<'a> Textures<'a> {
     pub fn new(document: &'a Document) -> Self {
-        Textures { document, made: HashMap::new(), texels_left: MOST_TEXELS }
+        Textures { document, made: HashMap::new(), texels_left: MOST_TEXELS, bytes_left: MOST_BYTES }
     }
 
     /// The picture that a material names; `None` if there is none that this program reads.
@@ -94,14 +95,18 @@ impl<'a> Textures<'a> {
         texture.ok_or_else(|| Refused("it has no texels".into()))
     }
 
-    fn bytes(&self, index: u32) -> Result<Cow<'a, [u8]>, Refused> {
+    fn bytes(&mut self, index: u32) -> Result<Cow<'a, [u8]>, Refused> {
         let images = &self.document.root.images;
         let Some(image) = images.get(index as usize) else {
             return Err(Refused(format!("it is named, but there are {}", images.len())));
         };
         match (image.buffer_view, &image.uri) {
             (Some(view), _) => Ok(self.document.view(view)?.bytes.into()),
-            (None, Some(uri)) => Ok(uri::bytes(uri, &self.document.folder, MOST_BYTES)?.into()),
+            (None, Some(uri)) => {
+                let bytes = uri::bytes(uri, &self.document.folder, self.bytes_left)?;
+                self.bytes_left -= bytes.len() as u64;
+                Ok(bytes.into())
+            }
             (None, None) => Err(Refused("it has neither a bufferView nor a uri".into())),
         }
     }

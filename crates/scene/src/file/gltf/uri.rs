@@ -31,7 +31,11 @@ fn data_bytes(data: &str, most: u64) -> Result<Vec<u8>, Refused> {
     if packed.len() as u64 / 4 * 3 > most.saturating_add(3) {
         return Err(Refused(format!("a data: URI has more than {most} bytes")));
     }
-    BASE64.decode(packed).map_err(|why| Refused(format!("a data: URI is no base64: {why}")))
+    let bytes = BASE64.decode(packed).map_err(|why| Refused(format!("a data: URI is no base64: {why}")))?;
+    if bytes.len() as u64 > most {
+        return Err(Refused(format!("a data: URI has more than {most} bytes")));
+    }
+    Ok(bytes)
 }
 
 /// The path of a file that lies in `folder` or below, links followed.

@@ -196,6 +196,28 @@ fn crc32(bytes: &[u8]) -> u32 {
     !bytes.iter().fold(!0, |sum, byte| (0..8).fold(sum ^ u32::from(*byte), |sum, _| step(sum)))
 }
 
+/// What a few megabytes of text may ask for: each of these took hours or all memory, or would.
+#[test]
+fn files_that_ask_for_the_square_of_their_size_are_refused_or_shown_at_once() {
+    let mut model = Model::triangle();
+    let primitive = model.primitive().clone();
+    model.json["meshes"][0]["primitives"] = json!(vec![primitive; 2000]);
+    model.json["nodes"] = json!(vec![json!({"mesh": 0}); 2000]);
+    says(model.fault(), "its nodes show more than 1048576 primitives of meshes");
+    let children = json!([{"children": vec![1; 100_000]}, {"mesh": 0}]);
+    says(set("/nodes", children), "2 nodes are named as children 100000 times: nodes must be a tree");
+    says(add("", "scenes", json!([{"nodes": vec![0; 100_000]}])), "scene 0 begins with more nodes than there are");
+    let mut model = Model::textured(json!({}));
+    let primitive = |material| json!({"attributes": {"POSITION": 0}, "material": material});
+    model.json["meshes"][0]["primitives"] = (0..50_000).map(primitive).collect();
+    let glass = json!({"KHR_materials_transmission": {"transmissionFactor": 1}});
+    let pbr = json!({"metallicFactor": 0, "roughnessFactor": 0});
+    model.json["materials"] =
+        json!(vec![json!({"name": "a", "pbrMetallicRoughness": pbr, "extensions": glass}); 50_000]);
+    let scene = model.scene();
+    assert_eq!((scene.materials.len(), scene.materials[49_999].name.as_str()), (50_000, "a 50000"));
+}
+
 #[test]
 fn many_copies_of_small_meshes_are_refused_before_they_are_made() {
     let mut model = Model::triangle();
