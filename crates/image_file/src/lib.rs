@@ -53,10 +53,10 @@ impl Kind {
 pub const MOST_PIXELS: u64 = 1 << 27;
 
 /// Refuses a picture before memory is taken for it.
-fn check_pixels(width: usize, height: usize, path: &Path) -> Result<(), ImageFileError> {
+fn check_pixels(width: usize, height: usize, most: u64, path: &Path) -> Result<(), ImageFileError> {
     let pixels = width as u64 * height as u64;
-    if pixels > MOST_PIXELS {
-        return Err(ImageFileError::read(path, format!("{width}x{height} pixels are more than {MOST_PIXELS}")));
+    if pixels > most {
+        return Err(ImageFileError::read(path, format!("{width}x{height} pixels are more than {most}")));
     }
     Ok(())
 }
@@ -183,6 +183,50 @@ pub fn read(path: &Path) -> Result<Loaded, ImageFileError> {
     }?;
     loaded.notes.iter_mut().for_each(|note| *note += &format!(": {}", shown(path)));
     Ok(loaded)
+}
+
+/// What the numbers of a picture on a surface mean.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Encoding {
+    /// Colours by the curve of sRGB.
+    Srgb,
+    /// They are what they are: normals, roughness.
+    Linear,
+}
+
+/// A picture on a surface.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Texels {
+    /// Width and height.
+    pub size: (u32, u32),
+    /// Red, green and blue, linear, and alpha, row by row from the top.
+    pub texels: Vec<[f32; 4]>,
+}
+
+/// Texels that a picture on a surface may have at most: they take 1 GiB.
+pub const MOST_TEXELS: u64 = 1 << 26;
+
+/// Reads a .png as a picture on a surface. What it says of its own colours does not count: models say it.
+///
+/// # Errors
+/// [`ImageFileError`]: one line that says why and names the path.
+pub fn texels(path: &Path, encoding: Encoding) -> Result<Texels, ImageFileError> {
+    if Kind::of(path) != Some(Kind::Png) {
+        return Err(ImageFileError::read(path, "a picture on a surface is a .png"));
+    }
+    if std::fs::metadata(path).is_ok_and(|found| !found.is_file()) {
+        return Err(ImageFileError::read(path, "it is not a file"));
+    }
+    let file = std::fs::File::open(path).map_err(|why| ImageFileError::read(path, why))?;
+    png::texels(std::io::BufReader::new(file), encoding, path)
+}
+
+/// As [`texels`], of the bytes of a .png, which `path` names in errors.
+///
+/// # Errors
+/// As [`texels`].
+pub fn texels_of(bytes: &[u8], encoding: Encoding, path: &Path) -> Result<Texels, ImageFileError> {
+    png::texels(std::io::Cursor::new(bytes), encoding, path)
 }
 
 /// As [`read`], for whom what the picture does not show is nothing to tell of.

@@ -5,7 +5,7 @@ mod colours;
 mod read;
 
 pub use chunks::records;
-pub use read::load;
+pub use read::{load, texels};
 
 use super::ImageFileError;
 

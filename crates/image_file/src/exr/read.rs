@@ -3,7 +3,7 @@
 use super::channels::{self, Choice, Colours, listed};
 use super::{COLOUR, DEPTH, DIRECTION, NUMBER, exr, text};
 use crate::primaries::{Primaries, REC_709, converted};
-use crate::{ImageFileError, Loaded, check_pixels, image_of};
+use crate::{ImageFileError, Loaded, MOST_PIXELS, check_pixels, image_of};
 use ::exr::image::read::layers::ReadChannels;
 use ::exr::meta::Headers;
 use ::exr::meta::attribute::Chromaticities;
@@ -79,7 +79,7 @@ pub(super) fn headers(path: &Path) -> Result<Headers, ImageFileError> {
     let meta = exr::MetaData::read_from_file(path, false).map_err(|e| ImageFileError::read(path, e))?;
     for header in &meta.headers {
         for size in [header.layer_size, header.shared_attributes.display_window.size] {
-            check_pixels(size.width(), size.height(), path)?;
+            check_pixels(size.width(), size.height(), MOST_PIXELS, path)?;
         }
     }
     Ok(meta.headers)

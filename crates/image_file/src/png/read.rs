@@ -1,12 +1,12 @@
 //! The picture of a PNG in linear light: grey or coloured, 1 to 16 bits, with a palette or without.
 
 use super::chunks;
-use super::colours::Colours;
+use super::colours::{Colours, Transfer};
 use crate::primaries::converted;
-use crate::{ImageFileError, Loaded, check_pixels, image_of};
+use crate::{Encoding, ImageFileError, Loaded, MOST_PIXELS, MOST_TEXELS, Texels, check_pixels, image_of};
 use film::Vec3;
 use std::fs::File;
-use std::io::BufReader;
+use std::io::{BufRead, BufReader, Seek};
 use std::path::Path;
 
 /// Pixels as the decoder gives them: grey or red, green and blue, with alpha or without, of 8 or 16 bits.
@@ -42,19 +42,31 @@ impl Decoded {
     }
 }
 
-/// The picture over black.
-pub fn load(path: &Path) -> Result<Loaded, ImageFileError> {
-    let fault = |e: &dyn std::fmt::Display| ImageFileError::read(path, e);
-    let mut decoder = png::Decoder::new(BufReader::new(File::open(path).map_err(|e| fault(&e))?));
+/// A decoder that expands palettes and few bits, of a picture that has at most so many pixels.
+fn decoder<R: BufRead + Seek>(file: R, most: u64, path: &Path) -> Result<png::Decoder<R>, ImageFileError> {
+    let mut decoder = png::Decoder::new(file);
     decoder.set_transformations(png::Transformations::EXPAND);
     decoder.set_ignore_text_chunk(true);
-    let header = decoder.read_header_info().map_err(|e| fault(&e))?;
-    check_pixels(header.width as usize, header.height as usize, path)?;
-    let mut reader = decoder.read_info().map_err(|e| fault(&e))?;
+    let header = decoder.read_header_info().map_err(|e| ImageFileError::read(path, e))?;
+    check_pixels(header.width as usize, header.height as usize, most, path)?;
+    Ok(decoder)
+}
+
+fn decoded<R: BufRead + Seek>(reader: &mut png::Reader<R>, path: &Path) -> Result<Decoded, ImageFileError> {
+    let fault = |e: &dyn std::fmt::Display| ImageFileError::read(path, e);
     let (kind, depth) = reader.output_color_type();
     let size = reader.output_buffer_size().ok_or_else(|| fault(&"it is too large"))?;
     let mut decoded = Decoded { bytes: vec![0; size], channels: kind.samples(), depth };
     reader.next_frame(&mut decoded.bytes).map_err(|e| fault(&e))?;
+    Ok(decoded)
+}
+
+/// The picture over black.
+pub fn load(path: &Path) -> Result<Loaded, ImageFileError> {
+    let fault = |e: &dyn std::fmt::Display| ImageFileError::read(path, e);
+    let file = BufReader::new(File::open(path).map_err(|e| fault(&e))?);
+    let mut reader = decoder(file, MOST_PIXELS, path)?.read_info().map_err(|e| fault(&e))?;
+    let decoded = decoded(&mut reader, path)?;
     let info = reader.info();
     let mut colours = Colours::of(info, &chunks::names(path).map_err(|e| fault(&e))?);
     colours.notes.extend(what_is_left_out(info));
@@ -63,6 +75,23 @@ pub fn load(path: &Path) -> Result<Loaded, ImageFileError> {
         colours.notes.push("its alpha is applied: what it lets through is black".into());
     }
     Ok(Loaded { image: image_of((info.width, info.height), radiances, path)?, notes: colours.notes })
+}
+
+/// The picture with its alpha.
+pub fn texels(file: impl BufRead + Seek, encoding: Encoding, path: &Path) -> Result<Texels, ImageFileError> {
+    let decoder = decoder(file, MOST_TEXELS, path)?;
+    let mut reader = decoder.read_info().map_err(|e| ImageFileError::read(path, e))?;
+    let decoded = decoded(&mut reader, path)?;
+    let texel = |index| {
+        let (code, alpha) = decoded.pixel(index);
+        let colour = match encoding {
+            Encoding::Srgb => code.map(|code| Transfer::Srgb.decode(code)),
+            Encoding::Linear => code,
+        };
+        colour.extend(alpha).to_array()
+    };
+    let size = (reader.info().width, reader.info().height);
+    Ok(Texels { size, texels: (0..decoded.pixels()).map(texel).collect() })
 }
 
 fn in_light(decoded: &Decoded, colours: &Colours) -> (Vec<Vec3>, bool) {
