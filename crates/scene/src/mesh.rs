@@ -1,6 +1,7 @@
 //! Triangles with shared corners, and a mesh put into the world several times.
 
 use crate::canonical;
+use crate::runs::runs_of;
 use glam::{Affine3A, Vec2, Vec3, Vec3A};
 use std::sync::{Arc, OnceLock};
 
@@ -14,6 +15,7 @@ pub struct Mesh {
     uvs: Vec<Vec2>,
     bounds: (Vec3, Vec3),
     content: OnceLock<u128>,
+    runs: OnceLock<Box<[(Vec3, Vec3)]>>,
 }
 
 impl Mesh {
@@ -32,7 +34,7 @@ impl Mesh {
         let bounds = bounds_of(&positions);
         let normals = if normals.len() == positions.len() { normals } else { Vec::new() };
         let uvs = if uvs.len() == positions.len() { uvs } else { Vec::new() };
-        Mesh { positions, triangles, normals, uvs, bounds, content: OnceLock::new() }
+        Mesh { positions, triangles, normals, uvs, bounds, content: OnceLock::new(), runs: OnceLock::new() }
     }
 
     /// Corners in the mesh's own space, in the order in which triangles name them.
@@ -63,6 +65,11 @@ impl Mesh {
     /// Whether it has so many triangles that it keeps a tree of its own.
     pub fn is_large(&self) -> bool {
         self.triangles.len() >= Mesh::LARGE
+    }
+
+    /// Smallest boxes around [`RUN`](crate::runs::RUN) triangles each, in their order; made once.
+    pub fn runs(&self) -> &[(Vec3, Vec3)] {
+        self.runs.get_or_init(|| runs_of(self))
     }
 
     /// A hash of all that it holds, made once: meshes with the same are the same to every technique.
@@ -98,15 +105,7 @@ pub struct Instance {
 impl Instance {
     /// Smallest axis-parallel box in the world that holds the mesh's own box.
     pub fn bounds(&self) -> (Vec3, Vec3) {
-        let (lo, hi) = self.mesh.bounds();
-        if lo.cmpgt(hi).any() {
-            return (lo, hi);
-        }
-        let middle = self.to_world.transform_point3(0.5 * (lo + hi));
-        let half = Vec3A::from(0.5 * (hi - lo));
-        let m = self.to_world.matrix3;
-        let reach = Vec3::from(m.x_axis.abs() * half.x + m.y_axis.abs() * half.y + m.z_axis.abs() * half.z);
-        (middle - reach, middle + reach)
+        in_world(&self.to_world, self.mesh.bounds())
     }
 
     /// Whether it turns the winding over.
@@ -134,6 +133,18 @@ impl Instance {
         let normals = self.mesh.normals().iter().map(normal).collect();
         Mesh::with_attributes(self.positions(), self.triangles(), normals, self.mesh.uvs().to_vec())
     }
+}
+
+/// Smallest axis-parallel box in the world that holds a box in a space that `to_world` puts there.
+pub fn in_world(to_world: &Affine3A, (lo, hi): (Vec3, Vec3)) -> (Vec3, Vec3) {
+    if lo.cmpgt(hi).any() {
+        return (lo, hi);
+    }
+    let middle = to_world.transform_point3(0.5 * (lo + hi));
+    let half = Vec3A::from(0.5 * (hi - lo));
+    let m = to_world.matrix3;
+    let reach = Vec3::from(m.x_axis.abs() * half.x + m.y_axis.abs() * half.y + m.z_axis.abs() * half.z);
+    (middle - reach, middle + reach)
 }
 
 pub(crate) fn bounds_of(positions: &[Vec3]) -> (Vec3, Vec3) {
@@ -184,6 +195,16 @@ mod tests {
         let instance = Instance { mesh: triangle(), to_world };
         let (lo, hi) = instance.bounds();
         assert!(instance.positions().iter().all(|p| (p + 1e-5).cmpge(lo).all() && (p - 1e-5).cmple(hi).all()));
+    }
+
+    #[test]
+    fn runs_hold_their_triangles() {
+        let corner = |i: u32| Vec3::new(i as f32, (i % 7) as f32, 0.0);
+        let triangles: Vec<_> = (0..1500).map(|i| [i, i + 1, i + 2]).collect();
+        let mesh = Mesh::new((0..1502).map(corner).collect(), triangles);
+        assert_eq!(mesh.runs().len(), 3);
+        assert_eq!(mesh.runs()[1], (Vec3::new(512.0, 0.0, 0.0), Vec3::new(1025.0, 6.0, 0.0)));
+        assert_eq!(mesh.runs()[2].1.x, 1501.0);
     }
 
     #[test]

@@ -2,12 +2,14 @@
 //! value), which becomes a [`Scene`] (what refers to what). Every fault is one line: `file:line:column: what`.
 
 mod advice;
+mod begun;
 mod beside;
 mod gltf;
 mod meshes;
 mod model;
 mod number;
 mod obj;
+mod picture;
 mod ply;
 mod raw;
 mod raw_mesh;
@@ -20,11 +22,12 @@ use crate::material::{Checkerboard, Emission};
 use crate::progress::Progress;
 use crate::stand_ins::{FakeMaterial, FakeNumbers};
 use crate::{
-    Bsdf, Camera, Conductor, Geometry, Material, PointLight, Scene, SceneHash, Shape, Sun, SurfaceDetail, Texture,
-    nearest, nesting, stand_ins,
+    Bsdf, Camera, Conductor, Geometry, Material, PointLight, Scene, SceneHash, Shape, Sun, Texture, nearest, nesting,
+    stand_ins,
 };
 use glam::Vec3;
 use meshes::Meshes;
+use picture::Pictures;
 use raw::{RawMaterial, RawScene, RawTexture, Table};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -208,7 +211,9 @@ fn line_and_column(text: &str, at: usize) -> (usize, usize) {
 
 fn build(raw: RawScene, name: &str, folder: &Path, progress: &Progress) -> Result<Scene, Fault> {
     let camera = camera(raw.camera)?;
-    let materials = raw.material.into_iter().map(|(name, m)| material(name, m)).collect::<Result<Vec<_>, _>>()?;
+    let mut pictures = Pictures::beside(folder);
+    let materials = raw.material.into_iter().map(|(name, m)| material(name, m, &mut pictures));
+    let materials = materials.collect::<Result<Vec<_>, _>>()?;
     let (mut shapes, mut places) = (Vec::new(), Vec::new());
     let mut add = |geometry, wears: Spanned<String>| {
         let found = materials.iter().position(|m| m.name == *wears.get_ref());
@@ -331,14 +336,14 @@ fn sun(raw: raw::RawSun) -> Result<Sun, Fault> {
     Ok(Sun { towards, angular_radius, irradiance: raw.irradiance.into() })
 }
 
-fn material(name: String, raw: Spanned<Table<RawMaterial>>) -> Result<Material, Fault> {
+fn material(name: String, raw: Spanned<Table<RawMaterial>>, pictures: &mut Pictures) -> Result<Material, Fault> {
     let (at, Table(raw)) = (raw.span(), raw.into_inner());
     let kinds = [raw.diffuse.is_some(), raw.mirror.is_some(), raw.rough_conductor.is_some(), raw.dielectric.is_some()];
     if kinds.iter().filter(|&&k| k).count() > 1 {
         return fault(at, format!("material '{name}' scatters in several ways: expected one of {LOBES}"));
     }
     let bsdf = if let Some(Table(diffuse)) = raw.diffuse {
-        Bsdf::Diffuse { albedo: texture(diffuse.albedo) }
+        Bsdf::Diffuse { albedo: texture(diffuse.albedo, pictures)? }
     } else if let Some(Table(mirror)) = raw.mirror {
         Bsdf::Mirror { reflectance: mirror.reflectance.into() }
     } else if let Some(Table(metal)) = raw.rough_conductor {
@@ -353,7 +358,10 @@ fn material(name: String, raw: Spanned<Table<RawMaterial>>) -> Result<Material, 
     if raw.emissive.is_some() && matches!(bsdf, Bsdf::Dielectric { .. }) {
         return fault(at, format!("material '{name}': expected emissive alone, or with another lobe than dielectric"));
     }
-    let emission = raw.emissive.map(|Table(e)| Emission { radiance: e.radiance.into(), two_sided: e.two_sided });
+    let (emission, glow) = raw.emissive.map_or((None, None), |Table(e)| {
+        (Some(Emission { radiance: e.radiance.into(), two_sided: e.two_sided }), e.texture)
+    });
+    let surface = pictures.surface(raw.normal_map, raw.alpha_mask, glow)?;
     let (d, raw_fake) = (FakeMaterial::default(), raw.fake.0);
     let fake = FakeMaterial {
         refraction_ratio: raw_fake.refraction_ratio.map(|v| v.get()),
@@ -361,7 +369,7 @@ fn material(name: String, raw: Spanned<Table<RawMaterial>>) -> Result<Material, 
         specular: raw_fake.specular.map_or(d.specular, |v| v.get()),
         shininess: raw_fake.shininess.map_or_else(|| stand_ins::usual_shininess(&bsdf), |v| v.get()),
     };
-    Ok(Material { name, bsdf, emission, surface: SurfaceDetail::default(), fake })
+    Ok(Material { name, bsdf, emission, surface, fake })
 }
 
 /// Ways to scatter.
@@ -382,16 +390,17 @@ fn conductor(raw: raw::RawRoughConductor, material: &str, at: Range<usize>) -> R
     }
 }
 
-fn texture(raw: RawTexture) -> Texture {
-    match raw {
+fn texture(raw: RawTexture, pictures: &mut Pictures) -> Result<Texture, Fault> {
+    Ok(match raw {
         RawTexture::Constant(colour) => Texture::Constant(colour.into()),
+        RawTexture::Image(picture) => pictures.colour(picture)?,
         RawTexture::Checkerboard(b) => Texture::Checkerboard(Checkerboard {
             even: b.even.into(),
             odd: b.odd.into(),
             origin: b.origin.into(),
             cell: b.cell.into(),
         }),
-    }
+    })
 }
 
 #[cfg(test)]

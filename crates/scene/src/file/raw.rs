@@ -1,8 +1,10 @@
 //! The scene file as it is written, value by value.
 
+use super::begun::Begun;
 use super::number::{
     AboveZero, Any, AtLeastZero, Extinction, Index, Length, Number, Roughness, Triple, Whole, ZeroToOne,
 };
+use super::picture::{RawAlphaMask, RawNormalMap, RawPicture};
 use super::raw_mesh::{RawInstance, RawMesh, RawStatue};
 use serde::Deserialize;
 use serde::de::value::{MapAccessDeserializer, SeqAccessDeserializer};
@@ -82,6 +84,8 @@ pub struct RawMaterial {
     pub rough_conductor: Option<Table<RawRoughConductor>>,
     pub dielectric: Option<Table<RawDielectric>>,
     pub emissive: Option<Table<RawEmissive>>,
+    pub normal_map: Option<Table<RawNormalMap>>,
+    pub alpha_mask: Option<Table<RawAlphaMask>>,
     #[serde(default)]
     pub fake: Table<RawFakeMaterial>,
 }
@@ -92,10 +96,12 @@ pub struct RawDiffuse {
     pub albedo: RawTexture,
 }
 
-/// `albedo = [r, g, b]` or `albedo = { even = .., odd = .., .. }`: told apart by hand, so that errors keep their place.
+/// `albedo = [r, g, b]`, `albedo = { even = .., odd = .., .. }` or `albedo = { image = .., .. }`: told apart by hand, so that
+/// errors keep their place.
 pub enum RawTexture {
     Constant(Triple<ZeroToOne>),
     Checkerboard(RawCheckerboard),
+    Image(RawPicture),
 }
 
 #[derive(Deserialize)]
@@ -114,7 +120,7 @@ impl<'de> Deserialize<'de> for RawTexture {
             type Value = RawTexture;
 
             fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
-                f.write_str("a colour [r, g, b] or a checkerboard { even, odd, origin, cell }")
+                f.write_str("a colour [r, g, b] or a checkerboard { even, odd, origin, cell } or a picture { image }")
             }
 
             fn visit_seq<A: SeqAccess<'de>>(self, seq: A) -> Result<RawTexture, A::Error> {
@@ -122,7 +128,11 @@ impl<'de> Deserialize<'de> for RawTexture {
             }
 
             fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<RawTexture, A::Error> {
-                Deserialize::deserialize(MapAccessDeserializer::new(map)).map(RawTexture::Checkerboard)
+                let map = Begun::of(map)?;
+                if map.begins_with_one_of(&["even", "odd", "origin", "cell"]) {
+                    return Deserialize::deserialize(MapAccessDeserializer::new(map)).map(RawTexture::Checkerboard);
+                }
+                Deserialize::deserialize(MapAccessDeserializer::new(map)).map(RawTexture::Image)
             }
         }
         deserializer.deserialize_any(Either)
@@ -157,6 +167,7 @@ pub struct RawEmissive {
     pub radiance: Triple<AtLeastZero>,
     #[serde(default)]
     pub two_sided: bool,
+    pub texture: Option<Table<RawPicture>>,
 }
 
 #[derive(Deserialize, Default)]
