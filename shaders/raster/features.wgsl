@@ -1,5 +1,5 @@
 //#import raster/view.wgsl
-//#import raster/object.wgsl
+//#import raster/surface.wgsl
 // What is seen of the first surface, without light: albedo, distance and normal, as bits of f32. No twin: the
 // rasteriser runs on devices alone.
 
@@ -10,6 +10,7 @@ struct Varying {
     @builtin(position) clip: vec4f,
     @location(0) position: vec3f,
     @location(1) normal: vec3f,
+    @location(2) uv: vec2f,
 }
 
 // Where nothing is drawn both are cleared: to what shines there at distance 0, and to null.
@@ -28,8 +29,9 @@ struct FeaturesAndDepth {
 }
 
 @vertex
-fn vertex(@location(0) position: vec3f, @location(1) normal: vec3f) -> Varying {
-    return Varying(view.clip_from_world * vec4f(position, 1.0), position, normal);
+fn vertex(@location(0) position: vec3f, @location(1) normal: vec3f, @location(2) uv: vec2f) -> Varying {
+    let p = world_position(object, position);
+    return Varying(view.clip_from_world * vec4f(p, 1.0), p, world_normal(object, normal), picture_place(uv));
 }
 
 @fragment
@@ -45,9 +47,12 @@ fn fragment_bits_and_depth(in: Varying, @builtin(front_facing) front: bool) -> F
 
 // Clear glass takes no light away: its albedo is 1.
 fn features(in: Varying, front: bool) -> Features {
-    let n = normalize(in.normal) * select(-1.0, 1.0, front);
-    let own = select(colour_of(object, in.position, n), vec3f(1.0), object.kind == 1u);
-    let albedo = min(own + emitted(object, front), vec3f(1.0));
+    let n = shading_normal(in.position, in.normal, in.uv, view.eye, front);
+    let own = select(surface_colour(object, in.position, n, in.uv), vec3f(1.0), object.kind == 1u);
+    let albedo = min(own + surface_emission(object, front, in.uv), vec3f(1.0));
     let from_eye = length(in.position - view.eye);
+    if cut_out(in.uv) {
+        discard;
+    }
     return Features(bitcast<vec4u>(vec4f(albedo, from_eye)), bitcast<vec4u>(vec4f(n, 1.0)));
 }

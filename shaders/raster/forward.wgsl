@@ -1,5 +1,5 @@
 //#import raster/view.wgsl
-//#import raster/object.wgsl
+//#import raster/surface.wgsl
 //#import raster/refraction.wgsl
 //#import raster/shading.wgsl
 //#import raster/shadow.wgsl
@@ -9,6 +9,7 @@
 const SHADING_THREE: u32 = 0u;
 const SHADING_PHONG: u32 = 1u;
 const SHADING_BLINN_PHONG: u32 = 2u;
+const SHADING_COOK_TORRANCE: u32 = 3u;
 
 const AREA_LIGHT_NONE: u32 = 0u;
 const AREA_LIGHT_WITHOUT_DECAY: u32 = 1u;
@@ -31,7 +32,6 @@ override SHADING: u32 = SHADING_THREE;
 
 struct Lights {
     sun_towards: vec3f,
-    shading: u32,
     sun_incident: vec3f,
     refracts_per_vertex: u32,
     area_light_position: vec3f,
@@ -58,12 +58,14 @@ struct Varying {
     @location(0) position: vec3f,
     @location(1) normal: vec3f,
     @location(2) refracted: vec3f,
+    @location(3) uv: vec2f,
 }
 
 @vertex
-fn vertex(@location(0) position: vec3f, @location(1) normal: vec3f) -> Varying {
-    let clip = view.clip_from_world * vec4f(position, 1.0);
-    return Varying(clip, position, normal, refracted(position, normal));
+fn vertex(@location(0) position: vec3f, @location(1) normal: vec3f, @location(2) uv: vec2f) -> Varying {
+    let p = world_position(object, position);
+    let n = world_normal(object, normal);
+    return Varying(view.clip_from_world * vec4f(p, 1.0), p, n, refracted(p, n), picture_place(uv));
 }
 
 // What a half float holds: beyond it lies infinity, which filtering turns into NaN. Here alone: only devices draw.
@@ -108,11 +110,19 @@ fn reversed_depth(in: Varying) -> f32 {
 }
 
 fn radiance(in: Varying, front: bool) -> vec3f {
+    let light = seen(in, front);
+    if cut_out(in.uv) {
+        discard;
+    }
+    return light;
+}
+
+fn seen(in: Varying, front: bool) -> vec3f {
     if GLASS {
         return glass(in);
     }
-    let n = normalize(in.normal) * select(-1.0, 1.0, front);
-    return surface(in.position, n) + emitted(object, front);
+    let n = shading_normal(in.position, in.normal, in.uv, view.eye, front);
+    return surface(in.position, n, in.uv) + surface_emission(object, front, in.uv);
 }
 
 // Only back faces of glass are drawn: the normal that faces the viewer is the inner one.
@@ -129,26 +139,30 @@ fn glass(in: Varying) -> vec3f {
     return mix(vec3f(1.0), select(lights.sky, seen, sees), object.reflectivity);
 }
 
-fn surface(p: vec3f, n: vec3f) -> vec3f {
-    let colour = colour_of(object, p, n);
-    let kd = object.diffuse * colour;
+fn surface(p: vec3f, n: vec3f, uv: vec2f) -> vec3f {
+    let colour = surface_colour(object, p, n, uv);
+    let facets = metallic_and_roughness(object, uv);
     let v = normalize(view.eye - p);
     var sum = colour * lights.ambient;
     if SUN {
         let l = lights.sun_towards;
-        sum += shadow(0u, p, dot(n, l)) * shaded(n, l, v, kd, lights.sun_incident);
+        sum += shadow(0u, p, dot(n, l)) * shaded(n, l, v, colour, facets, lights.sun_incident);
     }
     if AREA_LIGHT != AREA_LIGHT_NONE {
         let to_area_light = lights.area_light_position - p;
         let l = normalize(to_area_light);
         let seen = shadow(1u + face_of(-to_area_light), p, dot(n, l));
-        sum += seen * shaded(n, l, v, kd, area_light_incident(to_area_light, l));
+        sum += seen * shaded(n, l, v, colour, facets, area_light_incident(to_area_light, l));
     }
     return sum;
 }
 
-fn shaded(n: vec3f, l: vec3f, v: vec3f, kd: vec3f, incident: vec3f) -> vec3f {
+fn shaded(n: vec3f, l: vec3f, v: vec3f, colour: vec3f, facets: vec2f, incident: vec3f) -> vec3f {
+    let kd = object.diffuse * colour;
     switch SHADING {
+        case SHADING_COOK_TORRANCE: {
+            return cook_torrance(n, l, v, kd, colour, facets.x, facets.y, object.coat, incident);
+        }
         case SHADING_PHONG: { return phong(n, l, v, kd, object.specular, object.shininess, incident); }
         case SHADING_BLINN_PHONG: { return blinn_phong(n, l, v, kd, object.specular, object.shininess, incident); }
         default: { return three_blinn_phong(n, l, v, kd, object.specular, object.shininess, incident); }

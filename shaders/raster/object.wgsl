@@ -19,6 +19,13 @@ struct Object {
     slack: f32,
     // what Lambert's term takes of the colour
     diffuse: f32,
+    // of Cook and Torrance's highlight: share of metal, roughness, and what the coat of the rest reflects head-on
+    metallic: f32,
+    roughness: f32,
+    coat: f32,
+    // of corners and their normals, where those are in a mesh's own space; a row of the map in each column
+    to_world: mat3x4f,
+    normal_to_world: mat3x4f,
 }
 
 // By which interpolated positions may be off, relative. Here alone: rays know the error of each point.

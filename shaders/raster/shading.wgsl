@@ -7,6 +7,12 @@
 // normal f32.
 const SMALLEST: f32 = 1e-37;
 
+// Keeps the lobe of an all but perfect mirror finite: glTF's materials may have no roughness at all.
+const LEAST_WIDTH: f32 = 1e-4;
+
+// Keeps the light that grazes a surface finite, and the one that a normal from a picture turns away from the viewer.
+const LEAST_COSINE: f32 = 1e-4;
+
 fn power(base: f32, exponent: f32) -> f32 {
     return pow(max(base, SMALLEST), exponent);
 }
@@ -43,4 +49,50 @@ fn three_blinn_phong(n: vec3f, l: vec3f, v: vec3f, kd: vec3f, f0: f32, s: f32, i
     let fresnel = f0 + (1.0 - f0) * exp2((-5.55473 * l_dot_h - 6.98316) * l_dot_h);
     let lobe = 0.25 * (0.5 * s + 1.0) * power(clamp(dot(n, h), 0.0, 1.0), s);
     return incident * max(dot(n, l), 0.0) * (kd + fresnel * lobe);
+}
+
+// pi times the distribution of microfacets by Trowbridge and Reitz 1975, GGX. The sine is that of the cross product: one
+// minus the cosine's square has no digits left of narrow lobes.
+fn ggx_times_pi(n: vec3f, h: vec3f, width: f32) -> f32 {
+    let cosine = max(dot(n, h), 0.0);
+    let sine = cross(n, h);
+    let spread = width * width * cosine * cosine + dot(sine, sine);
+    return width * width / (spread * spread);
+}
+
+// Smith's masking and shadowing, height-correlated, over four times both cosines (Heitz 2014).
+fn smith_visibility(n_dot_l: f32, n_dot_v: f32, width: f32) -> f32 {
+    let square = width * width;
+    let masked = n_dot_l * sqrt(n_dot_v * n_dot_v * (1.0 - square) + square);
+    let shadowed = n_dot_v * sqrt(n_dot_l * n_dot_l * (1.0 - square) + square);
+    return 0.5 / (masked + shadowed);
+}
+
+// Cook and Torrance 1982 with the terms of glTF 2.0, appendix B: a matt body kd under a coat that reflects f0 head-on,
+// mixed with metal that reflects `colour` head-on; F by Schlick 1994, D is GGX, G Smith's. Dark where the light is behind
+// the surface.
+fn cook_torrance(
+    n: vec3f,
+    l: vec3f,
+    v: vec3f,
+    kd: vec3f,
+    colour: vec3f,
+    metallic: f32,
+    roughness: f32,
+    f0: f32,
+    incident: vec3f,
+) -> vec3f {
+    let n_dot_l = dot(n, l);
+    if n_dot_l <= 0.0 {
+        return vec3f(0.0);
+    }
+    let h = half_vector(l, v);
+    let width = max(roughness * roughness, LEAST_WIDTH);
+    let lobe = ggx_times_pi(n, h, width) * smith_visibility(n_dot_l, max(dot(n, v), LEAST_COSINE), width);
+    let away = 1.0 - clamp(dot(v, h), 0.0, 1.0);
+    let grazing = away * away * away * away * away;
+    let coat = f0 + (1.0 - f0) * grazing;
+    let dielectric = (1.0 - coat) * kd + vec3f(coat * lobe);
+    let metal = lobe * (colour + (1.0 - colour) * grazing);
+    return incident * n_dot_l * mix(dielectric, metal, metallic);
 }

@@ -5,7 +5,7 @@ use gpu::upload::TexturePlan;
 use gpu::wgsl::{self, Source};
 use gpu::{Gpu, wgpu};
 use pathtrace::sampling::rng;
-use raster::shading;
+use raster::shading::{self, Facets};
 use scene::Vec3;
 use scene::material::Checkerboard;
 
@@ -132,6 +132,35 @@ fn illumination_models_agree() {
         let apart = apart(&on_gpu, &on_cpu);
         assert!(apart < 2e-4, "{name}: {apart}");
     }
+}
+
+#[test]
+fn cook_torrance_agrees() {
+    let mut random = Random(5, 0);
+    let mut input = Vec::new();
+    for _ in 0..ITEMS {
+        for direction in [random.direction(), random.direction(), random.direction()] {
+            input.extend(direction.to_array());
+        }
+        input.extend((0..6).map(|_| random.unit()));
+        // share of metal, roughness, coat
+        input.extend([random.unit(), random.between(0.05, 1.0), random.unit()]);
+        input.extend((0..3).map(|_| random.between(0.0, 2.0)));
+    }
+    let body =
+        "return cook_torrance(vec(at), vec(at + 3u), vec(at + 6u), vec(at + 9u), vec(at + 12u), numbers[at + 15u],
+        numbers[at + 16u], numbers[at + 17u], vec(at + 18u));";
+    let on_gpu = run("raster/shading.wgsl", body, 21, &input, &[1.0]);
+    let at = |x: &[f32], i: usize| Vec3::from_slice(&x[i..i + 3]);
+    let twin = |x: &[f32]| {
+        let facets = Facets { metallic: x[15], roughness: x[16], f0: x[17] };
+        shading::cook_torrance([at(x, 0), at(x, 3), at(x, 6)], at(x, 9), at(x, 12), facets, at(x, 18))
+    };
+    let on_cpu: Vec<_> = input.chunks_exact(21).map(twin).collect();
+    let lit = on_cpu.iter().filter(|light| **light != Vec3::ZERO).count();
+    // a lobe .05^2 wide magnifies the rounding of the half vector by its width
+    let apart = apart(&on_gpu, &on_cpu);
+    assert!(lit > ITEMS / 3 && apart < 1e-3, "{apart} of {lit}");
 }
 
 #[test]

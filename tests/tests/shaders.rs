@@ -8,7 +8,7 @@ use pathtrace::gpu::photon_data::{EmissionHeader, Grid, Photon, PhotonParams};
 use pathtrace::gpu::rays::{RayAnswer, RayQuery};
 use pathtrace::gpu::scene_data::{Checkerboard, Header, Light, Material};
 use pathtrace::gpu::shape_data::{FewShape as Shape, Node, ShapeData as Primitive, Surface};
-use raster::gpu_data::{Lights, Object, View};
+use raster::gpu_data::{ImagePlace, Lights, Look, Object, View};
 use std::mem::offset_of;
 use std::path::{Path, PathBuf};
 
@@ -93,7 +93,6 @@ fn mirrors_have_the_layout_of_their_structs() {
         Lights,
         [
             sun_towards,
-            shading,
             sun_incident,
             refracts_per_vertex,
             area_light_position,
@@ -123,9 +122,16 @@ fn mirrors_have_the_layout_of_their_structs() {
             kind,
             has_cube_map,
             slack,
-            diffuse
+            diffuse,
+            metallic,
+            roughness,
+            coat,
+            to_world,
+            normal_to_world
         ]
     );
+    assert_same_layout!("raster/surface.wgsl", ImagePlace, [turn_and_scale, offset]);
+    assert_same_layout!("raster/surface.wgsl", Look, [places, normal_scale, cutoff, alpha]);
 }
 
 #[test]

@@ -19,10 +19,16 @@ pub fn clearance(scene: &Scene, eye: Vec3) -> f32 {
         let known = match &shape.geometry {
             _ if outside >= nearest => return nearest,
             Geometry::Sphere { center, radius } => from_sphere(*center, *radius, eye, segments),
-            Geometry::Mesh(_) => Some(outside).filter(|distance| *distance > 0.0),
+            Geometry::Mesh(_) | Geometry::Instance(_) => Some(outside).filter(|distance| *distance > 0.0),
             _ => None,
         };
-        known.map_or_else(|| nearest_triangle(&shape.geometry, eye, segments, nearest), |found| found.min(nearest))
+        match (known, tessellation::large_mesh(&shape.geometry)) {
+            (Some(found), _) => found.min(nearest),
+            (None, Some(mesh)) => nearest_of_runs(tessellation::runs_of(mesh), eye, nearest),
+            (None, None) => tessellation::triangles_of(&shape.geometry, segments, |triangles| {
+                nearest_triangle(triangles, eye, nearest)
+            }),
+        }
     };
     scene.shapes.iter().fold(f64::INFINITY, of_shape) as f32
 }
@@ -56,8 +62,25 @@ fn from_sphere(center: Vec3, radius: f32, eye: DVec3, segments: u32) -> Option<f
     Some((from_center - radius).max(inner - from_center)).filter(|distance| *distance > 0.01 * (radius - inner))
 }
 
-/// The least of `nearest` and the distances to a shape's triangles that can be seen.
-fn nearest_triangle(geometry: &Geometry, eye: DVec3, segments: u32, nearest: f64) -> f64 {
+/// As [`nearest_triangle`], of runs of triangles with boxes around them: the nearest box first, and none that is farther
+/// away than what was found.
+fn nearest_of_runs<T: Iterator<Item = [Vec3; 3]>>(
+    runs: impl Iterator<Item = ((Vec3, Vec3), T)>,
+    eye: DVec3,
+    nearest: f64,
+) -> f64 {
+    let distance = |(low, high): (Vec3, Vec3)| Bounds { low: low.as_dvec3(), high: high.as_dvec3() }.distance(eye);
+    let runs = runs.map(|(bounds, triangles)| (distance(bounds), triangles));
+    let mut near: Vec<_> = runs.filter(|(distance, _)| *distance < nearest).collect();
+    near.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
+    near.into_iter().fold(nearest, |nearest, (distance, mut triangles)| match distance < nearest {
+        true => nearest_triangle(&mut triangles, eye, nearest),
+        false => nearest,
+    })
+}
+
+/// The least of `nearest` and the distances to triangles that can be seen.
+fn nearest_triangle(triangles: &mut dyn Iterator<Item = [Vec3; 3]>, eye: DVec3, nearest: f64) -> f64 {
     let eye_of_f32 = eye.as_vec3();
     let within = |nearest: f64, triangle: [Vec3; 3]| {
         let [a, b, c] = triangle;
@@ -72,7 +95,7 @@ fn nearest_triangle(geometry: &Geometry, eye: DVec3, segments: u32, nearest: f64
         let seen = (eye - triangle[0]).dot(normal).abs() > bounds.rounding(eye);
         if seen { nearest.min(distance(eye, triangle, normal)) } else { nearest }
     };
-    tessellation::triangles_of(geometry, segments, |triangles| triangles.fold(nearest, within))
+    triangles.fold(nearest, within)
 }
 
 /// Unit; zero of a triangle without area, which is not seen.
@@ -98,7 +121,10 @@ fn distance_to_edge(p: DVec3, from: DVec3, to: DVec3) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use scene::glam::Affine3A;
+    use scene::{Instance, Mesh};
     use std::path::Path;
+    use std::sync::Arc;
 
     fn of(shapes: &str, eye: Vec3) -> f32 {
         let camera = "camera = { eye = [0, 0, 9], target = [0, 0, 0], fov_y = 40 }";
@@ -122,6 +148,37 @@ mod tests {
         let wide = FLOOR.replace("-40", "-1e11").replace("80", "2e11");
         close(of(&format!("{wide}{BALL}"), Vec3::new(0.0, 2.0, 5.0)), 26f32.sqrt() - 1.0);
         assert_eq!(of("", Vec3::ZERO), f32::INFINITY);
+    }
+
+    /// Inside and beside a large ball of radius 1 that is put somewhere, twice as large.
+    #[test]
+    fn of_a_large_mesh_the_nearest_run_has_the_nearest_triangle() {
+        let at = |row: u32, column: u32| {
+            let (theta, phi) = (PI as f32 * row as f32 / 64.0, PI as f32 * column as f32 / 32.0);
+            Vec3::new(theta.sin() * phi.cos(), theta.cos(), theta.sin() * phi.sin())
+        };
+        let positions = (0..=64).flat_map(|row| (0..64).map(move |column| at(row, column))).collect();
+        let index = |row: u32, column: u32| row * 64 + column % 64;
+        let triangles = (0..64).flat_map(|row| {
+            (0..64).flat_map(move |column| {
+                let [a, b] = [index(row, column), index(row, column + 1)];
+                let [c, d] = [index(row + 1, column), index(row + 1, column + 1)];
+                [[a, b, d], [a, d, c]]
+            })
+        });
+        let mesh = Arc::new(Mesh::new(positions, triangles.collect()));
+        assert!(mesh.is_large());
+        let to_world = Affine3A::from_translation(Vec3::new(5.0, 0.0, 0.0)) * Affine3A::from_scale(Vec3::splat(2.0));
+        let text = "camera = { eye = [0, 0, 9], target = [0, 0, 0], fov_y = 40 }";
+        let mut scene = scene::parse(text, "shapes", Path::new("shapes.toml")).unwrap();
+        scene.shapes = [Shape { geometry: Geometry::Instance(Instance { mesh, to_world }), material: 0 }].into();
+        for (off, distance) in [(0.0, 2.0), (1.0, 1.0), (1.9, 0.1), (1.99, 0.01), (2.3, 0.3), (4.0, 2.0)] {
+            let eye = Vec3::new(5.0, 0.0, 0.0) + off * Vec3::new(0.36, 0.48, 0.8);
+            let found = clearance(&scene, eye);
+            // its faces lie inwards by up to a 300th of the radius, and from beside it its box stands for it
+            let least = if off < 2.0 { distance - 0.006 } else { 0.1 * distance };
+            assert!((least..=distance + 0.006).contains(&found), "{found} of {distance}");
+        }
     }
 
     /// Points about a tessellated sphere and a tilted mesh, near its faces and in the box around it: against a dense

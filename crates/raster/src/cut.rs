@@ -99,16 +99,30 @@ impl Frustum {
 
     /// Whether something of `shape` that is drawn lies in the picture, and on the inner side of `plane`.
     fn sees_beyond(&self, scene: &Scene, shape: &Shape, plane: Plane) -> bool {
-        let corners = tessellation::corners(shape.geometry.bounds()).map(|corner| self.in_clip(corner));
-        let outside = |side: &Plane| corners.iter().all(|corner| side.height(*corner) <= 0.0);
-        if outside(&plane) || SIDES.iter().any(outside) {
+        if self.misses(shape.geometry.bounds(), plane) {
             return false;
         }
         // of glass only back faces are drawn
         let glass = matches!(scene.material_of(shape).bsdf, Bsdf::Dielectric { .. });
         let drawn = |[a, b, c]: &[Vec3; 3]| !glass || (b - a).cross(c - a).dot(a - self.eye) > 0.0;
         let sees = |triangle: [Vec3; 3]| drawn(&triangle) && self.sees(triangle, plane);
-        tessellation::triangles_of(&shape.geometry, self.segments, |mut triangles| Iterator::any(&mut triangles, sees))
+        match tessellation::large_mesh(&shape.geometry) {
+            Some(mesh) => {
+                let mut near = tessellation::runs_of(mesh).filter(|(bounds, _)| !self.misses(*bounds, plane));
+                near.any(|(_, mut triangles)| triangles.any(&sees))
+            }
+            None => {
+                let sees = |mut triangles: &mut dyn Iterator<Item = _>| Iterator::any(&mut triangles, &sees);
+                tessellation::triangles_of(&shape.geometry, self.segments, sees)
+            }
+        }
+    }
+
+    /// Whether all of a box lies on the outer side of `plane`, or of one of the picture's.
+    fn misses(&self, bounds: (Vec3, Vec3), plane: Plane) -> bool {
+        let corners = tessellation::corners(bounds).map(|corner| self.in_clip(corner));
+        let outside = |side: &Plane| corners.iter().all(|corner| side.height(*corner) <= 0.0);
+        outside(&plane) || SIDES.iter().any(outside)
     }
 
     /// Whether something of a triangle lies in the picture, and on the inner side of `plane`.

@@ -3,11 +3,10 @@
 
 use crate::error::RasterError;
 use crate::gpu_data::{Object, View};
-use crate::passes::{Uniforms, bind, bind_world, bits_of, offset, resolve, sized};
+use crate::passes::{Drawing, Things, Uniforms, bind, bits_of, offset, resolve, sized};
 use crate::pipelines::Pipelines;
 use crate::plan::Plan;
 use crate::targets::FeatureTargets;
-use crate::tessellation::World;
 use film::Features;
 use gpu::{Gpu, GpuError};
 use scene::Vec3;
@@ -19,23 +18,20 @@ pub fn draw(
     gpu: &Gpu,
     pipelines: &Pipelines,
     uniforms: &Uniforms,
-    world: &World,
+    things: Things<'_>,
     targets: &FeatureTargets,
     plan: &Plan,
 ) {
-    let Some(pipeline) = &pipelines.features else { return };
     let views = bind(gpu, &pipelines.shadow_layout, &[sized::<View>(&uniforms.views)]);
     let objects = bind(gpu, &pipelines.surface_layout, &[sized::<Object>(&uniforms.objects)]);
     let label = Some("what is seen of surfaces");
     let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label });
     for (index, view) in plan.picture_views.clone().enumerate() {
         let mut pass = begin(&mut encoder, targets, index, plan.sky);
-        bind_world(world, &mut pass);
-        pass.set_pipeline(pipeline);
         pass.set_bind_group(0, &views, &[offset(view)]);
-        for shape in 0..plan.objects.len() {
-            pass.set_bind_group(1, &objects, &[offset(shape)]);
-            pass.draw_indexed(world.ranges[shape].clone(), 0, 0..1);
+        let mut drawing = Drawing::new(&mut pass, things);
+        for (shape, variant) in plan.drawn(None) {
+            drawing.draw((shape, plan.materials[shape]), pipelines.features(variant), &objects);
         }
     }
     for (passes, resolved) in targets.passes.iter().zip(&targets.resolved) {

@@ -1,16 +1,29 @@
 //! Mirrors of the structs that the shaders read; field for field the ones in `shaders/raster/view.wgsl`,
-//! `object.wgsl` and `forward.wgsl`. A test compares every offset with the shader compiler's. Padding is spelled out as `unused*`.
+//! `object.wgsl`, `surface.wgsl` and `forward.wgsl`. A test compares every offset with the shader compiler's. Padding is spelled out as `unused*`.
 
 use bytemuck::{Pod, Zeroable};
 use scene::Vec3;
 use scene::glam::{Mat4, Vec2, Vec4};
 
-/// The illumination model of [`Lights::shading`].
+/// The illumination model that a surface is compiled with.
 pub const SHADING_THREE: u32 = 0;
 /// See [`SHADING_THREE`].
 pub const SHADING_PHONG: u32 = 1;
 /// See [`SHADING_THREE`].
 pub const SHADING_BLINN_PHONG: u32 = 2;
+/// See [`SHADING_THREE`].
+pub const SHADING_COOK_TORRANCE: u32 = 3;
+
+/// A bit for each picture that a material may have, in the order of [`Look::places`]: that of its colour.
+pub const IMAGE_COLOUR: u32 = 1;
+/// That of its share of metal and its roughness.
+pub const IMAGE_METALLIC_ROUGHNESS: u32 = 2;
+/// The normal map.
+pub const IMAGE_NORMAL: u32 = 4;
+/// That of the light which it sends out.
+pub const IMAGE_EMISSION: u32 = 8;
+/// The alpha mask's.
+pub const IMAGE_ALPHA: u32 = 16;
 
 /// [`Lights::area_light_pattern`] where there is no area light.
 pub const AREA_LIGHT_NONE: u32 = 0;
@@ -56,8 +69,8 @@ pub struct View {
 pub struct Lights {
     /// Unit direction.
     pub sun_towards: Vec3,
-    /// One of `SHADING_*`; shaders have it compiled in.
-    pub shading: u32,
+    /// Padding.
+    pub unused3: u32,
     /// What a white Lambert surface facing the sun sends back; zero for no sun.
     pub sun_incident: Vec3,
     /// 1 if refraction is interpolated between vertices.
@@ -118,4 +131,44 @@ pub struct Object {
     pub slack: f32,
     /// What Lambert's term takes of the colour.
     pub diffuse: f32,
+    /// Share of metal, for Cook and Torrance's highlight.
+    pub metallic: f32,
+    /// Its roughness.
+    pub roughness: f32,
+    /// What the coat of what is no metal reflects head-on.
+    pub coat: f32,
+    /// Padding.
+    pub unused: f32,
+    /// From the mesh's own space, if its corners are in that: the rows of the map.
+    pub to_world: [Vec4; 3],
+    /// The same for its normals, but for their length.
+    pub normal_to_world: [Vec4; 3],
+}
+
+/// `ImagePlace` in `shaders/raster/surface.wgsl`: from a surface's place in pictures to one picture's own.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
+pub struct ImagePlace {
+    /// Two columns.
+    pub turn_and_scale: Vec4,
+    /// Added afterwards.
+    pub offset: Vec2,
+    /// Padding.
+    pub unused: Vec2,
+}
+
+/// `Look` in `shaders/raster/surface.wgsl`: how the pictures of a material are read.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
+pub struct Look {
+    /// In the order of `IMAGE_*`.
+    pub places: [ImagePlace; 5],
+    /// What x and y of normals are multiplied by.
+    pub normal_scale: f32,
+    /// Least alpha that is a surface.
+    pub cutoff: f32,
+    /// What alpha is multiplied by.
+    pub alpha: f32,
+    /// Padding.
+    pub unused: f32,
 }

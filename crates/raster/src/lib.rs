@@ -22,6 +22,8 @@
 //! plain sky, as does glass seen in a cube map; of several area lights only the one of greatest power sheds light; as
 //! taught, a sun puts out all area lights.
 
+mod build;
+mod casting;
 mod clearance;
 mod cube;
 mod cut;
@@ -30,7 +32,9 @@ mod features;
 pub mod gpu_data;
 mod knobs;
 pub mod lights;
+mod looks;
 pub mod maps;
+mod object;
 mod passes;
 mod pipelines;
 mod plan;
@@ -40,6 +44,9 @@ pub mod shaders;
 pub mod shading;
 mod targets;
 mod tessellation;
+mod texture;
+mod variant;
+mod world;
 
 pub use cut::{Cut, cut};
 pub use error::RasterError;
@@ -50,12 +57,13 @@ pub use settings::{Fake, RasterSettings, Shading, Show};
 use film::Pixel;
 use film::{Features, Film, colour};
 use gpu::{Gpu, GpuError};
-use passes::{Maps, Uniforms};
+use looks::Looks;
+use passes::{Maps, Things, Uniforms};
 use pipelines::Pipelines;
 use plan::Plan;
 use scene::{Camera, Scene, Vec3};
 use targets::{Colours, Kept};
-use tessellation::World;
+use world::World;
 
 /// The rasteriser. It keeps pipelines, targets and geometry from frame to frame, and rebuilds only what changed.
 #[derive(Debug)]
@@ -64,6 +72,7 @@ pub struct Raster {
     pipelines: Pipelines,
     uniforms: Uniforms,
     world: Option<World>,
+    looks: Option<Looks>,
     targets: Kept,
     /// The maps that are drawn.
     maps: Option<Maps>,
@@ -88,7 +97,7 @@ impl Raster {
         let pipelines = Pipelines::new(gpu)?;
         let uniforms = Uniforms::new(gpu)?;
         let (targets, work) = (Kept::default(), Work::default());
-        Ok(Raster { gpu: gpu.clone(), pipelines, uniforms, world: None, targets, maps: None, work })
+        Ok(Raster { gpu: gpu.clone(), pipelines, uniforms, world: None, looks: None, targets, maps: None, work })
     }
 
     /// One frame of `scene` from `camera`: linear radiance, one sample a pixel. Waits until it is there.
@@ -109,15 +118,17 @@ impl Raster {
         let plan = Plan::new(scene, camera, settings);
         maps::check(settings.show, &plan)?;
         let world = World::current(&mut self.world, &self.gpu, scene)?;
+        let looks = Looks::current(&mut self.looks, &self.gpu, &self.pipelines.look_layout, scene)?;
+        let things = Things { world, looks };
         let targets = self.targets.current(&self.gpu, &plan.target_plan(scene, settings))?;
-        let compiled = self.pipelines.prepare(&self.gpu, plan.choice())?;
+        let compiled = self.pipelines.prepare(&self.gpu, &plan)?;
         self.uniforms.write(&self.gpu, &plan)?;
         // kept from frame to frame while only the camera moves; a frame that fails has drawn nothing for certain
-        let maps = Maps::of(&plan, world, targets);
+        let maps = Maps::of(&plan, things, targets);
         let maps_stay = maps.is_some() && self.maps.take() == maps;
         self.work = Work { compiled, kept_maps: maps_stay };
         self.gpu.checked("the picture", || {
-            passes::draw(&self.gpu, &self.pipelines, &self.uniforms, world, targets, &plan, maps_stay)
+            passes::draw(&self.gpu, &self.pipelines, &self.uniforms, things, targets, &plan, maps_stay)
         })?;
         self.maps = maps;
         if settings.show != Show::Picture {
@@ -144,11 +155,13 @@ impl Raster {
         let scene = &settings.knobs.applied(scene);
         let plan = Plan::new(scene, camera, settings);
         let world = World::current(&mut self.world, &self.gpu, scene)?;
+        let looks = Looks::current(&mut self.looks, &self.gpu, &self.pipelines.look_layout, scene)?;
+        let things = Things { world, looks };
         let targets = self.targets.of_features(&self.gpu, [settings.width, settings.height])?;
-        self.work = Work { compiled: self.pipelines.prepare_features(&self.gpu)?, kept_maps: false };
+        self.work = Work { compiled: self.pipelines.prepare_features(&self.gpu, &plan)?, kept_maps: false };
         self.uniforms.write(&self.gpu, &plan)?;
         self.gpu.checked("what is seen of surfaces", || {
-            features::draw(&self.gpu, &self.pipelines, &self.uniforms, world, targets, &plan)
+            features::draw(&self.gpu, &self.pipelines, &self.uniforms, things, targets, &plan)
         })?;
         features::read(&self.gpu, targets)
     }

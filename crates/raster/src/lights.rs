@@ -7,12 +7,12 @@
 use crate::cube;
 use crate::gpu_data::*;
 use crate::planes::Planes;
-use crate::settings::{Fake, RasterSettings, Shading};
-use crate::tessellation::{corners, unit_normal};
+use crate::settings::{Fake, RasterSettings};
+use crate::tessellation::{corners, large_mesh, unit_normal};
 use bytemuck::Zeroable;
 use film::colour;
-use scene::glam::{DVec3, Vec2, camera::rh};
-use scene::{Geometry, Scene, Shape, Sun, Vec3};
+use scene::glam::{Affine3A, DVec3, Vec2, camera::rh};
+use scene::{Geometry, Mesh, Scene, Shape, Sun, Vec3};
 use std::f32::consts::{FRAC_1_PI, PI, SQRT_2};
 
 /// Texels that the shadow kernel reaches from its middle, along an axis.
@@ -38,7 +38,10 @@ impl AreaLight {
     }
 
     fn of(scene: &Scene, shape: &Shape) -> Option<AreaLight> {
-        let emission = scene.material_of(shape).emission.filter(|e| e.radiance.max_element() > 0.0)?;
+        let material = scene.material_of(shape);
+        // what glows in places is seen to, and sheds no light
+        let emission = material.emission.filter(|_| material.surface.emission.is_none())?;
+        let emission = Some(emission).filter(|e| e.radiance.max_element() > 0.0)?;
         let (normal, pattern) = match &shape.geometry {
             Geometry::Rectangle { edge_u, edge_v, .. } => (
                 unit_normal(*edge_u, *edge_v),
@@ -66,10 +69,25 @@ fn area(geometry: &Geometry) -> f32 {
     if let Geometry::Sphere { radius, .. } = geometry {
         return 4.0 * PI * radius * radius;
     }
+    if let Some((mesh, to_world)) = large_mesh(geometry) {
+        return area_of_large(mesh, to_world);
+    }
     let (positions, triangles) = geometry.flat_triangles();
     // in f64, where squares of lengths of any scale still fit
-    let area = |[a, b, c]: [DVec3; 3]| 0.5 * (b - a).cross(c - a).length();
-    triangles.iter().map(|t| area(t.map(|i| positions[i as usize].as_dvec3()))).sum::<f64>() as f32
+    triangles.iter().map(|t| area_of(t.map(|i| positions[i as usize].as_dvec3()))).sum::<f64>() as f32
+}
+
+fn area_of([a, b, c]: [DVec3; 3]) -> f64 {
+    0.5 * (b - a).cross(c - a).length()
+}
+
+/// Estimated from some of its triangles, evenly spaced: all of them are too many to look at in each frame.
+fn area_of_large(mesh: &Mesh, to_world: Affine3A) -> f32 {
+    const SAMPLES: usize = Mesh::LARGE;
+    let count = mesh.triangles().len();
+    let corner = |i: u32| to_world.transform_point3(mesh.positions()[i as usize]).as_dvec3();
+    let of = |sample: usize| area_of(mesh.triangles()[sample * count / SAMPLES].map(corner));
+    ((0..SAMPLES).map(of).sum::<f64>() * count as f64 / SAMPLES as f64) as f32
 }
 
 /// The sun of `scene`, the area light that is lit beside it, and the place that light comes from for deciding who casts
@@ -85,11 +103,6 @@ pub fn lights(scene: &Scene, settings: &RasterSettings, casts: impl Fn(usize) ->
     let (sun, area_light) = lit(scene, settings.fake);
     let intensity = Vec3::splat(scene.fake.intensity);
     let mut lights = Lights {
-        shading: match settings.shading {
-            Shading::Three => SHADING_THREE,
-            Shading::Phong => SHADING_PHONG,
-            Shading::BlinnPhong => SHADING_BLINN_PHONG,
-        },
         refracts_per_vertex: u32::from(as_taught),
         ambient: if as_taught { settings.knobs.grey(scene) } else { settings.knobs.sky_light(scene) },
         shadow_bias: settings.knobs.bias,

@@ -2,19 +2,24 @@
 //! A cube map is drawn without its glass, and without the shadow of it; so each has its own shadow map before it, in
 //! the same texture.
 
+use crate::casting::Casting;
 use crate::error::RasterError;
 use crate::gpu_data::Object;
 use crate::knobs::ShadowFilter;
-use crate::pipelines::{Forward, ForwardPasses, Pipelines};
-use crate::plan::{Casting, Plan};
+use crate::looks::Looks;
+use crate::pipelines::{Into, Pipelines};
+use crate::plan::Plan;
 use crate::settings::{Fake, Show};
 use crate::targets::{Layers, Targets};
-use crate::tessellation::World;
+use crate::variant::Variant;
+use crate::world::World;
 use bytemuck::Pod;
 use gpu::{Gpu, GpuError};
 use scene::Vec3;
 use scene::glam::Vec4;
-use wgpu::{BindGroup, BindGroupLayout, BindingResource, BufferUsages, CommandEncoder, RenderPass, TextureView};
+use wgpu::{
+    BindGroup, BindGroupLayout, BindingResource, BufferUsages, CommandEncoder, RenderPass, RenderPipeline, TextureView,
+};
 
 /// Distance of uniforms that dynamic offsets choose from: every device allows this one.
 const STRIDE: usize = 256;
@@ -71,18 +76,21 @@ fn spaced<T: Pod>(items: &[T]) -> Vec<u8> {
 pub struct Maps {
     numbers: Vec<u8>,
     casting: Vec<Casting>,
+    variants: Vec<Option<Variant>>,
+    materials: Vec<usize>,
+    looks: Vec<BindGroup>,
     cube_maps: Vec<usize>,
     sky: Vec3,
     fake: Fake,
     filter: ShadowFilter,
-    vertices: wgpu::Buffer,
+    corners: wgpu::Buffer,
     shadow_map: TextureView,
     cubes: Vec<TextureView>,
 }
 
 impl Maps {
     /// The maps of a picture; `None` if the frame does not draw them all.
-    pub fn of(plan: &Plan, world: &World, targets: Targets<'_>) -> Option<Maps> {
+    pub fn of(plan: &Plan, things: Things<'_>, targets: Targets<'_>) -> Option<Maps> {
         let views = &plan.views[..plan.picture_views.start];
         // no map sees through glass, so how far that bends is not part of it
         let unbent: Vec<Object> = plan.objects.iter().map(|o| Object { refraction_ratio: 0.0, ..*o }).collect();
@@ -90,14 +98,62 @@ impl Maps {
         (plan.show == Show::Picture).then(|| Maps {
             numbers: numbers.concat(),
             casting: plan.casting.clone(),
+            variants: plan.variants.clone(),
+            materials: plan.materials.clone(),
+            looks: things.looks.groups().to_vec(),
             cube_maps: plan.cube_maps.clone(),
             sky: plan.sky,
             fake: plan.fake,
             filter: plan.filter,
-            vertices: world.vertices.clone(),
+            corners: things.world.small_corners().clone(),
             shadow_map: targets.shadow.map.all.clone(),
             cubes: targets.cubes.each.iter().map(|cube| cube.all.clone()).collect(),
         })
+    }
+}
+
+/// What is drawn, on the device.
+#[derive(Debug, Clone, Copy)]
+pub struct Things<'a> {
+    /// Triangles.
+    pub world: &'a World,
+    /// Pictures on them.
+    pub looks: &'a Looks,
+}
+
+/// Draws shape after shape into a pass, and sets what differs from the one before alone.
+#[derive(Debug)]
+pub struct Drawing<'a, 'p> {
+    pass: &'a mut RenderPass<'p>,
+    things: Things<'a>,
+    corners: Option<usize>,
+    pipeline: Option<&'a RenderPipeline>,
+    look: Option<&'a BindGroup>,
+}
+
+impl<'a, 'p> Drawing<'a, 'p> {
+    /// Nothing is set but the pass' group 0.
+    pub fn new(pass: &'a mut RenderPass<'p>, things: Things<'a>) -> Self {
+        Drawing { pass, things, corners: None, pipeline: None, look: None }
+    }
+
+    /// A shape by a pipeline, with the uniforms of its number in `objects`; nothing without a pipeline.
+    pub fn draw(
+        &mut self,
+        (shape, material): (usize, usize),
+        pipeline: Option<&'a RenderPipeline>,
+        objects: &'a BindGroup,
+    ) {
+        let Some(pipeline) = pipeline else { return };
+        if self.pipeline.replace(pipeline) != Some(pipeline) {
+            self.pass.set_pipeline(pipeline);
+        }
+        let look = self.things.looks.of(material);
+        if self.look.replace(look) != Some(look) {
+            self.pass.set_bind_group(2, look, &[]);
+        }
+        self.pass.set_bind_group(1, objects, &[offset(shape)]);
+        self.things.world.draw(self.pass, shape, &mut self.corners);
     }
 }
 
@@ -107,15 +163,13 @@ pub fn draw(
     gpu: &Gpu,
     pipelines: &Pipelines,
     uniforms: &Uniforms,
-    world: &World,
+    things: Things<'_>,
     targets: Targets<'_>,
     plan: &Plan,
     maps_stay: bool,
 ) {
-    let Some(forward) = pipelines.of(plan.choice()) else { return };
     let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("the fake") });
-    let frame =
-        Frame { pipelines, forward, world, targets, plan, groups: Groups::new(gpu, pipelines, uniforms, targets) };
+    let frame = Frame { pipelines, things, targets, plan, groups: Groups::new(gpu, pipelines, uniforms, targets) };
     let cube_maps = match plan.show {
         Show::Picture => plan.cube_maps.len(),
         Show::CubeFaces => 1,
@@ -142,6 +196,7 @@ pub fn draw(
 /// What is bound.
 struct Groups {
     shadow: BindGroup,
+    object: BindGroup,
     frame: BindGroup,
     without_cube_map: BindGroup,
     with_cube_map: Vec<BindGroup>,
@@ -156,7 +211,9 @@ impl Groups {
             let object = sized::<crate::gpu_data::Object>(&uniforms.objects);
             bind(gpu, &pipelines.object_layout, &[object, BindingResource::TextureView(cube), sampler])
         };
+        let surface = sized::<crate::gpu_data::Object>(&uniforms.objects);
         Groups {
+            object: bind(gpu, &pipelines.surface_layout, &[surface]),
             shadow: bind(gpu, &pipelines.shadow_layout, &[view()]),
             frame: bind(
                 gpu,
@@ -185,8 +242,7 @@ pub fn bind(gpu: &Gpu, layout: &BindGroupLayout, resources: &[BindingResource<'_
 
 struct Frame<'a> {
     pipelines: &'a Pipelines,
-    forward: &'a ForwardPasses,
-    world: &'a World,
+    things: Things<'a>,
     targets: Targets<'a>,
     plan: &'a Plan,
     groups: Groups,
@@ -203,13 +259,11 @@ impl Frame<'_> {
                 clear: bits(Vec3::ONE),
             };
             let mut pass = target.begin(encoder);
-            bind_world(self.world, &mut pass);
             pass.set_bind_group(0, &self.groups.shadow, &[offset(layer)]);
-            for (shape, &casting) in self.plan.casting.iter().enumerate().filter(|(shape, _)| without != Some(*shape)) {
-                if let Some(pipeline) = self.pipelines.casting(casting) {
-                    pass.set_pipeline(pipeline);
-                    pass.draw_indexed(self.world.ranges[shape].clone(), 0, 0..1);
-                }
+            let mut drawing = Drawing::new(&mut pass, self.things);
+            for (shape, variant) in self.plan.drawn(without) {
+                let pipeline = self.pipelines.casting(self.plan.casting[shape], variant);
+                drawing.draw((shape, self.plan.materials[shape]), pipeline, &self.groups.object);
             }
         }
     }
@@ -222,8 +276,7 @@ impl Frame<'_> {
                 depth: Some(&self.targets.cubes.depth),
                 clear: self.sky(),
             };
-            let forward = &self.forward.cube_map;
-            self.shapes(&mut target.begin(encoder), forward, self.plan.cube_view(index, layer), Some(glass));
+            self.shapes(&mut target.begin(encoder), self.plan.cube_view(index, layer), Some(glass));
         }
     }
 
@@ -236,21 +289,21 @@ impl Frame<'_> {
                 depth: Some(&self.targets.picture.depth),
                 clear: self.sky_of_picture(),
             };
-            self.shapes(&mut target.begin(encoder), &self.forward.picture, view, None);
+            self.shapes(&mut target.begin(encoder), view, None);
         }
     }
 
     /// Every shape but `without`, as `view` sees it. In a cube map no glass has a cube map of its own, least of all the
     /// one that is being drawn.
-    fn shapes(&self, pass: &mut RenderPass<'_>, forward: &Forward, view: usize, without: Option<usize>) {
-        bind_world(self.world, pass);
+    fn shapes(&self, pass: &mut RenderPass<'_>, view: usize, without: Option<usize>) {
         pass.set_bind_group(0, &self.groups.frame, &[offset(view)]);
-        for (shape, object) in self.plan.objects.iter().enumerate().filter(|(shape, _)| without != Some(*shape)) {
+        let into = if without.is_some() { Into::CubeMap } else { Into::Picture };
+        let mut drawing = Drawing::new(pass, self.things);
+        for (shape, variant) in self.plan.drawn(without) {
             let cube_map = self.plan.cube_maps.iter().position(|&glass| glass == shape).filter(|_| without.is_none());
             let group = cube_map.map_or(&self.groups.without_cube_map, |index| &self.groups.with_cube_map[index]);
-            pass.set_pipeline(if object.kind == 1 { &forward.glass } else { &forward.surface });
-            pass.set_bind_group(1, group, &[offset(shape)]);
-            pass.draw_indexed(self.world.ranges[shape].clone(), 0, 0..1);
+            let pipeline = self.pipelines.forward(self.plan.choice(), into, variant);
+            drawing.draw((shape, self.plan.materials[shape]), pipeline, group);
         }
     }
 
@@ -280,12 +333,6 @@ pub fn resolve(
     pass.set_pipeline(&pipelines.resolve);
     pass.set_bind_group(0, &group, &[]);
     pass.draw(0..3, 0..1);
-}
-
-/// Corners and triangles of all shapes.
-pub fn bind_world(world: &World, pass: &mut RenderPass<'_>) {
-    pass.set_vertex_buffer(0, world.vertices.slice(..));
-    pass.set_index_buffer(world.indices.slice(..), wgpu::IndexFormat::Uint32);
 }
 
 fn bits(colour: Vec3) -> wgpu::Color {

@@ -1,39 +1,34 @@
 //! Pipelines and the layouts of what is bound to them.
 
+use crate::build::Build;
+use crate::casting::Casting;
 use crate::error::RasterError;
 use crate::gpu_data::Lights;
 use crate::knobs::ShadowFilter;
-use crate::plan::Casting;
+use crate::plan::Plan;
 use crate::settings::Fake;
 use crate::shaders;
-use crate::targets::{Colours, DEPTH, FEATURES, SHADOW};
-use crate::tessellation::Vertex;
+use crate::targets::{Colours, FEATURES, SHADOW};
+use crate::variant::{Space, Variant};
 use gpu::{Gpu, GpuError};
 use scene::Vec3;
+use std::collections::hash_map::Entry;
+use std::collections::{HashMap, HashSet};
 use std::num::NonZeroU64;
-use wgpu::{BindGroupLayout, BindingType, Face, RenderPipeline, ShaderStages, TextureFormat, TextureViewDimension};
+use wgpu::{BindGroupLayout, BindingType, Face, FrontFace, RenderPipeline, ShaderStages, TextureViewDimension};
 
-/// The forward pass into one kind of target.
-#[derive(Debug)]
-pub struct Forward {
-    /// Both sides of everything but glass.
-    pub surface: RenderPipeline,
-    /// Back faces of glass.
-    pub glass: RenderPipeline,
+/// What a forward pass draws into.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Into {
+    /// A cube map's face.
+    CubeMap,
+    /// The picture.
+    Picture,
 }
 
-/// The forward passes of a [`Choice`].
-#[derive(Debug)]
-pub struct ForwardPasses {
-    /// Into a cube map's face.
-    pub cube_map: Forward,
-    /// Into the picture.
-    pub picture: Forward,
-}
-
-/// What is compiled into the forward passes: a software device would run the branches that are not taken too, or
-/// compile them anew for every draw.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+/// What is compiled into all forward passes of a picture: a software device would run the branches that are not taken
+/// too, or compile them anew for every draw. What its shapes differ in is a [`Variant`].
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub struct Choice {
     /// Decides the targets' formats.
     pub fake: Fake,
@@ -43,26 +38,25 @@ pub struct Choice {
     pub sun: bool,
     /// As in [`Lights::area_light_pattern`].
     pub area_light: u32,
-    /// As in [`Lights::shading`].
-    pub shading: u32,
 }
 
 impl Choice {
     /// What a picture under `lights` needs.
     pub fn of(fake: Fake, filter: ShadowFilter, lights: &Lights) -> Choice {
         let sun = lights.sun_incident.cmpgt(Vec3::ZERO).any();
-        Choice { fake, filter, sun, area_light: lights.area_light_pattern, shading: lights.shading }
+        Choice { fake, filter, sun, area_light: lights.area_light_pattern }
     }
 
-    /// Values of the overrides in `shaders/raster/forward.wgsl`, for glass or for everything else.
-    pub fn constants(&self, glass: bool) -> [(&'static str, f64); 5] {
-        [
+    /// Values of the overrides in `shaders/raster/forward.wgsl` and in what it imports.
+    pub fn constants(&self, variant: Variant) -> Vec<(&'static str, f64)> {
+        let own = [
             ("SHADOW_FILTER", f64::from(self.filter.code())),
-            ("GLASS", f64::from(u8::from(glass))),
+            ("GLASS", f64::from(u8::from(variant.glass))),
             ("SUN", f64::from(u8::from(self.sun))),
             ("AREA_LIGHT", f64::from(self.area_light)),
-            ("SHADING", f64::from(self.shading)),
-        ]
+            ("SHADING", f64::from(variant.shading)),
+        ];
+        [own.as_slice(), &variant.constants()].concat()
     }
 }
 
@@ -81,16 +75,17 @@ pub struct Pipelines {
     pub sampler: wgpu::Sampler,
     /// Mean of the picture's passes.
     pub resolve: RenderPipeline,
-    /// Group 1 of the features' pass: object.
+    /// Group 1 of the shadow pass and of the features' one: object.
     pub surface_layout: BindGroupLayout,
-    /// Of both sides of everything, once [`Pipelines::prepare_features`] has compiled it.
-    pub features: Option<RenderPipeline>,
+    /// Group 2 of all passes that draw shapes: pictures.
+    pub look_layout: BindGroupLayout,
     forward_module: wgpu::ShaderModule,
-    /// Of each choice that was asked for.
-    forward: Vec<(Choice, ForwardPasses)>,
-    both_sides: RenderPipeline,
-    back_faces: RenderPipeline,
-    front_faces: RenderPipeline,
+    shadow_module: wgpu::ShaderModule,
+    features_module: Option<wgpu::ShaderModule>,
+    /// Of all that was asked for.
+    forward: HashMap<(Choice, Into, Variant), RenderPipeline>,
+    shadow: HashMap<(Casting, Variant), RenderPipeline>,
+    features: HashMap<Variant, RenderPipeline>,
 }
 
 impl Pipelines {
@@ -99,72 +94,108 @@ impl Pipelines {
         let shadow = shaders::compose("raster/shadow_map.wgsl")?.create(gpu)?;
         let forward = shaders::compose("raster/forward.wgsl")?.create(gpu)?;
         let resolve = shaders::compose("film/resolve.wgsl")?.create(gpu)?;
-        Ok(gpu.checked("the fake's pipelines", || compile(gpu, &shadow, forward, &resolve))?)
+        Ok(gpu.checked("the fake's pipelines", || compile(gpu, shadow, forward, &resolve))?)
     }
 
-    /// Sees to it that the forward passes of a choice are compiled; returns whether they were not.
+    /// Sees to it that all that draws a plan is compiled; returns whether some was not.
     ///
     /// # Errors
     /// [`GpuError::Refused`] if the device can't take them.
-    pub fn prepare(&mut self, gpu: &Gpu, choice: Choice) -> Result<bool, GpuError> {
-        if self.of(choice).is_some() {
-            return Ok(false);
+    pub fn prepare(&mut self, gpu: &Gpu, plan: &Plan) -> Result<bool, GpuError> {
+        let variants: HashSet<Variant> = plan.variants.iter().copied().flatten().collect();
+        let into = if plan.cube_maps.is_empty() { &[Into::Picture][..] } else { &[Into::CubeMap, Into::Picture] };
+        let mut compiled = false;
+        for (variant, into) in variants.iter().flat_map(|variant| into.iter().map(move |into| (*variant, *into))) {
+            let key = (plan.choice(), into, variant);
+            if !self.forward.contains_key(&key) {
+                let made = gpu.checked("the fake's pipelines", || self.compile_forward(gpu, key))?;
+                (compiled, _) = (true, self.forward.insert(key, made));
+            }
         }
-        let compiled = gpu.checked("the fake's pipelines", || self.compile_forward(gpu, choice))?;
-        self.forward.push((choice, compiled));
-        Ok(true)
+        let casting = plan.casting.iter().zip(&plan.variants).filter(|(casting, _)| **casting != Casting::Nothing);
+        let casting = casting.filter_map(|(casting, variant)| Some((*casting, (*variant)?.in_shadow_map())));
+        for key in casting.collect::<HashSet<_>>() {
+            if !self.shadow.contains_key(&key) {
+                let made = gpu.checked("the fake's pipelines", || self.compile_shadow(gpu, key))?;
+                (compiled, _) = (true, self.shadow.insert(key, made));
+            }
+        }
+        Ok(compiled)
     }
 
     /// Sees to it that the features' pass is compiled; returns whether it was not.
     ///
     /// # Errors
     /// [`RasterError::Gpu`] if the device can't take it.
-    pub fn prepare_features(&mut self, gpu: &Gpu) -> Result<bool, RasterError> {
-        if self.features.is_some() {
-            return Ok(false);
-        }
-        let module = shaders::compose("raster/features.wgsl")?.create(gpu)?;
-        let groups: &[_] = &[&self.shadow_layout, &self.surface_layout];
-        let build = Build { targets: 2, ..Build::of(groups, &module, FEATURES) };
-        self.features = Some(gpu.checked("the fake's pipelines", || build.pipeline(gpu))?);
-        Ok(true)
-    }
-
-    /// The forward passes of a choice, once [`Pipelines::prepare`] has compiled them.
-    pub fn of(&self, choice: Choice) -> Option<&ForwardPasses> {
-        self.forward.iter().find(|(compiled, _)| *compiled == choice).map(|(_, passes)| passes)
-    }
-
-    fn compile_forward(&self, gpu: &Gpu, choice: Choice) -> ForwardPasses {
-        let groups: &[_] = &[&self.frame_layout, &self.object_layout];
-        let into = |format, samples| {
-            let module = &self.forward_module;
-            let build = |cull_mode, constants: &[_]| {
-                Build { samples, cull_mode, constants, ..Build::of(groups, module, format) }.pipeline(gpu)
-            };
-            Forward {
-                surface: build(None, &choice.constants(false)),
-                glass: build(Some(Face::Front), &choice.constants(true)),
-            }
+    pub fn prepare_features(&mut self, gpu: &Gpu, plan: &Plan) -> Result<bool, RasterError> {
+        let module = match self.features_module.take() {
+            Some(module) => module,
+            None => shaders::compose("raster/features.wgsl")?.create(gpu)?,
         };
-        let colours = Colours::of(choice.fake, gpu);
-        ForwardPasses { cube_map: into(colours.cube_map, 1), picture: into(colours.picture, colours.samples) }
+        let module = self.features_module.insert(module);
+        let groups: &[_] = &[&self.shadow_layout, &self.surface_layout, &self.look_layout];
+        let mut compiled = false;
+        let variants = plan.variants.iter().flatten().map(|variant| variant.in_features());
+        for variant in variants.collect::<HashSet<_>>() {
+            if let Entry::Vacant(place) = self.features.entry(variant) {
+                let constants = &variant.constants();
+                let front_face = front_face(variant);
+                let build = Build { targets: 2, constants, front_face, ..Build::of(groups, module, FEATURES) };
+                place.insert(gpu.checked("the fake's pipelines", || build.pipeline(gpu))?);
+                compiled = true;
+            }
+        }
+        Ok(compiled)
     }
 
-    /// The shadow pass of a shape.
-    pub fn casting(&self, casting: Casting) -> Option<&RenderPipeline> {
-        match casting {
-            Casting::Nothing => None,
-            Casting::BothSides => Some(&self.both_sides),
-            Casting::BackFaces => Some(&self.back_faces),
-            Casting::FrontFaces => Some(&self.front_faces),
-        }
+    /// The forward pass of a variant, once [`Pipelines::prepare`] has compiled it.
+    pub fn forward(&self, choice: Choice, into: Into, variant: Variant) -> Option<&RenderPipeline> {
+        self.forward.get(&(choice, into, variant))
     }
+
+    /// The shadow pass of a shape, likewise; `None` of what casts none.
+    pub fn casting(&self, casting: Casting, variant: Variant) -> Option<&RenderPipeline> {
+        self.shadow.get(&(casting, variant.in_shadow_map()))
+    }
+
+    /// The features' pass of a variant, once [`Pipelines::prepare_features`] has compiled it.
+    pub fn features(&self, variant: Variant) -> Option<&RenderPipeline> {
+        self.features.get(&variant.in_features())
+    }
+
+    fn compile_forward(&self, gpu: &Gpu, (choice, into, variant): (Choice, Into, Variant)) -> RenderPipeline {
+        let groups: &[_] = &[&self.frame_layout, &self.object_layout, &self.look_layout];
+        let colours = Colours::of(choice.fake, gpu);
+        let (format, samples) = match into {
+            Into::CubeMap => (colours.cube_map, 1),
+            Into::Picture => (colours.picture, colours.samples),
+        };
+        let constants = &choice.constants(variant);
+        let build = Build { samples, constants, ..Build::of(groups, &self.forward_module, format) };
+        let cull_mode = variant.glass.then_some(Face::Front);
+        Build { cull_mode, front_face: front_face(variant), ..build }.pipeline(gpu)
+    }
+
+    fn compile_shadow(&self, gpu: &Gpu, (casting, variant): (Casting, Variant)) -> RenderPipeline {
+        let groups: &[_] = &[&self.shadow_layout, &self.surface_layout, &self.look_layout];
+        let cull_mode = match casting {
+            Casting::Nothing | Casting::BothSides => None,
+            Casting::BackFaces => Some(Face::Front),
+            Casting::FrontFaces => Some(Face::Back),
+        };
+        let constants = &variant.constants();
+        let build = Build { cull_mode, constants, ..Build::of(groups, &self.shadow_module, SHADOW) };
+        Build { front_face: front_face(variant), ..build }.pipeline(gpu)
+    }
+}
+
+fn front_face(variant: Variant) -> FrontFace {
+    if variant.space == Space::MirroredMesh { FrontFace::Cw } else { FrontFace::Ccw }
 }
 
 fn compile(
     gpu: &Gpu,
-    shadow: &wgpu::ShaderModule,
+    shadow: wgpu::ShaderModule,
     forward: wgpu::ShaderModule,
     resolve: &wgpu::ShaderModule,
 ) -> Pipelines {
@@ -172,22 +203,14 @@ fn compile(
         |sample_type, view_dimension| BindingType::Texture { sample_type, view_dimension, multisampled: false };
     let array = texture(wgpu::TextureSampleType::Uint, TextureViewDimension::D2Array);
     let cube = texture(wgpu::TextureSampleType::Float { filterable: true }, TextureViewDimension::Cube);
+    let picture = texture(wgpu::TextureSampleType::Float { filterable: true }, TextureViewDimension::D2);
     let sampler = BindingType::Sampler(wgpu::SamplerBindingType::Filtering);
-    let shadow_layout = layout(gpu, &[uniform::<crate::gpu_data::View>(true)]);
     let frame = [uniform::<crate::gpu_data::View>(true), uniform::<crate::gpu_data::Lights>(false), array];
-    let frame_layout = layout(gpu, &frame);
     let object = [uniform::<crate::gpu_data::Object>(true), cube, sampler];
-    let object_layout = layout(gpu, &object);
-    let surface_layout = layout(gpu, &object[..1]);
+    let look = [[uniform::<crate::gpu_data::Look>(false)].as_slice(), &[picture; 5], &[sampler; 5]].concat();
     let resolve_layout = layout(gpu, &[array]);
-
-    let casting = |cull_mode| {
-        let groups: &[_] = &[&shadow_layout];
-        Build { cull_mode, ..Build::of(groups, shadow, SHADOW) }.pipeline(gpu)
-    };
-    let format = Colours::of(Fake::Fair, gpu).picture;
     let groups: &[_] = &[&resolve_layout];
-    let resolve = Build { full_screen: true, ..Build::of(groups, resolve, format) };
+    let resolve = Build { full_screen: true, ..Build::of(groups, resolve, Colours::of(Fake::Fair, gpu).picture) };
     Pipelines {
         sampler: gpu.device.create_sampler(&wgpu::SamplerDescriptor {
             mag_filter: wgpu::FilterMode::Linear,
@@ -195,17 +218,18 @@ fn compile(
             ..wgpu::SamplerDescriptor::default()
         }),
         resolve: resolve.pipeline(gpu),
-        surface_layout,
-        features: None,
-        forward_module: forward,
-        forward: Vec::new(),
-        both_sides: casting(None),
-        back_faces: casting(Some(Face::Front)),
-        front_faces: casting(Some(Face::Back)),
-        shadow_layout,
-        frame_layout,
-        object_layout,
+        shadow_layout: layout(gpu, &[uniform::<crate::gpu_data::View>(true)]),
+        frame_layout: layout(gpu, &frame),
+        object_layout: layout(gpu, &object),
+        surface_layout: layout(gpu, &object[..1]),
+        look_layout: layout(gpu, &look),
         resolve_layout,
+        forward_module: forward,
+        shadow_module: shadow,
+        features_module: None,
+        forward: HashMap::new(),
+        shadow: HashMap::new(),
+        features: HashMap::new(),
     }
 }
 
@@ -226,85 +250,5 @@ fn uniform<T>(has_dynamic_offset: bool) -> BindingType {
         ty: wgpu::BufferBindingType::Uniform,
         has_dynamic_offset,
         min_binding_size: NonZeroU64::new(size_of::<T>() as u64),
-    }
-}
-
-/// What tells the pipelines apart.
-#[derive(Clone, Copy)]
-struct Build<'a> {
-    groups: &'a [&'a BindGroupLayout],
-    module: &'a wgpu::ShaderModule,
-    format: TextureFormat,
-    /// How many of that format.
-    targets: usize,
-    samples: u32,
-    cull_mode: Option<Face>,
-    /// One triangle without corners and depth.
-    full_screen: bool,
-    /// Values of the module's overrides.
-    constants: &'a [(&'a str, f64)],
-}
-
-impl<'a> Build<'a> {
-    /// Both sides of corners in space, one sample into one target.
-    fn of(groups: &'a [&'a BindGroupLayout], module: &'a wgpu::ShaderModule, format: TextureFormat) -> Self {
-        Build { groups, module, format, targets: 1, samples: 1, cull_mode: None, full_screen: false, constants: &[] }
-    }
-
-    fn fragment(&self, gpu: &Gpu) -> &'static str {
-        let bits = self.format == TextureFormat::Rgba32Uint;
-        let with_depth = gpu.adapter.get_info().backend == wgpu::Backend::Gl;
-        match (self.full_screen, with_depth, bits) {
-            (true, ..) | (false, false, false) => "fragment",
-            (false, false, true) => "fragment_bits",
-            (false, true, false) => "fragment_and_depth",
-            (false, true, true) => "fragment_bits_and_depth",
-        }
-    }
-
-    fn pipeline(&self, gpu: &Gpu) -> RenderPipeline {
-        let groups: Vec<_> = self.groups.iter().copied().map(Some).collect();
-        let layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-            label: None,
-            bind_group_layouts: &groups,
-            immediate_size: 0,
-        });
-        let options = || wgpu::PipelineCompilationOptions {
-            constants: self.constants,
-            ..wgpu::PipelineCompilationOptions::default()
-        };
-        let corners = [Some(wgpu::VertexBufferLayout {
-            array_stride: size_of::<Vertex>() as u64,
-            step_mode: wgpu::VertexStepMode::Vertex,
-            attributes: &wgpu::vertex_attr_array![0 => Float32x3, 1 => Float32x3],
-        })];
-        let depth = wgpu::DepthStencilState {
-            format: DEPTH,
-            depth_write_enabled: Some(true),
-            depth_compare: Some(wgpu::CompareFunction::GreaterEqual),
-            stencil: wgpu::StencilState::default(),
-            bias: wgpu::DepthBiasState::default(),
-        };
-        gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-            label: None,
-            layout: Some(&layout),
-            vertex: wgpu::VertexState {
-                module: self.module,
-                entry_point: Some("vertex"),
-                compilation_options: options(),
-                buffers: if self.full_screen { &[] } else { &corners },
-            },
-            primitive: wgpu::PrimitiveState { cull_mode: self.cull_mode, ..wgpu::PrimitiveState::default() },
-            depth_stencil: (!self.full_screen).then_some(depth),
-            multisample: wgpu::MultisampleState { count: self.samples, ..wgpu::MultisampleState::default() },
-            fragment: Some(wgpu::FragmentState {
-                module: self.module,
-                entry_point: Some(self.fragment(gpu)),
-                compilation_options: options(),
-                targets: &vec![Some(self.format.into()); self.targets],
-            }),
-            multiview_mask: None,
-            cache: None,
-        })
     }
 }

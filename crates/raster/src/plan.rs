@@ -1,17 +1,19 @@
 //! A frame before it is drawn: every number that the passes need, computed on the CPU.
 
+use crate::casting::{self, Casting};
 use crate::cube;
 use crate::gpu_data::{Lights, Object, View};
 use crate::knobs::ShadowFilter;
 use crate::lights;
+use crate::object::object;
 use crate::pipelines::Choice;
 use crate::planes::Planes;
 use crate::settings::{Fake, RasterSettings, Show};
 use crate::targets::{CubePlan, PicturePlan, ShadowPlan, TargetPlan};
-use crate::tessellation::unit_normal;
+use crate::variant::Variant;
 use bytemuck::Zeroable;
 use scene::glam::{Mat4, Vec2};
-use scene::{Bsdf, Camera, Geometry, MetallicRoughness, Scene, Texture, Vec3};
+use scene::{Bsdf, Camera, Geometry, Scene, Vec3};
 use std::f32::consts::SQRT_2;
 use std::ops::Range;
 
@@ -25,19 +27,6 @@ pub const SHADOW_VIEWS: usize = 7;
 const ROTATED_GRID: [Vec2; 4] =
     [Vec2::new(-0.125, -0.375), Vec2::new(0.375, -0.125), Vec2::new(-0.375, 0.125), Vec2::new(0.125, 0.375)];
 
-/// What of a shape is drawn into shadow maps.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Casting {
-    /// Nothing.
-    Nothing,
-    /// All of it.
-    BothSides,
-    /// What the light doesn't see, so that the lit side of a closed shape never shadows itself.
-    BackFaces,
-    /// What the light sees.
-    FrontFaces,
-}
-
 /// Everything that a frame's passes read.
 #[derive(Debug)]
 pub struct Plan {
@@ -49,6 +38,10 @@ pub struct Plan {
     pub objects: Vec<Object>,
     /// One for each shape.
     pub casting: Vec<Casting>,
+    /// One for each shape; `None` where nothing of it is drawn.
+    pub variants: Vec<Option<Variant>>,
+    /// What each shape wears.
+    pub materials: Vec<usize>,
     /// Which shadow views are drawn.
     pub shadow_layers: Range<usize>,
     /// Texels along a side of the shadow map.
@@ -71,7 +64,8 @@ impl Plan {
     /// The plan of one frame.
     pub fn new(scene: &Scene, camera: &Camera, settings: &RasterSettings) -> Plan {
         let fake = settings.fake;
-        let casting: Vec<_> = (0..scene.shapes.len()).map(|shape| casting(scene, shape, fake)).collect();
+        let variants: Vec<_> = scene.shapes.iter().map(|shape| Variant::of(scene, shape, settings)).collect();
+        let casting = casting::of_all(scene, &variants, fake);
         let lights = lights::lights(scene, settings, |shape| casting[shape] != Casting::Nothing);
         let glass = |shape: &usize| matches!(scene.material_of(&scene.shapes[*shape]).bsdf, Bsdf::Dielectric { .. });
         let cube_maps: Vec<_> = (0..scene.shapes.len()).filter(glass).take(MOST_CUBE_MAPS).collect();
@@ -93,12 +87,20 @@ impl Plan {
             lights,
             objects,
             casting,
+            variants,
+            materials: scene.shapes.iter().map(|shape| shape.material).collect(),
             cube_maps,
             fake,
             filter: settings.knobs.filter,
             show: settings.show,
             sky: scene.sky,
         }
+    }
+
+    /// The shapes that are drawn, all but `without`.
+    pub fn drawn(&self, without: Option<usize>) -> impl Iterator<Item = (usize, Variant)> {
+        let shapes = self.variants.iter().enumerate().filter(move |(shape, _)| without != Some(*shape));
+        shapes.filter_map(|(shape, variant)| Some((shape, (*variant)?)))
     }
 
     /// What its forward passes have compiled in.
@@ -169,90 +171,4 @@ fn cube_map_views(scene: &Scene, glass: &Geometry, fake: Fake) -> [View; 6] {
         let clip_from_world = cube::clip_from_world(eye, cube::axis_of_layer(layer), 1.0, planes);
         View { clip_from_world, near: planes.near, eye, ..View::zeroed() }
     })
-}
-
-/// As taught: rectangles (the floor) only receive; `shadowSide` draws back faces of front-sided materials, and front
-/// faces of the glass, whose material is back-sided. Fair: a rectangle casts if something lies behind it, and flat
-/// shapes cast their lit side too, or light would leak in along the foot of a box.
-fn casting(scene: &Scene, index: usize, fake: Fake) -> Casting {
-    let shape = &scene.shapes[index];
-    let material = scene.material_of(shape);
-    if material.emission.is_some() {
-        return Casting::Nothing;
-    }
-    let glass = matches!(material.bsdf, Bsdf::Dielectric { .. });
-    match (&shape.geometry, fake) {
-        (Geometry::Rectangle { .. }, Fake::AsTaught) => Casting::Nothing,
-        (Geometry::Rectangle { corner, edge_u, edge_v }, Fake::Fair) => {
-            let normal = unit_normal(*edge_u, *edge_v);
-            if hides_something(scene, index, *corner, normal) { Casting::BothSides } else { Casting::Nothing }
-        }
-        _ if glass => Casting::FrontFaces,
-        (Geometry::Box { .. } | Geometry::Mesh(_) | Geometry::Instance(_), Fake::Fair) => Casting::BothSides,
-        _ => Casting::BackFaces,
-    }
-}
-
-/// Whether another shape reaches behind a plane as a light sees it; by less than a hundredth of the scene's size does
-/// not count, so that a box that sinks into its floor leaves the floor out.
-fn hides_something(scene: &Scene, index: usize, corner: Vec3, normal: Vec3) -> bool {
-    let (low, high) = scene.bounds();
-    let depth = 0.01 * (high - low).length();
-    let (sun, area_light) = lights::lit(scene, Fake::Fair);
-    let sides =
-        [sun.map(|sun| normal.dot(sun.towards)), area_light.map(|area_light| normal.dot(area_light.position - corner))];
-    sides.into_iter().flatten().any(|side| {
-        let dark = -normal * side.signum();
-        let others = scene.shapes.iter().enumerate().filter(|(other, _)| *other != index);
-        others.into_iter().any(|(_, other)| {
-            let (low, high) = other.geometry.bounds();
-            let deepest = Vec3::select(dark.cmpgt(Vec3::ZERO), high, low);
-            dark.dot(deepest - corner) > depth
-        })
-    })
-}
-
-fn object(scene: &Scene, index: usize, casting: Casting, settings: &RasterSettings) -> Object {
-    let shape = &scene.shapes[index];
-    let material = scene.material_of(shape);
-    let own_lit_side = settings.fake == Fake::Fair && casting == Casting::BothSides;
-    let mut object = Object {
-        reflectivity: material.fake.reflectivity,
-        specular: material.fake.specular,
-        shininess: material.fake.shininess,
-        diffuse: settings.knobs.diffuse.unwrap_or(1.0),
-        slack: if own_lit_side { settings.knobs.filter.reach() } else { 0.0 },
-        ..Object::zeroed()
-    };
-    match &material.bsdf {
-        Bsdf::Diffuse { albedo: colour } | Bsdf::MetallicRoughness(MetallicRoughness { base_colour: colour, .. }) => {
-            paint(&mut object, colour);
-        }
-        Bsdf::Mirror { reflectance } => (object.even, object.odd) = (*reflectance, *reflectance),
-        // as a mirror, whose highlight is as wide as the metal's lobe
-        Bsdf::RoughConductor { conductor, .. } => {
-            (object.even, object.odd) = (conductor.at_normal_incidence(), conductor.at_normal_incidence());
-        }
-        Bsdf::Dielectric { ior } => {
-            object.kind = 1;
-            object.refraction_ratio = material.fake.refraction_ratio.unwrap_or(1.0 / ior);
-        }
-    }
-    if let Some(emission) = material.emission {
-        object.emission = emission.radiance;
-        object.emitting_sides = if emission.two_sided { 2 } else { 1 };
-    }
-    object
-}
-
-fn paint(object: &mut Object, colour: &Texture) {
-    match colour {
-        Texture::Constant(colour) | Texture::Image { factor: colour, .. } => {
-            (object.even, object.odd) = (*colour, *colour);
-        }
-        Texture::Checkerboard(board) => {
-            (object.even, object.odd) = (board.even, board.odd);
-            (object.origin, object.cells_per_unit) = (board.origin, board.cells_per_unit());
-        }
-    }
 }

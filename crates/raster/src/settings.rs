@@ -114,13 +114,16 @@ pub enum Fake {
 /// The local illumination models; see [`crate::shading`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum Shading {
-    /// three.js' MeshPhong, which is a normalised Blinn-Phong with Fresnel.
+    /// three.js' MeshPhong, which is a normalised Blinn-Phong with Fresnel; fair, on glTF's metallic-roughness as three.js'
+    /// MeshStandard draws it, Cook and Torrance's.
     #[default]
     Three,
     /// The slides' Phong.
     Phong,
     /// The slides' Blinn-Phong.
     BlinnPhong,
+    /// Cook and Torrance's, by glTF's terms, on every surface.
+    CookTorrance,
 }
 
 impl Fake {
@@ -143,7 +146,7 @@ impl Fake {
 
 impl Shading {
     /// All of them, the default first.
-    pub const ALL: [Shading; 3] = [Shading::Three, Shading::Phong, Shading::BlinnPhong];
+    pub const ALL: [Shading; 4] = [Shading::Three, Shading::Phong, Shading::BlinnPhong, Shading::CookTorrance];
 
     /// The name on the command line.
     pub fn name(self) -> &'static str {
@@ -151,6 +154,7 @@ impl Shading {
             Shading::Three => "three",
             Shading::Phong => "phong",
             Shading::BlinnPhong => "blinn-phong",
+            Shading::CookTorrance => "cook-torrance",
         }
     }
 

@@ -2,7 +2,8 @@
 
 use crate::gpu_data::*;
 use crate::pipelines::Choice;
-use crate::shading::SMALLEST;
+use crate::shading::{LEAST_COSINE, LEAST_WIDTH, SMALLEST};
+use crate::variant::Variant;
 use crate::{Fake, ShadowFilter};
 use bytemuck::Zeroable;
 use gpu::wgsl::{self, Composed, Source, WgslError};
@@ -16,6 +17,7 @@ pub const SOURCES: &[Source<'static>] = gpu::wgsl_sources![
     "raster/shading.wgsl",
     "raster/shadow.wgsl",
     "raster/shadow_map.wgsl",
+    "raster/surface.wgsl",
     "raster/view.wgsl",
 ];
 
@@ -41,7 +43,15 @@ pub fn shared_constants() -> Vec<(&'static str, f64)> {
         FILTER_HARD,
         FILTER_PCF,
         FILTER_PCF_SOFT,
+        IMAGE_ALPHA,
+        IMAGE_COLOUR,
+        IMAGE_EMISSION,
+        IMAGE_METALLIC_ROUGHNESS,
+        IMAGE_NORMAL,
+        LEAST_COSINE,
+        LEAST_WIDTH,
         SHADING_BLINN_PHONG,
+        SHADING_COOK_TORRANCE,
         SHADING_PHONG,
         SHADING_THREE,
         SMALLEST,
@@ -51,5 +61,5 @@ pub fn shared_constants() -> Vec<(&'static str, f64)> {
 /// Names of the overrides that the forward pass is compiled with.
 pub fn override_names() -> Vec<&'static str> {
     let choice = Choice::of(Fake::Fair, ShadowFilter::Hard, &Lights::zeroed());
-    choice.constants(false).map(|(name, _)| name).to_vec()
+    choice.constants(Variant::PLAIN).into_iter().map(|(name, _)| name).collect()
 }

@@ -10,6 +10,12 @@ use scene::material::Checkerboard;
 /// See the same name in `shaders/raster/shading.wgsl`.
 pub(crate) const SMALLEST: f32 = 1e-37;
 
+/// See the same name in `shaders/raster/shading.wgsl`.
+pub(crate) const LEAST_WIDTH: f32 = 1e-4;
+
+/// See the same name in `shaders/raster/shading.wgsl`.
+pub(crate) const LEAST_COSINE: f32 = 1e-4;
+
 fn power(base: f32, exponent: f32) -> f32 {
     base.max(SMALLEST).powf(exponent)
 }
@@ -47,6 +53,49 @@ pub fn three_blinn_phong(n: Vec3, l: Vec3, v: Vec3, kd: Vec3, f0: f32, s: f32, i
     let fresnel = f0 + (1.0 - f0) * ((-5.55473 * l_dot_h - 6.98316) * l_dot_h).exp2();
     let lobe = 0.25 * (0.5 * s + 1.0) * power(n.dot(h).clamp(0.0, 1.0), s);
     incident * n.dot(l).max(0.0) * (kd + fresnel * lobe)
+}
+
+/// pi times the distribution of microfacets by Trowbridge and Reitz 1975, GGX.
+fn ggx_times_pi(n: Vec3, h: Vec3, width: f32) -> f32 {
+    let cosine = n.dot(h).max(0.0);
+    let spread = width * width * cosine * cosine + n.cross(h).length_squared();
+    width * width / (spread * spread)
+}
+
+/// Smith's masking and shadowing, height-correlated, over four times both cosines (Heitz 2014).
+fn smith_visibility(n_dot_l: f32, n_dot_v: f32, width: f32) -> f32 {
+    let square = width * width;
+    let masked = n_dot_l * (n_dot_v * n_dot_v * (1.0 - square) + square).sqrt();
+    let shadowed = n_dot_v * (n_dot_l * n_dot_l * (1.0 - square) + square).sqrt();
+    0.5 / (masked + shadowed)
+}
+
+/// What the facets of a surface reflect, for [`cook_torrance`].
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Facets {
+    /// Share of metal.
+    pub metallic: f32,
+    /// Its square is the width of the facets' distribution.
+    pub roughness: f32,
+    /// What the coat of the rest reflects head-on.
+    pub f0: f32,
+}
+
+/// Cook and Torrance 1982 with the terms of glTF 2.0, appendix B: a matt body `kd` under a coat, mixed with metal that
+/// reflects `colour` head-on; F by Schlick 1994, D is GGX, G Smith's. Dark where the light is behind the surface.
+pub fn cook_torrance([n, l, v]: [Vec3; 3], kd: Vec3, colour: Vec3, facets: Facets, incident: Vec3) -> Vec3 {
+    let n_dot_l = n.dot(l);
+    if n_dot_l <= 0.0 {
+        return Vec3::ZERO;
+    }
+    let h = half_vector(l, v);
+    let width = (facets.roughness * facets.roughness).max(LEAST_WIDTH);
+    let lobe = ggx_times_pi(n, h, width) * smith_visibility(n_dot_l, n.dot(v).max(LEAST_COSINE), width);
+    let grazing = (1.0 - v.dot(h).clamp(0.0, 1.0)).powi(5);
+    let coat = facets.f0 + (1.0 - facets.f0) * grazing;
+    let dielectric = (1.0 - coat) * kd + coat * lobe;
+    let metal = lobe * (colour + (Vec3::ONE - colour) * grazing);
+    incident * n_dot_l * dielectric.lerp(metal, facets.metallic)
 }
 
 /// Unit direction behind a surface of unit normal `n` (against `d`) for light along the unit direction `d`; `ratio` is

@@ -1,100 +1,52 @@
-//! Triangles: spheres as three.js' SphereGeometry cuts them, with smooth normals; everything else flat, as it is.
+//! Triangles: spheres as three.js' SphereGeometry cuts them, with smooth normals; meshes with the normals that they have;
+//! everything else flat, as it is.
 
-use bytemuck::{Pod, Zeroable};
-use gpu::{Gpu, GpuError};
-use scene::{Geometry, Instance, Scene, Shape, Vec3};
+use scene::glam::{Affine3A, Vec2};
+use scene::runs::RUN;
+use scene::{Geometry, Mesh, Vec3};
+use std::borrow::Cow;
 use std::f32::consts::{PI, TAU};
 use std::ops::Range;
-use std::sync::Arc;
 
-/// A corner of a triangle; the shaders' vertex inputs.
-#[repr(C)]
-#[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
-pub struct Vertex {
-    /// World space.
-    pub position: Vec3,
-    /// World space, unit, outwards.
-    pub normal: Vec3,
+/// Corners of triangles, one list for each of the shaders' vertex inputs, and three of them for each triangle.
+#[derive(Debug, Default)]
+pub struct Corners {
+    pub positions: Vec<Vec3>,
+    /// Unit, outwards; zero of a triangle without area.
+    pub normals: Vec<Vec3>,
+    /// Places in pictures; (0, 0) of what has none.
+    pub uvs: Vec<Vec2>,
+    pub indices: Vec<u32>,
 }
 
-/// A scene's triangles on the device.
-#[derive(Debug)]
-pub struct World {
-    /// What the triangles were made of.
-    shapes: Arc<[Shape]>,
-    segments: u32,
-    /// All corners.
-    pub vertices: wgpu::Buffer,
-    /// Three for each triangle.
-    pub indices: wgpu::Buffer,
-    /// Each shape's part of the indices.
-    pub ranges: Vec<Range<u32>>,
-}
-
-impl World {
-    /// The triangles of `scene`: the `kept` ones if nothing changed.
-    pub fn current<'a>(kept: &'a mut Option<World>, gpu: &Gpu, scene: &Scene) -> Result<&'a World, GpuError> {
-        let fits =
-            |world: &World| world.segments == scene.fake.segments && of_one_geometry(&world.shapes, &scene.shapes);
-        match kept.take().filter(fits) {
-            // the next frame has these shapes again, most likely
-            Some(world) => Ok(kept.insert(World { shapes: scene.shapes.clone(), ..world })),
-            None => Ok(kept.insert(World::new(gpu, scene)?)),
-        }
+impl Corners {
+    /// The indices that `add` adds.
+    pub fn added(&mut self, add: impl FnOnce(&mut Corners)) -> Range<u32> {
+        let start = self.indices.len() as u32;
+        add(self);
+        start..self.indices.len() as u32
     }
 
-    fn new(gpu: &Gpu, scene: &Scene) -> Result<World, GpuError> {
-        let segments = scene.fake.segments.max(3);
-        let (bytes, limit) = (index_bytes(scene, segments), gpu.device.limits().max_buffer_size);
-        if bytes > limit {
-            return Err(GpuError::TooManyBytes { what: "the scene's triangles".to_owned(), bytes, limit });
-        }
-        let (mut vertices, mut indices, mut ranges) = (Vec::new(), Vec::new(), Vec::new());
-        for shape in scene.shapes.iter() {
-            let start = indices.len() as u32;
-            match &shape.geometry {
-                Geometry::Sphere { center, radius } => {
-                    add_sphere(&mut vertices, &mut indices, *center, *radius, segments)
-                }
-                flat => add_flat(&mut vertices, &mut indices, flat),
-            }
-            ranges.push(start..indices.len() as u32);
-        }
-        Ok(World {
-            shapes: scene.shapes.clone(),
-            segments: scene.fake.segments,
-            vertices: gpu.buffer("the scene's corners", &vertices, wgpu::BufferUsages::VERTEX)?,
-            indices: gpu.buffer("the scene's triangles", &indices, wgpu::BufferUsages::INDEX)?,
-            ranges,
-        })
+    fn push(&mut self, position: Vec3, normal: Vec3, uv: Vec2) {
+        self.positions.push(position);
+        self.normals.push(normal);
+        self.uvs.push(uv);
     }
-}
 
-/// Whether shapes differ in their materials at most. Most frames have the same list, by its address.
-fn of_one_geometry(a: &Arc<[Shape]>, b: &Arc<[Shape]>) -> bool {
-    Arc::ptr_eq(a, b) || a.iter().map(|s| &s.geometry).eq(b.iter().map(|s| &s.geometry))
-}
-
-fn index_bytes(scene: &Scene, segments: u32) -> u64 {
-    let triangles = |geometry: &Geometry| match geometry {
-        Geometry::Sphere { .. } => 2 * u64::from(segments) * u64::from(segments),
-        Geometry::Rectangle { .. } => 2,
-        Geometry::Disk { .. } => u64::from(scene::shape::DISK_SEGMENTS),
-        Geometry::Box { .. } => 12,
-        Geometry::Mesh(mesh) | Geometry::Instance(Instance { mesh, .. }) => mesh.triangles().len() as u64,
-    };
-    scene.shapes.iter().map(|s| triangles(&s.geometry) * 12).sum()
+    fn next(&self) -> u32 {
+        self.positions.len() as u32
+    }
 }
 
 /// Rows from the north pole; the first and the last have one triangle a segment, the others two.
-fn add_sphere(vertices: &mut Vec<Vertex>, indices: &mut Vec<u32>, center: Vec3, radius: f32, segments: u32) {
-    let first = vertices.len() as u32;
+pub fn add_sphere(corners: &mut Corners, center: Vec3, radius: f32, segments: u32) {
+    let first = corners.next();
     for row in 0..=segments {
         let theta = PI * row as f32 / segments as f32;
         for column in 0..=segments {
             let phi = TAU * column as f32 / segments as f32;
             let normal = Vec3::new(-phi.cos() * theta.sin(), theta.cos(), phi.sin() * theta.sin());
-            vertices.push(Vertex { position: center + radius * normal, normal: normal.normalize() });
+            corners.push(center + radius * normal, normal.normalize(), Vec2::ZERO);
         }
     }
     let at = |row: u32, column: u32| first + row * (segments + 1) + column;
@@ -103,25 +55,62 @@ fn add_sphere(vertices: &mut Vec<Vertex>, indices: &mut Vec<u32>, center: Vec3, 
             let [a, b] = [at(row, column + 1), at(row, column)];
             let [c, d] = [at(row + 1, column), at(row + 1, column + 1)];
             if row > 0 {
-                indices.extend([a, b, d]);
+                corners.indices.extend([a, b, d]);
             }
             if row + 1 < segments {
-                indices.extend([b, c, d]);
+                corners.indices.extend([b, c, d]);
             }
         }
     }
 }
 
-fn add_flat(vertices: &mut Vec<Vertex>, indices: &mut Vec<u32>, geometry: &Geometry) {
+/// A shape without corners that triangles share.
+pub fn add_flat(corners: &mut Corners, geometry: &Geometry) {
     let (positions, triangles) = geometry.flat_triangles();
-    for triangle in triangles.iter() {
+    add_flat_triangles(corners, &positions, &triangles, &[]);
+}
+
+fn add_flat_triangles(corners: &mut Corners, positions: &[Vec3], triangles: &[[u32; 3]], uvs: &[Vec2]) {
+    for triangle in triangles {
         let [a, b, c] = triangle.map(|corner| positions[corner as usize]);
         let normal = unit_normal(b - a, c - a);
-        for position in [a, b, c] {
-            indices.push(vertices.len() as u32);
-            vertices.push(Vertex { position, normal });
+        for (position, corner) in [a, b, c].into_iter().zip(triangle) {
+            corners.indices.push(corners.next());
+            corners.push(position, normal, uvs.get(*corner as usize).copied().unwrap_or_default());
         }
     }
+}
+
+/// A mesh in its own space.
+pub fn add_mesh(corners: &mut Corners, mesh: &Mesh) {
+    let normals = filled_normals(mesh);
+    if normals.is_empty() {
+        return add_flat_triangles(corners, mesh.positions(), mesh.triangles(), mesh.uvs());
+    }
+    let first = corners.next();
+    let uvs = mesh.uvs().iter().copied().chain(std::iter::repeat(Vec2::ZERO));
+    for ((position, normal), uv) in mesh.positions().iter().zip(&*normals).zip(uvs) {
+        corners.push(*position, *normal, uv);
+    }
+    corners.indices.extend(mesh.triangles().iter().flatten().map(|corner| first + corner));
+}
+
+/// The normals of a mesh, none if it has none; where one has no length, that of a triangle which has the corner.
+pub fn filled_normals(mesh: &Mesh) -> Cow<'_, [Vec3]> {
+    let missing = |normal: &Vec3| *normal == Vec3::ZERO || !normal.is_finite();
+    if !mesh.normals().iter().any(missing) {
+        return mesh.normals().into();
+    }
+    let mut normals = mesh.normals().to_vec();
+    for triangle in mesh.triangles() {
+        let [a, b, c] = triangle.map(|corner| mesh.positions()[corner as usize]);
+        for corner in triangle.map(|corner| corner as usize) {
+            if missing(&normals[corner]) {
+                normals[corner] = unit_normal(b - a, c - a);
+            }
+        }
+    }
+    normals.into()
 }
 
 /// Unit normal of what two edges span; zero if that is nothing. In `f64`, where squares of lengths of any scale still
@@ -137,13 +126,34 @@ pub(crate) fn triangles_of<T>(
     of: impl FnOnce(&mut dyn Iterator<Item = [Vec3; 3]>) -> T,
 ) -> T {
     if let Geometry::Sphere { center, radius } = geometry {
-        let (mut vertices, mut indices) = (Vec::new(), Vec::new());
-        add_sphere(&mut vertices, &mut indices, *center, *radius, segments.max(3));
-        let at = |index: u32| vertices[index as usize].position;
-        return of(&mut indices.as_chunks().0.iter().map(|&[a, b, c]| [at(a), at(b), at(c)]));
+        let mut corners = Corners::default();
+        add_sphere(&mut corners, *center, *radius, segments.max(3));
+        let at = |index: u32| corners.positions[index as usize];
+        return of(&mut corners.indices.as_chunks().0.iter().map(|&[a, b, c]| [at(a), at(b), at(c)]));
     }
     let (positions, triangles) = geometry.flat_triangles();
     of(&mut triangles.iter().map(|triangle| triangle.map(|corner| positions[corner as usize])))
+}
+
+/// The mesh of a shape that is large, and what puts it into the world.
+pub(crate) fn large_mesh(geometry: &Geometry) -> Option<(&Mesh, Affine3A)> {
+    let found = match geometry {
+        Geometry::Mesh(mesh) => (&**mesh, Affine3A::IDENTITY),
+        Geometry::Instance(instance) => (&*instance.mesh, instance.to_world),
+        _ => return None,
+    };
+    found.0.is_large().then_some(found)
+}
+
+/// Runs of a large mesh: the box around each in the world, and its triangles there. Whoever looks at all triangles looks at
+/// millions in each frame.
+pub(crate) fn runs_of<'a>(
+    (mesh, to_world): (&'a Mesh, Affine3A),
+) -> impl Iterator<Item = ((Vec3, Vec3), impl Iterator<Item = [Vec3; 3]> + 'a)> {
+    mesh.runs().iter().zip(mesh.triangles().chunks(RUN)).map(move |(bounds, triangles)| {
+        let in_place = move |corner: u32| to_world.transform_point3(mesh.positions()[corner as usize]);
+        (scene::in_world(&to_world, *bounds), triangles.iter().map(move |triangle| triangle.map(in_place)))
+    })
 }
 
 /// The corners of a box.
@@ -160,13 +170,13 @@ mod tests {
 
     #[test]
     fn a_sphere_is_closed_round_and_wound_outwards() {
-        let (mut vertices, mut indices) = (Vec::new(), Vec::new());
+        let mut corners = Corners::default();
         let center = Vec3::new(1.0, 2.0, 3.0);
-        add_sphere(&mut vertices, &mut indices, center, 2.0, 100);
-        assert_eq!(indices.len(), 3 * (2 * 100 * 100 - 2 * 100));
+        add_sphere(&mut corners, center, 2.0, 100);
+        assert_eq!(corners.indices.len(), 3 * (2 * 100 * 100 - 2 * 100));
         let mut area = 0.0;
-        for triangle in indices.chunks_exact(3) {
-            let [a, b, c] = [0, 1, 2].map(|i| vertices[triangle[i] as usize].position);
+        for triangle in corners.indices.chunks_exact(3) {
+            let [a, b, c] = [0, 1, 2].map(|i| corners.positions[triangle[i] as usize]);
             let normal = (b - a).cross(c - a);
             assert!(normal.dot(a - center) > 0.0);
             area += 0.5 * normal.length();

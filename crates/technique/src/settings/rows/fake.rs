@@ -31,7 +31,7 @@ pub const ROWS: &[Setting<PaneSettings>] = &[
     Setting {
         name: "shading",
         of: RASTER,
-        kind: Kind::Choice(&["three", "phong", "blinn-phong"]),
+        kind: Kind::Choice(&["three", "phong", "blinn-phong", "cook-torrance"]),
         default: Some(Value::Word("three")),
         help: "whose highlight",
         always_recorded: true,
@@ -45,10 +45,16 @@ pub const ROWS: &[Setting<PaneSettings>] = &[
                 (
                     "three",
                     "three.js' MeshPhong: Blinn-Phong times (p + 2) / 8, so that a smaller highlight is a brighter one, and \
-                     times Fresnel: k_s is what is reflected head-on",
+                     times Fresnel: k_s is what is reflected head-on. Fair, a metallic-roughness material keeps its own \
+                     Cook-Torrance, as by three.js' MeshStandard",
                 ),
                 ("phong", "The slides' Phong: cosine between mirrored light and viewer"),
                 ("blinn-phong", "The slides' Blinn-Phong: cosine between normal and half vector"),
+                (
+                    "cook-torrance",
+                    "Microfacets on every surface: GGX, height-correlated Smith, Schlick. As rough as the material says; \
+                     where it says nothing as p, and k_s is what is reflected head-on",
+                ),
             ]),
             below: formula,
             more: RASTER,
@@ -275,6 +281,9 @@ fn formula(shading: Value) -> &'static str {
         Some(Shading::BlinnPhong) => "L = k_a I_a + k_d I_d max(0, N·L) + k_s I_s max(0, N·H)^p",
         Some(Shading::Three) => {
             "L = k_a I_a + I max(0, N·L) (k_d + F (p + 2)/8 (N·H)^p), F from k_s head-on to 1 at grazing light"
+        }
+        Some(Shading::CookTorrance) => {
+            "L = k_a I_a + I max(0, N·L) (k_d (1 - F) + π D G F / (4 (N·L) (N·V))), of metals the second term alone"
         }
         None => "",
     }

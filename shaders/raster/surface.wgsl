@@ -1,0 +1,145 @@
+//#import raster/object.wgsl
+// Where corners of a mesh lie, and what pictures say of its surface. No twin: the rasteriser runs on devices alone.
+// Mirror of the structs: crates/raster/src/gpu_data.rs, which has those of all passes.
+
+const IMAGE_COLOUR: u32 = 1u;
+const IMAGE_METALLIC_ROUGHNESS: u32 = 2u;
+const IMAGE_NORMAL: u32 = 4u;
+const IMAGE_EMISSION: u32 = 8u;
+const IMAGE_ALPHA: u32 = 16u;
+
+// Below this square a tangent has no direction: the surface has no places in pictures. Here alone: only devices draw.
+const SMALLEST_SQUARE: f32 = 1e-37;
+
+// which of IMAGE_* a material has; no others are looked up
+override IMAGES: u32 = 0u;
+// whether corners are in the mesh's own space
+override PLACED: bool = false;
+// whether normals are those of triangles, which share their corners with others
+override FLAT: bool = false;
+// whether corners have places in pictures
+override UVS: bool = false;
+
+// From a surface's place in pictures to one picture's own: a map of two columns, and what is added.
+struct ImagePlace {
+    turn_and_scale: vec4f,
+    offset: vec2f,
+}
+
+struct Look {
+    // in the order of IMAGE_*
+    places: array<ImagePlace, 5>,
+    // what x and y of normals are multiplied by
+    normal_scale: f32,
+    // least alpha that is a surface
+    cutoff: f32,
+    // what alpha is multiplied by
+    alpha: f32,
+}
+
+@group(2) @binding(0) var<uniform> look: Look;
+@group(2) @binding(1) var colour_image: texture_2d<f32>;
+@group(2) @binding(2) var metallic_roughness_image: texture_2d<f32>;
+@group(2) @binding(3) var normal_image: texture_2d<f32>;
+@group(2) @binding(4) var emission_image: texture_2d<f32>;
+@group(2) @binding(5) var alpha_image: texture_2d<f32>;
+@group(2) @binding(6) var colour_sampler: sampler;
+@group(2) @binding(7) var metallic_roughness_sampler: sampler;
+@group(2) @binding(8) var normal_sampler: sampler;
+@group(2) @binding(9) var emission_sampler: sampler;
+@group(2) @binding(10) var alpha_sampler: sampler;
+
+fn world_position(object: Object, position: vec3f) -> vec3f {
+    if PLACED {
+        return vec4f(position, 1.0) * object.to_world;
+    }
+    return position;
+}
+
+fn world_normal(object: Object, normal: vec3f) -> vec3f {
+    if PLACED {
+        return normalize(vec4f(normal, 0.0) * object.normal_to_world);
+    }
+    return normal;
+}
+
+// Of a corner's place in pictures.
+fn picture_place(uv: vec2f) -> vec2f {
+    if UVS {
+        return uv;
+    }
+    return vec2f(0.0);
+}
+
+fn placed(index: u32, uv: vec2f) -> vec2f {
+    let turn_and_scale = look.places[index].turn_and_scale;
+    return mat2x2f(turn_and_scale.xy, turn_and_scale.zw) * uv + look.places[index].offset;
+}
+
+// Whether an alpha mask leaves nothing of the surface.
+fn cut_out(uv: vec2f) -> bool {
+    if (IMAGES & IMAGE_ALPHA) != 0u {
+        return look.alpha * textureSample(alpha_image, alpha_sampler, placed(4u, uv)).a < look.cutoff;
+    }
+    return false;
+}
+
+fn surface_colour(object: Object, p: vec3f, n: vec3f, uv: vec2f) -> vec3f {
+    let own = colour_of(object, p, n);
+    if (IMAGES & IMAGE_COLOUR) != 0u {
+        return own * textureSample(colour_image, colour_sampler, placed(0u, uv)).rgb;
+    }
+    return own;
+}
+
+// Share of metal, and roughness.
+fn metallic_and_roughness(object: Object, uv: vec2f) -> vec2f {
+    let own = vec2f(object.metallic, object.roughness);
+    if (IMAGES & IMAGE_METALLIC_ROUGHNESS) != 0u {
+        return own * textureSample(metallic_roughness_image, metallic_roughness_sampler, placed(1u, uv)).bg;
+    }
+    return own;
+}
+
+// The radiance that the side in view sends out.
+fn surface_emission(object: Object, front: bool, uv: vec2f) -> vec3f {
+    let own = emitted(object, front);
+    if (IMAGES & IMAGE_EMISSION) != 0u {
+        return own * textureSample(emission_image, emission_sampler, placed(3u, uv)).rgb;
+    }
+    return own;
+}
+
+// The unit normal at p on the side of the eye. `outwards` is interpolated.
+fn shading_normal(p: vec3f, outwards: vec3f, uv: vec2f, eye: vec3f, front: bool) -> vec3f {
+    var n = normalize(outwards);
+    if FLAT {
+        let across = normalize(cross(dpdy(p), dpdx(p)));
+        n = across * select(-1.0, 1.0, (dot(across, eye - p) > 0.0) == front);
+    }
+    if (IMAGES & IMAGE_NORMAL) != 0u {
+        n = mapped_normal(p, n, uv);
+    }
+    return n * select(-1.0, 1.0, front);
+}
+
+// What a normal map makes of unit normal n: its x goes with u and its y against v, as they lie on the surface
+// (Schueler, "Normal mapping without precomputed tangents", 2006). Without places in pictures n itself.
+fn mapped_normal(p: vec3f, n: vec3f, uv: vec2f) -> vec3f {
+    let texel = 2.0 * textureSample(normal_image, normal_sampler, placed(2u, uv)).xyz - 1.0;
+    let p_x = dpdx(p);
+    let p_y = dpdy(p);
+    let uv_x = dpdx(uv);
+    let uv_y = dpdy(uv);
+    let area = uv_x.x * uv_y.y - uv_y.x * uv_x.y;
+    let along_u = (p_x * uv_y.y - p_y * uv_x.y) * sign(area);
+    let against_v = (p_x * uv_y.x - p_y * uv_x.x) * sign(area);
+    let tangent = along_u - n * dot(n, along_u);
+    let length_squared = dot(tangent, tangent);
+    let t = tangent * inverseSqrt(max(length_squared, SMALLEST_SQUARE));
+    let across = cross(n, t);
+    let b = across * select(-1.0, 1.0, dot(across, against_v) > 0.0);
+    let scaled = vec3f(texel.xy * look.normal_scale, texel.z);
+    let mapped = scaled.x * t + scaled.y * b + scaled.z * n;
+    return select(n, normalize(mapped), length_squared > SMALLEST_SQUARE);
+}
