@@ -2,6 +2,7 @@
 //! `cargo run --release -p raster --example frame_times`
 
 use gpu::Gpu;
+use raster::planes::Planes;
 use raster::{Raster, RasterSettings, cut};
 use scene::glam::{Affine3A, Quat, Vec3};
 use scene::{Camera, Geometry, Instance, Mesh, Scene, Shape, Sun};
@@ -73,11 +74,15 @@ fn main() -> Result<(), Box<dyn Error>> {
         let first = frame(&scene.camera)?;
         let next = frame(&scene.camera.orbited(0.1, 0.0))?;
         // within the mesh's box, where what is near is looked at more closely
-        let inside = frame(&scene.camera.dollied(0.25))?;
+        let inside = frame(&scene.camera.dollied(3.6))?;
         let begun = Instant::now();
-        let found = cut(&scene, &scene.camera.dollied(0.25), &settings).is_some();
+        let near = Planes::of(&scene, &scene.camera.dollied(3.6), 16.0 / 9.0).near;
+        let planes = 1e3 * begun.elapsed().as_secs_f64();
+        let begun = Instant::now();
+        let found = cut(&scene, &scene.camera.dollied(3.6), &settings).is_some();
         let cut = 1e3 * begun.elapsed().as_secs_f64();
-        println!("{name}: first {first:.0} ms, next {next:.0}, inside {inside:.0}; cut in {cut:.2} ms: {found}");
+        println!("{name}: first {first:.0} ms, next {next:.0}, inside {inside:.0}");
+        println!("  of which planes {planes:.2} ms (near {near:.3}), what they cut {cut:.2} ms ({found})");
     }
     Ok(())
 }

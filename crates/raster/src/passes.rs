@@ -37,26 +37,27 @@ pub struct Uniforms {
 impl Uniforms {
     /// Buffers that the first frame replaces.
     pub fn new(gpu: &Gpu) -> Result<Uniforms, GpuError> {
-        let empty = || uniforms(gpu, &[0; STRIDE]);
+        let empty = || uniforms(gpu, "the fake's numbers", &[0; STRIDE]);
         Ok(Uniforms { views: empty()?, lights: empty()?, objects: empty()? })
     }
 
     /// Fills them with a frame's numbers.
     pub fn write(&mut self, gpu: &Gpu, plan: &Plan) -> Result<(), RasterError> {
-        fill(gpu, &mut self.views, &spaced(&plan.views))?;
-        fill(gpu, &mut self.lights, bytemuck::bytes_of(&plan.lights))?;
-        fill(gpu, &mut self.objects, &spaced(&plan.objects))?;
+        fill(gpu, "the cameras", &mut self.views, &spaced(&plan.views))?;
+        fill(gpu, "the lights", &mut self.lights, bytemuck::bytes_of(&plan.lights))?;
+        let shapes = format!("a scene of {} shapes", plan.objects.len());
+        fill(gpu, &shapes, &mut self.objects, &spaced(&plan.objects))?;
         Ok(())
     }
 }
 
-fn uniforms(gpu: &Gpu, bytes: &[u8]) -> Result<wgpu::Buffer, GpuError> {
-    gpu.buffer("the fake's numbers", bytes, BufferUsages::UNIFORM | BufferUsages::COPY_DST)
+fn uniforms(gpu: &Gpu, what: &str, bytes: &[u8]) -> Result<wgpu::Buffer, GpuError> {
+    gpu.buffer(what, bytes, BufferUsages::UNIFORM | BufferUsages::COPY_DST)
 }
 
-fn fill(gpu: &Gpu, buffer: &mut wgpu::Buffer, bytes: &[u8]) -> Result<(), GpuError> {
+fn fill(gpu: &Gpu, what: &str, buffer: &mut wgpu::Buffer, bytes: &[u8]) -> Result<(), GpuError> {
     if (buffer.size() as usize) < bytes.len() {
-        *buffer = uniforms(gpu, bytes)?;
+        *buffer = uniforms(gpu, what, bytes)?;
     } else {
         gpu.queue.write_buffer(buffer, 0, bytes);
     }
