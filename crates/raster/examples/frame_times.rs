@@ -75,6 +75,8 @@ fn main() -> Result<(), Box<dyn Error>> {
         let next = frame(&scene.camera.orbited(0.1, 0.0))?;
         // within the mesh's box, where what is near is looked at more closely
         let inside = frame(&scene.camera.dollied(3.6))?;
+        // what is kept of a mesh is made by the first one who asks
+        cut(&scene, &scene.camera.dollied(3.6), &settings);
         let begun = Instant::now();
         let near = Planes::of(&scene, &scene.camera.dollied(3.6), 16.0 / 9.0).near;
         let planes = 1e3 * begun.elapsed().as_secs_f64();

@@ -20,7 +20,8 @@
 //!
 //! What it can't do is said, not hidden: at most [`MOST_CUBE_MAPS`] pieces of glass have a cube map, others show the
 //! plain sky, as does glass seen in a cube map; of several area lights only the one of greatest power sheds light; as
-//! taught, a sun puts out all area lights.
+//! taught, a sun puts out all area lights. Metal reflects nothing but the ambient light, and what glows by a picture is
+//! seen, but lights nothing.
 
 mod build;
 mod casting;
