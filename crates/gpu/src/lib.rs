@@ -140,6 +140,11 @@ impl Gpu {
         self.adapter.get_info().device_type == wgpu::DeviceType::Cpu
     }
 
+    /// Whether both are clones of one device. What wgpu compares are numbers that each instance gives anew.
+    pub fn is_same_device(&self, other: &Gpu) -> bool {
+        Arc::ptr_eq(&self.fault, &other.fault)
+    }
+
     /// Name and interface, as in "llvmpipe (LLVM 19.1, 256 bits), Vulkan".
     pub fn describe(&self) -> String {
         adapter::describe(&self.adapter.get_info())
