@@ -46,6 +46,19 @@ fn exact_dot(a: vec3f, a_low: vec3f, b: vec3f, b_low: vec3f) -> f32 {
     return three.sum.x + (three.sum.y + (rest.x + (three.sum.z + rest.y)));
 }
 
+// a x b, off by about 2^-34 of the sums of |a_i b_j|.
+fn exact_cross(a: TwoSum, b: TwoSum) -> TwoSum {
+    let a1 = upper_half(a.sum);
+    let b1 = upper_half(b.sum);
+    let a2 = a.sum - a1;
+    let b2 = b.sum - b1;
+    let first = two_sum(a1.yzx * b1.zxy, -(a1.zxy * b1.yzx));
+    let second = two_sum(a1.yzx * b2.zxy + a2.yzx * b1.zxy, -(a1.zxy * b2.yzx + a2.zxy * b1.yzx));
+    let third = cross(a2, b2) + cross(a.sum, b.rest) + cross(a.rest, b.sum);
+    let both = two_sum(first.sum, second.sum);
+    return two_sum(both.sum, both.rest + (first.rest + (second.rest + third)));
+}
+
 // v without its length. A device's root and quotient may be off by some ulp, always to the same side: normals and
 // directions that are too short by one turn a ray a little at each of a hundred reflections inside a glass ball, until
 // it cannot leave any more. So one step of Newton's follows, as a small correction that is added: a factor near 1 would

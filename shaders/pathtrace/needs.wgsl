@@ -8,6 +8,8 @@ override QUADRILATERALS: bool = true;
 override TRIANGLES: bool = true;
 override SPHERES: bool = true;
 override DISKS: bool = true;
+// meshes that keep a tree of their own
+override LARGE_MESHES: bool = true;
 // whether any shapes coincide
 override COINCIDENT: bool = true;
 override CHECKERBOARD: bool = true;

@@ -1,6 +1,6 @@
 //#import shared/checkerboard.wgsl
-// The scene as the device holds it. Mirrors: crates/pathtrace/src/drive/gpu/scene_data.rs and shape_data.rs, so
-// called beside `scene`, the crate.
+// The scene as the device holds it. Mirrors: crates/pathtrace/src/drive/gpu/scene_data.rs, shape_data.rs and
+// tables.rs, so called beside `scene`, the crate.
 
 struct Header {
     // radiance where nothing is hit, of a sky of one colour
@@ -27,6 +27,14 @@ struct Header {
     chains: u32,
     // whether nothing lies inside of any sphere that they go through
     hollow: u32,
+    // large meshes that stand in the world ...
+    instances: u32,
+    // ... contents of the root of the tree over their boxes ...
+    instance_root: u32,
+    // ... the first of the primitives that hold their maps, two each ...
+    instance_primitives: u32,
+    // ... and of their surfaces
+    instance_surfaces: u32,
     // where attributes of corners begin in mesh_data, and where pictures do
     attributes: u32,
     pictures: u32,
@@ -50,7 +58,8 @@ struct Node {
     unused: u32,
 }
 
-// In the order of the leaves. A sphere is `a` and a radius, a disk also has a normal in `b`.
+// In the order of the leaves; behind them two for each instance, see Instance: the rows of its map back into the mesh's
+// space, how far it is moved and where its mesh stands in the tables; the rows of its map into the world. A sphere is `a` and a radius, a disk also has a normal in `b`.
 struct Primitive {
     // corners in lexicographic order
     a: vec3f,
@@ -92,7 +101,8 @@ const KIND_TRIANGLE: u32 = 0u;
 const KIND_SPHERE: u32 = 1u;
 const KIND_DISK: u32 = 2u;
 
-// What shading needs of a primitive, in the order of the leaves; of few shapes in the order of their ids.
+// What shading needs of a primitive, in the order of the leaves; of few shapes in the order of their ids. Those of
+// instances stand behind.
 struct Surface {
     // unit normal of a flat one
     normal: vec3f,
@@ -199,8 +209,9 @@ const CHAIN_THROUGH: u32 = 8u;
 @group(0) @binding(3) var<storage, read> surfaces: array<Surface>;
 @group(0) @binding(4) var<storage, read> materials: array<Material>;
 @group(0) @binding(5) var<storage, read> lights: array<Light>;
-// what each byte of an index adds to dimensions 1 to 3 of a Sobol point
-@group(0) @binding(6) var<storage, read> sobol_bytes: array<vec4u>;
+// what each byte of an index adds to dimensions 1 to 3 of a Sobol point; behind these 1,024 large meshes: a vector that
+// says in which words its triangles and positions begin, its nodes, its triangles, its positions
+@group(0) @binding(6) var<storage, read> tables: array<vec4u>;
 @group(0) @binding(7) var<uniform> shapes: array<Shape, MOST_SHAPES>;
 // the sky's radiance, and the running sum of the texels' probabilities within each row
 @group(0) @binding(8) var environment_texels: texture_2d<f32>;

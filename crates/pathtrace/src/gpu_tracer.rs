@@ -7,12 +7,14 @@
 use crate::caster::Casters;
 use crate::drive::gpu::dispatch::Dispatcher;
 use crate::drive::gpu::film_data::RenderParams;
+use crate::drive::gpu::instance_data::{Instances, Parted};
 use crate::drive::gpu::mesh_data::MeshData;
 use crate::drive::gpu::photon_maps::{PhotonMaps, PhotonWork};
 use crate::drive::gpu::photon_sources::{PhotonScene, PhotonSources};
 use crate::drive::gpu::pipelines::{PipelineKey, Pipelines, SceneNeeds};
 use crate::drive::gpu::shape_data::{FewShape, MOST_SHAPES, Shapes};
 use crate::drive::gpu::slices::Slices;
+use crate::drive::gpu::tables::Tables;
 use crate::drive::gpu::timing::{BUDGET_SECONDS, Pace, Stopwatch};
 use crate::drive::gpu::{GpuFilm, GpuTraceError, environment_data, scene_data};
 use crate::features::{self, gpu::FeatureWork};
@@ -26,6 +28,7 @@ use film::Film;
 use gpu::{Gpu, GpuError, wgpu};
 use scene::camera::PictureFrame;
 use scene::{Camera, Scene};
+use std::sync::Arc;
 use wgpu::BufferUsages;
 
 /// A scene on a device, ready for rays. Camera and settings come with each call.
@@ -34,6 +37,8 @@ pub struct GpuTracer {
     gpu: Gpu,
     pub(crate) pipelines: Pipelines,
     scene: wgpu::BindGroup,
+    /// Held, so that other tracers find them.
+    tables: Arc<Tables>,
     leaves: Leaves,
     /// The scene on the processor, its shapes held apart.
     here: Scene,
@@ -80,9 +85,11 @@ impl GpuTracer {
         let scene = &*made_ready(scene);
         let made = Made::of(scene, leaves)?;
         let pipelines = Pipelines::new(gpu, made.needs)?;
+        let tables = made.tables(gpu);
         Ok(GpuTracer {
-            scene: made.upload(gpu, &pipelines.scene_layout, scene)?,
+            scene: made.upload(gpu, &pipelines.scene_layout, scene, &tables)?,
             pipelines,
+            tables,
             leaves,
             here: scene.clone(),
             photon_scene: None,
@@ -103,18 +110,19 @@ impl GpuTracer {
     pub fn set_scene(&mut self, scene: &Scene) -> Result<(), GpuTraceError> {
         let scene = &*made_ready(scene);
         let made = Made::of(scene, self.leaves)?;
+        let tables = made.tables(&self.gpu);
         if made.needs != self.pipelines.needs() {
             let pipelines = Pipelines::new(&self.gpu, made.needs)?;
-            self.scene = made.upload(&self.gpu, &pipelines.scene_layout, scene)?;
+            self.scene = made.upload(&self.gpu, &pipelines.scene_layout, scene, &tables)?;
             (self.pipelines, self.paces, self.photon_maps) = (pipelines, Vec::new(), None);
             self.feature_pace = Pace::default();
         } else {
-            self.scene = made.upload(&self.gpu, &self.pipelines.scene_layout, scene)?;
+            self.scene = made.upload(&self.gpu, &self.pipelines.scene_layout, scene, &tables)?;
             self.paces.iter_mut().for_each(|(.., pace)| pace.doubt());
             self.photon_maps.iter_mut().for_each(PhotonMaps::forget);
             self.feature_pace.doubt();
         }
-        (self.here, self.photon_scene) = (scene.clone(), None);
+        (self.here, self.photon_scene, self.tables) = (scene.clone(), None, tables);
         Ok(())
     }
 
@@ -316,35 +324,42 @@ struct Made {
     casters: Casters,
     shapes: Shapes,
     mesh_data: MeshData,
+    instances: Instances,
     needs: SceneNeeds,
 }
 
 impl Made {
     fn of(scene: &Scene, leaves: Leaves) -> Result<Self, GpuTraceError> {
         let lights = Lights::new(scene);
-        let mut shapes = if leaves.always_a_tree {
-            Shapes::in_a_tree(scene, lights.light_of_shape())
-        } else {
-            Shapes::new(scene, lights.light_of_shape())
-        }?;
-        let needs = SceneNeeds::of(scene, &lights, shapes.kinds());
+        let Parted { others, light_of_shape, instances } = Parted::new(scene, lights.light_of_shape());
+        let make = if leaves.always_a_tree { Shapes::in_a_tree } else { Shapes::new };
+        let shapes = make(&others, &light_of_shape)?;
+        let mut shapes = if instances.is_empty() { shapes } else { shapes.among_others() };
+        let needs = SceneNeeds::of(scene, &lights, shapes.kinds(), !instances.is_empty());
         let needs = if leaves.nothing_out { needs.with_everything() } else { needs };
         let mesh_data = MeshData::new(scene, &mut shapes, &lights);
-        Ok(Made { lights, casters: Casters::new(scene), shapes, mesh_data, needs })
+        Ok(Made { lights, casters: Casters::new(scene), shapes, mesh_data, instances, needs })
+    }
+
+    fn tables(&self, gpu: &Gpu) -> Arc<Tables> {
+        Tables::of(gpu, &self.instances.meshes)
     }
 
     fn upload(
-        &self,
+        mut self,
         gpu: &Gpu,
         layout: &wgpu::BindGroupLayout,
         scene: &Scene,
+        tables: &Tables,
     ) -> Result<wgpu::BindGroup, GpuTraceError> {
-        let Made { lights, casters, shapes, mesh_data, .. } = self;
+        let tables = tables.upload(&self.instances.meshes)?;
+        let mut header = scene_data::header(scene, &self.shapes, &self.lights, &self.casters, &self.mesh_data);
+        self.instances.append_to(&mut self.shapes, &tables, &mut header)?;
+        let Made { lights, casters, shapes, mesh_data, .. } = &self;
         let mut aims = scene_data::lights(lights, &shapes.groups, mesh_data);
         aims.extend(scene_data::chains(casters));
         let mut few = [FewShape::zeroed(); MOST_SHAPES];
         few[..shapes.few.len()].copy_from_slice(&shapes.few);
-        let header = scene_data::header(scene, shapes, lights, casters, mesh_data);
         let buffers = [
             gpu.buffer("the scene", &[header], BufferUsages::UNIFORM)?,
             storage(gpu, "the tree of boxes", &shapes.nodes)?,
@@ -352,7 +367,7 @@ impl Made {
             storage(gpu, "the surfaces", &shapes.surfaces)?,
             storage(gpu, "the materials", &scene_data::materials(scene, casters))?,
             storage(gpu, "the lights", &aims)?,
-            storage(gpu, "the Sobol points", &scene_data::sobol_bytes())?,
+            tables.buffer,
             gpu.buffer("the shapes", &few, BufferUsages::UNIFORM)?,
         ];
         let sky = scene.environment.as_deref().zip(lights.environment());

@@ -9,6 +9,7 @@ use crate::drive::gpu::film_data::CUT_SHIFT;
 use crate::drive::gpu::mesh_data::{ATTRIBUTE_WORDS, BILINEAR, PICTURE_WORDS, TEXEL_ROW, WRAP_CLAMP, WRAP_MIRROR};
 use crate::drive::gpu::scene_data::*;
 use crate::drive::gpu::shape_data::*;
+use crate::drive::gpu::tables::{MOST_LEVELS, VECTORS_OF_A_NODE, WINDING_TURNED};
 use crate::drive::gpu::{PipelineKey, SceneNeeds};
 use crate::features::lanes::MOST_SPECULARS;
 use crate::integrator::Integrator;
@@ -93,6 +94,7 @@ pub fn shared_constants() -> Vec<(&'static str, f64)> {
         MOST_BRANCHES,
         MOST_CELLS,
         MOST_DEPTH,
+        MOST_LEVELS,
         MOST_CONES,
         MOST_FORKS,
         MOST_LIGHTS,
@@ -125,7 +127,9 @@ pub fn shared_constants() -> Vec<(&'static str, f64)> {
         TAU,
         TEXEL_ROW,
         UNIFORM_HEMISPHERE_PDF,
+        VECTORS_OF_A_NODE,
         WIDEST,
+        WINDING_TURNED,
         WRAP_CLAMP,
         WRAP_MIRROR,
     ]

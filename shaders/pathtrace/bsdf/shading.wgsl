@@ -1,7 +1,7 @@
 //#import pathtrace/exact.wgsl
 //#import pathtrace/bsdf/interaction.wgsl
 //#import pathtrace/bsdf/pictures.wgsl
-//#import pathtrace/intersect/attributes.wgsl
+//#import pathtrace/intersect/aggregate.wgsl
 // Shading normals, and what keeps light from coming through surfaces where they and the triangles disagree: turned as in
 // Cycles (Blender, ensure_valid_specular_reflection); Veach, "Robust Monte Carlo Methods for Light Transport Simulation"
 // (1997), 5.3; Chiang, Li and Burley, "Taming the Shadow Terminator" (SIGGRAPH Talks 2019). Twin:

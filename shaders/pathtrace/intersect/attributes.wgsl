@@ -14,7 +14,7 @@ struct SurfaceAttributes {
     uv: vec2f,
 }
 
-fn attributes_of(hit: Hit) -> SurfaceAttributes {
+fn attributes_of_row(hit: Hit) -> SurfaceAttributes {
     if hit.triangle == 0u {
         return SurfaceAttributes(vec3f(0.0), vec2f(0.0));
     }
@@ -41,7 +41,7 @@ fn uv_of_corner(corner: u32) -> vec2f {
 }
 
 // The tangent of a triangle in a scene with normal maps, and its handedness.
-fn tangent_of(hit: Hit) -> vec4f {
+fn tangent_of_row(hit: Hit) -> vec4f {
     if hit.triangle == 0u {
         return vec4f(0.0, 0.0, 0.0, 1.0);
     }
@@ -50,4 +50,17 @@ fn tangent_of(hit: Hit) -> vec4f {
 
 fn vector_at(place: u32) -> vec3f {
     return bitcast<vec3f>(vec3u(mesh_data[place], mesh_data[place + 1u], mesh_data[place + 2u]));
+}
+
+// The direction in which u grows on a triangle with this outward normal, by its edges and theirs in textures, and its
+// handedness; no direction where u or v does not grow.
+fn tangent_between(normal: vec3f, to_b: vec3f, to_c: vec3f, b: vec2f, c: vec2f) -> vec4f {
+    let area = b.x * c.y - b.y * c.x;
+    let along_u = (to_b * c.y - to_c * b.y) * sign(area);
+    let along_v = (to_c * b.x - to_b * c.x) * sign(area);
+    let handedness = select(1.0, -1.0, dot(cross(normal, along_u), along_v) > 0.0);
+    if area == 0.0 || dot(along_u, along_u) <= SMALLEST_POSITIVE {
+        return vec4f(0.0, 0.0, 0.0, handedness);
+    }
+    return vec4f(unit_vector(along_u), handedness);
 }

@@ -20,7 +20,7 @@ var<private> waiting_nodes: array<u32, MOST_WAITING>;
 fn traverse(ray: Ray, query: Query) -> Nearest {
     let sheared = sheared_ray(ray.direction);
     let inverse = safe_inverse(ray.direction);
-    var nearest = Nearest(reach(query, ray.tmax), NOTHING, NOTHING);
+    var nearest = Nearest(reach(query, ray.tmax), NOTHING, NOTHING, NO_INSTANCE);
     if header.primitives == 0u {
         return nearest;
     }
@@ -57,10 +57,10 @@ fn traverse(ray: Ray, query: Query) -> Nearest {
                 let id = primitive.tag & ((1u << KIND_SHIFT) - 1u);
                 if query.shadow {
                     if t < nearest.t && blocks(query, index, t) {
-                        return Nearest(t, index, id);
+                        return Nearest(t, index, id, NO_INSTANCE);
                     }
                 } else if comes_first(t, id, index, nearest, nearest.index) {
-                    nearest = Nearest(t, index, id);
+                    nearest = Nearest(t, index, id, NO_INSTANCE);
                 }
             }
         }
@@ -81,10 +81,6 @@ fn safe_inverse(direction: vec3f) -> vec3f {
     let at_least = select(smallest, -smallest, direction < vec3f(0.0));
     return 1.0 / select(direction, at_least, size <= smallest);
 }
-
-// What rounds in the distances to a box's planes, seen from far away: Ize, "Robust BVH Ray Traversal" (JCGT 2(2),
-// 2013). Here alone: obvhs' traversal has its own.
-const BOX_SLACK: f32 = 1.0 + 1e-6;
 
 // Where a ray enters a box before tmax; FAR if it does not.
 fn box_distance(node: Node, origin: vec3f, inverse: vec3f, tmax: f32) -> f32 {
@@ -140,5 +136,5 @@ fn hit_of_primitive(nearest: Nearest, ray: Ray) -> Hit {
     } else if DISKS {
         point = on_disk(primitive.a, ray.origin + ray.direction * nearest.t, primitive.b);
     }
-    return Hit(point, surface.material, surface.light, surface.triangle, barycentrics);
+    return Hit(point, surface.material, surface.light, surface.triangle, barycentrics, NO_INSTANCE);
 }

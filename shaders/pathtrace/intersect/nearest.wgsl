@@ -12,10 +12,13 @@ struct Nearest {
     index: u32,
     // place in the scene's order, area lights first, which decides ties
     id: u32,
+    // of a large mesh, whose triangle `index` then is; else NO_INSTANCE
+    instance: u32,
 }
 
 // Here alone: lanes have a mask for it.
 const NOTHING: u32 = 0xffffffffu;
+const NO_INSTANCE: u32 = 0xffffffffu;
 
 struct Hit {
     // where, with the outward normal
@@ -23,9 +26,12 @@ struct Hit {
     material: u32,
     // index into the lights, or NO_LIGHT
     light: u32,
-    // place of its row in mesh_data, 0 if it has none, and the weights of its corners
+    // place of its row in mesh_data, 0 if it has none, of an instance its place in the mesh's tree; and the weights of its
+    // corners
     triangle: u32,
     barycentrics: vec3f,
+    // of a large mesh, or NO_INSTANCE
+    instance: u32,
 }
 
 // What is asked of the shapes on a ray: the nearest, or of a shadow ray whether any blocks the light.

@@ -10,7 +10,7 @@
 fn meet_all(ray: Ray, ends: vec4u, query: Query) -> Nearest {
     let sheared = sheared_ray(ray.direction);
     let starts = header.seen;
-    var nearest = Nearest(reach(query, ray.tmax), NOTHING, NOTHING);
+    var nearest = Nearest(reach(query, ray.tmax), NOTHING, NOTHING, NO_INSTANCE);
     if QUADRILATERALS {
         for (var i = 0u; i < ends.x; i++) {
             let t = quadrilateral_distance(quadrilateral_at(i), plane_at(i), ray, sheared);
@@ -55,7 +55,7 @@ fn consider(nearest: ptr<function, Nearest>, t: f32, index: u32, query: Query) -
     let id = shapes[index].id;
     let takes = select(comes_first(t, id, id, *nearest, (*nearest).id), blocks(query, id, t), query.shadow);
     if takes {
-        *nearest = Nearest(t, index, id);
+        *nearest = Nearest(t, index, id, NO_INSTANCE);
     }
     return takes && query.shadow;
 }
@@ -98,5 +98,5 @@ fn hit_of_shape(nearest: Nearest, ray: Ray) -> Hit {
     } else if DISKS {
         point = on_disk(shape.a, ray.origin + ray.direction * nearest.t, shape.b);
     }
-    return Hit(point, surface.material, surface.light, surface.triangle, barycentrics);
+    return Hit(point, surface.material, surface.light, surface.triangle, barycentrics, NO_INSTANCE);
 }

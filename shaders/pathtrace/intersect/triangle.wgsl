@@ -58,23 +58,30 @@ fn triangle_areas(triangle: Triangle, origin: vec3f, ray: ShearedRay) -> vec3f {
 
 // Distance to the triangle in lengths of the ray's direction, 0 where it is not met. From either side, edges included.
 fn triangle_distance(triangle: Triangle, plane: Plane, ray: Ray, sheared: ShearedRay) -> f32 {
-    let areas = triangle_areas(triangle, ray.origin, sheared);
-    if any(areas < vec3f(0.0)) && any(areas > vec3f(0.0)) {
-        return 0.0;
-    }
-    if areas.x + areas.y + areas.z == 0.0 {
+    if !are_met(triangle_areas(triangle, ray.origin, sheared)) {
         return 0.0;
     }
     let found = plane_distance(plane, ray);
     if !found.edge_on {
         return found.t;
     }
+    return held_between_corners(found.t, triangle, ray, sheared);
+}
+
+// Whether areas opposite to the corners are of one sign.
+fn are_met(areas: vec3f) -> bool {
+    let differ = any(areas < vec3f(0.0)) && any(areas > vec3f(0.0));
+    return !differ && areas.x + areas.y + areas.z != 0.0;
+}
+
+// A distance to a triangle's plane, held between the distances to its corners.
+fn held_between_corners(t: f32, triangle: Triangle, ray: Ray, sheared: ShearedRay) -> f32 {
     let depths = vec3f(
         depth(sheared, triangle.a, ray),
         depth(sheared, triangle.b, ray),
         depth(sheared, triangle.c, ray),
     );
-    return held(found.t, min(depths.x, min(depths.y, depths.z)), max(depths.x, max(depths.y, depths.z)));
+    return held(t, min(depths.x, min(depths.y, depths.z)), max(depths.x, max(depths.y, depths.z)));
 }
 
 // Distance to where the ray comes nearest to a point.
@@ -93,6 +100,23 @@ struct Plane {
     // largest component 1, as a sum of two floats
     normal: vec3f,
     normal_low: vec3f,
+}
+
+// The plane of a triangle of which nothing was prepared; without a normal where it has no area. Edges are taken to a
+// largest component from 1 to 2: no product is too small for a float.
+fn plane_of(triangle: Triangle) -> Plane {
+    let u = scaled(two_sum(triangle.b, -triangle.a));
+    let v = scaled(two_sum(triangle.c, -triangle.a));
+    let normal = exact_cross(u, v);
+    return Plane(triangle.a, normal.sum, normal.rest);
+}
+
+// Times a power of two.
+fn scaled(v: TwoSum) -> TwoSum {
+    let size = abs(v.sum);
+    let exponent = bitcast<u32>(max(size.x, max(size.y, size.z))) >> 23u;
+    let factor = bitcast<f32>((254u - min(exponent, 253u)) << 23u);
+    return TwoSum(v.sum * factor, v.rest * factor);
 }
 
 struct PlaneDistance {

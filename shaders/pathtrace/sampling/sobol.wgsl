@@ -14,8 +14,8 @@ fn permute_reversed(number: vec4u, seed: vec4u) -> vec4u {
 
 // Coordinates 1 to 3 of the point `index`, bit-reversed: what each byte of the index adds.
 fn reversed_point(index: u32) -> vec3u {
-    let low = sobol_bytes[index & 255u].xyz ^ sobol_bytes[256u + ((index >> 8u) & 255u)].xyz;
-    return low ^ sobol_bytes[512u + ((index >> 16u) & 255u)].xyz ^ sobol_bytes[768u + (index >> 24u)].xyz;
+    let low = tables[index & 255u].xyz ^ tables[256u + ((index >> 8u) & 255u)].xyz;
+    return low ^ tables[512u + ((index >> 16u) & 255u)].xyz ^ tables[768u + (index >> 24u)].xyz;
 }
 
 // Four coordinates of point `sample` of the sequence whose order and digits are scrambled by `seeds`, as 32-bit

@@ -203,7 +203,10 @@ impl EachAttributes {
         if let Some(uvs) = of_corners(at.mesh.uvs(), at.corners) {
             let uv = uvs[0] * weights.x + uvs[1] * weights.y + uvs[2] * weights.z;
             (self.uv[0][lane], self.uv[1][lane]) = (uv.x, uv.y);
-            (self.tangent[lane], self.handedness[lane]) = tangent(at.places(), uvs);
+            let (tangent, handedness) = tangent(at.places(), uvs);
+            // the corners are wound as in the mesh, and a mirror turns that over
+            self.handedness[lane] = if at.to_world.matrix3.determinant() < 0.0 { -handedness } else { handedness };
+            self.tangent[lane] = tangent;
         }
     }
 

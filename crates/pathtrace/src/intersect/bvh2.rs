@@ -47,11 +47,6 @@ impl Bvh2 {
         Bvh2 { groups, ..Bvh2::new(&primitives, &surfaces) }
     }
 
-    /// Number of triangles, spheres and disks.
-    pub(crate) fn len(&self) -> usize {
-        self.primitives.len()
-    }
-
     pub(super) fn new(primitives: &[Primitive], surfaces: &[Surface]) -> Self {
         let boxes = padded_boxes(primitives);
         let mut build_time = std::time::Duration::ZERO;

@@ -1,6 +1,8 @@
 //! The tree of one large mesh, in the mesh's own space: eight boxes a node, kept in a byte a plane (Ylitie, Karras and
 //! Laine, "Efficient Incoherent Ray Traversal on GPUs Through Compressed Wide BVHs", HPG 2017). Both machines walk the
 //! same arrays: 80 bytes a node, three indices a triangle in the order of the leaves, and the mesh's own positions.
+//!
+//! Twin: `shaders/pathtrace/intersect/cwbvh.wgsl`, which walks it.
 
 use obvhs::Boundable;
 use obvhs::BvhBuildParams;

@@ -20,6 +20,18 @@ pub enum GpuTraceError {
         /// What there is too much of: "triangles".
         what: &'static str,
     },
+    /// Large meshes that do not fit into one buffer.
+    #[error(
+        "the large meshes and their trees need {needs} MiB, and {adapter} takes at most {limit} MiB at once: use smaller meshes, or render on the CPU"
+    )]
+    Meshes {
+        /// What they need, at least.
+        needs: u64,
+        /// The most that the device takes.
+        limit: u64,
+        /// The adapter's name and interface.
+        adapter: String,
+    },
     /// A device without compute shaders, or with too few bindings.
     #[error("{adapter} can't path trace: it has {has} {what}, and {needs} are needed; render on the CPU")]
     Unable {

@@ -9,6 +9,7 @@ pub(crate) mod environment_data;
 mod error;
 mod film;
 pub mod film_data;
+pub(crate) mod instance_data;
 pub(crate) mod mesh_data;
 pub mod photon_data;
 pub(crate) mod photon_maps;
@@ -18,6 +19,7 @@ pub mod rays;
 pub mod scene_data;
 pub mod shape_data;
 pub(crate) mod slices;
+pub(crate) mod tables;
 pub(crate) mod timing;
 
 pub use error::GpuTraceError;

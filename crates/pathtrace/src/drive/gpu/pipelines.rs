@@ -98,6 +98,7 @@ impl LightKinds {
 pub struct SceneNeeds {
     needs: Needs,
     shapes: ShapeKinds,
+    large_meshes: bool,
     lights: LightKinds,
     /// Whether there are meshes of mirror or glass that get cones ...
     usual_cones: bool,
@@ -114,11 +115,12 @@ impl SceneNeeds {
     }
 
     /// What this scene needs.
-    pub(crate) fn of(scene: &Scene, lights: &Lights, shapes: ShapeKinds) -> Self {
+    pub(crate) fn of(scene: &Scene, lights: &Lights, shapes: ShapeKinds, large_meshes: bool) -> Self {
         let has_cones = |at| !Cones::new(at, scene, lights).is_empty();
         SceneNeeds {
             needs: scene.needs(),
             shapes,
+            large_meshes,
             lights: LightKinds::of(lights),
             usual_cones: has_cones(ConesAt::Usual),
             all_cones: has_cones(ConesAt::Everything),
@@ -132,13 +134,14 @@ impl SceneNeeds {
     }
 
     /// Values of the overrides in `shaders/pathtrace/needs.wgsl` that say which shapes there are.
-    pub fn shape_constants(&self) -> [(&'static str, f64); 6] {
+    pub fn shape_constants(&self) -> [(&'static str, f64); 7] {
         [
             ("FEW_SHAPES", flag(self.shapes.few)),
             ("QUADRILATERALS", self.flag(self.shapes.quadrilaterals)),
             ("TRIANGLES", self.flag(self.shapes.triangles)),
             ("SPHERES", self.flag(self.shapes.spheres)),
             ("DISKS", self.flag(self.shapes.disks)),
+            ("LARGE_MESHES", self.flag(self.large_meshes)),
             ("COINCIDENT", self.flag(self.shapes.coincident)),
         ]
     }
@@ -171,7 +174,8 @@ impl SceneNeeds {
     /// Names of the overrides that speak of the scene.
     pub(crate) fn constant_names() -> impl Iterator<Item = &'static str> {
         let (needs, shapes, lights) = (Needs::default(), ShapeKinds::default(), LightKinds::default());
-        let nothing = SceneNeeds { needs, shapes, lights, usual_cones: false, all_cones: false, everything: false };
+        let (large_meshes, usual_cones, all_cones, everything) = (false, false, false, false);
+        let nothing = SceneNeeds { needs, shapes, large_meshes, lights, usual_cones, all_cones, everything };
         nothing.constants().into_iter().map(|(name, _)| name)
     }
 

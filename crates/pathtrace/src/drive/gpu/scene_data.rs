@@ -46,6 +46,14 @@ pub struct Header {
     pub chains: u32,
     /// 1 if nothing lies inside of any sphere that they go through.
     pub hollow: u32,
+    /// Large meshes that stand in the world.
+    pub instances: u32,
+    /// Contents of the root of the tree over their boxes.
+    pub instance_root: u32,
+    /// The first of the primitives that hold their maps.
+    pub instance_primitives: u32,
+    /// The first of their surfaces.
+    pub instance_surfaces: u32,
     /// Where attributes of corners begin in `mesh_data`.
     pub attributes: u32,
     /// Where pictures begin there.
@@ -205,6 +213,10 @@ pub(crate) fn header(
         environment_probability: environment.map_or(0.0, Environment::probability),
         chains: casters.len() as u32,
         hollow: u32::from(casters.are_hollow()),
+        instances: 0,
+        instance_root: 0,
+        instance_primitives: 0,
+        instance_surfaces: 0,
         attributes: mesh_data.attributes,
         pictures: mesh_data.pictures,
         texel_rows: mesh_data.texel_rows(),

@@ -3,13 +3,13 @@
 
 use super::GpuTraceError;
 use crate::intersect::attributes::{MeshAttributes, TriangleRow, rows_of_tree};
-use crate::intersect::baking::is_instanced;
 use crate::intersect::bvh2::Bvh2;
 use crate::intersect::coincident::Groups;
 use crate::intersect::primitive::{self, Primitive};
 use crate::intersect::shape_list::{ListedForm, ListedPlane, ShapeList};
 use crate::intersect::triangle::{in_order, sorted};
 use bytemuck::{Pod, Zeroable};
+use obvhs::bvh2::Bvh2 as Tree;
 use scene::glam::DVec3;
 use scene::{Scene, Vec3};
 
@@ -153,10 +153,8 @@ impl Shapes {
     /// [`GpuTraceError::TooDeep`] and [`GpuTraceError::TooMany`] where the shader's stack or a node's bits do not
     /// suffice.
     pub fn new(scene: &Scene, light_of_shape: &[u32]) -> Result<Self, GpuTraceError> {
-        // large meshes are none of the list's, and triangles like others here
-        let has_large = scene.shapes.iter().any(|shape| is_instanced(scene, shape));
         match ShapeList::new(scene, light_of_shape) {
-            Some(shape_list) if shape_list.len()[0] <= FEW && !has_large => Ok(Shapes::few(scene, &shape_list)),
+            Some(shape_list) if shape_list.len()[0] <= FEW => Ok(Shapes::few(scene, &shape_list)),
             _ => Shapes::in_a_tree(scene, light_of_shape),
         }
     }
@@ -172,8 +170,13 @@ impl Shapes {
             let rows = rows_of_tree(scene, &attributes);
             tree.ids.iter().map(|&id| rows[id as usize]).collect()
         });
-        let (nodes, primitives, groups) = (nodes(&tree)?, primitives(&tree), tree.groups);
+        let (nodes, primitives, groups) = (nodes(&tree.tree)?, primitives(&tree), tree.groups);
         Ok(Shapes { nodes, primitives, surfaces, rows, groups, ..Shapes::default() })
+    }
+
+    /// The same among large meshes, which shadow rays go to that were not looked at: any of few shapes may shade then.
+    pub fn among_others(self) -> Self {
+        Shapes { shading: self.seen, ..self }
     }
 
     fn few(scene: &Scene, shape_list: &ShapeList) -> Self {
@@ -253,12 +256,12 @@ fn in_plane(plane: ListedPlane) -> FewShape {
 ///
 /// # Errors
 /// [`GpuTraceError::TooDeep`] and [`GpuTraceError::TooMany`] where the shader's stack or a node's bits do not suffice.
-fn nodes(tree: &Bvh2) -> Result<Vec<Node>, GpuTraceError> {
-    let boxes = &tree.tree.nodes;
+pub(super) fn nodes(tree: &Tree) -> Result<Vec<Node>, GpuTraceError> {
+    let boxes = &tree.nodes;
     if boxes.is_empty() {
         return Ok(vec![Node::zeroed(); 2]);
     }
-    let depth = tree.tree.depth(0);
+    let depth = tree.depth(0);
     if depth > MOST_WAITING {
         return Err(GpuTraceError::TooDeep { depth, limit: MOST_WAITING });
     }
@@ -287,7 +290,7 @@ fn nodes(tree: &Bvh2) -> Result<Vec<Node>, GpuTraceError> {
         };
         nodes.push(node(index, contents));
     }
-    if order.len().max(tree.len()) >= 1 << COUNT_SHIFT {
+    if order.len().max(tree.primitive_indices.len()) >= 1 << COUNT_SHIFT {
         return Err(GpuTraceError::TooMany { what: "triangles" });
     }
     Ok(nodes)
