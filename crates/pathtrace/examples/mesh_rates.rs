@@ -5,7 +5,8 @@
 //!
 //! Of each level, a ball of 8 x 4^LEVEL triangles over a floor, under a sky and an area light: how long it takes to make
 //! it ready, bytes a triangle, and rays a second of complete paths and of what a camera sees. Level 11 has 33,554,432
-//! triangles. Seconds are the device's own where it has a clock. A device that can't hold a mesh says so.
+//! triangles. Seconds are the device's own where it has a clock. A device that can't hold a mesh says so. The triangles
+//! stand in the world as pieces that are small meshes: what makes them ready also holds these against each other.
 
 #[path = "meshes/bumpy.rs"]
 mod bumpy;
