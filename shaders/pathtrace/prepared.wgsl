@@ -2,7 +2,7 @@
 //#import pathtrace/light/light.wgsl
 //#import pathtrace/bsdf/interaction.wgsl
 //#import pathtrace/bsdf/shading.wgsl
-//#import pathtrace/bsdf/pictures.wgsl
+//#import pathtrace/bsdf/textures.wgsl
 // What a ray meets in the scene. Twins: crates/pathtrace/src/prepared.rs and
 // crates/pathtrace/src/bsdf/materials.rs.
 
@@ -48,8 +48,8 @@ fn interaction_of(hit: Hit, wo: vec3f) -> Interaction {
             normal = shading_normal(hit, attributes, wo);
         }
     }
-    if IMAGE_TEXTURES && materials[hit.material].colour_picture != 0u {
-        colour *= picture_at(materials[hit.material].colour_picture, uv).xyz;
+    if IMAGE_TEXTURES && materials[hit.material].colour_texture != 0u {
+        colour *= texture_at(materials[hit.material].colour_texture, uv).xyz;
     }
     return Interaction(hit.point, normal, wo, colour, lobe, hit.material, uv);
 }
@@ -58,8 +58,8 @@ fn interaction_of(hit: Hit, wo: vec3f) -> Interaction {
 fn emitted(at: Interaction) -> vec3f {
     let sides = materials[at.material].emitting_sides;
     let shines = sides == 2u || (sides == 1u && dot(at.point.normal, at.wo) > 0.0);
-    if IMAGE_TEXTURES && shines && materials[at.material].emission_picture != 0u {
-        return materials[at.material].emission * picture_at(materials[at.material].emission_picture, at.uv).xyz;
+    if IMAGE_TEXTURES && shines && materials[at.material].emission_texture != 0u {
+        return materials[at.material].emission * texture_at(materials[at.material].emission_texture, at.uv).xyz;
     }
     return select(vec3f(0.0), materials[at.material].emission, shines);
 }

@@ -35,9 +35,9 @@ struct Header {
     instance_primitives: u32,
     // ... and of their surfaces
     instance_surfaces: u32,
-    // where attributes of corners begin in mesh_data, and where pictures do
+    // where attributes of corners begin in mesh_data, and where textures do
     attributes: u32,
-    pictures: u32,
+    textures: u32,
     // rows in each layer of texels
     texel_rows: u32,
     // of few shapes: where among them quadrilaterals, triangles, spheres and disks end
@@ -139,19 +139,19 @@ struct Material {
     // with which a chain off such a sphere is chosen, or through it; 0 if none is
     off: f32,
     through: f32,
-    // places among the pictures, 1 for the first, of what colour and light sent out are multiplied by, of normals and alpha;
+    // places among the textures, 1 for the first, of what colour and light sent out are multiplied by, of normals and alpha;
     // 0 for none
-    colour_picture: u32,
-    emission_picture: u32,
-    normal_picture: u32,
-    alpha_picture: u32,
+    colour_texture: u32,
+    emission_texture: u32,
+    normal_texture: u32,
+    alpha_texture: u32,
     // by which x and y of normals are multiplied, and alpha
     normal_scale: f32,
     alpha_factor: f32,
     // least alpha that is a surface; 0 where there is one everywhere
     alpha_cutoff: f32,
-    // place among the pictures of what multiplies the share of metal and the roughness
-    metallic_roughness_picture: u32,
+    // place among the textures of what multiplies the share of metal and the roughness
+    metallic_roughness_texture: u32,
 }
 
 // Codes of lobes and of what varies them. Mirror: crates/pathtrace/src/bsdf/materials.rs.
@@ -187,9 +187,9 @@ struct Light {
     cumulative: f32,
     // of what its surface coincides with, or NO_GROUP
     group: u32,
-    // of a caster, or of what wears pictures
+    // of a caster, or of what wears textures
     material: u32,
-    // where the places of its corners in pictures begin in mesh_data, 0 if it wears none
+    // where the places of its corners in textures begin in mesh_data, 0 if it wears none
     corners: u32,
 }
 
@@ -218,7 +218,7 @@ const CHAIN_THROUGH: u32 = 8u;
 // one texel for each row: the running sum of the rows' probabilities, and minus the height on the unit sphere where the
 // row ends
 @group(0) @binding(9) var environment_rows: texture_2d<f32>;
-// what meshes and pictures say of surfaces, behind one word that stands for nothing
+// what meshes and textures say of surfaces, behind one word that stands for nothing
 @group(0) @binding(10) var<storage, read> mesh_data: array<u32>;
-// of all pictures, one after the other
+// of all textures, one after the other
 @group(0) @binding(11) var texels: texture_2d_array<f32>;

@@ -105,9 +105,9 @@ impl PreparedScene {
     #[inline(always)]
     pub fn emitted<F: Float>(&self, hit: &Intersections<F>, wo: Vector<F>) -> Vector<F> {
         let radiance = self.materials.emitted(hit.material, hit.point.normal.dot(wo));
-        let pictures = self.materials.pictures();
+        let textures = self.materials.textures();
         match self.aggregate.attributes(hit) {
-            Some(attributes) if pictures.has_emission() => radiance * pictures.emission(hit.material, attributes.uv),
+            Some(attributes) if textures.has_emission() => radiance * textures.emission(hit.material, attributes.uv),
             _ => radiance,
         }
     }
@@ -137,8 +137,8 @@ impl PreparedScene {
         if !self.materials.has().shading_normals {
             return own;
         }
-        let pictures = self.materials.pictures();
-        let bumps = pictures.has_normals().then(|| pictures.normals(hit.material, attributes.uv));
+        let textures = self.materials.textures();
+        let bumps = textures.has_normals().then(|| textures.normals(hit.material, attributes.uv));
         shading::shading_normal(hit.point.normal, attributes, bumps, wo)
     }
 

@@ -9,7 +9,7 @@ pub const SOURCES: &[Source<'static>] = gpu::wgsl_sources![
     "pathtrace/bsdf/interaction.wgsl",
     "pathtrace/bsdf/lambert.wgsl",
     "pathtrace/bsdf/mirror.wgsl",
-    "pathtrace/bsdf/pictures.wgsl",
+    "pathtrace/bsdf/textures.wgsl",
     "pathtrace/bsdf/rough_conductor.wgsl",
     "pathtrace/bsdf/shading.wgsl",
     "pathtrace/camera.wgsl",

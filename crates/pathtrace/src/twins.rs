@@ -6,7 +6,7 @@ use crate::caster::cone::{CONE_DENSITY, MOST_CONES, MOST_SHARE, NARROWEST, WIDES
 use crate::caster::sphere_chain::{LAST_STEP, MOST_ROOTS, MOST_STEPS, NEAR_AXIS};
 use crate::drive::gpu::dispatch::GROUP;
 use crate::drive::gpu::film_data::CUT_SHIFT;
-use crate::drive::gpu::mesh_data::{ATTRIBUTE_WORDS, BILINEAR, PICTURE_WORDS, TEXEL_ROW, WRAP_CLAMP, WRAP_MIRROR};
+use crate::drive::gpu::mesh_data::{ATTRIBUTE_WORDS, BILINEAR, TEXEL_ROW, TEXTURE_WORDS, WRAP_CLAMP, WRAP_MIRROR};
 use crate::drive::gpu::scene_data::*;
 use crate::drive::gpu::shape_data::*;
 use crate::drive::gpu::tables::{MOST_LEVELS, VECTORS_OF_A_NODE, WINDING_TURNED};
@@ -111,7 +111,7 @@ pub fn shared_constants() -> Vec<(&'static str, f64)> {
         NO_LIGHT,
         NO_GROUP,
         ONE_SURFACE,
-        PICTURE_WORDS,
+        TEXTURE_WORDS,
         ROULETTE_SLOPE,
         SHADOW_END,
         SPARED_VERTICES,

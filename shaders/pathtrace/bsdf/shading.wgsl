@@ -1,6 +1,6 @@
 //#import pathtrace/exact.wgsl
 //#import pathtrace/bsdf/interaction.wgsl
-//#import pathtrace/bsdf/pictures.wgsl
+//#import pathtrace/bsdf/textures.wgsl
 //#import pathtrace/intersect/aggregate.wgsl
 // Shading normals, and what keeps light from coming through surfaces where they and the triangles disagree: turned as in
 // Cycles (Blender, ensure_valid_specular_reflection); Veach, "Robust Monte Carlo Methods for Light Transport Simulation"
@@ -14,9 +14,9 @@ fn shading_normal(hit: Hit, attributes: SurfaceAttributes, wo: vec3f) -> vec3f {
     if dot(attributes.normal, attributes.normal) > SMALLEST_POSITIVE {
         normal = facing(unit_vector(attributes.normal), outwards);
     }
-    let picture = materials[hit.material].normal_picture;
-    if IMAGE_TEXTURES && picture != 0u {
-        let found = 2.0 * picture_at(picture, attributes.uv).xyz - 1.0;
+    let texture = materials[hit.material].normal_texture;
+    if IMAGE_TEXTURES && texture != 0u {
+        let found = 2.0 * texture_at(texture, attributes.uv).xyz - 1.0;
         let scale = materials[hit.material].normal_scale;
         normal = bumped(normal, tangent_of(hit), found * vec3f(scale, scale, 1.0));
     }
@@ -26,7 +26,7 @@ fn shading_normal(hit: Hit, attributes: SurfaceAttributes, wo: vec3f) -> vec3f {
     return bent(outwards, normal, wo);
 }
 
-// A normal of a picture, put onto a surface.
+// A normal of a texture, put onto a surface.
 fn bumped(normal: vec3f, tangent: vec4f, bumps: vec3f) -> vec3f {
     let along = tangent.xyz - normal * dot(normal, tangent.xyz);
     if dot(along, along) <= SMALLEST_POSITIVE {

@@ -1,5 +1,5 @@
 //#import pathtrace/intersect/attributes.wgsl
-//#import pathtrace/bsdf/pictures.wgsl
+//#import pathtrace/bsdf/textures.wgsl
 // Holes in surfaces: where a material's alpha is below its cutoff there is nothing, and rays go on. Twin:
 // crates/pathtrace/src/intersect/cutouts.rs.
 
@@ -18,8 +18,8 @@ fn is_hole(surface: u32, barycentrics: vec3f) -> bool {
 // Whether a surface is there at a place in textures.
 fn is_there(material: u32, uv: vec2f) -> bool {
     var alpha = materials[material].alpha_factor;
-    if materials[material].alpha_picture != 0u {
-        alpha *= picture_at(materials[material].alpha_picture, uv).w;
+    if materials[material].alpha_texture != 0u {
+        alpha *= texture_at(materials[material].alpha_texture, uv).w;
     }
     return alpha >= materials[material].alpha_cutoff;
 }

@@ -1,8 +1,8 @@
 //#import pathtrace/scene.wgsl
 //#import pathtrace/needs.wgsl
-//#import pathtrace/bsdf/pictures.wgsl
+//#import pathtrace/bsdf/textures.wgsl
 //#import pathtrace/intersect/cutouts.wgsl
-// Lights whose meshes wear pictures. Twin: crates/pathtrace/src/light/textured.rs.
+// Lights whose meshes wear textures. Twin: crates/pathtrace/src/light/textured.rs.
 
 // What a light's radiance is multiplied by at a place along its edges.
 fn worn_at(light: Light, place: vec2f) -> vec3f {
@@ -16,9 +16,9 @@ fn worn_at(light: Light, place: vec2f) -> vec3f {
     if ALPHA_MASKS && !is_there(light.material, uv) {
         return vec3f(0.0);
     }
-    let picture = materials[light.material].emission_picture;
-    if IMAGE_TEXTURES && picture != 0u {
-        return picture_at(picture, uv).xyz;
+    let texture = materials[light.material].emission_texture;
+    if IMAGE_TEXTURES && texture != 0u {
+        return texture_at(texture, uv).xyz;
     }
     return vec3f(1.0);
 }

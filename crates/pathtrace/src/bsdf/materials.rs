@@ -3,8 +3,8 @@
 //! Twins: `shaders/pathtrace/prepared.wgsl` and `shaders/shared/checkerboard.wgsl`.
 
 use super::Interactions;
-use super::pictures::Pictures;
 use super::rough_conductor::RoughConductors;
+use super::textures::ImageTextures;
 use crate::intersect::SurfacePoints;
 use crate::vectors::VectorColumn;
 use scene::{Bsdf, Conductor, Material, MetallicRoughness, Texture, Vec3};
@@ -25,7 +25,7 @@ pub struct Materials {
     radiance: VectorColumn,
     kind: WordColumn,
     has: Has,
-    pictures: Pictures,
+    textures: ImageTextures,
 }
 
 /// What occurs among them.
@@ -167,7 +167,7 @@ impl Materials {
                 checkerboards: any(CHECKERED),
                 shading_normals: false,
             },
-            pictures: Pictures::new(materials),
+            textures: ImageTextures::new(materials),
             kind: WordColumn::new(kinds),
         }
     }
@@ -185,7 +185,7 @@ impl Materials {
         };
     }
 
-    /// Those of a scene whose meshes, or whose pictures, say anything of normals.
+    /// Those of a scene whose meshes, or whose textures, say anything of normals.
     pub fn with_shading_normals(mut self, there: bool) -> Self {
         self.has.shading_normals = there;
         self
@@ -193,8 +193,8 @@ impl Materials {
 
     /// What they are made of beside numbers.
     #[inline(always)]
-    pub fn pictures(&self) -> &Pictures {
-        &self.pictures
+    pub fn textures(&self) -> &ImageTextures {
+        &self.textures
     }
 
     /// What occurs among them.
@@ -215,8 +215,8 @@ impl Materials {
     #[inline(always)]
     pub fn colour<F: Float>(&self, material: F::U, kinds: Kinds<F::U>, at: &SurfacePoints<F>, uv: [F; 2]) -> Vector<F> {
         let mut colour = self.colour.look_up(material);
-        if !self.pictures.is_empty() {
-            colour = colour * self.pictures.colour(material, uv);
+        if !self.textures.is_empty() {
+            colour = colour * self.textures.colour(material, uv);
         }
         if !self.has.checkerboards {
             return colour;

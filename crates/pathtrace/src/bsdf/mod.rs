@@ -11,9 +11,9 @@ pub mod interaction;
 pub mod lambert;
 pub mod materials;
 pub mod mirror;
-pub mod pictures;
 pub mod rough_conductor;
 pub mod shading;
+pub mod textures;
 
 pub use dielectric::{Interface, Interfaces};
 pub use interaction::Interactions;

@@ -1,4 +1,4 @@
-//! Shading normals: what a mesh of few triangles, or a picture, says of a surface that is smoother or rougher than its
+//! Shading normals: what a mesh of few triangles, or a texture, says of a surface that is smoother or rougher than its
 //! triangles are, and what keeps light from coming through it where both disagree.
 //!
 //! A ray's side is that of the triangle. The normal is turned to that side, and no further from the triangle's than
@@ -15,7 +15,7 @@ use crate::intersect::SurfaceAttributes;
 use simd::{Float, Vector};
 
 /// The unit normal that a surface with this unit outward normal is shaded by, on the side of `wo`; `bumps` are the normals
-/// of a picture, x along the tangent and z along the normal.
+/// of a texture, x along the tangent and z along the normal.
 #[inline(always)]
 pub fn shading_normal<F: Float>(
     outwards: Vector<F>,
@@ -32,7 +32,7 @@ pub fn shading_normal<F: Float>(
     bent(geometric, Vector::select(behind, -bumpy, bumpy), wo)
 }
 
-/// A normal of a picture, put onto a surface.
+/// A normal of a texture, put onto a surface.
 #[inline(always)]
 fn bumped<F: Float>(normal: Vector<F>, attributes: &SurfaceAttributes<F>, bumps: Vector<F>) -> Vector<F> {
     let along = attributes.tangent - normal * normal.dot(attributes.tangent);

@@ -1,9 +1,9 @@
-//! Lights whose meshes wear pictures: what they send out varies over them, and ends where a picture's alpha says that
-//! there is no surface. A triangle is chosen by the mean of its picture, and its points are as likely as ever.
+//! Lights whose meshes wear textures: what they send out varies over them, and ends where a texture's alpha says that
+//! there is no surface. A triangle is chosen by the mean of its texture, and its points are as likely as ever.
 //!
 //! Twin: `shaders/pathtrace/light/textured.wgsl`.
 
-use crate::bsdf::pictures::{Places, places};
+use crate::bsdf::textures::{Places, places};
 use crate::intersect::cutouts::is_there;
 use crate::intersect::triangle_normal;
 use crate::vectors::of_lanes;
@@ -13,7 +13,7 @@ use scene::{Alpha, ImageTexture, Material, Scene, Shape, Vec3};
 use simd::{Float, MOST_LANES, Vector, Word};
 use std::sync::Arc;
 
-/// What lights of a scene wear, where any wears a picture.
+/// What lights of a scene wear, where any wears a texture.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct TexturedLights {
     lights: Vec<Option<Worn>>,
@@ -31,13 +31,13 @@ pub(crate) struct Worn {
     pub uvs: [Vec2; 3],
 }
 
-/// Points along an edge of a triangle at which its picture is looked up for the mean.
+/// Points along an edge of a triangle at which its texture is looked up for the mean.
 const POINTS: u32 = 8;
 
 impl TexturedLights {
-    /// Of a scene whose shapes' first lights are these, of so many; `None` if none wears a picture.
+    /// Of a scene whose shapes' first lights are these, of so many; `None` if none wears a texture.
     pub fn of(scene: &Scene, light_of_shape: &[u32], count: usize) -> Option<Arc<Self>> {
-        let wears = |shape: &Shape| wears_pictures(scene.material_of(shape));
+        let wears = |shape: &Shape| wears_textures(scene.material_of(shape));
         let shining = scene.shapes.iter().zip(light_of_shape).filter(|(_, light)| (**light as usize) < count);
         let textured: Vec<_> = shining.filter(|(shape, _)| wears(shape)).collect();
         if textured.is_empty() {
@@ -102,7 +102,7 @@ impl TexturedLights {
     }
 }
 
-fn wears_pictures(material: &Material) -> bool {
+fn wears_textures(material: &Material) -> bool {
     material.surface.emission.is_some() || material.surface.alpha != Alpha::Opaque
 }
 

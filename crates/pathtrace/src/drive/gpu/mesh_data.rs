@@ -1,11 +1,11 @@
-//! What meshes and pictures say of surfaces, as words of one buffer that shaders call `mesh_data`; and the texels of all
-//! pictures, in one texture: storage buffers are few.
+//! What meshes and textures say of surfaces, as words of one buffer that shaders call `mesh_data`; and the texels of all
+//! textures, in one of the device's: storage buffers are few.
 //!
 //! The first word stands for nothing, so that 0 is no place. Behind it lie the attributes of corners, then the rows of
-//! triangles, the pictures, and where lights' corners lie in pictures.
+//! triangles, the textures, and where lights' corners lie in textures.
 
 use super::shape_data::Shapes;
-use crate::bsdf::pictures::places;
+use crate::bsdf::textures::places;
 use crate::intersect::attributes::{MeshAttributes, TriangleRow};
 use crate::light::Lights;
 use bytemuck::Zeroable;
@@ -17,11 +17,11 @@ use std::sync::Arc;
 
 /// Words of a corner: its normal, and its place in textures.
 pub(crate) const ATTRIBUTE_WORDS: u32 = 5;
-/// Words of a picture: its first texel, width, height, how it is read; matrix and offset of texture coordinates.
-pub(crate) const PICTURE_WORDS: u32 = 10;
-/// Texels in a row of the texture, and most rows in each of its layers.
+/// Words of a texture: its first texel, width, height, how it is read; matrix and offset of texture coordinates.
+pub(crate) const TEXTURE_WORDS: u32 = 10;
+/// Texels in a row of the device's texture, and most rows in each of its layers.
 pub(crate) const TEXEL_ROW: u32 = 4096;
-/// Bits that say how a picture is read: each axis has two for its wrap.
+/// Bits that say how a texture is read: each axis has two for its wrap.
 pub(crate) const WRAP_MIRROR: u32 = 2;
 /// See [`WRAP_MIRROR`].
 pub(crate) const WRAP_CLAMP: u32 = 1;
@@ -34,8 +34,8 @@ pub(crate) struct MeshData {
     pub words: Vec<u32>,
     /// Where the attributes begin.
     pub attributes: u32,
-    /// Where the pictures begin.
-    pub pictures: u32,
+    /// Where the textures begin.
+    pub textures: u32,
     /// Of each light where the places of its corners begin, with its material; 0 if it wears nothing.
     pub light_corners: Vec<[u32; 2]>,
     images: Vec<Arc<ImageTexture>>,
@@ -46,14 +46,14 @@ impl MeshData {
     pub fn new(scene: &Scene, shapes: &mut Shapes, lights: &Lights) -> Self {
         let (images, _) = places(&scene.materials);
         let mut data =
-            MeshData { words: vec![0], attributes: 1, pictures: 1, light_corners: vec![[0; 2]; lights.len()], images };
+            MeshData { words: vec![0], attributes: 1, textures: 1, light_corners: vec![[0; 2]; lights.len()], images };
         if let Some(attributes) = MeshAttributes::of(scene) {
             data.add_attributes(&attributes);
             for (surface, row) in shapes.surfaces.iter_mut().zip(&shapes.rows) {
                 surface.triangle = data.add_row(row, attributes.has_normal_maps);
             }
         }
-        data.add_pictures();
+        data.add_textures();
         data.add_lights(lights);
         data
     }
@@ -86,8 +86,8 @@ impl MeshData {
         place
     }
 
-    fn add_pictures(&mut self) {
-        self.pictures = self.place();
+    fn add_textures(&mut self) {
+        self.textures = self.place();
         let mut first = 0;
         for image in self.images.clone() {
             let (width, height) = image.size();
@@ -110,7 +110,7 @@ impl MeshData {
         }
     }
 
-    /// Layers of the texture of all pictures, and rows in each. At least two: wgpu takes a texture of one for one without
+    /// Layers of the device's texture, and rows in each. At least two: wgpu takes a texture of one for one without
     /// layers on OpenGL, and shaders would read zeros.
     fn layers_and_rows(&self) -> [u64; 2] {
         let count: u64 = self.images.iter().map(|image| image.texels().len() as u64).sum();
@@ -119,17 +119,17 @@ impl MeshData {
         [layers, rows.div_ceil(layers)]
     }
 
-    /// Rows in a layer of the texture of all pictures.
+    /// Rows in a layer of the device's texture.
     pub fn texel_rows(&self) -> u32 {
         self.layers_and_rows()[1] as u32
     }
 
-    /// The texels of all pictures, one after the other, and black ones behind them.
+    /// The texels of all textures, one after the other, and black ones behind them.
     ///
     /// # Errors
     /// [`GpuError::TooManyBytes`] if they are more than the device's textures hold.
     pub fn texture(&self, gpu: &Gpu) -> Result<wgpu::Texture, GpuError> {
-        let what = "the pictures on surfaces";
+        let what = "the textures on surfaces";
         let ([layers, rows], row) = (self.layers_and_rows(), u64::from(TEXEL_ROW));
         let limit = u64::from(gpu.device.limits().max_texture_array_layers);
         if layers > limit {

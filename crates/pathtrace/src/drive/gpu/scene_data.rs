@@ -4,7 +4,7 @@
 use super::mesh_data::MeshData;
 use super::shape_data::Shapes;
 use crate::bsdf::materials::lobe_of;
-use crate::bsdf::pictures::{Places, places};
+use crate::bsdf::textures::{Places, places};
 use crate::caster::cone::{Cones, MOST_CONES};
 use crate::caster::{Casters, THROUGH};
 use crate::integrator::settings::ConesAt;
@@ -56,9 +56,9 @@ pub struct Header {
     pub instance_surfaces: u32,
     /// Where attributes of corners begin in `mesh_data`.
     pub attributes: u32,
-    /// Where pictures begin there.
-    pub pictures: u32,
-    /// Rows in each layer of the pictures' texture.
+    /// Where textures begin there.
+    pub textures: u32,
+    /// Rows in each layer of the texture of all texels.
     pub texel_rows: u32,
     /// Padding.
     pub unused: u32,
@@ -122,22 +122,22 @@ pub struct Material {
     pub off: f32,
     /// The same through it.
     pub through: f32,
-    /// Place among the pictures of what the colour is multiplied by, 1 for the first; 0 for none.
-    pub colour_picture: u32,
+    /// Place among the textures of what the colour is multiplied by, 1 for the first; 0 for none.
+    pub colour_texture: u32,
     /// The same of what is sent out.
-    pub emission_picture: u32,
+    pub emission_texture: u32,
     /// The same of the normals.
-    pub normal_picture: u32,
+    pub normal_texture: u32,
     /// The same of the alpha.
-    pub alpha_picture: u32,
+    pub alpha_texture: u32,
     /// By which x and y of normals are multiplied.
     pub normal_scale: f32,
     /// By which alpha is multiplied.
     pub alpha_factor: f32,
     /// Least alpha that is a surface; 0 where there is one everywhere.
     pub alpha_cutoff: f32,
-    /// Place among the pictures of what multiplies the share of metal and the roughness.
-    pub metallic_roughness_picture: u32,
+    /// Place among the textures of what multiplies the share of metal and the roughness.
+    pub metallic_roughness_texture: u32,
     /// Padding.
     pub unused: [u32; 3],
 }
@@ -182,9 +182,9 @@ pub struct Light {
     pub cumulative: f32,
     /// Of what its surface coincides with, or [`NO_GROUP`](crate::intersect::coincident::NO_GROUP).
     pub group: u32,
-    /// Of a chain: index of its sphere's material. Of what wears pictures its own.
+    /// Of a chain: index of its sphere's material. Of what wears textures its own.
     pub material: u32,
-    /// Where the places of its corners in pictures begin in `mesh_data`, 0 if it wears none.
+    /// Where the places of its corners in textures begin in `mesh_data`, 0 if it wears none.
     pub corners: u32,
 }
 
@@ -218,7 +218,7 @@ pub(crate) fn header(
         instance_primitives: 0,
         instance_surfaces: 0,
         attributes: mesh_data.attributes,
-        pictures: mesh_data.pictures,
+        textures: mesh_data.textures,
         texel_rows: mesh_data.texel_rows(),
         unused: 0,
         seen: shapes.seen,
@@ -235,22 +235,22 @@ pub fn materials(scene: &Scene, casters: &Casters) -> Vec<Material> {
         let chosen = |through| casters.materials().of::<f32>(index, through).probability;
         let casts = !casters.is_empty();
         let [off, through] = [false, true].map(|through| if casts { chosen(through) } else { 0.0 });
-        with_pictures(Material { off, through, ..material(from) }, from, &places[index as usize])
+        with_textures(Material { off, through, ..material(from) }, from, &places[index as usize])
     };
     scene.materials.iter().zip(0..).map(one).collect()
 }
 
-fn with_pictures(to: Material, from: &scene::Material, places: &Places) -> Material {
+fn with_textures(to: Material, from: &scene::Material, places: &Places) -> Material {
     let (alpha_cutoff, alpha_factor) = match from.surface.alpha {
         Alpha::Opaque => (0.0, 1.0),
         Alpha::Mask { cutoff, factor, .. } => (cutoff, factor),
     };
     Material {
-        colour_picture: places.colour,
-        emission_picture: places.emission,
-        normal_picture: places.normals,
-        alpha_picture: places.alpha,
-        metallic_roughness_picture: places.metallic_roughness,
+        colour_texture: places.colour,
+        emission_texture: places.emission,
+        normal_texture: places.normals,
+        alpha_texture: places.alpha,
+        metallic_roughness_texture: places.metallic_roughness,
         normal_scale: from.surface.normal_map.as_ref().map_or(1.0, |map| map.scale),
         alpha_factor,
         alpha_cutoff,

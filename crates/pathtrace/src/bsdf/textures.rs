@@ -1,6 +1,6 @@
-//! What pictures say of the surfaces in the lanes, each looked up by itself.
+//! What textures say of the surfaces in the lanes, each looked up by itself.
 //!
-//! Twin: `shaders/pathtrace/bsdf/pictures.wgsl`.
+//! Twin: `shaders/pathtrace/bsdf/textures.wgsl`.
 
 use crate::intersect::aggregate::lanes_of;
 use crate::vectors::of_lanes;
@@ -9,9 +9,9 @@ use scene::{Bsdf, ImageTexture, Material, MetallicRoughness, Vec3};
 use simd::{Column, Float, MOST_LANES, Mask, Vector, Word, WordColumn};
 use std::sync::Arc;
 
-/// A scene's pictures, and which of them its materials are made of.
+/// A scene's textures, and which of them its materials are made of.
 #[derive(Debug, Clone, Default)]
-pub struct Pictures {
+pub struct ImageTextures {
     images: Vec<Arc<ImageTexture>>,
     /// Places among them, 1 for the first; 0 for none.
     colour: WordColumn,
@@ -23,7 +23,7 @@ pub struct Pictures {
     has_normals: bool,
 }
 
-/// The places of a material's pictures among a scene's, 1 for the first; 0 for none.
+/// The places of a material's textures among a scene's, 1 for the first; 0 for none.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub(crate) struct Places {
     pub colour: u32,
@@ -33,7 +33,7 @@ pub(crate) struct Places {
     pub alpha: u32,
 }
 
-/// All pictures of some materials, each once, and where each material's are.
+/// All textures of some materials, each once, and where each material's are.
 pub(crate) fn places(materials: &[Material]) -> (Vec<Arc<ImageTexture>>, Vec<Places>) {
     let mut images: Vec<Arc<ImageTexture>> = Vec::new();
     let mut place = |image: Option<&Arc<ImageTexture>>| {
@@ -66,13 +66,13 @@ pub(crate) fn places(materials: &[Material]) -> (Vec<Arc<ImageTexture>>, Vec<Pla
     (images, places)
 }
 
-impl Pictures {
+impl ImageTextures {
     /// Those of the scene's materials.
     pub fn new(materials: &[Material]) -> Self {
         let (images, places) = places(materials);
         let column = |of: fn(&Places) -> u32| WordColumn::new(places.iter().map(of));
         let scale = |material: &Material| material.surface.normal_map.as_ref().map_or(1.0, |map| map.scale);
-        Pictures {
+        ImageTextures {
             images,
             colour: column(|places| places.colour),
             emission: column(|places| places.emission),
@@ -130,7 +130,7 @@ impl Pictures {
         Vector::select(there, Vector::new(x * scale, y * scale, z), Vector::splat([0.0, 0.0, 1.0]))
     }
 
-    /// Red, green and blue of one kind of picture, where there is one; else 1.
+    /// Red, green and blue of one kind of texture, where there is one; else 1.
     #[inline(always)]
     fn look_up<F: Float>(&self, kind: &WordColumn, material: F::U, uv: [F; 2]) -> (F::M, Vector<F>) {
         let place = material.look_up_word(kind);

@@ -1,11 +1,11 @@
 //#import pathtrace/scene.wgsl
-// Pictures on surfaces, texel by texel. Twin: crates/pathtrace/src/bsdf/pictures.rs.
+// ImageTextures on surfaces, texel by texel. Twin: crates/pathtrace/src/bsdf/textures.rs.
 
-// Words of a picture: its first texel, width, height, how it is read; matrix and offset of texture coordinates.
-const PICTURE_WORDS: u32 = 10u;
+// Words of a texture: its first texel, width, height, how it is read; matrix and offset of texture coordinates.
+const TEXTURE_WORDS: u32 = 10u;
 // Texels in a row of the texture.
 const TEXEL_ROW: u32 = 4096u;
-// How a picture is read: each axis has two bits for its wrap.
+// How a texture is read: each axis has two bits for its wrap.
 const WRAP_CLAMP: u32 = 1u;
 const WRAP_MIRROR: u32 = 2u;
 const BILINEAR: u32 = 16u;
@@ -13,29 +13,29 @@ const BILINEAR: u32 = 16u;
 // Wholes far beyond which no place is told from its neighbour. Here alone: the processor has floats for it.
 const FARTHEST_TEXEL: f32 = 1e9;
 
-struct Picture {
+struct ImageTexture {
     first: u32,
     size: vec2u,
     bits: u32,
 }
 
-// Red, green, blue and alpha of one of the pictures, 1 for the first, at a place in textures.
-fn picture_at(place: u32, uv: vec2f) -> vec4f {
-    let words = header.pictures + PICTURE_WORDS * (place - 1u);
+// Red, green, blue and alpha of one of the textures, 1 for the first, at a place in textures.
+fn texture_at(place: u32, uv: vec2f) -> vec4f {
+    let words = header.textures + TEXTURE_WORDS * (place - 1u);
     let size = vec2u(mesh_data[words + 1u], mesh_data[words + 2u]);
-    let picture = Picture(mesh_data[words], size, mesh_data[words + 3u]);
+    let texture = ImageTexture(mesh_data[words], size, mesh_data[words + 3u]);
     let turned = float_at(words + 4u, words + 5u) * uv.x + float_at(words + 6u, words + 7u) * uv.y;
     let at = (turned + float_at(words + 8u, words + 9u)) * vec2f(size);
-    if (picture.bits & BILINEAR) == 0u {
-        return texel(picture, whole(at));
+    if (texture.bits & BILINEAR) == 0u {
+        return texel(texture, whole(at));
     }
     let corner = floor(at - 0.5);
     let between = at - 0.5 - corner;
     let first = whole(corner);
-    let a = texel(picture, first);
-    let b = texel(picture, first + vec2i(1, 0));
-    let c = texel(picture, first + vec2i(0, 1));
-    let d = texel(picture, first + vec2i(1, 1));
+    let a = texel(texture, first);
+    let b = texel(texture, first + vec2i(1, 0));
+    let c = texel(texture, first + vec2i(0, 1));
+    let d = texel(texture, first + vec2i(1, 1));
     let above = a + (b - a) * between.x;
     let below = c + (d - c) * between.x;
     return above + (below - above) * between.y;
@@ -49,10 +49,10 @@ fn whole(at: vec2f) -> vec2i {
     return vec2i(clamp(floor(at), vec2f(-FARTHEST_TEXEL), vec2f(FARTHEST_TEXEL)));
 }
 
-fn texel(picture: Picture, at: vec2i) -> vec4f {
-    let x = wrapped(at.x, i32(picture.size.x), picture.bits & 3u);
-    let y = wrapped(at.y, i32(picture.size.y), (picture.bits >> 2u) & 3u);
-    let index = picture.first + y * picture.size.x + x;
+fn texel(texture: ImageTexture, at: vec2i) -> vec4f {
+    let x = wrapped(at.x, i32(texture.size.x), texture.bits & 3u);
+    let y = wrapped(at.y, i32(texture.size.y), (texture.bits >> 2u) & 3u);
+    let index = texture.first + y * texture.size.x + x;
     let row = index / TEXEL_ROW;
     return textureLoad(texels, vec2u(index % TEXEL_ROW, row % header.texel_rows), row / header.texel_rows, 0);
 }
