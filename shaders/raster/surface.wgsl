@@ -1,5 +1,5 @@
 //#import raster/object.wgsl
-// Where corners of a mesh lie, and what pictures say of its surface. No twin: the rasteriser runs on devices alone.
+// Where corners of a mesh lie, and what pictures say of its surface.
 // Mirror of the structs: crates/raster/src/gpu_data.rs, which has those of all passes.
 
 const IMAGE_COLOUR: u32 = 1u;

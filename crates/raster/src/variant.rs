@@ -1,5 +1,5 @@
-//! What is compiled into the pipelines that draw a shape. Shaders must not branch on uniforms: see
-//! `shaders/raster/forward.wgsl`.
+//! What is compiled into the pipelines that draw a shape: shaders must not branch on uniforms, as that of the forward pass
+//! says.
 
 use crate::gpu_data::*;
 use crate::looks::{bits, pictures};
