@@ -15,7 +15,7 @@ use gpu::Gpu;
 use image_file::{self, Kind};
 use pathtrace::{ChainStats, Stats};
 use raster::Raster;
-use scene::{Scene, builtin};
+use scene::Scene;
 use std::io::IsTerminal;
 use std::sync::Arc;
 use std::time::{Duration, Instant};

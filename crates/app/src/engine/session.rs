@@ -217,7 +217,7 @@ mod tests {
     }
 
     fn followed(session: &Path) -> PathBuf {
-        let opened = read(session, &[]).expect("a session").session.expect("all of it");
+        let opened = read(session, &[], &Progress::untold()).expect("a session").session.expect("all of it");
         match opened.session.source(PaneId::B) {
             PaneSource::Followed(file) => file.clone(),
             other => panic!("{other}"),
