@@ -45,6 +45,8 @@ pub struct Engine {
     pub(super) thumbnails: Option<Thumbnails>,
     /// Made when a sweep is first asked for.
     pub(super) sweeper: Option<Sweeper>,
+    /// Made when trees are first looked at.
+    pub(super) trees: Option<super::trees::TreeStudy>,
     /// Looks into a pixel.
     pub probes: super::probe::Probes,
     pub(crate) light: LightMeter,
@@ -102,6 +104,7 @@ impl Engine {
             dialogues: Dialogues::new(wake.clone()),
             thumbnails: None,
             sweeper: None,
+            trees: None,
             probes: Default::default(),
             wake,
             asked: Asked::default(),
@@ -177,6 +180,7 @@ impl Engine {
         self.light.measure(&wanted.light);
         self.compare(wanted);
         self.ask_sweep(wanted);
+        self.ask_trees(wanted);
         self.probes.follow(wanted, &self.threads, &self.wake);
         jobs
     }

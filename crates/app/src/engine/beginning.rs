@@ -50,7 +50,10 @@ impl Beginning {
             args.slide.into_iter().for_each(|slide| _ = model.show_slide(slide));
             model.set_up(&setup).map_err(anyhow::Error::msg)?;
         }
-        args.workspace.iter().for_each(|workspace| model.session.sweep.open = workspace == "sweep");
+        if let Some(workspace) = &args.workspace {
+            model.session.sweep.open = workspace == "sweep";
+            model.session.trees.open = workspace == "trees";
+        }
         Ok(model)
     }
 }

@@ -30,6 +30,7 @@ mod setup;
 mod slides;
 mod sweep;
 mod theme;
+mod trees;
 mod ui_state;
 mod view;
 mod view_args;
@@ -67,6 +68,10 @@ pub use sweep::{
     SweepSettings, TECHNIQUE, TileErrors, TileFacts, best, captions, sweep_csv, variable,
 };
 pub use theme::Theme;
+pub use trees::{
+    Counted, TreeFacts, TreePlot, TreePoint, TreesSettings, TreesView, WantedTrees, extrapolated, grouped,
+    statue_triangles,
+};
 pub use ui_state::{Drag, SweepState, SwitchedOff, UiState};
 pub use view::{Line, View};
 pub use view_args::ViewArgs;
@@ -241,6 +246,7 @@ impl Model {
             comparisons: Vec::new(),
             map: None,
             sweep: None,
+            trees: None,
             histograms: false,
             probe: None,
             light: Vec::new(),

@@ -1,7 +1,8 @@
 //! How it is looked at: what one would want to find again after a pause.
 
 use super::{
-    CompareWith, ComparisonSettings, Line, PaneId, PaneSource, Panes, PlotSettings, ProbeSettings, SweepSettings, View,
+    CompareWith, ComparisonSettings, Line, PaneId, PaneSource, Panes, PlotSettings, ProbeSettings, SweepSettings,
+    TreesSettings, View,
 };
 use film::DisplayTransform;
 use raster::Show;
@@ -33,6 +34,8 @@ pub struct Session {
     pub sweep: SweepSettings,
     /// The pixel that is looked into.
     pub probe: ProbeSettings,
+    /// How trees are looked at.
+    pub trees: TreesSettings,
 }
 
 /// How many pixels a picture has.
@@ -86,6 +89,7 @@ impl Default for Session {
             plots: PlotSettings::default(),
             sweep: SweepSettings::default(),
             probe: ProbeSettings::default(),
+            trees: TreesSettings::default(),
         }
     }
 }

@@ -164,6 +164,7 @@ impl Model {
     /// Shows a slide: at once if its scene is open, else when it has come. Returns the scene to be opened for it.
     pub fn show_slide(&mut self, slide: &'static Slide) -> Option<&'static str> {
         self.state.awaited_slide = Some(slide);
+        self.session.trees.open = false;
         if self.document.source != slide.scene {
             return Some(slide.scene);
         }

@@ -82,6 +82,8 @@ pub struct UiState {
     pub export: ExportMenu,
     /// The sweep as it was last drawn.
     pub sweep: SweepState,
+    /// Width and height in pixels of a picture of rays, as last drawn.
+    pub tree_pixels: (u32, u32),
     /// What switched-off settings come back to.
     pub switched_off: Panes<SwitchedOff>,
 }
@@ -167,6 +169,7 @@ impl UiState {
             pinned: Vec::new(),
             export: ExportMenu::default(),
             sweep: SweepState::default(),
+            tree_pixels: (0, 0),
             switched_off: Panes::default(),
         }
     }

@@ -2,7 +2,7 @@
 
 use super::{
     Against, Effort, ErrorHistory, ErrorMap, ErrorPoint, External, LightByBounce, PaneId, PaneProbe, PaneSource, Panes,
-    Progress, Region, TileFacts,
+    Progress, Region, TileFacts, TreesView,
 };
 use crate::ruler::ReferenceImage;
 use compare::{Errors, Histogram};
@@ -25,6 +25,8 @@ pub struct ViewModel {
     pub light: Panes<LightByBounce>,
     /// What is known of a sweep's tiles.
     pub sweep: SweepView,
+    /// What is known of rays with and without trees.
+    pub trees: TreesView,
 }
 
 /// What there is to show of a sweep.

@@ -1,6 +1,6 @@
 //! What shall be made: a plain value, stated anew in every frame. Who makes it compares it with what was wanted before.
 
-use super::{Comparison, LightWish, MapWish, PaneSource, Panes, ProbeWish, SweepPlan};
+use super::{Comparison, LightWish, MapWish, PaneSource, Panes, ProbeWish, SweepPlan, WantedTrees};
 use film::DisplayTransform;
 use scene::Camera;
 use technique::Shot;
@@ -22,6 +22,8 @@ pub struct Wanted {
     pub map: Option<MapWish>,
     /// The tiles that are to be made, where a sweep is looked at.
     pub sweep: Option<WantedSweep>,
+    /// What is traced of trees, where they are looked at.
+    pub trees: Option<WantedTrees>,
     /// Whether histograms of the pictures are looked at.
     pub histograms: bool,
     /// The pixel that is looked into, if one is.

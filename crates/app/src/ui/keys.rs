@@ -7,8 +7,9 @@ use crate::model::{Destination, ExportRequest, ExportSubject};
 use egui::{Context, Event, Key, Modifiers, Popup};
 
 /// What the keys do that every workspace has, for the help.
-pub const KEYS: [HelpLine; 17] = [
+pub const KEYS: [HelpLine; 18] = [
     ("S", "sweep: many pictures at once, and back to the comparison"),
+    ("X", "trees: what a ray is tested against, and back to the comparison"),
     ("P", "pause, go on"),
     ("R", "restart"),
     ("C", "camera of the scene"),
@@ -37,8 +38,8 @@ pub fn listen(workspaces: &mut Workspaces, cx: &mut UiContext, context: &Context
         let to = Destination::File(export_menu::session_file(cx.model));
         cx.commands.push(UiCommand::Export(ExportRequest { subject: ExportSubject::Session, to }));
     }
-    if keys.command(Key::P) > 0 && cx.model.session.sweep.open {
-        cx.model.say(Err("a report is of the comparison: S or Esc goes back to it".into()));
+    if keys.command(Key::P) > 0 && (cx.model.session.sweep.open || cx.model.session.trees.open) {
+        cx.model.say(Err("a report is of the comparison: Esc goes back to it".into()));
     } else if keys.command(Key::P) > 0 {
         let to = Destination::File(export_menu::report_file(cx.model));
         cx.commands.push(UiCommand::Export(ExportRequest { subject: ExportSubject::Report, to }));
@@ -87,7 +88,13 @@ fn export_as_seen(cx: &mut UiContext, to: Destination) {
 
 fn letters(cx: &mut UiContext, keys: &Keys) {
     let turned_over = |key| keys.presses(key) % 2 == 1;
-    cx.model.session.sweep.open ^= turned_over(Key::S);
+    if turned_over(Key::S) {
+        cx.model.session.trees.open = false;
+        cx.model.session.sweep.open ^= true;
+    }
+    if turned_over(Key::X) {
+        cx.model.show_trees(!cx.model.session.trees.open);
+    }
     let state = &mut cx.model.state;
     state.paused ^= turned_over(Key::P);
     state.panel ^= turned_over(Key::H);

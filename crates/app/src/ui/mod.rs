@@ -60,6 +60,8 @@ pub struct Textures {
     pub map: Option<TextureId>,
     /// The tiles of a sweep, in their order.
     pub tiles: Vec<Option<TextureId>>,
+    /// Rays through the statue, in the order of the structures.
+    pub trees: [Option<TextureId>; 3],
     /// Small pictures of built-in scenes, by their names.
     pub thumbnails: HashMap<&'static str, TextureId>,
 }

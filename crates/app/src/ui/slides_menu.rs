@@ -18,7 +18,16 @@ fn rows(cx: &mut UiContext, ui: &mut Ui) {
     let item =
         ui.button(title).explained("Sweeps: a strip of one setting or a matrix of two, each picture with its error");
     if cx.dump.note("slides sweep", open, item).clicked() {
+        cx.model.session.trees.open = false;
         cx.model.session.sweep.open = !open;
+        ui.close();
+    }
+    let open = cx.model.session.trees.open;
+    let title = if open { "Back from the trees (X)" } else { "What a tree saves (X)" };
+    let item =
+        ui.button(title).explained("33 million triangles: what a ray is tested against without a tree and with one");
+    if cx.dump.note("slides trees", open, item).clicked() {
+        cx.model.show_trees(!open);
         ui.close();
     }
     for slide in SLIDES {

@@ -82,6 +82,7 @@ const ROOMY: f32 = 900.0;
 fn tools(cx: &mut UiContext, ui: &mut Ui) {
     if ui.ctx().content_rect().width() >= ROOMY {
         sweep_button(cx, ui);
+        trees_button(cx, ui);
     }
     slides_menu::show(cx, ui);
     steps(cx, ui);
@@ -104,7 +105,19 @@ fn sweep_button(cx: &mut UiContext, ui: &mut Ui) {
     let hover = "Many pictures at once, of one setting or two, each with its error; again: back to the comparison (S)";
     let sweep = icon_button(Icon::Sweep, ("Sweep", hover), (true, open), ui);
     if cx.dump.note("sweep", open, sweep).clicked() {
+        cx.model.session.trees.open = false;
         cx.model.session.sweep.open = !open;
+        ui.ctx().request_repaint();
+    }
+}
+
+fn trees_button(cx: &mut UiContext, ui: &mut Ui) {
+    let open = cx.model.session.trees.open;
+    let hover =
+        "What a ray is tested against, without a tree and with two kinds of trees; again: back to the comparison (X)";
+    let trees = icon_button(Icon::Trees, ("Trees", hover), (true, open), ui);
+    if cx.dump.note("trees", open, trees).clicked() {
+        cx.model.show_trees(!open);
         ui.ctx().request_repaint();
     }
 }

@@ -7,17 +7,18 @@ use super::workspace::Workspace;
 use super::workspace::compare::Compare;
 use super::workspace::empty::Empty;
 use super::workspace::sweep::Sweep;
+use super::workspace::trees::Trees;
 use crate::model::Model;
 use egui::{Frame, Margin, Ui};
 
-/// All that there are, in the order of the rail; the first one is the usual one. The first two are everybody's, to choose
+/// All that there are, in the order of the rail; the first one is the usual one. The first three are everybody's, to choose
 /// from in the bar.
 fn registry() -> Vec<Box<dyn Workspace>> {
-    vec![Box::new(Compare), Box::new(Sweep), Box::new(Empty)]
+    vec![Box::new(Compare), Box::new(Sweep), Box::new(Trees), Box::new(Empty)]
 }
 
 /// How many everybody has.
-const USUAL: usize = 2;
+const USUAL: usize = 3;
 
 /// Those that the window offers, and the one that is open.
 pub struct Workspaces {
@@ -52,7 +53,8 @@ impl Workspaces {
     /// Opens that of the usual ones which the session says, unless another is open.
     pub fn follow(&mut self, model: &Model) {
         if self.open < USUAL {
-            self.open = usize::from(model.session.sweep.open);
+            let session = &model.session;
+            self.open = if session.trees.open { 2 } else { usize::from(session.sweep.open) };
         }
     }
 
@@ -78,7 +80,7 @@ impl Workspaces {
                 let tab = icon_and_word(workspace.icon(), workspace.name(), open, ui);
                 if cx.dump.note(&format!("workspace {id}"), open, tab).clicked() {
                     self.open = index;
-                    cx.model.session.sweep.open = index + 1 == USUAL;
+                    (cx.model.session.sweep.open, cx.model.session.trees.open) = (index == 1, index == 2);
                 }
             }
         });

@@ -10,6 +10,7 @@ mod probe;
 mod report;
 mod stopwatch;
 mod sweep;
+mod trees;
 
 pub use presentation::{Place, TextureStore};
 
@@ -84,6 +85,7 @@ impl Viewer {
         }
         self.follow_the_reference();
         self.collect_sweep(textures);
+        self.collect_trees(textures);
         self.presentation.update_probe(self.engine.probes.collect());
         self.collect_files();
         for (pane, light) in self.engine.light.measured().iter() {
@@ -223,6 +225,7 @@ impl Viewer {
             "flicker": state.flicker.map(|pane| pane.name()),
             "paused": state.paused,
             "sweep": self.sweep_dump(),
+            "trees": self.trees_dump(),
             "theme": state.theme.name(),
             "picture_size": state.picture.size,
             "eye": document.camera.eye.to_array(),

@@ -42,6 +42,8 @@ pub enum Place {
     ErrorMap,
     /// A tile of a sweep, by its place.
     Tile(usize),
+    /// Rays through the statue in one structure, by its place.
+    Trees(usize),
     /// A small picture of the built-in scene of this name.
     Thumbnail(&'static str),
 }

@@ -9,6 +9,7 @@ mod plots;
 mod probe;
 mod settings;
 mod sweep;
+mod trees;
 mod views;
 
 use egui::accesskit::{Role, Toggled};

@@ -22,6 +22,7 @@ mod bvh8_tests;
 mod bvh8_walk;
 pub mod coincident;
 pub(crate) mod contact;
+pub mod counted;
 pub(crate) mod cutouts;
 pub mod disk;
 mod hit;

@@ -3,8 +3,8 @@
 use super::table::{Entry, Fault, Table, fault};
 use super::{MOST_BOOKMARKS, SESSION_VERSION, SavedSession, SavedWindow};
 use crate::model::{
-    Axis, Channel, CompareWith, Cost, Equal, Line, Measure, PaneId, PaneSource, Panes, Region, Resolution, Session,
-    SweepMeasure, SweepSettings, Theme, View,
+    Axis, Channel, CompareWith, Cost, Counted, Equal, Line, Measure, PaneId, PaneSource, Panes, Region, Resolution,
+    Session, SweepMeasure, SweepSettings, Theme, TreePlot, TreesSettings, View,
 };
 use compare::ErrorMetric;
 use image_file::{Kind, shown};
@@ -137,6 +137,7 @@ fn parse(text: &str) -> Result<SessionDraft, Fault> {
     comparison(table.table("comparison")?, &mut session)?;
     plots(table.table("plots")?, &mut session)?;
     session.sweep = sweep(table.table("sweep")?)?;
+    session.trees = trees(table.table("trees")?)?;
     probe(table.table("probe")?, &mut session)?;
     let bookmarks = table.read("bookmarks", |entry| entry.tables("bookmarks"))?.unwrap_or_default();
     if let Some(first_too_many) = bookmarks.get(MOST_BOOKMARKS) {
@@ -326,6 +327,24 @@ fn sweep(mut table: Table) -> Result<SweepSettings, Fault> {
     };
     table.end()?;
     Ok(sweep)
+}
+
+fn trees(mut table: Table) -> Result<TreesSettings, Fault> {
+    let usual = TreesSettings::default();
+    let whole = |entry: Entry, expected: &str, most: f32| {
+        entry.number(expected, |n| (0.0..=most).contains(&n) && n.fract() == 0.0).map(|n| n as u32)
+    };
+    let level = |entry: Entry| whole(entry, "a whole number from 0 to 11", TreesSettings::FINEST as f32);
+    let depth = |entry: Entry| whole(entry, "a whole number from 0 to 24", 24.0);
+    let trees = TreesSettings {
+        open: table.read("open", |entry| entry.flag())?.unwrap_or(usual.open),
+        level: table.read("level", level)?.unwrap_or(usual.level),
+        show: table.read("show", |entry| entry.one_of(&Counted::ALL, Counted::name))?.unwrap_or(usual.show),
+        boxes: table.read("boxes", depth)?,
+        plot: table.read("plot", |entry| entry.one_of(&TreePlot::ALL, TreePlot::name))?.unwrap_or(usual.plot),
+    };
+    table.end()?;
+    Ok(trees)
 }
 
 fn probe(mut table: Table, session: &mut Session) -> Result<(), Fault> {

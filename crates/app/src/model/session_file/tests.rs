@@ -1,7 +1,10 @@
 //! What a session's file says is what comes back, and what it cannot say is told with its place.
 
 use super::*;
-use crate::model::{Axis, CompareWith, Equal, Line, PaneSource, Resolution, SweepMeasure, SweepSettings, View};
+use crate::model::{
+    Axis, CompareWith, Counted, Equal, Line, PaneSource, Resolution, SweepMeasure, SweepSettings, TreePlot,
+    TreesSettings, View,
+};
 use compare::ErrorMetric;
 use scene::{Vec3, builtin};
 use std::path::Path;
@@ -101,6 +104,26 @@ fn all_else_of_a_session_comes_back_as_it_was() {
     (model.state.theme, model.state.panel, model.state.labels) = (Theme::Projector, false, false);
     let text = text(&model);
     assert_eq!(parsed(&text, &model.document.scene), Ok(saved(&model)), "{text}");
+}
+
+#[test]
+fn trees_come_back_as_they_were_looked_at() {
+    let mut model = model("cornell");
+    assert!(!text(&model).contains("[trees]"), "nobody has looked at them");
+    let boxes = Some(3);
+    model.session.trees =
+        TreesSettings { open: true, level: 9, show: Counted::Triangles, boxes, plot: TreePlot::Tests };
+    let read = parsed(&text(&model), &model.document.scene).unwrap();
+    assert_eq!(read.session.trees, model.session.trees);
+    for (line, said) in [
+        ("level = 12", "4:9: level: expected a whole number from 0 to 11"),
+        ("boxes = 2.5", "4:9: boxes: expected a whole number from 0 to 24"),
+        ("show = \"leaves\"", "4:8: show leaves: expected surface, boxes or triangles"),
+    ] {
+        let session = format!("session = 1\nscene = \"cornell\"\n[trees]\n{line}\n");
+        let fault = parsed(&session, &model.document.scene).expect_err(line);
+        assert!(fault.contains(said), "{fault}");
+    }
 }
 
 #[test]

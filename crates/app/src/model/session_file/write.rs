@@ -3,6 +3,7 @@
 use super::{MOST_BOOKMARKS, SESSION_VERSION, SavedSession};
 use crate::model::{
     Axis, ComparisonSettings, PaneId, PaneSource, PlotSettings, ProbeSettings, Region, Session, SweepSettings,
+    TreesSettings,
 };
 use compare::ErrorMetric;
 use image_file::shown;
@@ -30,6 +31,7 @@ impl SavedSession {
         comparison(&mut text, &self.session.comparison);
         table(&mut text, "[plots]", plots(self.session.plots));
         table(&mut text, "[sweep]", sweep(&self.session.sweep));
+        table(&mut text, "[trees]", trees(self.session.trees));
         table(&mut text, "[probe]", probe(self.session.probe));
         // the latest
         for place in &self.bookmarks[self.bookmarks.len().saturating_sub(MOST_BOOKMARKS)..] {
@@ -164,6 +166,18 @@ fn probe(probe: ProbeSettings) -> Lines {
     let ProbeSettings { open, at: [x, y], channel } = probe;
     let at = format!("[{}, {}]", number(x), number(y));
     vec![("open", open.to_string()), ("at", at), ("channel", quoted(channel.name()))]
+}
+
+/// Nothing where nobody has looked at them.
+fn trees(trees: TreesSettings) -> Lines {
+    if trees == TreesSettings::default() {
+        return Vec::new();
+    }
+    let TreesSettings { open, level, show, boxes, plot } = trees;
+    let mut lines = vec![("open", open.to_string()), ("level", level.to_string()), ("show", quoted(show.name()))];
+    lines.extend(boxes.map(|depth| ("boxes", depth.to_string())));
+    lines.push(("plot", quoted(plot.name())));
+    lines
 }
 
 fn word(value: Value) -> String {

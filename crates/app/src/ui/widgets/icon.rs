@@ -19,6 +19,8 @@ pub enum Icon {
     Compare,
     /// Three pictures in a row, and three below.
     Sweep,
+    /// A node, two below it, and four below these.
+    Trees,
     /// Two axes and a falling line.
     Plots,
     /// The corners of a rectangle, and a point in it.
@@ -64,6 +66,12 @@ impl Icon {
                 &[(9.0, 5.0), (9.0, 19.0)],
                 &[(15.0, 5.0), (15.0, 19.0)],
                 &[(3.0, 12.0), (21.0, 12.0)],
+            ],
+            Icon::Trees => &[
+                &[(12.0, 4.0), (6.0, 12.0), (3.0, 20.0)],
+                &[(6.0, 12.0), (9.0, 20.0)],
+                &[(12.0, 4.0), (18.0, 12.0), (21.0, 20.0)],
+                &[(18.0, 12.0), (15.0, 20.0)],
             ],
             Icon::Plots => {
                 &[&[(4.0, 4.0), (4.0, 20.0), (20.0, 20.0)], &[(7.0, 7.0), (11.0, 12.0), (15.0, 14.5), (20.0, 16.0)]]

@@ -4,6 +4,7 @@
 pub(super) mod compare;
 pub(super) mod empty;
 pub(super) mod sweep;
+pub(super) mod trees;
 
 use super::UiContext;
 use super::pressed::{HelpLine, Keys};

@@ -13,7 +13,7 @@ mod map;
 mod map_faces;
 mod mouse;
 mod picture;
-mod plots;
+pub mod plots;
 mod probe;
 mod region;
 
