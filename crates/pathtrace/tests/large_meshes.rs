@@ -321,7 +321,7 @@ fn planes_are_found_with_more_bits_than_a_float_has() {
         let size = 10f32.powf(12.0 * size - 6.0);
         let a = direction(i, 12) * size * 100.0 * off;
         let (u, v) = (direction(i, 13) * size, direction(i, 14) * size);
-        let v = if i % 2 == 0 { v } else { u * (1.0 + thin) + v * 1e-3 };
+        let v = if i.is_multiple_of(2) { v } else { u * (1.0 + thin) + v * 1e-3 };
         [a, a + u, a + v]
     };
     let triangles: Vec<[Vec3; 3]> = (0..TRIANGLES).map(triangle).collect();

@@ -1,12 +1,12 @@
 //! The statue that rays are counted on, and where it is seen from.
 
-use scene::{Camera, Mesh, Vec3};
+use scene::{Camera, Mesh, Progress, Vec3};
 use std::sync::Arc;
 
 /// The statue of a level; `None` if `goes_on` says no before it is made.
 pub fn statue(level: u32, goes_on: &(dyn Fn() -> bool + Sync)) -> Option<Arc<Mesh>> {
-    let mesh = scene::statue::statue(level);
-    goes_on().then(|| Arc::new(mesh))
+    let hear = |_: &str, _: f32| goes_on();
+    scene::statue(level, &Progress::new(&hear)).ok().map(Arc::new)
 }
 
 /// Degrees of the vertical field of view.

@@ -9,11 +9,13 @@ mod two;
 
 use super::Ray;
 use super::mesh_tree::MeshTree;
+use super::mesh_walk::ClosestOf;
 use super::triangle::ShearedRay;
 use super::triangle::Triangle;
 use obvhs::aabb::Aabb;
 pub use picture::{CountedPicture, CountedPixel};
 use scene::{Mesh, Vec3};
+use simd::{Lanes, RowLanes};
 use std::sync::Arc;
 use std::time::Instant;
 use two::TwoBoxes;
@@ -101,7 +103,7 @@ impl CountedMesh {
         let kept = match structure {
             Structure::List => Kept::List,
             Structure::Two => Kept::Two(TwoBoxes::new(mesh)),
-            Structure::Eight => Kept::Eight(Arc::new(MeshTree::new(mesh))),
+            Structure::Eight => Kept::Eight(MeshTree::of(mesh)),
         };
         goes_on(1.0).then(|| CountedMesh { mesh: mesh.clone(), kept, build_seconds: begun.elapsed().as_secs_f64() })
     }
@@ -113,6 +115,20 @@ impl CountedMesh {
             Kept::Two(tree) => tree.closest(&self.mesh, ray, tests),
             Kept::Eight(tree) => eight::closest(tree, ray, tests),
         }
+    }
+
+    /// The distance of the nearest hit before `ray.tmax`, by the way that pictures are traced where there is one: nothing
+    /// is counted.
+    pub fn distance(&self, ray: &Ray) -> Option<f32> {
+        match &self.kept {
+            Kept::Eight(tree) => RowLanes::nearest_to(Lanes::best()).run(ClosestOf { tree, ray }).map(|hit| hit.t),
+            Kept::List | Kept::Two(_) => self.closest(ray, &mut Tests::default()).map(|hit| hit.t),
+        }
+    }
+
+    /// Whether [`CountedMesh::distance`] goes another way than [`CountedMesh::closest`].
+    fn is_traced_otherwise(&self) -> bool {
+        matches!(self.kept, Kept::Eight(_))
     }
 
     /// Bytes of the structure beside the corners and the triangles' indices.

@@ -33,6 +33,7 @@ fn every_structure_finds_the_same_triangles() {
         let hits = made.each_ref().map(|made| made.closest(&ray, &mut Tests::default()).map(|hit| hit.t));
         assert_eq!(hits[0], hits[1], "{ray:?}");
         assert_eq!(hits[0], hits[2], "{ray:?}");
+        assert_eq!(hits, made.each_ref().map(|made| made.distance(&ray)), "{ray:?}");
         met += usize::from(hits[0].is_some());
     }
     assert!(met > 150, "{met}");
