@@ -21,7 +21,7 @@ use scene::{Geometry, Instance, Mesh, Scene, Shape, Vec3};
 use std::path::Path;
 use std::sync::Arc;
 
-#[path = "../examples/meshes/bumpy.rs"]
+#[path = "../../crates/pathtrace/examples/meshes/bumpy.rs"]
 mod bumpy;
 
 const ROOM: &str = r#"
