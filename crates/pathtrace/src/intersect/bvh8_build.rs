@@ -32,10 +32,10 @@ const CHUNK: usize = 1 << 15;
 
 /// A shape's padded box and its number.
 #[derive(Clone, Copy)]
-struct Boxed {
-    lower: Vec3,
-    upper: Vec3,
-    shape: u32,
+pub(super) struct Boxed {
+    pub lower: Vec3,
+    pub upper: Vec3,
+    pub shape: u32,
 }
 
 impl Boundable for Boxed {
@@ -46,7 +46,7 @@ impl Boundable for Boxed {
 
 impl Boxed {
     /// Twice the centre.
-    fn middle(&self) -> Vec3 {
+    pub fn middle(&self) -> Vec3 {
         self.lower + self.upper
     }
 }
@@ -93,7 +93,7 @@ fn split(boxed: &mut [Boxed], shapes: Shapes) -> Vec<Tree> {
 
 /// Sorts shapes by the side of the middle of the longest axis that they lie on; of shapes all in one place a half is as
 /// good as another. Returns how many are on the first side.
-fn halve(boxed: &mut [Boxed]) -> usize {
+pub(super) fn halve(boxed: &mut [Boxed]) -> usize {
     let empty = (Vec3::INFINITY, Vec3::NEG_INFINITY);
     let (lower, upper) = boxed
         .par_chunks(CHUNK)

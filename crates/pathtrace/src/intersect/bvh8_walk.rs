@@ -6,7 +6,7 @@ use super::bvh8::{Block, Bvh8, Child, Node};
 use simd::{Row, Rows, Stack};
 
 /// Places on the stack: the hierarchy is at most [`DEEPEST`] nodes deep and each leaves seven children for later.
-const STACK: usize = 128;
+const STACK: usize = 256;
 /// See [`STACK`].
 pub(super) const DEEPEST: usize = (STACK - 1) / 7;
 

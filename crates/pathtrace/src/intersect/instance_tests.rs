@@ -61,7 +61,7 @@ fn a_meshs_tree_finds_what_testing_everything_finds() {
     let twice = [single.triangles(), single.triangles()].concat();
     let twice = Arc::new(Mesh::new(single.positions().to_vec(), twice));
     for mesh in [single, twice] {
-        let tree = MeshTree::new(&mesh);
+        let tree = MeshTree::of(&mesh, &|_| true).expect("a tree");
         for lanes in [Lanes::Avx512, Lanes::Avx2, Lanes::Array].map(RowLanes::nearest_to) {
             let differs = |i: &u32| {
                 let ray = &ray_at(&mesh, *i);

@@ -162,7 +162,8 @@ impl Placed {
         let reach = DMat3::from_cols(m.x_axis.abs(), m.y_axis.abs(), m.z_axis.abs());
         let normals_to_world = to_mesh.matrix3.transpose();
         let material = shape.material as u32;
-        Some(Placed { tree: MeshTree::of(mesh), to_world, to_mesh, normals_to_world, reach, material })
+        let tree = MeshTree::of(mesh, &|_| true)?;
+        Some(Placed { tree, to_world, to_mesh, normals_to_world, reach, material })
     }
 
     fn ray_in_mesh(&self, ray: &Ray, tmax: f32) -> Ray {

@@ -29,6 +29,7 @@ mod hit;
 #[cfg(test)]
 mod instance_tests;
 pub mod instances;
+mod mesh_build;
 pub mod mesh_tree;
 mod mesh_walk;
 pub(crate) mod pairs;
@@ -42,6 +43,8 @@ pub mod triangle;
 pub use accel::Accel;
 pub use attributes::SurfaceAttributes;
 pub use hit::{Blocker, Hit, Hits, Intersection, Intersections, NO_INSTANCE, NO_LIGHT, NO_PRIMITIVE};
+pub use mesh_build::Progress;
+pub use mesh_tree::MeshTree;
 pub use ray::{Ray, Rays, SHADOW_END};
 pub use surface_point::{SurfacePoint, SurfacePoints};
 pub use triangle::triangle_normal;

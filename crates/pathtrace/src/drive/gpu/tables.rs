@@ -76,7 +76,7 @@ impl Tables {
         }
         // before trees are built for nothing
         check_size(gpu, meshes.iter().map(|mesh| bytes_of(mesh, 0)).sum())?;
-        let trees: Vec<Arc<MeshTree>> = meshes.iter().map(MeshTree::of).collect();
+        let trees: Vec<Arc<MeshTree>> = meshes.iter().filter_map(|mesh| MeshTree::of(mesh, &|_| true)).collect();
         Ok(uploaded.insert(fill(gpu, &trees)?).clone())
     }
 }

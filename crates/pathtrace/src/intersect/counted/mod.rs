@@ -103,7 +103,7 @@ impl CountedMesh {
         let kept = match structure {
             Structure::List => Kept::List,
             Structure::Two => Kept::Two(TwoBoxes::new(mesh)),
-            Structure::Eight => Kept::Eight(MeshTree::of(mesh)),
+            Structure::Eight => Kept::Eight(MeshTree::of(mesh, goes_on)?),
         };
         goes_on(1.0).then(|| CountedMesh { mesh: mesh.clone(), kept, build_seconds: begun.elapsed().as_secs_f64() })
     }
