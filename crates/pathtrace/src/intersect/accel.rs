@@ -75,6 +75,9 @@ impl Accel {
     /// As [`Accel::closest`], of all that is no large mesh.
     #[inline]
     pub fn closest_beside_instances(&self, ray: &Ray) -> Option<Hit> {
+        if self.count == 0 {
+            return None;
+        }
         match &self.hierarchy {
             Hierarchy::Two(bvh) => bvh.closest(ray),
             Hierarchy::Eight(bvh) => bvh.closest(ray),

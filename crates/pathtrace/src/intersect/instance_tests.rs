@@ -231,15 +231,19 @@ fn nothing_passes_a_closed_instance() {
 fn of_instances_at_one_distance_the_first_is_met() {
     let mesh = statue_mesh(5);
     let instance = |to_world| Geometry::Instance(Instance { mesh: mesh.clone(), to_world });
-    let apart = Affine3A::from_translation(Vec3::X * 5.0);
-    let scene = scene_of([instance(apart), instance(Affine3A::IDENTITY), Geometry::Mesh(mesh.clone())]);
-    let instances = Instances::new(&scene);
-    let mut met = [0; 3];
-    for i in 0..2000 {
-        let ray = ray_at(&mesh, i);
-        if let Some(hit) = instances.closest(&ray) {
-            met[hit.instance as usize] += 1;
+    // one by one, and through a tree over them
+    for more in [0, 20] {
+        let apart = |i: usize| instance(Affine3A::from_translation(Vec3::X * (5.0 + 3.0 * i as f32)));
+        let first = [apart(0), instance(Affine3A::IDENTITY), Geometry::Mesh(mesh.clone())];
+        let instances = Instances::new(&scene_of(first.into_iter().chain((0..more).map(apart))));
+        let mut met = vec![0; instances.len()];
+        for i in 0..2000 {
+            let ray = ray_at(&mesh, i);
+            if let Some(hit) = instances.closest(&ray) {
+                met[hit.instance as usize] += 1;
+            }
+            assert_eq!(instances.closest(&ray).is_some(), instances.occluded(&ray, |_| true));
         }
+        assert!(met[1] > 1000 && met[2] == 0, "{met:?}");
     }
-    assert!(met[1] > 1000 && met[2] == 0, "{met:?}");
 }

@@ -10,6 +10,7 @@ use super::bvh8_leaf::{LeafRay, element, take};
 use super::bvh8_walk::{Boxes, Visitor, walk};
 use super::mesh_tree::MeshTree;
 use super::triangle::{ShearedRay, Triangle};
+use obvhs::aabb::Aabb;
 use obvhs::cwbvh::node::CwBvhNode;
 use scene::Vec3;
 use simd::{Row, RowKernel, Rows};
@@ -42,7 +43,7 @@ impl MeshHit {
 /// A ray, ready for compressed boxes, with the slack of [`super::bvh8_walk`]: a plane at `p + q * s` is met at
 /// `q * (s * inverse) + (p * inverse - origin * inverse)`. `s` is a power of two, so that the first product is exact, and
 /// what rounding `p * inverse` adds the boxes' padding covers.
-struct CompressedRay {
+pub(super) struct CompressedRay {
     inverse: [f32; 3],
     enter: [f32; 3],
     leave: [f32; 3],
@@ -50,7 +51,7 @@ struct CompressedRay {
 }
 
 impl CompressedRay {
-    fn new(ray: &Ray) -> Self {
+    pub fn new(ray: &Ray) -> Self {
         let (origin, direction) = (ray.origin.to_array(), ray.direction.to_array());
         let mut this = CompressedRay { inverse: [0.0; 3], enter: [0.0; 3], leave: [0.0; 3], backwards: [false; 3] };
         for axis in 0..3 {
@@ -64,6 +65,18 @@ impl CompressedRay {
             this.backwards[axis] = d < 0.0;
         }
         this
+    }
+
+    /// Whether the ray meets a box up to `tmax`, which is padded as those of nodes are.
+    pub fn meets(&self, bounds: &Aabb, tmax: f32) -> bool {
+        let (low, high) = (bounds.min.to_array(), bounds.max.to_array());
+        let (mut near, mut far) = (0.0f32, tmax);
+        for axis in 0..3 {
+            let (first, last) = if self.backwards[axis] { (high, low) } else { (low, high) };
+            near = near.max(first[axis] * self.inverse[axis] + self.enter[axis]);
+            far = far.min(last[axis] * self.inverse[axis] + self.leave[axis]);
+        }
+        near <= far
     }
 
     /// As [`Boxes::meet`].
