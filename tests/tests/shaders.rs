@@ -175,6 +175,9 @@ fn mirrors_of_the_path_tracer_have_the_layout_of_their_structs() {
             instance_root,
             instance_primitives,
             instance_surfaces,
+            attributes,
+            textures,
+            texel_rows,
             seen,
             shading,
             usual_cones,
@@ -188,17 +191,53 @@ fn mirrors_of_the_path_tracer_have_the_layout_of_their_structs() {
         Shape,
         [a, normal_x, b, normal_y, c, normal_z, d, id, normal_low, flatness, plane_point]
     );
-    assert_same_layout!("pathtrace/scene.wgsl", Surface, [normal, material, light, group]);
+    assert_same_layout!("pathtrace/scene.wgsl", Surface, [normal, material, light, group, triangle]);
     assert_same_layout!("pathtrace/scene.wgsl", Checkerboard, [even, odd, origin, cells_per_unit]);
     assert_same_layout!(
         "pathtrace/scene.wgsl",
         Material,
-        [colour, emission, emitting_sides, lobe, ior, root, root_low, eta, alpha, k, off, through]
+        [
+            colour,
+            emission,
+            emitting_sides,
+            lobe,
+            ior,
+            root,
+            root_low,
+            eta,
+            alpha,
+            k,
+            off,
+            through,
+            colour_texture,
+            emission_texture,
+            normal_texture,
+            alpha_texture,
+            normal_scale,
+            alpha_factor,
+            alpha_cutoff,
+            metallic_roughness_texture
+        ]
     );
     assert_same_layout!(
         "pathtrace/scene.wgsl",
         Light,
-        [position, outline, u, area, v, square, normal, two_sided, radiance, probability, cumulative, group, material]
+        [
+            position,
+            outline,
+            u,
+            area,
+            v,
+            square,
+            normal,
+            two_sided,
+            radiance,
+            probability,
+            cumulative,
+            group,
+            material,
+            corners
+        ]
     );
     assert_same_layout!("pathtrace/drive/film.wgsl", PictureFrame, [eye, forward, right, up]);
     assert_same_layout!(

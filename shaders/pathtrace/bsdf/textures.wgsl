@@ -69,8 +69,7 @@ fn wrapped(at: i32, count: i32, wrap: u32) -> u32 {
     return u32(clamp(inside, 0, count - 1));
 }
 
-// Of a division that is rounded down.
+// Of a division that is rounded down. Without negative numbers, of which GLSL leaves the remainder undefined.
 fn remainder(at: i32, count: i32) -> i32 {
-    let signed = at % count;
-    return select(signed, signed + count, signed < 0);
+    return select(count - 1 - (-1 - at) % count, at % count, at >= 0);
 }
