@@ -15,6 +15,7 @@ override COINCIDENT: bool = true;
 override CHECKERBOARD: bool = true;
 override MIRROR: bool = true;
 override ROUGH_CONDUCTOR: bool = true;
+override METALLIC_ROUGHNESS: bool = true;
 override DIELECTRIC: bool = true;
 // shapes that shine, by outline
 override RECTANGLE_LIGHTS: bool = true;

@@ -139,6 +139,10 @@ struct Material {
     // with which a chain off such a sphere is chosen, or through it; 0 if none is
     off: f32,
     through: f32,
+    // of metallic-roughness: share of metal, root of its facets' alpha, what its coat reflects at normal incidence
+    metallic: f32,
+    roughness: f32,
+    coat: f32,
     // places among the textures, 1 for the first, of what colour and light sent out are multiplied by, of normals and alpha;
     // 0 for none
     colour_texture: u32,
@@ -159,7 +163,8 @@ const LOBE_LAMBERT: u32 = 1u;
 const LOBE_MIRROR: u32 = 2u;
 const LOBE_DIELECTRIC: u32 = 4u;
 const LOBE_ROUGH_CONDUCTOR: u32 = 8u;
-// of a Lambert lobe: its albedo is a checkerboard
+const LOBE_METALLIC_ROUGHNESS: u32 = 16u;
+// of a Lambert lobe or metallic-roughness: its colour is a checkerboard
 const CHECKERED: u32 = 256u;
 // of a conductor: it reflects by Fresnel's equations
 const HAS_INDEX: u32 = 512u;
@@ -176,7 +181,7 @@ struct Light {
     v: vec3f,
     // whether a parallelogram's edges are at right angles
     square: u32,
-    // unit normal of a flat area light
+    // unit normal of a flat area light, axis of a point light's cone
     normal: vec3f,
     two_sided: u32,
     // radiance; intensity of a point, irradiance of a delta sun

@@ -4,7 +4,7 @@
 mod twin;
 
 use pathtrace::SamplerKind;
-use pathtrace::bsdf::{Interface, RoughConductor};
+use pathtrace::bsdf::{Interface, MetallicRoughness, RoughConductor};
 use pathtrace::gpu::GpuTracer;
 use pathtrace::intersect::SurfacePoint;
 use pathtrace::sampling::sampler::Sampler;
@@ -249,6 +249,66 @@ fn microfacets_agree() {
                     let off = (found - expected).abs();
                     assert!(off <= tolerance * expected, "{item}, alpha {}: {found} {expected}", lobe.alpha);
                 }
+            }
+        }
+    }
+}
+
+/// glTF's lobe of each roughness and share of metal: directions, weights, values and densities.
+#[test]
+fn metallic_roughness_agrees() {
+    let of = |item: u32| {
+        let ([a, b, c, d], [e, ..]) = (units(item, 18), units(item, 19));
+        let turn = b * std::f32::consts::TAU;
+        let sine = (1.0 - a * a).sqrt();
+        let wo = Vec3::new(sine * turn.cos(), sine * turn.sin(), a.max(1e-3)).normalize();
+        let metallic = [0.0, 0.3, 1.0][item as usize % 3];
+        let roughness = [0.0, 0.1, 0.3, 0.7, 1.0][item as usize % 5];
+        let lobe = MetallicRoughness { base_colour: Vec3::new(0.9, 0.5, 0.1), metallic, roughness, ior: 1.5 };
+        (lobe, wo, lobe.sample(wo, [c, d, e]))
+    };
+    let file = "pathtrace/bsdf/metallic_roughness.wgsl";
+    let surface = "let surface = MetallicRoughness(vec3f(0.9, 0.5, 0.1), f(at + 3u), max(f(at + 4u), SMOOTHEST), 0.04);
+        let wo = vec(at);";
+    for tracer in devices() {
+        let given = input(|item| {
+            let ((lobe, wo, _), [_, _, c, d], [e, ..]) = (of(item), units(item, 18), units(item, 19));
+            numbers(wo, [lobe.metallic, lobe.roughness, c, d, e])
+        });
+        let sample = "let sample = sample_coated(surface, wo, vec3f(f(at + 5u), f(at + 6u), f(at + 7u)));";
+        let run = |answer: &str| run(&tracer, file, &format!("{surface}\n{sample}\n{answer}"), &[], &given);
+        let directions = run("return bits(sample.wi.x, sample.wi.y, sample.wi.z, 0.0);");
+        let off = farthest(&directions, |item| {
+            let (_, _, (wi, ..)) = of(item);
+            [wi.x, wi.y, wi.z, 0.0]
+        });
+        // twice a unit vector times a cosine, each rounded a few times on the way
+        assert!(off < 2e-5, "directions are off by {off}");
+        let weights = run("let w = sample.weight; return bits(w.x, w.y, w.z, 0.0);");
+        let off = farthest(&weights, |item| {
+            let (_, _, (_, weight, _)) = of(item);
+            [weight.x, weight.y, weight.z, 0.0]
+        });
+        assert!(off < 2e-3, "weights are off by {off}");
+        // as shares of the processor's; at directions of its own, so that both look at one facet
+        let given = input(|item| {
+            let (lobe, wo, (wi, ..)) = of(item);
+            let [x, y, z] = if wi.z > 1e-3 { wi } else { Vec3::Z }.to_array();
+            numbers(wo, [lobe.metallic, lobe.roughness, x, y, z])
+        });
+        let body = "let wi = vec(at + 5u);
+            let value = eval_coated(surface, wo, wi);
+            return bits(value.factor * value.colour.x, value.factor * value.colour.z, pdf_coated(surface, wo, wi), 0.0);";
+        let found = twin::run(&tracer, file, &format!("{surface}\n{body}"), &[], &given);
+        for (item, found) in (0..).zip(&found) {
+            let (lobe, wo, (wi, ..)) = of(item);
+            let wi = if wi.z > 1e-3 { wi } else { Vec3::Z };
+            let (value, pdf) = (lobe.eval(wo, wi), lobe.pdf(wo, wi));
+            // of a facet's slope, in widths of the distribution
+            let tolerance = 1e-4 + 4e-6 / lobe.roughness.max(0.01).powi(2);
+            for (found, expected) in found.map(f32::from_bits).into_iter().zip([value.x, value.z, pdf]) {
+                let off = (found - expected).abs();
+                assert!(off <= tolerance * expected, "{item}, {lobe:?}: {found} {expected}");
             }
         }
     }

@@ -3,8 +3,9 @@
 use crate::hard::{known, spot, with_geometry};
 use crate::measure::{Trial, adding, farthest};
 use pathtrace::{Estimator, PathSettings, Roulette, Tracer, WhittedSettings};
-use scene::{Bsdf, Camera, Conductor, Geometry, Scene, Shape, Texture, Vec3};
+use scene::{Bsdf, Camera, Conductor, Geometry, MetallicRoughness, Scene, Shape, Texture, Vec3};
 use std::f32::consts::PI;
+use std::f64;
 use std::f64::consts::LN_2;
 
 /// Independent samples of paths.
@@ -34,7 +35,39 @@ pub fn rough_metal() -> Scene {
     scene
 }
 
+/// Of a sphere of white matter under a glossy coat, of glTF's material, what is reflected straight back under a sky of 1: by
+/// the angle of the light, in the middle of which the facet lies. [`coated`] has alpha 1/4.
+pub fn of_coated() -> f64 {
+    const STEPS: usize = 10_000;
+    let (alpha2, width, pi) = (1.0 / 16.0, f64::consts::FRAC_PI_2 / STEPS as f64, f64::consts::PI);
+    let schlick = |cosine: f64, most: f64| 0.04 + (most - 0.04) * (1.0 - cosine).powi(5);
+    let ring = |step: usize| {
+        let angle = (step as f64 + 0.5) * width;
+        let ((sin, cos), half) = (angle.sin_cos(), (0.5 * angle).cos());
+        let d = alpha2 / (pi * (half * half * (alpha2 - 1.0) + 1.0).powi(2));
+        let v = 0.5 / (cos + (alpha2 + (1.0 - alpha2) * cos * cos).sqrt());
+        // what the coat takes at least: 12 times the cube of the roughness in it
+        let coat = schlick(half, 1.0).max(schlick(cos, 0.04 + 0.96 / (1.0 + 12.0 * 0.125)));
+        2.0 * pi * sin * cos * (d * v * schlick(half, 1.0) + (1.0 - coat) / pi) * width
+    };
+    (0..STEPS).map(ring).sum()
+}
+
+/// That sphere, seen in its middle.
+pub fn coated() -> Scene {
+    let base_colour = Texture::Constant(Vec3::ONE);
+    let model = MetallicRoughness { base_colour, metallic: 0.0, roughness: 0.5, metallic_roughness: None, ior: 1.5 };
+    let mut scene = rough_metal();
+    scene.materials[0].bsdf = Bsdf::MetallicRoughness(model);
+    scene
+}
+
 pub fn white_furnace(trial: &mut Trial) {
+    let coated = coated();
+    for estimator in [Estimator::UNIFORM, Estimator::COSINE, Estimator::MIS] {
+        let seen = (&Tracer::new(&coated), &coated.camera);
+        trial.traced("metallic-roughness, alpha 1/4", of_coated(), seen, with(estimator, None, Roulette::OFF));
+    }
     let metal = rough_metal();
     for estimator in [Estimator::UNIFORM, Estimator::COSINE, Estimator::MIS] {
         let seen = (&Tracer::new(&metal), &metal.camera);

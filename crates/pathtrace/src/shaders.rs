@@ -8,6 +8,8 @@ pub const SOURCES: &[Source<'static>] = gpu::wgsl_sources![
     "pathtrace/bsdf/dielectric.wgsl",
     "pathtrace/bsdf/interaction.wgsl",
     "pathtrace/bsdf/lambert.wgsl",
+    "pathtrace/bsdf/metallic_roughness.wgsl",
+    "pathtrace/bsdf/microfacets.wgsl",
     "pathtrace/bsdf/mirror.wgsl",
     "pathtrace/bsdf/textures.wgsl",
     "pathtrace/bsdf/rough_conductor.wgsl",

@@ -1,7 +1,10 @@
 //! What both machines must agree on: constants and overrides by their names, for the test that holds them against what
 //! the shaders say.
 
-use crate::bsdf::materials::{CHECKERED, HAS_INDEX, LOBE_DIELECTRIC, LOBE_LAMBERT, LOBE_MIRROR, LOBE_ROUGH_CONDUCTOR};
+use crate::bsdf::materials::{
+    CHECKERED, HAS_INDEX, LOBE_DIELECTRIC, LOBE_LAMBERT, LOBE_METALLIC_ROUGHNESS, LOBE_MIRROR, LOBE_ROUGH_CONDUCTOR,
+};
+use crate::bsdf::metallic_roughness::{LEAST_SPECULAR, POLISHED, SMOOTHEST};
 use crate::caster::cone::{CONE_DENSITY, MOST_CONES, MOST_SHARE, NARROWEST, WIDEST};
 use crate::caster::sphere_chain::{LAST_STEP, MOST_ROOTS, MOST_STEPS, NEAR_AXIS};
 use crate::drive::gpu::dispatch::GROUP;
@@ -93,6 +96,7 @@ pub fn shared_constants() -> Vec<(&'static str, f64)> {
         MET_BY_CHANCE,
         MOST_BRANCHES,
         MOST_CELLS,
+        LOBE_METALLIC_ROUGHNESS,
         MOST_DEPTH,
         MOST_LEVELS,
         MOST_CONES,
@@ -117,8 +121,10 @@ pub fn shared_constants() -> Vec<(&'static str, f64)> {
         SPARED_VERTICES,
         SPLITTING_VERTICES,
         SMALLEST_POSITIVE,
+        POLISHED,
         SMALLEST_SOLID_ANGLE,
         STAGE_INSIDE,
+        SMOOTHEST,
         STAGE_LEFT,
         STAGE_NONE,
         STAGE_OFF,

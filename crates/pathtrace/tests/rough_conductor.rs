@@ -1,6 +1,9 @@
 //! The lobe of rough metal against its own density, against quadrature in f64 of the textbook's equations, and against
 //! Fresnel's equations in complex numbers.
 
+mod facets;
+
+use facets::{at, facet, place};
 use pathtrace::bsdf::RoughConductor;
 use pathtrace::sampling::sampler::Sampler;
 use scene::glam::DVec3;
@@ -14,11 +17,6 @@ fn white(alpha: f32) -> RoughConductor {
     RoughConductor { alpha, conductor: Conductor::Constant(Vec3::ONE) }
 }
 
-fn at(degrees: f64) -> DVec3 {
-    let angle = degrees.to_radians();
-    DVec3::new(angle.sin(), 0.0, angle.cos())
-}
-
 /// Every lobe under every angle.
 fn lobes() -> impl Iterator<Item = (RoughConductor, DVec3, String)> {
     let one = |alpha, degrees| (white(alpha), at(degrees), format!("alpha {alpha}, {degrees} degrees"));
@@ -28,22 +26,6 @@ fn lobes() -> impl Iterator<Item = (RoughConductor, DVec3, String)> {
 fn random(item: u32) -> [f32; 2] {
     let [u, v, ..] = Sampler::independent(5, item, 1).unit4(0);
     [u, v]
-}
-
-/// Facets by coordinates in which GGX' distribution is smooth whatever its width: `1 - (1 - v)^2` is the share of facets
-/// that are less steep. Returns the facet's normal, and the solid angle for each unit of (v, turn).
-fn facet(alpha: f64, v: f64, turn: f64) -> (DVec3, f64) {
-    let rest = 1.0 - v;
-    let r2 = (1.0 - rest * rest) / (rest * rest);
-    let (slope, (sin, cos)) = (alpha * r2.sqrt(), (TAU * turn).sin_cos());
-    let normal = DVec3::new(slope * cos, slope * sin, 1.0).normalize();
-    (normal, TAU * alpha.powi(2) * normal.z.powi(3) * rest / rest.powi(4))
-}
-
-/// The coordinates of a facet.
-fn place(alpha: f64, facet: DVec3) -> [f64; 2] {
-    let r2 = (facet.x * facet.x + facet.y * facet.y) / (alpha * facet.z).powi(2);
-    [1.0 - 1.0 / (1.0 + r2).sqrt(), (facet.y.atan2(facet.x) / TAU).rem_euclid(1.0)]
 }
 
 const ROWS: usize = 10;

@@ -144,6 +144,11 @@ pub struct MetallicRoughness {
     pub ior: f32,
 }
 
+impl MetallicRoughness {
+    /// Index of refraction of the coat where none is stated.
+    pub const USUAL_IOR: f32 = 1.5;
+}
+
 /// Light that a surface sends out, the same in all directions.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Emission {

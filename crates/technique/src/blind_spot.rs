@@ -268,9 +268,10 @@ fn has_long_chains(scene: &Scene) -> bool {
     casters.next().is_some_and(|first| inside(first) || casters.next().is_some())
 }
 
-/// What trees of rays lack whatever their settings are: rough metal is a mirror to them.
+/// What trees of rays lack whatever their settings are: rough metal is a mirror to them, and so are the metal and the polish
+/// of metallic-roughness.
 fn of_trees(needs: &Needs) -> Vec<BlindSpot> {
-    let caustics = Specular::of(needs).is_some() || needs.rough_conductor;
+    let caustics = Specular::of(needs).is_some() || needs.rough_conductor || needs.metallic_roughness;
     std::iter::once(BlindSpot::BetweenSurfaces).chain(caustics.then_some(BlindSpot::Caustics)).collect()
 }
 
@@ -279,7 +280,7 @@ fn from_afar(scene: &Scene) -> Option<BlindSpot> {
 }
 
 fn is_blind_in_metal(path: &PathSettings, needs: &Needs) -> bool {
-    needs.rough_conductor
+    (needs.rough_conductor || needs.metallic_roughness)
         && path.estimator.samples_lights()
         && !matches!(path.estimator, Estimator::MIS | Estimator::GUIDED_MIS)
 }

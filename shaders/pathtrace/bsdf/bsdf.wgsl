@@ -3,6 +3,7 @@
 //#import pathtrace/bsdf/dielectric.wgsl
 //#import pathtrace/bsdf/rough_conductor.wgsl
 //#import pathtrace/bsdf/shading.wgsl
+//#import pathtrace/bsdf/metallic_roughness.wgsl
 // How surfaces scatter light: what integrators ask of whatever lobe a surface has. Directions point away from the
 // surface; wo is where the path came from, wi where it goes on. Twin: crates/pathtrace/src/bsdf/mod.rs.
 
@@ -25,6 +26,9 @@ fn sample_lobe(at: Interaction, u: vec3f) -> BsdfSample {
     if ROUGH_CONDUCTOR && (at.lobe & LOBE_ROUGH_CONDUCTOR) != 0u {
         return sample_rough_conductor(at, u.xy);
     }
+    if METALLIC_ROUGHNESS && (at.lobe & LOBE_METALLIC_ROUGHNESS) != 0u {
+        return sample_metallic_roughness(at, u);
+    }
     return sample_lambert(at, u.xy);
 }
 
@@ -38,6 +42,9 @@ fn eval_lobe(at: Interaction, wi: vec3f) -> ScaledColour {
     if ROUGH_CONDUCTOR && (at.lobe & LOBE_ROUGH_CONDUCTOR) != 0u {
         return eval_rough_conductor(at, wi);
     }
+    if METALLIC_ROUGHNESS && (at.lobe & LOBE_METALLIC_ROUGHNESS) != 0u {
+        return eval_metallic_roughness(at, wi);
+    }
     return eval_lambert(at);
 }
 
@@ -45,6 +52,9 @@ fn eval_lobe(at: Interaction, wi: vec3f) -> ScaledColour {
 fn bsdf_pdf(at: Interaction, wi: vec3f, cosine: f32) -> f32 {
     if ROUGH_CONDUCTOR && (at.lobe & LOBE_ROUGH_CONDUCTOR) != 0u {
         return pdf_rough_conductor(at, wi);
+    }
+    if METALLIC_ROUGHNESS && (at.lobe & LOBE_METALLIC_ROUGHNESS) != 0u {
+        return pdf_metallic_roughness(at, wi);
     }
     return pdf_lambert(cosine);
 }
@@ -59,7 +69,8 @@ struct Specular {
     transmittance: f32,
 }
 
-// Both directions in which a mirror or glass sends light on. Rough metal is taken for a mirror that reflects as much.
+// Both directions in which a mirror or glass sends light on. Rough metal is taken for a mirror that reflects as much,
+// and so is the metal of metallic-roughness, and a polished coat.
 fn specular_of(at: Interaction) -> Specular {
     var specular = specular_of_lobe(at);
     if SHADING_NORMALS {
@@ -86,5 +97,17 @@ fn specular_of_lobe(at: Interaction) -> Specular {
         let share = conductor_fresnel(rough_conductor_of(at), dot(at.normal, at.wo));
         return Specular(any(share != vec3f(0.0)), false, mirrored, mirrored, ScaledColour(share, 1.0), 0.0);
     }
+    if METALLIC_ROUGHNESS && (at.lobe & LOBE_METALLIC_ROUGHNESS) != 0u {
+        let share = coated_stand_ins(metallic_roughness_of(at), dot(at.normal, at.wo)).mirrored;
+        return Specular(any(share != vec3f(0.0)), false, mirrored, mirrored, ScaledColour(share, 1.0), 0.0);
+    }
     return Specular(any(at.colour != vec3f(0.0)), false, mirrored, mirrored, ScaledColour(at.colour, 1.0), 0.0);
+}
+
+// The albedo by which a tree of rays lights the surface directly, beside what specular_of sends on; black if it does not.
+fn lit_albedo(at: Interaction) -> vec3f {
+    if METALLIC_ROUGHNESS && (at.lobe & LOBE_METALLIC_ROUGHNESS) != 0u {
+        return coated_stand_ins(metallic_roughness_of(at), dot(at.normal, at.wo)).lit;
+    }
+    return select(vec3f(0.0), at.colour, is_diffuse(at));
 }

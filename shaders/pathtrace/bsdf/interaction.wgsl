@@ -11,7 +11,8 @@ struct Interaction {
     normal: vec3f,
     // unit direction back along the ray
     wo: vec3f,
-    // albedo of diffuse surfaces there, reflectance of mirrors and of metal at normal incidence, 1 for glass
+    // albedo of diffuse surfaces there, reflectance of mirrors and of metal at normal incidence, base colour of
+    // metallic-roughness, 1 for glass
     colour: vec3f,
     // what the surface does to light
     lobe: u32,
@@ -47,6 +48,11 @@ fn delta_sample(at: Interaction, wi: vec3f) -> BsdfSample {
 // Whether the surface scatters by Lambert's law.
 fn is_diffuse(at: Interaction) -> bool {
     return (at.lobe & LOBE_LAMBERT) != 0u;
+}
+
+// Whether the surface scatters any light: a coat does also on a black body.
+fn scatters(at: Interaction) -> bool {
+    return any(at.colour != vec3f(0.0)) || (METALLIC_ROUGHNESS && (at.lobe & LOBE_METALLIC_ROUGHNESS) != 0u);
 }
 
 // Whether the surface leaves no choice of direction but among few: what falls on it from a light that is sampled is

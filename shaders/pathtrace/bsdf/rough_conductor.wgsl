@@ -1,8 +1,7 @@
 //#import pathtrace/bsdf/interaction.wgsl
-//#import pathtrace/sampling/warp.wgsl
-// Rough metal: microfacets whose slopes have GGX' distribution, with Smith's height-correlated masking and shadowing;
-// single scattering. Directions here are local, z along the normal on the side of wo. Twin:
-// crates/pathtrace/src/bsdf/rough_conductor.rs.
+//#import pathtrace/bsdf/microfacets.wgsl
+// Rough metal: microfacets of metal; single scattering. Directions here are local, z along the normal on the side of wo.
+// Twin: crates/pathtrace/src/bsdf/rough_conductor.rs.
 
 struct RoughConductor {
     // width of the distribution of slopes
@@ -43,10 +42,6 @@ fn pdf_rough_conductor(at: Interaction, wi: vec3f) -> f32 {
         rough_conductor_of(at), to_local(basis, at.normal, at.wo), to_local(basis, at.normal, wi));
 }
 
-fn to_local(basis: Basis, normal: vec3f, w: vec3f) -> vec3f {
-    return vec3f(dot(basis.s, w), dot(basis.t, w), dot(normal, w));
-}
-
 // What a facet reflects of light at this cosine to its normal: Fresnel's equations for a conductor.
 fn conductor_fresnel(metal: RoughConductor, cosine: f32) -> vec3f {
     if !metal.has_index {
@@ -72,58 +67,20 @@ fn sample_microfacets(metal: RoughConductor, wo: vec3f, u: vec2f) -> BsdfSample 
     let facet = visible_normal(metal.alpha, wo, u);
     let cosine = dot(wo, facet);
     let wi = 2.0 * cosine * facet - wo;
-    // G2 / G1(wo)
-    let wo_slope = slope_length(metal.alpha, wo);
-    let wi_slope = slope_length(metal.alpha, wi);
     var passes = 0.0;
     if wi.z > 0.0 {
-        passes = wi.z * (wo.z + wo_slope) / (wi.z * wo_slope + wo.z * wi_slope);
+        passes = facets_pass(metal.alpha, wo, wi);
     }
     return BsdfSample(wi, conductor_fresnel(metal, cosine) * passes, pdf_of_facet(metal.alpha, wo, facet));
 }
 
-// F D G2 / (4 cos cos), in which the cosines cancel against those of G2.
+// F D G2 / (4 cos cos).
 fn eval_microfacets(metal: RoughConductor, wo: vec3f, wi: vec3f) -> ScaledColour {
     let facet = facet_between(wo, wi);
-    let masked = wi.z * slope_length(metal.alpha, wo) + wo.z * slope_length(metal.alpha, wi);
-    return ScaledColour(conductor_fresnel(metal, dot(wo, facet)), facet_density(metal.alpha, facet) * 0.5 / masked);
+    return ScaledColour(conductor_fresnel(metal, dot(wo, facet)), facets_value(metal.alpha, wo, wi, facet));
 }
 
 // Density of sample_microfacets per solid angle of wi.
 fn pdf_microfacets(metal: RoughConductor, wo: vec3f, wi: vec3f) -> f32 {
     return pdf_of_facet(metal.alpha, wo, facet_between(wo, wi));
-}
-
-fn facet_between(wo: vec3f, wi: vec3f) -> vec3f {
-    let sum = wo + wi;
-    return sum / sqrt(dot(sum, sum));
-}
-
-// G1 D / (4 cos), per solid angle of the reflected direction.
-fn pdf_of_facet(alpha: f32, wo: vec3f, facet: vec3f) -> f32 {
-    return facet_density(alpha, facet) * 0.5 / (wo.z + slope_length(alpha, wo));
-}
-
-// Density of facets' normals, per solid angle and area.
-fn facet_density(alpha: f32, facet: vec3f) -> f32 {
-    let xy = facet.xy / alpha;
-    let stretched = dot(xy, xy) + facet.z * facet.z;
-    return FRAC_1_PI / (alpha * alpha * stretched * stretched);
-}
-
-// cos sqrt(1 + alpha^2 tan^2), around which Smith's terms are: G1 = 2 cos / (cos + this).
-fn slope_length(alpha: f32, w: vec3f) -> f32 {
-    let xy = w.xy * alpha;
-    return sqrt(dot(xy, xy) + w.z * w.z);
-}
-
-// Draws a facet's normal as wo sees them: Dupuy and Benyoub, "Sampling Visible GGX Normals with Spherical Caps" (2023).
-fn visible_normal(alpha: f32, wo: vec3f, u: vec2f) -> vec3f {
-    let stretched = vec3f(wo.xy * alpha, wo.z);
-    let seen = stretched / sqrt(dot(stretched, stretched));
-    let one_minus_cos = seen.z + 1.0;
-    let cap = cone(one_minus_cos, u);
-    // the sum of both z, which does not cancel
-    let sum = vec3f((cap.xy + seen.xy) * alpha, one_minus_cos * (1.0 - u.x));
-    return sum / sqrt(dot(sum, sum));
 }

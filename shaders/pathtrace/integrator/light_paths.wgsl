@@ -21,7 +21,7 @@ fn light_path_row(state: u32) -> u32 {
 fn light_path_after(row: u32, lobe: u32) -> u32 {
     var shift = 0u;
     if (lobe & LOBE_LAMBERT) == 0u {
-        shift = select(16u, 8u, (lobe & LOBE_ROUGH_CONDUCTOR) != 0u);
+        shift = select(16u, 8u, (lobe & (LOBE_ROUGH_CONDUCTOR | LOBE_METALLIC_ROUGHNESS)) != 0u);
     }
     return light_path_row((row >> shift) & 0xffu);
 }

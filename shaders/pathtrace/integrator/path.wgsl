@@ -214,7 +214,7 @@ fn segment() -> u32 {
         outcome.cut = outcome.cut || params.capped == 1u;
         return PATH_ENDS;
     }
-    if all(vertex.colour == vec3f(0.0)) {
+    if !scatters(vertex) {
         return PATH_ENDS;
     }
     if BRANCHING && is_diffuse(vertex) && path.forked < params.branching_vertices {

@@ -110,20 +110,22 @@ fn follow() -> bool {
     if LIGHT_PATHS {
         light_path = light_path_after(light_path, at.lobe);
     }
-    if !is_diffuse(at) {
-        return branch.depth < params.limit && send_on(at);
+    let albedo = lit_albedo(at);
+    if any(albedo != vec3f(0.0)) {
+        light(at, albedo);
     }
-    var direct = vec3f(0.0);
-    if any(at.colour != vec3f(0.0)) {
-        direct = irradiance(at.point, at.normal);
-    }
+    return !is_diffuse(at) && branch.depth < params.limit && send_on(at);
+}
+
+// Adds the light that a diffuse surface sends along the branch: direct, and the ambient that stands for the rest.
+fn light(at: Interaction, albedo: vec3f) {
+    let direct = irradiance(at.point, at.normal);
     // ambient light stands for what comes from other diffuse surfaces
     var ambient = params.ambient;
     if LIGHT_PATHS && !counts(light_path_after(light_path, LOBE_LAMBERT)) {
         ambient = 0.0;
     }
-    outcome.radiance += branch.weight * at.colour * (direct * FRAC_1_PI + ambient);
-    return false;
+    outcome.radiance += branch.weight * albedo * (direct * FRAC_1_PI + ambient);
 }
 
 // Goes on with the refracted ray, while the reflected one waits; or with the one of them that there is, if any.

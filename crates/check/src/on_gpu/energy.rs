@@ -3,8 +3,8 @@
 use super::{Bench, Outcome};
 use crate::area_lights::direct;
 use crate::energy::{
-    CLOSED, LOST, ROUGH_METAL, SPHERES, after, direct_part, estimators_of_walls, floor_centre, lit_sphere,
-    power_between_walls, rough_metal, shining, with,
+    CLOSED, LOST, ROUGH_METAL, SPHERES, after, coated, direct_part, estimators_of_walls, floor_centre, lit_sphere,
+    of_coated, power_between_walls, rough_metal, shining, with,
 };
 use crate::hard::known;
 use crate::measure::farthest;
@@ -17,6 +17,12 @@ fn without_ambient(depth: u32) -> WhittedSettings {
 }
 
 pub fn white_furnace(bench: &mut Bench) -> Outcome {
+    let coat = coated();
+    let tracer = &mut bench.tracer(&coat)?;
+    for estimator in [Estimator::COSINE, Estimator::MIS] {
+        let settings = with(estimator, None, Roulette::OFF);
+        bench.mean("metallic-roughness, alpha 1/4", of_coated(), (tracer, &coat.camera), settings)?;
+    }
     let metal = rough_metal();
     let tracer = &mut bench.tracer(&metal)?;
     for estimator in [Estimator::COSINE, Estimator::MIS] {

@@ -14,7 +14,8 @@ pub struct Interactions<F: Float> {
     pub normal: Vector<F>,
     /// Unit direction back along the ray.
     pub wo: Vector<F>,
-    /// Albedo of diffuse surfaces there, reflectance of mirrors and of metal at normal incidence, 1 for glass.
+    /// Albedo of diffuse surfaces there, reflectance of mirrors and of metal at normal incidence, base colour of
+    /// metallic-roughness, 1 for glass.
     pub colour: Vector<F>,
     /// What the surface does to light.
     pub kinds: Kinds<F::U>,
@@ -36,6 +37,12 @@ impl<F: Float> Interactions<F> {
     #[inline(always)]
     pub fn is_delta(&self) -> F::M {
         self.kinds.delta()
+    }
+
+    /// Where the surface scatters any light: a coat does also on a black body.
+    #[inline(always)]
+    pub fn scatters(&self) -> F::M {
+        !self.colour.is_zero() | self.kinds.metallic_roughness()
     }
 
     /// Where a path goes on with a diffuse vertex of its own instead.

@@ -3,6 +3,8 @@
 //! Twins: `shaders/pathtrace/prepared.wgsl` and `shaders/shared/checkerboard.wgsl`.
 
 use super::Interactions;
+use super::metallic_roughness::{MetallicRoughnesses, SMOOTHEST, coat_of};
+use super::microfacets::Microfacets;
 use super::rough_conductor::RoughConductors;
 use super::textures::ImageTextures;
 use crate::intersect::SurfacePoints;
@@ -22,6 +24,12 @@ pub struct Materials {
     alpha: Column,
     eta: VectorColumn,
     k: VectorColumn,
+    /// Of metallic-roughness: share of metal ...
+    metallic: Column,
+    /// ... roughness ...
+    roughness: Column,
+    /// ... and what its coat reflects at normal incidence.
+    coat: Column,
     radiance: VectorColumn,
     kind: WordColumn,
     has: Has,
@@ -39,6 +47,8 @@ pub struct Has {
     pub glass: bool,
     /// Any rough metal.
     pub rough_conductors: bool,
+    /// Any metallic-roughness.
+    pub metallic_roughness: bool,
     checkerboards: bool,
     /// Any surface that is shaded by other normals than its own.
     pub shading_normals: bool,
@@ -56,7 +66,9 @@ pub const LOBE_MIRROR: u32 = 2;
 pub const LOBE_DIELECTRIC: u32 = 4;
 /// See [`LOBE_LAMBERT`].
 pub const LOBE_ROUGH_CONDUCTOR: u32 = 8;
-/// Of a Lambert lobe: its albedo is a checkerboard.
+/// See [`LOBE_LAMBERT`].
+pub const LOBE_METALLIC_ROUGHNESS: u32 = 16;
+/// Of a Lambert lobe or metallic-roughness: its colour is a checkerboard.
 pub const CHECKERED: u32 = 1 << 8;
 /// Of a conductor: it reflects by Fresnel's equations.
 pub const HAS_INDEX: u32 = 1 << 9;
@@ -121,6 +133,18 @@ impl<U: Word> Kinds<U> {
         self.has(LOBE_ROUGH_CONDUCTOR)
     }
 
+    /// Is metallic-roughness.
+    #[inline(always)]
+    pub fn metallic_roughness(self) -> U::M {
+        self.has(LOBE_METALLIC_ROUGHNESS)
+    }
+
+    /// Scatters in lobes of facets, which are no delta but may be narrow.
+    #[inline(always)]
+    pub fn glossy(self) -> U::M {
+        self.has(LOBE_ROUGH_CONDUCTOR | LOBE_METALLIC_ROUGHNESS)
+    }
+
     /// Shines.
     #[inline(always)]
     pub fn area_light(self) -> U::M {
@@ -156,6 +180,9 @@ impl Materials {
                 Bsdf::RoughConductor { roughness, .. } => roughness * roughness,
                 _ => 1.0,
             })),
+            metallic: Column::new(models(materials).map(|model| model.map_or(0.0, |model| model.metallic))),
+            roughness: Column::new(models(materials).map(|model| model.map_or(1.0, |model| model.roughness))),
+            coat: Column::new(models(materials).map(|model| model.map_or(0.0, |model| coat_of(model.ior)))),
             eta: vectors(|material| index_of(material).0),
             k: vectors(|material| index_of(material).1),
             radiance: vectors(|material| material.emission.map_or(Vec3::ZERO, |emission| emission.radiance)),
@@ -164,6 +191,7 @@ impl Materials {
                 mirrors: any(LOBE_MIRROR),
                 glass: any(LOBE_DIELECTRIC),
                 rough_conductors: any(LOBE_ROUGH_CONDUCTOR),
+                metallic_roughness: any(LOBE_METALLIC_ROUGHNESS),
                 checkerboards: any(CHECKERED),
                 shading_normals: false,
             },
@@ -180,6 +208,7 @@ impl Materials {
             mirrors: true,
             glass: true,
             rough_conductors: true,
+            metallic_roughness: true,
             checkerboards: true,
             shading_normals,
         };
@@ -238,11 +267,28 @@ impl Materials {
     #[inline(always)]
     pub fn rough_conductor<F: Float>(&self, at: &Interactions<F>) -> RoughConductors<F> {
         RoughConductors {
-            alpha: at.material.look_up(&self.alpha),
+            facets: Microfacets { alpha: at.material.look_up(&self.alpha) },
             reflectance: at.colour,
             has_index: at.kinds.has(HAS_INDEX),
             eta: self.eta.look_up(at.material),
             k: self.k.look_up(at.material),
+        }
+    }
+
+    /// The metallic-roughness among these: here alone is asked what pictures may vary from place to place.
+    #[inline(always)]
+    pub fn metallic_roughness<F: Float>(&self, at: &Interactions<F>) -> MetallicRoughnesses<F> {
+        let mut metallic: F = at.material.look_up(&self.metallic);
+        let mut roughness: F = at.material.look_up(&self.roughness);
+        if self.textures.has_metallic_roughness() {
+            let [metal, rough] = self.textures.metallic_roughness(at.material, at.uv);
+            (metallic, roughness) = (metallic * metal, roughness * rough);
+        }
+        MetallicRoughnesses {
+            base_colour: at.colour,
+            metallic,
+            roughness: roughness.max(F::splat(SMOOTHEST)),
+            coat: at.material.look_up(&self.coat),
         }
     }
 
@@ -262,6 +308,13 @@ fn board_of(material: &Material) -> Option<scene::material::Checkerboard> {
     }
 }
 
+fn models(materials: &[Material]) -> impl Iterator<Item = Option<&MetallicRoughness>> {
+    materials.iter().map(|material| match &material.bsdf {
+        Bsdf::MetallicRoughness(model) => Some(model),
+        _ => None,
+    })
+}
+
 /// Index of refraction and extinction coefficient of metals.
 fn index_of(material: &Material) -> (Vec3, Vec3) {
     match material.bsdf {
@@ -273,14 +326,17 @@ fn index_of(material: &Material) -> (Vec3, Vec3) {
 /// The code of a lobe, and of what varies it.
 pub fn lobe_of(bsdf: &Bsdf) -> u32 {
     match bsdf {
-        Bsdf::Diffuse { albedo: colour } | Bsdf::MetallicRoughness(MetallicRoughness { base_colour: colour, .. }) => {
-            LOBE_LAMBERT | if matches!(colour, Texture::Checkerboard(_)) { CHECKERED } else { 0 }
-        }
+        Bsdf::Diffuse { albedo } => LOBE_LAMBERT | checkered(albedo),
+        Bsdf::MetallicRoughness(model) => LOBE_METALLIC_ROUGHNESS | checkered(&model.base_colour),
         Bsdf::Mirror { .. } => LOBE_MIRROR,
         Bsdf::RoughConductor { conductor: Conductor::Constant(_), .. } => LOBE_ROUGH_CONDUCTOR,
         Bsdf::RoughConductor { conductor: Conductor::Fresnel { .. }, .. } => LOBE_ROUGH_CONDUCTOR | HAS_INDEX,
         Bsdf::Dielectric { .. } => LOBE_DIELECTRIC,
     }
+}
+
+fn checkered(colour: &Texture) -> u32 {
+    if matches!(colour, Texture::Checkerboard(_)) { CHECKERED } else { 0 }
 }
 
 fn kind_of(material: &Material) -> u32 {

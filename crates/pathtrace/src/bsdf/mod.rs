@@ -10,6 +10,8 @@ pub mod dielectric;
 pub mod interaction;
 pub mod lambert;
 pub mod materials;
+pub mod metallic_roughness;
+pub mod microfacets;
 pub mod mirror;
 pub mod rough_conductor;
 pub mod shading;
@@ -19,6 +21,7 @@ pub use dielectric::{Interface, Interfaces};
 pub use interaction::Interactions;
 use interaction::facing;
 use materials::Materials;
+pub use metallic_roughness::MetallicRoughness;
 pub use rough_conductor::RoughConductor;
 use simd::{Float, Mask, Vector};
 
@@ -87,6 +90,11 @@ impl Materials {
             let drawn = rough_conductor::sample(at, &self.rough_conductor(at), [u[0], u[1]]);
             sample = BsdfSamples::select(rough, drawn, sample);
         }
+        let coated = here & at.kinds.metallic_roughness();
+        if self.has().metallic_roughness && coated.any() {
+            let drawn = metallic_roughness::sample(at, &self.metallic_roughness(at), u);
+            sample = BsdfSamples::select(coated, drawn, sample);
+        }
         sample
     }
 
@@ -111,27 +119,38 @@ impl Materials {
 
     #[inline(always)]
     fn eval_lobe<F: Float>(&self, at: &Interactions<F>, wi: Vector<F>) -> ScaledColours<F> {
+        let mut value = lambert::eval(at);
         let rough = at.kinds.rough_conductor();
         if self.has().rough_conductors && rough.any() {
-            let value = rough_conductor::eval(at, &self.rough_conductor(at), wi);
-            return ScaledColours::select(rough, value, lambert::eval(at));
+            value = ScaledColours::select(rough, rough_conductor::eval(at, &self.rough_conductor(at), wi), value);
         }
-        lambert::eval(at)
+        let coated = at.kinds.metallic_roughness();
+        if self.has().metallic_roughness && coated.any() {
+            value =
+                ScaledColours::select(coated, metallic_roughness::eval(at, &self.metallic_roughness(at), wi), value);
+        }
+        value
     }
 
     /// Density per solid angle of [`Materials::sample`] at `wi`, whose cosine to the normal is above 0. Not of lobes that
     /// leave no choice.
     #[inline(always)]
     pub fn pdf<F: Float>(&self, at: &Interactions<F>, wi: Vector<F>, cosine: F) -> F {
+        let mut density = lambert::pdf(cosine);
         let rough = at.kinds.rough_conductor();
         if self.has().rough_conductors && rough.any() {
-            return F::select(rough, rough_conductor::pdf(at, &self.rough_conductor(at), wi), lambert::pdf(cosine));
+            density = F::select(rough, rough_conductor::pdf(at, &self.rough_conductor(at), wi), density);
         }
-        lambert::pdf(cosine)
+        let coated = at.kinds.metallic_roughness();
+        if self.has().metallic_roughness && coated.any() {
+            density = F::select(coated, metallic_roughness::pdf(at, &self.metallic_roughness(at), wi), density);
+        }
+        density
     }
 
     /// Both directions in which mirrors and glass send light on, `here`. Rough metal is taken for a mirror that reflects as
-    /// much: what a tree of rays, of which each has one direction, can follow.
+    /// much: what a tree of rays, of which each has one direction, can follow. So is the metal of metallic-roughness, and a
+    /// polished coat.
     #[inline(always)]
     pub fn speculars<F: Float>(&self, here: F::M, at: &Interactions<F>) -> Speculars<F> {
         let mut speculars = self.speculars_of_lobe(here, at);
@@ -162,6 +181,12 @@ impl Materials {
             speculars.reflectance.colour = Vector::select(rough, share, at.colour);
             speculars.reflects = mirrors | (rough & !share.is_zero());
         }
+        let coated = here & at.kinds.metallic_roughness();
+        if self.has().metallic_roughness && coated.any() {
+            let [share, _] = self.metallic_roughness(at).stand_ins(at.normal.dot(at.wo));
+            speculars.reflectance.colour = Vector::select(coated, share, speculars.reflectance.colour);
+            speculars.reflects = speculars.reflects | (coated & !share.is_zero());
+        }
         let glass = here & at.kinds.glass();
         if self.has().glass && glass.any() {
             let split = dielectric::split(at, self.ior(at.material));
@@ -172,6 +197,21 @@ impl Materials {
             speculars.transmittance = one - split.reflectance;
         }
         speculars
+    }
+}
+
+impl Materials {
+    /// The albedo by which a tree of rays lights surfaces directly, beside what [`Materials::speculars`] sends on; black of
+    /// those that it does not light.
+    #[inline(always)]
+    pub fn lit_albedo<F: Float>(&self, at: &Interactions<F>) -> Vector<F> {
+        let albedo = Vector::select(at.is_diffuse(), at.colour, Vector::zero());
+        let coated = at.kinds.metallic_roughness();
+        if self.has().metallic_roughness && coated.any() {
+            let [_, rest] = self.metallic_roughness(at).stand_ins(at.normal.dot(at.wo));
+            return Vector::select(coated, rest, albedo);
+        }
+        albedo
     }
 }
 

@@ -1,23 +1,17 @@
-//! Rough metal: microfacets whose slopes have GGX' distribution (Trowbridge and Reitz 1975; Walter et al. 2007), with
-//! Smith's height-correlated masking and shadowing (Heitz, "Understanding the Masking-Shadowing Function in
-//! Microfacet-Based BRDFs", JCGT 3(2), 2014). Single scattering: what a facet reflects onto another one is lost.
-//!
-//! Directions here are local, z along the normal on the side of `wo`. Everything is written around the squares of sines
-//! as they come from x and y, not `1 - z^2`: alpha goes down to 1e-4, where the textbook's form of the distribution is
-//! infinite in f32. Twin: `shaders/pathtrace/bsdf/rough_conductor.wgsl`.
+//! Rough metal: microfacets of metal. Single scattering: what a facet reflects onto another one is lost. Twin:
+//! `shaders/pathtrace/bsdf/rough_conductor.wgsl`.
 
+use super::microfacets::{Frame, Microfacets};
 use super::{BsdfSamples, Interactions, ScaledColours};
-use crate::sampling::warp::{cone, orthonormal_basis};
 use crate::vectors::{glam_vector, in_all_lanes, lane_vector};
 use scene::{Conductor, Vec3};
 use simd::{Float, Mask, Vector};
-use std::f32::consts::FRAC_1_PI;
 
 /// A rough metal in each lane.
 #[derive(Debug, Clone, Copy)]
 pub struct RoughConductors<F: Float> {
-    /// Width of the distribution of slopes, the square of the roughness.
-    pub alpha: F,
+    /// The facets of its surface.
+    pub facets: Microfacets<F>,
     /// What facets reflect where no equations say it.
     pub reflectance: Vector<F>,
     /// Where Fresnel's equations say what facets reflect ...
@@ -69,62 +63,25 @@ impl<F: Float> RoughConductors<F> {
     /// Draws a direction; the weight is 0 where it lies below the surface.
     #[inline(always)]
     pub fn sample(&self, wo: Vector<F>, u: [F; 2]) -> BsdfSamples<F> {
-        let facet = self.visible_normal(wo, u);
+        let facet = self.facets.visible_normal(wo, u);
         let cosine = wo.dot(facet);
         let wi = facet * (cosine * 2.0) - wo;
-        // G2 / G1(wo)
-        let (wo_slope, wi_slope) = (self.slope_length(wo), self.slope_length(wi));
-        let passes = wi.z * (wo.z + wo_slope) / (wi.z * wo_slope + wo.z * wi_slope);
         let zero = F::splat(0.0);
-        let weight = self.fresnel(cosine) * F::select(wi.z.gt(zero), passes, zero);
-        BsdfSamples { wi, weight, pdf: self.pdf_of_facet(wo, facet) }
+        let weight = self.fresnel(cosine) * F::select(wi.z.gt(zero), self.facets.passes(wo, wi), zero);
+        BsdfSamples { wi, weight, pdf: self.facets.pdf(wo, facet) }
     }
 
-    /// F D G2 / (4 cos cos), in which the cosines cancel against those of G2.
+    /// F D G2 / (4 cos cos).
     #[inline(always)]
     pub fn eval(&self, wo: Vector<F>, wi: Vector<F>) -> ScaledColours<F> {
         let facet = (wo + wi).normalize();
-        let masked = wi.z * self.slope_length(wo) + wo.z * self.slope_length(wi);
-        ScaledColours { colour: self.fresnel(wo.dot(facet)), factor: self.distribution(facet) * 0.5 / masked }
+        ScaledColours { colour: self.fresnel(wo.dot(facet)), factor: self.facets.value(wo, wi, facet) }
     }
 
     /// Density of [`RoughConductors::sample`] per solid angle of `wi`.
     #[inline(always)]
     pub fn pdf(&self, wo: Vector<F>, wi: Vector<F>) -> F {
-        self.pdf_of_facet(wo, (wo + wi).normalize())
-    }
-
-    /// G1 D / (4 cos), per solid angle of the reflected direction.
-    #[inline(always)]
-    fn pdf_of_facet(&self, wo: Vector<F>, facet: Vector<F>) -> F {
-        self.distribution(facet) * 0.5 / (wo.z + self.slope_length(wo))
-    }
-
-    /// Density of facets' normals, per solid angle and area.
-    #[inline(always)]
-    fn distribution(&self, facet: Vector<F>) -> F {
-        let (x, y) = (facet.x / self.alpha, facet.y / self.alpha);
-        let stretched = x * x + y * y + facet.z * facet.z;
-        F::splat(FRAC_1_PI) / (self.alpha * self.alpha * stretched * stretched)
-    }
-
-    /// `cos sqrt(1 + alpha^2 tan^2)`, around which Smith's terms are: G1 = 2 cos / (cos + this).
-    #[inline(always)]
-    fn slope_length(&self, w: Vector<F>) -> F {
-        let (x, y) = (w.x * self.alpha, w.y * self.alpha);
-        (x * x + y * y + w.z * w.z).sqrt()
-    }
-
-    /// Draws a facet's normal as `wo` sees them: Dupuy and Benyoub, "Sampling Visible GGX Normals with Spherical Caps"
-    /// (2023).
-    #[inline(always)]
-    fn visible_normal(&self, wo: Vector<F>, u: [F; 2]) -> Vector<F> {
-        let seen = Vector::new(wo.x * self.alpha, wo.y * self.alpha, wo.z).normalize();
-        let one_minus_cos = seen.z + 1.0;
-        let cap = cone(one_minus_cos, u);
-        // the sum of both z, which does not cancel
-        let z = one_minus_cos * (F::splat(1.0) - u[0]);
-        Vector::new((cap.x + seen.x) * self.alpha, (cap.y + seen.y) * self.alpha, z).normalize()
+        self.facets.pdf(wo, (wo + wi).normalize())
     }
 }
 
@@ -146,31 +103,6 @@ fn fresnel<F: Float>(cosine: F, eta: F, k: F) -> F {
     (perpendicular + parallel) * 0.5
 }
 
-/// Axes with z along a normal.
-struct Frame<F> {
-    x: Vector<F>,
-    y: Vector<F>,
-    z: Vector<F>,
-}
-
-impl<F: Float> Frame<F> {
-    #[inline(always)]
-    fn around(z: Vector<F>) -> Self {
-        let (x, y) = orthonormal_basis(z);
-        Frame { x, y, z }
-    }
-
-    #[inline(always)]
-    fn local(&self, w: Vector<F>) -> Vector<F> {
-        Vector::new(self.x.dot(w), self.y.dot(w), self.z.dot(w))
-    }
-
-    #[inline(always)]
-    fn world(&self, w: Vector<F>) -> Vector<F> {
-        self.x * w.x + self.y * w.y + self.z * w.z
-    }
-}
-
 /// [`RoughConductors`] of one lane: z along the normal, `wo` above the surface.
 #[derive(Debug, Clone, Copy)]
 pub struct RoughConductor {
@@ -187,7 +119,7 @@ impl RoughConductor {
             Conductor::Fresnel { eta, k } => (Vec3::ONE, true, [eta, k]),
         };
         let [reflectance, eta, k] = [reflectance, eta, k].map(in_all_lanes);
-        RoughConductors { alpha: self.alpha, reflectance, has_index, eta, k }
+        RoughConductors { facets: Microfacets { alpha: self.alpha }, reflectance, has_index, eta, k }
     }
 
     /// What a facet reflects of light at this cosine to its normal.

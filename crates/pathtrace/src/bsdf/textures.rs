@@ -21,6 +21,7 @@ pub struct ImageTextures {
     normal_scale: Column,
     has_emission: bool,
     has_normals: bool,
+    has_metallic_roughness: bool,
 }
 
 /// The places of a material's textures among a scene's, 1 for the first; 0 for none.
@@ -81,6 +82,7 @@ impl ImageTextures {
             normal_scale: Column::new(materials.iter().map(scale)),
             has_emission: places.iter().any(|places| places.emission != 0),
             has_normals: places.iter().any(|places| places.normals != 0),
+            has_metallic_roughness: places.iter().any(|places| places.metallic_roughness != 0),
         }
     }
 
@@ -100,6 +102,12 @@ impl ImageTextures {
     #[inline(always)]
     pub fn has_normals(&self) -> bool {
         self.has_normals
+    }
+
+    /// Whether any says how rough surfaces are, and how far they are metal.
+    #[inline(always)]
+    pub fn has_metallic_roughness(&self) -> bool {
+        self.has_metallic_roughness
     }
 
     /// What colours are multiplied by.

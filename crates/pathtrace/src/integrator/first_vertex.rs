@@ -33,6 +33,8 @@ pub enum Met {
     Diffuse,
     /// Rough metal, whose directions lie about that of a mirror.
     RoughMetal,
+    /// glTF's metallic-roughness: a matt body under a coat, or metal.
+    MetallicRoughness,
     /// A perfect mirror, which leaves no directions to choose from.
     Mirror,
     /// Glass, whose surface reflects or refracts.
@@ -119,7 +121,7 @@ pub(crate) fn follow(scene: &PreparedScene, plan: &Plan, rays: &Rays<f32>, sampl
     }
     let value = glam_vector(LaneIntegrator::<f32, Sampler>::outcomes(&lanes).radiance);
     let terms = start.in_one_direction(&lanes).map(|()| {
-        let Some((path, home, ended)) = left.filter(|_| !start.at.colour.is_zero()) else { return Terms::default() };
+        let Some((path, home, ended)) = left.filter(|_| start.at.scatters()) else { return Terms::default() };
         let light = start.light(&lanes, rays, sampler, home);
         let [by_chance, onward] = match start.leaving(&lanes, &path) {
             Some(leaving) if !ended => start.onward(leaving, &path, sampler, [home, value]),
@@ -142,8 +144,7 @@ impl<'a> Start<'a> {
         };
         let [seen, straight] = counting(plan, &at);
         let emitted = if seen { shining } else { Vec3::ZERO };
-        let left_out =
-            LeftOut { emitted: emitted != shining, direct: !straight && !at.is_delta() && !at.colour.is_zero() };
+        let left_out = LeftOut { emitted: emitted != shining, direct: !straight && !at.is_delta() && at.scatters() };
         Start { scene, plan, at, met, emitted, left_out }
     }
 
@@ -164,7 +165,7 @@ impl<'a> Start<'a> {
             Met::Diffuse if self.plan.branching_vertices > 0 => {
                 Err("paths branch here into several directions: set N to 1 for the integral's numbers")
             }
-            Met::Diffuse | Met::RoughMetal => Ok(()),
+            Met::Diffuse | Met::RoughMetal | Met::MetallicRoughness => Ok(()),
         }
     }
 
@@ -275,6 +276,8 @@ fn kind(at: &Interactions<f32>) -> Met {
         Met::Mirror
     } else if at.kinds.glass() {
         Met::Glass
+    } else if at.kinds.metallic_roughness() {
+        Met::MetallicRoughness
     } else {
         Met::RoughMetal
     }

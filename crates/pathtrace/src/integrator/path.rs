@@ -98,7 +98,7 @@ impl<'a, F: Float, S: RandomNumbers<F::U>> LaneIntegrator<F, S> for PathLanes<'a
         let at_limit = met & self.path.vertices.eq(F::U::splat(self.plan.limit));
         self.cut(at_limit);
         let mut vertex = self.scene.interaction(&hit, wo);
-        let mut scattering = met & !at_limit & !vertex.colour.is_zero();
+        let mut scattering = met & !at_limit & vertex.scatters();
         if self.plan.branching_vertices > 0 {
             self.fork(scattering & vertex.is_diffuse(), &vertex);
             let DiffuseVertices { point, normal, albedo } = &self.vertex;

@@ -100,11 +100,11 @@ impl Estimator {
         Self::EVERY.into_iter().find(|e| e.name() == name)
     }
 
-    /// The one to begin with in a scene that asks for so much: a rough metal's lobe may be so narrow that light sampling
-    /// alone hardly ever hits it, and what [`crate::caster`]s focus has 5 to 9 times the variance near a focus where
+    /// The one to begin with in a scene that asks for so much: a rough metal's lobe or a coat's may be so narrow that light
+    /// sampling alone hardly ever hits it, and what [`crate::caster`]s focus has 5 to 9 times the variance near a focus where
     /// chance's share of it is not weighted in.
     pub fn usual_for(needs: &Needs) -> Self {
-        if needs.rough_conductor || needs.casters { Self::MIS } else { Self::default() }
+        if needs.rough_conductor || needs.metallic_roughness || needs.casters { Self::MIS } else { Self::default() }
     }
 
     /// Those that graphics devices know too.

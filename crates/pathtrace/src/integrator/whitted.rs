@@ -267,9 +267,10 @@ impl<'a, F: Float> WhittedLanes<'a, F> {
         if let Some(counted) = &self.plan.counted {
             self.branch.light_path = counted.after(self.branch.light_path, Scattering::at(at));
         }
-        let lit = met & at.is_diffuse() & !at.colour.is_zero();
+        let albedo = self.scene.materials.lit_albedo(at);
+        let lit = met & !albedo.is_zero();
         if lit.any() {
-            self.light(lit, at, sampler);
+            self.light(lit, at, albedo, sampler);
         }
         let most_depth = self.plan.settings.depth.min(WhittedSettings::MOST_DEPTH);
         let deeper = met & !at.is_diffuse() & self.branch.depth.lt(F::U::splat(most_depth));
@@ -289,14 +290,14 @@ impl<'a, F: Float> WhittedLanes<'a, F> {
 
     /// Adds the light that diffuse surfaces send along the branches: direct, and the ambient that stands for the rest.
     #[inline(always)]
-    fn light(&mut self, lit: F::M, at: &Interactions<F>, sampler: &Sampler<F::U>) {
+    fn light(&mut self, lit: F::M, at: &Interactions<F>, albedo: Vector<F>, sampler: &Sampler<F::U>) {
         let direct = self.irradiance(lit, &at.point, at.normal, sampler);
         let mut ambient = Vector::along_all(F::splat(self.plan.ambient));
         if let Some(counted) = &self.plan.counted {
             let arrives = counts(counted.after_diffuse(self.branch.light_path));
             ambient = Vector::select(arrives, ambient, Vector::zero());
         }
-        self.add(lit, at.colour * (direct * F::splat(FRAC_1_PI) + ambient));
+        self.add(lit, albedo * (direct * F::splat(FRAC_1_PI) + ambient));
     }
 
     /// Light that arrives at surfaces: every light by itself, or of very many a choice.

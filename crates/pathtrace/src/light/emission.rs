@@ -71,7 +71,11 @@ impl Emitters {
         let of_sky = 4.0 * PI * PI * bounds.radius * bounds.radius * colour::luminance(sky);
         let of_lights = powers(&lights.lights, &lights.textured, bounds.radius);
         let powers: Vec<f64> = of_lights.chain((of_sky > 0.0).then_some(of_sky)).map(f64::from).collect();
-        let focuses = |bsdf: &Bsdf| !matches!(bsdf, Bsdf::Diffuse { .. });
+        let focuses = |bsdf: &Bsdf| match bsdf {
+            Bsdf::Diffuse { .. } => false,
+            Bsdf::MetallicRoughness(model) => model.metallic >= 0.5,
+            Bsdf::Mirror { .. } | Bsdf::RoughConductor { .. } | Bsdf::Dielectric { .. } => true,
+        };
         let casters = scene.shapes.iter().filter(|shape| focuses(&scene.material_of(shape).bsdf));
         let probabilities: Vec<f32> = mixed_probabilities(&powers).into_iter().map(|p| p as f32).collect();
         let sums = probabilities.iter().scan(0.0, |sum, probability| {

@@ -22,8 +22,8 @@ use crate::material::{Checkerboard, Emission};
 use crate::progress::Progress;
 use crate::stand_ins::{FakeMaterial, FakeNumbers};
 use crate::{
-    Bsdf, Camera, Conductor, Geometry, Material, PointLight, Scene, SceneHash, Shape, Sun, Texture, nearest, nesting,
-    stand_ins,
+    Bsdf, Camera, Conductor, Geometry, Material, MetallicRoughness, PointLight, Scene, SceneHash, Shape, Sun, Texture,
+    nearest, nesting, stand_ins,
 };
 use glam::Vec3;
 use meshes::Meshes;
@@ -338,7 +338,13 @@ fn sun(raw: raw::RawSun) -> Result<Sun, Fault> {
 
 fn material(name: String, raw: Spanned<Table<RawMaterial>>, pictures: &mut Pictures) -> Result<Material, Fault> {
     let (at, Table(raw)) = (raw.span(), raw.into_inner());
-    let kinds = [raw.diffuse.is_some(), raw.mirror.is_some(), raw.rough_conductor.is_some(), raw.dielectric.is_some()];
+    let kinds = [
+        raw.diffuse.is_some(),
+        raw.mirror.is_some(),
+        raw.rough_conductor.is_some(),
+        raw.metallic_roughness.is_some(),
+        raw.dielectric.is_some(),
+    ];
     if kinds.iter().filter(|&&k| k).count() > 1 {
         return fault(at, format!("material '{name}' scatters in several ways: expected one of {LOBES}"));
     }
@@ -348,6 +354,8 @@ fn material(name: String, raw: Spanned<Table<RawMaterial>>, pictures: &mut Pictu
         Bsdf::Mirror { reflectance: mirror.reflectance.into() }
     } else if let Some(Table(metal)) = raw.rough_conductor {
         Bsdf::RoughConductor { roughness: metal.roughness.get(), conductor: conductor(metal, &name, at.clone())? }
+    } else if let Some(Table(model)) = raw.metallic_roughness {
+        Bsdf::MetallicRoughness(metallic_roughness(model, pictures)?)
     } else if let Some(Table(glass)) = raw.dielectric {
         Bsdf::Dielectric { ior: glass.ior.get() }
     } else if raw.emissive.is_some() {
@@ -373,7 +381,7 @@ fn material(name: String, raw: Spanned<Table<RawMaterial>>, pictures: &mut Pictu
 }
 
 /// Ways to scatter.
-const LOBES: &str = "diffuse, mirror, rough_conductor, dielectric";
+const LOBES: &str = "diffuse, mirror, rough_conductor, metallic_roughness, dielectric";
 
 fn conductor(raw: raw::RawRoughConductor, material: &str, at: Range<usize>) -> Result<Conductor, Fault> {
     match (raw.reflectance, raw.eta, raw.k, raw.metal) {
@@ -388,6 +396,18 @@ fn conductor(raw: raw::RawRoughConductor, material: &str, at: Range<usize>) -> R
         },
         _ => fault(at, format!("material '{material}': expected one of reflectance, eta with k, or metal")),
     }
+}
+
+fn metallic_roughness(raw: raw::RawMetallicRoughness, pictures: &mut Pictures) -> Result<MetallicRoughness, Fault> {
+    let read = |Table(raw)| pictures.without_factor(raw, image_file::Encoding::Linear);
+    let metallic_roughness = raw.texture.map(read).transpose()?;
+    Ok(MetallicRoughness {
+        base_colour: texture(raw.base_colour, pictures)?,
+        metallic: raw.metallic.get(),
+        roughness: raw.roughness.get(),
+        metallic_roughness,
+        ior: raw.ior.map_or(MetallicRoughness::USUAL_IOR, |ior| ior.get()),
+    })
 }
 
 fn texture(raw: RawTexture, pictures: &mut Pictures) -> Result<Texture, Fault> {

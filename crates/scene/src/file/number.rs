@@ -41,6 +41,7 @@ ranges! {
     AtLeastZero, "a finite number from 0 to 1e12", |v| (0.0..=LARGEST).contains(&v);
     ZeroToOne, "a number from 0 to 1", |v| (0.0..=1.0).contains(&v);
     Roughness, "a number from 0.01 to 1", |v| (0.01..=1.0).contains(&v);
+    CoatIndex, "a number from 1 to 100", |v| (1.0..=100.0).contains(&v);
     Index, "a number from 0.01 to 100", |v| (0.01..=100.0).contains(&v);
     Extinction, "a number from 0 to 100", |v| (0.0..=100.0).contains(&v);
 }

@@ -2,7 +2,7 @@
 
 use super::begun::Begun;
 use super::number::{
-    AboveZero, Any, AtLeastZero, Extinction, Index, Length, Number, Roughness, Triple, Whole, ZeroToOne,
+    AboveZero, Any, AtLeastZero, CoatIndex, Extinction, Index, Length, Number, Roughness, Triple, Whole, ZeroToOne,
 };
 use super::picture::{RawAlphaMask, RawNormalMap, RawPicture};
 use super::raw_mesh::{RawInstance, RawMesh, RawStatue};
@@ -82,6 +82,7 @@ pub struct RawMaterial {
     pub diffuse: Option<Table<RawDiffuse>>,
     pub mirror: Option<Table<RawMirror>>,
     pub rough_conductor: Option<Table<RawRoughConductor>>,
+    pub metallic_roughness: Option<Table<RawMetallicRoughness>>,
     pub dielectric: Option<Table<RawDielectric>>,
     pub emissive: Option<Table<RawEmissive>>,
     pub normal_map: Option<Table<RawNormalMap>>,
@@ -153,6 +154,16 @@ pub struct RawRoughConductor {
     pub k: Option<Triple<Extinction>>,
     pub metal: Option<Spanned<String>>,
     pub roughness: Number<Roughness>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct RawMetallicRoughness {
+    pub base_colour: RawTexture,
+    pub metallic: Number<ZeroToOne>,
+    pub roughness: Number<ZeroToOne>,
+    pub ior: Option<Number<CoatIndex>>,
+    pub texture: Option<Table<RawPicture>>,
 }
 
 #[derive(Deserialize)]

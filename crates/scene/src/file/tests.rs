@@ -1,5 +1,7 @@
 use super::*;
 
+mod metallic_roughness;
+
 pub(super) const SMALL: &str = r#"
 [camera]
 eye = [0, 0, 5]

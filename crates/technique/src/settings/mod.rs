@@ -116,7 +116,10 @@ impl Need {
         let (there, name) = match self {
             Need::Nothing => return None,
             Need::Glass => (needs.dielectric, "glass"),
-            Need::Specular => (needs.dielectric || needs.mirror || needs.rough_conductor, "mirror, metal or glass"),
+            Need::Specular => {
+                let metal = needs.rough_conductor || needs.metallic_roughness;
+                (needs.dielectric || needs.mirror || metal, "mirror, metal or glass")
+            }
             Need::Caster => (needs.casters, "sphere of glass or mirror"),
             Need::Spheres => (needs.spheres, "sphere"),
             Need::Sun => (needs.sun, "sun"),

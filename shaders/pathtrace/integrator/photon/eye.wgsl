@@ -37,7 +37,7 @@ fn step_on() -> bool {
         }
         outcome.radiance += path.throughput * emitted(vertex) * weight_of_meeting(density);
     }
-    if to_the_sky || all(vertex.colour == vec3f(0.0)) {
+    if to_the_sky || !scatters(vertex) {
         return false;
     }
     if path.vertices == HARD_CAP {

@@ -80,7 +80,7 @@ fn segment() -> bool {
         return false;
     }
     let vertex = interaction_of(hit_of(nearest, ray), -ray.direction);
-    if all(vertex.colour == vec3f(0.0)) || has_left_another_light(vertex) {
+    if !scatters(vertex) || has_left_another_light(vertex) {
         return false;
     }
     if is_diffuse(vertex) && (DIRECT_PHOTONS || vertices > 0u) {

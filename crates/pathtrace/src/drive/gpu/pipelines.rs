@@ -155,6 +155,7 @@ impl SceneNeeds {
             ("ROUGH_CONDUCTOR", self.flag(self.needs.rough_conductor)),
             ("DIELECTRIC", self.flag(self.needs.dielectric)),
             ("RECTANGLE_LIGHTS", self.flag(self.lights.rectangles)),
+            ("METALLIC_ROUGHNESS", self.flag(self.needs.metallic_roughness)),
             ("TRIANGLE_LIGHTS", self.flag(self.lights.triangles)),
             ("DISK_LIGHTS", self.flag(self.lights.disks)),
             ("BALL_LIGHTS", self.flag(self.lights.balls)),

@@ -4,6 +4,7 @@
 use super::mesh_data::MeshData;
 use super::shape_data::Shapes;
 use crate::bsdf::materials::lobe_of;
+use crate::bsdf::metallic_roughness::coat_of;
 use crate::bsdf::textures::{Places, places};
 use crate::caster::cone::{Cones, MOST_CONES};
 use crate::caster::{Casters, THROUGH};
@@ -14,7 +15,7 @@ use crate::light::{Environment, Light as HostLight, Lights, SunDisc};
 use crate::sampling::sobol::reversed_point;
 use bytemuck::{Pod, Zeroable};
 use scene::material::Emission;
-use scene::{Alpha, Bsdf, Conductor, MetallicRoughness, Scene, Texture, Vec3};
+use scene::{Alpha, Bsdf, Conductor, Scene, Texture, Vec3};
 
 /// What the whole scene shares.
 #[repr(C)]
@@ -122,6 +123,12 @@ pub struct Material {
     pub off: f32,
     /// The same through it.
     pub through: f32,
+    /// Of metallic-roughness: share of metal.
+    pub metallic: f32,
+    /// The root of its facets' alpha.
+    pub roughness: f32,
+    /// What its coat reflects at normal incidence.
+    pub coat: f32,
     /// Place among the textures of what the colour is multiplied by, 1 for the first; 0 for none.
     pub colour_texture: u32,
     /// The same of what is sent out.
@@ -138,8 +145,6 @@ pub struct Material {
     pub alpha_cutoff: f32,
     /// Place among the textures of what multiplies the share of metal and the roughness.
     pub metallic_roughness_texture: u32,
-    /// Padding.
-    pub unused: [u32; 3],
 }
 
 /// Codes of [`Light::outline`].
@@ -170,7 +175,7 @@ pub struct Light {
     pub v: Vec3,
     /// 1 if a parallelogram's edges are at right angles.
     pub square: u32,
-    /// Unit normal of a flat area light.
+    /// Unit normal of a flat area light, axis of a point light's cone.
     pub normal: Vec3,
     /// 1 if both sides shine.
     pub two_sided: u32,
@@ -262,16 +267,10 @@ fn material(from: &scene::Material) -> Material {
     let mut to = Material::zeroed();
     to.lobe = lobe_of(&from.bsdf);
     match &from.bsdf {
-        Bsdf::Diffuse { albedo: colour } | Bsdf::MetallicRoughness(MetallicRoughness { base_colour: colour, .. }) => {
-            match colour {
-                Texture::Constant(colour) | Texture::Image { factor: colour, .. } => to.colour.even = *colour,
-                Texture::Checkerboard(board) => {
-                    to.colour.even = board.even;
-                    to.colour.odd = board.odd;
-                    to.colour.origin = board.origin;
-                    to.colour.cells_per_unit = board.cells_per_unit();
-                }
-            }
+        Bsdf::Diffuse { albedo } => to.colour = colours(albedo),
+        Bsdf::MetallicRoughness(model) => {
+            to.colour = colours(&model.base_colour);
+            (to.metallic, to.roughness, to.coat) = (model.metallic, model.roughness, coat_of(model.ior));
         }
         Bsdf::Mirror { reflectance } => to.colour.even = *reflectance,
         Bsdf::RoughConductor { conductor, roughness } => {
@@ -295,6 +294,21 @@ fn material(from: &scene::Material) -> Material {
         to.emitting_sides = 1 + u32::from(emission.two_sided);
     }
     to
+}
+
+fn colours(texture: &Texture) -> Checkerboard {
+    match texture {
+        Texture::Constant(colour) | Texture::Image { factor: colour, .. } => {
+            Checkerboard { even: *colour, ..Checkerboard::zeroed() }
+        }
+        Texture::Checkerboard(board) => Checkerboard {
+            even: board.even,
+            odd: board.odd,
+            origin: board.origin,
+            cells_per_unit: board.cells_per_unit(),
+            ..Checkerboard::zeroed()
+        },
+    }
 }
 
 /// The chains by spheres, which stand behind the lights.

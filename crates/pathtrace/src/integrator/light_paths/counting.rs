@@ -16,7 +16,7 @@ pub struct CountedPaths {
 /// Where a path scatters: at surfaces that are neither are diffuse.
 #[derive(Clone, Copy)]
 pub struct Scattering<M> {
-    /// In which lanes it is at rough metal.
+    /// In which lanes it is at rough metal or metallic-roughness.
     pub glossy: M,
     /// In which lanes it is at a mirror or glass.
     pub specular: M,
@@ -26,7 +26,7 @@ impl<M> Scattering<M> {
     /// At surfaces as they are met.
     #[inline(always)]
     pub fn at<F: Float<M = M>>(at: &Interactions<F>) -> Self {
-        Scattering { glossy: at.kinds.rough_conductor(), specular: at.is_delta() }
+        Scattering { glossy: at.kinds.glossy(), specular: at.is_delta() }
     }
 }
 

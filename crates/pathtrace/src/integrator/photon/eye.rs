@@ -90,7 +90,7 @@ impl<F: Float> LaneIntegrator<F> for EyeLanes<'_, F> {
         }
         let at_limit = self.path.vertices.eq(F::U::splat(PathSettings::HARD_CAP));
         let vertex = self.scene.interaction(&hit, -self.path.rays.direction);
-        let scattering = taken & hit.met & !self.to_the_sky & !vertex.colour.is_zero();
+        let scattering = taken & hit.met & !self.to_the_sky & vertex.scatters();
         self.outcome.cut = self.outcome.cut | (scattering & at_limit);
         let scattering = scattering & !at_limit;
         if !scattering.any() {

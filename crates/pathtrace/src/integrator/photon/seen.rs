@@ -86,7 +86,7 @@ fn follow(scene: &PreparedScene, mut ray: Rays<f32>, scratch: &mut Scratch<f32>,
     for _ in 0..MOST_SURFACES {
         let hit = scene.closest(&ray, true, scratch);
         let vertex = scene.interaction(&hit, -ray.direction);
-        if !hit.met || vertex.colour.is_zero() {
+        if !hit.met || !vertex.scatters() {
             return;
         }
         distance += (hit.point.position - ray.origin).length_squared().sqrt();

@@ -254,7 +254,7 @@ impl<'a, F: Float> PhotonLanes<'a, F> {
         let hit = self.scene.closest(&self.path.rays, taken, &mut self.scratch);
         let vertex = self.scene.interaction(&hit, -self.path.rays.direction);
         let first = self.path.vertices.eq(F::U::splat(0));
-        let scattering = taken & hit.met & !vertex.colour.is_zero();
+        let scattering = taken & hit.met & vertex.scatters();
         let scattering = scattering & !self.have_left_another_light(scattering & first, &vertex);
         if !scattering.any() {
             return taken;

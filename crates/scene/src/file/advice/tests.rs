@@ -127,6 +127,11 @@ fn a_value_of_another_kind_is_told_with_what_is_written_there() {
         (LOBE, "diffuse = 0.5", "; write diffuse = { albedo = [0.5, 0.5, 0.5] }"),
         (LOBE, "emissive = [10,10,10]", "; write emissive = { radiance = [10,10,10] }"),
         (LOBE, "mirror = true", "; write mirror = { reflectance = [0.8, 0.8, 0.8] }"),
+        (
+            LOBE,
+            "metallic_roughness = 0.3",
+            "; write metallic_roughness = { base_colour = [0.3, 0.3, 0.3], metallic = 0, roughness = 0.5 }",
+        ),
         (LOBE, "dielectric = 1.33", "; write dielectric = { ior = 1.33 }"),
         (LOBE, "rough_conductor = 0.3", "; write rough_conductor = { metal = \"gold\", roughness = 0.3 }"),
         ("[camera]", "[sky]\nradiance = 1\n[camera]", "; for the same in all three write [1, 1, 1]"),

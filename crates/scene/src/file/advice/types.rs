@@ -4,10 +4,11 @@ use super::numbers::number;
 use super::place::{Place, value};
 
 /// Tables that a beginner gives a bare value, and the name that the value has in each.
-const OWNERS: [(&str, &str); 6] = [
+const OWNERS: [(&str, &str); 7] = [
     ("diffuse", "albedo"),
     ("mirror", "reflectance"),
     ("rough_conductor", "roughness"),
+    ("metallic_roughness", "base_colour"),
     ("dielectric", "ior"),
     ("emissive", "radiance"),
     ("sky", "radiance"),
@@ -104,13 +105,14 @@ pub(super) fn table(owner: &str, name: &str, written: &str) -> String {
                 "\"gold\"".into()
             }
         }
-        "albedo" if written.starts_with('{') => written.into(),
-        "albedo" | "reflectance" | "radiance" => colour(),
+        "albedo" | "base_colour" if written.starts_with('{') => written.into(),
+        "albedo" | "base_colour" | "reflectance" | "radiance" => colour(),
         _ => written.into(),
     };
     match (owner, name) {
         ("rough_conductor", "roughness") => format!("{owner} = {{ metal = \"gold\", roughness = {value} }}"),
         ("rough_conductor", _) => format!("{owner} = {{ {name} = {value}, roughness = 0.2 }}"),
+        ("metallic_roughness", _) => format!("{owner} = {{ {name} = {value}, metallic = 0, roughness = 0.5 }}"),
         _ => format!("{owner} = {{ {name} = {value} }}"),
     }
 }

@@ -106,6 +106,7 @@ fn met_words(met: Met) -> &'static str {
         Met::Light => "sees a light first",
         Met::Diffuse => "sees a diffuse surface first",
         Met::RoughMetal => "sees rough metal first",
+        Met::MetallicRoughness => "sees a metallic-roughness surface first",
         Met::Mirror => "sees a mirror first",
         Met::Glass => "sees glass first",
     }
