@@ -174,7 +174,8 @@ struct Light {
     // corner of a flat area light, centre of a disk, ball or caster, a point light, the direction to the sun
     position: vec3f,
     outline: u32,
-    // edges of a flat area light; radii of a disk, at right angles
+    // edges of a flat area light; radii of a disk, at right angles; of a point light the cosine of its cone's edge, and the
+    // edge's slope
     u: vec3f,
     // area of a flat area light, radius of a ball or caster, 1 - cos of the sun's angular radius
     area: f32,

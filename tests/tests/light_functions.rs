@@ -30,6 +30,10 @@ emissive = { radiance = [3, 2, 1], two_sided = true }
 [[point_light]]
 position = [0.5, 1.5, 0.2]
 intensity = [1, 1, 2]
+[[point_light]]
+position = [-0.5, 1.5, 0.4]
+intensity = [2, 1, 1]
+spot = { towards = [1, -2, 0.5], inner = 20, outer = 70 }
 [[rectangle]]
 corner = [-1, 2, -1]
 edge_u = [2, 0, 0.3]

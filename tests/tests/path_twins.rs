@@ -164,6 +164,24 @@ fn rough_metal_agrees_pixel_by_pixel() {
     }
 }
 
+/// glTF's material from plastic to metal, and a spot.
+const COATS: &str = include_str!("scenes/coats.toml");
+
+/// As [`every_setting_agrees_pixel_by_pixel`], where there is metallic-roughness; trees of rays as well.
+#[test]
+fn metallic_roughness_and_spots_agree_pixel_by_pixel() {
+    let gpu = Gpu::headless().unwrap();
+    let scene = scene::parse(COATS, "coats", Path::new("coats.toml")).unwrap();
+    for estimator in Estimator::on_devices() {
+        let pair = paths(&gpu, &scene, (96, 64), 1, &settings(estimator, 3));
+        let (apart, rays) = (pair.apart(1e-3), pair.rays());
+        assert!(apart <= 5e-3 && (rays - 1.0).abs() < 2e-3, "{}: {apart} {rays}", estimator.name());
+    }
+    let trees = paths(&gpu, &scene, (96, 64), 1, &WhittedSettings::default());
+    let (apart, rays) = (trees.apart(1e-3), trees.rays());
+    assert!(apart <= 5e-3 && (rays - 1.0).abs() < 2e-3, "trees: {apart} {rays}");
+}
+
 /// Every estimator, sampler, roulette and number of branches, cones and split glass, where all kinds of lights and materials are.
 #[test]
 fn every_setting_agrees_pixel_by_pixel() {

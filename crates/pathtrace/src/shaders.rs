@@ -58,6 +58,7 @@ pub const SOURCES: &[Source<'static>] = gpu::wgsl_sources![
     "pathtrace/light/light.wgsl",
     "pathtrace/light/light_sample.wgsl",
     "pathtrace/light/spherical_rectangle.wgsl",
+    "pathtrace/light/spot.wgsl",
     "pathtrace/light/sun.wgsl",
     "pathtrace/light/textured.wgsl",
     "pathtrace/needs.wgsl",

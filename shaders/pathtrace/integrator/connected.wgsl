@@ -22,7 +22,7 @@ fn connect(at: Interaction, u: vec4f) {
     if LIGHT_PATHS && !counts(behind_chain(chain.through)) {
         return;
     }
-    let sample = sample_light(chain.center, u.z, u.xy);
+    let sample = sample_light_whole(chain.center, u.z, u.xy);
     if is_left_to_chance(sample) {
         return;
     }
@@ -63,7 +63,11 @@ fn receive_by(at: Interaction, by: Connection, ray: ConnectedRay) {
     }
     let colour = select(by.chain.surface.colour, vec3f(1.0), by.chain.through);
     let bsdf = eval_bsdf(at, ray.wi);
-    let light = by.light.radiance_over_pdf * colour * (cosine * ray.passes / density);
+    var passes = ray.passes;
+    if POINT_LIGHTS && lights[by.light.light].outline == LIGHT_POINT {
+        passes *= spot_share(by.light.light, -ray.arriving);
+    }
+    let light = by.light.radiance_over_pdf * colour * (cosine * passes / density);
     outcome.radiance += path.throughput * bsdf.colour * bsdf.factor * light;
 }
 

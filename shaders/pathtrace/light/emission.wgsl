@@ -74,7 +74,8 @@ fn leaving_emitter(emitter: u32, choice: EmissionChoice) -> Leaving {
     if POINT_LIGHTS && light.outline == LIGHT_POINT {
         let everywhere = cone(ALL_DIRECTIONS, choice.way);
         let aimed = aimed_direction(light.position, vec3f(0.0), everywhere, choice.aim, choice.way);
-        return Leaving(Ray(light.position, aimed.direction, FAR), light.radiance / aimed.pdf);
+        let intensity = light.radiance * spot_share(emitter, aimed.direction);
+        return Leaving(Ray(light.position, aimed.direction, FAR), intensity / aimed.pdf);
     }
     if SUN && light.outline == LIGHT_SUN {
         let sample = sun_sample(light, choice.place);

@@ -1,5 +1,6 @@
 //#import pathtrace/light/flat.wgsl
 //#import pathtrace/light/ball.wgsl
+//#import pathtrace/light/spot.wgsl
 //#import pathtrace/light/sun.wgsl
 //#import pathtrace/light/environment.wgsl
 // What shines, as light sampling sees it: area lights, point lights, the sun and a sky from a picture. Task 2 c),
@@ -28,8 +29,14 @@ fn choose_from(first: u32, count: u32, u: f32) -> u32 {
 
 // Samples the light that reaches the point x: one number in [0, 1) to choose a light, two to choose a point on it.
 fn sample_light(x: vec3f, u_light: f32, u: vec2f) -> LightSample {
+    return dimmed(sample_light_whole(x, u_light, u));
+}
+
+// As sample_light, but as if spots shone everywhere: of light that leaves its place in another direction, which is dimmed
+// by the share of that one.
+fn sample_light_whole(x: vec3f, u_light: f32, u: vec2f) -> LightSample {
     let light = choose(u_light);
-    var sample = sample_one(light, x, u);
+    var sample = sample_one_whole(light, x, u);
     sample.radiance_over_pdf /= lights[light].probability;
     sample.pdf *= lights[light].probability;
     return sample;
@@ -37,6 +44,24 @@ fn sample_light(x: vec3f, u_light: f32, u: vec2f) -> LightSample {
 
 // As sample_light, but of one light of the caller's choice, whose probability is not in the densities.
 fn sample_one(light: u32, x: vec3f, u: vec2f) -> LightSample {
+    return dimmed(sample_one_whole(light, x, u));
+}
+
+// A sample as far as its light shines there.
+fn dimmed(sample: LightSample) -> LightSample {
+    if !POINT_LIGHTS || lights[sample.light].outline != LIGHT_POINT {
+        return sample;
+    }
+    let share = spot_share(sample.light, -sample.wi);
+    if share <= 0.0 {
+        return no_light();
+    }
+    var seen = sample;
+    seen.radiance_over_pdf *= share;
+    return seen;
+}
+
+fn sample_one_whole(light: u32, x: vec3f, u: vec2f) -> LightSample {
     var sample = sample_of(lights[light], x, u);
     sample.light = light;
     return sample;

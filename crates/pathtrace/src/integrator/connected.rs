@@ -58,7 +58,7 @@ impl<F: Float> PathLanes<'_, F> {
         let chain = self.scene.casters.choose(u[3]);
         let specular = F::U::select(chain.through, F::U::splat(2), F::U::splat(1));
         let fits = from.vertices.wrapping_add(specular).lt(F::U::splat(self.plan.limit));
-        let light = self.scene.lights.table().sample(chain.center, u[2], [u[0], u[1]]);
+        let light = self.scene.lights.table().sample_whole(chain.center, u[2], [u[0], u[1]]);
         let connections = Connections::new(at.point.position, chain, light);
         let fits = fits & !self.is_left_to_chance(&connections.light);
         let mut wanted = from.here & fits & connections.possible & !connections.is_behind(at.normal);
@@ -109,8 +109,9 @@ impl<F: Float> PathLanes<'_, F> {
             density = density + ray.passes * self.direction_pdf(at, directions, ray.wi, cosine) / by.light.pdf;
         }
         let colour = Vector::select(by.chain.through, Vector::along_all(F::splat(1.0)), surface.colour);
+        let share = self.scene.lights.table().spot_share(by.light.light, -ray.arriving);
         let bsdf = self.scene.materials.eval(at, ray.wi);
-        let radiance = bsdf.times(by.light.radiance_over_pdf * colour * (cosine * ray.passes / density));
+        let radiance = bsdf.times(by.light.radiance_over_pdf * colour * (cosine * ray.passes * share / density));
         let found = self.waiting.found;
         self.waiting.found = Vector::select(arrives, found + from.throughput * radiance, found);
     }

@@ -134,7 +134,8 @@ impl Emitters {
             Some(Light::Point(point)) => {
                 let everywhere = (sampling::cone(ALL_DIRECTIONS, choice.way), |_: Vec3| 0.5 * UNIFORM_HEMISPHERE_PDF);
                 let (direction, pdf) = aim.direction((point.position, None), everywhere, (choice.aim, choice.way));
-                (Ray::new(point.position, direction), point.intensity / pdf)
+                let share = point.spot.map_or(1.0, |spot| spot.share(direction));
+                (Ray::new(point.position, direction), point.intensity * share / pdf)
             }
             Some(Light::Sun(sun)) => self.coming_from_afar(from_sun(sun, choice.place), aim, choice),
             Some(Light::Environment(_)) => {

@@ -8,6 +8,7 @@ mod emission;
 mod environment;
 pub(crate) mod flat;
 mod spherical_rectangle;
+mod spot;
 mod sun;
 mod table;
 pub(crate) mod textured;
@@ -16,8 +17,8 @@ pub(crate) use aim::{Aim, Bounds};
 pub use emission::{EmissionChoice, Emitted, Emitters};
 pub use environment::{Environment, EnvironmentSamples};
 pub use spherical_rectangle::SphericalRectangle;
+pub(crate) use spot::cone_of;
 pub use sun::SunDisc;
-pub use table::LightSamples;
 
 use crate::intersect::sphere::Sphere;
 use crate::intersect::{NO_LIGHT, SurfacePoint, triangle_normal};
@@ -30,6 +31,7 @@ use scene::material::Emission;
 use scene::{Geometry, PointLight, Scene, Shape, Sun, Vec3};
 use std::f32::consts::PI;
 use std::sync::Arc;
+pub use table::LightSamples;
 use table::Table;
 use textured::TexturedLights;
 
@@ -238,7 +240,7 @@ impl Light {
         match self {
             Light::Flat(flat, emission) => of(emission, flat.area),
             Light::Sphere(sphere, emission) => of(emission, 4.0 * PI * sphere.radius * sphere.radius),
-            Light::Point(point) => colour::luminance(point.intensity) * 4.0 * PI,
+            Light::Point(point) => colour::luminance(point.intensity) * spot::full_solid_angle(point),
             Light::Sun(sun) => colour::luminance(sun.irradiance) * PI * scene_radius * scene_radius,
             Light::Environment(irradiance) => irradiance * PI * scene_radius * scene_radius,
         }

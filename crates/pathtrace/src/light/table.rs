@@ -4,6 +4,7 @@
 
 use super::ball;
 use super::flat::{Flats, Outline};
+use super::spot::{self, Cones};
 use super::textured::TexturedLights;
 use super::{Environment, Light};
 use crate::intersect::sphere::SphereLanes;
@@ -20,8 +21,10 @@ use std::sync::Arc;
 pub struct Table {
     /// Corner or centre of an area light, place of a point, direction towards the sun.
     position: VectorColumn,
+    /// Of a spot: cosine of its edge, and the edge's slope.
     edge_u: VectorColumn,
     edge_v: VectorColumn,
+    /// Of a spot: its axis.
     normal: VectorColumn,
     /// Radiance; of a point its intensity, of a delta sun its irradiance.
     radiance: VectorColumn,
@@ -42,6 +45,7 @@ struct Has {
     flats: bool,
     balls: bool,
     points: bool,
+    spots: bool,
     sun: bool,
 }
 
@@ -56,6 +60,7 @@ mod kind {
     pub const TRIANGLE: u32 = 64;
     pub const DISK: u32 = 128;
     pub const ENVIRONMENT: u32 = 256;
+    pub const SPOT: u32 = 512;
 }
 
 /// Light that arrives at a point in each lane from one sampled direction, if nothing stands between.
@@ -116,11 +121,8 @@ impl Table {
         textured: Option<Arc<TexturedLights>>,
     ) -> Self {
         let vectors = |of: fn(&Light) -> Vec3| VectorColumn::new(lights.iter().map(of));
-        let of_flat = |light: &Light, of: fn(&super::Flat) -> Vec3| match light {
-            Light::Flat(flat, _) => of(flat),
-            Light::Sphere(..) | Light::Point(_) | Light::Sun(_) | Light::Environment(_) => Vec3::ZERO,
-        };
-        let flats = |of: fn(&super::Flat) -> Vec3| VectorColumn::new(lights.iter().map(|light| of_flat(light, of)));
+        let [edge_u, edge_v, normal] =
+            [0, 1, 2].map(|index| VectorColumn::new(lights.iter().map(|light| frame_of(light)[index])));
         Table {
             position: vectors(|light| match light {
                 Light::Flat(flat, _) => flat.corner,
@@ -129,9 +131,9 @@ impl Table {
                 Light::Sun(sun) => sun.towards,
                 Light::Environment(_) => Vec3::ZERO,
             }),
-            edge_u: flats(|flat| flat.edge_u),
-            edge_v: flats(|flat| flat.edge_v),
-            normal: flats(|flat| flat.normal),
+            edge_u,
+            edge_v,
+            normal,
             radiance: vectors(|light| match light {
                 Light::Flat(_, emission) | Light::Sphere(_, emission) => emission.radiance,
                 Light::Point(point) => point.intensity,
@@ -152,6 +154,7 @@ impl Table {
                 flats: lights.iter().any(|light| matches!(light, Light::Flat(..))),
                 balls: lights.iter().any(|light| matches!(light, Light::Sphere(..))),
                 points: lights.iter().any(|light| matches!(light, Light::Point(_))),
+                spots: lights.iter().any(|light| matches!(light, Light::Point(point) if point.spot.is_some())),
                 sun: lights.iter().any(|light| matches!(light, Light::Sun(_))),
             },
             environment,
@@ -174,8 +177,15 @@ impl Table {
     /// it.
     #[inline(always)]
     pub fn sample<F: Float>(&self, x: Vector<F>, u_light: F, u: [F; 2]) -> LightSamples<F> {
+        self.dimmed(self.sample_whole(x, u_light, u))
+    }
+
+    /// As [`Table::sample`], but as if spots shone everywhere: of light that leaves its place in another direction, which
+    /// is dimmed by the share of that one.
+    #[inline(always)]
+    pub fn sample_whole<F: Float>(&self, x: Vector<F>, u_light: F, u: [F; 2]) -> LightSamples<F> {
         let light = self.choose(u_light);
-        let mut sample = self.sample_one(light, x, u);
+        let mut sample = self.sample_one_whole(light, x, u);
         if self.choice.len() > 1 {
             let probability = light.look_up(&self.probability);
             sample.radiance_over_pdf = sample.radiance_over_pdf * (F::splat(1.0) / probability);
@@ -187,6 +197,34 @@ impl Table {
     /// As [`Table::sample`], but of one light of the caller's choice, whose probability is not in the densities.
     #[inline(always)]
     pub fn sample_one<F: Float>(&self, light: F::U, x: Vector<F>, u: [F; 2]) -> LightSamples<F> {
+        self.dimmed(self.sample_one_whole(light, x, u))
+    }
+
+    /// Samples as far as their lights shine there.
+    #[inline(always)]
+    fn dimmed<F: Float>(&self, sample: LightSamples<F>) -> LightSamples<F> {
+        if !self.has.spots {
+            return sample;
+        }
+        let share = self.spot_share(sample.light, -sample.wi);
+        let radiance_over_pdf = sample.radiance_over_pdf * share;
+        LightSamples { shines: sample.shines & share.gt(F::splat(0.0)), radiance_over_pdf, ..sample }
+    }
+
+    /// Share of their intensity that lights have in a unit direction away from them: less than 1 of spots alone.
+    #[inline(always)]
+    pub fn spot_share<F: Float>(&self, light: F::U, direction: Vector<F>) -> F {
+        let one = F::splat(1.0);
+        if !self.has.spots {
+            return one;
+        }
+        let edge = self.edge_u.look_up(light);
+        let cones = Cones { towards: self.normal.look_up(light), outer: edge.x, slope: edge.y };
+        F::select(is(light.look_up_word(&self.kind), kind::SPOT), cones.share(direction), one)
+    }
+
+    #[inline(always)]
+    fn sample_one_whole<F: Float>(&self, light: F::U, x: Vector<F>, u: [F; 2]) -> LightSamples<F> {
         let position = self.position.look_up(light);
         let radiance = self.radiance.look_up(light);
         let size = light.look_up(&self.size);
@@ -325,10 +363,23 @@ fn is<U: Word>(kind: U, bit: u32) -> U::M {
     !(kind & U::splat(bit)).eq(U::splat(0))
 }
 
+/// Edges and normal of a flat light; of a point light its cone.
+fn frame_of(light: &Light) -> [Vec3; 3] {
+    match light {
+        Light::Flat(flat, _) => [flat.edge_u, flat.edge_v, flat.normal],
+        Light::Point(point) => {
+            let (towards, [outer, slope]) = spot::cone_of(point);
+            [Vec3::new(outer, slope, 0.0), Vec3::ZERO, towards]
+        }
+        Light::Sphere(..) | Light::Sun(_) | Light::Environment(_) => [Vec3::ZERO; 3],
+    }
+}
+
 fn kind_of(light: &Light) -> u32 {
     let sides = |two_sided: bool| if two_sided { kind::TWO_SIDED } else { 0 };
     match light {
         Light::Sphere(_, emission) => kind::BALL | sides(emission.two_sided),
+        Light::Point(point) if point.spot.is_some() => kind::POINT | kind::SPOT,
         Light::Point(_) => kind::POINT,
         Light::Sun(_) => kind::SUN,
         Light::Environment(_) => kind::ENVIRONMENT,

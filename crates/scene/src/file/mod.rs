@@ -22,8 +22,8 @@ use crate::material::{Checkerboard, Emission};
 use crate::progress::Progress;
 use crate::stand_ins::{FakeMaterial, FakeNumbers};
 use crate::{
-    Bsdf, Camera, Conductor, Geometry, Material, MetallicRoughness, PointLight, Scene, SceneHash, Shape, Sun, Texture,
-    nearest, nesting, stand_ins,
+    Bsdf, Camera, Conductor, Geometry, Material, MetallicRoughness, PointLight, Scene, SceneHash, Shape, Spot, Sun,
+    Texture, nearest, nesting, stand_ins,
 };
 use glam::Vec3;
 use meshes::Meshes;
@@ -272,9 +272,11 @@ fn build(raw: RawScene, name: &str, folder: &Path, progress: &Progress) -> Resul
     }
     let sun = raw.sun.map(|Table(raw)| sun(raw)).transpose()?;
     let (sky, environment) = sky::sky(raw.sky.0, folder)?;
-    let points = raw.point_light.into_iter();
-    let point_lights =
-        points.map(|Table(p)| PointLight { position: p.position.into(), intensity: p.intensity.into(), spot: None });
+    let point_lights = raw.point_light.into_iter().map(|Table(p)| {
+        let spot = p.spot.map(|Table(raw)| spot(raw)).transpose()?;
+        Ok(PointLight { position: p.position.into(), intensity: p.intensity.into(), spot })
+    });
+    let point_lights = point_lights.collect::<Result<_, Fault>>()?;
     let (d, raw_fake) = (FakeNumbers::default(), raw.fake.0);
     let fake = FakeNumbers {
         ambient: raw_fake.ambient.map_or(d.ambient, |v| v.get()),
@@ -292,7 +294,7 @@ fn build(raw: RawScene, name: &str, folder: &Path, progress: &Progress) -> Resul
         materials,
         shapes: shapes.into(),
         sun,
-        point_lights: point_lights.collect(),
+        point_lights,
         sky,
         environment,
         fake,
@@ -334,6 +336,17 @@ fn sun(raw: raw::RawSun) -> Result<Sun, Fault> {
         return fault(raw.angular_radius.span(), "expected degrees below 90");
     }
     Ok(Sun { towards, angular_radius, irradiance: raw.irradiance.into() })
+}
+
+fn spot(raw: raw::RawSpot) -> Result<Spot, Fault> {
+    let Some(towards) = unit(Vec3::from(*raw.towards.get_ref())) else {
+        return fault(raw.towards.span(), "the direction of a spot must not be zero");
+    };
+    let (inner, outer) = (raw.inner.get(), raw.outer.get_ref().get());
+    if outer <= inner || outer > 180.0 {
+        return fault(raw.outer.span(), "expected degrees above inner and at most 180");
+    }
+    Ok(Spot { towards, inner, outer })
 }
 
 fn material(name: String, raw: Spanned<Table<RawMaterial>>, pictures: &mut Pictures) -> Result<Material, Fault> {

@@ -243,6 +243,15 @@ pub struct RawSun {
 pub struct RawPointLight {
     pub position: Triple<Any>,
     pub intensity: Triple<AtLeastZero>,
+    pub spot: Option<Table<RawSpot>>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct RawSpot {
+    pub towards: Spanned<Triple<Any>>,
+    pub inner: Number<AtLeastZero>,
+    pub outer: Spanned<Number<AboveZero>>,
 }
 
 #[derive(Deserialize, Default)]

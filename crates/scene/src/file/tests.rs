@@ -1,6 +1,7 @@
 use super::*;
 
 mod metallic_roughness;
+mod spot;
 
 pub(super) const SMALL: &str = r#"
 [camera]

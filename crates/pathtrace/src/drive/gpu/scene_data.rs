@@ -11,7 +11,7 @@ use crate::caster::{Casters, THROUGH};
 use crate::integrator::settings::ConesAt;
 use crate::intersect::coincident::Groups;
 use crate::light::flat::Outline;
-use crate::light::{Environment, Light as HostLight, Lights, SunDisc};
+use crate::light::{Environment, Light as HostLight, Lights, SunDisc, cone_of};
 use crate::sampling::sobol::reversed_point;
 use bytemuck::{Pod, Zeroable};
 use scene::material::Emission;
@@ -167,7 +167,8 @@ pub struct Light {
     pub position: Vec3,
     /// One of `LIGHT_*`.
     pub outline: u32,
-    /// First edge of a flat area light, a radius of a disk.
+    /// First edge of a flat area light, a radius of a disk; of a point light the cosine of its cone's edge, and the edge's
+    /// slope.
     pub u: Vec3,
     /// Area of a flat area light, radius of a ball or caster, 1 - cos of the sun's angular radius.
     pub area: f32,
@@ -356,7 +357,9 @@ fn light(from: &HostLight) -> Light {
             Light { position: sphere.center, area: sphere.radius, outline: LIGHT_BALL, ..area_light(emission) }
         }
         HostLight::Point(point) => {
-            Light { position: point.position, radiance: point.intensity, outline: LIGHT_POINT, ..none }
+            let (normal, [outer, slope]) = cone_of(point);
+            let u = Vec3::new(outer, slope, 0.0);
+            Light { position: point.position, radiance: point.intensity, outline: LIGHT_POINT, u, normal, ..none }
         }
         HostLight::Sun(sun) => {
             let area = sun.one_minus_cos();
