@@ -23,6 +23,8 @@ override TRIANGLE_LIGHTS: bool = true;
 override DISK_LIGHTS: bool = true;
 override BALL_LIGHTS: bool = true;
 override POINT_LIGHTS: bool = true;
+// whether there are so many that a tree chooses among them
+override MANY_LIGHTS: bool = false;
 override SUN: bool = true;
 // whether the sky is a picture
 override ENVIRONMENT: bool = true;

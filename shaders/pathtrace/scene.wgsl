@@ -40,6 +40,8 @@ struct Header {
     textures: u32,
     // rows in each layer of texels
     texel_rows: u32,
+    // with which one of many lights is chosen by the tree
+    tree_share: f32,
     // of few shapes: where among them quadrilaterals, triangles, spheres and disks end
     seen: vec4u,
     // the same of those that shadow rays may meet, which stand first in each kind
@@ -197,6 +199,8 @@ struct Light {
     material: u32,
     // where the places of its corners in textures begin in mesh_data, 0 if it wears none
     corners: u32,
+    // of many lights: the way to it in their tree, from the root: bit by bit, whether it is the second of two
+    trail: u32,
 }
 
 const LIGHT_RECTANGLE: u32 = 0u;

@@ -181,7 +181,8 @@ fn mirrors_of_the_path_tracer_have_the_layout_of_their_structs() {
             seen,
             shading,
             usual_cones,
-            all_cones
+            all_cones,
+            tree_share
         ]
     );
     assert_same_layout!("pathtrace/scene.wgsl", Node, [low, contents, high, unused]);
@@ -209,6 +210,9 @@ fn mirrors_of_the_path_tracer_have_the_layout_of_their_structs() {
             k,
             off,
             through,
+            metallic,
+            roughness,
+            coat,
             colour_texture,
             emission_texture,
             normal_texture,
@@ -236,7 +240,8 @@ fn mirrors_of_the_path_tracer_have_the_layout_of_their_structs() {
             cumulative,
             group,
             material,
-            corners
+            corners,
+            trail
         ]
     );
     assert_same_layout!("pathtrace/drive/film.wgsl", PictureFrame, [eye, forward, right, up]);

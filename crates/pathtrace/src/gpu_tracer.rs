@@ -358,6 +358,7 @@ impl Made {
         let Made { lights, casters, shapes, mesh_data, .. } = &self;
         let mut aims = scene_data::lights(lights, &shapes.groups, mesh_data);
         aims.extend(scene_data::chains(casters));
+        aims.extend(scene_data::light_tree(lights));
         let mut few = [FewShape::zeroed(); MOST_SHAPES];
         few[..shapes.few.len()].copy_from_slice(&shapes.few);
         let buffers = [

@@ -61,6 +61,7 @@ pub const SOURCES: &[Source<'static>] = gpu::wgsl_sources![
     "pathtrace/light/spot.wgsl",
     "pathtrace/light/sun.wgsl",
     "pathtrace/light/textured.wgsl",
+    "pathtrace/light/tree.wgsl",
     "pathtrace/needs.wgsl",
     "pathtrace/prepared.wgsl",
     "pathtrace/sampling/angles.wgsl",

@@ -33,6 +33,7 @@ use crate::intersect::{NO_LIGHT, SHADOW_END};
 use crate::light::aim::NARROWEST_AIM;
 use crate::light::ball::ALL_DIRECTIONS;
 use crate::light::flat::SMALLEST_SOLID_ANGLE;
+use crate::light::{BELOW_ONE, LEAF, LEAST_SQUARE};
 use crate::prepared::NOT_A_LIGHT;
 use crate::sampling::UNIFORM_HEMISPHERE_PDF;
 use std::collections::BTreeSet;
@@ -58,6 +59,7 @@ pub fn shared_constants() -> Vec<(&'static str, f64)> {
         ATTRIBUTE_WORDS,
         BEGINS,
         BEHIND_THE_END,
+        BELOW_ONE,
         BILINEAR,
         BY_BOTH,
         BY_CHANCE,
@@ -82,6 +84,9 @@ pub fn shared_constants() -> Vec<(&'static str, f64)> {
         KIND_SPHERE,
         KIND_TRIANGLE,
         LAST_STEP,
+        LEAF,
+        LEAST_SQUARE,
+        LEAST_SPECULAR,
         LIGHT_BALL,
         LIGHT_DISK,
         LIGHT_ENVIRONMENT,
@@ -91,12 +96,12 @@ pub fn shared_constants() -> Vec<(&'static str, f64)> {
         LIGHT_TRIANGLE,
         LOBE_DIELECTRIC,
         LOBE_LAMBERT,
+        LOBE_METALLIC_ROUGHNESS,
         LOBE_MIRROR,
         LOBE_ROUGH_CONDUCTOR,
         MET_BY_CHANCE,
         MOST_BRANCHES,
         MOST_CELLS,
-        LOBE_METALLIC_ROUGHNESS,
         MOST_DEPTH,
         MOST_LEVELS,
         MOST_CONES,
@@ -115,16 +120,16 @@ pub fn shared_constants() -> Vec<(&'static str, f64)> {
         NO_LIGHT,
         NO_GROUP,
         ONE_SURFACE,
+        POLISHED,
         TEXTURE_WORDS,
         ROULETTE_SLOPE,
         SHADOW_END,
+        SMOOTHEST,
         SPARED_VERTICES,
         SPLITTING_VERTICES,
         SMALLEST_POSITIVE,
-        POLISHED,
         SMALLEST_SOLID_ANGLE,
         STAGE_INSIDE,
-        SMOOTHEST,
         STAGE_LEFT,
         STAGE_NONE,
         STAGE_OFF,

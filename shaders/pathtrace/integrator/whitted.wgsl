@@ -169,8 +169,12 @@ fn irradiance(at: SurfacePoint, normal: vec3f) -> vec3f {
 
 // Irradiance from one sample of a light; zero in shadow.
 fn unshadowed(at: SurfacePoint, normal: vec3f, turn: u32, each: bool, u: vec4f) -> vec3f {
-    let chosen = select(choose(u.z), turn, each);
-    var sample = sample_one(chosen, at.position, u.xy);
+    var sample: LightSample;
+    if each {
+        sample = sample_one(turn, at.position, u.xy);
+    } else {
+        sample = sample_light(at.position, u.z, u.xy);
+    }
     let cosine = dot(normal, sample.wi);
     if sample.pdf == 0.0 || cosine <= 0.0 || !counts(light_path) {
         return vec3f(0.0);
@@ -179,8 +183,7 @@ fn unshadowed(at: SurfacePoint, normal: vec3f, turn: u32, each: bool, u: vec4f) 
     if in_shadow(at, sample) {
         return vec3f(0.0);
     }
-    let counted = shadowed(normal, at.normal, sample.wi, cosine);
-    return sample.radiance_over_pdf * (counted * select(1.0 / lights[chosen].probability, 1.0, each));
+    return sample.radiance_over_pdf * shadowed(normal, at.normal, sample.wi, cosine);
 }
 
 // Whether one sample of this light is exact: it shines from one direction.

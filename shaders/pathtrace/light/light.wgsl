@@ -2,6 +2,7 @@
 //#import pathtrace/light/ball.wgsl
 //#import pathtrace/light/spot.wgsl
 //#import pathtrace/light/sun.wgsl
+//#import pathtrace/light/tree.wgsl
 //#import pathtrace/light/environment.wgsl
 // What shines, as light sampling sees it: area lights, point lights, the sun and a sky from a picture. Task 2 c),
 // "Sampling Area Light". One light is chosen, then a direction to it. Twin: crates/pathtrace/src/light/table.rs, in
@@ -10,6 +11,24 @@
 // The light that u in [0, 1) chooses.
 fn choose(u: f32) -> u32 {
     return choose_from(0u, header.lights, u);
+}
+
+// The light that u in [0, 1) chooses for a point: of many by the tree, or one of the few that have no place.
+fn choose_for(x: vec3f, u: f32) -> ChosenLight {
+    if MANY_LIGHTS && u < header.tree_share {
+        let chosen = choose_in_tree(x, min(u / header.tree_share, BELOW_ONE));
+        return ChosenLight(chosen.light, chosen.probability * header.tree_share);
+    }
+    let light = choose(u);
+    return ChosenLight(light, lights[light].probability);
+}
+
+// With what probability a light that has a place is chosen for a point.
+fn probability_for(light: u32, x: vec3f) -> f32 {
+    if MANY_LIGHTS {
+        return probability_in_tree(light, x) * header.tree_share;
+    }
+    return lights[light].probability;
 }
 
 // Which of `count` lights from the first one on u in [0, 1) chooses: the first whose running sum exceeds it.
@@ -35,10 +54,13 @@ fn sample_light(x: vec3f, u_light: f32, u: vec2f) -> LightSample {
 // As sample_light, but as if spots shone everywhere: of light that leaves its place in another direction, which is dimmed
 // by the share of that one.
 fn sample_light_whole(x: vec3f, u_light: f32, u: vec2f) -> LightSample {
-    let light = choose(u_light);
-    var sample = sample_one_whole(light, x, u);
-    sample.radiance_over_pdf /= lights[light].probability;
-    sample.pdf *= lights[light].probability;
+    let chosen = choose_for(x, u_light);
+    if MANY_LIGHTS && chosen.probability <= 0.0 {
+        return no_light();
+    }
+    var sample = sample_one_whole(chosen.light, x, u);
+    sample.radiance_over_pdf /= chosen.probability;
+    sample.pdf *= chosen.probability;
     return sample;
 }
 
@@ -89,11 +111,16 @@ fn sample_of(area_light: Light, x: vec3f, u: vec2f) -> LightSample {
 // Density per solid angle with which sample_light at x draws the direction that met `light` at `met`.
 fn light_pdf(light: u32, x: vec3f, met: vec3f) -> f32 {
     let area_light = lights[light];
+    let probability = probability_for(light, x);
+    if MANY_LIGHTS && probability <= 0.0 {
+        // behind a flat light, where the tree leaves it out, its density is infinite
+        return 0.0;
+    }
     if BALL_LIGHTS && area_light.outline == LIGHT_BALL {
-        return ball_pdf(area_light, x) * area_light.probability;
+        return ball_pdf(area_light, x) * probability;
     }
     if RECTANGLE_LIGHTS || TRIANGLE_LIGHTS || DISK_LIGHTS {
-        return flat_pdf(area_light, x, met) * area_light.probability;
+        return flat_pdf(area_light, x, met) * probability;
     }
     return 0.0;
 }

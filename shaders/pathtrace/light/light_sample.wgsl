@@ -1,5 +1,5 @@
 // Light that arrives at a point from one sampled direction, if nothing stands between. Twin:
-// crates/pathtrace/src/light/table.rs, in lanes.
+// crates/pathtrace/src/light/light_samples.rs, in lanes.
 
 struct LightSample {
     // unit direction towards the light

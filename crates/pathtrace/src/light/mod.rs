@@ -7,15 +7,19 @@ pub(crate) mod ball;
 mod emission;
 mod environment;
 pub(crate) mod flat;
+mod light_samples;
 mod spherical_rectangle;
 mod spot;
 mod sun;
 mod table;
 pub(crate) mod textured;
+mod tree;
+mod tree_build;
 
 pub(crate) use aim::{Aim, Bounds};
 pub use emission::{EmissionChoice, Emitted, Emitters};
 pub use environment::{Environment, EnvironmentSamples};
+pub use light_samples::LightSamples;
 pub use spherical_rectangle::SphericalRectangle;
 pub(crate) use spot::cone_of;
 pub use sun::SunDisc;
@@ -31,9 +35,11 @@ use scene::material::Emission;
 use scene::{Geometry, PointLight, Scene, Shape, Sun, Vec3};
 use std::f32::consts::PI;
 use std::sync::Arc;
-pub use table::LightSamples;
 use table::Table;
 use textured::TexturedLights;
+use tree::LightTree;
+pub(crate) use tree::{BELOW_ONE, LEAF, LEAST_SQUARE};
+use tree_build::Bounds as LightBounds;
 
 /// A light that can be sampled from a point.
 #[derive(Debug, Clone, Copy)]
@@ -115,7 +121,8 @@ impl Lights {
         let choice = Discrete::new(probabilities.iter().copied());
         let probabilities: Vec<f32> = probabilities.iter().map(|&p| p as f32).collect();
         let environment = environment.zip(probabilities.last()).map(|(map, &last)| Arc::new(map.chosen_with(last)));
-        let table = Table::new(&lights, &probabilities, choice, environment.clone(), textured.clone());
+        let tree = LightTree::over(&lights);
+        let table = Table::new(&lights, &probabilities, choice, (tree, environment.clone()), textured.clone());
         Lights { lights, probabilities, light_of_shape, sun, environment, textured, table }
     }
 
@@ -141,7 +148,7 @@ impl Lights {
         &self.table
     }
 
-    /// The light that `u` in [0, 1) chooses; there must be one.
+    /// The light that `u` in [0, 1) chooses where they are not so many that their place counts; there must be one.
     pub fn choose(&self, u: f32) -> usize {
         self.table.choose(u) as usize
     }
@@ -158,7 +165,7 @@ impl Lights {
             return None;
         }
         let sample = self.table.sample(lane_vector(x), u_light, u);
-        let end = match self.lights[self.choose(u_light)] {
+        let end = match self.lights[sample.light as usize] {
             Light::Flat(..) | Light::Sphere(..) => ShadowEnd::AreaLight(sample.point.into()),
             Light::Point(point) => ShadowEnd::Point(point.position),
             Light::Sun(_) | Light::Environment(_) => ShadowEnd::Infinity,

@@ -1,12 +1,13 @@
 //! The lights of a scene by columns, sampled in each lane.
 //!
-//! Twins: `shaders/pathtrace/light/light.wgsl` and `light_sample.wgsl`.
+//! Twin: `shaders/pathtrace/light/light.wgsl`.
 
 use super::ball;
 use super::flat::{Flats, Outline};
 use super::spot::{self, Cones};
 use super::textured::TexturedLights;
-use super::{Environment, Light};
+use super::tree::BELOW_ONE;
+use super::{Environment, Light, LightSamples, LightTree};
 use crate::intersect::sphere::SphereLanes;
 use crate::intersect::{NO_LIGHT, SurfacePoints};
 use crate::sampling::discrete::Discrete;
@@ -32,6 +33,10 @@ pub struct Table {
     size: Column,
     probability: Column,
     choice: Discrete,
+    /// Of many lights, all of those that have a place, which stand first ...
+    tree: Option<LightTree>,
+    /// ... and with which probability one of them is chosen.
+    tree_share: f32,
     /// See [`kind`].
     kind: WordColumn,
     has: Has,
@@ -63,61 +68,12 @@ mod kind {
     pub const SPOT: u32 = 512;
 }
 
-/// Light that arrives at a point in each lane from one sampled direction, if nothing stands between.
-#[derive(Debug, Clone, Copy)]
-pub struct LightSamples<F: Float> {
-    /// Where the light shines; what else is said holds only there.
-    pub shines: F::M,
-    /// Unit direction towards the light.
-    pub wi: Vector<F>,
-    /// Radiance divided by `pdf`; for a point or a delta sun its irradiance.
-    pub radiance_over_pdf: Vector<F>,
-    /// Density per solid angle; infinite for a point and a delta sun.
-    pub pdf: F,
-    /// Where the shadow ray ends: on an area light, or in the air at a point without a normal.
-    pub point: SurfacePoints<F>,
-    /// Where it does not end.
-    pub endless: F::M,
-    /// Which light, by its index.
-    pub light: F::U,
-}
-
-impl<F: Float> LightSamples<F> {
-    /// Of two samples of one light.
-    #[inline(always)]
-    fn select(mask: F::M, yes: Self, no: Self) -> Self {
-        LightSamples {
-            shines: (mask & yes.shines) | (!mask & no.shines),
-            wi: Vector::select(mask, yes.wi, no.wi),
-            radiance_over_pdf: Vector::select(mask, yes.radiance_over_pdf, no.radiance_over_pdf),
-            pdf: F::select(mask, yes.pdf, no.pdf),
-            point: SurfacePoints::select(mask, yes.point, no.point),
-            endless: (mask & yes.endless) | (!mask & no.endless),
-            light: yes.light,
-        }
-    }
-
-    #[inline(always)]
-    fn nowhere(light: F::U) -> Self {
-        let zero = Vector::zero();
-        LightSamples {
-            shines: F::M::splat(false),
-            wi: zero,
-            radiance_over_pdf: zero,
-            pdf: F::splat(0.0),
-            point: SurfacePoints::in_the_air(zero),
-            endless: F::M::splat(false),
-            light,
-        }
-    }
-}
-
 impl Table {
     pub(super) fn new(
         lights: &[Light],
         probabilities: &[f32],
         choice: Discrete,
-        environment: Option<Arc<Environment>>,
+        (tree, environment): (Option<LightTree>, Option<Arc<Environment>>),
         textured: Option<Arc<TexturedLights>>,
     ) -> Self {
         let vectors = |of: fn(&Light) -> Vec3| VectorColumn::new(lights.iter().map(of));
@@ -148,7 +104,9 @@ impl Table {
                 Light::Sun(sun) => sun.one_minus_cos(),
             })),
             probability: Column::new(probabilities.iter().copied()),
+            tree_share: tree.as_ref().map_or(0.0, |tree| choice.running_sums()[tree.len() - 1]),
             choice,
+            tree,
             kind: WordColumn::new(lights.iter().map(kind_of)),
             has: Has {
                 flats: lights.iter().any(|light| matches!(light, Light::Flat(..))),
@@ -184,6 +142,9 @@ impl Table {
     /// is dimmed by the share of that one.
     #[inline(always)]
     pub fn sample_whole<F: Float>(&self, x: Vector<F>, u_light: F, u: [F; 2]) -> LightSamples<F> {
+        if let Some(tree) = &self.tree {
+            return self.sample_in_tree(tree, x, u_light, u);
+        }
         let light = self.choose(u_light);
         let mut sample = self.sample_one_whole(light, x, u);
         if self.choice.len() > 1 {
@@ -192,6 +153,40 @@ impl Table {
             sample.pdf = sample.pdf * probability;
         }
         sample
+    }
+
+    /// Of many lights: one by the tree, or one of the few that have no place.
+    #[inline(always)]
+    fn sample_in_tree<F: Float>(&self, tree: &LightTree, x: Vector<F>, u_light: F, u: [F; 2]) -> LightSamples<F> {
+        let (zero, share) = (F::splat(0.0), F::splat(self.tree_share));
+        let (mut light, probability) = tree.choose_lanes(x, (u_light / share).min(F::splat(BELOW_ONE)));
+        let mut probability = probability * share;
+        if self.tree_share < 1.0 {
+            let placed = u_light.lt(share);
+            light = F::U::select(placed, light, self.choose(u_light));
+            probability = F::select(placed, probability, light.look_up(&self.probability));
+        }
+        let sample = self.sample_one_whole(light, x, u);
+        LightSamples {
+            shines: sample.shines & probability.gt(zero),
+            radiance_over_pdf: sample.radiance_over_pdf * (F::splat(1.0) / probability),
+            pdf: sample.pdf * probability,
+            ..sample
+        }
+    }
+
+    /// A density times the probability with which a light that has a place is chosen for points.
+    #[inline(always)]
+    fn times_probability<F: Float>(&self, density: F, light: F::U, x: Vector<F>) -> F {
+        let Some(tree) = &self.tree else { return density * light.look_up(&self.probability) };
+        let (probability, zero) = (tree.probability_lanes(light, x) * F::splat(self.tree_share), F::splat(0.0));
+        // behind a flat light, where the tree leaves it out, its density is infinite
+        F::select(probability.gt(zero), density * probability, zero)
+    }
+
+    /// The tree that chooses among many lights, and with which probability it does.
+    pub(crate) fn tree(&self) -> Option<(&LightTree, f32)> {
+        self.tree.as_ref().map(|tree| (tree, self.tree_share))
     }
 
     /// As [`Table::sample`], but of one light of the caller's choice, whose probability is not in the densities.
@@ -320,7 +315,7 @@ impl Table {
             let ball = SphereLanes { center: self.position.look_up(light), radius: light.look_up(&self.size) };
             density = F::select(is(kind, kind::BALL), ball::pdf(x, &ball), density);
         }
-        density * light.look_up(&self.probability)
+        self.times_probability(density, light, x)
     }
 
     /// As [`Table::pdf`], but 0 where no sample at `x` is that point of the light, whose normal is given: on its back, or

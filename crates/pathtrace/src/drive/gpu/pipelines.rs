@@ -71,11 +71,13 @@ struct LightKinds {
     balls: bool,
     points: bool,
     environment: bool,
+    /// Whether they are so many that a tree chooses among them.
+    many: bool,
 }
 
 impl LightKinds {
     fn of(lights: &Lights) -> Self {
-        let mut kinds = Self::default();
+        let mut kinds = LightKinds { many: lights.table().tree().is_some(), ..Self::default() };
         for light in &lights.lights {
             match light {
                 Light::Flat(flat, _) => match flat.outline {
@@ -153,12 +155,13 @@ impl SceneNeeds {
             ("CHECKERBOARD", self.flag(self.needs.checkerboard)),
             ("MIRROR", self.flag(self.needs.mirror)),
             ("ROUGH_CONDUCTOR", self.flag(self.needs.rough_conductor)),
+            ("METALLIC_ROUGHNESS", self.flag(self.needs.metallic_roughness)),
             ("DIELECTRIC", self.flag(self.needs.dielectric)),
             ("RECTANGLE_LIGHTS", self.flag(self.lights.rectangles)),
-            ("METALLIC_ROUGHNESS", self.flag(self.needs.metallic_roughness)),
             ("TRIANGLE_LIGHTS", self.flag(self.lights.triangles)),
             ("DISK_LIGHTS", self.flag(self.lights.disks)),
             ("BALL_LIGHTS", self.flag(self.lights.balls)),
+            ("MANY_LIGHTS", flag(self.lights.many)),
             ("POINT_LIGHTS", self.flag(self.lights.points)),
             ("SUN", self.flag(self.needs.sun)),
             ("ENVIRONMENT", self.flag(self.lights.environment)),

@@ -61,8 +61,8 @@ pub struct Header {
     pub textures: u32,
     /// Rows in each layer of the texture of all texels.
     pub texel_rows: u32,
-    /// Padding.
-    pub unused: u32,
+    /// With which one of many lights is chosen by the tree.
+    pub tree_share: f32,
     /// Of few shapes: where among them quadrilaterals, triangles, spheres and disks end.
     pub seen: [u32; 4],
     /// The same of those that shadow rays may meet, which stand first in each kind.
@@ -192,6 +192,10 @@ pub struct Light {
     pub material: u32,
     /// Where the places of its corners in textures begin in `mesh_data`, 0 if it wears none.
     pub corners: u32,
+    /// The way to it in the tree over many lights.
+    pub trail: u32,
+    /// Padding.
+    pub unused: [u32; 3],
 }
 
 /// The header of a scene.
@@ -226,7 +230,7 @@ pub(crate) fn header(
         attributes: mesh_data.attributes,
         textures: mesh_data.textures,
         texel_rows: mesh_data.texel_rows(),
-        unused: 0,
+        tree_share: lights.table().tree().map_or(0.0, |(_, share)| share),
         seen: shapes.seen,
         shading: shapes.shading,
         usual_cones: Cones::new(ConesAt::Usual, scene, lights).spheres(),
@@ -324,8 +328,24 @@ pub fn chains(casters: &Casters) -> impl Iterator<Item = Light> {
     })
 }
 
+/// The nodes of the tree over many lights, which stand behind the chains: what stands where is said in
+/// `shaders/pathtrace/light/tree.wgsl`.
+pub fn light_tree(lights: &Lights) -> impl Iterator<Item = Light> {
+    let nodes = lights.table().tree().map_or(&[][..], |(tree, _)| tree.nodes());
+    nodes.iter().map(|node| Light {
+        position: node.center,
+        area: node.radius,
+        normal: node.axis,
+        u: Vec3::new(node.cos_spread, 0.0, 0.0),
+        radiance: Vec3::splat(node.intensity),
+        outline: node.contents,
+        ..Light::zeroed()
+    })
+}
+
 /// What is sampled as a light, and which of its surfaces coincide.
 pub(crate) fn lights(lights: &Lights, groups: &Groups, mesh_data: &MeshData) -> Vec<Light> {
+    let trails = lights.table().tree().map_or(&[][..], |(tree, _)| tree.trails());
     let chances = lights.probabilities.iter().zip(lights.table().running_sums());
     let one = |((from, (&probability, &cumulative)), index)| Light {
         probability,
@@ -333,6 +353,7 @@ pub(crate) fn lights(lights: &Lights, groups: &Groups, mesh_data: &MeshData) -> 
         group: groups.of_light(index),
         corners: mesh_data.light_corners[index as usize][0],
         material: mesh_data.light_corners[index as usize][1],
+        trail: trails.get(index as usize).copied().unwrap_or(0),
         ..light(from)
     };
     lights.lights.iter().zip(chances).zip(0u32..).map(one).collect()
