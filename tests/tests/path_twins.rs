@@ -359,7 +359,8 @@ fn more_triangles_than_a_binding_holds_are_refused(gpu: &Gpu, scene: &Scene, mut
     if limit > 1 << 28 {
         return;
     }
-    let side = ((limit / 128) as f64).sqrt() as u32 + 8;
+    // two triangles and a position a quad take 36 bytes before there is a tree
+    let side = ((limit / 36) as f64).sqrt() as u32 + 8;
     let positions = (0..side * side).map(|i| Vec3::new((i % side) as f32, 0.0, (i / side) as f32)).collect();
     let quad = |i: u32| {
         let a = i / (side - 1) * side + i % (side - 1);
@@ -369,7 +370,7 @@ fn more_triangles_than_a_binding_holds_are_refused(gpu: &Gpu, scene: &Scene, mut
     let mut large = scene.clone();
     large.shapes = [scene::Shape { geometry: scene::Geometry::mesh(positions, triangles), material: 0 }].into();
     let error = GpuTracer::new(gpu, &large).unwrap_err().to_string();
-    assert!(error.contains("bytes, and the graphics device takes at most"), "{error}");
+    assert!(error.contains("the large meshes and their trees need"), "{error}");
     // what was there before still is
     assert!(tracer.set_scene(&large).is_err());
     let mut film = Film::new(8, 8);
