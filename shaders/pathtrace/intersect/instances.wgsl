@@ -2,8 +2,8 @@
 //#import pathtrace/intersect/cwbvh.wgsl
 //#import pathtrace/intersect/attributes.wgsl
 // Large meshes, put into the world by maps: a tree over their boxes, and below it each mesh's own, into whose space the
-// ray goes unnormalised, so that distances are the same. Mirror: crates/pathtrace/src/drive/gpu/instance_data.rs, which
-// lays them out.
+// ray goes unnormalised, so that distances are the same. Twin: crates/pathtrace/src/intersect/instances.rs. Mirror:
+// crates/pathtrace/src/drive/gpu/instance_data.rs, which lays them out.
 
 // Rows of a linear map.
 struct Rows {

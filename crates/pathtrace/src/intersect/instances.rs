@@ -4,6 +4,8 @@
 //! A ray goes into a mesh's space unnormalised, so that distances stay what they are in the world. The maps are kept and
 //! applied in f64: a ray's start there is off by its rounding to f32 alone, and so is a hit's point in the world. Of
 //! instances that are met at one distance the first of the scene is there.
+//!
+//! Twin: `shaders/pathtrace/intersect/instances.wgsl`.
 
 use super::baking::is_instanced;
 use super::mesh_tree::MeshTree;

@@ -11,12 +11,17 @@ pub fn allow_files_outside() {
     ALLOWS_OUTSIDE.store(true, Ordering::Relaxed);
 }
 
+/// Whether they may.
+pub(crate) fn allows_files_outside() -> bool {
+    ALLOWS_OUTSIDE.load(Ordering::Relaxed)
+}
+
 /// The file of this name beside a scene in `folder`.
 ///
 /// # Errors
 /// In words, if the name leads out of the folder and nobody has allowed that.
 pub(crate) fn beside(folder: &Path, name: &str) -> Result<PathBuf, String> {
-    if is_inside(Path::new(name)) || ALLOWS_OUTSIDE.load(Ordering::Relaxed) {
+    if is_inside(Path::new(name)) || allows_files_outside() {
         return Ok(folder.join(name));
     }
     Err(format!(

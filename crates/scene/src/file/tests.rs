@@ -1,4 +1,5 @@
 use super::*;
+use crate::{Bsdf, Conductor};
 
 mod metallic_roughness;
 mod spot;

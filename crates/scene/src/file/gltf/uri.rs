@@ -1,6 +1,7 @@
 //! What a URI of a glTF file stands for: bytes within it, or a file in the folder of the file that names it. Nothing else
 //! is ever opened, whoever wrote the file.
 
+use super::super::beside::allows_files_outside;
 use super::{Refused, quoted};
 use base64::Engine;
 use base64::engine::general_purpose::GeneralPurpose;
@@ -41,7 +42,8 @@ fn data_bytes(data: &str, most: u64) -> Result<Vec<u8>, Refused> {
 /// The path of a file that lies in `folder` or below, links followed.
 fn inside(uri: &str, folder: &Path) -> Result<PathBuf, Refused> {
     let leaves = || {
-        let line = "only files in the folder of the model or below are opened: put it there";
+        let line =
+            "only files in the folder of the model or below are opened: put it there, or allow it with --allow-outside";
         Refused(format!("{} is somewhere else, and {line}", quoted(uri)))
     };
     let decoded = percent_encoding::percent_decode_str(uri).decode_utf8();
@@ -51,6 +53,9 @@ fn inside(uri: &str, folder: &Path) -> Result<PathBuf, Refused> {
         return Err(leaves());
     }
     let relative = Path::new(decoded.as_ref());
+    if allows_files_outside() {
+        return Ok(folder.join(relative));
+    }
     if !relative.components().all(|part| matches!(part, Component::Normal(_) | Component::CurDir)) {
         return Err(leaves());
     }
