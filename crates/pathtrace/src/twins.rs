@@ -9,6 +9,7 @@ use crate::caster::cone::{CONE_DENSITY, MOST_CONES, MOST_SHARE, NARROWEST, WIDES
 use crate::caster::sphere_chain::{LAST_STEP, MOST_ROOTS, MOST_STEPS, NEAR_AXIS};
 use crate::drive::gpu::dispatch::GROUP;
 use crate::drive::gpu::film_data::CUT_SHIFT;
+use crate::drive::gpu::instance_data::UNMOVED;
 use crate::drive::gpu::mesh_data::{ATTRIBUTE_WORDS, BILINEAR, TEXEL_ROW, TEXTURE_WORDS, WRAP_CLAMP, WRAP_MIRROR};
 use crate::drive::gpu::scene_data::*;
 use crate::drive::gpu::shape_data::*;
@@ -138,6 +139,7 @@ pub fn shared_constants() -> Vec<(&'static str, f64)> {
         TAU,
         TEXEL_ROW,
         UNIFORM_HEMISPHERE_PDF,
+        UNMOVED,
         VECTORS_OF_A_NODE,
         WIDEST,
         WINDING_TURNED,

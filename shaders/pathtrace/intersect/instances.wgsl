@@ -12,7 +12,11 @@ struct Rows {
     z: vec3f,
 }
 
+// The bit of a mesh's place that says that it stands in the world as it is.
+const UNMOVED: u32 = 0x80000000u;
+
 struct Instance {
+    unmoved: bool,
     // from the mesh's space, then moved
     forward: Rows,
     backward: Rows,
@@ -24,10 +28,11 @@ fn instance_at(index: u32) -> Instance {
     let backward = primitives[header.instance_primitives + 2u * index];
     let forward = primitives[header.instance_primitives + 2u * index + 1u];
     return Instance(
+        (backward.tag & UNMOVED) != 0u,
         Rows(forward.a, forward.b, forward.c),
         Rows(backward.a, backward.b, backward.c),
         backward.normal_low,
-        mesh_place(backward.tag),
+        mesh_place(backward.tag & ~UNMOVED),
     );
 }
 
@@ -47,6 +52,9 @@ fn mapped_bound(rows: Rows, bound: vec3f) -> vec3f {
 
 // The ray in the mesh's space. First moved, then turned: what is rounded is as small as the instance, wherever it stands.
 fn ray_of_instance(instance: Instance, ray: Ray) -> Ray {
+    if instance.unmoved {
+        return ray;
+    }
     let origin = mapped(instance.backward, ray.origin - instance.moved_by);
     return Ray(origin, mapped(instance.backward, ray.direction), ray.tmax);
 }
@@ -114,6 +122,9 @@ fn hit_of_instance(nearest: Nearest, ray: Ray) -> Hit {
 // A point of the mesh in the world. The next ray's way back into the mesh's space rounds too, and counts here, so that it
 // starts on its side of the surface.
 fn in_world(point: SurfacePoint, instance: Instance) -> SurfacePoint {
+    if instance.unmoved {
+        return SurfacePoint(point.position, point.error, unit_vector(point.normal), 0.0);
+    }
     let turned = mapped(instance.forward, point.position);
     let position = turned + instance.moved_by;
     let way_back = mapped_bound(instance.backward, abs(position - instance.moved_by));

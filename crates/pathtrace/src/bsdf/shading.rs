@@ -139,7 +139,8 @@ mod tests {
             let height = g.dot(wo);
             let mirrored = n_mirrors(bent, wo).dot(g);
             assert!((bent.length_squared() - 1.0).abs() < 1e-5 && bent.dot(g) > 0.0, "{i}: {bent:?}");
-            assert!(mirrored >= (0.9 * height).min(0.01) - 1e-4, "{i}: {mirrored}, seen from {height}");
+            // what is turned goes by roots of squares that cancel: to the root of their last digit, 2.4e-4
+            assert!(mirrored >= (0.9 * height).min(0.01) - 2.5e-4, "{i}: {mirrored}, seen from {height}");
             let kept = (bent - n).length_squared() == 0.0;
             assert!(kept || n.dot(g) <= 0.0 || n_mirrors(n, wo).dot(g) < 0.01, "{i} is turned without need");
             turned += u32::from(!kept);

@@ -17,6 +17,9 @@ use scene::{Geometry, Instance, Mesh, Scene, Shape, Vec3};
 use std::borrow::Cow;
 use std::sync::Arc;
 
+/// The bit of a mesh's place that says that it stands in the world as it is.
+pub(crate) const UNMOVED: u32 = 1 << 31;
+
 /// The large meshes of a scene, in the order in which they stand there.
 #[derive(Debug, Default)]
 pub(crate) struct Instances {
@@ -138,7 +141,8 @@ fn maps(to_world: &Affine3A, place: u32) -> [ShapeData; 2] {
     let forward = Mat3::from(to_world.matrix3);
     let backward = forward.as_dmat3().inverse();
     let moved = Vec3::from(to_world.translation);
-    let back = ShapeData { normal_low: moved, tag: place, ..rows(&backward) };
+    let unmoved = if *to_world == Affine3A::IDENTITY { UNMOVED } else { 0 };
+    let back = ShapeData { normal_low: moved, tag: place | unmoved, ..rows(&backward) };
     [back, rows(&forward.as_dmat3())]
 }
 
@@ -219,6 +223,7 @@ mod tests {
         let to_world = Affine3A::from_scale_rotation_translation(Vec3::new(-2.0, 0.3, 1e3), turn, moved);
         let [back, forward] = maps(&to_world, 9);
         assert_eq!((back.tag, back.normal_low), (9, moved));
+        assert_eq!(maps(&Affine3A::IDENTITY, 9)[0].tag, 9 | UNMOVED);
         let map = |rows: &ShapeData, v: Vec3| Vec3::new(rows.a.dot(v), rows.b.dot(v), rows.c.dot(v));
         for v in [Vec3::X, Vec3::Y, Vec3::Z] {
             assert!(map(&back, map(&forward, v)).distance(v) < 1e-5);
