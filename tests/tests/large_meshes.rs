@@ -1,6 +1,6 @@
 //! Large meshes on the device keep trees of their own, into whose space rays go: they are met where the same triangles
-//! in the world are, no ray passes a closed one wherever it stands, none shadows itself, and pictures agree with the
-//! processor's.
+//! in the world are, no ray passes a closed one wherever it stands, none shadows itself, and pictures
+//! agree with the processor's.
 
 #![expect(clippy::unwrap_used, reason = "a test stops at the first thing that is not as it must be")]
 
@@ -66,7 +66,7 @@ fn direction(item: u32, block: u32) -> Vec3 {
     sampling::cone(2.0, [u, v])
 }
 
-/// 8,192 triangles.
+/// A bumpy ball of 8,192 triangles.
 fn mesh() -> Arc<Mesh> {
     Arc::new(bumpy::bumpy(5))
 }
@@ -311,8 +311,8 @@ fn main(@builtin(global_invocation_id) id: vec3u) {
     normals[2u * id.x + 1u] = vec4f(plane.normal_low, 0.0);
 }";
 
-/// As f64 has them but for 2^-32 of the product of two edges, slivers of a thousandth too, at any size and far from the
-/// origin.
+/// As f64 has them but for 2^-32 of the product of two edges, slivers of a thousandth too, at any size and
+/// far from the origin.
 #[test]
 fn planes_are_found_with_more_bits_than_a_float_has() {
     const TRIANGLES: u32 = 4096;

@@ -1,5 +1,5 @@
-//! Scenes of so many lamps that a tree chooses among them: what is found by it is what chance finds, and both machines choose
-//! alike.
+//! Scenes of so many lamps that a tree chooses among them: what is found by it is what chance finds, and
+//! both machines choose alike.
 
 mod pair;
 

@@ -197,7 +197,7 @@ pub enum Encoding {
 /// A picture on a surface.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Texels {
-    /// Width and height.
+    /// Width and height of the picture in texels.
     pub size: (u32, u32),
     /// Red, green and blue, linear, and alpha, row by row from the top.
     pub texels: Vec<[f32; 4]>,
@@ -224,7 +224,7 @@ pub fn texels(path: &Path, encoding: Encoding) -> Result<Texels, ImageFileError>
 /// As [`texels`], of the bytes of a .png, which `path` names in errors.
 ///
 /// # Errors
-/// As [`texels`].
+/// As [`texels`] says it.
 pub fn texels_of(bytes: &[u8], encoding: Encoding, path: &Path) -> Result<Texels, ImageFileError> {
     png::texels(std::io::Cursor::new(bytes), encoding, path)
 }

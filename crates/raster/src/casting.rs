@@ -9,9 +9,9 @@ use scene::{Alpha, Bsdf, Geometry, Scene, Sun, Vec3};
 /// What of a shape is drawn into shadow maps.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Casting {
-    /// Nothing.
+    /// It casts no shadow.
     Nothing,
-    /// All of it.
+    /// Both sides of all of it.
     BothSides,
     /// What the light doesn't see, so that the lit side of a closed shape never shadows itself.
     BackFaces,
@@ -58,7 +58,7 @@ fn casting(scene: &Scene, index: usize, fake: Fake, surroundings: &Surroundings)
 
 /// What rectangles may hide.
 struct Surroundings {
-    /// Of each shape.
+    /// The box of each shape.
     bounds: Vec<(Vec3, Vec3)>,
     /// What reaches behind a plane by less does not count: a box that sinks into its floor leaves the floor out.
     depth: f32,

@@ -11,18 +11,18 @@ pub const SHADING_THREE: u32 = 0;
 pub const SHADING_PHONG: u32 = 1;
 /// See [`SHADING_THREE`].
 pub const SHADING_BLINN_PHONG: u32 = 2;
-/// See [`SHADING_THREE`].
+/// The highlight of facets, see [`SHADING_THREE`].
 pub const SHADING_COOK_TORRANCE: u32 = 3;
 
 /// A bit for each picture that a material may have, in the order of [`Look::places`]: that of its colour.
 pub const IMAGE_COLOUR: u32 = 1;
 /// That of its share of metal and its roughness.
 pub const IMAGE_METALLIC_ROUGHNESS: u32 = 2;
-/// The normal map.
+/// The bit of the normal map.
 pub const IMAGE_NORMAL: u32 = 4;
 /// That of the light which it sends out.
 pub const IMAGE_EMISSION: u32 = 8;
-/// The alpha mask's.
+/// The bit of the alpha mask's picture.
 pub const IMAGE_ALPHA: u32 = 16;
 
 /// [`Lights::area_light_pattern`] where there is no area light.
@@ -69,7 +69,7 @@ pub struct View {
 pub struct Lights {
     /// Unit direction.
     pub sun_towards: Vec3,
-    /// Padding.
+    /// Padding, as WGSL aligns it.
     pub unused3: u32,
     /// What a white Lambert surface facing the sun sends back; zero for no sun.
     pub sun_incident: Vec3,
@@ -133,11 +133,11 @@ pub struct Object {
     pub diffuse: f32,
     /// Share of metal, for Cook and Torrance's highlight.
     pub metallic: f32,
-    /// Its roughness.
+    /// Roughness of the facets, in [0, 1].
     pub roughness: f32,
     /// What the coat of what is no metal reflects head-on.
     pub coat: f32,
-    /// Padding.
+    /// Padding, as WGSL aligns it.
     pub unused: f32,
     /// From the mesh's own space, if its corners are in that: the rows of the map.
     pub to_world: [Vec4; 3],
@@ -149,11 +149,11 @@ pub struct Object {
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
 pub struct ImagePlace {
-    /// Two columns.
+    /// The matrix for places in textures, two columns.
     pub turn_and_scale: Vec4,
-    /// Added afterwards.
+    /// What is added to places in textures afterwards.
     pub offset: Vec2,
-    /// Padding.
+    /// Padding, as WGSL aligns it.
     pub unused: Vec2,
 }
 
@@ -169,6 +169,6 @@ pub struct Look {
     pub cutoff: f32,
     /// What alpha is multiplied by.
     pub alpha: f32,
-    /// Padding.
+    /// Padding, as WGSL aligns it.
     pub unused: f32,
 }

@@ -140,7 +140,7 @@ impl Looks {
         &self.groups[self.of_material[material]]
     }
 
-    /// All of them.
+    /// The bind groups of all looks.
     pub fn groups(&self) -> &[BindGroup] {
         &self.groups
     }

@@ -116,9 +116,9 @@ impl Maps {
 /// What is drawn, on the device.
 #[derive(Debug, Clone, Copy)]
 pub struct Things<'a> {
-    /// Triangles.
+    /// The triangles that are drawn.
     pub world: &'a World,
-    /// Pictures on them.
+    /// The pictures on their surfaces.
     pub looks: &'a Looks,
 }
 

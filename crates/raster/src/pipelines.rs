@@ -22,7 +22,7 @@ use wgpu::{BindGroupLayout, BindingType, Face, FrontFace, RenderPipeline, Shader
 pub enum Into {
     /// A cube map's face.
     CubeMap,
-    /// The picture.
+    /// The picture that is looked at.
     Picture,
 }
 

@@ -73,7 +73,7 @@ fn smith_visibility(n_dot_l: f32, n_dot_v: f32, width: f32) -> f32 {
 /// What the facets of a surface reflect, for [`cook_torrance`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Facets {
-    /// Share of metal.
+    /// Share of metal, in [0, 1].
     pub metallic: f32,
     /// Its square is the width of the facets' distribution.
     pub roughness: f32,

@@ -18,7 +18,7 @@ pub struct Bound {
 }
 
 impl Bound {
-    /// A picture's.
+    /// Uploads a picture with all of its mips.
     pub fn new(gpu: &Gpu, image: &ImageTexture) -> Result<Bound, GpuError> {
         let (width, height) = image.size();
         gpu.check_size("a picture on a surface", width, height)?;

@@ -1,5 +1,5 @@
-//! What is compiled into the pipelines that draw a shape: shaders must not branch on uniforms, as that of the forward pass
-//! says.
+//! What is compiled into the pipelines that draw a shape: shaders must not branch on uniforms, as that of
+//! the forward pass says.
 
 use crate::gpu_data::*;
 use crate::looks::{bits, pictures};
@@ -9,7 +9,7 @@ use scene::{Alpha, Bsdf, Geometry, Material, Scene, Shape};
 /// The space that a shape's corners are in.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Space {
-    /// The world's.
+    /// Those of the world's small shapes.
     World,
     /// The mesh's own, to be put somewhere.
     Mesh,
@@ -22,7 +22,7 @@ pub enum Space {
 pub struct Variant {
     /// Glass looks up its cube map, and only its back faces are drawn.
     pub glass: bool,
-    /// One of `SHADING_*`.
+    /// How highlights are shaded, one of `SHADING_*`.
     pub shading: u32,
     /// Where its corners are.
     pub space: Space,
@@ -35,7 +35,7 @@ pub struct Variant {
 }
 
 impl Variant {
-    /// The simplest.
+    /// The simplest way to draw.
     pub const PLAIN: Variant =
         Variant { glass: false, shading: SHADING_THREE, space: Space::World, flat: false, uvs: false, images: 0 };
 

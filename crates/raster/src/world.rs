@@ -22,7 +22,7 @@ pub struct World {
     parts: Vec<Part>,
 }
 
-/// Corners and triangles.
+/// Corners and triangles of a mesh on the device.
 #[derive(Debug, Clone)]
 struct Buffers {
     positions: Buffer,
@@ -36,7 +36,7 @@ struct Buffers {
 /// Where a shape's triangles are.
 #[derive(Debug, Clone)]
 struct Part {
-    /// Index into [`World::buffers`].
+    /// Place of its buffers in [`World::buffers`].
     buffers: usize,
     indices: Range<u32>,
 }

@@ -28,7 +28,7 @@ pub struct Camera {
 pub struct NamedCamera {
     /// What it is chosen by.
     pub name: String,
-    /// Where it stands.
+    /// Where it stands and looks.
     pub camera: Camera,
 }
 

@@ -21,8 +21,8 @@ pub struct Canonical<'a>(&'a mut dyn FnMut(&[u8]));
 /// As many bytes as are hashed at once: blake3 is several times as fast on many as on the four of a number.
 const CHUNK: usize = 1 << 16;
 
-/// Stands before what few scenes have, so that the bytes of all others are what they were: no choice and no list begins
-/// with it.
+/// Stands before what few scenes have, so that the bytes of all others are what they were: no choice and no
+/// list begins with it.
 const EXTRA: u32 = 0xe0e0_0000;
 
 /// A hash of all that is written.

@@ -6,10 +6,10 @@ use std::sync::OnceLock;
 /// What lies outside of the picture along an axis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Wrap {
-    /// The picture again.
+    /// The picture again and again.
     #[default]
     Repeat,
-    /// Its outermost texels.
+    /// The texels at its border.
     Clamp,
     /// The picture, every other time turned over.
     Mirror,
@@ -36,7 +36,7 @@ pub struct Sampling {
     pub bilinear: bool,
     /// Applied to texture coordinates first: `uv -> turn_and_scale * uv + offset` (KHR_texture_transform).
     pub turn_and_scale: Mat2,
-    /// See [`Sampling::turn_and_scale`].
+    /// What is added then, see [`Sampling::turn_and_scale`].
     pub offset: Vec2,
 }
 

@@ -73,7 +73,7 @@ pub struct NormalMap {
 /// Where a surface is there for rays.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub enum Alpha {
-    /// Everywhere.
+    /// It is there everywhere.
     #[default]
     Opaque,
     /// Where the product of factor and the picture's alpha is at least `cutoff`.
@@ -167,7 +167,7 @@ pub enum Texture {
     Checkerboard(Checkerboard),
     /// A picture, where a mesh says which part of it lies where.
     Image {
-        /// The picture.
+        /// The picture that is shown.
         image: Arc<ImageTexture>,
         /// What its colours are multiplied by, each channel in [0, 1].
         factor: Vec3,

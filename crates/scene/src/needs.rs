@@ -19,7 +19,7 @@ pub struct Needs {
     pub mirror: bool,
     /// Rough metal.
     pub rough_conductor: bool,
-    /// glTF's metallic-roughness model.
+    /// A surface of glTF's metallic-roughness model.
     pub metallic_roughness: bool,
     /// Glass.
     pub dielectric: bool,

@@ -16,7 +16,7 @@ pub struct Progress<'a> {
 pub struct Stopped;
 
 impl<'a> Progress<'a> {
-    /// Tells `hear`.
+    /// Tells `hear` what is done.
     pub fn new(hear: &'a Hear<'a>) -> Self {
         Progress { hear, stopped: AtomicBool::new(false) }
     }

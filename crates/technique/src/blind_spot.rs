@@ -268,8 +268,8 @@ fn has_long_chains(scene: &Scene) -> bool {
     casters.next().is_some_and(|first| inside(first) || casters.next().is_some())
 }
 
-/// What trees of rays lack whatever their settings are: rough metal is a mirror to them, and so are the metal and the polish
-/// of metallic-roughness.
+/// What trees of rays lack whatever their settings are: rough metal is a mirror to them, and so are the metal and
+/// the polish of metallic-roughness.
 fn of_trees(needs: &Needs) -> Vec<BlindSpot> {
     let caustics = Specular::of(needs).is_some() || needs.rough_conductor || needs.metallic_roughness;
     std::iter::once(BlindSpot::BetweenSurfaces).chain(caustics.then_some(BlindSpot::Caustics)).collect()

@@ -91,11 +91,11 @@ impl TreePlot {
 /// What is to be traced for the workspace.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct WantedTrees {
-    /// See [`TreesSettings::level`].
+    /// Of the statue, see [`TreesSettings::level`].
     pub level: u32,
-    /// See [`TreesSettings::show`].
+    /// What pictures show, see [`TreesSettings::show`].
     pub show: Counted,
-    /// See [`TreesSettings::boxes`].
+    /// Depth of the boxes that are drawn, see [`TreesSettings::boxes`].
     pub boxes: Option<u32>,
     /// Width and height of each picture in pixels.
     pub size: (u32, u32),
@@ -131,7 +131,7 @@ pub struct TreeFacts {
 /// A measurement for the plot.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TreePoint {
-    /// What was measured.
+    /// The structure that rays went through.
     pub structure: Structure,
     /// Triangles of the statue.
     pub triangles: u64,
@@ -178,8 +178,8 @@ pub fn grouped(count: u64) -> String {
     groups.join(",")
 }
 
-/// Where a line of one structure goes on beyond what was measured: of a list in proportion to the triangles, up to the
-/// finest statue.
+/// Where a line of one structure goes on beyond what was measured: of a list in proportion to the triangles, up
+/// to the finest statue.
 pub fn extrapolated(points: &[TreePoint], plot: TreePlot) -> Option<[(f64, f64); 2]> {
     let last = points.iter().rfind(|point| point.structure == Structure::List)?;
     let (measured, finest) = (last.triangles as f64, statue_triangles(TreesSettings::FINEST) as f64);

@@ -3,8 +3,8 @@
 use scene::{Geometry, Instance, Mesh, Vec3};
 use std::collections::HashMap;
 
-/// A bumpy ball about the origin with radii around 1: an octahedron of which each side is cut in two `level` times, 8 x
-/// 4^level triangles.
+/// A bumpy ball about the origin with radii around 1: an octahedron of which each side is cut in two `level` times,
+/// 8 x 4^level triangles.
 pub fn bumpy(level: u32) -> Mesh {
     let n = 1i32 << level;
     let mut places: HashMap<[i32; 3], u32> = HashMap::new();

@@ -23,7 +23,7 @@ pub fn rate(rays: &[Ray], meets: impl Fn(&Ray) -> bool) -> f64 {
 
 /// The rays of a picture and what follows from them.
 pub struct RaysAt {
-    /// From a camera.
+    /// Rays from a camera before the mesh.
     pub primary: Vec<Ray>,
     /// Cosine-weighted, from where those have met something.
     pub bounce: Vec<Ray>,

@@ -4,8 +4,8 @@ use rayon::prelude::*;
 use scene::Vec3;
 use scene::glam::IVec3;
 
-/// Corners and triangles of a bumpy ball: an octahedron whose edges are cut into 2^level, 8 x 4^level triangles. Neighbours
-/// share their corners.
+/// Corners and triangles of a bumpy ball: an octahedron whose edges are cut into 2^level, 8 x 4^level triangles.
+/// Neighbours share their corners.
 pub fn statue(level: u32) -> (Vec<Vec3>, Vec<[u32; 3]>) {
     let n = 1i32 << level;
     let points: Vec<IVec3> =

@@ -21,7 +21,7 @@ pub struct Interactions<F: Float> {
     pub kinds: Kinds<F::U>,
     /// Index into the scene's materials.
     pub material: F::U,
-    /// Place in textures.
+    /// Where the surface lies in its textures.
     pub uv: [F; 2],
 }
 

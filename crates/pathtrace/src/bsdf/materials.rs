@@ -26,7 +26,7 @@ pub struct Materials {
     k: VectorColumn,
     /// Of metallic-roughness: share of metal ...
     metallic: Column,
-    /// ... roughness ...
+    /// ... the roughness of its facets ...
     roughness: Column,
     /// ... and what its coat reflects at normal incidence.
     coat: Column,
@@ -47,7 +47,7 @@ pub struct Has {
     pub glass: bool,
     /// Any rough metal.
     pub rough_conductors: bool,
-    /// Any metallic-roughness.
+    /// Any surface of glTF's metallic-roughness model.
     pub metallic_roughness: bool,
     checkerboards: bool,
     /// Any surface that is shaded by other normals than its own.
@@ -66,7 +66,7 @@ pub const LOBE_MIRROR: u32 = 2;
 pub const LOBE_DIELECTRIC: u32 = 4;
 /// See [`LOBE_LAMBERT`].
 pub const LOBE_ROUGH_CONDUCTOR: u32 = 8;
-/// See [`LOBE_LAMBERT`].
+/// One of the lobes, see [`LOBE_LAMBERT`].
 pub const LOBE_METALLIC_ROUGHNESS: u32 = 16;
 /// Of a Lambert lobe or metallic-roughness: its colour is a checkerboard.
 pub const CHECKERED: u32 = 1 << 8;
@@ -133,7 +133,7 @@ impl<U: Word> Kinds<U> {
         self.has(LOBE_ROUGH_CONDUCTOR)
     }
 
-    /// Is metallic-roughness.
+    /// Scatters by glTF's metallic-roughness model.
     #[inline(always)]
     pub fn metallic_roughness(self) -> U::M {
         self.has(LOBE_METALLIC_ROUGHNESS)

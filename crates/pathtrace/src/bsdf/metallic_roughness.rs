@@ -33,7 +33,7 @@ pub const POLISHED: f32 = 0.1;
 pub struct MetallicRoughnesses<F: Float> {
     /// Albedo of the body and reflectance of the metal.
     pub base_colour: Vector<F>,
-    /// Share of metal.
+    /// Share of metal, in [0, 1].
     pub metallic: F,
     /// The facets' roughness, the root of their alpha, from [`SMOOTHEST`].
     pub roughness: F,
@@ -41,8 +41,8 @@ pub struct MetallicRoughnesses<F: Float> {
     pub coat: F,
 }
 
-/// Draws directions by the facets that `wo` sees or by the cosine, from two random numbers for the direction and one for
-/// that choice.
+/// Draws directions by the facets that `wo` sees or by the cosine, from two random numbers for the direction and
+/// one for that choice.
 #[inline(always)]
 pub fn sample<F: Float>(at: &Interactions<F>, surface: &MetallicRoughnesses<F>, u: [F; 3]) -> BsdfSamples<F> {
     let frame = Frame::around(at.normal);
@@ -131,7 +131,7 @@ impl<F: Float> MetallicRoughnesses<F> {
         BsdfSamples { wi, weight: Vector::select(above, weight, Vector::zero()), pdf }
     }
 
-    /// Facets and body.
+    /// What facets and body scatter, both together.
     #[inline(always)]
     pub fn eval(&self, wo: Vector<F>, wi: Vector<F>) -> ScaledColours<F> {
         let facet = (wo + wi).normalize();
@@ -172,8 +172,8 @@ fn grazing<F: Float>(cosine: F) -> F {
 
 /// About what all facets together reflect of light at this cosine to the normal. Schlick's approximation, of which
 /// `1 / (1 + 12 roughness^3)` is left at grazing angles: facets as rough hide each other there, and reflect where they are
-/// not grazed. Fitted to quadrature: over all roughnesses body and coat together reflect no more than what comes, but for
-/// half a hundredth.
+/// not grazed. Fitted to quadrature: over all roughnesses body and coat together reflect no more than what comes, but
+/// for half a hundredth.
 #[inline(always)]
 fn coat_albedo<F: Float>(straight: F, roughness: F, cosine: F) -> F {
     let one = F::splat(1.0);
@@ -186,7 +186,7 @@ fn coat_albedo<F: Float>(straight: F, roughness: F, cosine: F) -> F {
 pub struct MetallicRoughness {
     /// Albedo of the body and reflectance of the metal.
     pub base_colour: Vec3,
-    /// Share of metal.
+    /// Share of metal, in [0, 1].
     pub metallic: f32,
     /// The facets' roughness, the root of their alpha.
     pub roughness: f32,

@@ -54,8 +54,8 @@ impl<F: Float> Microfacets<F> {
         (x * x + y * y + w.z * w.z).sqrt()
     }
 
-    /// Draws a facet's normal as `wo` sees them: Dupuy and Benyoub, "Sampling Visible GGX Normals with Spherical Caps"
-    /// (2023).
+    /// Draws a facet's normal as `wo` sees them: Dupuy and Benyoub, "Sampling Visible GGX Normals
+    /// with Spherical Caps" (2023).
     #[inline(always)]
     pub fn visible_normal(&self, wo: Vector<F>, u: [F; 2]) -> Vector<F> {
         let seen = Vector::new(wo.x * self.alpha, wo.y * self.alpha, wo.z).normalize();

@@ -149,8 +149,8 @@ impl Materials {
     }
 
     /// Both directions in which mirrors and glass send light on, `here`. Rough metal is taken for a mirror that reflects as
-    /// much: what a tree of rays, of which each has one direction, can follow. So is the metal of metallic-roughness, and a
-    /// polished coat.
+    /// much: what a tree of rays, of which each has one direction, can follow. So is the metal of metallic-roughness,
+    /// and a polished coat.
     #[inline(always)]
     pub fn speculars<F: Float>(&self, here: F::M, at: &Interactions<F>) -> Speculars<F> {
         let mut speculars = self.speculars_of_lobe(here, at);

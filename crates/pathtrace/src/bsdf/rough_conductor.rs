@@ -1,5 +1,5 @@
-//! Rough metal: microfacets of metal. Single scattering: what a facet reflects onto another one is lost. Twin:
-//! `shaders/pathtrace/bsdf/rough_conductor.wgsl`.
+//! Rough metal: microfacets of metal. Single scattering: what a facet reflects onto another one
+//! is lost. Twin: `shaders/pathtrace/bsdf/rough_conductor.wgsl`.
 
 use super::microfacets::{Frame, Microfacets};
 use super::{BsdfSamples, Interactions, ScaledColours};

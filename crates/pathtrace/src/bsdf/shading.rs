@@ -96,8 +96,8 @@ fn over_geometric<F: Float>(at: &Interactions<F>, w: Vector<F>) -> F {
     F::select(cosine.gt(zero), at.normal.dot(w).abs() * kept / cosine, zero)
 }
 
-/// By what the power of a photon is multiplied that comes from `wo` and stays where photons are counted by the triangle's
-/// area.
+/// By what the power of a photon is multiplied that comes from `wo` and stays where photons are counted
+/// by the triangle's area.
 #[inline(always)]
 pub fn of_arriving<F: Float>(at: &Interactions<F>) -> F {
     over_geometric(at, at.wo)

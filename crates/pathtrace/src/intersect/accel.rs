@@ -1,6 +1,6 @@
 //! The acceleration structure over triangles, spheres and disks: two children a node (`bvh2`) where they are
-//! few, eight (`bvh8`) where they are many. Both give the same hits. Large meshes stand beside it as
-//! [`super::instances`].
+//! few, eight (`bvh8`) where they are many. Both give the same hits. Large meshes stand
+//! beside it as [`super::instances`].
 
 use super::baking::is_instanced;
 use super::bvh2::Bvh2;
@@ -56,7 +56,7 @@ impl Accel {
         self.len() == 0
     }
 
-    /// The large meshes.
+    /// The large meshes, which keep trees of their own.
     pub fn instances(&self) -> &Instances {
         &self.instances
     }

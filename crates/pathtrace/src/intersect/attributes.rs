@@ -102,8 +102,8 @@ impl TriangleRow {
     }
 }
 
-/// The rows of all that a tree of the scene holds beside large meshes, in the order that decides ties: see
-/// [`primitives`](super::primitive::primitives).
+/// The rows of all that a tree of the scene holds beside large meshes, in the order that
+/// decides ties: see [`primitives`](super::primitive::primitives).
 pub(crate) fn rows_of_tree(scene: &Scene, attributes: &MeshAttributes) -> Vec<TriangleRow> {
     let mut rows = Vec::new();
     for index in area_lights_first(scene).filter(|index| !is_instanced(scene, &scene.shapes[*index])) {
@@ -157,7 +157,7 @@ pub(crate) struct RowColumns {
 pub struct SurfaceAttributes<F: Float> {
     /// Not unit; zero where the mesh has none.
     pub normal: Vector<F>,
-    /// Place in textures.
+    /// Where the surface lies in its textures.
     pub uv: [F; 2],
     /// Of a triangle with a place in a normal map; zero of others.
     pub tangent: Vector<F>,
@@ -187,7 +187,7 @@ pub(super) struct EachAttributes {
 }
 
 impl EachAttributes {
-    /// Of nothing yet.
+    /// Of lanes in which nothing is said yet.
     pub fn none() -> Self {
         let (normal, tangent) = ([Vec3::ZERO; MOST_LANES], [Vec3::ZERO; MOST_LANES]);
         EachAttributes { normal, uv: [[0.0; MOST_LANES]; 2], tangent, handedness: [1.0; MOST_LANES] }

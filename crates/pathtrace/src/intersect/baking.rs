@@ -6,8 +6,8 @@ use std::borrow::Cow;
 use std::sync::Arc;
 
 /// Whether a shape is met as an instance of its mesh's tree: the mesh is large, does not shine and has no holes. Lights are
-/// sampled triangle by triangle in the world, so what shines lies there as triangles; and holes are asked for in the trees of
-/// these alone.
+/// sampled triangle by triangle in the world, so what shines lies there as triangles; and holes are asked for in the
+/// trees of these alone.
 pub(crate) fn is_instanced(scene: &Scene, shape: &Shape) -> bool {
     let material = scene.material_of(shape);
     let is_large = shape.geometry.mesh_of().is_some_and(|mesh| mesh.is_large());

@@ -1,5 +1,5 @@
-//! One ray's way through a hierarchy of eight boxes a node, the nearest box first: a [`Bvh8`], or a mesh's tree as
-//! [`super::mesh_walk`] reads it.
+//! One ray's way through a hierarchy of eight boxes a node, the nearest box first: a [`Bvh8`], or a mesh's tree
+//! as [`super::mesh_walk`] reads it.
 
 use super::Ray;
 use super::bvh8::{Block, Bvh8, Child, Node};
@@ -18,7 +18,7 @@ pub(super) trait Visitor {
 
 /// A hierarchy as one ray sees it.
 pub(super) trait Boxes {
-    /// Eight floats.
+    /// Eight floats, one for each of a node's boxes.
     type Eight: Row<8>;
     /// A node at hand.
     type Node: Copy;
@@ -65,7 +65,7 @@ impl<F: Row<8>> BoxRay<F> {
         this
     }
 
-    /// As [`Boxes::meet`].
+    /// Which boxes are met, as [`Boxes::meet`].
     #[inline(always)]
     fn meet(&self, node: Node, tmax: f32) -> (u32, F) {
         let mut near = F::splat(0.0);

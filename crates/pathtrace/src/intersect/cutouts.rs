@@ -1,7 +1,7 @@
 //! Holes in surfaces: where a material's alpha is below its cutoff there is nothing, and rays go on.
 //!
-//! Trees alone ask: a scene with holes is traced through one, however small it is. Twin:
-//! `shaders/pathtrace/intersect/cutouts.wgsl`.
+//! Trees alone ask: a scene with holes is traced through one, however small
+//! it is. Twin: `shaders/pathtrace/intersect/cutouts.wgsl`.
 
 use super::attributes::{MeshAttributes, rows_of_tree};
 use scene::glam::Vec2;
@@ -13,7 +13,7 @@ pub(crate) struct Cutouts {
     /// Entries of corners, by the primitives' places in the scene's order.
     corners: Vec<[u32; 3]>,
     uvs: Vec<Vec2>,
-    /// Of each material.
+    /// The alpha of each material.
     alphas: Vec<Alpha>,
 }
 

@@ -13,8 +13,8 @@ use simd::{Float, MOST_LANES, Word};
 pub struct Hit {
     /// Distance in lengths of the ray's direction.
     pub t: f32,
-    /// Which one, by the number that the structure has for it which has found it; of an instance the triangle's place in
-    /// its tree.
+    /// Which one, by the number that the structure has for it which has found it; of an instance the triangle's
+    /// place in its tree.
     pub primitive: u32,
     /// The large mesh's instance that it belongs to, or [`NO_INSTANCE`].
     pub instance: u32,
@@ -62,7 +62,7 @@ pub struct Hits<F: Float> {
     pub t: F,
     /// As [`Hit::primitive`], or [`NO_PRIMITIVE`].
     pub primitive: F::U,
-    /// As [`Hit::instance`].
+    /// The large mesh of each lane, as [`Hit::instance`].
     pub instance: F::U,
     /// As [`Hit::barycentrics`]; 0 where the structure finds a point by its distance.
     pub barycentrics: [F; 3],
@@ -131,7 +131,7 @@ pub struct Intersections<F: Float> {
     /// Which one, by its place in the order of the structure that has found it, for what its mesh says of it; of no meaning
     /// where no mesh of the scene says anything. Of an instance the triangle's place in its tree.
     pub triangle: F::U,
-    /// As [`Hit::instance`].
+    /// The large mesh of each lane, as [`Hit::instance`].
     pub instance: F::U,
     /// Weights of the triangle's corners.
     pub barycentrics: [F; 3],
@@ -177,7 +177,7 @@ pub(super) struct EachIntersection {
 }
 
 impl EachIntersection {
-    /// Of nothing yet.
+    /// Of lanes in which nothing is met yet.
     #[inline(always)]
     pub fn none() -> Self {
         let [position, error, normal] = [[Vec3::ZERO; MOST_LANES]; 3];

@@ -22,8 +22,8 @@ use simd::{Lanes, RowLanes};
 use std::sync::Arc;
 use std::time::Duration;
 
-/// Most instances whose boxes are tested one after the other. Measured with one: the tree over it takes an eighth of a
-/// ray's time.
+/// Most instances whose boxes are tested one after the other. Measured with one: the tree over it takes an eighth
+/// of a ray's time.
 const FEW: usize = 4;
 
 /// All large meshes of a scene.
@@ -211,7 +211,7 @@ impl Placed {
     }
 }
 
-/// See [`Placed::bounds`].
+/// The box of a mesh that is placed so, see [`Placed::bounds`].
 fn bounds_of(mesh: &Mesh, to_world: &DAffine3, reach: &DMat3) -> Aabb {
     let (lo, hi) = mesh.bounds();
     let (middle, half) = (0.5 * (lo.as_dvec3() + hi.as_dvec3()), 0.5 * (hi.as_dvec3() - lo.as_dvec3()));

@@ -2,8 +2,8 @@
 //! Laine, "Efficient Incoherent Ray Traversal on GPUs Through Compressed Wide BVHs", HPG 2017). Both machines walk the
 //! same arrays: 80 bytes a node, three indices a triangle in the order of the leaves, and the mesh's own positions.
 //!
-//! A mesh's tree is made once however many scenes, panes and techniques ask for it, and is there as long as one of them
-//! holds it.
+//! A mesh's tree is made once however many scenes, panes and techniques ask for it, and is there as long as one
+//! of them holds it.
 //!
 //! Twin: `shaders/pathtrace/intersect/cwbvh.wgsl`, which walks it.
 

@@ -79,7 +79,7 @@ impl CompressedRay {
         near <= far
     }
 
-    /// As [`Boxes::meet`].
+    /// Which boxes are met and where, as [`Boxes::meet`].
     #[inline(always)]
     fn meet<F: Row<8>>(&self, node: &CwBvhNode, tmax: f32) -> (u32, F) {
         let mut near = F::splat(0.0);

@@ -30,9 +30,9 @@ pub(crate) struct Node {
     pub axis: Vec3,
     /// Cosine of the angle to its side.
     pub cos_spread: f32,
-    /// Largest radiant intensity.
+    /// Largest radiant intensity in any direction.
     pub intensity: f32,
-    /// See [`LEAF`].
+    /// Children or a light, see [`LEAF`].
     pub contents: u32,
 }
 

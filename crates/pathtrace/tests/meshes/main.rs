@@ -1,5 +1,5 @@
-//! Meshes as they are: smooth normals, pictures, holes and normal maps, against closed forms and against shapes that need
-//! none of it.
+//! Meshes as they are: smooth normals, pictures, holes and normal maps, against closed forms and against shapes that
+//! need none of it.
 
 #![expect(clippy::expect_used, reason = "a test stops at the first thing that is not as it must be")]
 
@@ -22,8 +22,8 @@ fn mis() -> PathSettings {
     PathSettings { estimator: Estimator::MIS, ..PathSettings::default() }
 }
 
-/// Triangles leave out .3 % of the disc that the ball fills, and their terminator reaches further into the light than the
-/// ball's own.
+/// Triangles leave out .3 % of the disc that the ball fills, and their terminator reaches further into the light
+/// than the ball's own.
 #[test]
 fn smooth_triangles_are_lit_as_the_ball_that_they_stand_for() {
     let round = ball_under(SUN, WHITE);

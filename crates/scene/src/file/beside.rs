@@ -11,7 +11,7 @@ pub fn allow_files_outside() {
     ALLOWS_OUTSIDE.store(true, Ordering::Relaxed);
 }
 
-/// Whether they may.
+/// Whether scenes may name any file.
 pub(crate) fn allows_files_outside() -> bool {
     ALLOWS_OUTSIDE.load(Ordering::Relaxed)
 }

@@ -59,7 +59,7 @@ pub(super) fn material(
     Ok(Material { name, bsdf, emission, surface, fake })
 }
 
-/// Ways to scatter.
+/// The ways to scatter, as a fault lists them.
 const LOBES: &str = "diffuse, mirror, rough_conductor, metallic_roughness, dielectric";
 
 fn conductor(raw: raw::RawRoughConductor, material: &str, at: Range<usize>) -> Result<Conductor, Fault> {

@@ -7,8 +7,8 @@ use super::source::{ModelFault, Source, number, shown};
 use glam::{Vec2, Vec3};
 use std::collections::{BTreeSet, HashMap};
 
-/// Reads vertices and faces as fans of triangles. A vertex that faces name with several normals or texture coordinates
-/// becomes several.
+/// Reads vertices and faces as fans of triangles. A vertex that faces name with several normals or
+/// texture coordinates becomes several.
 ///
 /// # Errors
 /// What is wrong, and in which line.

@@ -40,7 +40,7 @@ pub struct Source<'a> {
     before: u64,
     size: u64,
     line: usize,
-    /// "reading statue.ply"
+    /// What is told meanwhile: "reading statue.ply".
     doing: String,
     progress: &'a Progress<'a>,
     word: Vec<u8>,

@@ -121,8 +121,8 @@ fn figure(p: Vec3) -> (f32, f32) {
     (all, hair)
 }
 
-/// Where a ring's rays begin and how they rise: the ring's height in the lattice, the ray's in the figure, how far it goes
-/// outwards and up.
+/// Where a ring's rays begin and how they rise: the ring's height in the lattice, the ray's in the figure, how far it
+/// goes outwards and up.
 struct Ray(f32, f32, [f32; 2]);
 
 /// Fans where the figure bulges, and rays that slide down its axis where it is narrow; no two cross inside of it.

@@ -19,7 +19,7 @@ pub struct TreeStudy {
     asked: Option<WantedTrees>,
 }
 
-/// What is new.
+/// What is new of the three structures since the last time.
 #[derive(Debug, Default)]
 pub struct TreesNews {
     /// Of which structures what is known has changed, by their places.
@@ -39,7 +39,7 @@ pub struct TreesNews {
 /// Opaque pixels, rows from the top.
 #[derive(Debug, Clone)]
 pub struct TreePicture {
-    /// Width and height.
+    /// Width and height of the picture in pixels.
     pub size: (u32, u32),
     /// Red, green, blue, alpha.
     pub rgba: Vec<u8>,

@@ -1,5 +1,5 @@
-//! Large meshes that stand in the world: taken out of a scene, whose other shapes go the usual ways, and laid out as
-//! `shaders/pathtrace/intersect/instances.wgsl` reads them.
+//! Large meshes that stand in the world: taken out of a scene, whose other shapes go the usual ways, and laid out
+//! as `shaders/pathtrace/intersect/instances.wgsl` reads them.
 
 use super::GpuTraceError;
 use super::scene_data::Header;
@@ -23,7 +23,7 @@ pub(crate) const UNMOVED: u32 = 1 << 31;
 /// The large meshes of a scene, in the order in which they stand there.
 #[derive(Debug, Default)]
 pub(crate) struct Instances {
-    /// Each once.
+    /// Each mesh once, however many instances it has.
     pub meshes: Vec<Arc<Mesh>>,
     placed: Vec<Placed>,
 }
@@ -86,8 +86,8 @@ impl Instances {
     /// Puts them behind what there is of other shapes.
     ///
     /// # Errors
-    /// [`GpuTraceError::TooDeep`] and [`GpuTraceError::TooMany`] where the shader's stack or a node's bits do not
-    /// suffice.
+    /// [`GpuTraceError::TooDeep`] and [`GpuTraceError::TooMany`] where the shader's stack or a node's
+    /// bits do not suffice.
     pub fn append_to(&self, shapes: &mut Shapes, tables: &Uploaded, header: &mut Header) -> Result<(), GpuTraceError> {
         header.instances = self.placed.len() as u32;
         header.instance_primitives = shapes.primitives.len() as u32;
@@ -135,8 +135,8 @@ fn padded_box(instance: &Instance) -> Aabb {
     Aabb::new(Vec3A::from(low - room), Vec3A::from(high + room))
 }
 
-/// The map back into the mesh's space, with how far the instance is moved, and the map into the world: `Instance` in
-/// the shader.
+/// The map back into the mesh's space, with how far the instance is moved, and the map into the world:
+/// `Instance` in the shader.
 fn maps(to_world: &Affine3A, place: u32) -> [ShapeData; 2] {
     let forward = Mat3::from(to_world.matrix3);
     let backward = forward.as_dmat3().inverse();

@@ -23,9 +23,9 @@ pub(crate) const TEXTURE_WORDS: u32 = 10;
 pub(crate) const TEXEL_ROW: u32 = 4096;
 /// Bits that say how a texture is read: each axis has two for its wrap.
 pub(crate) const WRAP_MIRROR: u32 = 2;
-/// See [`WRAP_MIRROR`].
+/// Another way to read, see [`WRAP_MIRROR`].
 pub(crate) const WRAP_CLAMP: u32 = 1;
-/// See [`WRAP_MIRROR`].
+/// Another way to read, see [`WRAP_MIRROR`].
 pub(crate) const BILINEAR: u32 = 16;
 
 /// The words, and what they are found by.

@@ -167,8 +167,8 @@ pub struct Light {
     pub position: Vec3,
     /// One of `LIGHT_*`.
     pub outline: u32,
-    /// First edge of a flat area light, a radius of a disk; of a point light the cosine of its cone's edge, and the edge's
-    /// slope.
+    /// First edge of a flat area light, a radius of a disk; of a point light the cosine of its cone's edge,
+    /// and the edge's slope.
     pub u: Vec3,
     /// Area of a flat area light, radius of a ball or caster, 1 - cos of the sun's angular radius.
     pub area: f32,
@@ -328,8 +328,8 @@ pub fn chains(casters: &Casters) -> impl Iterator<Item = Light> {
     })
 }
 
-/// The nodes of the tree over many lights, which stand behind the chains: what stands where is said in
-/// `shaders/pathtrace/light/tree.wgsl`.
+/// The nodes of the tree over many lights, which stand behind the chains: what stands where
+/// is said in `shaders/pathtrace/light/tree.wgsl`.
 pub fn light_tree(lights: &Lights) -> impl Iterator<Item = Light> {
     let nodes = lights.table().tree().map_or(&[][..], |(tree, _)| tree.nodes());
     nodes.iter().map(|node| Light {

@@ -5,7 +5,7 @@ use crate::intersect::Ray;
 use crate::intersect::triangle::ShearedRay;
 use scene::Mesh;
 
-/// Tests every triangle.
+/// Tests every triangle of the mesh, in its order.
 pub fn closest(mesh: &Mesh, ray: &Ray, tests: &mut Tests) -> Option<CountedHit> {
     let sheared = ShearedRay::new(ray);
     let (mut nearest, mut tmax) = (None, ray.tmax);

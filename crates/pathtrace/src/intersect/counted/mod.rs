@@ -117,8 +117,8 @@ impl CountedMesh {
         }
     }
 
-    /// The distance of the nearest hit before `ray.tmax`, by the way that pictures are traced where there is one: nothing
-    /// is counted.
+    /// The distance of the nearest hit before `ray.tmax`, by the way that pictures are traced where there is
+    /// one: nothing is counted.
     pub fn distance(&self, ray: &Ray) -> Option<f32> {
         match &self.kept {
             Kept::Eight(tree) => RowLanes::nearest_to(Lanes::best()).run(ClosestOf { tree, ray }).map(|hit| hit.t),

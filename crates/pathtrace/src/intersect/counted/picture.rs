@@ -30,8 +30,8 @@ pub struct CountedPicture {
 }
 
 impl CountedPicture {
-    /// Traces the rays of a picture on the threads of the pool that it is called in; `None` if `goes_on` says no before it
-    /// is done.
+    /// Traces the rays of a picture on the threads of the pool that it is called in; `None` if `goes_on` says no
+    /// before it is done.
     pub fn trace(
         mesh: &CountedMesh,
         camera: &Camera,

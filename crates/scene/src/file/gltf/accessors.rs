@@ -73,7 +73,7 @@ struct Strided<'a> {
 
 /// What is said otherwise of a few elements.
 struct Sparse<'a> {
-    /// Which ones, ascending.
+    /// Which elements are replaced, in ascending order.
     indices: Vec<u32>,
     values: Strided<'a>,
 }

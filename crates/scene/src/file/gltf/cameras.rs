@@ -7,8 +7,8 @@ use super::{Refused, Remarks};
 use crate::{Camera, NamedCamera, Vec3};
 use glam::DVec3;
 
-/// From the middle of a model towards the camera that is fitted to it: from the front, which faces +z, a little to the right
-/// and above.
+/// From the middle of a model towards the camera that is fitted to it: from the front, which faces +z, a little to
+/// the right and above.
 const THREE_QUARTERS: Vec3 = Vec3::new(0.6, 0.4, 1.0);
 
 /// Field of view of the camera that is fitted, in degrees.

@@ -37,8 +37,8 @@ const MOST_SMALL: u64 = 1 << 24;
 /// Shapes that a scene may have.
 const MOST_SHAPES: u64 = 1 << 20;
 
-/// Shapes of glass, and their corners, that are looked at for overlaps: it takes the square of the one in time, and memory
-/// for the other.
+/// Shapes of glass, and their corners, that are looked at for overlaps: it takes the square of the one in time, and
+/// memory for the other.
 const MOST_GLASS: (usize, usize) = (256, 1 << 22);
 
 /// Why a file is not shown, in one line.

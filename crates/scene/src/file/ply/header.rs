@@ -10,7 +10,7 @@ pub enum Format {
     BigEndian,
 }
 
-/// A number's type.
+/// The type of a property's numbers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Number {
     I8,
@@ -38,7 +38,7 @@ impl Number {
         })
     }
 
-    /// Bytes of one.
+    /// Bytes that a number of it takes.
     pub fn size(self) -> u64 {
         match self {
             Number::I8 | Number::U8 => 1,

@@ -121,7 +121,7 @@ fn glb(json: &[u8], binary: &[u8]) -> Vec<u8> {
     [b"glTF", &2u32.to_le_bytes()[..], &length.to_le_bytes(), &chunks].concat()
 }
 
-/// An RGBA PNG.
+/// A PNG of these RGBA bytes.
 fn png(width: u32, height: u32, rgba: &[u8]) -> Vec<u8> {
     let mut bytes = Vec::new();
     let mut encoder = png::Encoder::new(&mut bytes, width, height);
