@@ -1,7 +1,7 @@
 //! The threads beside the UI as one: asks them for whatever no longer fits what is wanted, and ends them.
 
 use super::asked_pane::{AskedPane, FakesTime};
-use super::dialogue::{Answer, Choice, Dialogues};
+use super::dialogue::Dialogues;
 use super::error_map::ErrorMapWorker;
 use super::export::{Export, Exporter, Outcome};
 use super::load::{Asked as AskedFile, Loaded, Loader, Refusal};
@@ -13,7 +13,7 @@ use super::sweep::Sweeper;
 use super::thumbnails::Thumbnails;
 use super::watch::{News, Watched, Watcher};
 use super::{Order, STEPS_BACK, Wake, light::LightMeter, step_farther_back};
-use crate::model::{Against, Comparison, ErrorMap, FilePurpose, MapWish, Origin, PaneId, Panes, Wanted, WantedPane};
+use crate::model::{Against, Comparison, ErrorMap, MapWish, Origin, PaneId, Panes, Wanted, WantedPane};
 use anyhow::Context;
 use film::DisplayTransform;
 use gpu::Gpu;
@@ -40,7 +40,7 @@ pub struct Engine {
     /// Reads pictures to compare with, whatever else is opened.
     reference_loader: Loader,
     watcher: Watcher,
-    dialogues: Dialogues,
+    pub(super) dialogues: Dialogues,
     /// Made when they are first asked for.
     pub(super) thumbnails: Option<Thumbnails>,
     /// Made when a sweep is first asked for.
@@ -115,6 +115,7 @@ impl Engine {
     pub fn move_to(&mut self, window: &Gpu) {
         self.gpu = window.clone();
         self.sweeper = None;
+        self.show_trees_again();
         self.pane_workers.values_mut().for_each(|workers| workers.move_to(window.clone()));
         for pane in self.asked.panes.values_mut() {
             pane.made.take_if(|(_, technique, _)| matches!(technique, Technique::Fake(_)));
@@ -309,19 +310,6 @@ impl Engine {
     /// What has changed on disk since the last call.
     pub fn news(&self) -> News {
         self.watcher.news()
-    }
-
-    /// Waits for the user's choice of a file.
-    ///
-    /// # Errors
-    /// If the system gives no thread.
-    pub fn wait_for_file(&mut self, purpose: FilePurpose, choice: Choice) -> std::io::Result<()> {
-        self.dialogues.wait_for(purpose, choice)
-    }
-
-    /// The file that was chosen since the last call.
-    pub fn chosen_file(&mut self) -> Option<Answer> {
-        self.dialogues.answer()
     }
 
     /// Writes a picture to a file or the clipboard.

@@ -1,6 +1,7 @@
 //! Waits for what the user chooses in a file dialogue of the system's, so that the window does not.
 
 use super::Wake;
+use super::ask::Engine;
 use super::worker::{Control, Service, Worker};
 use crate::model::FilePurpose;
 use std::future::Future;
@@ -113,6 +114,21 @@ fn listen() {
     *heard() = None;
     if log::set_logger(&Ear).is_ok() {
         log::set_max_level(log::LevelFilter::Error);
+    }
+}
+
+impl Engine {
+    /// Waits for the user's choice of a file.
+    ///
+    /// # Errors
+    /// If the system gives no thread.
+    pub fn wait_for_file(&mut self, purpose: FilePurpose, choice: Choice) -> std::io::Result<()> {
+        self.dialogues.wait_for(purpose, choice)
+    }
+
+    /// The file that was chosen since the last call.
+    pub fn chosen_file(&mut self) -> Option<Answer> {
+        self.dialogues.answer()
     }
 }
 

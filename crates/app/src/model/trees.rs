@@ -82,8 +82,8 @@ impl TreePlot {
     /// What its axis says.
     pub fn label(self) -> &'static str {
         match self {
-            TreePlot::Seconds => "seconds for a million rays",
-            TreePlot::Tests => "boxes and triangles a ray is tested against",
+            TreePlot::Seconds => "s per million rays",
+            TreePlot::Tests => "tests a ray",
         }
     }
 }
@@ -99,6 +99,8 @@ pub struct WantedTrees {
     pub boxes: Option<u32>,
     /// Width and height of each picture in pixels.
     pub size: (u32, u32),
+    /// How often the user began anew: what was measured before counts no more.
+    pub restarts: u64,
 }
 
 /// What there is to show of one structure.
@@ -124,8 +126,8 @@ pub struct TreeFacts {
     pub boxes_a_ray: f64,
     /// Triangles that a ray was tested against, in the mean.
     pub triangles_a_ray: f64,
-    /// Corners of the boxes that are to be drawn.
-    pub boxes: Vec<(Vec3, Vec3)>,
+    /// Corners of the boxes that are to be drawn, and how many steps below the root they lie.
+    pub boxes: (u32, Vec<(Vec3, Vec3)>),
 }
 
 /// A measurement for the plot.
@@ -178,16 +180,23 @@ pub fn grouped(count: u64) -> String {
     groups.join(",")
 }
 
-/// Where a line of one structure goes on beyond what was measured: of a list in proportion to the triangles, up
-/// to the finest statue.
+/// Where a list's line goes on beyond what was measured: in proportion to the triangles, by the median of what one of them
+/// took in the larger half of the measurements, up to the finest statue.
 pub fn extrapolated(points: &[TreePoint], plot: TreePlot) -> Option<[(f64, f64); 2]> {
-    let last = points.iter().rfind(|point| point.structure == Structure::List)?;
-    let (measured, finest) = (last.triangles as f64, statue_triangles(TreesSettings::FINEST) as f64);
-    let value = last.value(plot);
-    (measured < finest).then(|| [(measured, value), (finest, value * finest / measured)])
+    let of_list: Vec<&TreePoint> = points.iter().filter(|point| point.structure == Structure::List).collect();
+    let last = of_list.last()?;
+    let mut rates: Vec<f64> = of_list[of_list.len() / 2..].iter().map(|p| p.value(plot) / p.triangles as f64).collect();
+    rates.sort_by(f64::total_cmp);
+    let (rate, measured) = (rates[rates.len() / 2], last.triangles as f64);
+    let finest = statue_triangles(TreesSettings::FINEST) as f64;
+    (measured < finest).then_some([(measured, rate * measured), (finest, rate * finest)])
 }
-
 impl Model {
+    /// Left, top, right and bottom in points of what a picture as seen shows.
+    pub fn seen_corners(&self) -> [f32; 4] {
+        if self.session.trees.open { self.state.tree_corners } else { self.state.picture.corners }
+    }
+
     /// Opens the workspace of trees, or goes back to the comparison.
     pub fn show_trees(&mut self, open: bool) {
         self.session.trees.open = open;
@@ -202,9 +211,12 @@ mod tests {
     #[test]
     fn a_list_goes_on_in_proportion_to_the_triangles() {
         let point = |structure, triangles, seconds| TreePoint { structure, triangles, seconds, tests: 1.0 };
-        let mut points = vec![point(Structure::List, 128, 0.5), point(Structure::Eight, 512, 0.1)];
+        // one that something else of the machine held up, and small ones that say little
+        let list = [(8, 9.0), (32, 9.0), (128, 0.5), (512, 32.0), (2048, 8.0)];
+        let mut points: Vec<_> = list.map(|(triangles, seconds)| point(Structure::List, triangles, seconds)).into();
+        points.push(point(Structure::Eight, 8192, 0.1));
         let line = extrapolated(&points, TreePlot::Seconds);
-        assert_eq!(line, Some([(128.0, 0.5), (33_554_432.0, 0.5 * 262_144.0)]));
+        assert_eq!(line, Some([(2048.0, 8.0), (33_554_432.0, 8.0 * 16_384.0)]));
         points.clear();
         assert_eq!(extrapolated(&points, TreePlot::Seconds), None);
     }

@@ -84,6 +84,8 @@ pub struct UiState {
     pub sweep: SweepState,
     /// Width and height in pixels of a picture of rays, as last drawn.
     pub tree_pixels: (u32, u32),
+    /// Left, top, right and bottom in points of what the workspace of trees shows beside its controls.
+    pub tree_corners: [f32; 4],
     /// What switched-off settings come back to.
     pub switched_off: Panes<SwitchedOff>,
 }
@@ -170,6 +172,7 @@ impl UiState {
             export: ExportMenu::default(),
             sweep: SweepState::default(),
             tree_pixels: (0, 0),
+            tree_corners: [0.0; 4],
             switched_off: Panes::default(),
         }
     }

@@ -111,6 +111,7 @@ fn stem(model: &Model, subject: ExportSubject) -> String {
         (ExportSubject::Report, _) => "report".into(),
         (ExportSubject::Slide(_), _) => "slide".into(),
         (ExportSubject::ErrorMap, _) => format!("error-{}", session.comparison.metric.name()),
+        (ExportSubject::AsSeen, _) if session.trees.open => format!("trees-level-{}", session.trees.level),
         (ExportSubject::AsSeen, view) => view.name().to_lowercase().replace(' ', "-"),
     };
     // a scene's name comes from a file's; what a file may not be called stays out
@@ -126,11 +127,14 @@ fn sweep_name(model: &Model) -> String {
     format!("sweep-{}{rows}", sweep.columns.setting)
 }
 
-/// What there is to export, of the comparison or of the sweep: pictures, and what is whole.
+/// What there is to export, of the comparison, of the sweep or of trees: pictures, and what is whole.
 fn subjects(cx: &UiContext) -> [Vec<ExportSubject>; 2] {
     if cx.model.session.sweep.open {
         let files = [SweepFile::Picture, SweepFile::Table].map(ExportSubject::Sweep);
         return [files.to_vec(), vec![ExportSubject::Session]];
+    }
+    if cx.model.session.trees.open {
+        return [vec![ExportSubject::AsSeen], vec![ExportSubject::Session]];
     }
     let panes = cx.model.session.panes.ids().map(ExportSubject::Pane);
     let map = cx.shown.map.is_some().then_some(ExportSubject::ErrorMap);

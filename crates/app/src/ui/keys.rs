@@ -71,10 +71,13 @@ pub fn listen(workspaces: &mut Workspaces, cx: &mut UiContext, context: &Context
     if context.input(|i| i.events.contains(&Event::Copy)) {
         export_as_seen(cx, Destination::Clipboard);
     }
-    for _ in 0..keys.command(Key::Z) {
+    // settings of A and B are not changed where nobody sees them
+    let steps_are_seen = !cx.model.session.trees.open;
+    for _ in 0..keys.command(Key::Z) * usize::from(steps_are_seen) {
         cx.model.undo();
     }
-    for _ in 0..keys.presses_with(Key::Z, Modifiers::COMMAND | Modifiers::SHIFT) + keys.command(Key::Y) {
+    let again = keys.presses_with(Key::Z, Modifiers::COMMAND | Modifiers::SHIFT) + keys.command(Key::Y);
+    for _ in 0..again * usize::from(steps_are_seen) {
         cx.model.redo();
     }
     workspaces.open_mut().keys(cx, &keys);

@@ -123,7 +123,8 @@ fn trees_button(cx: &mut UiContext, ui: &mut Ui) {
 }
 
 fn steps(cx: &mut UiContext, ui: &mut Ui) {
-    let [can_undo, can_redo] = cx.model.can_undo_and_redo();
+    let seen = !cx.model.session.trees.open;
+    let [can_undo, can_redo] = cx.model.can_undo_and_redo().map(|can| can && seen);
     let hover = "Take back the last change of a setting or of the camera (Ctrl+Z)";
     let undo = icon_button(Icon::Undo, ("Undo", hover), (can_undo, false), ui);
     if cx.dump.note("undo", can_undo, undo).clicked() {

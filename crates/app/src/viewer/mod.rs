@@ -179,6 +179,10 @@ impl Viewer {
 
     /// Exports the picture area as it was drawn, line and labels included.
     pub fn export_as_seen(&mut self, capture: Capture, to: Destination) {
+        if self.model.session.trees.open {
+            let records = self.records_of_trees();
+            return self.engine.export(Export { content: Content::Seen(capture), records, to });
+        }
         let mut records = self.presentation.records_of_all(&self.model);
         let magnification = self.model.state.magnification;
         records.extend((magnification.factor() > 1).then(|| ("magnified", magnification.record())));

@@ -1,7 +1,10 @@
 //! Rays through the statue: put up as they come.
 
 use super::{Place, TextureStore, Viewer};
+use crate::engine::restore::SESSION;
+use crate::model::SavedSession;
 use egui::TextureFilter;
+use image_file::Records;
 use serde_json::{Value, json};
 
 impl Viewer {
@@ -21,6 +24,12 @@ impl Viewer {
             let up = textures.upload(Place::Trees(place), picture.size, &picture.rgba, TextureFilter::Nearest);
             self.presentation.textures.trees[place] = Some(up);
         }
+    }
+
+    /// What a picture of the trees keeps: the session, which opens as them.
+    pub(super) fn records_of_trees(&self) -> Records {
+        let document = &self.model.document;
+        vec![(SESSION, SavedSession::of(&self.model, None).text(&document.scene, &document.source))]
     }
 
     /// What is known of the trees, for tests.

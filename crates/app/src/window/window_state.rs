@@ -288,9 +288,15 @@ impl WindowState {
     /// Exports the picture area of a frame as it is on the screen, line and labels included.
     fn capture(&mut self, painting: &Painting, to: Destination) {
         let [width, height] = self.surface.size();
-        let [left, top, right, bottom] = self.viewer.model.state.picture.corners;
+        let [left, top, right, bottom] = self.viewer.model.seen_corners();
         let pixel = |points: f32, most: u32| ((points * self.scale).round().max(0.0) as u32).min(most);
         let part = [pixel(left, width), pixel(top, height), pixel(right, width), pixel(bottom, height)];
+        if part[0] >= part[2] || part[1] >= part[3] {
+            return self
+                .viewer
+                .model
+                .say(Err("nothing is shown yet that could be saved; try again in a moment".into()));
+        }
         let Some(texture) = self.surface.capture(&self.gpu, painting) else {
             return self.viewer.model.say(Err("the GPU failed at this picture; try again in a moment".into()));
         };

@@ -20,7 +20,7 @@ fn shown() -> ViewModel {
         whole_seconds: if structure == Structure::List { 512.0 } else { 2.0 },
         boxes_a_ray,
         triangles_a_ray,
-        boxes: Vec::new(),
+        boxes: (0, Vec::new()),
     };
     let mut shown = ViewModel::default();
     shown.trees.facts = [Some(facts(Structure::List, 0.0, 8192.0)), Some(facts(Structure::Two, 30.5, 3.25)), None];
@@ -62,11 +62,11 @@ fn a_key_and_a_button_open_it_and_only_what_is_open_is_traced() {
 #[test]
 fn captions_tell_what_a_ray_costs_and_what_is_extrapolated() {
     let panels = panels(shown());
-    let list = "no tree, a ray: 8,192 triangles, all of them, in blocks; every pixel: 512.000 s, extrapolated";
-    assert!(panels.shows(list));
-    assert!(panels.shows("two boxes a node, built in 0.500 s, 48.0 bytes a triangle, 21 deep, a ray: 30.5 boxes, 3.2 triangles, 1,000 rays in 2.000 s"));
-    let plot =
-        "seconds for a million rays: no tree at 8,192 triangles 512.000, two boxes a node at 8,192 triangles 1.500";
+    assert!(panels.shows("no tree, all 8,192 triangles a ray, ≈ 9 min for every pixel (extrapolated)"));
+    let two = "two boxes a node, 30.5 boxes, 3.2 triangles a ray, 2.00 s for 1,000 rays, built in 0.50 s, 48 bytes of \
+               boxes a triangle, 21 deep";
+    assert!(panels.shows(two));
+    let plot = "s per million rays: no tree at 8,192 triangles 512.000, two boxes a node at 8,192 triangles 1.500";
     assert!(panels.harness.query_by_label(plot).is_some());
 }
 
@@ -82,6 +82,12 @@ fn keys_and_choices_change_what_is_traced_and_drawn() {
     let trees = panels.wanted().trees.expect("rays to trace");
     assert_eq!((trees.level, trees.show, trees.boxes), (6, Counted::Triangles, Some(2)));
     assert_eq!(panels.model.borrow().session.trees.plot, TreePlot::Tests);
+    // what is undone is seen nowhere here
+    panels.harness.key_press_modifiers(Modifiers::COMMAND, Key::Z);
+    panels.harness.run_steps(3);
+    assert_eq!(panels.wanted().trees.map(|trees| trees.level), Some(6));
+    press(&mut panels, Key::R);
+    assert_eq!(panels.wanted().trees.map(|trees| trees.restarts), Some(1));
     (0..9).for_each(|_| press(&mut panels, Key::CloseBracket));
     assert_eq!(panels.wanted().trees.map(|trees| trees.level), Some(11), "there is no finer one");
 }

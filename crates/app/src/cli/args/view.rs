@@ -150,8 +150,8 @@ pub fn of_the_window() -> Vec<CommandOption<Reading>> {
         },
         CommandOption {
             names: &["--workspace"],
-            value: "compare|sweep",
-            help: "what the window is used for at first: A against B, or many pictures at once (default compare)",
+            value: "compare|sweep|trees",
+            help: "what the window is used for at first: A against B, many pictures at once, or what a tree saves (default compare)",
             read: |reading, parser| {
                 reading.args.workspace = Some(a_workspace(parser)?);
                 Ok(())

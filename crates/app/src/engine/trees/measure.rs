@@ -11,7 +11,10 @@ use technique::{Rank, Threads};
 const MOST_SECONDS: f64 = 4.0;
 
 /// Pixels along the sides of the blocks of a picture's steps.
-const BLOCKS: [u32; 5] = [16, 8, 4, 2, 1];
+const BLOCKS: [u32; 6] = [64, 16, 8, 4, 2, 1];
+
+/// Seconds that a list takes at least for each of its triangles, to leave out what would take minutes.
+const OF_A_TRIANGLE: f64 = 5e-9;
 
 /// Rays of a measurement for the plot: of the whole statue, the same for each level.
 const PROBE: (u32, u32) = (64, 96);
@@ -32,14 +35,16 @@ pub fn pictures<'a>(
     threads: &'a Threads,
     control: &'a TreesControl,
 ) -> impl Iterator<Item = CountedPicture> + 'a {
-    let mut expected = 0.0;
+    let mut of_a_ray = if made.structure() == Structure::List { OF_A_TRIANGLE * made.triangles() as f64 } else { 0.0 };
     BLOCKS.into_iter().map_while(move |block| {
-        if expected > MOST_SECONDS {
+        control.wait();
+        let size = (width.div_ceil(block), height.div_ceil(block));
+        let rays = f64::from(size.0) * f64::from(size.1);
+        if of_a_ray * rays > MOST_SECONDS {
             return None;
         }
-        let picture = trace(made, camera, (width.div_ceil(block), height.div_ceil(block)), threads, control)?;
-        // the next has four times as many rays
-        expected = 4.0 * picture.seconds;
+        let picture = trace(made, camera, size, threads, control)?;
+        of_a_ray = picture.seconds / rays;
         Some(picture)
     })
 }
@@ -87,6 +92,9 @@ fn point(
     control: &TreesControl,
 ) -> Option<TreePoint> {
     let triangles = statue_triangles(level);
+    if structure == Structure::List && OF_A_TRIANGLE * triangles as f64 > 0.1 * MOST_PROBE_SECONDS {
+        return None;
+    }
     let (width, height) = PROBE;
     let mut measured = None;
     for block in [16, 4, 1] {

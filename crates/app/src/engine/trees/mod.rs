@@ -52,7 +52,7 @@ impl Engine {
             let threads = self.threads.clone();
             let service = move || {
                 super::step_back();
-                Student { threads, level: None, points: Vec::new() }
+                Student { threads, restarts: 0, level: None, points: Vec::new() }
             };
             // without a thread there are no pictures; the next frame tries again
             let worker = Worker::start("trees", self.wake.clone(), service).ok();
@@ -67,6 +67,11 @@ impl Engine {
         }
     }
 
+    /// Tells all of the trees again, whose textures are lost.
+    pub(super) fn show_trees_again(&mut self) {
+        self.trees.iter_mut().for_each(|study| study.asked = None);
+    }
+
     /// What is new of trees since the last call.
     pub fn trees_news(&self) -> Option<TreesNews> {
         self.trees.as_ref()?.worker.collect()
@@ -76,6 +81,8 @@ impl Engine {
 /// What the thread knows.
 struct Student {
     threads: Arc<Threads>,
+    /// How often the user had begun anew when the last job came.
+    restarts: u64,
     level: Option<Level>,
     points: Vec<TreePoint>,
 }
@@ -92,6 +99,9 @@ struct Level {
 
 type TreesControl = Control<Option<WantedTrees>, TreesNews>;
 
+/// Levels up to this are measured before anything that takes long.
+const AT_ONCE: u32 = 4;
+
 /// The order in which structures are shown: what is done at once before what takes long.
 const ORDER: [Structure; 3] = [Structure::Eight, Structure::Two, Structure::List];
 
@@ -100,7 +110,16 @@ impl Service for Student {
     type Update = TreesNews;
 
     fn serve(&mut self, wanted: Option<WantedTrees>, control: &TreesControl) {
-        let Some(wanted) = wanted else { return };
+        let Some(wanted) = wanted else {
+            // gigabytes that nobody looks at; the measurements are small
+            self.level = None;
+            return;
+        };
+        if self.restarts != wanted.restarts {
+            (self.restarts, self.level) = (wanted.restarts, None);
+            self.points.clear();
+        }
+        self.measure_levels(wanted.level.min(AT_ONCE), control);
         if self.follow(&wanted, control).is_some() {
             self.measure_levels(wanted.level, control);
         }
@@ -132,6 +151,7 @@ impl Student {
         control.tell(|news| news.camera = Some(level.camera));
         paint::show_all(level, wanted, control);
         for structure in ORDER {
+            control.wait();
             let place = structure as usize;
             if level.made[place].is_none() {
                 level.made[place] = make(&level.mesh, structure, control)?;
@@ -156,6 +176,7 @@ impl Student {
     /// Measures all coarser statues and this one for the plot, unless that was done before.
     fn measure_levels(&mut self, finest: u32, control: &TreesControl) {
         for number in 0..=finest {
+            control.wait();
             let known = self.points.iter().any(|point| point.triangles == statue_triangles(number));
             if known {
                 continue;

@@ -5,8 +5,8 @@ use crate::model::{Counted, TreeFacts, WantedTrees};
 use compare::ColourMap;
 use pathtrace::intersect::counted::{CountedMesh, CountedPicture, CountedPixel, Structure};
 
-/// Boxes that are drawn at most.
-const MOST_BOXES: usize = 3000;
+/// Boxes that are drawn at most: of a tree the deepest level that has no more.
+const MOST_BOXES: usize = 500;
 
 /// Tells all that there is of a level's structures.
 pub fn show_all(level: &Level, wanted: &WantedTrees, control: &TreesControl) {
@@ -33,7 +33,7 @@ fn facts(
 ) -> TreeFacts {
     let triangles = level.mesh.triangles().len();
     let too_large = triangles > structure.most_triangles();
-    let fault = "so many triangles would take gigabytes in a binary tree of this kind: it is not built";
+    let fault = "not built: a tree of this kind would take gigabytes";
     let rays = picture.map_or(0, |picture| picture.pixels.len() as u64);
     let seconds = picture.map_or(0.0, |picture| picture.seconds);
     let tests = picture.map(CountedPicture::tests).unwrap_or_default();
@@ -49,8 +49,8 @@ fn facts(
         seconds,
         whole_seconds: seconds * pixels / rays.max(1) as f64,
         boxes_a_ray: a_ray(tests.boxes),
-        triangles_a_ray: a_ray(tests.triangles),
-        boxes: made.zip(wanted.boxes).map_or(Vec::new(), |(made, depth)| made.boxes_at(depth, MOST_BOXES)),
+        triangles_a_ray: if structure == Structure::List { triangles as f64 } else { a_ray(tests.triangles) },
+        boxes: made.zip(wanted.boxes).map_or((0, Vec::new()), |(made, depth)| made.boxes_at(depth, MOST_BOXES)),
     }
 }
 
@@ -62,7 +62,7 @@ fn count(pixel: &CountedPixel, show: Counted) -> f64 {
     }
 }
 
-/// Colours go by the logarithm from 1 to `most`: a list has millions where a tree has tens.
+/// Colours go by the logarithm, from none to `most`: a list has millions where a tree has tens.
 fn painted(picture: &CountedPicture, show: Counted, most: f64) -> TreePicture {
     let pixel = |pixel: &CountedPixel| {
         let [r, g, b] = match show {

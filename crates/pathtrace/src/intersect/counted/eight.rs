@@ -1,6 +1,6 @@
 //! The tree of a large mesh, walked plainly: at each node up to eight boxes, the nearest first.
 
-use super::{CountedHit, Tests, entry, test};
+use super::{CountedHit, Tests, entry, levels, test};
 use crate::intersect::Ray;
 use crate::intersect::mesh_tree::MeshTree;
 use crate::intersect::triangle::ShearedRay;
@@ -58,17 +58,11 @@ pub fn closest(tree: &MeshTree, ray: &Ray, tests: &mut Tests) -> Option<CountedH
     nearest
 }
 
-/// Boxes of the nodes and leaves that lie so many steps below the root; leaves above stand for what is below them.
-pub fn boxes_at(tree: &MeshTree, depth: u32, most: usize) -> Vec<(Vec3, Vec3)> {
-    let Some(root) = tree.nodes.first() else { return Vec::new() };
-    let mut level = vec![(root.aabb(), Child::Node(0))];
-    for _ in 0..depth {
-        if level.len() >= most {
-            break;
-        }
-        level = level.into_iter().flat_map(|(bounds, child)| below(tree, bounds, child)).collect();
-    }
-    level.into_iter().take(most).map(|(bounds, _)| (bounds.min.into(), bounds.max.into())).collect()
+pub fn boxes_at(tree: &MeshTree, depth: u32, most: usize) -> (u32, Vec<(Vec3, Vec3)>) {
+    let Some(root) = tree.nodes.first() else { return (0, Vec::new()) };
+    let root = (root.aabb(), Child::Node(0));
+    let (depth, level) = levels(root, depth, most, |(bounds, child)| below(tree, bounds, child));
+    (depth, level.into_iter().map(|(bounds, _)| (bounds.min.into(), bounds.max.into())).collect())
 }
 
 fn below(tree: &MeshTree, bounds: Aabb, child: Child) -> Vec<(Aabb, Child)> {

@@ -44,11 +44,11 @@ impl Structure {
         }
     }
 
-    /// Most triangles that it is made of here: a binary tree takes 110 bytes a triangle, and a list is only read.
+    /// Most triangles that it is made of here: a binary tree is built by one thread, which nothing stops.
     pub fn most_triangles(self) -> usize {
         match self {
             Structure::List | Structure::Eight => usize::MAX,
-            Structure::Two => 1 << 23,
+            Structure::Two => 1 << 21,
         }
     }
 }
@@ -140,13 +140,28 @@ impl CountedMesh {
         }
     }
 
-    /// The boxes of the nodes and leaves that are `depth` steps below the root, at most so many.
-    pub fn boxes_at(&self, depth: u32, most: usize) -> Vec<(Vec3, Vec3)> {
+    /// The boxes of the nodes and leaves that are `depth` steps below the root, or of the deepest level above that has
+    /// at most so many; and how many steps that is. Leaves above it stand for what is below them.
+    pub fn boxes_at(&self, depth: u32, most: usize) -> (u32, Vec<(Vec3, Vec3)>) {
         match &self.kept {
-            Kept::List => Vec::new(),
+            Kept::List => (0, Vec::new()),
             Kept::Two(tree) => tree.boxes_at(depth, most),
             Kept::Eight(tree) => eight::boxes_at(tree, depth, most),
         }
+    }
+
+    /// How its triangles are kept.
+    pub fn structure(&self) -> Structure {
+        match &self.kept {
+            Kept::List => Structure::List,
+            Kept::Two(_) => Structure::Two,
+            Kept::Eight(_) => Structure::Eight,
+        }
+    }
+
+    /// How many triangles it is made of.
+    pub fn triangles(&self) -> usize {
+        self.mesh.triangles().len()
     }
 
     /// Steps from the root to the deepest leaf.
@@ -176,6 +191,22 @@ fn entry(bounds: &Aabb, ray: &Ray, inverse: Vec3, tmax: f32) -> Option<f32> {
     let [a, b] = [bounds.min, bounds.max].map(|corner| (Vec3::from(corner) - ray.origin) * inverse);
     let (near, far) = (a.min(b).max_element().max(0.0), a.max(b).min_element().min(tmax));
     (near <= far).then_some(near)
+}
+
+/// Goes down level by level, as far as `most` allows.
+fn levels<T>(root: T, depth: u32, most: usize, below: impl Fn(T) -> Vec<T>) -> (u32, Vec<T>)
+where
+    T: Clone,
+{
+    let mut level = vec![root];
+    for step in 0..depth {
+        let next: Vec<T> = level.iter().cloned().flat_map(&below).take(most + 1).collect();
+        if next.len() > most {
+            return (step, level);
+        }
+        level = next;
+    }
+    (depth, level)
 }
 
 #[cfg(test)]

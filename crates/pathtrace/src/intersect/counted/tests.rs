@@ -64,12 +64,15 @@ fn boxes_of_a_depth_hold_all_corners() {
         let made = CountedMesh::new(&mesh, structure, &|_| true).unwrap();
         assert!(made.depth() > 2, "{structure:?}");
         for depth in 0..=made.depth() {
-            let boxes = made.boxes_at(depth, usize::MAX);
+            let (reached, boxes) = made.boxes_at(depth, 1 << 30);
+            assert_eq!(reached, depth);
             let held = |p: &Vec3| boxes.iter().any(|(lo, hi)| p.cmpge(*lo).all() && p.cmple(*hi).all());
             assert!(mesh.positions().iter().all(held), "{structure:?} at {depth}");
         }
-        assert_eq!(made.boxes_at(0, 9).len(), 1);
-        assert!(made.boxes_at(2, 9).len() <= 9);
+        assert_eq!(made.boxes_at(0, 9).1.len(), 1);
+        // a level that is drawn is whole
+        let (depth, boxes) = made.boxes_at(9, 70);
+        assert!(depth < 9 && boxes.len() <= 70 && boxes == made.boxes_at(depth, 1 << 30).1);
     }
 }
 

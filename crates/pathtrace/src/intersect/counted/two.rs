@@ -1,6 +1,6 @@
 //! A binary tree as a course builds it first: at each node two boxes, the nearer one before the other.
 
-use super::{CountedHit, Tests, entry, test};
+use super::{CountedHit, Tests, entry, levels, test};
 use crate::intersect::Ray;
 use crate::intersect::triangle::ShearedRay;
 use obvhs::Boundable;
@@ -88,16 +88,10 @@ impl TwoBoxes {
         self.depth
     }
 
-    /// Leaves above that depth stand for what lies below them.
-    pub fn boxes_at(&self, depth: u32, most: usize) -> Vec<(Vec3, Vec3)> {
-        let mut level: Vec<&Bvh2Node> = self.tree.nodes.first().into_iter().collect();
-        for _ in 0..depth {
-            if level.len() >= most {
-                break;
-            }
-            level = level.into_iter().flat_map(|node| self.children(node)).collect();
-        }
-        level.iter().take(most).map(|node| (node.aabb.min.into(), node.aabb.max.into())).collect()
+    pub fn boxes_at(&self, depth: u32, most: usize) -> (u32, Vec<(Vec3, Vec3)>) {
+        let Some(root) = self.tree.nodes.first() else { return (0, Vec::new()) };
+        let (depth, nodes) = levels(root, depth, most, |node| self.children(node));
+        (depth, nodes.into_iter().map(|node| (node.aabb.min.into(), node.aabb.max.into())).collect())
     }
 
     fn children<'a>(&'a self, node: &'a Bvh2Node) -> Vec<&'a Bvh2Node> {

@@ -11,6 +11,7 @@ pub fn heads(cx: &mut UiContext, ui: &mut Ui) {
     let triangles = grouped(statue_triangles(cx.model.session.trees.level));
     ui.label(RichText::new(format!("{triangles} triangles")).heading());
     let doing = cx.shown.trees.doing.clone().unwrap_or_else(|| "done".into());
+    let doing = if cx.model.state.paused { "paused (P)".into() } else { doing };
     let line = ui.label(RichText::new(&doing).color(palette(ui).dim));
     cx.dump.note("text trees doing", doing, line);
 }
@@ -52,7 +53,7 @@ fn boxes(cx: &mut UiContext, ui: &mut Ui) {
         cx.model.session.trees.boxes = drawn.then_some(2);
     }
     if cx.model.session.trees.boxes.is_some() {
-        let hover = "0 is the root, around all. Leaves above stand for what is below them; 3,000 boxes at most";
+        let hover = "0 is the root, around all. Leaves above stand for what is below them. Of more than 500 boxes the deepest level is drawn that has no more";
         whole(cx, ui, ("tree depth", "Steps below the root", hover), 0..=24, |trees| trees.boxes.get_or_insert(0));
     }
 }
@@ -68,7 +69,7 @@ fn plotted(cx: &mut UiContext, ui: &mut Ui) {
 fn explain_plot(plot: TreePlot) -> &'static str {
     match plot {
         TreePlot::Seconds => {
-            "Seconds for a million rays on all threads; eight boxes are tested at once, as pictures are traced"
+            "Seconds for a million rays on all threads. Eight boxes are tested at once, as pictures are traced; the other two structures are walked by plain code that counts as well"
         }
         TreePlot::Tests => "Boxes and triangles that a ray is tested against in the mean",
     }

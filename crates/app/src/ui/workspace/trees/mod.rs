@@ -41,18 +41,23 @@ impl Workspace for Trees {
     }
 
     fn ui(&mut self, cx: &mut UiContext, ui: &mut Ui) {
+        let whole = ui.available_rect_before_wrap();
         common::panel(cx, ui, cards::heads, cards::cards);
+        let right = ui.available_rect_before_wrap().right();
         let frame = Frame::new().fill(palette(ui).panel).inner_margin(Margin::symmetric(10, 6));
         let room = ui.available_height();
         let below = egui::Panel::bottom("plot of trees").resizable(true).default_size(0.42 * room).frame(frame);
         below.size_range(100.0_f32.min(0.5 * room)..=0.6 * room).show(ui, |ui| plot::show(cx, ui));
         egui::CentralPanel::default().show(ui, |ui| picture::show_all(cx, ui));
+        let [right, bottom] = [whole.right().min(right), whole.bottom()];
+        cx.model.state.tree_corners = [whole.left(), whole.top(), right, bottom];
     }
 
     fn wanted(&self, model: &Model) -> Wanted {
         let (settings, size) = (model.session.trees, model.state.tree_pixels);
         let there_is_room = size.0 > 0 && size.1 > 0;
-        let trees = WantedTrees { level: settings.level, show: settings.show, boxes: settings.boxes, size };
+        let restarts = model.state.restarts;
+        let trees = WantedTrees { level: settings.level, show: settings.show, boxes: settings.boxes, size, restarts };
         Wanted { trees: there_is_room.then_some(trees), ..model.wanted([]) }
     }
 

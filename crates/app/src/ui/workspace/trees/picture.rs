@@ -1,10 +1,10 @@
 //! The three pictures beside each other, what is told below each, the boxes of the trees, and the colours' legend.
 
 use crate::model::{Counted, TreeFacts, grouped};
-use crate::ruler::brief;
 use crate::ui::UiContext;
 use crate::ui::overlay::say;
 use crate::ui::theme::{figures, palette, semi_bold};
+use crate::ui::widgets::Explained;
 use compare::{ColourMap, log_ticks, tick_text};
 use egui::text::{LayoutJob, TextWrapping};
 use egui::{Color32, FontId, Mesh, Pos2, Rect, Role, Sense, Shape, Stroke, Ui, WidgetInfo, pos2, vec2};
@@ -59,10 +59,11 @@ fn show(cx: &mut UiContext, ui: &mut Ui, structure: Structure, rect: Rect) {
         None => _ = ui.painter().rect_filled(rect, 2.0, palette(ui).card),
     }
     if let (Some(facts), Some(camera)) = (facts, cx.shown.trees.camera) {
-        draw_boxes(ui, rect, &camera, &facts.boxes);
+        draw_boxes(ui, rect, &camera, &facts.boxes.1);
     }
     let response = ui.interact(rect, ui.scope_id().with(("tree", place)), Sense::hover());
     let spoken = lines_of(structure, facts).join(", ");
+    let response = response.explained(&spoken);
     response.widget_info(|| WidgetInfo::labeled(Role::Image, true, &spoken));
     cx.dump.note(&format!("tree {}", structure.name()), spoken, response);
 }
@@ -75,26 +76,40 @@ fn lines_of(structure: Structure, facts: Option<&TreeFacts>) -> Vec<String> {
         lines.push(fault.clone());
         return lines;
     }
-    if structure != Structure::List && facts.build_seconds > 0.0 {
-        let (seconds, bytes, depth) = (brief(facts.build_seconds), facts.bytes_a_triangle, facts.depth);
-        lines.push(format!("built in {seconds} s, {bytes:.1} bytes a triangle, {depth} deep"));
-    }
-    if facts.rays == 0 {
-        return lines;
-    }
     let (boxes, triangles) = (mean(facts.boxes_a_ray), mean(facts.triangles_a_ray));
-    lines.push(match structure {
-        Structure::List => format!("a ray: {triangles} triangles, all of them"),
-        Structure::Two => format!("a ray: {boxes} boxes, {triangles} triangles"),
-        Structure::Eight => format!("a ray: {boxes} boxes, up to eight at once; {triangles} triangles"),
-    });
-    let whole = brief(facts.whole_seconds);
-    lines.push(if facts.whole_seconds > 1.01 * facts.seconds {
-        format!("in blocks; every pixel: {whole} s, extrapolated")
-    } else {
-        format!("{} rays in {whole} s", grouped(facts.rays))
-    });
+    match structure {
+        Structure::List => lines.push(format!("all {triangles} triangles a ray")),
+        Structure::Two | Structure::Eight if facts.rays > 0 => {
+            lines.push(format!("{boxes} boxes, {triangles} triangles a ray"));
+        }
+        Structure::Two | Structure::Eight => {}
+    }
+    if facts.rays > 0 {
+        lines.push(match facts.whole_seconds > 1.01 * facts.seconds {
+            true => format!("≈ {} for every pixel (extrapolated)", duration(facts.whole_seconds)),
+            false => format!("{} for {} rays", duration(facts.seconds), grouped(facts.rays)),
+        });
+    }
+    if structure != Structure::List && facts.build_seconds > 0.0 {
+        let (seconds, bytes) = (duration(facts.build_seconds), facts.bytes_a_triangle);
+        let drawn = &facts.boxes;
+        lines.push(match drawn.1.is_empty() {
+            true => format!("built in {seconds}, {bytes:.0} bytes of boxes a triangle, {} deep", facts.depth),
+            false => format!("{} boxes drawn, {} of {} steps below the root", drawn.1.len(), drawn.0, facts.depth),
+        });
+    }
     lines
+}
+
+/// Two digits are known of a time, if that: "0.12 s", "33 s", "4 min", "2 h".
+fn duration(seconds: f64) -> String {
+    match seconds {
+        s if s < 0.1 => format!("{:.1} ms", 1e3 * s),
+        s if s < 10.0 => format!("{s:.2} s"),
+        s if s < 120.0 => format!("{s:.0} s"),
+        s if s < 7200.0 => format!("{:.0} min", s / 60.0),
+        s => format!("{} h", grouped((s / 3600.0).round() as u64)),
+    }
 }
 
 fn mean(count: f64) -> String {
@@ -161,7 +176,7 @@ fn show_legend(cx: &mut UiContext, ui: &Ui, rect: Rect, font: &FontId) {
     }
     ui.painter().add(mesh);
     let mut free = f32::NEG_INFINITY;
-    for tick in log_ticks(1.0, most) {
+    for tick in std::iter::once(0.0).chain(log_ticks(0.0, most.log10())) {
         let share = ((1.0 + tick).ln() / (1.0 + most).ln()) as f32;
         let galley = ui.painter().layout_no_wrap(tick_text(tick), font.clone(), palette.dim);
         let at = bar.left() + share * bar.width();

@@ -1,7 +1,7 @@
 //! Cost over triangles, both in powers of ten: the line of a list goes on as its triangles do, where measuring it would
 //! take too long, and that is said.
 
-use crate::model::{TreePlot, TreePoint, extrapolated};
+use crate::model::{TreePlot, TreePoint, TreesSettings, extrapolated, statue_triangles};
 use crate::ruler::brief;
 use crate::ui::UiContext;
 use crate::ui::theme::{Palette, palette};
@@ -14,7 +14,12 @@ use pathtrace::intersect::counted::Structure;
 pub fn show(cx: &mut UiContext, ui: &mut Ui) {
     let (what, palette) = (cx.model.session.trees.plot, palette(ui));
     let points = &cx.shown.trees.points;
+    let (coarsest, finest) = (statue_triangles(0) as f64, statue_triangles(TreesSettings::FINEST) as f64);
+    let type_size = egui::TextStyle::Body.resolve(ui.style()).size;
     let plot = Plot::new("trees")
+        .include_x(coarsest.log10())
+        .include_x(finest.log10())
+        .y_axis_min_width(3.6 * type_size)
         .x_axis_label("triangles")
         .y_axis_label(what.label())
         .x_grid_spacer(decades)
