@@ -322,7 +322,7 @@ impl User {
     pub fn open(&mut self, name: &str) -> Frame {
         self.harness.get_by_label_contains("Scene: ").click();
         self.harness.run_steps(3);
-        self.type_into("A scene (.toml) or a model (.glb, .gltf):", name);
+        self.type_into("A scene (.toml) or a model (.glb, .gltf, .ply, .obj):", name);
         self.key(Key::Enter)
     }
 }
