@@ -23,6 +23,10 @@ impl Mesh {
     /// triangles of the world.
     pub const LARGE: usize = 4096;
 
+    /// Most triangles of all small meshes that are put into one scene by maps, each as often as it stands there: they are
+    /// taken apart into triangles of the world, some 600 bytes each.
+    pub const MOST_COPIED: u64 = 1 << 22;
+
     /// Of corners, and of three indices into them for each triangle. Flat: without normals and texture coordinates.
     pub fn new(positions: Vec<Vec3>, triangles: Vec<[u32; 3]>) -> Self {
         Mesh::with_attributes(positions, triangles, Vec::new(), Vec::new())

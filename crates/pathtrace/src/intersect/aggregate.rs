@@ -10,7 +10,7 @@ use super::coincident::NO_GROUP;
 use super::hit::EachIntersection;
 use super::ray::BEHIND_THE_END;
 use super::shape_list::{Scratch, ShapeList};
-use super::{Accel, Hits, Intersections, NO_INSTANCE, NO_LIGHT, NO_PRIMITIVE, Ray, Rays};
+use super::{Accel, Hit, Hits, Intersections, NO_INSTANCE, NO_LIGHT, NO_PRIMITIVE, Ray, Rays};
 use scene::{Bsdf, Scene};
 use simd::{Float, MOST_LANES, Mask, Word};
 
@@ -62,19 +62,25 @@ impl Aggregate {
     }
 
     /// What was said, but on large meshes what those say.
-    #[inline(never)]
+    #[inline(always)]
     fn or_of_instances<F: Float>(
         &self,
         met: &Intersections<F>,
         on_instance: F::M,
         said: SurfaceAttributes<F>,
     ) -> SurfaceAttributes<F> {
-        let hits = met.hits_on_instances().each();
+        let each = self.attributes_of_each(on_instance.bits(), &met.hits_on_instances().each());
+        SurfaceAttributes::select(on_instance, each.in_lanes(), said)
+    }
+
+    /// Out of line, and lane by lane: few scenes ask for it.
+    #[inline(never)]
+    fn attributes_of_each(&self, lanes: u32, hits: &[Hit; MOST_LANES]) -> EachAttributes {
         let mut each = EachAttributes::none();
-        for lane in lanes_of(on_instance) {
+        for lane in (0..MOST_LANES).filter(|lane| lanes >> lane & 1 != 0) {
             each.set(lane, &self.accel.instances().attributes(&hits[lane]));
         }
-        SurfaceAttributes::select(on_instance, each.in_lanes(), said)
+        each
     }
 
     /// The shapes, ready for single rays.

@@ -6,26 +6,23 @@
 //! shrinks, of two spheres that of the larger, and a flat face of glass moves inwards, by about 1e-6 of the coordinates
 //! there. Never by more than a small share of the shape, see [`most_of_sphere`] and [`MOST_OF_GLASS`]: what is smaller
 //! than that where it is stays as it is, and so does what cuts deeper into each other, and what shines. Opaque flat faces
-//! are left to [`super::coincident`]. Large meshes, which are instances of trees of their own, neither move nor are they
-//! asked about: what touches one, or stands on it, is not held apart from it.
+//! are left to [`super::coincident`]. Large meshes, which are instances of trees of their own, are not asked about: what
+//! stands on one is not held apart from it. One of glass moves inwards itself, as the box around it does.
 
 use super::baking::is_instanced;
 use super::coincident::overlap;
 use super::gamma;
 use super::pairs::{Bounds, SortedBoxes, for_each_pair, meet};
 use rayon::prelude::*;
-use scene::glam::DVec3;
-use scene::{Bsdf, Geometry, Mesh, Scene, Shape, Vec3};
+use scene::glam::{DAffine3, DVec3};
+use scene::{Bsdf, Geometry, Instance, Mesh, Scene, Shape, Vec3};
 use std::borrow::Cow;
 use std::sync::OnceLock;
 
 /// The scene with those shapes held apart that touch.
 pub(crate) fn held_apart(scene: &Scene) -> Cow<'_, Scene> {
     let is_sphere = |shape: &Shape| matches!(shape.geometry, Geometry::Sphere { .. });
-    let gives_way = |shape: &Shape| {
-        let is_soft = is_glass(scene, shape) || (is_sphere(shape) && !scene.material_of(shape).shines());
-        is_soft && !is_instanced(scene, shape)
-    };
+    let gives_way = |shape: &Shape| is_glass(scene, shape) || (is_sphere(shape) && !scene.material_of(shape).shines());
     if !scene.shapes.iter().any(gives_way) {
         return Cow::Borrowed(scene);
     }
@@ -45,6 +42,7 @@ pub(crate) fn held_apart(scene: &Scene) -> Cow<'_, Scene> {
         let others = neighbours.iter().map(|other| (&scene.shapes[*other].geometry, &faces[*other]));
         let moved = match shape.geometry {
             Geometry::Sphere { center, radius } => smaller_sphere(center, radius, others),
+            _ if is_instanced(scene, shape) => smaller_instance(&shape.geometry, others.map(|(geometry, _)| geometry)),
             _ if is_glass(scene, shape) => moved_inwards(&shape.geometry, others.map(|(geometry, _)| geometry)),
             _ => None,
         };
@@ -263,6 +261,26 @@ fn moved_inwards<'a>(geometry: &Geometry, neighbours: impl Iterator<Item = &'a G
         Geometry::Instance(instance) => Geometry::Mesh(pushed_in(&instance.baked(), &faces, &ways).into()),
         Geometry::Sphere { .. } => return None,
     })
+}
+
+/// A large mesh of glass, as its box in the world is moved inwards where it lies on others.
+fn smaller_instance<'a>(geometry: &Geometry, neighbours: impl Iterator<Item = &'a Geometry>) -> Option<Geometry> {
+    let (low, high) = geometry.bounds();
+    let around = Geometry::Box { corner: low, size: high - low, turn_y: 0.0 };
+    let Geometry::Box { corner, size, .. } = moved_inwards(&around, neighbours)? else { return None };
+    let (mesh, to_world) = match geometry {
+        Geometry::Mesh(mesh) => (mesh, DAffine3::IDENTITY),
+        Geometry::Instance(Instance { mesh, to_world }) => (mesh, to_world.as_daffine3()),
+        Geometry::Sphere { .. } | Geometry::Rectangle { .. } | Geometry::Disk { .. } | Geometry::Box { .. } => {
+            return None;
+        }
+    };
+    let extent = (high - low).as_dvec3();
+    let share = DVec3::select(extent.cmpgt(DVec3::ZERO), size.as_dvec3() / extent, DVec3::ONE);
+    let smaller = DAffine3::from_scale(share);
+    let moved = DAffine3::from_translation(corner.as_dvec3() - low.as_dvec3() * share);
+    let to_world = (moved * smaller * to_world).as_affine3a();
+    Some(Geometry::Instance(Instance { mesh: mesh.clone(), to_world }))
 }
 
 /// Directions in which a shape may touch others.

@@ -169,3 +169,16 @@ fn a_scene_is_read_no_further_when_it_is_told_so() {
     assert!(matches!(stopped(statue), Err(SceneError::Stopped)));
     assert!(stopped(MESH).is_ok(), "nothing that takes long");
 }
+
+#[test]
+fn copies_of_small_meshes_have_a_bound_and_those_of_large_ones_none() {
+    let scene = |level: u32, count: usize| {
+        let statue = format!("[[statue]]\nname = 's'\nlevel = {level}\nmaterial = 'white'\n");
+        let instance = "[[instance]]\nof = 's'\ntranslate = [1, 0, 0]\n".repeat(count);
+        parse(&format!("{SMALL}{statue}{instance}"), "many", Path::new("many.toml"))
+    };
+    // of 2,048 triangles each
+    let said = scene(4, 2049).unwrap_err().to_string();
+    assert!(said.contains("have more than 4194304 triangles together"), "{said}");
+    assert!(scene(4, 2048).is_ok() && scene(5, 2049).is_ok());
+}

@@ -21,7 +21,7 @@ mod source;
 use crate::direction::unit;
 use crate::progress::Progress;
 use crate::stand_ins::FakeNumbers;
-use crate::{Camera, Geometry, PointLight, Scene, SceneHash, Shape, Spot, Sun, nearest, nesting};
+use crate::{Camera, Geometry, Instance, Mesh, PointLight, Scene, SceneHash, Shape, Spot, Sun, nearest, nesting};
 use glam::Vec3;
 use meshes::Meshes;
 use picture::Pictures;
@@ -257,6 +257,15 @@ fn build(raw: RawScene, name: &str, folder: &Path, progress: &Progress) -> Resul
         let (geometry, wears) = meshes.instance(raw)?;
         add(geometry, wears)?;
     }
+    if let Some(at) = beyond_copies(&shapes) {
+        let most = Mesh::MOST_COPIED;
+        let line = format!(
+            "instances of meshes below {} triangles have more than {most} triangles together: give them larger meshes, \
+             which keep one tree for all",
+            Mesh::LARGE
+        );
+        return fault(places[at].clone(), line);
+    }
     if let Some((first, second)) = nesting::overlap(&shapes, &materials) {
         let other = shapes[first].geometry.center();
         return fault(
@@ -299,6 +308,17 @@ fn build(raw: RawScene, name: &str, folder: &Path, progress: &Progress) -> Resul
         as_read: SceneHash::default(),
     };
     Ok(Scene { as_read: SceneHash::of(&scene), ..scene })
+}
+
+/// The first shape with which small meshes that are copied have more than [`Mesh::MOST_COPIED`] triangles.
+fn beyond_copies(shapes: &[Shape]) -> Option<usize> {
+    let mut copied = 0;
+    shapes.iter().position(|shape| {
+        if let Geometry::Instance(Instance { mesh, .. }) = &shape.geometry {
+            copied += if mesh.is_large() { 0 } else { mesh.triangles().len() as u64 };
+        }
+        copied > Mesh::MOST_COPIED
+    })
 }
 
 fn camera(raw: Spanned<Table<raw::RawCamera>>) -> Result<Camera, Fault> {

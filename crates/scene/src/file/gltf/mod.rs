@@ -32,7 +32,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 /// Triangles of small meshes, each as often as it is shown: they are taken apart into triangles of the world.
-const MOST_SMALL: u64 = 1 << 24;
+const MOST_SMALL: u64 = Mesh::MOST_COPIED;
 
 /// Shapes that a scene may have.
 const MOST_SHAPES: u64 = 1 << 20;
