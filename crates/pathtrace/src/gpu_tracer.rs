@@ -5,6 +5,7 @@
 //! [`GpuTraceError`], and the processor's [`crate::Tracer`] can take over.
 
 use crate::caster::Casters;
+use crate::drive::gpu::behind_lights;
 use crate::drive::gpu::dispatch::Dispatcher;
 use crate::drive::gpu::film_data::RenderParams;
 use crate::drive::gpu::instance_data::{Instances, Parted};
@@ -357,8 +358,8 @@ impl Made {
         self.instances.append_to(&mut self.shapes, &tables, &mut header)?;
         let Made { lights, casters, shapes, mesh_data, .. } = &self;
         let mut aims = scene_data::lights(lights, &shapes.groups, mesh_data);
-        aims.extend(scene_data::chains(casters));
-        aims.extend(scene_data::light_tree(lights));
+        aims.extend(behind_lights::chains(casters));
+        aims.extend(behind_lights::light_tree(lights));
         let mut few = [FewShape::zeroed(); MOST_SHAPES];
         few[..shapes.few.len()].copy_from_slice(&shapes.few);
         let buffers = [

@@ -4,6 +4,7 @@
 //! What a [`crate::gpu::GpuTracer`] drives: the mirrors of what shaders read, pipelines, work cut into dispatches, films
 //! on the device.
 
+pub(crate) mod behind_lights;
 pub(crate) mod dispatch;
 pub(crate) mod environment_data;
 mod error;

@@ -316,33 +316,6 @@ fn colours(texture: &Texture) -> Checkerboard {
     }
 }
 
-/// The chains by spheres, which stand behind the lights.
-pub fn chains(casters: &Casters) -> impl Iterator<Item = Light> {
-    casters.rows().map(|(position, area, code, cumulative)| Light {
-        position,
-        area,
-        outline: if code & THROUGH == 0 { CHAIN_OFF } else { CHAIN_THROUGH },
-        material: code & !THROUGH,
-        cumulative,
-        ..Light::zeroed()
-    })
-}
-
-/// The nodes of the tree over many lights, which stand behind the chains: what stands where
-/// is said in `shaders/pathtrace/light/tree.wgsl`.
-pub fn light_tree(lights: &Lights) -> impl Iterator<Item = Light> {
-    let nodes = lights.table().tree().map_or(&[][..], |(tree, _)| tree.nodes());
-    nodes.iter().map(|node| Light {
-        position: node.center,
-        area: node.radius,
-        normal: node.axis,
-        u: Vec3::new(node.cos_spread, 0.0, 0.0),
-        radiance: Vec3::splat(node.intensity),
-        outline: node.contents,
-        ..Light::zeroed()
-    })
-}
-
 /// What is sampled as a light, and which of its surfaces coincide.
 pub(crate) fn lights(lights: &Lights, groups: &Groups, mesh_data: &MeshData) -> Vec<Light> {
     let trails = lights.table().tree().map_or(&[][..], |(tree, _)| tree.trails());
