@@ -123,10 +123,12 @@ fn wrap(code: Option<u32>) -> Result<Wrap, Refused> {
     }
 }
 
-/// As the extension multiplies its matrices: scaled, then turned, then moved.
+/// Scaled, then turned, then moved. Positive angles turn counterclockwise as one sees the picture, whose v points down: the
+/// extension's words, its example and the sample model TextureTransformTest have it so, and the matrix that its text prints
+/// turns the other way (KhronosGroup/glTF, issue 1563).
 fn place(sampling: &mut Sampling, transform: &TextureTransform) {
     let (sin, cos) = transform.rotation.sin_cos();
-    let turn = Mat2::from_cols(Vec2::new(cos, sin), Vec2::new(-sin, cos));
+    let turn = Mat2::from_cols(Vec2::new(cos, -sin), Vec2::new(sin, cos));
     let scale = Vec2::from(transform.scale.unwrap_or([1.0; 2]));
     sampling.turn_and_scale = turn * Mat2::from_diagonal(scale);
     sampling.offset = Vec2::from(transform.offset.unwrap_or([0.0; 2]));
@@ -142,19 +144,22 @@ fn key(image: u32, curve: CodeCurve, sampling: &Sampling) -> Key {
 mod tests {
     use super::*;
 
-    /// The example of the extension's own text: the upper left quarter of an atlas, turned by a quarter.
+    /// The example of the extension's own text: the lower left quarter of a picture, turned clockwise by a quarter.
     #[test]
-    fn textures_are_placed_as_the_extension_multiplies_its_matrices() {
+    fn textures_are_placed_as_in_the_extensions_example() {
         let transform = TextureTransform {
             offset: Some([0.0, 1.0]),
             rotation: std::f32::consts::FRAC_PI_2,
-            scale: Some([0.5, 0.25]),
+            scale: Some([0.5, 0.5]),
             tex_coord: None,
         };
         let mut sampling = Sampling::default();
         place(&mut sampling, &transform);
-        let placed = sampling.turn_and_scale * Vec2::new(1.0, 1.0) + sampling.offset;
-        // (1, 1) is scaled to (.5, .25), turned to (-.25, .5) and moved
-        assert!((placed - Vec2::new(-0.25, 1.5)).length() < 1e-6, "{placed}");
+        let placed = |u, v| sampling.turn_and_scale * Vec2::new(u, v) + sampling.offset;
+        let near = |a: Vec2, b: Vec2| (a - b).length() < 1e-6;
+        // what is shown in the upper left lies in the lower left, and what is shown to the right of that above it
+        assert!(near(placed(0.0, 0.0), Vec2::new(0.0, 1.0)), "{}", placed(0.0, 0.0));
+        assert!(near(placed(1.0, 0.0), Vec2::new(0.0, 0.5)), "{}", placed(1.0, 0.0));
+        assert!(near(placed(1.0, 1.0), Vec2::new(0.5, 0.5)), "{}", placed(1.0, 1.0));
     }
 }
