@@ -162,7 +162,10 @@ fn material(
             (bsdf, emission, image)
         }
     };
-    let fake = FakeMaterial { shininess: usual_shininess(&bsdf), ..FakeMaterial::default() };
+    let usual = FakeMaterial::default();
+    // what is unlit has no highlight
+    let specular = if raw.extensions.unlit.is_some() { 0.0 } else { usual.specular };
+    let fake = FakeMaterial { shininess: usual_shininess(&bsdf), specular, ..usual };
     Ok(Material { name, bsdf, emission, surface: SurfaceDetail { normal_map, alpha, emission: image }, fake })
 }
 

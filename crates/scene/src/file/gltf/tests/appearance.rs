@@ -172,6 +172,7 @@ fn unlit_materials_shine_by_themselves_with_a_word() {
     assert_eq!(material.bsdf, Bsdf::Diffuse { albedo: Texture::Constant(Vec3::ZERO) });
     assert_eq!(material.emission.unwrap().radiance, Vec3::new(0.5, 0.25, 1.0));
     assert!(material.surface.emission.is_some());
+    assert_eq!(material.fake.specular, 0.0, "no highlight lies on it");
     model.remark("unlit");
 }
 
