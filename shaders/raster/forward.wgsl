@@ -16,6 +16,7 @@ const AREA_LIGHT_WITHOUT_DECAY: u32 = 1u;
 const AREA_LIGHT_ALL_AROUND: u32 = 2u;
 const AREA_LIGHT_ONE_SIDED: u32 = 3u;
 const AREA_LIGHT_TWO_SIDED: u32 = 4u;
+const AREA_LIGHT_SPOT: u32 = 5u;
 
 // What fragments branch on is compiled in. Uniforms must not decide it: Mesa's lavapipe 22.3 compiles a fragment shader
 // that branches on a uniform anew for every draw, and keeps all of them until the pipeline goes. So `select` and `&`
@@ -37,10 +38,14 @@ struct Lights {
     area_light_position: vec3f,
     area_light_pattern: u32,
     area_light_normal: vec3f,
+    // cosine to a spot's axis, which area_light_normal is, at which it is dark
+    cone_outer: f32,
     area_light_incident: vec3f,
     // added to depths before they are compared
     shadow_bias: f32,
     ambient: vec3f,
+    // how much of its way to full light a cosine above cone_outer is
+    cone_slope: f32,
     sky: vec3f,
     // 0: the sun's; 1 to 6: the area light's, +x, -x, +y, -y, +z, -z
     shadow_views: array<View, 7>,
@@ -178,6 +183,10 @@ fn area_light_incident(to_area_light: vec3f, l: vec3f) -> vec3f {
         return decayed;
     }
     let cosine = dot(lights.area_light_normal, -l);
+    if AREA_LIGHT == AREA_LIGHT_SPOT {
+        let way = saturate((cosine - lights.cone_outer) * lights.cone_slope);
+        return decayed * way * way;
+    }
     return decayed * select(abs(cosine), max(cosine, 0.0), AREA_LIGHT == AREA_LIGHT_ONE_SIDED);
 }
 

@@ -29,12 +29,14 @@ pub const IMAGE_ALPHA: u32 = 16;
 pub const AREA_LIGHT_NONE: u32 = 0;
 /// As taught: the same at every distance.
 pub const AREA_LIGHT_WITHOUT_DECAY: u32 = 1;
-/// A sphere or a box, seen as convex.
+/// A sphere or a box, seen as convex, or a point.
 pub const AREA_LIGHT_ALL_AROUND: u32 = 2;
 /// A rectangle, one side of which shines.
 pub const AREA_LIGHT_ONE_SIDED: u32 = 3;
 /// A rectangle, both sides of which shine.
 pub const AREA_LIGHT_TWO_SIDED: u32 = 4;
+/// A point that shines into a cone.
+pub const AREA_LIGHT_SPOT: u32 = 5;
 
 /// How shadow maps are looked up: [`crate::ShadowFilter::Hard`].
 pub const FILTER_HARD: u32 = 0;
@@ -79,18 +81,18 @@ pub struct Lights {
     pub area_light_position: Vec3,
     /// How the area light's light spreads: one of `AREA_LIGHT_*`; compiled in too.
     pub area_light_pattern: u32,
-    /// Unit normal of a flat area light.
+    /// Unit normal of a flat area light, axis of a spot.
     pub area_light_normal: Vec3,
-    /// Padding.
-    pub unused0: u32,
+    /// Cosine at which a spot is dark ...
+    pub cone_outer: f32,
     /// What a white Lambert surface facing the area light sends back, at distance 1 if it decays.
     pub area_light_incident: Vec3,
     /// Added to depths before they are compared with the shadow map's.
     pub shadow_bias: f32,
     /// Light from everywhere.
     pub ambient: Vec3,
-    /// Padding.
-    pub unused1: u32,
+    /// ... and how much of its way to full light a cosine above that is.
+    pub cone_slope: f32,
     /// Radiance of the sky.
     pub sky: Vec3,
     /// Padding.

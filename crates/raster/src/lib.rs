@@ -19,8 +19,8 @@
 //! tells what they cut) and those of the cube map as taught, which go with the glass.
 //!
 //! What it can't do is said, not hidden: at most [`MOST_CUBE_MAPS`] pieces of glass have a cube map, others show the
-//! plain sky, as does glass seen in a cube map; of several area lights only the one of greatest power sheds light; as
-//! taught, a sun puts out all area lights. Metal reflects nothing but the ambient light, and what glows by a picture is
+//! plain sky, as does glass seen in a cube map; of several area and point lights only the one of greatest power sheds
+//! light; as taught, a sun puts out all of them. Metal reflects nothing but the ambient light, and what glows by a picture is
 //! seen, but lights nothing.
 
 mod build;

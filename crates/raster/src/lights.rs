@@ -1,4 +1,4 @@
-//! The fake's lights: a sun with one shadow view, and the area light of greatest power as a point with six.
+//! The fake's lights: a sun with one shadow view, and of area and point lights that of greatest power, as a point with six.
 //!
 //! Fair area lights stand for the one-sample direct light: a flat area light of radiance L and area A gives the
 //! irradiance `L A cos' cos / d^2`, others, seen as convex, `L A/4 cos / d^2` all around (a convex body's mean
@@ -12,29 +12,32 @@ use crate::tessellation::{corners, large_mesh, unit_normal};
 use bytemuck::Zeroable;
 use film::colour;
 use scene::glam::{Affine3A, DVec3, Vec2, camera::rh};
-use scene::{Geometry, Mesh, Scene, Shape, Sun, Vec3};
+use scene::{Geometry, Mesh, PointLight, Scene, Shape, Sun, Vec3};
 use std::f32::consts::{FRAC_1_PI, PI, SQRT_2};
 
 /// Texels that the shadow kernel reaches from its middle, along an axis.
 const KERNEL_REACH: f32 = 2.0;
 
-/// The area light that sheds light.
+/// The area or point light that sheds light.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct AreaLight {
     /// Middle of its bounds.
     pub position: Vec3,
-    /// Unit normal of a flat area light.
+    /// Unit normal of a flat area light, axis of a spot.
     pub normal: Vec3,
-    /// Radiant flux over pi: radiance times shining area.
+    /// Radiant flux over pi: radiance times shining area; of a spot what it would be without its cone.
     pub power: Vec3,
     pattern: u32,
+    /// Of a spot: cosine of its outer cone, and the share of its light that a cosine above that adds.
+    cone: [f32; 2],
 }
 
 impl AreaLight {
-    /// The area light of greatest power in `scene`, by luminance.
+    /// That of greatest power in `scene`, by luminance.
     pub fn brightest(scene: &Scene) -> Option<AreaLight> {
         let area_lights = scene.shapes.iter().filter_map(|shape| AreaLight::of(scene, shape));
-        area_lights.max_by(|a, b| colour::luminance(a.power).total_cmp(&colour::luminance(b.power)))
+        let all = area_lights.chain(scene.point_lights.iter().filter_map(AreaLight::of_point));
+        all.max_by(|a, b| colour::luminance(a.power).total_cmp(&colour::luminance(b.power)))
     }
 
     fn of(scene: &Scene, shape: &Shape) -> Option<AreaLight> {
@@ -51,13 +54,31 @@ impl AreaLight {
         };
         let sides = if pattern == AREA_LIGHT_TWO_SIDED { 2.0 } else { 1.0 };
         let power = emission.radiance * (area(&shape.geometry) * sides);
-        Some(AreaLight { position: shape.geometry.center(), normal, power, pattern })
+        Some(AreaLight { position: shape.geometry.center(), normal, power, pattern, cone: [0.0; 2] })
+    }
+
+    /// As a small sphere of this intensity, whose silhouette is a quarter of its surface.
+    fn of_point(light: &PointLight) -> Option<AreaLight> {
+        let all_around = AreaLight {
+            position: light.position,
+            normal: Vec3::ZERO,
+            power: 4.0 * light.intensity,
+            pattern: AREA_LIGHT_ALL_AROUND,
+            cone: [0.0; 2],
+        };
+        let shines = light.intensity.max_element() > 0.0;
+        let lamp = light.spot.map_or(all_around, |spot| {
+            let [inner, outer] = [spot.inner, spot.outer].map(|angle| angle.to_radians().cos());
+            let cone = [outer, 1.0 / (inner - outer).max(1e-3)];
+            AreaLight { normal: spot.towards, pattern: AREA_LIGHT_SPOT, cone, ..all_around }
+        });
+        shines.then_some(lamp)
     }
 
     /// What a white Lambert surface at distance 1, facing the area light, sends back: irradiance / pi.
     fn incident(&self) -> Vec3 {
         let silhouette = match self.pattern {
-            AREA_LIGHT_ALL_AROUND => 0.25,
+            AREA_LIGHT_ALL_AROUND | AREA_LIGHT_SPOT => 0.25,
             AREA_LIGHT_TWO_SIDED => 0.5,
             _ => 1.0,
         };
@@ -90,7 +111,7 @@ fn area_of_large(mesh: &Mesh, to_world: Affine3A) -> f32 {
     ((0..SAMPLES).map(of).sum::<f64>() * count as f64 / SAMPLES as f64) as f32
 }
 
-/// The sun of `scene`, the area light that is lit beside it, and the place that light comes from for deciding who casts
+/// The sun of `scene`, the area or point light that is lit beside it, and the place that light comes from for deciding who casts
 /// shadows.
 pub fn lit(scene: &Scene, fake: Fake) -> (Option<Sun>, Option<AreaLight>) {
     let area_light = AreaLight::brightest(scene).filter(|_| fake == Fake::Fair || scene.sun.is_none());
@@ -117,6 +138,7 @@ pub fn lights(scene: &Scene, settings: &RasterSettings, casts: impl Fn(usize) ->
     if let Some(area_light) = area_light {
         lights.area_light_position = area_light.position;
         lights.area_light_normal = area_light.normal;
+        [lights.cone_outer, lights.cone_slope] = area_light.cone;
         lights.area_light_pattern = if as_taught { AREA_LIGHT_WITHOUT_DECAY } else { area_light.pattern };
         lights.area_light_incident = if as_taught { intensity } else { area_light.incident() };
         let reach = area_light_reach(scene.fake.shadow_map);

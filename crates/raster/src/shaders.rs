@@ -38,6 +38,7 @@ pub fn shared_constants() -> Vec<(&'static str, f64)> {
         AREA_LIGHT_ALL_AROUND,
         AREA_LIGHT_NONE,
         AREA_LIGHT_ONE_SIDED,
+        AREA_LIGHT_SPOT,
         AREA_LIGHT_TWO_SIDED,
         AREA_LIGHT_WITHOUT_DECAY,
         FILTER_HARD,
