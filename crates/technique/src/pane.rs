@@ -5,7 +5,7 @@ use crate::{
     PhotonPaneSettings, Technique, TechniqueName, TracedSettings, TreeSettings, TruthSettings,
 };
 use film::Feature;
-use pathtrace::Estimator;
+use pathtrace::{Estimator, Integrator};
 use scene::{Needs, Scene};
 
 /// What a pane is set to: a technique, and the settings of each so that coming back to one finds them again.
@@ -109,6 +109,39 @@ impl PaneSettings {
         match self.in_use() {
             Technique::Fake(_) => None,
             Technique::Traced(traced) => Some(traced.spp),
+        }
+    }
+}
+
+impl From<Technique> for PaneSettings {
+    /// A pane that is set to it.
+    fn from(technique: Technique) -> Self {
+        let pane = PaneSettings::of(technique.name());
+        match technique {
+            Technique::Fake(fake) => PaneSettings { fake, ..pane },
+            Technique::Traced(traced) => {
+                let TracedSettings { integrator, device, adapter, spp, sun_radius, feature, .. } = traced;
+                let (denoise, runs) = (technique.denoise(), technique.runs());
+                let pane = PaneSettings { device, adapter, denoise, runs, feature, ..pane };
+                match integrator {
+                    Integrator::Path(path) => PaneSettings { truth: TruthSettings { path, spp, sun_radius }, ..pane },
+                    Integrator::Whitted(tree) => {
+                        PaneSettings { whitted: TreeSettings { tree, spp, sun_radius }, ..pane }
+                    }
+                    Integrator::Photon(photon) => {
+                        PaneSettings { photon: PhotonPaneSettings { photon, spp, sun_radius }, ..pane }
+                    }
+                    Integrator::LightTracing(light) => {
+                        PaneSettings { light: LightPaneSettings { light, spp, sun_radius }, ..pane }
+                    }
+                    Integrator::Metropolis(metropolis) => {
+                        PaneSettings { metropolis: ChainSettings { metropolis, spp, sun_radius }, ..pane }
+                    }
+                    Integrator::Normals(normals) => {
+                        PaneSettings { normals: NormalsPaneSettings { normals, spp }, ..pane }
+                    }
+                }
+            }
         }
     }
 }

@@ -7,13 +7,9 @@ mod rows;
 pub use control::{Control, Look, capitalised, grouped};
 pub use rows::{OF_SCENES, all_of_panes, light_words};
 
-use crate::{
-    ChainSettings, LightPaneSettings, NormalsPaneSettings, PhotonPaneSettings, TracedSettings, TreeSettings,
-    TruthSettings, bounces_name,
-};
-use crate::{PaneSettings, SceneChanges, Technique, TechniqueName, roulette_name};
+use crate::{PaneSettings, SceneChanges, Technique, TechniqueName, bounces_name, roulette_name};
 use image_file::Records;
-use pathtrace::{Integrator, LightPaths, Roulette};
+use pathtrace::{LightPaths, Roulette};
 use raster::Show;
 use scene::Scene;
 use std::fmt;
@@ -361,39 +357,6 @@ impl PaneSettings {
         }
         if rows::LIGHT.contains(&other.technique) {
             (self.denoise, self.runs, self.feature) = (other.denoise, other.runs, other.feature);
-        }
-    }
-}
-
-impl From<Technique> for PaneSettings {
-    /// A pane that is set to it.
-    fn from(technique: Technique) -> Self {
-        let pane = PaneSettings::of(technique.name());
-        match technique {
-            Technique::Fake(fake) => PaneSettings { fake, ..pane },
-            Technique::Traced(traced) => {
-                let TracedSettings { integrator, device, adapter, spp, sun_radius, feature, .. } = traced;
-                let (denoise, runs) = (technique.denoise(), technique.runs());
-                let pane = PaneSettings { device, adapter, denoise, runs, feature, ..pane };
-                match integrator {
-                    Integrator::Path(path) => PaneSettings { truth: TruthSettings { path, spp, sun_radius }, ..pane },
-                    Integrator::Whitted(tree) => {
-                        PaneSettings { whitted: TreeSettings { tree, spp, sun_radius }, ..pane }
-                    }
-                    Integrator::Photon(photon) => {
-                        PaneSettings { photon: PhotonPaneSettings { photon, spp, sun_radius }, ..pane }
-                    }
-                    Integrator::LightTracing(light) => {
-                        PaneSettings { light: LightPaneSettings { light, spp, sun_radius }, ..pane }
-                    }
-                    Integrator::Metropolis(metropolis) => {
-                        PaneSettings { metropolis: ChainSettings { metropolis, spp, sun_radius }, ..pane }
-                    }
-                    Integrator::Normals(normals) => {
-                        PaneSettings { normals: NormalsPaneSettings { normals, spp }, ..pane }
-                    }
-                }
-            }
         }
     }
 }
