@@ -121,7 +121,7 @@ pub fn load(path: &Path, progress: &Progress) -> Result<Scene, SceneError> {
     }
     let suffix = path.extension().unwrap_or_default().to_ascii_lowercase();
     if suffix == "gltf" || suffix == "glb" {
-        return gltf::load(path);
+        return gltf::load(path, progress);
     }
     if OTHER_FORMATS.iter().any(|other| suffix == *other) {
         return Err(SceneError::OtherFormat { path: path.to_owned() });

@@ -6,6 +6,7 @@ use super::names::Names;
 use super::textures::Textures;
 use super::{Refused, Remarks, named};
 use crate::material::{Emission, MetallicRoughness, NormalMap, SurfaceDetail};
+use crate::progress::Progress;
 use crate::stand_ins::{FakeMaterial, usual_shininess};
 use crate::{Alpha, Bsdf, ImageTexture, Material, Texture, Vec3};
 use image_file::CodeCurve;
@@ -33,6 +34,7 @@ pub struct Made {
 /// The materials of a file, each made when a shape first wears it.
 pub struct Materials<'a> {
     document: &'a Document,
+    progress: &'a Progress<'a>,
     textures: Textures<'a>,
     made: HashMap<Option<u32>, Made>,
     names: Names,
@@ -52,9 +54,10 @@ struct Pictures {
 }
 
 impl<'a> Materials<'a> {
-    pub fn new(document: &'a Document) -> Self {
+    pub fn new(document: &'a Document, progress: &'a Progress<'a>) -> Self {
         Materials {
             document,
+            progress,
             textures: Textures::new(document),
             made: HashMap::new(),
             names: Names::default(),
@@ -126,6 +129,8 @@ impl<'a> Materials<'a> {
             remarks.of("pictures of other texture coordinates than a material's first are left out", shown.to_owned());
             return Ok(None);
         }
+        let share = self.list.len() as f32 / self.document.root.materials.len().max(1) as f32;
+        self.progress.tell(&format!("reading the pictures of {shown}"), share)?;
         let picture = self.textures.of(info, curve, remarks)?;
         if picture.is_some() {
             *uv_set = Some(wanted);

@@ -19,6 +19,7 @@ mod uri;
 
 use super::SceneError;
 use crate::mesh::{Instance, Mesh};
+use crate::progress::{Progress, Stopped};
 use crate::stand_ins::FakeNumbers;
 use crate::{Bsdf, Geometry, Material, Scene, SceneHash, Shape, nesting};
 use buffers::Document;
@@ -45,24 +46,35 @@ const MOST_GLASS: (usize, usize) = (256, 1 << 22);
 #[derive(Debug)]
 struct Refused(String);
 
+impl From<Stopped> for Refused {
+    fn from(_: Stopped) -> Self {
+        Refused("reading was stopped".into())
+    }
+}
+
 /// Reads a model as a scene of its own: with the first of its cameras, or with one that is fitted to it.
-pub(super) fn load(path: &Path) -> Result<Scene, SceneError> {
+pub(super) fn load(path: &Path, progress: &Progress) -> Result<Scene, SceneError> {
+    let doing = format!("reading {}", image_file::shown(path.file_name().map_or(path, Path::new)));
+    progress.tell(&doing, 0.0).map_err(|Stopped| SceneError::Stopped)?;
     let read = uri::read(path, buffers::MOST_BYTES);
     let file = read.map_err(|why| SceneError::Read { path: path.to_owned(), why, meant: None })?;
     let name = path.file_stem().map(|s| s.to_string_lossy().into_owned()).unwrap_or_default();
     let folder = path.parent().unwrap_or(Path::new(""));
-    scene(file, &name, folder).map_err(|Refused(why)| SceneError::Model { path: path.to_owned(), why })
+    scene(file, &name, folder, progress).map_err(|Refused(why)| match progress.is_stopped() {
+        true => SceneError::Stopped,
+        false => SceneError::Model { path: path.to_owned(), why },
+    })
 }
 
-fn scene(file: Vec<u8>, name: &str, folder: &Path) -> Result<Scene, Refused> {
+fn scene(file: Vec<u8>, name: &str, folder: &Path, progress: &Progress) -> Result<Scene, Refused> {
     let mut remarks = Remarks::default();
     let parts = container::parts(&file)?;
     let root = container::parse(&file[parts.json.clone()], &mut remarks)?;
     let document = Document::new(root, file, &parts, folder)?;
     tell_of_what_stays(&document, &mut remarks);
     let placed = nodes::placed(&document, &mut remarks)?;
-    let mut materials = Materials::new(&document);
-    let shapes = shapes(&document, &placed, &mut materials, &mut remarks)?;
+    let mut materials = Materials::new(&document, progress);
+    let shapes = shapes(&document, &placed, &mut materials, (&mut remarks, progress))?;
     let materials = materials.list;
     if glass_overlaps(&shapes, &materials) {
         remarks.add("glass overlaps other glass: light is bent wrongly there");
@@ -121,9 +133,9 @@ fn shapes(
     document: &Document,
     placed: &[Placed],
     materials: &mut Materials,
-    remarks: &mut Remarks,
+    (remarks, progress): (&mut Remarks, &Progress),
 ) -> Result<Vec<Shape>, Refused> {
-    let uses = uses(document, placed, materials, remarks)?;
+    let uses = uses(document, placed, materials, (remarks, progress))?;
     let mut times: HashMap<*const Mesh, u64> = HashMap::new();
     uses.iter().for_each(|found| *times.entry(Arc::as_ptr(&found.mesh)).or_default() += 1);
     let small = uses.iter().filter(|found| !found.mesh.is_large());
@@ -145,11 +157,11 @@ fn uses<'a>(
     document: &Document,
     placed: &'a [Placed],
     materials: &mut Materials,
-    remarks: &mut Remarks,
+    (remarks, progress): (&mut Remarks, &Progress),
 ) -> Result<Vec<Use<'a>>, Refused> {
     let mut meshes = Meshes::new(document);
     let (mut uses, mut shown) = (Vec::new(), 0);
-    for place in placed {
+    for (done, place) in placed.iter().enumerate() {
         let Some(index) = place.node.mesh else { continue };
         let Some(mesh) = document.root.meshes.get(index as usize) else {
             let count = document.root.meshes.len();
@@ -165,6 +177,7 @@ fn uses<'a>(
         let name = named("mesh", index, mesh.name.as_deref());
         for (number, primitive) in mesh.primitives.iter().enumerate() {
             let fault = |Refused(why)| Refused(format!("{name}, primitive {number}: {why}"));
+            progress.tell(&format!("reading {name}"), done as f32 / placed.len() as f32)?;
             let made = materials.of(primitive.material, remarks).map_err(fault)?;
             let mesh = meshes.of(primitive, made.uv_set, &name, remarks).map_err(fault)?;
             uses.extend(mesh.map(|mesh| Use { mesh, material: made.index, place }));

@@ -7,6 +7,11 @@ mod refusals;
 use super::*;
 use serde_json::{Value, json};
 
+/// What the bytes of a file show, with nobody told how far reading is.
+fn scene(file: Vec<u8>, name: &str, folder: &Path) -> Result<Scene, Refused> {
+    super::scene(file, name, folder, &Progress::untold())
+}
+
 /// A model to be written: what its JSON says, and the binary data that it names.
 #[derive(Clone)]
 struct Model {
@@ -151,6 +156,29 @@ fn a_small_model_is_a_scene_that_can_be_looked_at() {
     assert_eq!(scene.sky, Vec3::splat(0.8));
     assert_eq!(scene.as_read, SceneHash::of(&scene));
     assert_eq!(&scene.remarks[..], ["it has no light: a grey sky of radiance 0.8 shows it"]);
+}
+
+#[test]
+fn reading_tells_what_it_reads_and_stops_when_told_so() {
+    let folder = std::env::temp_dir().join(format!("visavis-gltf-stops-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).unwrap();
+    let file = folder.join("model.glb");
+    let model = Model::textured(json!({"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}}));
+    std::fs::write(&file, model.glb()).unwrap();
+    let told = std::sync::Mutex::new(Vec::new());
+    let hear = |what: &str, _: f32| {
+        told.lock().unwrap().push(what.to_owned());
+        true
+    };
+    crate::load(&file, &Progress::new(&hear)).unwrap();
+    let told = told.into_inner().unwrap();
+    assert_eq!(told, ["reading model.glb", "reading mesh 0", "reading the pictures of material 0"]);
+    for last in &told {
+        let stops = |what: &str, _: f32| what != last;
+        let stopped = crate::load(&file, &Progress::new(&stops)).expect_err("it was told to stop");
+        assert!(matches!(stopped, crate::SceneError::Stopped), "{last}: {stopped}");
+    }
+    std::fs::remove_dir_all(folder).unwrap();
 }
 
 #[test]
