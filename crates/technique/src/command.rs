@@ -13,7 +13,7 @@ impl Provenance {
             options.push(("device", device.name().into()));
         }
         options.push(size_option(shot.size));
-        options.extend(camera_options(&shot.camera));
+        options.extend(shot.camera_options(&shot.camera));
         options.extend(shot.changes.options_of(technique.name()));
         if exposure != 0.0 {
             options.push(("exposure", exposure.to_string()));
@@ -38,9 +38,17 @@ impl Shot {
     /// The `visavis reference` line that makes the reference of what is seen.
     pub fn reference_command(&self) -> String {
         let mut options = vec![size_option(self.size)];
-        options.extend(camera_options(&self.camera));
+        options.extend(self.camera_options(&self.camera));
         options.extend(self.changes.options());
         line("reference", &self.source, "reference.exr", &options)
+    }
+
+    /// Options of `visavis render` that place a camera in this scene. Which way is up is left to the scene where its own
+    /// camera says the same.
+    pub fn camera_options(&self, camera: &Camera) -> Records {
+        let up = (camera.up != self.own_up).then(|| ("up", point(camera.up)));
+        let place = [("eye", point(camera.eye)), ("target", point(camera.target)), ("fov", camera.fov_y.to_string())];
+        place.into_iter().chain(up).collect()
     }
 }
 
@@ -51,11 +59,6 @@ fn line(command: &str, source: &str, out: &str, options: &Records) -> String {
 
 pub(crate) fn size_option((width, height): (u32, u32)) -> (&'static str, String) {
     ("size", format!("{width}x{height}"))
-}
-
-/// Options of `visavis render` that place the camera.
-pub fn camera_options(camera: &Camera) -> Records {
-    vec![("eye", point(camera.eye)), ("target", point(camera.target)), ("fov", camera.fov_y.to_string())]
 }
 
 /// Three numbers that are read back as the same ones.
@@ -127,6 +130,16 @@ mod tests {
         {
             assert_eq!(made_by_command(none), None, "{none}");
         }
+    }
+
+    #[test]
+    fn which_way_is_up_is_told_where_the_scenes_own_camera_says_another() {
+        let scene = scene::builtin::named("cornell").unwrap();
+        let shot = Shot::of(scene, (4, 4));
+        let up = |camera: &Camera| shot.camera_options(camera).into_iter().find(|(name, _)| *name == "up");
+        assert_eq!(up(&shot.camera), None);
+        let rolled = Camera { up: Vec3::new(0.6, 0.8, 0.0), ..shot.camera };
+        assert_eq!(up(&rolled), Some(("up", "0.6,0.8,0".to_owned())));
     }
 
     #[test]

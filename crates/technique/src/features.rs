@@ -237,7 +237,7 @@ mod tests {
     fn rough_pictures_are_of_what_is_shown() {
         let (scene, threads) = whitted();
         let (changes, camera) = (SceneChanges::default(), scene.camera);
-        let shot = Shot { source: "whitted".into(), changes, scene, camera, size: (640, 360) };
+        let shot = Shot { source: "whitted".into(), changes, scene, camera, own_up: camera.up, size: (640, 360) };
         let light = TracedSettings::new(PathSettings::default().into(), 1);
         let settings = TracedSettings { device: DeviceChoice::Gpu, feature: Some(Feature::Albedo), ..light };
         let mut renderer = ProgressiveRenderer::new(Adapters::of(&Gpu::adapters()), threads);

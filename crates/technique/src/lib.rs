@@ -39,7 +39,7 @@ mod traced;
 pub use accumulation::Accumulation;
 pub use backend::{Backend, GpuBackend};
 pub use blind_spot::{BlindSpot, NoiseSource, Specular};
-pub use command::{camera_options, made_by_command, quoted};
+pub use command::{made_by_command, quoted};
 pub use denoiser::{DenoiseSettings, Denoised, Denoiser, NOISY, TRUST};
 pub use device::{Adapter, Adapters, Device, DeviceChoice, INSTEAD};
 pub use fake::FakeSettings;

@@ -1,6 +1,6 @@
 //! Where a picture comes from: everything that makes it again, as records to keep in its file and as a command to type.
 
-use crate::command::{camera_options, size_option};
+use crate::command::size_option;
 use crate::settings::unsaid_of_old;
 use crate::{Device, HALVES, SampleRanges, Shot, Technique, TechniqueName, TracedSettings};
 use anyhow::Context;
@@ -194,7 +194,7 @@ impl Provenance {
     /// What a file keeps of it, with the command that makes it as a PNG.
     pub fn records(&self, made: Made) -> Records {
         let Made { spp, seconds, adapter, denoised_by, exposure } = made;
-        let Shot { source, changes, scene: _, camera, size } = &self.shot;
+        let Shot { source, changes, camera, size, .. } = &self.shot;
         let mut records = vec![
             ("records", RECORDS_VERSION.to_string()),
             ("version", env!("CARGO_PKG_VERSION").into()),
@@ -206,7 +206,7 @@ impl Provenance {
             size_option(*size),
             ("seconds", seconds.to_string()),
         ];
-        records.extend(camera_options(camera));
+        records.extend(self.shot.camera_options(camera));
         // the fake does not see the sun's radius, but what it is compared with does
         records.extend(changes.options());
         records.extend(self.technique.stated_for(&self.shot.scene).options(spp));
@@ -242,7 +242,7 @@ impl Shot {
             self.hash_record(),
             size_option(self.size),
         ];
-        records.extend(camera_options(&self.camera));
+        records.extend(self.camera_options(&self.camera));
         records.push(("estimator", estimator.into()));
         records.extend(self.changes.options());
         records.push(("command", self.reference_command()));

@@ -1,7 +1,7 @@
 //! What is seen: a scene with what was changed in it, from where, at which size. All that a picture depends on beside
 //! the technique and the device.
 
-use scene::{Camera, Scene};
+use scene::{Camera, Scene, Vec3};
 use std::sync::Arc;
 
 /// A scene from one camera at one size: all that the truth of a picture depends on.
@@ -15,6 +15,8 @@ pub struct Shot {
     pub scene: Arc<Scene>,
     /// Seen from here rather than from the scene's own camera.
     pub camera: Camera,
+    /// Which way is up in the scene's own camera as it was opened: what records need not say.
+    pub own_up: Vec3,
     /// Width and height in pixels.
     pub size: (u32, u32),
 }
@@ -32,7 +34,7 @@ impl Shot {
     /// A scene as it is, from its own camera.
     pub fn of(scene: Scene, size: (u32, u32)) -> Self {
         let (source, camera) = (scene.name.clone(), scene.camera);
-        Shot { source, changes: SceneChanges::default(), scene: Arc::new(scene), camera, size }
+        Shot { source, changes: SceneChanges::default(), scene: Arc::new(scene), camera, own_up: camera.up, size }
     }
 
     /// Whether both show the same pixels of one and the same scene, so that pictures of them can be compared.

@@ -130,6 +130,7 @@ fn as_seen(records: &[(String, String)]) -> anyhow::Result<Option<Kept>> {
     let camera = &mut kept.setup;
     camera.eye = value("eye").map(point).transpose()?.or(camera.eye);
     camera.target = value("target").map(point).transpose()?.or(camera.target);
+    camera.up = value("up").map(point).transpose()?.or(camera.up);
     camera.fov = value("fov").map(number).transpose()?.or(camera.fov);
     Ok(Some(kept))
 }
@@ -191,6 +192,7 @@ fn look(setup: &mut Setup, name: &str, value: &str) -> anyhow::Result<bool> {
     match name {
         "eye" => setup.eye = Some(point(value)?),
         "target" => setup.target = Some(point(value)?),
+        "up" => setup.up = Some(point(value)?),
         "fov" => setup.fov = Some(number(value)?),
         _ => {
             let Some(change) = of_scenes(name) else { return Ok(false) };
@@ -226,6 +228,7 @@ mod tests {
     use crate::model::{Model, Theme};
     use film::{DisplayTransform, Image};
     use image_file::{Kind, Records};
+    use scene::Camera;
     use std::sync::Arc;
     use technique::{Device, Made, PaneSettings, Provenance, SceneChanges, Shot};
     use visavis_tests::TestFolder;
@@ -234,8 +237,9 @@ mod tests {
     fn pictures() -> [Provenance; 2] {
         let changes = SceneChanges { refraction_ratio: Some(0.6), ..SceneChanges::default() };
         let scene = scene::builtin::named("whitted").expect("a built-in scene");
-        let camera = scene.camera.orbited(0.3, 0.1);
-        let shot = Shot { source: "whitted".into(), changes, scene: Arc::new(scene), camera, size: (1, 1) };
+        let camera = Camera { up: Vec3::new(0.2, 0.9, -0.1), ..scene.camera.orbited(0.3, 0.1) };
+        let (source, own_up, size) = ("whitted".into(), scene.camera.up, (1, 1));
+        let shot = Shot { source, changes, scene: Arc::new(scene), camera, own_up, size };
         let mut fake = PaneSettings::of(TechniqueName::Raster);
         fake.fake.knobs.segments = Some(9);
         let mut truth = PaneSettings::of(TechniqueName::Path);

@@ -5,7 +5,7 @@ use super::restore::{REGION, SESSION};
 use crate::model::{ComparisonSettings, Model, PaneId, SavedSession};
 use image_file::Records;
 use scene::Camera;
-use technique::{Shot, camera_options};
+use technique::Shot;
 
 /// The records of a view: of what is shown by its own camera, and for each pane of the command that makes its picture.
 pub fn records_of_view(
@@ -22,7 +22,7 @@ pub fn records_of_view(
     records.extend(records_of_comparison(&session.comparison));
     if let Some((shot, own_camera)) = shown {
         records.push(shot.hash_record());
-        records.extend(camera_options(own_camera));
+        records.extend(shot.camera_options(own_camera));
     }
     records.extend(commands.map(|(pane, command)| (pane.name(), command)));
     let document = &model.document;

@@ -48,9 +48,11 @@ impl Document {
 
     /// Another version of the scene that is open. A camera that was moved stays; one that was the scene's own follows it.
     pub fn reread(&mut self, scene: Scene) {
-        let kept = Camera { up: scene.camera.up, near: scene.camera.near, far: scene.camera.far, ..self.camera };
-        let moved = self.camera != self.scene.camera && kept.fault().is_none();
-        self.camera = if moved { kept } else { scene.camera };
+        let (own, new) = (self.scene.camera, scene.camera);
+        let up = if self.camera.up == own.up { new.up } else { self.camera.up };
+        let kept = Camera { up, near: new.near, far: new.far, ..self.camera };
+        let moved = self.camera != own && kept.fault().is_none();
+        self.camera = if moved { kept } else { new };
         self.scene = Arc::new(scene);
         self.changed = (SceneChanges::default(), self.scene.clone());
     }
@@ -65,6 +67,30 @@ impl Document {
     /// What a picture in this area shows, after [`Document::apply_changes`].
     pub fn shot(&self, area: &PictureArea) -> Shot {
         let (changes, scene) = self.changed.clone();
-        Shot { source: self.source.clone(), changes, scene, camera: area.camera(&self.camera), size: area.size }
+        let (camera, own_up) = (area.camera(&self.camera), self.scene.camera.up);
+        Shot { source: self.source.clone(), changes, scene, camera, own_up, size: area.size }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use scene::Vec3;
+
+    #[test]
+    fn a_rolled_camera_stays_rolled_when_its_scene_is_read_again_and_others_take_the_scenes_up() {
+        let scene = scene::builtin::named("cornell").expect("a built-in scene");
+        let mut document = Document::new(scene.clone(), "cornell".into());
+        let reread = Scene { camera: Camera { up: Vec3::new(0.0, 0.8, 0.6), ..scene.camera }, ..scene.clone() };
+        let seen_after = |document: &mut Document, camera: Camera| {
+            document.reread(scene.clone());
+            document.camera = camera;
+            document.reread(reread.clone());
+            document.camera
+        };
+        let rolled = Camera { up: Vec3::new(0.6, 0.8, 0.0), ..scene.camera };
+        assert_eq!(seen_after(&mut document, rolled), rolled);
+        let moved = Camera { fov_y: 20.0, ..scene.camera };
+        assert_eq!(seen_after(&mut document, moved), Camera { up: reread.camera.up, ..moved });
     }
 }

@@ -21,6 +21,8 @@ pub struct Setup {
     pub eye: Option<Vec3>,
     /// What it looks at.
     pub target: Option<Vec3>,
+    /// Which direction is up in the picture.
+    pub up: Option<Vec3>,
     /// Its vertical angle of view in degrees.
     pub fov: Option<f32>,
     /// What is shown of the pictures.
@@ -91,13 +93,13 @@ impl Model {
         self.begin_history();
     }
 
-    fn look(&mut self, Setup { camera, eye, target, fov, .. }: &Setup) -> Result<(), String> {
+    fn look(&mut self, Setup { camera, eye, target, up, fov, .. }: &Setup) -> Result<(), String> {
         let scene = &self.document.scene;
         let own = camera.as_ref().map_or(Ok(scene.camera), |name| scene.camera_named(name))?;
-        let (eye, target) = (eye.unwrap_or(own.eye), target.unwrap_or(own.target));
-        let camera = Camera { eye, target, fov_y: fov.unwrap_or(own.fov_y), ..own };
+        let (eye, target, up) = (eye.unwrap_or(own.eye), target.unwrap_or(own.target), up.unwrap_or(own.up));
+        let camera = Camera { eye, target, up, fov_y: fov.unwrap_or(own.fov_y), ..own };
         if let Some(fault) = camera.fault() {
-            return Err(format!("this camera sees nothing: {fault}; change --eye, --target or --fov"));
+            return Err(format!("this camera sees nothing: {fault}; change --eye, --target, --up or --fov"));
         }
         self.document.camera = camera;
         Ok(())
@@ -136,6 +138,7 @@ impl Setup {
             changes: self.changes,
             eye: other.eye.or(self.eye.filter(|_| stays)),
             target: other.target.or(self.target.filter(|_| stays)),
+            up: other.up.or(self.up.filter(|_| stays)),
             fov: other.fov.or(self.fov.filter(|_| stays)),
             camera: other.camera.clone().or(self.camera),
             view: other.view.or(self.view.filter(|view| other.is_seen_in(*view))),
@@ -171,7 +174,7 @@ mod tests {
 
     #[test]
     fn a_camera_that_is_asked_for_by_name_stands_where_it_does_and_not_where_a_picture_was_seen_from() {
-        let picture = Setup { eye: Some(Vec3::X), fov: Some(20.0), ..Setup::default() };
+        let picture = Setup { eye: Some(Vec3::X), up: Some(Vec3::Z), fov: Some(20.0), ..Setup::default() };
         let named = Setup { camera: Some("front".into()), fov: Some(30.0), ..Setup::default() };
         assert_eq!(picture.clone().overridden_by(&named), named);
         assert_eq!(picture.clone().overridden_by(&Setup::default()), picture);

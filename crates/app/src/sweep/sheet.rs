@@ -7,7 +7,6 @@ use crate::model::{SweepMeasure, SweepPlan, TileFacts, best, captions};
 use film::DisplayTransform;
 use image_file::{ImageFileError, MOST_PIXELS, Records};
 use std::sync::Arc;
-use technique::{Shot, camera_options};
 
 /// The tiles and what is said of them.
 #[derive(Debug, Clone)]
@@ -190,9 +189,9 @@ impl Sheet {
     /// Scene, camera and changes, which are the same of all tiles.
     fn records_of_the_view(&self) -> Records {
         let Some(tile) = self.tiles.iter().flatten().next() else { return Vec::new() };
-        let Shot { source, changes, camera, .. } = &tile.provenance.shot;
-        let mut records = vec![("scene", source.clone()), tile.provenance.shot.hash_record()];
-        records.extend(camera_options(camera).into_iter().chain(changes.options()));
+        let shot = &tile.provenance.shot;
+        let mut records = vec![("scene", shot.source.clone()), shot.hash_record()];
+        records.extend(shot.camera_options(&shot.camera).into_iter().chain(shot.changes.options()));
         records.push(("exposure", self.display.exposure.to_string()));
         records
     }

@@ -35,10 +35,11 @@ impl Viewer {
     pub(super) fn is_seen(&self, opened: &Opened) -> bool {
         let (Some(_), Some(setup)) = (&opened.reference, &opened.setup) else { return false };
         let document = &self.model.document;
-        let Camera { eye, target, fov_y, .. } = document.shot(&self.model.state.picture).camera;
+        let Camera { eye, target, up, fov_y, .. } = document.shot(&self.model.state.picture).camera;
         document.scene.as_read == opened.scene.as_read
             && document.changes == setup.changes
             && (setup.eye, setup.target) == (Some(eye), Some(target))
+            && setup.up.unwrap_or(document.scene.camera.up) == up
             // a part of a window widens the angle, which is rounded on the way
             && setup.fov.is_some_and(|fov| (fov - fov_y).abs() < 1e-3)
     }

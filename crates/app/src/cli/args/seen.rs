@@ -18,12 +18,14 @@ pub struct Seen {
     pub camera: Option<String>,
     pub eye: Option<Vec3>,
     pub target: Option<Vec3>,
+    pub up: Option<Vec3>,
     pub fov: Option<f32>,
 }
 
 impl Default for Seen {
     fn default() -> Self {
-        Seen { changes: SceneChanges::default(), size: (1280, 720), camera: None, eye: None, target: None, fov: None }
+        let changes = SceneChanges::default();
+        Seen { changes, size: (1280, 720), camera: None, eye: None, target: None, up: None, fov: None }
     }
 }
 
@@ -35,10 +37,11 @@ impl Seen {
     /// If it cannot be read, or if the camera sees nothing.
     pub fn of(&self, source: &str) -> anyhow::Result<Shot> {
         let mut scene = self.changes.applied_to(&scene_of(source)?);
+        let own_up = scene.camera.up;
         scene.camera = self.camera(&scene)?;
         scene.notes().iter().for_each(|line| note!("note: {line}"));
-        let camera = scene.camera;
-        Ok(Shot { source: source.to_owned(), changes: self.changes, scene: Arc::new(scene), camera, size: self.size })
+        let (source, changes, camera, size) = (source.to_owned(), self.changes, scene.camera, self.size);
+        Ok(Shot { source, changes, scene: Arc::new(scene), camera, own_up, size })
     }
 
     /// The scene's camera with what the command line changes in it.
@@ -48,11 +51,12 @@ impl Seen {
         let camera = Camera {
             eye: self.eye.unwrap_or(own.eye),
             target: self.target.unwrap_or(own.target),
+            up: self.up.unwrap_or(own.up),
             fov_y: self.fov.unwrap_or(own.fov_y),
             ..own
         };
         match camera.fault() {
-            Some(fault) => anyhow::bail!("this camera sees nothing: {fault}; change --eye, --target or --fov"),
+            Some(fault) => anyhow::bail!("this camera sees nothing: {fault}; change --eye, --target, --up or --fov"),
             None => Ok(camera),
         }
     }
@@ -90,7 +94,7 @@ pub fn options<A: AsMut<Seen>>() -> Vec<CommandOption<A>> {
                 let seen = args.as_mut();
                 seen.camera = Some(text(parser)?);
                 // where a picture's camera stood that is made again
-                (seen.eye, seen.target, seen.fov) = (None, None, None);
+                (seen.eye, seen.target, seen.up, seen.fov) = (None, None, None, None);
                 Ok(())
             },
         },
@@ -113,6 +117,15 @@ pub fn options<A: AsMut<Seen>>() -> Vec<CommandOption<A>> {
             },
         },
         CommandOption {
+            names: &["--up"],
+            value: "X,Y,Z",
+            help: "which direction is up in the picture (default the scene's)",
+            read: |args, parser| {
+                args.as_mut().up = Some(point(parser, "--up")?);
+                Ok(())
+            },
+        },
+        CommandOption {
             names: &["--fov"],
             value: "DEG",
             help: "its vertical angle of view (default the scene's)",
@@ -122,14 +135,19 @@ pub fn options<A: AsMut<Seen>>() -> Vec<CommandOption<A>> {
                 Ok(())
             },
         },
-        CommandOption {
-            names: &["--allow-outside"],
-            value: "",
-            help: "scenes may name files that lie outside of their folder: ../rock.ply, /models/rock.ply",
-            read: |_, _| {
-                scene::allow_files_outside();
-                Ok(())
-            },
-        },
+        allow_outside(),
     ]
+}
+
+/// The option of every command that opens a scene, named on its command line or in the records of a picture.
+pub fn allow_outside<A>() -> CommandOption<A> {
+    CommandOption {
+        names: &["--allow-outside"],
+        value: "",
+        help: "scenes may name files that lie outside of their folder: ../rock.ply, /models/rock.ply",
+        read: |_, _| {
+            scene::allow_files_outside();
+            Ok(())
+        },
+    }
 }

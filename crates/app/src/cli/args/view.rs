@@ -207,8 +207,8 @@ pub fn blank() -> ViewArgs {
 
 /// The same of the scene that was named, or of the slide's, or of the usual one, as it is seen.
 pub fn of_scene(args: ViewArgs, seen: Seen, scene: Option<String>) -> Result<ViewArgs, CliError> {
-    let Seen { changes, camera, eye, target, fov, size: _ } = seen;
-    let setup = Setup { changes, camera, eye, target, fov, ..args.setup };
+    let Seen { changes, camera, eye, target, up, fov, size: _ } = seen;
+    let setup = Setup { changes, camera, eye, target, up, fov, ..args.setup };
     let scene = match (scene, args.slide) {
         (Some(scene), Some(slide)) => {
             let (slide, of) = (slide.name, slide.scene);

@@ -107,6 +107,7 @@ impl Model {
             changes: *changes,
             eye: Some(camera.eye),
             target: Some(camera.target),
+            up: Some(camera.up),
             fov: Some(camera.fov_y),
             view: Some(session.view),
             region: session.comparison.region,

@@ -36,6 +36,7 @@ pub struct SessionDraft {
 struct DraftCamera {
     eye: Option<Vec3>,
     target: Option<Vec3>,
+    up: Option<Vec3>,
     fov: Option<f32>,
     /// Line and column where it stands in the file, from 1.
     at: (usize, usize),
@@ -85,7 +86,8 @@ impl DraftCamera {
     fn beside(&self, scene: &Scene, path: &Path) -> Result<Camera, String> {
         let own = scene.camera;
         let (eye, target) = (self.eye.unwrap_or(own.eye), self.target.unwrap_or(own.target));
-        let camera = Camera { eye, target, fov_y: self.fov.unwrap_or(own.fov_y), ..own };
+        let (up, fov_y) = (self.up.unwrap_or(own.up), self.fov.unwrap_or(own.fov_y));
+        let camera = Camera { eye, target, up, fov_y, ..own };
         match camera.fault() {
             Some(why) => Err(told(path, self.at, &format!("this camera sees nothing: {why}"))),
             None => Ok(camera),
@@ -177,10 +179,11 @@ fn camera(mut table: Table, text: &str) -> Result<DraftCamera, Fault> {
     let at = line_and_column(text, table.at.start);
     let eye = table.read("eye", |entry| entry.point())?;
     let target = table.read("target", |entry| entry.point())?;
+    let up = table.read("up", |entry| entry.point())?;
     let is_angle = |degrees| degrees > 0.0 && degrees < 180.0;
     let fov = table.read("fov", |entry| entry.number("degrees between 0 and 180", is_angle))?;
     table.end()?;
-    Ok(DraftCamera { eye, target, fov, at })
+    Ok(DraftCamera { eye, target, up, fov, at })
 }
 
 fn changes(mut table: Table) -> Result<SceneChanges, Fault> {

@@ -83,6 +83,7 @@ fn all_else_of_a_session_comes_back_as_it_was() {
         (row.set)(&mut model.document.changes, row.kind.parse(examples.last().unwrap()).unwrap());
     }
     model.document.camera.eye = Vec3::new(1.0 / 3.0, 1.7e11, -9.1e11);
+    model.document.camera.up = Vec3::new(0.1, 0.9, -1.0 / 3.0);
     model.document.camera.fov_y = 33.3;
     model.document.bookmarks = vec![model.document.scene.camera, model.document.camera];
     let session = &mut model.session;

@@ -21,7 +21,7 @@ impl SavedSession {
             quoted(source),
             quoted(&scene.as_read.to_string())
         );
-        table(&mut text, "[camera]", camera(&self.camera));
+        table(&mut text, "[camera]", camera(&self.camera, scene));
         let changes = OF_SCENES.iter().filter_map(|row| Some((row.name, (row.get)(&self.changes)?)));
         table(&mut text, "[scene_changes]", changes.map(|(name, value)| (name, word(value))).collect());
         table(&mut text, "[view]", self.view());
@@ -35,7 +35,7 @@ impl SavedSession {
         table(&mut text, "[probe]", probe(self.session.probe));
         // the latest
         for place in &self.bookmarks[self.bookmarks.len().saturating_sub(MOST_BOOKMARKS)..] {
-            table(&mut text, "[[bookmarks]]", camera(place));
+            table(&mut text, "[[bookmarks]]", camera(place, scene));
         }
         table(&mut text, "[window]", self.window());
         text
@@ -74,9 +74,12 @@ fn table(text: &mut String, header: &str, lines: Lines) {
     }
 }
 
-fn camera(camera: &Camera) -> Lines {
+/// Which way is up is left to the scene where its own camera says the same.
+fn camera(camera: &Camera, scene: &Scene) -> Lines {
     let point = |Vec3 { x, y, z }| format!("[{}, {}, {}]", number(x), number(y), number(z));
-    vec![("eye", point(camera.eye)), ("target", point(camera.target)), ("fov", number(camera.fov_y))]
+    let up = (camera.up != scene.camera.up).then(|| ("up", point(camera.up)));
+    let place = [("eye", point(camera.eye)), ("target", point(camera.target)), ("fov", number(camera.fov_y))];
+    place.into_iter().chain(up).collect()
 }
 
 /// The settings of a pane that are not a new one's, those of the technique in use first. What several techniques share
