@@ -29,7 +29,7 @@ pub mod statue;
 pub use camera::{Camera, NamedCamera};
 pub use conductor::Conductor;
 pub use environment::EnvironmentMap;
-pub use file::{SceneError, allow_files_outside, load, parse};
+pub use file::{SceneError, allow_files_outside, allows_files_outside, load, parse};
 pub use glam::{self, Vec3};
 pub use hash::SceneHash;
 pub use image_texture::ImageTexture;

@@ -62,6 +62,7 @@ pub fn run(args: &SweepArgs) -> anyhow::Result<()> {
 
 /// For each tile the line that makes it, for other machines.
 fn jobs(args: &SweepArgs, plan: &SweepPlan, shot: &Shot) -> String {
+    let outside = if scene::allows_files_outside() { " --allow-outside" } else { "" };
     let line = |(index, tile): (usize, &PlannedTile)| {
         let technique = tile.pane.in_use();
         let spp = match technique {
@@ -71,7 +72,8 @@ fn jobs(args: &SweepArgs, plan: &SweepPlan, shot: &Shot) -> String {
         let out = args.out.with_extension(format!("{}.png", index + 1)).display().to_string();
         // a fake is drawn by the device that there is, and rays where each machine finds it best
         let device = if args.device == DeviceChoice::Gpu { Device::Gpu } else { technique.name().usual_device() };
-        format!("{}\n", Provenance { shot: shot.clone(), technique, device }.command(spp, args.exposure, &out))
+        let command = Provenance { shot: shot.clone(), technique, device }.command(spp, args.exposure, &out);
+        format!("{command}{outside}\n")
     };
     plan.tiles.iter().enumerate().map(line).collect()
 }

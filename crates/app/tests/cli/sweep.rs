@@ -156,6 +156,10 @@ fn a_list_of_jobs_has_the_line_of_each_tile_and_renders_nothing() {
     let jobs = |more: &[&'static str]| [&["sweep", "cornell", "bounces=0,1", "-o", "out.png", "--jobs"], more].concat();
     assert_refused(&jobs(&["--time", "1"]), 2, &["--jobs", "say --spp N"]);
     assert_refused(&jobs(&["--errors", "RMSE"]), 2, &["--jobs renders nothing", "--errors"]);
+    let listed = visavis(&jobs(&["--allow-outside", "--up", "0.6,0.8,0"])).stdout;
+    let listed = String::from_utf8(listed).expect("a text");
+    let is_whole = |line: &str| line.contains(" --up 0.6,0.8,0 ") && line.ends_with(" --allow-outside");
+    assert!(listed.lines().count() == 2 && listed.lines().all(is_whole), "{listed}");
 }
 
 #[test]

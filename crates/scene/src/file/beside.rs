@@ -12,7 +12,7 @@ pub fn allow_files_outside() {
 }
 
 /// Whether scenes may name any file.
-pub(crate) fn allows_files_outside() -> bool {
+pub fn allows_files_outside() -> bool {
     ALLOWS_OUTSIDE.load(Ordering::Relaxed)
 }
 

@@ -31,7 +31,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use toml::Spanned;
 
-pub use beside::allow_files_outside;
+pub use beside::{allow_files_outside, allows_files_outside};
 
 /// Why there is no scene.
 #[derive(Debug, thiserror::Error)]

@@ -1,6 +1,7 @@
 //! The words after `compare`.
 
 use super::options::{CommandOption, Typed, no_more, read};
+use super::seen::allow_outside;
 use super::usage;
 use super::values::{choice, number};
 use crate::cli::{CliError, Command};
@@ -78,6 +79,7 @@ pub fn options() -> Vec<CommandOption<CompareArgs>> {
                 Ok(())
             },
         },
+        allow_outside(),
     ]
 }
 
