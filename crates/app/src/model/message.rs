@@ -20,6 +20,16 @@ const LEAST: Duration = Duration::from_secs(2);
 /// How long good news stays.
 const STAY: Duration = Duration::from_secs(6);
 
+/// The most lines that are said at once: a model has many notes, and they would cover the pictures.
+const MOST_LINES: usize = 2;
+
+/// The first of these lines with the count of the others, and those, which are for stderr.
+pub fn in_few(lines: &[String]) -> (String, &[String]) {
+    let (said, left) = lines.split_at(lines.len().min(MOST_LINES));
+    let more = (!left.is_empty()).then(|| format!("{} more on stderr", left.len()));
+    (said.iter().cloned().chain(more).collect::<Vec<_>>().join("; "), left)
+}
+
 impl Message {
     /// A line that is said from now on.
     pub fn new(outcome: Result<String, String>) -> Self {
@@ -40,5 +50,18 @@ impl Message {
     /// How long it still stays; `None` for what stays.
     pub fn remaining(&self) -> Option<Duration> {
         (!self.stays).then(|| STAY.saturating_sub(self.since.elapsed()))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn of_many_notes_two_are_said_and_the_others_left() {
+        let notes = ["a", "b", "c", "d"].map(String::from);
+        assert_eq!(in_few(&notes), ("a; b; 2 more on stderr".into(), &notes[2..]));
+        assert_eq!(in_few(&notes[..2]), ("a; b".into(), &[][..]));
+        assert_eq!(in_few(&[]), (String::new(), &[][..]));
     }
 }

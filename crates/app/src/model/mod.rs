@@ -47,7 +47,7 @@ pub use file_wish::{FilePurpose, FileWish};
 pub use history::{History, Settings};
 pub use light_parts::{LightByBounce, LightWish, light_parts};
 pub use magnification::Magnification;
-pub use message::Message;
+pub use message::{Message, in_few};
 pub use pane::{PaneId, Panes};
 pub use pane_source::{External, PaneSource, USUAL_PORT};
 pub use picture_area::PictureArea;
@@ -184,11 +184,14 @@ impl Model {
         self.state.message = Some(Message::new(outcome));
     }
 
-    /// Says what of the scene is probably not meant, if there is anything: it stays until it was seen.
-    pub fn say_notes(&mut self, notes: &[String]) {
+    /// Says what of the scene is probably not meant, if there is anything: it stays until it was seen. Returns the notes that
+    /// are left for stderr.
+    pub fn say_notes<'a>(&mut self, notes: &'a [String]) -> &'a [String] {
+        let (text, left) = message::in_few(notes);
         if !notes.is_empty() {
-            self.state.message = Some(Message::note(notes.join("; ")));
+            self.state.message = Some(Message::note(text));
         }
+        left
     }
 
     /// What undo gives back, as it stands.

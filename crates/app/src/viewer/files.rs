@@ -45,8 +45,14 @@ impl Viewer {
     pub fn begin_with(&mut self, opened: Opened) {
         let Opened { asked, stamp, reference, notes, .. } = opened;
         self.follow_the_file(&asked, stamp);
+        // who opens the window has said all of them on stderr
         self.model.say_notes(&notes);
         self.judge = reference.map(|reference| Judge::of_its_scene(reference, &self.model, notes));
+    }
+
+    /// Says what of the scene is probably not meant, what does not fit over the pictures on stderr.
+    pub(super) fn tell(&mut self, notes: &[String]) {
+        self.model.say_notes(notes).iter().for_each(|line| note!("note: {line}"));
     }
 
     /// Follows the file of the scene that is open, and remembers what opened it.
@@ -126,7 +132,7 @@ impl Viewer {
             // which has said what it is about
             Ok(()) if slide.is_some() => {}
             Ok(()) if notes.is_empty() => self.model.say(Ok(format!("Opened {what}"))),
-            Ok(()) => self.model.say_notes(&notes),
+            Ok(()) => self.tell(&notes),
         }
         self.presentation.clear();
         self.follow_the_file(&asked, stamp);
@@ -156,7 +162,7 @@ impl Viewer {
                 let said = format!("Read {name} again{aside}");
                 match (changed || asked, notes.is_empty()) {
                     (true, true) => self.model.say(Ok(said)),
-                    (true, false) => self.model.say_notes(&[vec![said], notes].concat()),
+                    (true, false) => self.tell(&[vec![said], notes].concat()),
                     (false, _) => {}
                 }
             }

@@ -3,7 +3,7 @@
 use super::Viewer;
 use crate::engine::load::{Opened, ReferenceFile};
 use crate::engine::reference::misfit;
-use crate::model::{CompareWith, Model};
+use crate::model::{CompareWith, Model, in_few};
 use image_file::shown;
 use scene::Camera;
 use std::path::PathBuf;
@@ -50,7 +50,10 @@ impl Viewer {
         let ReferenceFile { file, size, .. } = reference;
         let shot = self.model.document.shot(&self.model.state.picture);
         if let Some(line) = misfit(&file, size, &shot) {
-            self.model.say(Err([vec![line], notes].concat().join("; ")));
+            let lines = [vec![line], notes].concat();
+            let (text, left) = in_few(&lines);
+            self.model.say(Err(text));
+            left.iter().for_each(|line| note!("note: {line}"));
             return None;
         }
         camera.iter().for_each(|camera| self.model.look_through(camera));
@@ -60,7 +63,7 @@ impl Viewer {
         if notes.is_empty() {
             self.model.say(Ok(said));
         } else {
-            self.model.say_notes(&[vec![said], notes].concat());
+            self.tell(&[vec![said], notes].concat());
         }
         Some(file)
     }
