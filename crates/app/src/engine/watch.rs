@@ -4,6 +4,7 @@
 use super::Wake;
 use super::worker::{Control, Service, Worker};
 use scene::{Progress, Scene, SceneError, builtin};
+use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, SystemTime};
 
@@ -133,7 +134,10 @@ struct Folder {
     scenes: Option<Vec<PathBuf>>,
 }
 
-/// A file of TOML.
+/// What models' names end in: each is put into a scene of its own.
+const MODELS: [&str; 4] = ["glb", "gltf", "obj", "ply"];
+
+/// A file of TOML, or a model.
 struct Candidate {
     path: PathBuf,
     is_scene: bool,
@@ -141,9 +145,14 @@ struct Candidate {
     looked_into: Option<Stamp>,
 }
 
+fn is_model(suffix: &OsStr) -> bool {
+    MODELS.iter().any(|known| suffix.eq_ignore_ascii_case(known))
+}
+
 impl Candidate {
     fn new(path: PathBuf) -> Self {
-        Candidate { path, is_scene: false, looked_into: None }
+        let is_scene = path.extension().is_some_and(is_model);
+        Candidate { path, is_scene, looked_into: None }
     }
 
     /// Looks into one that was no scene and has changed: who makes a file may write it later, which no folder tells.
@@ -183,7 +192,8 @@ impl Folder {
     fn list(&self, place: &Path) -> Vec<PathBuf> {
         let entries = std::fs::read_dir(place).into_iter().flatten().flatten();
         let mut names: Vec<_> = entries.map(|entry| self.path.join(entry.file_name())).collect();
-        names.retain(|path| path.extension().is_some_and(|kind| kind.eq_ignore_ascii_case("toml")));
+        let may_be_one = |kind: &OsStr| kind.eq_ignore_ascii_case("toml") || is_model(kind);
+        names.retain(|path| path.extension().is_some_and(may_be_one));
         names.sort();
         names.truncate(MOST_FILES);
         names
@@ -262,7 +272,9 @@ mod tests {
         // a folder whose time is too coarse to tell
         folder.modified = None;
         std::fs::write(test.file("a.TOML"), SCENE).expect("a file");
-        assert_eq!(folder.look_again(), Some(vec![test.file("a.TOML"), test.file("b.toml")]));
+        std::fs::write(test.file("ship.GLB"), "glTF").expect("a file");
+        let all = ["a.TOML", "b.toml", "ship.GLB"].map(|name| test.file(name));
+        assert_eq!(folder.look_again(), Some(all.to_vec()));
     }
 
     #[test]

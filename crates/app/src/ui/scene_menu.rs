@@ -157,7 +157,7 @@ fn read_again(cx: &mut UiContext, ui: &mut Ui) {
         return;
     }
     let button = ui.add(framed("Read again", ui)).explained(
-        "The scene's file is read again by itself when it changes; its pictures of the sky only here (Ctrl+R)",
+        "The scene's file is read again by itself when it changes; models and pictures that it names only here (Ctrl+R)",
     );
     if cx.dump.note("read again", "", button).clicked() {
         cx.commands.push(UiCommand::ReadAgain);
