@@ -196,6 +196,7 @@ impl LabReport {
             ("Size", format!("{} × {} pixels", shot.size.0, shot.size.1)),
             ("Camera stands at", point(shot.camera.eye)),
             ("It looks at", point(shot.camera.target)),
+            ("Up is", point(shot.camera.up)),
             ("Its vertical angle of view", format!("{}°", shot.camera.fov_y)),
         ];
         facts("Scene and camera", &rows)
