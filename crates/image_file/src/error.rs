@@ -13,6 +13,18 @@ pub enum ImageFileError {
         /// The file.
         path: PathBuf,
     },
+    /// It has more pixels than memory is taken for.
+    #[error("cannot read the picture ({width}x{height} pixels are more than {most}): {}", shown(path))]
+    TooLarge {
+        /// Pixels from left to right.
+        width: usize,
+        /// Pixels from top to bottom.
+        height: usize,
+        /// Pixels that it may have.
+        most: u64,
+        /// The file.
+        path: PathBuf,
+    },
     /// The disk is full, the folder is missing, it may not be written.
     #[error("cannot write the file ({why}): {}", shown(path))]
     Write {

@@ -56,7 +56,7 @@ pub const MOST_PIXELS: u64 = 1 << 27;
 fn check_pixels(width: usize, height: usize, most: u64, path: &Path) -> Result<(), ImageFileError> {
     let pixels = width as u64 * height as u64;
     if pixels > most {
-        return Err(ImageFileError::read(path, format!("{width}x{height} pixels are more than {most}")));
+        return Err(ImageFileError::TooLarge { width, height, most, path: path.to_owned() });
     }
     Ok(())
 }
@@ -206,11 +206,12 @@ pub struct Texels {
 /// Texels that a picture on a surface may have at most: they take 1 GiB.
 pub const MOST_TEXELS: u64 = 1 << 26;
 
-/// Reads a .png as a picture on a surface. What it says of its own colours does not count: models say it.
+/// Reads a .png as a picture on a surface, of `most` texels and of [`MOST_TEXELS`] at most. What it says of its own colours
+/// does not count: models say it.
 ///
 /// # Errors
 /// [`ImageFileError`]: one line that says why and names the path.
-pub fn texels(path: &Path, encoding: Encoding) -> Result<Texels, ImageFileError> {
+pub fn texels(path: &Path, encoding: Encoding, most: u64) -> Result<Texels, ImageFileError> {
     if Kind::of(path) != Some(Kind::Png) {
         return Err(ImageFileError::read(path, "a picture on a surface is a .png"));
     }
@@ -218,15 +219,7 @@ pub fn texels(path: &Path, encoding: Encoding) -> Result<Texels, ImageFileError>
         return Err(ImageFileError::read(path, "it is not a file"));
     }
     let file = std::fs::File::open(path).map_err(|why| ImageFileError::read(path, why))?;
-    png::texels(std::io::BufReader::new(file), encoding, path)
-}
-
-/// As [`texels`], of the bytes of a .png, which `path` names in errors.
-///
-/// # Errors
-/// As [`texels`] says it.
-pub fn texels_of(bytes: &[u8], encoding: Encoding, path: &Path) -> Result<Texels, ImageFileError> {
-    png::texels(std::io::Cursor::new(bytes), encoding, path)
+    png::texels(std::io::BufReader::new(file), encoding, most.min(MOST_TEXELS), path)
 }
 
 /// As [`read`], for whom what the picture does not show is nothing to tell of.

@@ -1,7 +1,7 @@
 //! A picture on a surface, as textures of materials read it.
 
 use glam::{Mat2, Vec2, Vec4};
-use std::sync::OnceLock;
+use std::sync::{Arc, OnceLock};
 
 /// What lies outside of the picture along an axis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -20,8 +20,8 @@ pub enum Wrap {
 pub struct ImageTexture {
     width: u32,
     height: u32,
-    /// Red, green, blue, alpha.
-    texels: Vec<[f32; 4]>,
+    /// Red, green, blue, alpha; one list for all the ways in which a picture is read.
+    texels: Arc<Vec<[f32; 4]>>,
     /// How it is read.
     pub sampling: Sampling,
     content: OnceLock<u128>,
@@ -50,7 +50,13 @@ impl ImageTexture {
     /// Of `width * height` texels, both at least 1; `None` if they are another number.
     pub fn new(width: u32, height: u32, texels: Vec<[f32; 4]>, sampling: Sampling) -> Option<Self> {
         let fits = width > 0 && height > 0 && texels.len() as u64 == u64::from(width) * u64::from(height);
-        fits.then_some(ImageTexture { width, height, texels, sampling, content: OnceLock::new() })
+        fits.then(|| ImageTexture { width, height, texels: texels.into(), sampling, content: OnceLock::new() })
+    }
+
+    /// The same texels, not kept twice, read in another way.
+    pub fn with_sampling(&self, sampling: Sampling) -> Self {
+        let ImageTexture { width, height, ref texels, .. } = *self;
+        ImageTexture { width, height, texels: texels.clone(), sampling, content: OnceLock::new() }
     }
 
     /// (width, height) in texels.
@@ -96,7 +102,7 @@ impl PartialEq for ImageTexture {
             || (self.width == other.width
                 && self.height == other.height
                 && self.sampling == other.sampling
-                && self.texels == other.texels)
+                && (Arc::ptr_eq(&self.texels, &other.texels) || self.texels == other.texels))
     }
 }
 
@@ -139,6 +145,15 @@ mod tests {
         assert_eq!([0.125, 0.375, 0.25, 0.5].map(at), [0.0, 1.0, 0.5, 1.5]);
         // across the seam: halfway between the last and the first
         assert_eq!(at(1.0), 1.5);
+    }
+
+    #[test]
+    fn a_picture_that_is_read_in_two_ways_is_kept_once() {
+        let (near, smooth) = (row(Wrap::Repeat, false), row(Wrap::Clamp, true));
+        let shared = near.with_sampling(smooth.sampling);
+        assert_eq!(shared.texels().as_ptr(), near.texels().as_ptr());
+        assert_eq!((&shared, shared.content()), (&smooth, smooth.content()));
+        assert!(shared != near && shared.content() != near.content());
     }
 
     #[test]

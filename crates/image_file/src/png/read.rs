@@ -3,7 +3,7 @@
 use super::chunks;
 use super::colours::{Colours, Transfer};
 use crate::primaries::converted;
-use crate::{Encoding, ImageFileError, Loaded, MOST_PIXELS, MOST_TEXELS, Texels, check_pixels, image_of};
+use crate::{Encoding, ImageFileError, Loaded, MOST_PIXELS, Texels, check_pixels, image_of};
 use film::Vec3;
 use std::fs::File;
 use std::io::{BufRead, BufReader, Seek};
@@ -77,9 +77,9 @@ pub fn load(path: &Path) -> Result<Loaded, ImageFileError> {
     Ok(Loaded { image: image_of((info.width, info.height), radiances, path)?, notes: colours.notes })
 }
 
-/// The picture with its alpha.
-pub fn texels(file: impl BufRead + Seek, encoding: Encoding, path: &Path) -> Result<Texels, ImageFileError> {
-    let decoder = decoder(file, MOST_TEXELS, path)?;
+/// The picture with its alpha, of at most so many texels.
+pub fn texels(file: impl BufRead + Seek, encoding: Encoding, most: u64, path: &Path) -> Result<Texels, ImageFileError> {
+    let decoder = decoder(file, most, path)?;
     let mut reader = decoder.read_info().map_err(|e| ImageFileError::read(path, e))?;
     let decoded = decoded(&mut reader, path)?;
     let texel = |index| {

@@ -8,7 +8,7 @@ use crate::image_texture::{Sampling, Wrap};
 use crate::material::SurfaceDetail;
 use crate::{Alpha, ImageTexture, NormalMap, Texture};
 use glam::{Mat2, Vec2, Vec3};
-use image_file::Encoding;
+use image_file::{Encoding, ImageFileError};
 use serde::de::value::SeqAccessDeserializer;
 use serde::de::{Error, SeqAccess, Visitor};
 use serde::{Deserialize, Deserializer};
@@ -73,6 +73,9 @@ pub struct RawAlphaMask {
     factor: Option<Number<AtLeastZero>>,
 }
 
+/// Texels of all pictures of a scene at most, each counted once however often it is used; they take 2 GiB.
+const MOST_TEXELS: u64 = 1 << 27;
+
 /// Where a picture was read, as what, and what came of it.
 type Kept = (PathBuf, Encoding, Arc<ImageTexture>);
 
@@ -80,12 +83,13 @@ type Kept = (PathBuf, Encoding, Arc<ImageTexture>);
 pub struct Pictures<'a> {
     folder: &'a Path,
     read: Vec<Kept>,
+    texels_left: u64,
 }
 
 impl<'a> Pictures<'a> {
     /// Of a scene in this folder.
     pub fn beside(folder: &'a Path) -> Self {
-        Pictures { folder, read: Vec::new() }
+        Pictures { folder, read: Vec::new(), texels_left: MOST_TEXELS }
     }
 
     /// A colour that varies as a picture does.
@@ -135,17 +139,30 @@ impl<'a> Pictures<'a> {
         let path = beside(self.folder, raw.image.get_ref()).or_else(|why| fault(at.clone(), why))?;
         let sampling = sampling(raw)?;
         let same = |(other, how, _): &&Kept| *other == path && *how == encoding;
-        let texture = match self.read.iter().find(same) {
-            Some((_, _, image)) if image.sampling == sampling => return Ok(image.clone()),
-            Some((_, _, image)) => ImageTexture::new(image.size().0, image.size().1, image.texels().to_vec(), sampling),
-            None => match image_file::texels(&path, encoding) {
-                Ok(image_file::Texels { size, texels }) => ImageTexture::new(size.0, size.1, texels, sampling),
-                Err(why) => return fault(at, why.to_string()),
-            },
+        let mut alike = self.read.iter().filter(same).map(|(_, _, image)| image).peekable();
+        let any = alike.peek().copied();
+        if let Some(image) = alike.find(|image| image.sampling == sampling) {
+            return Ok(image.clone());
+        }
+        let texture = match any {
+            Some(image) => image.with_sampling(sampling),
+            None => self.read(&path, encoding, sampling).or_else(|why| fault(at, why))?,
         };
-        let Some(texture) = texture.map(Arc::new) else { return fault(at, "this picture is empty") };
+        let texture = Arc::new(texture);
         self.read.push((path, encoding, texture.clone()));
         Ok(texture)
+    }
+
+    fn read(&mut self, path: &Path, encoding: Encoding, sampling: Sampling) -> Result<ImageTexture, String> {
+        let read = image_file::texels(path, encoding, self.texels_left);
+        let image_file::Texels { size: (width, height), texels } = read.map_err(|why| match why {
+            ImageFileError::TooLarge { most, .. } if most < image_file::MOST_TEXELS => {
+                format!("{why}: all pictures of a scene have {MOST_TEXELS} texels at most, and so many are left")
+            }
+            _ => why.to_string(),
+        })?;
+        self.texels_left -= texels.len() as u64;
+        ImageTexture::new(width, height, texels, sampling).ok_or_else(|| "this picture is empty".into())
     }
 }
 
@@ -234,6 +251,25 @@ mod tests {
             panic!("a mask")
         };
         assert!(Arc::ptr_eq(alpha, image) && Arc::ptr_eq(material.surface.emission.as_ref().unwrap(), image));
+    }
+
+    #[test]
+    fn a_picture_is_kept_once_however_it_is_read_and_counts_once() {
+        let folder = std::env::temp_dir().join(format!("visavis-pictures-{}-budget", std::process::id()));
+        std::fs::create_dir_all(&folder).unwrap();
+        std::fs::write(folder.join("p.png"), encode_rgba8(2, 1, &[9; 8], &Vec::new()).unwrap()).unwrap();
+        std::fs::write(folder.join("q.png"), encode_rgba8(2, 1, &[7; 8], &Vec::new()).unwrap()).unwrap();
+        let mut pictures = Pictures { texels_left: 3, ..Pictures::beside(&folder) };
+        let mut read = |toml: &str| pictures.without_factor(toml::from_str(toml).unwrap(), Encoding::Linear);
+        let shifted = "image = 'p.png'\noffset = [0.5, 0]";
+        let images = ["image = 'p.png'", shifted, "image = 'p.png'", shifted].map(|toml| read(toml).ok().unwrap());
+        assert!(Arc::ptr_eq(&images[0], &images[2]) && Arc::ptr_eq(&images[1], &images[3]));
+        assert_eq!(images[0].texels().as_ptr(), images[1].texels().as_ptr());
+        let Err(Fault { message, .. }) = read("image = 'q.png'") else { panic!("more than three texels") };
+        assert!(message.contains("2x1 pixels are more than 1") && message.contains("134217728"), "{message}");
+        let Err(Fault { message, .. }) = read("image = 'r.png'") else { panic!("there is none") };
+        assert!(!message.contains("134217728"), "{message}");
+        std::fs::remove_dir_all(&folder).unwrap();
     }
 
     #[test]

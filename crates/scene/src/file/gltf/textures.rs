@@ -31,13 +31,16 @@ struct Key {
 pub struct Textures<'a> {
     document: &'a Document,
     made: HashMap<Key, Arc<ImageTexture>>,
+    /// Of each picture, by its curve, one that keeps its texels: all that are placed otherwise share them.
+    kept: HashMap<(u32, CodeCurve), Arc<ImageTexture>>,
     texels_left: u64,
     bytes_left: u64,
 }
 
 impl<'a> Textures<'a> {
     pub fn new(document: &'a Document) -> Self {
-        Textures { document, made: HashMap::new(), texels_left: MOST_TEXELS, bytes_left: MOST_BYTES }
+        let (made, kept) = Default::default();
+        Textures { document, made, kept, texels_left: MOST_TEXELS, bytes_left: MOST_BYTES }
     }
 
     /// The picture that a material names; `None` if there is none that this program reads.
@@ -62,7 +65,11 @@ impl<'a> Textures<'a> {
             return Ok(Some(made.clone()));
         }
         let named = |Refused(why)| Refused(format!("image {image}: {why}"));
-        let made = Arc::new(self.make(image, curve, sampling).map_err(named)?);
+        let made = Arc::new(match self.kept.get(&(image, curve)) {
+            Some(kept) => kept.with_sampling(sampling),
+            None => self.make(image, curve, sampling).map_err(named)?,
+        });
+        self.kept.entry((image, curve)).or_insert_with(|| made.clone());
         self.made.insert(key, made.clone());
         Ok(Some(made))
     }
