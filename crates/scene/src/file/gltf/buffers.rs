@@ -30,19 +30,23 @@ enum Buffer {
 }
 
 impl Document {
-    /// Reads the buffers that the JSON names.
-    pub fn new(root: Root, file: Vec<u8>, parts: &Parts, folder: &Path) -> Result<Self, Refused> {
-        let mut left = MOST_BYTES;
+    /// Reads the buffers that the JSON names, all of them `most` bytes at most.
+    pub fn new(root: Root, file: Vec<u8>, parts: &Parts, folder: &Path, most: u64) -> Result<Self, Refused> {
+        let mut left = most;
+        let too_many = || format!("with it the buffers have more than {most} bytes");
         let mut buffers = Vec::with_capacity(root.buffers.len());
         for (index, buffer) in root.buffers.iter().enumerate() {
             let fault = |Refused(why)| Refused(format!("buffer {index}: {why}"));
             let length = buffer.byte_length;
+            if length == 0 {
+                return Err(fault(Refused("its byteLength is 0: expected 1 or more".into())));
+            }
             if length > left {
-                return Err(fault(Refused(format!("with it the buffers have more than {MOST_BYTES} bytes"))));
+                return Err(fault(Refused(too_many())));
             }
             let read = match (&buffer.uri, &parts.binary) {
-                // files are often padded, and buffers share one
-                (Some(uri), _) => Buffer::Read(uri::bytes(uri, folder, MOST_BYTES).map_err(fault)?),
+                // files are often padded, and buffers share one: what is read counts, not what is asked for
+                (Some(uri), _) => Buffer::Read(uri::bytes(uri, folder, left).map_err(fault)?),
                 (None, Some(chunk)) if index == 0 => Buffer::Chunk(chunk.clone()),
                 (None, _) => return Err(fault(Refused("it names no file, and there is no binary data here".into()))),
             };
@@ -51,7 +55,7 @@ impl Document {
                 let line = format!("it should have {length} bytes, and has {found}: it is not whole");
                 return Err(fault(Refused(line)));
             }
-            left = left.saturating_sub(found);
+            left = left.checked_sub(found).ok_or_else(|| fault(Refused(too_many())))?;
             buffers.push(read);
         }
         Ok(Document { root, folder: folder.to_owned(), file, buffers, sparse_left: Cell::new(MOST_SPARSE) })

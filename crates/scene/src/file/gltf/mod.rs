@@ -70,7 +70,7 @@ fn scene(file: Vec<u8>, name: &str, folder: &Path, progress: &Progress) -> Resul
     let mut remarks = Remarks::default();
     let parts = container::parts(&file)?;
     let root = container::parse(&file[parts.json.clone()], &mut remarks)?;
-    let document = Document::new(root, file, &parts, folder)?;
+    let document = Document::new(root, file, &parts, folder, buffers::MOST_BYTES)?;
     tell_of_what_stays(&document, &mut remarks);
     let placed = nodes::placed(&document, &mut remarks)?;
     let mut materials = Materials::new(&document, progress);

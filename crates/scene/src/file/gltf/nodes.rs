@@ -51,6 +51,12 @@ pub fn placed<'a>(document: &'a Document, remarks: &mut Remarks) -> Result<Vec<P
         open.extend(node.children.iter().rev().map(|child| (*child, placed.to_world)));
         found.push(placed);
     }
+    // without scenes every node is below one that has no parent, or below itself
+    let lost = seen.iter().position(|seen| !seen).filter(|_| document.root.scenes.is_empty());
+    if let Some(index) = lost {
+        let name = named("node", index as u32, nodes[index].name.as_deref());
+        return Err(Refused(format!("{name} is below itself, or below such a node: nodes must be a tree")));
+    }
     Ok(found)
 }
 

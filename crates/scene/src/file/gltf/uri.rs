@@ -1,14 +1,14 @@
 //! What a URI of a glTF file stands for: bytes within it, or a file in the folder of the file that names it. Nothing else
 //! is ever opened, whoever wrote the file.
 
-use super::super::beside::allows_files_outside;
+use super::super::beside::beside;
 use super::{Refused, quoted};
 use base64::Engine;
 use base64::engine::general_purpose::GeneralPurpose;
 use base64::engine::{DecodePaddingMode, GeneralPurposeConfig};
 use std::fs::File;
 use std::io::Read;
-use std::path::{Component, Path, PathBuf};
+use std::path::{Path, PathBuf};
 
 /// Base64 with or without the `=` at its end.
 const BASE64: GeneralPurpose = GeneralPurpose::new(
@@ -39,31 +39,19 @@ fn data_bytes(data: &str, most: u64) -> Result<Vec<u8>, Refused> {
     Ok(bytes)
 }
 
-/// The path of a file that lies in `folder` or below, links followed.
+/// The path of a file, by the rule for those that scenes name.
 fn inside(uri: &str, folder: &Path) -> Result<PathBuf, Refused> {
-    let leaves = || {
+    let decoded = percent_encoding::percent_decode_str(uri).decode_utf8();
+    let decoded = decoded.map_err(|_| Refused(format!("{} is no name in UTF-8", quoted(uri))))?;
+    // a scheme is an address; a backslash and a colon mean other places on other systems
+    if decoded.contains(['\\', ':', '\0']) || decoded.is_empty() {
+        return Err(Refused(format!("{} is no file's name", quoted(uri))));
+    }
+    beside(folder, &decoded).map_err(|_| {
         let line =
             "only files in the folder of the model or below are opened: put it there, or allow it with --allow-outside";
         Refused(format!("{} is somewhere else, and {line}", quoted(uri)))
-    };
-    let decoded = percent_encoding::percent_decode_str(uri).decode_utf8();
-    let decoded = decoded.map_err(|_| Refused(format!("{} is no name in UTF-8", quoted(uri))))?;
-    // a backslash and a colon mean other places on other systems
-    if decoded.contains(['\\', ':', '\0']) || decoded.is_empty() {
-        return Err(leaves());
-    }
-    let relative = Path::new(decoded.as_ref());
-    if allows_files_outside() {
-        return Ok(folder.join(relative));
-    }
-    if !relative.components().all(|part| matches!(part, Component::Normal(_) | Component::CurDir)) {
-        return Err(leaves());
-    }
-    let (path, folder) = (folder.join(relative), if folder.as_os_str().is_empty() { Path::new(".") } else { folder });
-    match (path.canonicalize(), folder.canonicalize()) {
-        (Ok(real), Ok(folder)) if !real.starts_with(&folder) => Err(leaves()),
-        _ => Ok(path),
-    }
+    })
 }
 
 /// A regular file of `most` bytes at most. Anything else, such as a pipe or a device, might never end.

@@ -98,6 +98,9 @@ fn nodes_that_are_no_tree_are_refused() {
     };
     says(refused(cycle), "node 0 has two parents, or is below itself: nodes must be a tree");
     says(refused(json!([{"children": [0]}])), "node 0 has two parents, or is below itself");
+    // without scenes no node of a cycle is a first one
+    let alone = json!([{"mesh": 0}, {"children": [2]}, {"children": [1], "mesh": 0}]);
+    says(set("/nodes", alone), "node 1 is below itself, or below such a node: nodes must be a tree");
     let shared = json!([{"children": [1, 2]}, {"children": [3]}, {"children": [3]}, {"mesh": 0, "name": "leaf"}]);
     says(refused(shared), "node 3 'leaf' has two parents");
 }
@@ -110,6 +113,20 @@ fn what_cannot_be_shown_without_an_extension_is_refused_with_what_to_do() {
     says(required("ACME_new\n"), r"without the extension 'ACME_new\n', which is not read: export it without");
     says(set("/asset/version", json!("1.0")), "it is glTF of version '1.0': expected 2.0");
     says(fault(|model| model.json = json!({"meshes": []})), "its JSON: missing field `asset` at line 1 column");
+}
+
+#[test]
+fn buffers_count_as_much_as_is_read_of_them() {
+    let read = |lengths: [u64; 2], most| {
+        let buffers = lengths.map(|length| json!({"byteLength": length, "uri": "data:;base64,AAAAAAAA"}));
+        let root = serde_json::from_value(json!({"asset": {"version": "2.0"}, "buffers": buffers})).unwrap();
+        let parts = container::Parts { json: 0..0, binary: None };
+        Document::new(root, Vec::new(), &parts, Path::new(""), most).map(drop).map_err(|Refused(why)| why)
+    };
+    assert_eq!(read([1, 1], 12), Ok(()));
+    says(read([1, 1], 11).unwrap_err(), "buffer 1: a data: URI has more than 5 bytes");
+    says(read([6, 6], 11).unwrap_err(), "buffer 1: with it the buffers have more than 11 bytes");
+    says(read([6, 0], 12).unwrap_err(), "buffer 1: its byteLength is 0: expected 1 or more");
 }
 
 #[test]
@@ -143,19 +160,15 @@ fn only_files_in_the_folder_or_below_are_opened() {
         why
     };
     let absolute = outer.join("secret.bin").display().to_string();
-    let mut elsewhere = vec![
-        "../secret.bin",
-        "%2e%2e/secret.bin",
-        "a/../../secret.bin",
-        &absolute,
-        "file:///etc/passwd",
-        "..\\secret.bin",
-    ];
+    let mut elsewhere = vec!["../secret.bin", "%2e%2e/secret.bin", "a/../../secret.bin", &absolute];
     if cfg!(unix) {
         elsewhere.push("link.bin");
     }
     for uri in elsewhere {
         says(refused(uri), "is somewhere else, and only files in the folder of the model or below are opened");
+    }
+    for uri in ["file:///etc/passwd", "..\\secret.bin", "C:a.bin", "a%00.bin", ""] {
+        says(refused(uri), "is no file's name");
     }
     says(refused("missing.bin"), "buffer 0: cannot read ");
     says(refused("."), "this is not a file");
