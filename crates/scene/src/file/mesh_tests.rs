@@ -98,6 +98,14 @@ fn faulty_meshes_are_refused_where_they_stand() {
         (format!("{MESH}scale = 0\n"), "0 is not a finite number from 1e-12 to 1e12, or its negative"),
         (format!("{MESH}scale = [1, 0, 1]\n"), "0 is not a finite number from 1e-12 to 1e12, or its negative"),
         (format!("{MESH}scale = \"big\"\n"), "expected a number or a list of three numbers"),
+        (
+            format!("{MESH}translate = [9e11, 0, 0]\nscale = 2e11\n"),
+            "test.toml:18:12: this mesh reaches farther than 1e12",
+        ),
+        (
+            format!("{MESH}[[instance]]\nof = \"flag\"\ntranslate = [0, 1e12, 0]\nscale = 1e11\n"),
+            "test.toml:20:6: this mesh reaches farther than 1e12 from 0: make scale or translate smaller",
+        ),
         (format!("{MESH}{MESH}"), "test.toml:20:8: a mesh is called 'flag' already"),
         (
             format!("{MESH}[[instance]]\nof = \"flog\"\n"),
@@ -129,6 +137,7 @@ fn files_are_read_from_beside_the_scene_and_nowhere_else() {
         ("b.OBJ", "meshes.toml:15:8: "),
         ("b.OBJ", "b.OBJ, line 2: face 1 names vertex '2', of 1 so far, from 1"),
         ("c.stl", "c.stl: a mesh is read from a .ply or an .obj"),
+        ("e.GLB", "e.GLB: a glTF model is a scene of its own: `visavis e.GLB` opens it"),
         ("d.ply", "d.ply: it cannot be read ("),
         ("../a.obj", "meshes.toml:15:8: '../a.obj' lies outside of the scene's folder"),
         ("/a.obj", "'/a.obj' lies outside of the scene's folder"),
@@ -154,7 +163,7 @@ fn a_model_that_is_opened_by_itself_stands_in_sight_on_a_floor() {
         open("dot.obj")
             .expect_err("a fault")
             .to_string()
-            .ends_with("dot.obj: it is too small, or too far away, to be seen")
+            .ends_with("dot.obj: it is too small, too large or too far away to be seen")
     );
     assert!(matches!(open("none.ply"), Err(SceneError::Read { .. })));
 }

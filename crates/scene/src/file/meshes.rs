@@ -90,8 +90,7 @@ impl<'a> Meshes<'a> {
             let names: Vec<&str> = self.named.iter().map(|named| named.name.as_str()).collect();
             return fault(of.span(), advice::unknown_mesh(of.get_ref(), &names));
         };
-        let to_world = to_world(RawPlacement { scale, rotate, translate });
-        let geometry = Geometry::Instance(Instance { mesh: named.mesh.clone(), to_world });
+        let geometry = put(named.mesh.clone(), RawPlacement { scale, rotate, translate }, of.span())?;
         Ok((geometry, material.unwrap_or_else(|| named.material.clone())))
     }
 
@@ -113,9 +112,20 @@ impl<'a> Meshes<'a> {
         let stays = scale.is_none() && rotate.is_none() && translate.is_none();
         let geometry = match stays {
             true => Geometry::Mesh(mesh),
-            false => Geometry::Instance(Instance { mesh, to_world: to_world(placement) }),
+            false => put(mesh, placement, material.span())?,
         };
         Ok((geometry, material))
+    }
+}
+
+/// A mesh in its place, if it does not reach beyond what coordinates may be.
+fn put(mesh: Arc<Mesh>, placement: RawPlacement, at: Range<usize>) -> Result<Geometry, Fault> {
+    let instance = Instance { mesh, to_world: to_world(placement) };
+    let (lo, hi) = instance.bounds();
+    let reach = lo.abs().max(hi.abs()).max_element();
+    match lo.is_finite() && hi.is_finite() && f64::from(reach) <= model::LARGEST {
+        true => Ok(Geometry::Instance(instance)),
+        false => fault(at, "this mesh reaches farther than 1e12 from 0: make scale or translate smaller"),
     }
 }
 

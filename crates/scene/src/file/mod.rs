@@ -38,7 +38,7 @@ pub use beside::{allow_files_outside, allows_files_outside};
 pub enum SceneError {
     /// Neither a built-in name nor a file.
     #[error(
-        "unknown scene '{}': the built-in scenes are {known}; a file's name ends in .toml, .glb or .gltf{}",
+        "unknown scene '{}': the built-in scenes are {known}; a file's name ends in .toml, .glb, .gltf, .ply or .obj{}",
         image_file::escaped(name),
         did_you_mean(meant)
     )]

@@ -13,8 +13,11 @@ pub const KINDS: [&str; 2] = ["ply", "obj"];
 /// The most triangles of a file: four statues of the finest level. Beyond it a computer is used up before anything is seen.
 pub const MOST_TRIANGLES: usize = 1 << 27;
 
+/// The most vertices, texture coordinates or normals of a file.
+pub const MOST_VERTICES: usize = 1 << 27;
+
 /// The largest coordinate, as in scene files.
-const LARGEST: f64 = 1e12;
+pub const LARGEST: f64 = 1e12;
 
 /// What a file holds.
 #[derive(Debug, Default)]
@@ -42,6 +45,12 @@ pub fn is_model(path: &Path) -> bool {
 pub fn read(path: &Path, smooth: bool, progress: &Progress) -> Result<(Mesh, Vec<String>), String> {
     let name = path.file_name().map(|name| image_file::shown(Path::new(name))).unwrap_or_default();
     let read = || {
+        let suffix = path.extension().unwrap_or_default().to_ascii_lowercase();
+        if suffix == "glb" || suffix == "gltf" {
+            return of_the_file(format!(
+                "a glTF model is a scene of its own: `visavis {name}` opens it; a mesh is read from a .ply or an .obj"
+            ));
+        }
         if !is_model(path) {
             return of_the_file("a mesh is read from a .ply or an .obj: save it as one of these");
         }
@@ -109,13 +118,18 @@ pub fn position(numbers: [f64; 3], vertex: usize) -> Result<Vec3, String> {
     }
 }
 
+/// That a file has more of something than is read.
+pub fn too_many(what: &str, most: usize) -> String {
+    format!("more than {most} {what}: more are not read; thin it out in a modeller")
+}
+
 /// Adds the fan of a polygon's triangles.
 ///
 /// # Errors
 /// In words, if they become too many.
 pub fn add_fan(triangles: &mut Vec<[u32; 3]>, [first, before, corner]: [u32; 3]) -> Result<(), String> {
     if triangles.len() >= MOST_TRIANGLES {
-        return Err(format!("more than {MOST_TRIANGLES} triangles: more are not read; thin it out in a modeller"));
+        return Err(too_many("triangles", MOST_TRIANGLES));
     }
     triangles.push([first, before, corner]);
     Ok(())

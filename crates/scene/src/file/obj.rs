@@ -2,7 +2,7 @@
 //! `vn` and faces `f` that name them from 1, or from the last backwards as -1, -2. What else there is, materials among
 //! it, is passed over.
 
-use super::model::{self, Model, coordinate};
+use super::model::{self, MOST_VERTICES, Model, coordinate};
 use super::source::{ModelFault, Source, number, shown};
 use glam::{Vec2, Vec3};
 use std::collections::{BTreeSet, HashMap};
@@ -63,13 +63,13 @@ impl Obj {
         let vertex = self.positions.len() + 1;
         let read = model::position(numbers(source, "v")?, vertex);
         self.positions.push(read.or_else(|why| source.at_line(why))?);
-        self.tell_apart(source, self.positions.len())
+        bounded(source, "vertices", self.positions.len())
     }
 
     fn normal(&mut self, source: &mut Source) -> Result<(), ModelFault> {
         let normal = numbers(source, "vn")?.map(|number| number as f32);
         self.normals.push(Vec3::from(normal));
-        self.tell_apart(source, self.normals.len())
+        bounded(source, "normals", self.normals.len())
     }
 
     fn uv(&mut self, source: &mut Source) -> Result<(), ModelFault> {
@@ -80,15 +80,7 @@ impl Obj {
         };
         // the file's v goes up
         self.uvs.push(Vec2::new(u, 1.0 - v));
-        self.tell_apart(source, self.uvs.len())
-    }
-
-    fn tell_apart(&self, source: &Source, count: usize) -> Result<(), ModelFault> {
-        if count >= NONE as usize {
-            return source
-                .at_line(format!("more than {} of them, which indices of 32 bits cannot tell apart", NONE - 1));
-        }
-        Ok(())
+        bounded(source, "texture coordinates", self.uvs.len())
     }
 
     fn face(&mut self, source: &mut Source) -> Result<(), ModelFault> {
@@ -204,6 +196,14 @@ impl Obj {
             (has(1) && lacks(1)).then(|| "corners without texture coordinates have 0, 0".into()),
         ];
         lines.into_iter().flatten().collect()
+    }
+}
+
+/// Refuses more of something than a file may have.
+fn bounded(source: &Source, what: &str, count: usize) -> Result<(), ModelFault> {
+    match count > MOST_VERTICES {
+        true => source.at_line(model::too_many(what, MOST_VERTICES)),
+        false => Ok(()),
     }
 }
 

@@ -4,7 +4,7 @@
 mod header;
 mod values;
 
-use super::model::{self, MOST_TRIANGLES, Model};
+use super::model::{self, MOST_TRIANGLES, MOST_VERTICES, Model};
 use super::source::{ModelFault, Source, of_the_file};
 use glam::{Vec2, Vec3};
 use header::{Element, Header, Kind, Property};
@@ -21,10 +21,13 @@ pub fn read(source: &mut Source) -> Result<Model, ModelFault> {
     let Some(vertices) = named("vertex").filter(|vertices| vertices.count > 0) else {
         return of_the_file("it has no vertices");
     };
-    if vertices.count > u64::from(u32::MAX) {
-        return of_the_file(format!("{} vertices: more than indices of 32 bits can tell apart", vertices.count));
+    if vertices.count > MOST_VERTICES as u64 {
+        return of_the_file(model::too_many("vertices", MOST_VERTICES));
     }
     let Some(faces) = named("face") else {
+        if named("tristrips").is_some() {
+            return of_the_file("its triangles are strips (tristrips), which are not read: save it with faces");
+        }
         return of_the_file("it has no faces, only points: a mesh needs a triangle at least");
     };
     let (mut model, mut passed_over) = (Model::default(), Vec::new());

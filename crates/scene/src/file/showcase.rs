@@ -23,7 +23,7 @@ pub fn around(path: &Path, progress: &Progress) -> Result<Scene, SceneError> {
     let (mesh, remarks) = model::read(path, false, progress).map_err(stopped)?;
     let name = path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
     let room = room(mesh.bounds()).and_then(|text| parse(&text, &name, path).ok()).ok_or_else(|| {
-        SceneError::Mesh(format!("{}: it is too small, or too far away, to be seen", image_file::shown(path)))
+        SceneError::Mesh(format!("{}: it is too small, too large or too far away to be seen", image_file::shown(path)))
     })?;
     let shape = Shape { geometry: Geometry::Mesh(Arc::new(mesh)), material: 1 };
     let shapes = room.shapes.iter().cloned().chain([shape]).collect();

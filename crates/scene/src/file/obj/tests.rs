@@ -80,3 +80,12 @@ fn faults_say_which_line() {
         assert!(said.contains(expected), "{line}: {said}");
     }
 }
+
+#[test]
+fn more_vertices_than_fit_are_refused_in_their_line() {
+    let progress = Progress::untold();
+    let source = Source::new(&b""[..], 0, "test.obj", &progress);
+    assert!(bounded(&source, "normals", MOST_VERTICES).is_ok());
+    let ModelFault { at, message } = bounded(&source, "normals", MOST_VERTICES + 1).expect_err("too many");
+    assert_eq!((at.as_str(), message.split(':').next()), ("line 1", Some("more than 134217728 normals")));
+}

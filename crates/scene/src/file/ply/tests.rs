@@ -73,11 +73,7 @@ fn faults_say_where_and_what() {
         ("property int z", "property long z", "line 7: 'long' is no type"),
         ("property int z", "property int height", ": its vertices have no x, y and z"),
         ("element vertex 4", "element vertex many", "line 4: expected how many there are of 'vertex'"),
-        (
-            "element vertex 4",
-            "element vertex 4000000000",
-            ": its header says that there are 4000000000 of 'vertex', for",
-        ),
+        ("element vertex 4", "element vertex 100000000", ": its header says that there are 100000000 of 'vertex', for"),
         (
             "element face 1",
             "element face 99999999999999999999",
@@ -118,4 +114,15 @@ fn reading_ends_when_it_is_told_to() {
     let progress = Progress::new(&hear);
     let read = read(&mut Source::new(SQUARE.as_bytes(), SQUARE.len() as u64, "test.ply", &progress));
     assert!(read.is_err() && progress.is_stopped());
+}
+
+#[test]
+fn more_vertices_than_fit_and_strips_are_refused_by_their_names() {
+    let vertices = "ply\nformat ascii 1.0\nelement vertex COUNT\nproperty float x\n";
+    let faces = "element face 1\nproperty list uchar int vertex_indices\nend_header\n";
+    let many = fault_of(&format!("{vertices}{faces}").replace("COUNT", "134217729"));
+    assert_eq!(many, ": more than 134217728 vertices: more are not read; thin it out in a modeller");
+    let strips = "element tristrips 1\nproperty list int int vertex_indices\nend_header\n";
+    let strips = fault_of(&format!("{vertices}{strips}").replace("COUNT", "3"));
+    assert!(strips.contains("strips (tristrips), which are not read: save it with faces"), "{strips}");
 }
