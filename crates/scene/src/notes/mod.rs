@@ -17,6 +17,7 @@ impl Scene {
         let doubts = [
             self.without_light(),
             self.without_sight(),
+            self.without_places_in_pictures(),
             self.camera_in_a_solid(),
             self.light_in_a_solid(),
             lamp::that_shines_into_a_wall(self).or_else(|| lamp::that_shines_at_nothing(self)),
@@ -45,7 +46,11 @@ impl Scene {
     fn without_sight(&self) -> Option<String> {
         if self.shapes.is_empty() {
             let nothing = self.environment.is_none();
-            return nothing.then(|| "the scene has no shapes: add a [[sphere]], a [[rectangle]] or another".into());
+            return nothing.then(|| {
+                "the scene has no shapes: a scene file takes a [[sphere]], a [[rectangle]] or another, and a model has to \
+                 be exported with its meshes"
+                    .into()
+            });
         }
         if self.shapes.iter().any(|shape| may_be_seen(&self.camera, &shape.geometry)) {
             return None;
@@ -59,6 +64,22 @@ impl Scene {
             "the camera looks past every shape: its eye is {}, its target {}, and the shapes lie between {lo} and {hi}; \
              {cure}",
             self.camera.eye, self.camera.target
+        ))
+    }
+
+    /// Shapes in pictures that do not say which part of these lies where.
+    fn without_places_in_pictures(&self) -> Option<String> {
+        let placed = |shape: &Shape| shape.geometry.mesh_of().is_some_and(|mesh| !mesh.uvs().is_empty());
+        let lacks = |shape: &&Shape| !placed(shape) && self.material_of(shape).has_images();
+        let mut lacking = self.shapes.iter().filter(lacks);
+        let first = self.named(lacking.next()?);
+        let others = match lacking.count() {
+            0 => String::new(),
+            count => format!(" (and so {count} more)"),
+        };
+        Some(format!(
+            "the {first} has no texture coordinates{others}, so that its picture's colour at (0, 0) is everywhere: \
+             pictures belong on meshes with uvs"
         ))
     }
 

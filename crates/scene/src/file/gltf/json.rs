@@ -209,6 +209,7 @@ pub struct Material {
     pub pbr_metallic_roughness: PbrMetallicRoughness,
     pub normal_texture: Option<TextureInfo>,
     pub emissive_texture: Option<TextureInfo>,
+    pub occlusion_texture: Option<IgnoredAny>,
     pub emissive_factor: Option<[f32; 3]>,
     pub alpha_mode: AlphaMode,
     pub alpha_cutoff: Option<f32>,

@@ -80,6 +80,9 @@ impl<'a> Materials<'a> {
         };
         let shown = index.map_or_else(|| "the default material".into(), |i| named("material", i, raw.name.as_deref()));
         let fault = |Refused(why)| Refused(format!("{shown}: {why}"));
+        if raw.occlusion_texture.is_some() {
+            remarks.of("shadows in pictures (occlusionTexture) are left out: rays find them", shown.clone());
+        }
         let pictures = self.pictures(raw, &shown, remarks).map_err(fault)?;
         let uv_set = pictures.uv_set;
         let usual = || index.map_or_else(|| "default".into(), |index| format!("material {index}"));

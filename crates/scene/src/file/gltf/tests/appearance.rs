@@ -177,6 +177,33 @@ fn unlit_materials_shine_by_themselves_with_a_word() {
 }
 
 #[test]
+fn a_picture_in_several_places_keeps_its_texels_once() {
+    let place = |offset: f32| json!({"index": 0, "extensions": {"KHR_texture_transform": {"offset": [offset, 0]}}});
+    let mut model = Model::textured(json!({}));
+    let worn = |offset| json!({"pbrMetallicRoughness": {"baseColorTexture": place(offset)}});
+    model.json["materials"] = json!([worn(0.0), worn(0.5)]);
+    let mut other = model.primitive().clone();
+    other["material"] = json!(1);
+    model.json["meshes"][0]["primitives"].as_array_mut().unwrap().push(other);
+    let scene = model.scene();
+    let images: Vec<_> = scene.materials.iter().flat_map(Material::images).collect();
+    assert_eq!((images.len(), images[1].sampling.offset), (2, Vec2::new(0.5, 0.0)));
+    assert_eq!(images[0].texels().as_ptr(), images[1].texels().as_ptr());
+}
+
+#[test]
+fn what_a_material_or_its_mesh_lacks_is_told() {
+    let picture = json!({"index": 0});
+    let mut model = Model::textured(json!({"occlusionTexture": picture, "emissiveTexture": picture,
+        "emissiveFactor": [1, 1, 1]}));
+    let without_uvs = |scene: Scene| scene.notes().into_iter().filter(|n| n.contains("texture coordinates")).count();
+    assert!(model.remark("occlusionTexture").ends_with("rays find them: material 0"));
+    assert_eq!(without_uvs(model.scene()), 0);
+    model.json["materials"][0]["emissiveTexture"]["texCoord"] = json!(1);
+    assert_eq!(without_uvs(model.scene()), 1);
+}
+
+#[test]
 fn materials_of_one_name_are_told_apart_and_variants_are_named() {
     let mut model = Model::textured(json!({"name": "a"}));
     model.json["materials"] = json!([{"name": "a"}, {"name": "a"}]);
