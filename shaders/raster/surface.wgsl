@@ -1,4 +1,5 @@
 //#import raster/object.wgsl
+//#import raster/bent.wgsl
 // Where corners of a mesh lie, and what pictures say of its surface.
 // Mirror of the structs: crates/raster/src/gpu_data.rs, which has those of all passes.
 
@@ -8,15 +9,14 @@ const IMAGE_NORMAL: u32 = 4u;
 const IMAGE_EMISSION: u32 = 8u;
 const IMAGE_ALPHA: u32 = 16u;
 
-// Below this square a tangent has no direction: the surface has no places in pictures. Here alone: only devices draw.
-const SMALLEST_SQUARE: f32 = 1e-37;
-
 // which of IMAGE_* a material has; no others are looked up
 override IMAGES: u32 = 0u;
 // whether corners are in the mesh's own space
 override PLACED: bool = false;
 // whether normals are those of triangles, which share their corners with others
 override FLAT: bool = false;
+// whether corners have normals of their own, which are not those of the triangles
+override SMOOTH: bool = false;
 // whether corners have places in pictures
 override UVS: bool = false;
 
@@ -112,15 +112,35 @@ fn surface_emission(object: Object, front: bool, uv: vec2f) -> vec3f {
 
 // The unit normal at p on the side of the eye. `outwards` is interpolated.
 fn shading_normal(p: vec3f, outwards: vec3f, uv: vec2f, eye: vec3f, front: bool) -> vec3f {
+    let side = select(-1.0, 1.0, front);
     var n = normalize(outwards);
+    let g = triangle_normal(p, eye, n * side);
     if FLAT {
-        let across = normalize(cross(dpdy(p), dpdx(p)));
-        n = across * select(-1.0, 1.0, (dot(across, eye - p) > 0.0) == front);
+        n = g * side;
+    }
+    if SMOOTH {
+        n = n * select(-1.0, 1.0, dot(n, g) * side >= 0.0);
     }
     if (IMAGES & IMAGE_NORMAL) != 0u {
         n = mapped_normal(p, n, uv);
     }
-    return n * select(-1.0, 1.0, front);
+    n = n * side;
+    if SMOOTH || (UVS && (IMAGES & IMAGE_NORMAL) != 0u) {
+        n = bent(g, n, normalize(eye - p));
+    }
+    return n;
+}
+
+// The unit normal of the triangle at p on the side of the eye; where neighbouring pixels are too near to tell, `n`.
+fn triangle_normal(p: vec3f, eye: vec3f, n: vec3f) -> vec3f {
+    let across = cross(unit_or_shorter(dpdy(p)), unit_or_shorter(dpdx(p)));
+    let towards = unit_or_shorter(across) * select(-1.0, 1.0, dot(across, eye - p) > 0.0);
+    return select(n, towards, dot(across, across) > SMALLEST_SQUARE);
+}
+
+// A vector of unit length, or a shorter one where it has no length to speak of.
+fn unit_or_shorter(along: vec3f) -> vec3f {
+    return along * inverseSqrt(max(dot(along, along), SMALLEST_SQUARE));
 }
 
 // What a normal map makes of unit normal n: its x goes with u and its y against v, as they lie on the surface

@@ -10,6 +10,7 @@ use gpu::wgsl::{self, Composed, Source, WgslError};
 
 /// One line a file.
 pub const SOURCES: &[Source<'static>] = gpu::wgsl_sources![
+    "raster/bent.wgsl",
     "raster/features.wgsl",
     "raster/forward.wgsl",
     "raster/object.wgsl",

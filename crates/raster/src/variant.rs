@@ -28,6 +28,9 @@ pub struct Variant {
     pub space: Space,
     /// Whether its normals are those of triangles which share their corners.
     pub flat: bool,
+    /// Whether its corners have normals of their own, which are not those of its triangles: a mesh's, not a sphere's, which
+    /// stands for what is round.
+    pub smooth: bool,
     /// Whether its corners have places in pictures.
     pub uvs: bool,
     /// Those of `IMAGE_*` that its material has.
@@ -36,8 +39,15 @@ pub struct Variant {
 
 impl Variant {
     /// The simplest way to draw.
-    pub const PLAIN: Variant =
-        Variant { glass: false, shading: SHADING_THREE, space: Space::World, flat: false, uvs: false, images: 0 };
+    pub const PLAIN: Variant = Variant {
+        glass: false,
+        shading: SHADING_THREE,
+        space: Space::World,
+        flat: false,
+        smooth: false,
+        uvs: false,
+        images: 0,
+    };
 
     /// How the forward pass draws a shape; `None` of one that an alpha mask leaves nothing of.
     pub fn of(scene: &Scene, shape: &Shape, settings: &RasterSettings) -> Option<Variant> {
@@ -58,6 +68,7 @@ impl Variant {
             },
             // small ones have corners of their own for each triangle
             flat: mesh.is_some_and(|mesh| mesh.is_large() && mesh.normals().is_empty()),
+            smooth: mesh.is_some_and(|mesh| !mesh.normals().is_empty()),
             uvs: images != 0 && mesh.is_some_and(|mesh| !mesh.uvs().is_empty()),
             images,
         })
@@ -76,11 +87,12 @@ impl Variant {
     }
 
     /// Values of the overrides in `shaders/raster/surface.wgsl`.
-    pub fn constants(&self) -> [(&'static str, f64); 4] {
+    pub fn constants(&self) -> [(&'static str, f64); 5] {
         [
             ("IMAGES", f64::from(self.images)),
             ("PLACED", f64::from(u8::from(self.space != Space::World))),
             ("FLAT", f64::from(u8::from(self.flat))),
+            ("SMOOTH", f64::from(u8::from(self.smooth))),
             ("UVS", f64::from(u8::from(self.uvs))),
         ]
     }

@@ -1,0 +1,28 @@
+// Normals that show nothing from below the surface, as rays turn them (after Cycles: Blender,
+// ensure_valid_specular_reflection). Twins: shaders/pathtrace/bsdf/shading.wgsl and crates/pathtrace/src/bsdf/shading.rs.
+
+// Below this square a vector has no direction. Here alone: only devices draw.
+const SMALLEST_SQUARE: f32 = 1e-37;
+
+// The normal n, turned towards g, that of the triangle on the side of wo, as far as the mirror direction of wo asks that
+// is to lie above the triangle: at a sine of a hundredth, or nearly as high as wo where that is lower.
+fn bent(g: vec3f, n: vec3f, wo: vec3f) -> vec3f {
+    let height = dot(g, wo);
+    let along_g = dot(n, g);
+    let least = min(0.9 * height, 0.01);
+    if along_g > 0.0 && 2.0 * dot(n, wo) * along_g - height >= least {
+        return n;
+    }
+    let sideways = n - g * along_g;
+    let x = sideways * inverseSqrt(max(dot(sideways, sideways), SMALLEST_SQUARE));
+    let across = dot(x, wo);
+    let a = across * across + height * height;
+    if dot(sideways, sideways) <= SMALLEST_SQUARE || a <= SMALLEST_SQUARE {
+        return g;
+    }
+    let b = 2.0 * (a + height * least);
+    let c = (height + least) * (height + least);
+    let root = sqrt(max(b * b - 4.0 * a * c, 0.0));
+    let squared = clamp(select(b - root, b + root, across < 0.0) / (4.0 * a), 0.0, 1.0);
+    return x * sqrt(1.0 - squared) + g * sqrt(squared);
+}
