@@ -22,7 +22,7 @@ fn what_a_spot_may_not_be_is_said_with_its_place() {
         ("{ towards = [0, 0, 0], inner = 0, outer = 9 }", "test.toml:17:20: the direction of a spot must not be zero"),
         (
             "{ towards = [0, 1, 0], inner = 9, outer = 9 }",
-            "test.toml:17:51: expected degrees above inner and at most 180",
+            "test.toml:17:50: expected degrees above inner and at most 180",
         ),
         ("{ towards = [0, 1, 0], inner = 9, outer = 181 }", "expected degrees above inner and at most 180"),
         ("{ towards = [0, 1, 0], outer = 9 }", "missing field `inner`"),
