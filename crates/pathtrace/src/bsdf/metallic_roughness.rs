@@ -7,7 +7,7 @@
 //! One thing is not the specification's. There the body gets `1 - F(wo.h)` of the light, also where the coat has reflected
 //! nearly all of it already: at grazing angles smooth white paint would send back up to 1.9 times what falls on it. Here
 //! it gets no more than the coat leaves of what comes and goes, as glTF's KHR_materials_sheen layers its lobes:
-//! `1 - max(F(wo.h), E(wo), E(wi))`, with [`coat_albedo`] for E. Without that term it is the specification's model.
+//! `1 - max(F(wo.h), E(wo), E(wi))`, with `coat_albedo` for E. Without that term it is the specification's model.
 //!
 //! Directions are local, z along the normal on the side of `wo`. Twin: `shaders/pathtrace/bsdf/metallic_roughness.wgsl`.
 
