@@ -178,11 +178,11 @@ fn mirrors_of_the_path_tracer_have_the_layout_of_their_structs() {
             attributes,
             textures,
             texel_rows,
+            tree_share,
             seen,
             shading,
             usual_cones,
-            all_cones,
-            tree_share
+            all_cones
         ]
     );
     assert_same_layout!("pathtrace/scene.wgsl", Node, [low, contents, high, unused]);
