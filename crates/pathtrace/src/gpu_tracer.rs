@@ -5,7 +5,6 @@
 //! [`GpuTraceError`], and the processor's [`crate::Tracer`] can take over.
 
 use crate::caster::Casters;
-use crate::drive::gpu::behind_lights;
 use crate::drive::gpu::dispatch::Dispatcher;
 use crate::drive::gpu::film_data::RenderParams;
 use crate::drive::gpu::instance_data::{Instances, Parted};
@@ -17,7 +16,7 @@ use crate::drive::gpu::shape_data::{FewShape, MOST_SHAPES, Shapes};
 use crate::drive::gpu::slices::Slices;
 use crate::drive::gpu::tables::Tables;
 use crate::drive::gpu::timing::{BUDGET_SECONDS, Pace, Stopwatch};
-use crate::drive::gpu::{GpuFilm, GpuTraceError, environment_data, scene_data};
+use crate::drive::gpu::{GpuFilm, GpuTraceError, behind_lights, environment_data, scene_data};
 use crate::features::{self, gpu::FeatureWork};
 use crate::integrator::Integrator;
 use crate::integrator::photon::PhotonSettings;
