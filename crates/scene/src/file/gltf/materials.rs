@@ -160,7 +160,9 @@ fn material(
         let emission = Emission { radiance: factor, two_sided };
         (Bsdf::Diffuse { albedo: Texture::Constant(Vec3::ZERO) }, Some(emission), pictures.base_colour)
     } else {
-        let emission = emission(raw)?;
+        // a lamp whose picture is left out would shine where it is black
+        let without_picture = raw.emissive_texture.is_some() && pictures.emission.is_none();
+        let emission = emission(raw)?.filter(|_| !without_picture);
         let bsdf = scattering(raw, factor, &pictures, shown, remarks);
         if matches!(bsdf, Bsdf::Dielectric { .. }) && emission.is_some() {
             remarks.of("clear glass does not shine", shown.to_owned());
