@@ -1,5 +1,5 @@
 // Normals that show nothing from below the surface, as rays turn them (after Cycles: Blender,
-// ensure_valid_specular_reflection). Twins: shaders/pathtrace/bsdf/shading.wgsl and crates/pathtrace/src/bsdf/shading.rs.
+// ensure_valid_specular_reflection): the same as in shaders/pathtrace/bsdf/shading.wgsl.
 
 // Below this square a vector has no direction. Here alone: only devices draw.
 const SMALLEST_SQUARE: f32 = 1e-37;

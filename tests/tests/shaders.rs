@@ -98,9 +98,11 @@ fn mirrors_have_the_layout_of_their_structs() {
             area_light_position,
             area_light_pattern,
             area_light_normal,
+            cone_outer,
             area_light_incident,
             shadow_bias,
             ambient,
+            cone_slope,
             sky,
             shadow_views
         ]

@@ -22,7 +22,7 @@ diffuse = { albedo = [0.8, 0.8, 0.8] }
 dielectric = { ior = 1.5 }
 
 [material.lamp]
-emissive = { radiance = [50, 50, 50] }
+emissive = { radiance = [50, 50, 50], two_sided = true }
 
 [[rectangle]]
 corner = [-5, 0, -5]
