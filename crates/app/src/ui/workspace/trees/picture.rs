@@ -178,7 +178,11 @@ fn show_legend(cx: &mut UiContext, ui: &Ui, rect: Rect, font: &FontId) {
     let mut free = f32::NEG_INFINITY;
     for tick in std::iter::once(0.0).chain(log_ticks(0.0, most.log10())) {
         let share = ((1.0 + tick).ln() / (1.0 + most).ln()) as f32;
-        let galley = ui.painter().layout_no_wrap(tick_text(tick), font.clone(), palette.dim);
+        let galley = ui.painter().layout_no_wrap(
+            if tick > 0.0 { tick_text(tick) } else { "0".into() },
+            font.clone(),
+            palette.dim,
+        );
         let at = bar.left() + share * bar.width();
         let left = (at - 0.5 * galley.size().x).clamp(bar.left(), (bar.right() - galley.size().x).max(bar.left()));
         if share <= 1.0 && left > free {
