@@ -23,6 +23,7 @@ fn bent(g: vec3f, n: vec3f, wo: vec3f) -> vec3f {
     let b = 2.0 * (a + height * least);
     let c = (height + least) * (height + least);
     let root = sqrt(max(b * b - 4.0 * a * c, 0.0));
-    let squared = clamp(select(b - root, b + root, across < 0.0) / (4.0 * a), 0.0, 1.0);
+    // `n . wo` is at most one; the root cancels where both heights are small
+    let squared = clamp(select(b - root, b + root, across < 0.0) / (4.0 * a), max(0.25 * c, 1e-12), 1.0);
     return x * sqrt(1.0 - squared) + g * sqrt(squared);
 }
