@@ -63,8 +63,8 @@ fn bent(g: vec3f, n: vec3f, wo: vec3f) -> vec3f {
     let b = 2.0 * (a + height * least);
     let c = (height + least) * (height + least);
     let root = sqrt(max(b * b - 4.0 * a * c, 0.0));
-    // `n . wo` is at most one; the root cancels where both heights are small
-    let squared = clamp(select(b - root, b + root, across < 0.0) / (4.0 * a), max(0.25 * c, 1e-12), 1.0);
+    // `(b - root) / 4 a` cancels; above 0 by more than is rounded where both are multiplied
+    let squared = clamp(select(c / (b + root), (b + root) / (4.0 * a), across < 0.0), 1e-12, 1.0);
     return x * sqrt(1.0 - squared) + g * sqrt(squared);
 }
 

@@ -58,9 +58,9 @@ fn bent<F: Float>(g: Vector<F>, n: Vector<F>, wo: Vector<F>) -> Vector<F> {
     let b = (a + height * least) * 2.0;
     let c = (height + least) * (height + least);
     let root = (b * b - a * c * 4.0).max(zero).sqrt();
-    let squared = (F::select(across.lt(zero), b + root, b - root) / (a * 4.0)).min(one);
-    // `n . wo` is at most one; the root cancels where both heights are small
-    let squared = squared.max(c * 0.25).max(F::splat(1e-12));
+    // `(b - root) / 4 a` cancels; above 0 by more than is rounded where both are multiplied
+    let squared = F::select(across.lt(zero), (b + root) / (a * 4.0), c / (b + root));
+    let squared = squared.min(one).max(F::splat(1e-12));
     let turned = x * (one - squared).max(zero).sqrt() + g * squared.sqrt();
     // of normals that are one there is no plane
     let turned = Vector::select(turned.is_finite() & a.gt(zero), turned, g);
