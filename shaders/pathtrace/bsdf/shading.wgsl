@@ -54,18 +54,22 @@ fn bent(g: vec3f, n: vec3f, wo: vec3f) -> vec3f {
     if dot(sideways, sideways) <= SMALLEST_POSITIVE {
         return g;
     }
-    let x = unit_vector(sideways);
+    let plane = unit_vector(sideways);
+    let x = unit_vector(plane - g * dot(g, plane));
     let across = dot(x, wo);
     let a = across * across + height * height;
     if a <= SMALLEST_POSITIVE {
         return g;
     }
-    let b = 2.0 * (a + height * least);
-    let c = (height + least) * (height + least);
-    let root = sqrt(max(b * b - 4.0 * a * c, 0.0));
-    // `(b - root) / 4 a` cancels; above 0 by more than is rounded where both are multiplied
-    let squared = clamp(select(c / (b + root), (b + root) / (4.0 * a), across < 0.0), 1e-12, 1.0);
-    return x * sqrt(1.0 - squared) + g * sqrt(squared);
+    // half of `b * b - 4 a c`'s root, and both roots in the forms that do not cancel
+    let root = abs(across) * sqrt(max(a - least * least, 0.0));
+    let cosine = (height + least) * (height + least) / (2.0 * (a + height * least + root));
+    let sine = (height - least) * (height - least) / (2.0 * (a - height * least + root));
+    let opposite = across < 0.0;
+    let sine_squared = max(select(1.0 - cosine, sine, opposite), 0.0);
+    // above 0 by more than rounding takes
+    let cosine_squared = max(select(cosine, 1.0 - sine, opposite), 1e-12);
+    return x * sqrt(sine_squared) + g * sqrt(cosine_squared);
 }
 
 // Share of light from wi that a lobe which leaves a choice keeps.
