@@ -61,7 +61,7 @@ fn bent(g: vec3f, n: vec3f, wo: vec3f) -> vec3f {
     if a <= SMALLEST_POSITIVE {
         return g;
     }
-    // half of `b * b - 4 a c`'s root, and both roots in the forms that do not cancel
+    // half of the discriminant's root, and the roots in the forms that do not cancel
     let root = abs(across) * sqrt(max(a - least * least, 0.0));
     let cosine = (height + least) * (height + least) / (2.0 * (a + height * least + root));
     let sine = (height - least) * (height - least) / (2.0 * (a - height * least + root));

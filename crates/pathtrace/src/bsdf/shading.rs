@@ -56,7 +56,7 @@ fn bent<F: Float>(g: Vector<F>, n: Vector<F>, wo: Vector<F>) -> Vector<F> {
     let x = (x - g * g.dot(x)).normalize();
     let across = x.dot(wo);
     let a = across * across + height * height;
-    // half of `b * b - 4 a c`'s root, and both roots in the forms that do not cancel
+    // half of the discriminant's root, and the roots in the forms that do not cancel
     let root = across.abs() * (a - least * least).max(zero).sqrt();
     let cosine = (height + least) * (height + least) / ((a + height * least + root) * 2.0);
     let sine = (height - least) * (height - least) / ((a - height * least + root) * 2.0);
