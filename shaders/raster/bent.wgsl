@@ -1,5 +1,6 @@
 // Normals that show nothing from below the surface, as rays turn them (after Cycles: Blender,
-// ensure_valid_specular_reflection): the same as in shaders/pathtrace/bsdf/shading.wgsl.
+// ensure_valid_specular_reflection): as shaders/pathtrace/bsdf/shading.wgsl does it. No twin: the
+// rasteriser runs on devices alone.
 
 // Below this square a vector has no direction. Here alone: only devices draw.
 const SMALLEST_SQUARE: f32 = 1e-37;
