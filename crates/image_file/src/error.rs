@@ -22,7 +22,7 @@ pub enum ImageFileError {
         height: usize,
         /// Pixels that it may have.
         most: u64,
-        /// The file.
+        /// The picture's file, as it was named.
         path: PathBuf,
     },
     /// The disk is full, the folder is missing, it may not be written.

@@ -59,16 +59,7 @@ material = "gold"
 "#;
 
 /// In the middle of a ball that shines and reflects half, everywhere.
-const FURNACE: &str = r#"
-camera = { eye = [0, 0, 0], target = [0, 0, 1], fov_y = 90 }
-[material.wall]
-diffuse.albedo = [0.5, 0.5, 0.5]
-emissive = { radiance = [1, 1, 1], two_sided = true }
-[[sphere]]
-center = [0, 0, 0]
-radius = 1
-material = "wall"
-"#;
+const FURNACE: &str = include_str!("../../../tests/tests/scenes/furnace.toml");
 
 fn parsed(text: &str) -> Scene {
     scene::parse(text, "a scene", Path::new("scene.toml")).expect("a scene")

@@ -173,16 +173,7 @@ fn the_numbers_of_the_integral_are_those_that_make_the_sample() {
 }
 
 /// In the middle of a ball that shines and reflects half, everywhere.
-const FURNACE: &str = r#"
-camera = { eye = [0, 0, 0], target = [0, 0, 1], fov_y = 90 }
-[material.wall]
-diffuse.albedo = [0.5, 0.5, 0.5]
-emissive = { radiance = [1, 1, 1], two_sided = true }
-[[sphere]]
-center = [0, 0, 0]
-radius = 1
-material = "wall"
-"#;
+const FURNACE: &str = include_str!("../../../tests/tests/scenes/furnace.toml");
 
 #[test]
 fn the_numbers_of_a_part_of_the_light_are_those_that_make_its_sample() {

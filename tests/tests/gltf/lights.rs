@@ -1,4 +1,4 @@
-//! Lights of KHR_lights_punctual.
+//! Points, spots and suns of KHR_lights_punctual, against what its text says of their falling off.
 
 use crate::gltf::*;
 use scene::Vec3;
