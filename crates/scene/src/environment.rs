@@ -48,6 +48,12 @@ impl EnvironmentMap {
         Ok(EnvironmentMap { image, scale, rotation, mean, notes: Vec::new() })
     }
 
+    /// The same picture at another strength, turned otherwise.
+    pub fn shown_otherwise(&self, scale: f32, rotation: f32) -> Self {
+        let mean = self.mean * (scale / self.scale);
+        EnvironmentMap { image: self.image.clone(), scale, rotation, mean, notes: self.notes.clone() }
+    }
+
     /// The same, with what of its file the picture does not show.
     pub fn with_notes(self, notes: Vec<String>) -> Self {
         EnvironmentMap { notes, ..self }

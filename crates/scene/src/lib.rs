@@ -8,6 +8,7 @@ pub mod camera;
 pub mod canonical;
 pub mod conductor;
 pub mod direction;
+pub mod edit;
 pub mod environment;
 pub mod file;
 mod hash;
@@ -15,6 +16,7 @@ pub mod image_texture;
 pub mod light;
 pub mod material;
 mod mesh;
+mod names;
 mod nearest;
 mod needs;
 pub mod nesting;
@@ -25,6 +27,7 @@ pub mod shape;
 mod smooth;
 pub mod stand_ins;
 pub mod statue;
+mod variants;
 
 pub use camera::{Camera, NamedCamera};
 pub use conductor::Conductor;
@@ -36,12 +39,14 @@ pub use image_texture::ImageTexture;
 pub use light::{PointLight, Spot, Sun};
 pub use material::{Alpha, Bsdf, Material, MetallicRoughness, NormalMap, SurfaceDetail, Texture};
 pub use mesh::{Instance, Mesh, in_world};
+pub use names::Names;
 pub use nearest::{nearest, nearest_or_begun};
 pub use needs::Needs;
 pub use progress::Progress;
 pub use shape::{Geometry, Shape};
 pub use smooth::smooth_normals;
 pub use statue::statue;
+pub use variants::Variant;
 
 use stand_ins::FakeNumbers;
 use std::sync::Arc;
@@ -57,6 +62,10 @@ pub struct Scene {
     pub cameras: Arc<[NamedCamera]>,
     /// Materials; [`Shape::material`] indexes this list.
     pub materials: Vec<Material>,
+    /// What shapes and point lights are called; shared.
+    pub names: Arc<Names>,
+    /// What shapes wear instead in other versions of the model, by name; shared.
+    pub variants: Arc<[Variant]>,
     /// Shapes in file order; shared, because copies of a scene differ in settings and not in geometry.
     pub shapes: Arc<[Shape]>,
     /// A distant disc of light, at most one.

@@ -1,6 +1,7 @@
 //! What is seen: a scene with what was changed in it, from where, at which size. All that a picture depends on beside
 //! the technique and the device.
 
+use scene::edit::{CannotEdit, Edits};
 use scene::{Camera, Scene, Vec3};
 use std::sync::Arc;
 
@@ -22,12 +23,14 @@ pub struct Shot {
 }
 
 /// What sliders and options change in a scene for all techniques at once; `None` leaves it as the scene has it.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct SceneChanges {
     /// Index of refraction outside over inside of all glass, above 0.
     pub refraction_ratio: Option<f32>,
     /// Angular radius of the sun in degrees, from 0 to below 90.
     pub sun_radius: Option<f32>,
+    /// What is changed part by part; what is said of all glass and of the sun above holds over it.
+    pub edits: Edits,
 }
 
 impl Shot {
@@ -44,15 +47,18 @@ impl Shot {
 }
 
 impl SceneChanges {
-    /// The scene with these changes; its shapes stay shared.
-    pub fn applied_to(&self, scene: &Scene) -> Scene {
-        let mut scene = scene.clone();
+    /// The scene with these changes; its meshes stay shared.
+    ///
+    /// # Errors
+    /// Those of [`Edits::applied_to`].
+    pub fn applied_to(&self, scene: &Scene) -> Result<Scene, CannotEdit> {
+        let mut scene = self.edits.applied_to(scene)?;
         if let Some(ratio) = self.refraction_ratio {
             scene.set_refraction_ratio(ratio);
         }
         if let (Some(radius), Some(sun)) = (self.sun_radius, &mut scene.sun) {
             sun.angular_radius = radius;
         }
-        scene
+        Ok(scene)
     }
 }

@@ -1,12 +1,12 @@
 //! The settings of what is traced by rays: path tracing, and Whitted's step towards it.
 
-use crate::{DenoiseSettings, DeviceChoice, SceneChanges};
+use crate::{DenoiseSettings, DeviceChoice};
 use film::Feature;
 use pathtrace::{
     Integrator, LightTracingSettings, MetropolisSettings, NormalsSettings, PathSettings, PhotonSettings, Roulette,
     WhittedSettings,
 };
-use scene::Scene;
+use scene::{Scene, Sun};
 use std::sync::Arc;
 
 /// An integrator, where and how long it goes on.
@@ -183,8 +183,8 @@ impl TracedSettings {
         if self.sun_radius.is_none() || own.is_none() || self.sun_radius == own {
             return scene.clone();
         }
-        let changes = SceneChanges { sun_radius: self.sun_radius, ..SceneChanges::default() };
-        Arc::new(changes.applied_to(scene))
+        let sun = scene.sun.map(|sun| Sun { angular_radius: self.sun_radius.unwrap_or(sun.angular_radius), ..sun });
+        Arc::new(Scene { sun, ..(**scene).clone() })
     }
 
     /// The wish for a device, of what one can trace; else the processor.
@@ -234,7 +234,7 @@ mod tests {
         let point = TracedSettings { sun_radius: Some(0.0), ..own };
         let seen = point.applied_to(&scene);
         assert_eq!(seen.sun.map(|sun| sun.angular_radius), Some(0.0));
-        assert_eq!(*seen, SceneChanges { sun_radius: Some(0.0), ..SceneChanges::default() }.applied_to(&scene));
+        assert_eq!(Scene { sun: scene.sun, ..(*seen).clone() }, *scene, "all else is as it was");
         assert!(Arc::ptr_eq(&TracedSettings { sun_radius: Some(2.5), ..own }.applied_to(&scene), &scene));
         let records = |traced| Technique::Traced(traced).options(4);
         assert!(records(point).contains(&("traced-sun", "0".into())));

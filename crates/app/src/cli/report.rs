@@ -215,7 +215,7 @@ fn render_args(args: &ReportArgs, shot: &Shot, settings: &PaneSettings) -> Rende
         original: None,
         out: args.out.clone(),
         pane: *settings,
-        seen: Seen { changes: shot.changes, size: shot.size, ..Seen::default() },
+        seen: Seen { changes: shot.changes.clone(), size: shot.size, ..Seen::default() },
         device: settings.device,
         spp: settings.wished_spp(),
         samples: None,

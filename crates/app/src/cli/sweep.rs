@@ -177,7 +177,7 @@ fn facts_of(
 /// The session of a window that shows these tiles.
 fn session_text(args: &SweepArgs, shot: &Shot, sheet: &Sheet) -> String {
     let mut model = Model::new(Scene::clone(&shot.scene), shot.source.clone(), Theme::default());
-    (model.document.changes, model.session.display) = (shot.changes, sheet.display);
+    (model.document.changes, model.session.display) = (shot.changes.clone(), sheet.display);
     model.session.sweep.measure = sheet.measure;
     model.session.panes.insert(model.session.sweep.of, args.base(Some(&shot.scene)));
     model.session.show_sweep(&sheet.plan);

@@ -62,7 +62,7 @@ pub fn of_picture(kept: &Kept, scene: &Scene, picture: &Path) -> Result<Option<B
     let read = SessionDraft::parse(text, picture).and_then(|draft| draft.beside(scene, picture));
     let session = read.map_err(|fault| format!("only what it shows is set up, its session cannot be read: {fault}"))?;
     // the picture may be older than the last change, and a window keeps its size
-    let session = SavedSession { changes: kept.setup.changes, window: SavedWindow::default(), ..session };
+    let session = SavedSession { changes: kept.setup.changes.clone(), window: SavedWindow::default(), ..session };
     Ok(Some(Box::new(session)))
 }
 

@@ -1,6 +1,7 @@
 //! What is looked at: a scene, what is changed in it, and from where.
 
 use super::PictureArea;
+use scene::edit::CannotEdit;
 use scene::{Camera, Scene};
 use std::sync::Arc;
 use technique::SceneChanges;
@@ -34,7 +35,7 @@ impl Document {
             camera: scene.camera,
             source,
             opened: 0,
-            changes,
+            changes: changes.clone(),
             bookmarks: Vec::new(),
             changed: (changes, scene.clone()),
             scene,
@@ -55,13 +56,31 @@ impl Document {
         self.camera = if moved { kept } else { new };
         self.scene = Arc::new(scene);
         self.changed = (SceneChanges::default(), self.scene.clone());
+        // what there is no more is changed no more
+        _ = self.apply_changes();
     }
 
-    /// Makes the changes in the scene, where they are others than before.
-    pub fn apply_changes(&mut self) {
-        if self.changed.0 != self.changes {
-            self.changed = (self.changes, Arc::new(self.changes.applied_to(&self.scene)));
+    /// Makes the changes in the scene, where they are others than before. Those that cannot be made are taken back.
+    ///
+    /// # Errors
+    /// Why they cannot: a line.
+    pub fn apply_changes(&mut self) -> Result<(), CannotEdit> {
+        if self.changed.0 == self.changes {
+            return Ok(());
         }
+        match self.changes.applied_to(&self.scene) {
+            Ok(scene) => self.changed = (self.changes.clone(), Arc::new(scene)),
+            Err(why) => {
+                self.changes = self.changed.0.clone();
+                return Err(why);
+            }
+        }
+        Ok(())
+    }
+
+    /// The scene with its changes, as [`Document::apply_changes`] has made them last.
+    pub fn seen(&self) -> &Arc<Scene> {
+        &self.changed.1
     }
 
     /// What a picture in this area shows, after [`Document::apply_changes`].

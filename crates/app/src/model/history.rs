@@ -30,7 +30,7 @@ impl Settings {
         let Session { panes, sources, sweep, display, resolution, .. } = session;
         Settings {
             camera: document.camera,
-            changes: document.changes,
+            changes: document.changes.clone(),
             panes: panes.clone(),
             sources: sources.clone(),
             sweep: (sweep.columns.clone(), sweep.rows.clone(), sweep.equal, sweep.seconds),

@@ -18,6 +18,7 @@ mod magnification;
 mod message;
 mod pane;
 mod pane_source;
+mod parts;
 mod picture_area;
 mod plots;
 mod probe;
@@ -50,6 +51,7 @@ pub use magnification::Magnification;
 pub use message::{Message, in_few};
 pub use pane::{PaneId, Panes};
 pub use pane_source::{External, PaneSource, USUAL_PORT};
+pub use parts::{ObjectMap, ObjectsWish, PartsState};
 pub use picture_area::PictureArea;
 pub use plots::{Cost, Curve, Measure, Owner, PlotSettings, csv, guide, judge_of_all, pin};
 pub use probe::{
@@ -220,7 +222,7 @@ impl Model {
 
     /// Ends a frame in which the user may have changed anything; a change is not over yet while the user is `busy`.
     pub fn settle(&mut self, busy: bool) {
-        self.document.apply_changes();
+        self.apply_changes();
         let settings = self.settings();
         self.history.note(&settings, busy);
     }
@@ -252,6 +254,7 @@ impl Model {
             trees: None,
             histograms: false,
             probe: None,
+            objects: None,
             light: Vec::new(),
             display: session.display,
             paused: state.paused,

@@ -81,7 +81,7 @@ impl Model {
             session.comparison.held[metric as usize] = held;
         }
         session.display.exposure = setup.exposure.unwrap_or(session.display.exposure);
-        self.document.changes = setup.changes;
+        self.document.changes = setup.changes.clone();
         let camera = self.look(setup);
         self.begin_history();
         camera
@@ -130,6 +130,7 @@ impl Setup {
         for setting in OF_SCENES {
             (setting.get)(&other.changes).into_iter().for_each(|value| (setting.set)(&mut self.changes, value));
         }
+        self.changes.edits = other.changes.edits.over(&self.changes.edits);
         // another camera stands elsewhere
         let stays = other.camera.is_none();
         Setup {

@@ -1,7 +1,8 @@
 //! What controls come back to, and what is in hand: nothing that anyone would miss the next day.
 
 use super::{
-    Curve, ExportMenu, Magnification, Message, PaneId, Panes, PictureArea, Remembered, Slide, SweepPlan, Theme,
+    Curve, ExportMenu, Magnification, Message, PaneId, Panes, PartsState, PictureArea, Remembered, Slide, SweepPlan,
+    Theme,
 };
 use std::path::PathBuf;
 
@@ -50,6 +51,8 @@ pub struct UiState {
     pub probed_sample: Option<u32>,
     /// Whether histograms are in sight.
     pub histograms: bool,
+    /// The parts of the scene, and which of them is in hand.
+    pub parts: PartsState,
     /// Panes whose light by bounce is in sight.
     pub light_bars: Vec<PaneId>,
     /// The pane whose turn it is while A and B flicker.
@@ -155,6 +158,7 @@ impl UiState {
             loupe: false,
             probed_sample: None,
             histograms: false,
+            parts: PartsState::default(),
             light_bars: Vec::new(),
             flicker: None,
             scene_fault: None,

@@ -1,8 +1,8 @@
 //! What there is to show: results, as those who draw them take them.
 
 use super::{
-    Against, Effort, ErrorHistory, ErrorMap, ErrorPoint, External, LightByBounce, PaneId, PaneProbe, PaneSource, Panes,
-    Progress, Region, TileFacts, TreesView,
+    Against, Effort, ErrorHistory, ErrorMap, ErrorPoint, External, LightByBounce, ObjectMap, PaneId, PaneProbe,
+    PaneSource, Panes, Progress, Region, TileFacts, TreesView,
 };
 use crate::ruler::ReferenceImage;
 use compare::{Errors, Histogram};
@@ -19,6 +19,8 @@ pub struct ViewModel {
     pub map: Option<Arc<ErrorMap>>,
     /// What is known of the pixel that is looked into.
     pub probe: Panes<PaneProbe>,
+    /// Which shape each pixel shows, while parts of the scene are looked at: of the view that was asked for last.
+    pub objects: Option<Arc<ObjectMap>>,
     /// How far the reference has come, while it is asked for.
     pub reference: Option<Progress>,
     /// How much light each bounce brings, of panes where that is looked at.

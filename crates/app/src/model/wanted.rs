@@ -1,6 +1,6 @@
 //! What shall be made: a plain value, stated anew in every frame. Who makes it compares it with what was wanted before.
 
-use super::{Comparison, LightWish, MapWish, PaneSource, Panes, ProbeWish, SweepPlan, WantedTrees};
+use super::{Comparison, LightWish, MapWish, ObjectsWish, PaneSource, Panes, ProbeWish, SweepPlan, WantedTrees};
 use film::DisplayTransform;
 use scene::Camera;
 use technique::Shot;
@@ -28,6 +28,8 @@ pub struct Wanted {
     pub histograms: bool,
     /// The pixel that is looked into, if one is.
     pub probe: Option<ProbeWish>,
+    /// Where parts of the scene are seen, while they are looked at.
+    pub objects: Option<ObjectsWish>,
     /// Whose light by bounce is looked at.
     pub light: Vec<LightWish>,
     /// How all are shown.

@@ -58,6 +58,8 @@ pub struct Textures {
     pub panes: Panes<TextureId>,
     /// The map of errors.
     pub map: Option<TextureId>,
+    /// The outline of the part of the scene that is in hand: white where it is, clear elsewhere, over the whole picture.
+    pub outline: Option<TextureId>,
     /// The tiles of a sweep, in their order.
     pub tiles: Vec<Option<TextureId>>,
     /// Rays through the statue, in the order of the structures.

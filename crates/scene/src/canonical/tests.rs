@@ -60,6 +60,8 @@ impl<'a> Numbers<'a> {
             camera,
             cameras: _,
             materials,
+            names: _,
+            variants: _,
             shapes,
             sun,
             point_lights,

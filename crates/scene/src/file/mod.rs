@@ -298,6 +298,8 @@ fn build(raw: RawScene, name: &str, folder: &Path, progress: &Progress) -> Resul
         camera,
         cameras: Arc::default(),
         materials,
+        names: Arc::default(),
+        variants: Arc::default(),
         shapes: shapes.into(),
         sun,
         point_lights,

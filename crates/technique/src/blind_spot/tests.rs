@@ -24,7 +24,7 @@ fn unconnected(bounces: Option<u32>) -> TracedSettings {
 
 fn under_a_sun_of_radius(radius: f32) -> Scene {
     let changes = SceneChanges { sun_radius: Some(radius), ..SceneChanges::default() };
-    changes.applied_to(&builtin::named("whitted").unwrap())
+    changes.applied_to(&builtin::named("whitted").unwrap()).unwrap()
 }
 
 fn missing(settings: &TracedSettings, scene: &Scene) -> Vec<String> {
@@ -134,7 +134,7 @@ fn what_spheres_send_on_is_found_and_what_other_glass_and_mirrors_do_is_left_to_
     }
     let no_ball = rebuilt(&delta, |bsdf| !IS_GLASS(bsdf) && !IS_MIRROR(bsdf), Some(IS_GLASS));
     assert_eq!(missing(&path(Estimator::MIS, None), &no_ball), ["light behind glass"]);
-    let bubble = SceneChanges { refraction_ratio: Some(1.2), ..SceneChanges::default() }.applied_to(&delta);
+    let bubble = SceneChanges { refraction_ratio: Some(1.2), ..SceneChanges::default() }.applied_to(&delta).unwrap();
     assert_eq!(missing(&path(Estimator::MIS, None), &bubble), ["light behind glass that is no ball"]);
 }
 

@@ -306,7 +306,8 @@ impl SceneChanges {
     /// Leaves a number to the scene again.
     pub fn reset(&mut self, setting: &Setting<SceneChanges>) {
         let others = OF_SCENES.iter().filter(|other| other.name != setting.name);
-        *self = set_again(SceneChanges::default(), others, self);
+        let fresh = SceneChanges { edits: self.edits.clone(), ..SceneChanges::default() };
+        *self = set_again(fresh, others, self);
     }
 }
 

@@ -59,9 +59,9 @@ fn what_is_reset_is_a_new_panes_or_the_scenes_and_all_else_stays() {
             }
         }
     }
-    let mut changes = SceneChanges { refraction_ratio: Some(0.5), sun_radius: Some(1.0) };
+    let mut changes = SceneChanges { refraction_ratio: Some(0.5), sun_radius: Some(1.0), ..SceneChanges::default() };
     changes.reset(of_scenes("sun-radius").unwrap());
-    assert_eq!(changes, SceneChanges { refraction_ratio: Some(0.5), sun_radius: None });
+    assert_eq!(changes, SceneChanges { refraction_ratio: Some(0.5), ..SceneChanges::default() });
 }
 
 #[test]

@@ -36,11 +36,11 @@ impl Seen {
     /// # Errors
     /// If it cannot be read, or if the camera sees nothing.
     pub fn of(&self, source: &str) -> anyhow::Result<Shot> {
-        let mut scene = self.changes.applied_to(&scene_of(source)?);
+        let mut scene = self.changes.applied_to(&scene_of(source)?)?;
         let own_up = scene.camera.up;
         scene.camera = self.camera(&scene)?;
         scene.notes().iter().for_each(|line| note!("note: {line}"));
-        let (source, changes, camera, size) = (source.to_owned(), self.changes, scene.camera, self.size);
+        let (source, changes, camera, size) = (source.to_owned(), self.changes.clone(), scene.camera, self.size);
         Ok(Shot { source, changes, scene: Arc::new(scene), camera, own_up, size })
     }
 

@@ -78,7 +78,7 @@ impl SavedSession {
     pub fn of(model: &Model, size: Option<[f64; 2]>) -> Self {
         let Model { document, session, state, .. } = model;
         SavedSession {
-            changes: document.changes,
+            changes: document.changes.clone(),
             camera: document.camera,
             bookmarks: document.bookmarks.clone(),
             session: Session { sweep: model.sweep_to_save(), ..session.clone() },
@@ -104,7 +104,7 @@ impl Model {
         self.document.bookmarks.clone_from(bookmarks);
         self.state.line_placed = line_placed.then_some(self.document.opened);
         let setup = Setup {
-            changes: *changes,
+            changes: changes.clone(),
             eye: Some(camera.eye),
             target: Some(camera.target),
             up: Some(camera.up),

@@ -151,7 +151,7 @@ fn is_rare(row: &Setting<PaneSettings>, settings: &PaneSettings) -> bool {
 
 fn rows(cx: &mut UiContext, pane: PaneId, rows: &[&Setting<PaneSettings>], ui: &mut Ui) {
     let settings = &mut cx.model.session.panes[pane];
-    let scene = cx.model.document.changes.applied_to(&cx.model.document.scene);
+    let scene = cx.model.document.seen().clone();
     let mut place = Place {
         pane: Some((pane, settings.technique)),
         scene: &scene,
@@ -177,7 +177,7 @@ fn faults(cx: &UiContext, pane: PaneId, ui: &mut Ui) {
     if let Err(fault) = traced.integrator.check() {
         ui.label(capitalised(&fault.to_string()));
     }
-    let scene = cx.model.document.changes.applied_to(&cx.model.document.scene);
+    let scene = cx.model.document.seen().clone();
     for line in traced.blind_spots(&scene).into_iter().filter_map(BlindSpot::explanation) {
         ui.label(capitalised(line));
     }

@@ -91,6 +91,8 @@ fn scene(file: Vec<u8>, name: &str, folder: &Path, progress: &Progress) -> Resul
         camera,
         cameras: cameras.into(),
         materials,
+        names: Arc::default(),
+        variants: Arc::default(),
         shapes: shapes.into(),
         sun: lights.sun,
         point_lights: lights.points,
