@@ -3,7 +3,7 @@
 
 use crate::{Geometry, Scene};
 use std::borrow::Cow;
-use std::collections::HashSet;
+use std::collections::{HashMap, HashSet};
 
 /// Names in the order of the scene's lists. A list may be too short: what has no name there is called by its place.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
@@ -21,20 +21,27 @@ impl Names {
     }
 }
 
-fn told_apart(names: Vec<String>) -> Vec<String> {
-    let mut taken: HashSet<String> = HashSet::new();
-    let all: HashSet<String> = names.iter().cloned().collect();
-    let unique = |name: String, taken: &mut HashSet<String>| {
-        let mut tried = name.clone();
-        let mut number = 1u64;
-        while tried.is_empty() || taken.contains(&tried) || (number > 1 && all.contains(&tried)) {
-            number += 1;
-            tried = format!("{name} ({number})");
+/// In the time of their length, however often a name is there: "ball (2)" is tried for "ball" alone, and once.
+fn told_apart(mut names: Vec<String>) -> Vec<String> {
+    names.iter_mut().filter(|name| name.is_empty()).for_each(|name| name.push_str("unnamed"));
+    let there: HashSet<&str> = names.iter().map(String::as_str).collect();
+    let mut times: HashMap<&str, u64> = HashMap::new();
+    let mut renamed = Vec::new();
+    for (index, name) in names.iter().enumerate() {
+        let number = times.entry(name).or_default();
+        *number += 1;
+        if *number == 1 {
+            continue;
         }
-        taken.insert(tried.clone());
-        tried
-    };
-    names.into_iter().map(|name| unique(name, &mut taken)).collect()
+        let mut free = format!("{name} ({number})");
+        while there.contains(free.as_str()) {
+            *number += 1;
+            free = format!("{name} ({number})");
+        }
+        renamed.push((index, free));
+    }
+    renamed.into_iter().for_each(|(index, free)| names[index] = free);
+    names
 }
 
 impl Scene {
@@ -65,3 +72,6 @@ impl Geometry {
         }
     }
 }
+
+#[cfg(test)]
+mod tests;

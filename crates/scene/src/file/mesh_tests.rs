@@ -2,7 +2,7 @@
 
 use super::tests::{SMALL, fault_of};
 use super::*;
-use crate::{Instance, Mesh};
+use crate::{Geometry, Instance, Mesh};
 use glam::Vec2;
 
 const MESH: &str = "[[mesh]]\nname = \"flag\"\npositions = [[0, 0, 0], [1, 0, 0], [0, 1, 0]]\ntriangles = [[0, 1, 2]]\nmaterial = \"white\"\n";
@@ -106,7 +106,7 @@ fn faulty_meshes_are_refused_where_they_stand() {
             format!("{MESH}[[instance]]\nof = \"flag\"\ntranslate = [0, 1e12, 0]\nscale = 1e11\n"),
             "test.toml:20:6: this mesh reaches farther than 1e12 from 0: make scale or translate smaller",
         ),
-        (format!("{MESH}{MESH}"), "test.toml:20:8: a mesh is called 'flag' already"),
+        (format!("{MESH}{MESH}"), "test.toml:20:8: a shape is called 'flag' already"),
         (
             format!("{MESH}[[instance]]\nof = \"flog\"\n"),
             "no mesh and no statue is called 'flog': the file has flag; did you",

@@ -30,10 +30,22 @@ struct Named {
     name: String,
     mesh: Arc<Mesh>,
     material: Spanned<String>,
+    /// How often it is there.
+    times: usize,
 }
 
-/// A shape, and the material that it wears.
-type Made = (Geometry, Spanned<String>);
+/// A shape that a table asks for.
+pub struct Made {
+    pub geometry: Geometry,
+    /// What it is, in a word.
+    pub kind: &'static str,
+    /// What the file calls it.
+    pub name: Option<Spanned<String>>,
+    /// What a copy is called otherwise.
+    pub copied: Option<String>,
+    /// Its material.
+    pub wears: Spanned<String>,
+}
 
 impl<'a> Meshes<'a> {
     /// Nothing so far; files lie in `folder`.
@@ -56,7 +68,7 @@ impl<'a> Meshes<'a> {
             }
             _ => return fault(at, "expected positions and triangles, or file = \"NAME.ply\" or \"NAME.obj\" instead"),
         };
-        self.placed(mesh.into(), name, placement, material)
+        self.placed(mesh.into(), ("mesh", name), placement, material)
     }
 
     fn read(&mut self, file: Spanned<String>, smooth: bool) -> Result<Mesh, Fault> {
@@ -71,7 +83,7 @@ impl<'a> Meshes<'a> {
     pub fn statue(&mut self, Table(raw): Table<RawStatue>) -> Result<Made, Fault> {
         let RawStatue { name, level, scale, rotate, translate, material } = raw;
         let mesh = self.statue_of(level.get()).or_else(|_| fault(material.span(), "stopped"))?;
-        self.placed(mesh, name, RawPlacement { scale, rotate, translate }, material)
+        self.placed(mesh, ("statue", name), RawPlacement { scale, rotate, translate }, material)
     }
 
     fn statue_of(&mut self, level: u32) -> Result<Arc<Mesh>, crate::progress::Stopped> {
@@ -84,37 +96,36 @@ impl<'a> Meshes<'a> {
     }
 
     /// What has a name once more, in another place and perhaps of another material.
-    pub fn instance(&self, Table(raw): Table<RawInstance>) -> Result<Made, Fault> {
-        let RawInstance { of, scale, rotate, translate, material } = raw;
-        let Some(named) = self.named.iter().find(|named| named.name == *of.get_ref()) else {
+    pub fn instance(&mut self, Table(raw): Table<RawInstance>) -> Result<Made, Fault> {
+        let RawInstance { of, name, scale, rotate, translate, material } = raw;
+        let Some(named) = self.named.iter_mut().find(|named| named.name == *of.get_ref()) else {
             let names: Vec<&str> = self.named.iter().map(|named| named.name.as_str()).collect();
             return fault(of.span(), advice::unknown_mesh(of.get_ref(), &names));
         };
+        named.times += 1;
+        let copied = Some(format!("{} {}", named.name, named.times));
         let geometry = put(named.mesh.clone(), RawPlacement { scale, rotate, translate }, of.span())?;
-        Ok((geometry, material.unwrap_or_else(|| named.material.clone())))
+        let wears = material.unwrap_or_else(|| named.material.clone());
+        Ok(Made { geometry, kind: "instance", name, copied, wears })
     }
 
     fn placed(
         &mut self,
         mesh: Arc<Mesh>,
-        name: Option<Spanned<String>>,
+        (kind, name): (&'static str, Option<Spanned<String>>),
         placement: RawPlacement,
-        material: Spanned<String>,
+        wears: Spanned<String>,
     ) -> Result<Made, Fault> {
-        if let Some(name) = name {
-            let (at, name) = (name.span(), name.into_inner());
-            if self.named.iter().any(|named| named.name == name) {
-                return fault(at, format!("a mesh is called '{name}' already"));
-            }
-            self.named.push(Named { name, mesh: mesh.clone(), material: material.clone() });
+        if let Some(name) = name.as_ref().map(Spanned::get_ref) {
+            self.named.push(Named { name: name.clone(), mesh: mesh.clone(), material: wears.clone(), times: 1 });
         }
         let RawPlacement { scale, rotate, translate } = &placement;
         let stays = scale.is_none() && rotate.is_none() && translate.is_none();
         let geometry = match stays {
             true => Geometry::Mesh(mesh),
-            false => put(mesh, placement, material.span())?,
+            false => put(mesh, placement, wears.span())?,
         };
-        Ok((geometry, material))
+        Ok(Made { geometry, kind, name, copied: None, wears })
     }
 }
 

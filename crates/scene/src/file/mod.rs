@@ -10,10 +10,12 @@ mod meshes;
 mod model;
 mod number;
 mod obj;
+mod part_names;
 mod picture;
 mod ply;
 mod raw;
 mod raw_mesh;
+mod shapes;
 mod showcase;
 mod sky;
 mod source;
@@ -21,11 +23,13 @@ mod source;
 use crate::direction::unit;
 use crate::progress::Progress;
 use crate::stand_ins::FakeNumbers;
-use crate::{Camera, Geometry, Instance, Mesh, PointLight, Scene, SceneHash, Shape, Spot, Sun, nearest, nesting};
+use crate::{Camera, Names, PointLight, Scene, SceneHash, Spot, Sun, nearest};
 use glam::Vec3;
 use meshes::Meshes;
+use part_names::PartNames;
 use picture::Pictures;
 use raw::{RawScene, Table};
+use shapes::Shapes;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -211,78 +215,27 @@ fn build(raw: RawScene, name: &str, folder: &Path, progress: &Progress) -> Resul
     let mut pictures = Pictures::beside(folder);
     let materials = raw.material.into_iter().map(|(name, m)| material::material(name, m, &mut pictures));
     let materials = materials.collect::<Result<Vec<_>, _>>()?;
-    let (mut shapes, mut places) = (Vec::new(), Vec::new());
-    let mut add = |geometry, wears: Spanned<String>| {
-        let found = materials.iter().position(|m| m.name == *wears.get_ref());
-        let Some(material) = found else {
-            let names = materials.iter().map(|m| m.name.as_str()).collect::<Vec<_>>();
-            return fault(wears.span(), advice::unknown_material(wears.get_ref(), &names));
-        };
-        shapes.push(Shape { geometry, material });
-        places.push(wears.span());
-        Ok(())
-    };
-    for Table(s) in raw.sphere {
-        add(Geometry::Sphere { center: s.center.into(), radius: s.radius.get() }, s.material)?;
-    }
-    for Table(r) in raw.rectangle {
-        let (at, edge_u, edge_v) = (r.edge_v.span(), Vec3::from(r.edge_u), Vec3::from(r.edge_v.into_inner()));
-        let [u, v] = [edge_u, edge_v].map(|edge| unit(edge).unwrap_or(Vec3::ZERO));
-        let shortest = edge_u.as_dvec3().length().min(edge_v.as_dvec3().length());
-        if !(u.cross(v).length() > 1e-6 && shortest >= number::SMALLEST.into()) {
-            return fault(at, "edge_u and edge_v must span an area, and be 1e-12 long at least");
-        }
-        add(Geometry::Rectangle { corner: r.corner.into(), edge_u, edge_v }, r.material)?;
-    }
-    for Table(d) in raw.disk {
-        let (at, normal) = (d.normal.span(), Vec3::from(d.normal.into_inner()));
-        let Some(normal) = normal.as_dvec3().try_normalize().map(|n| n.as_vec3()) else {
-            return fault(at, "the normal of a disk must not be zero");
-        };
-        add(Geometry::Disk { center: d.center.into(), normal, radius: d.radius.get() }, d.material)?;
-    }
-    for Table(b) in raw.boxes {
-        add(Geometry::Box { corner: b.corner.into(), size: b.size.into(), turn_y: b.turn_y.get() }, b.material)?;
-    }
     let mut meshes = Meshes::new(folder, progress);
-    for raw in raw.mesh {
-        let (geometry, wears) = meshes.mesh(raw)?;
-        add(geometry, wears)?;
-    }
-    for raw in raw.statue {
-        let (geometry, wears) = meshes.statue(raw)?;
-        add(geometry, wears)?;
-    }
-    for raw in raw.instance {
-        let (geometry, wears) = meshes.instance(raw)?;
-        add(geometry, wears)?;
-    }
-    if let Some(at) = beyond_copies(&shapes) {
-        let most = Mesh::MOST_COPIED;
-        let line = format!(
-            "instances of meshes below {} triangles have more than {most} triangles together: give them larger meshes, \
-             which keep one tree for all",
-            Mesh::LARGE
-        );
-        return fault(places[at].clone(), line);
-    }
-    if let Some((first, second)) = nesting::overlap(&shapes, &materials) {
-        let other = shapes[first].geometry.center();
-        return fault(
-            places[second].clone(),
-            format!(
-                "this glass overlaps the glass around {other}: glass shapes must lie apart, or one wholly inside the \
-                 other, and their flat faces must not touch"
-            ),
-        );
-    }
+    let mut shapes = Shapes::wearing(&materials);
+    shapes.add(raw.sphere, shapes::sphere)?;
+    shapes.add(raw.rectangle, shapes::rectangle)?;
+    shapes.add(raw.disk, shapes::disk)?;
+    shapes.add(raw.boxes, shapes::cuboid)?;
+    shapes.add(raw.mesh, |raw| meshes.mesh(raw))?;
+    shapes.add(raw.statue, |raw| meshes.statue(raw))?;
+    shapes.add(raw.instance, |raw| meshes.instance(raw))?;
+    shapes.check()?;
+    let Shapes { list: shapes, names, .. } = shapes;
     let sun = raw.sun.map(|Table(raw)| sun(raw)).transpose()?;
     let (sky, environment) = sky::sky(raw.sky.0, folder)?;
+    let mut light_names = PartNames::of("light");
     let point_lights = raw.point_light.into_iter().map(|Table(p)| {
+        light_names.add("light", p.name, None)?;
         let spot = p.spot.map(|Table(raw)| spot(raw)).transpose()?;
         Ok(PointLight { position: p.position.into(), intensity: p.intensity.into(), spot })
     });
     let point_lights = point_lights.collect::<Result<_, Fault>>()?;
+    let names = Names::new(names.all(), light_names.all());
     let (d, raw_fake) = (FakeNumbers::default(), raw.fake.0);
     let fake = FakeNumbers {
         ambient: raw_fake.ambient.map_or(d.ambient, |v| v.get()),
@@ -298,7 +251,7 @@ fn build(raw: RawScene, name: &str, folder: &Path, progress: &Progress) -> Resul
         camera,
         cameras: Arc::default(),
         materials,
-        names: Arc::default(),
+        names: names.into(),
         variants: Arc::default(),
         shapes: shapes.into(),
         sun,
@@ -310,17 +263,6 @@ fn build(raw: RawScene, name: &str, folder: &Path, progress: &Progress) -> Resul
         as_read: SceneHash::default(),
     };
     Ok(Scene { as_read: SceneHash::of(&scene), ..scene })
-}
-
-/// The first shape with which small meshes that are copied have more than [`Mesh::MOST_COPIED`] triangles.
-fn beyond_copies(shapes: &[Shape]) -> Option<usize> {
-    let mut copied = 0;
-    shapes.iter().position(|shape| {
-        if let Geometry::Instance(Instance { mesh, .. }) = &shape.geometry {
-            copied += if mesh.is_large() { 0 } else { mesh.triangles().len() as u64 };
-        }
-        copied > Mesh::MOST_COPIED
-    })
 }
 
 fn camera(raw: Spanned<Table<raw::RawCamera>>) -> Result<Camera, Fault> {

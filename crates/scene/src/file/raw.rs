@@ -196,6 +196,7 @@ pub struct RawSphere {
     pub center: Triple<Any>,
     pub radius: Number<Length>,
     pub material: Spanned<String>,
+    pub name: Option<Spanned<String>>,
 }
 
 #[derive(Deserialize)]
@@ -205,6 +206,7 @@ pub struct RawRectangle {
     pub edge_u: Triple<Any>,
     pub edge_v: Spanned<Triple<Any>>,
     pub material: Spanned<String>,
+    pub name: Option<Spanned<String>>,
 }
 
 #[derive(Deserialize)]
@@ -214,6 +216,7 @@ pub struct RawDisk {
     pub normal: Spanned<Triple<Any>>,
     pub radius: Number<Length>,
     pub material: Spanned<String>,
+    pub name: Option<Spanned<String>>,
 }
 
 #[derive(Deserialize)]
@@ -224,6 +227,7 @@ pub struct RawBox {
     #[serde(default = "unturned")]
     pub turn_y: Number<Any>,
     pub material: Spanned<String>,
+    pub name: Option<Spanned<String>>,
 }
 
 fn unturned() -> Number<Any> {
@@ -244,6 +248,7 @@ pub struct RawPointLight {
     pub position: Triple<Any>,
     pub intensity: Triple<AtLeastZero>,
     pub spot: Option<Table<RawSpot>>,
+    pub name: Option<Spanned<String>>,
 }
 
 #[derive(Deserialize)]

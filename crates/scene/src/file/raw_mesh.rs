@@ -45,6 +45,7 @@ pub struct RawStatue {
 #[serde(deny_unknown_fields)]
 pub struct RawInstance {
     pub of: Spanned<String>,
+    pub name: Option<Spanned<String>>,
     pub scale: Option<RawScale>,
     pub rotate: Option<Triple<Any>>,
     pub translate: Option<Triple<Any>>,

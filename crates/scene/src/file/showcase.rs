@@ -2,7 +2,7 @@
 
 use super::{SceneError, model, parse};
 use crate::progress::Progress;
-use crate::{Geometry, Scene, SceneHash, Shape};
+use crate::{Geometry, Names, Scene, SceneHash, Shape};
 use glam::Vec3;
 use std::path::Path;
 use std::sync::Arc;
@@ -27,8 +27,15 @@ pub fn around(path: &Path, progress: &Progress) -> Result<Scene, SceneError> {
     })?;
     let shape = Shape { geometry: Geometry::Mesh(Arc::new(mesh)), material: 1 };
     let shapes = room.shapes.iter().cloned().chain([shape]).collect();
-    let scene = Scene { shapes, remarks: remarks.into(), ..room };
+    let names = room.names.shapes.iter().cloned().chain([called(&name)]).collect();
+    let names = Names::new(names, Vec::new()).into();
+    let scene = Scene { shapes, names, remarks: remarks.into(), ..room };
     Ok(Scene { as_read: SceneHash::of(&scene), ..scene })
+}
+
+/// The model, by the name of its file in one line.
+fn called(stem: &str) -> String {
+    image_file::escaped(stem).replace('/', "_")
 }
 
 /// The text of a scene with the floor and the camera for a model with these bounds; `None` if it is next to nothing.
@@ -46,6 +53,7 @@ fn room((lo, hi): (Vec3, Vec3)) -> Option<String> {
          [material.floor]\ndiffuse = {{ albedo = [0.4, 0.4, 0.4] }}\n\
          [material.model]\ndiffuse = {{ albedo = [0.7, 0.7, 0.7] }}\n\
          [[rectangle]]\ncorner = [{:?}, {:?}, {:?}]\nedge_u = [0, 0, {side:?}]\nedge_v = [{side:?}, 0, 0]\n\
+         name = \"floor\"\n\
          material = \"floor\"\n",
         corner.x,
         lo.y,

@@ -1,7 +1,8 @@
 use super::*;
-use crate::{Bsdf, Conductor};
+use crate::{Bsdf, Conductor, Geometry};
 
 mod metallic_roughness;
+mod names;
 mod spot;
 
 pub(super) const SMALL: &str = r#"

@@ -26,7 +26,7 @@ pub fn unknown_mesh(name: &str, known: &[&str]) -> String {
 }
 
 /// Words of other programs and formats, and what they are called here: the first that is known where they stand.
-const ELSEWHERE: [(&str, &[&str]); 36] = [
+const ELSEWHERE: [(&str, &[&str]); 38] = [
     ("spheres", &["sphere"]),
     ("ball", &["sphere"]),
     ("quad", &["rectangle"]),
@@ -62,6 +62,8 @@ const ELSEWHERE: [(&str, &[&str]); 36] = [
     ("lookat", &["target"]),
     ("fov", &["fov_y"]),
     ("rotation", &["turn_y", "rotate"]),
+    ("label", &["name"]),
+    ("id", &["name"]),
     ("direction", &["towards", "normal", "target"]),
 ];
 
@@ -98,9 +100,6 @@ pub(super) fn unknown_field(place: &Place, message: &str) -> Option<String> {
     }
     if word == "diameter" && is_known("radius") {
         return Some(radius_of_diameter(place));
-    }
-    if word == "name" && is_known("material") {
-        return Some("a shape has no name: a remark, which begins with #, may say it".into());
     }
     // the scene itself: a material that stands among its tables
     let material =

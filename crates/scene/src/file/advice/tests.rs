@@ -39,7 +39,7 @@ fn usual_mistakes_are_told_with_their_cure() {
             "the file has none; add [material.white] with ",
         ),
         ("[material.white]", "[white]", "; a material of this name is [material.white]"),
-        ("radius = 1", "radios = 1", "expected one of `center`, `radius`, `material`; did you mean `radius`?"),
+        ("radius = 1", "radios = 1", "expected one of `center`, `radius`, `material`, `name`; did you mean `radius`?"),
         ("center =", "Centre =", "; did you mean `center`?"),
         ("[camera]", "[camra]", "; did you mean `camera`?"),
         ("[[sphere]]", "[[cube]]", "; did you mean `box`?"),
@@ -64,7 +64,7 @@ fn other_faults_are_told_as_they_are() {
         ("[0.5, 0.5, 0.5]", "[0.5, 1.5, 0.5]", "1.5 is not a number from 0 to 1"),
         ("center = [0, 0, 0]", "center = [1,2,3,4]", "found one of 4"),
         ("radius = 1", "radius = \"big\"", "expected a finite number from 1e-12 to 1e12"),
-        ("radius = 1", "xylophone = 1", "expected one of `center`, `radius`, `material`"),
+        ("radius = 1", "xylophone = 1", "expected one of `center`, `radius`, `material`, `name`"),
     ] {
         let said = fault_of(&SMALL.replace(from, to));
         assert!(said.ends_with(expected), "'{to}' said: {said}");
@@ -169,6 +169,6 @@ fn names_of_other_programs_are_understood_where_they_stand() {
         ("radius = 1", "diameter = 3", "; `radius` is half of it: write radius = 1.5"),
         ("[material.white]", "[[material]]\nname = \"white\"", "in its header: write [material.white]"),
         ("[material.white]", "[material]\nname = \"white\"", "in its header: write [material.NAME]"),
-        ("radius = 1", "radius = 1\nname = \"ball\"", "which begins with #, may say it"),
+        ("radius = 1", "radius = 1\nlabel = \"ball\"", "; did you mean `name`?"),
     ]);
 }
