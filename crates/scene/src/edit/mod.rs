@@ -7,6 +7,7 @@
 
 mod lights;
 mod materials;
+mod places;
 mod shapes;
 mod text;
 mod value;
@@ -15,6 +16,7 @@ pub(crate) use text::{Wrong, edits_of, quoted};
 pub use value::{Kind, Value};
 
 use crate::{Bsdf, Scene, nesting};
+use places::Places;
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::fmt;
@@ -189,17 +191,20 @@ impl Edits {
         if let Some(name) = &self.variant {
             edited.wear(name).map_err(CannotEdit)?;
         }
+        let worn = self.variant.as_ref().map(|_| edited.clone());
+        let places = Places::of(self.values.len(), scene);
         for (subject, values) in &self.values {
             let lacks = || CannotEdit(format!("{} has no {}", scene.name, lacking(subject)));
-            let index = subject.index_in(scene).ok_or_else(lacks)?;
+            let index = places.find(subject).ok_or_else(lacks)?;
             for property in subject.properties() {
                 if let Some(value) = values.get(property.name) {
                     (property.set)(&mut edited, index, value);
                 }
             }
         }
-        shapes::remove_hidden(&mut edited, self);
-        self.check(scene, &edited)?;
+        shapes::remove_hidden(&mut edited, self, &places);
+        // a file's variant is shown as the file has it, with whatever glass
+        self.check(worn.as_ref().unwrap_or(scene), &edited)?;
         Ok(edited)
     }
 

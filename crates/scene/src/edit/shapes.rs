@@ -1,5 +1,6 @@
 //! What can be changed in a shape: what it wears, and where it is.
 
+use super::places::Places;
 use super::{Edits, Kind, Property, Subject, Value, no_words};
 use crate::{Geometry, Instance, Scene, Shape, Variant};
 use glam::{Affine3A, EulerRot, Quat, Vec3};
@@ -152,27 +153,26 @@ fn turn_box(geometry: &mut Geometry, degrees: f32) {
     }
 }
 
-/// Leaves out the shapes that are hidden, with their names.
-pub fn remove_hidden(scene: &mut Scene, edits: &Edits) {
-    let is_hidden = |(subject, values): (&Subject, &BTreeMap<&'static str, Value>)| {
-        let hidden = values.get("hidden").and_then(Value::flag).unwrap_or(false);
-        subject.index_in(scene).filter(|_| hidden && matches!(subject, Subject::Shape(_)))
-    };
-    let hidden: Vec<usize> = edits.iter().filter_map(is_hidden).collect();
-    if hidden.is_empty() {
+/// Leaves out the shapes that are hidden, with their names. The others keep their order.
+pub fn remove_hidden(scene: &mut Scene, edits: &Edits, places: &Places) {
+    let is_hidden = |values: &BTreeMap<&'static str, Value>| values.get("hidden").and_then(Value::flag) == Some(true);
+    let shapes = edits.iter().filter(|(subject, _)| matches!(subject, Subject::Shape(_)));
+    let hidden = shapes.filter(|(_, values)| is_hidden(values)).filter_map(|(subject, _)| places.find(subject));
+    let mut stays = vec![true; scene.shapes.len()];
+    hidden.for_each(|index| stays[index] = false);
+    let kept: Vec<usize> = (0..stays.len()).filter(|index| stays[*index]).collect();
+    if kept.len() == stays.len() {
         return;
     }
-    let kept = (0..scene.shapes.len()).filter(|index| !hidden.contains(index));
-    let (shapes, names): (Vec<_>, Vec<_>) =
-        kept.map(|index| (scene.shapes[index].clone(), scene.shape_name(index).into_owned())).unzip();
-    let place_of =
-        |old: usize| (!hidden.contains(&old)).then(|| old - hidden.iter().filter(|gone| **gone < old).count());
+    let mut moved_to: Vec<Option<usize>> = vec![None; stays.len()];
+    kept.iter().enumerate().for_each(|(new, old)| moved_to[*old] = Some(new));
+    let names: Vec<String> = kept.iter().map(|index| scene.shape_name(*index).into_owned()).collect();
     let wears = |variant: &Variant| {
-        let kept = variant.wears.iter().filter_map(|(shape, material)| Some((place_of(*shape)?, *material)));
+        let kept = variant.wears.iter().filter_map(|(shape, material)| Some(((*moved_to.get(*shape)?)?, *material)));
         Variant { name: variant.name.clone(), wears: kept.collect() }
     };
     scene.variants = scene.variants.iter().map(wears).collect();
-    scene.shapes = shapes.into();
+    scene.shapes = kept.iter().map(|index| scene.shapes[*index].clone()).collect();
     Arc::make_mut(&mut scene.names).shapes = names;
 }
 

@@ -128,3 +128,23 @@ fn the_sun_comes_from_where_its_angles_say_and_the_fakes_light_with_it() {
         assert!((place.normalize() - towards).length() < 1e-6);
     }
 }
+
+/// The product of the two would take hours.
+#[test]
+fn many_changes_of_a_scene_with_many_shapes_take_the_time_of_their_sum() {
+    let mut scene = scene("whitted");
+    let many = 1 << 20;
+    let ball = scene.shapes[1].clone();
+    scene.shapes = vec![ball; many].into();
+    scene.names = crate::Names::new((0..many).map(|number| format!("ball {number}")).collect(), Vec::new()).into();
+    for material in &mut scene.materials {
+        material.bsdf = Bsdf::Diffuse { albedo: crate::Texture::Constant(Vec3::ONE) };
+    }
+    let subject = |number: usize| Subject::Shape(format!("ball {number}"));
+    let moved = (0..many).step_by(8).map(|number| (subject(number), "center", Value::Triple(Vec3::ZERO)));
+    let hidden = (1..many).step_by(8).map(|number| (subject(number), "hidden", Value::Flag(true)));
+    let changed = edits(&moved.chain(hidden).collect::<Vec<_>>()).applied_to(&scene).expect("it can be");
+    assert_eq!(changed.shapes.len(), many - many / 8);
+    assert!(changed.shapes[7].geometry.center().length() < 1e-6);
+    assert_eq!((changed.shape_name(7), changed.shape_name(8)), ("ball 8".into(), "ball 10".into()));
+}
