@@ -152,3 +152,31 @@ fn unlit_materials_look_as_their_colour_under_any_light() {
     model.shows(in_quarters(texels.map(|texel| Vec3::new(0.5, 0.25, 0.75) * colour(texel))), &QUARTERS);
     model.says("unlit materials shine");
 }
+
+/// One square is plain as usual and wears a picture in a variant, the other has no material for it.
+#[test]
+fn variants_wear_the_materials_of_their_mappings_and_else_the_usual_ones() {
+    let mut model = Model::under_a_sun(Vec3::Z);
+    let texels = [RED, GREEN, BLUE, GREY];
+    let texture = model.texture(2, &texels, nearest());
+    let pictured = model.push("materials", textured(texture));
+    let lamp = model.push("materials", shining(4.0, json!({})));
+    let mut upper = model.square(matt([0.5; 3], json!({})));
+    upper["extensions"] = json!({"KHR_materials_variants": {"mappings": [
+        {"variants": [0], "material": pictured}, {"variants": [1, 2], "material": lamp},
+    ]}});
+    let lower = model.square(matt([0.25; 3], json!({})));
+    model.json["extensions"]["KHR_materials_variants"] =
+        json!({"variants": [{"name": "picture"}, {"name": "lamp"}, {"name": "lamp"}]});
+    model.show(upper, json!({"translation": [0, 0, 0.1], "scale": [1, 0.5, 1]}));
+    model.show(lower, json!({}));
+    let places = [[-0.5, 0.25], [0.5, 0.25], [-0.5, -0.25], [0.5, -0.25], [0.5, 0.8], [0.5, -0.8]];
+    let below = Vec3::splat(0.25);
+    let over = |upper: [Vec3; 4]| move |[x, y]: [f32; 2]| if y.abs() < 0.5 { upper[quarter([x, y])] } else { below };
+    model.shows(over([Vec3::splat(0.5); 4]), &places);
+    model.shows_as("picture", over(texels.map(colour)), &places);
+    // what shines by day has the sun's light too, but is black
+    let lit_below = places[..4].to_vec();
+    model.shows_as("lamp", over([SHINES; 4]), &lit_below);
+    model.shows_as("lamp 2", over([SHINES; 4]), &lit_below);
+}

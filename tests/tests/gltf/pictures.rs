@@ -6,6 +6,7 @@ use gpu::Gpu;
 use pathtrace::gpu::GpuTracer;
 use pathtrace::{Integrator, PathSettings, Tracer, WhittedSettings};
 use raster::{Raster, RasterSettings};
+use scene::edit::Edits;
 use scene::{Scene, Vec3};
 
 const SIZE: u32 = 48;
@@ -73,6 +74,12 @@ fn assert_seen(film: &Film, what: &str, expected: &impl Fn([f32; 2]) -> Vec3, pl
     }
 }
 
+fn assert_all_see(scene: &Scene, techniques: &[Technique], expected: impl Fn([f32; 2]) -> Vec3, places: &[[f32; 2]]) {
+    for technique in techniques {
+        assert_seen(&technique.picture(scene), &format!("{technique:?}"), &expected, places);
+    }
+}
+
 impl Model {
     /// Whether this radiance is seen at the places, in every technique.
     pub fn shows(&self, expected: impl Fn([f32; 2]) -> Vec3, places: &[[f32; 2]]) {
@@ -81,10 +88,14 @@ impl Model {
 
     /// Whether it is seen in these techniques.
     pub fn shows_in(&self, techniques: &[Technique], expected: impl Fn([f32; 2]) -> Vec3, places: &[[f32; 2]]) {
-        let scene = self.load();
-        for technique in techniques {
-            assert_seen(&technique.picture(&scene), &format!("{technique:?}"), &expected, places);
-        }
+        assert_all_see(&self.load(), techniques, expected, places);
+    }
+
+    /// Whether it is seen in every technique where the model is shown in this variant.
+    pub fn shows_as(&self, variant: &str, expected: impl Fn([f32; 2]) -> Vec3, places: &[[f32; 2]]) {
+        let edits = Edits { variant: Some(variant.into()), ..Edits::default() };
+        let scene = edits.applied_to(&self.load()).unwrap_or_else(|why| panic!("{why}"));
+        assert_all_see(&scene, &ALL, expected, places);
     }
 
     /// Whether rays on all devices see it too.

@@ -293,6 +293,27 @@ pub struct Primitive {
     pub mode: Option<u32>,
     #[serde(default)]
     pub targets: Vec<IgnoredAny>,
+    #[serde(default)]
+    pub extensions: PrimitiveExtensions,
+}
+
+#[derive(Deserialize, Default)]
+pub struct PrimitiveExtensions {
+    #[serde(rename = "KHR_materials_variants")]
+    pub variants: Option<Mappings>,
+}
+
+#[derive(Deserialize)]
+pub struct Mappings {
+    #[serde(default)]
+    pub mappings: Vec<Mapping>,
+}
+
+/// What a primitive wears in these variants.
+#[derive(Deserialize)]
+pub struct Mapping {
+    pub variants: Vec<u32>,
+    pub material: u32,
 }
 
 #[derive(Deserialize)]

@@ -6,7 +6,7 @@
 use super::buffers::Document;
 use super::json::{Cone, Light, LightKind};
 use super::nodes::Placed;
-use super::{Refused, Remarks, named};
+use super::{Refused, Remarks, named, names};
 use crate::{Material, PointLight, Spot, Sun, Vec3};
 use glam::DVec3;
 use std::f32::consts::{FRAC_PI_2, FRAC_PI_4, PI};
@@ -21,6 +21,8 @@ const GLARE: f32 = 16.0;
 #[derive(Default)]
 pub struct Lights {
     pub points: Vec<PointLight>,
+    /// Of the points, in their order.
+    pub names: Vec<String>,
     pub sun: Option<Sun>,
     pub sky: Vec3,
 }
@@ -57,6 +59,8 @@ impl Lights {
         let spot = (light.kind == LightKind::Spot).then(|| spot(light.spot.as_ref(), -back));
         match light.kind {
             LightKind::Point | LightKind::Spot => {
+                let name = [&light.name, &node.node.name].into_iter().flatten().find_map(|name| names::level(name));
+                self.names.push(name.unwrap_or_else(|| format!("light {}", self.points.len() + 1)));
                 self.points.push(PointLight { position, intensity: power, spot });
             }
             LightKind::Directional => {
@@ -74,10 +78,10 @@ impl Lights {
 
     /// Gives models that nothing lights a sky, so that they are seen. Lamps are surfaces that shine brighter than white
     /// paper can look; what glows less is a decoration.
-    pub fn light_models_without(&mut self, materials: &[Material], remarks: &mut Remarks) {
+    pub fn light_models_without<'m>(&mut self, mut worn: impl Iterator<Item = &'m Material>, remarks: &mut Remarks) {
         let lamp =
             |material: &Material| material.emission.is_some_and(|emission| emission.radiance.max_element() > 1.0);
-        if self.points.is_empty() && self.sun.is_none() && !materials.iter().any(lamp) {
+        if self.points.is_empty() && self.sun.is_none() && !worn.any(lamp) {
             self.sky = Vec3::splat(SKY);
             remarks.add("it has no light: a grey sky of radiance 0.8 shows it");
         }

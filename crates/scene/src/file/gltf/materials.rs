@@ -10,7 +10,7 @@ use crate::progress::Progress;
 use crate::stand_ins::{FakeMaterial, usual_shininess};
 use crate::{Alpha, Bsdf, ImageTexture, Material, Texture, Vec3};
 use image_file::CodeCurve;
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::sync::Arc;
 
 /// Roughness up to which what transmits is clear glass.
@@ -37,6 +37,8 @@ pub struct Materials<'a> {
     progress: &'a Progress<'a>,
     textures: Textures<'a>,
     made: HashMap<Option<u32>, Made>,
+    /// Of variants, which cannot be shown.
+    failed: HashSet<u32>,
     names: Names,
     /// Of each picture that was looked through.
     least_alphas: HashMap<*const ImageTexture, f32>,
@@ -60,6 +62,7 @@ impl<'a> Materials<'a> {
             progress,
             textures: Textures::new(document),
             made: HashMap::new(),
+            failed: HashSet::new(),
             names: Names::default(),
             least_alphas: HashMap::new(),
             list: Vec::new(),
@@ -74,7 +77,7 @@ impl<'a> Materials<'a> {
         let (default, document) = (json::Material::default(), self.document);
         let raw = match index {
             None => &default,
-            Some(index) => document.root.materials.get(index as usize).ok_or_else(|| {
+            Some(index) => self.raw(index).ok_or_else(|| {
                 Refused(format!("material {index} is named, but there are {}", document.root.materials.len()))
             })?,
         };
@@ -93,6 +96,38 @@ impl<'a> Materials<'a> {
         let made = Made { index: self.list.len() - 1, uv_set };
         self.made.insert(index, made);
         Ok(made)
+    }
+
+    /// The material of a variant: `None` with a line if it cannot be shown, for the usual ones can.
+    pub fn of_variant(&mut self, index: u32, remarks: &mut Remarks) -> Result<Option<Made>, Refused> {
+        if self.failed.contains(&index) {
+            return Ok(None);
+        }
+        match self.of(Some(index), remarks) {
+            Ok(made) => Ok(Some(made)),
+            Err(Refused(why)) if self.raw(index).is_some() && !self.progress.is_stopped() => {
+                remarks.of("materials of variants that cannot be shown are left out: the usual ones stay", why);
+                self.failed.insert(index);
+                Ok(None)
+            }
+            Err(refused) => Err(refused),
+        }
+    }
+
+    fn raw(&self, index: u32) -> Option<&'a json::Material> {
+        self.document.root.materials.get(index as usize)
+    }
+
+    /// The set of texture coordinates that a material will be placed by once it is made: that of its first picture.
+    pub fn uv_set_of(&self, index: u32) -> Option<u32> {
+        let raw = self.raw(index)?;
+        let pbr = &raw.pbr_metallic_roughness;
+        let others = [&raw.normal_texture, &pbr.metallic_roughness_texture, &raw.emissive_texture];
+        let others = others.into_iter().filter(|_| raw.extensions.unlit.is_none());
+        let mut infos = [&pbr.base_color_texture].into_iter().chain(others).flatten();
+        let textures = &self.document.root.textures;
+        let is_read = |info: &&TextureInfo| textures.get(info.index as usize).is_some_and(|t| t.source.is_some());
+        infos.find(is_read).map(placed_by)
     }
 
     /// The least alpha of the base colour's picture, where it counts; of none 1.
@@ -126,8 +161,7 @@ impl<'a> Materials<'a> {
         shown: &str,
         remarks: &mut Remarks,
     ) -> Result<Option<Arc<ImageTexture>>, Refused> {
-        let moved = info.extensions.transform.as_ref().and_then(|transform| transform.tex_coord);
-        let wanted = moved.unwrap_or(info.tex_coord);
+        let wanted = placed_by(info);
         if uv_set.is_some_and(|set| set != wanted) {
             remarks.of("pictures of other texture coordinates than a material's first are left out", shown.to_owned());
             return Ok(None);
@@ -140,6 +174,12 @@ impl<'a> Materials<'a> {
         }
         Ok(picture)
     }
+}
+
+/// The set of texture coordinates that a picture asks for.
+fn placed_by(info: &TextureInfo) -> u32 {
+    let moved = info.extensions.transform.as_ref().and_then(|transform| transform.tex_coord);
+    moved.unwrap_or(info.tex_coord)
 }
 
 fn material(

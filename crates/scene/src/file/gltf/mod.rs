@@ -16,16 +16,19 @@ mod nodes;
 mod remarks;
 mod textures;
 mod uri;
+mod variants;
 
 use super::SceneError;
 use crate::mesh::{Instance, Mesh};
 use crate::progress::{Progress, Stopped};
 use crate::stand_ins::FakeNumbers;
-use crate::{Bsdf, Geometry, Material, Scene, SceneHash, Shape, nesting};
+use crate::{Bsdf, Geometry, Material, Names, Scene, SceneHash, Shape, Variant, nesting};
 use buffers::Document;
 use glam::{DAffine3, Vec3};
+use json::Primitive;
 use materials::Materials;
 use meshes::Meshes;
+use names::Paths;
 use nodes::Placed;
 use remarks::Remarks;
 use std::collections::HashMap;
@@ -74,13 +77,13 @@ fn scene(file: Vec<u8>, name: &str, folder: &Path, progress: &Progress) -> Resul
     tell_of_what_stays(&document, &mut remarks);
     let placed = nodes::placed(&document, &mut remarks)?;
     let mut materials = Materials::new(&document, progress);
-    let shapes = shapes(&document, &placed, &mut materials, (&mut remarks, progress))?;
+    let Shown { shapes, names, variants } = shapes(&document, &placed, &mut materials, (&mut remarks, progress))?;
     let materials = materials.list;
     if glass_overlaps(&shapes, &materials) {
         remarks.add("glass overlaps other glass: light is bent wrongly there");
     }
     let mut lights = lights::lights(&document, &placed, &mut remarks)?;
-    lights.light_models_without(&materials, &mut remarks);
+    lights.light_models_without(shapes.iter().map(|shape| &materials[shape.material]), &mut remarks);
     let bounds = shapes.iter().map(|shape| shape.geometry.bounds());
     let bounds = bounds.reduce(|a, b| (a.0.min(b.0), a.1.max(b.1))).unwrap_or((Vec3::ZERO, Vec3::ZERO));
     lights.tell_of_glare(bounds, &mut remarks);
@@ -91,8 +94,8 @@ fn scene(file: Vec<u8>, name: &str, folder: &Path, progress: &Progress) -> Resul
         camera,
         cameras: cameras.into(),
         materials,
-        names: Arc::default(),
-        variants: Arc::default(),
+        names: Names::new(names, lights.names).into(),
+        variants: variants.into(),
         shapes: shapes.into(),
         sun: lights.sun,
         point_lights: lights.points,
@@ -117,18 +120,38 @@ fn tell_of_what_stays(document: &Document, remarks: &mut Remarks) {
     if !document.root.animations.is_empty() {
         remarks.add("animations are left out: the model is shown at rest");
     }
-    let variants = document.root.extensions.variants.as_ref().map_or(&[][..], |variants| &variants.variants);
-    for variant in variants {
-        let name = variant.name.as_deref().unwrap_or("unnamed");
-        remarks.of("of its variants none is chosen: materials are the usual ones", quoted(name));
+}
+
+/// A primitive where a node shows it.
+struct Use<'a> {
+    primitive: &'a Primitive,
+    /// Its place in its mesh.
+    number: usize,
+    /// Whether its mesh has no others.
+    alone: bool,
+    mesh: Arc<Mesh>,
+    /// The set of texture coordinates that the mesh is made with, if any.
+    uv_set: Option<u32>,
+    material: usize,
+    /// Among the nodes that are shown.
+    place: usize,
+    placed: &'a Placed<'a>,
+}
+
+impl Use<'_> {
+    /// For faults.
+    fn name(&self, document: &Document) -> String {
+        let index = self.placed.node.mesh.unwrap_or_default();
+        let name = document.root.meshes.get(index as usize).and_then(|mesh| mesh.name.as_deref());
+        format!("{}, primitive {}", named("mesh", index, name), self.number)
     }
 }
 
-/// A mesh where a node shows it.
-struct Use<'a> {
-    mesh: Arc<Mesh>,
-    material: usize,
-    place: &'a Placed<'a>,
+/// What is shown.
+struct Shown {
+    shapes: Vec<Shape>,
+    names: Vec<String>,
+    variants: Vec<Variant>,
 }
 
 fn shapes(
@@ -136,7 +159,7 @@ fn shapes(
     placed: &[Placed],
     materials: &mut Materials,
     (remarks, progress): (&mut Remarks, &Progress),
-) -> Result<Vec<Shape>, Refused> {
+) -> Result<Shown, Refused> {
     let uses = uses(document, placed, materials, (remarks, progress))?;
     let mut times: HashMap<*const Mesh, u64> = HashMap::new();
     uses.iter().for_each(|found| *times.entry(Arc::as_ptr(&found.mesh)).or_default() += 1);
@@ -146,43 +169,51 @@ fn shapes(
         let line = format!("{triangles} triangles, each as often as it is shown: at most {MOST_SMALL}");
         return Err(Refused(format!("its meshes of less than {} triangles have {line}", Mesh::LARGE)));
     }
-    let mut shapes = Vec::with_capacity(uses.len());
-    for Use { mesh, material, place } in uses {
+    let variants = variants::variants(document, &uses, materials, remarks)?;
+    let (mut shapes, mut names) = (Vec::with_capacity(uses.len()), Vec::with_capacity(uses.len()));
+    let mut paths = Paths::new(document, placed);
+    for Use { mesh, material, place, placed, alone, .. } in uses {
+        names.push(paths.of(place, (!alone).then_some(&*materials.list[material].name)));
         let once = times.get(&Arc::as_ptr(&mesh)) == Some(&1);
-        let geometry = put(mesh, &place.to_world, once, place, remarks)?;
-        shapes.extend(geometry.map(|geometry| Shape { geometry, material }));
+        let geometry = put(mesh, &placed.to_world, once, placed, remarks)?;
+        shapes.push(Shape { geometry, material });
     }
-    Ok(shapes)
+    Ok(Shown { shapes, names, variants })
 }
 
 fn uses<'a>(
-    document: &Document,
-    placed: &'a [Placed],
+    document: &'a Document,
+    all: &'a [Placed],
     materials: &mut Materials,
     (remarks, progress): (&mut Remarks, &Progress),
 ) -> Result<Vec<Use<'a>>, Refused> {
     let mut meshes = Meshes::new(document);
-    let (mut uses, mut shown) = (Vec::new(), 0);
-    for (done, place) in placed.iter().enumerate() {
-        let Some(index) = place.node.mesh else { continue };
+    let (mut uses, mut shown, mut worn) = (Vec::new(), 0, 0);
+    for (place, placed) in all.iter().enumerate() {
+        let Some(index) = placed.node.mesh else { continue };
         let Some(mesh) = document.root.meshes.get(index as usize) else {
             let count = document.root.meshes.len();
-            return Err(Refused(format!("{}: mesh {index} is named, but there are {count}", place.name())));
+            return Err(Refused(format!("{}: mesh {index} is named, but there are {count}", placed.name())));
         };
         shown += mesh.primitives.len() as u64;
         if shown > MOST_SHAPES {
             return Err(Refused(format!("its nodes show more than {MOST_SHAPES} primitives of meshes")));
         }
-        if place.node.skin.is_some() {
-            remarks.of("skins are left out: the model is shown at rest", place.name());
+        if placed.node.skin.is_some() {
+            remarks.of("skins are left out: the model is shown at rest", placed.name());
         }
-        let name = named("mesh", index, mesh.name.as_deref());
+        let (name, alone) = (named("mesh", index, mesh.name.as_deref()), mesh.primitives.len() == 1);
         for (number, primitive) in mesh.primitives.iter().enumerate() {
             let fault = |Refused(why)| Refused(format!("{name}, primitive {number}: {why}"));
-            progress.tell(&format!("reading {name}"), done as f32 / placed.len() as f32)?;
+            progress.tell(&format!("reading {name}"), place as f32 / all.len() as f32)?;
+            variants::count(&mut worn, primitive)?;
             let made = materials.of(primitive.material, remarks).map_err(fault)?;
-            let mesh = meshes.of(primitive, made.uv_set, &name, remarks).map_err(fault)?;
-            uses.extend(mesh.map(|mesh| Use { mesh, material: made.index, place }));
+            // what is plain as usual may wear pictures in a variant
+            let of_variants = || variants::mappings(primitive).iter().find_map(|m| materials.uv_set_of(m.material));
+            let uv_set = made.uv_set.or_else(of_variants);
+            let mesh = meshes.of(primitive, uv_set, &name, remarks).map_err(fault)?;
+            let material = made.index;
+            uses.extend(mesh.map(|mesh| Use { primitive, number, alone, mesh, uv_set, material, place, placed }));
         }
     }
     Ok(uses)
@@ -195,9 +226,9 @@ fn put(
     once: bool,
     place: &Placed,
     remarks: &mut Remarks,
-) -> Result<Option<Geometry>, Refused> {
+) -> Result<Geometry, Refused> {
     if *to_world == DAffine3::IDENTITY {
-        return Ok(Some(Geometry::Mesh(mesh)));
+        return Ok(Geometry::Mesh(mesh));
     }
     let instance = Instance { mesh, to_world: to_world.as_affine3a() };
     let (lo, hi) = instance.bounds();
@@ -209,15 +240,15 @@ fn put(
     if !inverse.is_finite() || instance.to_world.matrix3.determinant() == 0.0 {
         // squeezed flat: there is something to be seen, but no way back
         remarks.of("what is scaled to nothing is flat", place.name());
-        return Ok(Some(Geometry::Mesh(Arc::new(Mesh::with_attributes(
+        return Ok(Geometry::Mesh(Arc::new(Mesh::with_attributes(
             instance.positions(),
             instance.triangles(),
             Vec::new(),
             instance.mesh.uvs().to_vec(),
-        )))));
+        ))));
     }
     let bake = once && !instance.mesh.is_large();
-    Ok(Some(if bake { Geometry::Mesh(Arc::new(instance.baked())) } else { Geometry::Instance(instance) }))
+    Ok(if bake { Geometry::Mesh(Arc::new(instance.baked())) } else { Geometry::Instance(instance) })
 }
 
 /// What stands at an index of the file, with its name if it has one.

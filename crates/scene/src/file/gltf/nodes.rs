@@ -9,6 +9,8 @@ use glam::{DAffine3, DMat3, DQuat, DVec3};
 pub struct Placed<'a> {
     pub node: &'a Node,
     pub index: u32,
+    /// The node that it is below, by its place among those that are shown.
+    pub parent: Option<usize>,
     /// From its own space to the world's.
     pub to_world: DAffine3,
 }
@@ -31,9 +33,8 @@ pub fn placed<'a>(document: &'a Document, remarks: &mut Remarks) -> Result<Vec<P
         )));
     }
     let mut seen = vec![false; nodes.len()];
-    let mut found = Vec::new();
-    let mut open: Vec<(u32, DAffine3)> =
-        roots(document, remarks)?.into_iter().map(|i| (i, DAffine3::IDENTITY)).collect();
+    let mut found: Vec<Placed> = Vec::new();
+    let mut open: Vec<(u32, Option<usize>)> = roots(document, remarks)?.into_iter().map(|i| (i, None)).collect();
     open.reverse();
     while let Some((index, parent)) = open.pop() {
         let Some(node) = nodes.get(index as usize) else {
@@ -43,12 +44,13 @@ pub fn placed<'a>(document: &'a Document, remarks: &mut Remarks) -> Result<Vec<P
             let name = named("node", index, node.name.as_deref());
             return Err(Refused(format!("{name} has two parents, or is below itself: nodes must be a tree")));
         }
-        let placed = Placed { node, index, to_world: parent * own_place(node) };
+        let place_of_parent = parent.map_or(DAffine3::IDENTITY, |parent| found[parent].to_world);
+        let placed = Placed { node, index, parent, to_world: place_of_parent * own_place(node) };
         let finite = placed.to_world.is_finite();
         if !finite {
             return Err(Refused(format!("{}: its place is not finite", placed.name())));
         }
-        open.extend(node.children.iter().rev().map(|child| (*child, placed.to_world)));
+        open.extend(node.children.iter().rev().map(|child| (*child, Some(found.len()))));
         found.push(placed);
     }
     // without scenes every node is below one that has no parent, or below itself

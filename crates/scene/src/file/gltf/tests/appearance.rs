@@ -204,15 +204,13 @@ fn what_a_material_or_its_mesh_lacks_is_told() {
 }
 
 #[test]
-fn materials_of_one_name_are_told_apart_and_variants_are_named() {
+fn materials_of_one_name_are_told_apart() {
     let mut model = Model::textured(json!({"name": "a"}));
     model.json["materials"] = json!([{"name": "a"}, {"name": "a"}]);
     let mut other = model.primitive().clone();
     other["material"] = json!(1);
     model.json["meshes"][0]["primitives"].as_array_mut().unwrap().push(other);
-    model.json["extensions"] = json!({"KHR_materials_variants": {"variants": [{"name": "red"}, {"name": "blue"}]}});
     let scene = model.scene();
     assert_eq!([0, 1].map(|i| scene.materials[i].name.clone()), ["a", "a 2"]);
     assert!(Arc::ptr_eq(mesh_of(&scene, 0), mesh_of(&scene, 1)), "one mesh in two materials");
-    assert!(model.remark("variants").ends_with("'red', 'blue'"));
 }

@@ -1,6 +1,7 @@
 //! Damaged files, thousands of them, always the same ones: none panics, hangs or takes memory that it has no right to.
 
 use super::*;
+use std::collections::HashSet;
 
 /// Sixteen by sixteen pixels, orange on the left and blue on the right.
 pub(super) const JPEG: &[u8] = include_bytes!("orange-and-blue.jpg");
@@ -41,7 +42,13 @@ fn rich() -> Model {
         "indices": {"bufferView": indices, "componentType": 5121}, "values": {"bufferView": values}});
     model.json["cameras"] = json!([{"type": "perspective", "perspective": {"yfov": 0.5, "znear": 0.1}}]);
     let lights = json!([{"type": "spot", "spot": {"innerConeAngle": 0.1}}, {"type": "directional"}]);
-    model.json["extensions"] = json!({"KHR_lights_punctual": {"lights": lights}});
+    let variants = json!({"variants": [{"name": "day"}, {"name": "night"}, {}]});
+    model.json["extensions"] = json!({"KHR_lights_punctual": {"lights": lights}, "KHR_materials_variants": variants});
+    let night = json!({"normalTexture": {"index": 0}, "emissiveTexture": {"index": 1, "texCoord": 1}});
+    let [night, plain] = [night, json!({"name": "plain"})].map(|material| model.push("materials", material));
+    model.primitive()["extensions"] = json!({"KHR_materials_variants": {"mappings": [
+        {"variants": [1], "material": night}, {"variants": [0, 2], "material": plain},
+    ]}});
     let light = |index| json!({"KHR_lights_punctual": {"light": index}});
     model.json["nodes"] = json!([
         {"mesh": 0, "children": [1, 2], "rotation": [0, 0, 0, 1]},
@@ -62,6 +69,14 @@ fn read(file: Vec<u8>) -> bool {
             assert!(scene.shapes.iter().all(|shape| finite(shape.geometry.bounds().0)));
             assert!(scene.point_lights.iter().all(|light| finite(light.position) && finite(light.intensity)));
             assert!(scene.shapes.iter().all(|shape| shape.material < scene.materials.len()));
+            let worn = scene.variants.iter().flat_map(|variant| &variant.wears);
+            let (shapes, materials) = (scene.shapes.len(), scene.materials.len());
+            assert!(worn.into_iter().all(|(shape, material)| *shape < shapes && *material < materials));
+            assert_eq!((scene.names.shapes.len(), scene.names.lights.len()), (shapes, scene.point_lights.len()));
+            for names in [&scene.names.shapes, &scene.names.lights] {
+                assert!(names.iter().all(|name| !name.contains(char::is_control)));
+                assert_eq!(names.iter().collect::<HashSet<_>>().len(), names.len(), "{names:?}");
+            }
             true
         }
         Err(Refused(why)) => {
@@ -76,6 +91,7 @@ fn a_rich_model_is_whole_before_it_is_damaged() {
     let scene = rich().scene();
     assert_eq!((scene.shapes.len(), scene.point_lights.len(), scene.cameras.len()), (2, 1, 1));
     assert!(scene.sun.is_some() && scene.materials[0].images().count() == 5);
+    assert_eq!(scene.variants.iter().map(|variant| variant.wears.len()).collect::<Vec<_>>(), [2, 2, 2]);
 }
 
 #[test]

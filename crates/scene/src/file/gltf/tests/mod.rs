@@ -1,8 +1,10 @@
 mod appearance;
 mod fuzz;
 mod geometry;
+mod names;
 mod placement;
 mod refusals;
+mod variants;
 
 use super::*;
 use serde_json::{Value, json};
