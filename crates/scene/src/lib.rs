@@ -21,6 +21,7 @@ mod nearest;
 mod needs;
 pub mod nesting;
 mod notes;
+pub mod paths;
 pub mod progress;
 pub mod runs;
 pub mod shape;
