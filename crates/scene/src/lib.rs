@@ -14,6 +14,7 @@ pub mod file;
 mod hash;
 pub mod image_texture;
 pub mod light;
+mod limits;
 pub mod material;
 mod mesh;
 mod names;

@@ -1,11 +1,11 @@
 use super::*;
-use crate::{Geometry, Vec3, builtin};
+use crate::{Bsdf, Geometry, Vec3, builtin};
 
-fn scene(name: &str) -> Scene {
+pub(super) fn scene(name: &str) -> Scene {
     builtin::named(name).expect("a built-in scene")
 }
 
-fn edits(changes: &[(Subject, &str, Value)]) -> Edits {
+pub(super) fn edits(changes: &[(Subject, &str, Value)]) -> Edits {
     let mut edits = Edits::default();
     for (subject, name, value) in changes {
         edits.set(subject, subject.property(name).expect("a property"), value.clone());
@@ -13,7 +13,7 @@ fn edits(changes: &[(Subject, &str, Value)]) -> Edits {
     edits
 }
 
-fn subjects(scene: &Scene) -> Vec<Subject> {
+pub(super) fn subjects(scene: &Scene) -> Vec<Subject> {
     let materials = scene.materials.iter().map(|material| Subject::Material(material.name.clone()));
     let shapes = (0..scene.shapes.len()).map(|index| Subject::Shape(scene.shape_name(index).into_owned()));
     let lights = (0..scene.point_lights.len()).map(|index| Subject::Light(scene.light_name(index).into_owned()));

@@ -21,7 +21,7 @@ mod source;
 use crate::direction::unit;
 use crate::progress::Progress;
 use crate::stand_ins::FakeNumbers;
-use crate::{Camera, Geometry, Instance, Mesh, PointLight, Scene, SceneHash, Shape, Spot, Sun, nearest, nesting};
+use crate::{Camera, Geometry, Instance, Mesh, PointLight, Scene, SceneHash, Shape, Spot, Sun, limits, nearest, nesting};
 use glam::Vec3;
 use meshes::Meshes;
 use picture::Pictures;
@@ -227,9 +227,7 @@ fn build(raw: RawScene, name: &str, folder: &Path, progress: &Progress) -> Resul
     }
     for Table(r) in raw.rectangle {
         let (at, edge_u, edge_v) = (r.edge_v.span(), Vec3::from(r.edge_u), Vec3::from(r.edge_v.into_inner()));
-        let [u, v] = [edge_u, edge_v].map(|edge| unit(edge).unwrap_or(Vec3::ZERO));
-        let shortest = edge_u.as_dvec3().length().min(edge_v.as_dvec3().length());
-        if !(u.cross(v).length() > 1e-6 && shortest >= number::SMALLEST.into()) {
+        if !limits::spans(edge_u, edge_v) {
             return fault(at, "edge_u and edge_v must span an area, and be 1e-12 long at least");
         }
         add(Geometry::Rectangle { corner: r.corner.into(), edge_u, edge_v }, r.material)?;
@@ -313,7 +311,7 @@ fn build(raw: RawScene, name: &str, folder: &Path, progress: &Progress) -> Resul
 }
 
 /// The first shape with which small meshes that are copied have more than [`Mesh::MOST_COPIED`] triangles.
-fn beyond_copies(shapes: &[Shape]) -> Option<usize> {
+pub(crate) fn beyond_copies(shapes: &[Shape]) -> Option<usize> {
     let mut copied = 0;
     shapes.iter().position(|shape| {
         if let Geometry::Instance(Instance { mesh, .. }) = &shape.geometry {
