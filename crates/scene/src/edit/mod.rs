@@ -6,12 +6,15 @@
 //! taken back and written down in any order.
 
 mod apply;
+mod compose;
 mod lights;
 mod materials;
 mod shapes;
 mod text;
 mod value;
 
+pub use crate::file::changed::{CameraChange, ChangedScene, file_text, flattened, to_save};
+pub(crate) use apply::{Applied, Change, Refused};
 pub(crate) use text::{Wrong, edits_of, quoted};
 pub use value::{Kind, Value};
 
