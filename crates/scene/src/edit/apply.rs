@@ -1,9 +1,10 @@
 //! Changes, made in a scene; and what is looked at before they are shown.
 
-use super::{CannotEdit, Edits, Kind, Property, Subject, Value, shapes};
+use super::places::Places;
+use super::{CannotEdit, Edits, Property, Subject, Value, fit, shapes};
 use crate::file::beyond_copies;
 use crate::nesting::{Effort, overlap_with};
-use crate::{Bsdf, Geometry, Mesh, Scene, Shape, limits, nearest_or_begun};
+use crate::{Bsdf, Geometry, Mesh, Scene, Shape, limits};
 use std::collections::BTreeSet;
 
 /// Which change cannot be made, and why: a line.
@@ -21,22 +22,11 @@ pub(crate) enum Change {
     One(Subject, &'static str),
 }
 
-/// A scene with changes.
-#[derive(Debug)]
-pub(crate) struct Applied {
-    pub scene: Scene,
-    /// Changes of what their subjects do not have as they are: the roughness of glass.
-    pub idle: Vec<(Subject, &'static str)>,
-}
-
 /// Corners of glass meshes, and pairs of glass shapes in these, that are looked at for overlaps: a millisecond or two. A slider
 /// asks at each of its moves, and whoever draws the window waits for the answer. What is beyond is shown without an
 /// answer, as glass of glTF models that overlaps is: light is bent wrongly there. Files of changed scenes ask the same,
 /// so that what was shown can be opened again.
 const EFFORT: usize = 1 << 18;
-
-/// Words of a list that a message tells at most.
-const MOST_WORDS: usize = 20;
 
 impl Edits {
     /// The scene with these changes; its meshes stay shared.
@@ -45,47 +35,42 @@ impl Edits {
     /// If the scene lacks a part or a variant that is changed; if a value or a word is none of its property's; if glass would
     /// overlap other glass; or if shapes would leave what numbers may be in a scene's file.
     pub fn applied_to(&self, scene: &Scene) -> Result<Scene, CannotEdit> {
-        self.apply(scene).map(|applied| applied.scene).map_err(|Refused { why, .. }| CannotEdit(why))
+        self.apply(scene).map_err(|Refused { why, .. }| CannotEdit(why))
     }
 
     /// As [`Edits::applied_to`], telling which change it is that cannot be made.
-    pub(crate) fn apply(&self, scene: &Scene) -> Result<Applied, Refused> {
+    pub(crate) fn apply(&self, scene: &Scene) -> Result<Scene, Refused> {
         let mut edited = scene.clone();
         if let Some(name) = &self.variant {
             edited.wear(name).map_err(|why| Refused { change: Change::Variant, why })?;
         }
-        let (mut idle, mut shapes) = (Vec::new(), Vec::new());
-        for (subject, values) in self.iter() {
-            let lacks = || Refused { change: Change::All(subject.clone()), why: lacking(subject, scene) };
-            let index = subject.index_in(scene).ok_or_else(lacks)?;
+        // a file's variant is shown as the file has it, with whatever glass
+        let worn = edited.clone();
+        let (places, mut moved) = (Places::of(self.values.len(), scene), Vec::new());
+        for (subject, values) in &self.values {
+            let lacks =
+                || Refused { change: Change::All(subject.clone()), why: fit::lacks(scene, subject).to_string() };
+            let index = places.find(subject).ok_or_else(lacks)?;
             for property in subject.properties() {
-                let Some(value) = values.get(property.name) else { continue };
-                match (property.get)(&edited, index) {
-                    None => idle.push((subject.clone(), property.name)),
-                    // also where it is none that a file could state
-                    Some(now) if now == *value => {}
-                    Some(_) => set(&mut edited, (subject, index), property, value)?,
+                if let Some(value) = values.get(property.name) {
+                    set(&mut edited, (subject, index), property, value)?;
                 }
             }
-            if matches!(subject, Subject::Shape(_)) {
-                shapes.push((subject, index));
+            let is_shape = matches!(subject, Subject::Shape(_));
+            if is_shape && edited.shapes[index].geometry != scene.shapes[index].geometry {
+                moved.push((subject, index));
             }
         }
-        let hidden = shapes::hidden(scene, self);
-        let moved: Vec<(&Subject, usize)> = shapes
-            .into_iter()
-            .filter(|(_, index)| !hidden.contains(index))
-            .filter(|(_, index)| edited.shapes[*index].geometry != scene.shapes[*index].geometry)
-            .collect();
+        let hidden = shapes::hidden(self, &places);
+        moved.retain(|(_, index)| !hidden.contains(index));
         can_stand(scene, &edited, &moved)?;
-        self.glass_lies_apart(scene, &edited, &hidden)?;
+        self.glass_lies_apart(&worn, &edited, &hidden)?;
         shapes::remove(&mut edited, &hidden);
-        Ok(Applied { scene: edited, idle })
+        Ok(edited)
     }
 
     /// Refuses glass that was changed and overlaps other glass, unless it has done so in the scene already.
     fn glass_lies_apart(&self, scene: &Scene, edited: &Scene, hidden: &BTreeSet<usize>) -> Result<(), Refused> {
-        let is_glass = |scene: &Scene, shape: &Shape| is_glass(scene, shape);
         let all: Vec<(usize, &Geometry)> = (edited.shapes.iter().enumerate())
             .filter(|(index, shape)| is_glass(edited, shape) && !hidden.contains(index))
             .map(|(index, shape)| (index, &shape.geometry))
@@ -136,14 +121,16 @@ fn set(
 ) -> Result<(), Refused> {
     let refuse = |why| Err(Refused { change: Change::One(subject.clone(), property.name), why });
     let Property { name, kind, .. } = property;
+    let Some(now) = (property.get)(scene, index) else { return Ok(()) };
+    if now == *value {
+        // also where it is none that a text could state
+        return Ok(());
+    }
     if !kind.holds(value) {
         return refuse(format!("{name} of {subject}: expected {}", kind.expected()));
     }
-    if let (Kind::Word, Value::Word(word)) = (kind, value) {
-        let known = (property.words)(scene);
-        if !known.contains(word) {
-            return refuse(format!("{name} of {subject}: {}", unknown_word(word, &known)));
-        }
+    if let Some(why) = fit::unknown_word(scene, subject, index, property, value) {
+        return refuse(why.to_string());
     }
     (property.set)(scene, index, value);
     let too_bright = |scale: f32| *name == "strength" && value.number() != Some(scale);
@@ -151,44 +138,6 @@ fn set(
         return refuse(format!("{name} of {subject}: its brightest pixel would shine with more than 1e12"));
     }
     Ok(())
-}
-
-fn unknown_word(word: &str, known: &[String]) -> String {
-    let listed: Vec<String> = known.iter().take(MOST_WORDS).map(|word| image_file::escaped(word)).collect();
-    let more = if known.len() > MOST_WORDS { ", ..." } else { "" };
-    format!(
-        "'{}' is none of {}{more}{}",
-        image_file::escaped(word),
-        listed.join(", "),
-        did_you_mean(word, known.iter().map(String::as_str))
-    )
-}
-
-fn did_you_mean<'a>(word: &str, known: impl IntoIterator<Item = &'a str>) -> String {
-    let meant = nearest_or_begun(word, known);
-    meant.map_or_else(String::new, |meant| format!("; did you mean '{}'?", image_file::escaped(meant)))
-}
-
-/// That a scene has no such part, and which it has instead.
-fn lacking(subject: &Subject, scene: &Scene) -> String {
-    let meant = |word: &str, known: Vec<String>| did_you_mean(word, known.iter().map(String::as_str));
-    let (what, meant) = match subject {
-        Subject::Material(name) => {
-            let known = scene.materials.iter().map(|material| material.name.clone());
-            (subject.to_string(), meant(name, known.collect()))
-        }
-        Subject::Shape(name) => {
-            let known = (0..scene.shapes.len()).map(|index| scene.shape_name(index).into_owned());
-            (subject.to_string(), meant(name, known.collect()))
-        }
-        Subject::Light(name) => {
-            let known = (0..scene.point_lights.len()).map(|index| scene.light_name(index).into_owned());
-            (subject.to_string(), meant(name, known.collect()))
-        }
-        Subject::Sun => ("sun".into(), String::new()),
-        Subject::Sky => ("sky".into(), String::new()),
-    };
-    format!("{} has no {what}{meant}", scene.name)
 }
 
 /// Refuses shapes that stand elsewhere than in the scene, and where or as none may.

@@ -7,15 +7,17 @@
 
 mod apply;
 mod compose;
+mod fit;
 mod lights;
 mod materials;
+mod places;
 mod shapes;
 mod text;
 mod value;
 
 pub use crate::file::changed::{CameraChange, ChangedScene, file_text, flattened, to_save};
-pub(crate) use apply::{Applied, Change, Refused};
-pub(crate) use text::{Wrong, edits_of, quoted};
+pub(crate) use apply::{Change, Refused};
+pub use text::{Wrong, edits_of, quoted};
 pub use value::{Kind, Value};
 
 use crate::Scene;

@@ -1,5 +1,6 @@
 //! What can be changed in a shape: what it wears, and where it is.
 
+use super::places::Places;
 use super::{Edits, Kind, Property, Subject, Value, no_words};
 use crate::{Geometry, Instance, Scene, Shape, Variant};
 use glam::{DAffine3, DQuat, DVec3, EulerRot, Vec3};
@@ -197,13 +198,11 @@ fn turn_box(geometry: &mut Geometry, degrees: f32) {
     }
 }
 
-/// Which shapes of a scene are left out, by their indices there.
-pub fn hidden(scene: &Scene, edits: &Edits) -> BTreeSet<usize> {
-    let is_hidden = |(subject, values): (&Subject, &BTreeMap<&'static str, Value>)| {
-        let hidden = values.get("hidden").and_then(Value::flag).unwrap_or(false);
-        if hidden && matches!(subject, Subject::Shape(_)) { subject.index_in(scene) } else { None }
-    };
-    edits.iter().filter_map(is_hidden).collect()
+/// Which shapes are left out, by their indices.
+pub fn hidden(edits: &Edits, places: &Places) -> BTreeSet<usize> {
+    let is_hidden = |values: &BTreeMap<&'static str, Value>| values.get("hidden").and_then(Value::flag) == Some(true);
+    let shapes = edits.iter().filter(|(subject, _)| matches!(subject, Subject::Shape(_)));
+    shapes.filter(|(_, values)| is_hidden(values)).filter_map(|(subject, _)| places.find(subject)).collect()
 }
 
 /// Leaves out shapes, with their names.

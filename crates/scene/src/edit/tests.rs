@@ -96,7 +96,7 @@ fn what_is_left_out_is_gone_and_others_keep_their_names() {
 fn a_part_that_is_not_there_is_named() {
     let lost = edits(&[(Subject::Material("velvet".into()), "colour", Value::Triple(Vec3::ONE))]);
     let why = lost.applied_to(&scene("cornell")).expect_err("no velvet").to_string();
-    assert_eq!(why, "cornell has no material 'velvet'");
+    assert!(why.starts_with("cornell has no material 'velvet'"), "{why}");
 }
 
 #[test]

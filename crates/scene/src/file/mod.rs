@@ -201,17 +201,8 @@ fn parse_below(
         true => SceneError::Stopped,
         false => fault.in_file(text, path),
     };
-    let raw: RawScene = from_toml(text).map_err(wrong)?;
+    let raw: RawScene = advice::from_toml(text).map_err(wrong)?;
     build(raw, name, path.parent().unwrap_or(Path::new("")), progress).map_err(wrong)
-}
-
-/// The values of a text of TOML, with advice where they are others than expected.
-fn from_toml<T: serde::de::DeserializeOwned>(text: &str) -> Result<T, Fault> {
-    toml::from_str(text).map_err(|fault| {
-        let at = fault.span().unwrap_or(0..0);
-        let message = fault.message().lines().collect::<Vec<_>>().join(", ");
-        Fault { message: advice::advised(text, at.clone(), message), at }
-    })
 }
 
 /// A fault at a byte range of the text.

@@ -9,8 +9,8 @@ pub use save::{ChangedScene, file_text, flattened, to_save};
 
 use super::beside::beside;
 use super::raw::Table;
-use super::{Fault, SceneError, fault, from_toml, load_below};
-use crate::edit::{Applied, Change, Edits, Refused, Subject, Wrong, edits_of};
+use super::{Fault, SceneError, advice, fault, load_below};
+use crate::edit::{Change, Edits, Refused, Subject, Wrong, edits_of};
 use crate::progress::Progress;
 use crate::{Scene, SceneHash, builtin};
 use camera::RawCameraChange;
@@ -55,7 +55,7 @@ struct RawChanged {
 
 impl Said {
     fn read(text: &str) -> Result<Self, Fault> {
-        let RawChanged { base, camera, .. } = from_toml(text)?;
+        let RawChanged { base, camera, .. } = advice::from_toml(text)?;
         let camera = camera.map(|camera| Spanned::new(camera.span(), camera.into_inner().0));
         // once more, with the place of each value
         let edits = tables(text).and_then(|mut table| table.remove(EDIT)).map(edits_of).transpose();
@@ -83,14 +83,12 @@ pub(super) fn parse(
         Unread::Base(fault) => fault,
         Unread::Name(message) => wrong(Fault { at, message }),
     })?;
-    let Applied { scene: edited, idle } = edits.apply(&scene).map_err(|Refused { change, why }| {
+    let edited = edits.apply(&scene).map_err(|Refused { change, why }| {
         let at = tables(text).map_or(0..0, |table| place_of(&table, &change));
         wrong(Fault { at, message: why })
     })?;
     let camera = camera.map_or(Ok(scene.camera), |camera| camera::changed(camera, &scene.camera)).map_err(wrong)?;
-    let idle =
-        idle.iter().map(|(subject, property)| format!("{property} of {subject} is not changed: as it is, it has none"));
-    let remarks = edited.remarks.iter().cloned().chain(idle).collect();
+    let remarks = edited.remarks.iter().cloned().chain(edits.without_effect(&edited)).collect();
     let scene = Scene { name: name.to_owned(), camera, remarks, ..edited };
     Ok(Scene { as_read: SceneHash::of(&scene), ..scene })
 }

@@ -93,7 +93,11 @@ fn faults_name_the_place_of_the_change() {
     }
     let lobe = format!("base = \"whitted\"\n[edit.material.{}]\nior = 2\n  lobe = \"matt\"", glass.name);
     let line = fault(&lobe);
-    assert!(line.starts_with("mine.toml:4:3: lobe of material") && line.contains("none of diffuse, mirror"), "{line}");
+    assert!(
+        line.starts_with("mine.toml:4:3: lobe of material")
+            && line.contains("is none: expected one of diffuse, mirror"),
+        "{line}"
+    );
 }
 
 #[test]
@@ -105,7 +109,7 @@ fn a_table_of_changes_without_a_base_says_how_such_a_file_begins() {
 #[test]
 fn what_a_part_does_not_have_is_noted() {
     let scene = read("base = \"cornell-balls\"\n[edit.material.glass]\nroughness = 0.5").expect("a scene");
-    assert!(scene.remarks.iter().any(|remark| remark.starts_with("roughness of material 'glass' is not changed")));
+    assert!(scene.remarks.iter().any(|remark| remark.starts_with("roughness of material 'glass' has no effect")));
 }
 
 #[test]
@@ -145,16 +149,14 @@ fn eight_files_stand_on_one_another_at_most() {
     folder.write("1.toml", "base = \"cornell\"");
     let top = |height: usize| {
         let text = |i: usize| format!("base = \"{}.toml\"\n[camera]\nfov_y = {i}", i - 1);
-        (2..=height).map(|i| folder.write(&format!("{i}.toml"), &text(i))).last().expect("a file")
+        (2..=height).for_each(|i| _ = folder.write(&format!("{i}.toml"), &text(i)));
+        folder.0.join(format!("{height}.toml"))
     };
     let scene = load(&top(8)).expect("a scene");
     assert_eq!(scene.camera.fov_y, 8.0);
     let line = load(&top(9)).expect_err("too many").to_string();
     assert!(line.contains("1.toml:1:8: more than 8 files of changed scenes"), "{line}");
 }
-
-const RED: &str = "base = \"cornell-balls\"\n[camera]\nfov_y = 30\n[edit.material.glass]\nlobe = \"diffuse\"\ncolour = [1, 0, 0]\n\
-                   [edit.shape.\"box\"]\n";
 
 #[test]
 fn a_file_is_read_as_it_was_written_and_stands_on_the_same_base() {
@@ -224,10 +226,20 @@ fn shape_of(scene: &str) -> String {
 #[test]
 fn a_base_outside_of_the_folder_is_said_to_need_leave() {
     let folder = Folder::new("outside");
-    let base = folder.write("a.toml", RED);
+    let base = folder.write("a.toml", "base = \"cornell\"");
     let scene = ChangedScene { base: base.to_str().expect("a text").into(), camera: None, edits: Edits::default() };
     let text = |below: &str| scene.text_in(&folder.0.join(below));
     fs::create_dir_all(folder.0.join("b")).expect("a folder");
     assert!(text("b").contains("--allow-outside") && text("b").contains("base = \"../a.toml\""));
     assert!(!text("").contains("--allow-outside"));
+}
+
+#[test]
+fn an_example_stands_on_a_file_beside_it() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../tests/tests/scenes");
+    let [base, scene] = ["everything.toml", "changed.toml"].map(|name| load(&folder.join(name)).expect("a scene"));
+    let floor = |scene: &Scene| scene.materials.iter().find(|material| material.name == "floor").cloned();
+    assert!(matches!(floor(&scene).map(|floor| floor.bsdf), Some(Bsdf::RoughConductor { roughness: 0.4, .. })));
+    assert_eq!(scene.shapes, base.shapes);
+    assert_eq!((scene.name.as_str(), scene.remarks.len()), ("changed", 0));
 }
