@@ -14,6 +14,8 @@ pub struct EnvironmentMap {
     scale: f32,
     rotation: f32,
     mean: Vec3,
+    /// Mean and largest radiance of the picture as it was read.
+    read: (Vec3, f32),
     notes: Vec<String>,
 }
 
@@ -44,14 +46,24 @@ impl EnvironmentMap {
             let colour = image.radiances()[at];
             return Err(format!("pixel ({x}, {y}) is {colour}: a sky's radiance lies between 0 and 1e12, scaled"));
         }
-        let mean = mean_radiance(&image) * scale;
-        Ok(EnvironmentMap { image, scale, rotation, mean, notes: Vec::new() })
+        let mean = mean_radiance(&image);
+        let largest = image.radiances().iter().fold(0.0, |largest: f32, radiance| largest.max(radiance.max_element()));
+        Ok(EnvironmentMap { image, scale, rotation, mean: mean * scale, read: (mean, largest), notes: Vec::new() })
     }
 
-    /// The same picture at another strength, turned otherwise.
-    pub fn shown_otherwise(&self, scale: f32, rotation: f32) -> Self {
-        let mean = self.mean * (scale / self.scale);
-        EnvironmentMap { image: self.image.clone(), scale, rotation, mean, notes: self.notes.clone() }
+    /// The same picture at another strength, turned otherwise; `None` where it would shine with more than 1e12. Its
+    /// pixels stay shared, and nobody looks at them.
+    pub fn shown_otherwise(&self, scale: f32, rotation: f32) -> Option<Self> {
+        let (mean, largest) = self.read;
+        let fits = largest * scale <= Self::LARGEST && rotation.is_finite();
+        fits.then(|| EnvironmentMap {
+            image: self.image.clone(),
+            scale,
+            rotation,
+            mean: mean * scale,
+            read: self.read,
+            notes: self.notes.clone(),
+        })
     }
 
     /// The same, with what of its file the picture does not show.

@@ -7,7 +7,7 @@
 //! another shape. Open shapes (rectangles, disks) are not looked at; glass of index 1 is, for a slider may give it
 //! another.
 
-use crate::{Bsdf, Geometry, Material, Shape};
+use crate::{Bsdf, Geometry, Instance, Material, Shape};
 use glam::{DVec2, DVec3, Vec3};
 
 /// Gap, relative to the size of the shapes, that keeps flat faces apart.
@@ -45,15 +45,54 @@ pub fn overlap(shapes: &[Shape], materials: &[Material]) -> Option<(usize, usize
     let glass = shapes.iter().enumerate().filter(|(_, shape)| refracts(shape));
     let mut solids: Vec<Solid> = glass.filter_map(|(index, shape)| Solid::new(index, &shape.geometry)).collect();
     solids.sort_by(|a, b| a.lo.x.total_cmp(&b.lo.x));
-    let mut found: Option<(usize, usize)> = None;
+    let (mut found, mut endless): (Option<(usize, usize)>, _) = (None, Effort::corners(usize::MAX));
     for (i, a) in solids.iter().enumerate() {
         let near = solids[i + 1..].iter().take_while(|b| b.lo.x <= a.hi.x);
-        for b in near.filter(|b| !apart(a, b) && !inside(a, b) && !inside(b, a)) {
+        for b in near.filter(|b| overlaps(a, b, &mut endless)) {
             let pair = (a.index.min(b.index), a.index.max(b.index));
             found = Some(found.map_or(pair, |other| other.min(pair)));
         }
     }
     found
+}
+
+/// What may be looked at before an answer is due: pairs of shapes and corners of meshes.
+#[derive(Debug)]
+pub struct Effort(usize);
+
+impl Effort {
+    /// What a pair of shapes costs, in corners.
+    const OF_A_PAIR: usize = 8;
+
+    /// So many corners, a few nanoseconds each.
+    pub fn corners(most: usize) -> Self {
+        Effort(most)
+    }
+
+    /// Takes so much of it; whether there was as much.
+    fn take(&mut self, corners: usize) -> bool {
+        let left = self.0.checked_sub(corners);
+        self.0 = left.unwrap_or(0);
+        left.is_some()
+    }
+}
+
+/// The first shape of `glass` that overlaps the one at `index`, by index. What there is no effort left for does not.
+pub fn overlap_with<'s>(
+    (index, geometry): (usize, &Geometry),
+    glass: impl Iterator<Item = (usize, &'s Geometry)>,
+    effort: &mut Effort,
+) -> Option<usize> {
+    let one = Solid::new(index, geometry)?;
+    let mut others = glass.filter(|(other, _)| *other != index);
+    let found = others
+        .find(|(other, geometry)| Solid::new(*other, geometry).is_some_and(|other| overlaps(&one, &other, effort)));
+    found.map(|(other, _)| other)
+}
+
+/// Whether two shapes lie neither apart nor one wholly in the other.
+fn overlaps(a: &Solid, b: &Solid, effort: &mut Effort) -> bool {
+    effort.take(Effort::OF_A_PAIR) && !apart(a, b) && !inside(a, b, effort) && !inside(b, a, effort)
 }
 
 /// Whether a point lies inside a ball or a box; other shapes hold none.
@@ -149,14 +188,36 @@ fn blocks_apart(a: &Block, b: &Block, gap: f64) -> bool {
         || sideways.iter().any(|&axis| flat.dot(axis).abs() > a.reach(axis) + b.reach(axis) + gap)
 }
 
-/// Whether `a` lies wholly inside `b`.
-fn inside(a: &Solid, b: &Solid) -> bool {
+/// Whether `a` lies wholly inside `b`. A mesh does that there is no effort left for.
+fn inside(a: &Solid, b: &Solid, effort: &mut Effort) -> bool {
     let holds = |point, margin| b.holds(point, margin);
     match &a.form {
         Form::Ball { center, radius } => holds(*center, radius + a.gap()),
         Form::Block(block) => block.corners().all(|corner| holds(corner, a.gap())),
-        Form::Mesh(geometry) => geometry.flat_triangles().0.iter().all(|corner| holds(corner.as_dvec3(), a.gap())),
+        // balls and boxes hold all of a mesh whose box they hold; meshes hold none
+        Form::Mesh(_) if matches!(b.form, Form::Mesh(_)) => false,
+        Form::Mesh(_) if a.block().corners().all(|corner| holds(corner, a.gap())) => true,
+        Form::Mesh(geometry) => match geometry {
+            Geometry::Instance(Instance { mesh, to_world }) => {
+                let to_world = to_world.as_daffine3();
+                let corners = mesh.positions().iter().map(|p| to_world.transform_point3(p.as_dvec3()).as_vec3());
+                all_inside(corners, b, a.gap(), effort)
+            }
+            other => all_inside(other.flat_triangles().0.iter().copied(), b, a.gap(), effort),
+        },
     }
+}
+
+fn all_inside(corners: impl Iterator<Item = Vec3>, b: &Solid, gap: f64, effort: &mut Effort) -> bool {
+    for corner in corners {
+        if !effort.take(1) {
+            return true;
+        }
+        if !b.holds(corner.as_dvec3(), gap) {
+            return false;
+        }
+    }
+    true
 }
 
 #[cfg(test)]
@@ -193,6 +254,23 @@ mod tests {
         assert!(!overlap_of([ball(0.3, 0.5), ball(0.0, 1.0)]));
         assert!(overlap_of([ball(0.0, 1.0), ball(1.9, 1.0)]));
         assert!(overlap_of([ball(0.0, 1.0), ball(0.0, 1.0)]));
+    }
+
+    #[test]
+    fn of_meshes_as_much_is_looked_at_as_there_is_effort_for() {
+        let corners = (0..100).map(|i| Vec3::new(0.0, (i as f32).sin(), (i as f32).cos()) * 0.9).collect();
+        let mesh = Geometry::mesh(corners, vec![[0, 1, 2]]);
+        let overlaps_with = |other: &Geometry, most: usize| {
+            let glass = [(0, &mesh), (1, other)].into_iter();
+            overlap_with((0, &mesh), glass, &mut Effort::corners(most))
+        };
+        // a ball whose surface the mesh crosses at its last corners
+        let across = Geometry::Sphere { center: Vec3::new(0.0, 0.05, 0.0), radius: 0.93 };
+        assert_eq!(overlaps_with(&across, 1000), Some(1));
+        assert_eq!(overlaps_with(&across, 0), None);
+        assert_eq!(overlaps_with(&ball(0.0, 1.0), 1000), None, "it lies inside");
+        assert_eq!(overlaps_with(&ball(0.0, 1.0), 10), None);
+        assert_eq!(overlaps_with(&ball(0.0, 0.5), 1000), Some(1));
     }
 
     #[test]

@@ -11,6 +11,7 @@
 mod accumulation;
 mod backend;
 mod blind_spot;
+mod changes;
 mod command;
 mod denoiser;
 mod device;

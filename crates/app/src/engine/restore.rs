@@ -273,7 +273,7 @@ mod tests {
             let model = restored(&written(&folder, name, &picture.records(made)));
             let technique = model.session.panes[PaneId::A].in_use();
             assert_eq!((technique, model.document.camera), (picture.technique, picture.shot.camera), "{name}");
-            assert_eq!((model.document.changes, model.session.display.exposure), (picture.shot.changes, 1.5));
+            assert_eq!((&model.document.changes, model.session.display.exposure), (&picture.shot.changes, 1.5));
             assert!(!model.can_undo_and_redo()[0], "{name}: there is nothing behind it");
         }
     }

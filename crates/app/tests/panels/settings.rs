@@ -151,7 +151,7 @@ fn every_setting_that_the_scene_can_use_has_one_control_that_sets_it() {
         }
         let mut panels = Panels::of(scene);
         for setting in OF_SCENES {
-            count += panels.expect_control(setting, None, |model| model.document.changes);
+            count += panels.expect_control(setting, None, |model| model.document.changes.clone());
         }
         seen.push(count);
     }

@@ -1,7 +1,7 @@
 //! What can be changed in lights that are no shapes. Shapes shine by their materials.
 
 use super::{Kind, Property, Value, no_words};
-use crate::{Scene, Spot};
+use crate::{EnvironmentMap, Scene, Spot, limits};
 use glam::Vec3;
 use std::sync::Arc;
 
@@ -156,15 +156,17 @@ fn aim_the_sun(scene: &mut Scene, moved: impl FnOnce([f32; 2]) -> [f32; 2]) {
     if let Some(sun) = &mut scene.sun {
         sun.towards = direction_of(moved(angles_of(sun.towards)));
         let place = &mut scene.fake.light_position;
-        *place = place.map(|place| place.length() * sun.towards);
+        *place = place.map(|place| place.length().min(limits::LARGEST) * sun.towards);
     }
 }
 
-/// Another strength and turn of the sky's picture.
+/// Another strength and turn of the sky's picture. One that would shine too brightly stays as it is.
 fn turn_the_sky(scene: &mut Scene, changed: impl FnOnce([f32; 2]) -> [f32; 2]) {
-    if let Some(map) = &scene.environment {
+    let otherwise = |map: &Arc<EnvironmentMap>| {
         let [scale, rotation] = changed([map.scale(), map.rotation()]);
-        let map = map.shown_otherwise(scale, rotation);
+        map.shown_otherwise(scale, rotation)
+    };
+    if let Some(map) = scene.environment.as_ref().and_then(otherwise) {
         scene.sky = map.mean();
         scene.environment = Some(Arc::new(map));
     }

@@ -40,9 +40,10 @@ pub const PROPERTIES: &[Property] = &[
         },
         set: |scene, index, value| {
             change(scene, index, value.word(), |material, metal| {
-                if let Bsdf::RoughConductor { conductor, .. } = &mut material.bsdf {
-                    let plain = Conductor::Constant(conductor.at_normal_incidence());
-                    *conductor = Conductor::named(metal).unwrap_or(plain);
+                let Bsdf::RoughConductor { conductor, .. } = &mut material.bsdf else { return };
+                let plain = Conductor::Constant(conductor.at_normal_incidence());
+                if let Some(metal) = Conductor::named(metal).or((metal == NO_METAL).then_some(plain)) {
+                    *conductor = metal;
                 }
             });
         },
@@ -241,8 +242,9 @@ fn wear_lobe(material: &mut Material, lobe: &str) {
         "dielectric" => Bsdf::Dielectric { ior: USUAL_INDEX },
         _ => return,
     };
+    // glass does not shine
     if lobe == "dielectric" {
-        material.emission = None;
+        (material.emission, material.surface.emission) = (None, None);
     }
 }
 

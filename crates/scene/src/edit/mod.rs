@@ -5,6 +5,9 @@
 //! Changes are of the scene as it was opened, and each states what is to be rather than by how much: so they can be made,
 //! taken back and written down in any order.
 
+mod apply;
+mod compose;
+mod fit;
 mod lights;
 mod materials;
 mod places;
@@ -12,12 +15,12 @@ mod shapes;
 mod text;
 mod value;
 
-pub(crate) use text::{Wrong, edits_of, quoted};
+pub use crate::file::changed::{CameraChange, ChangedScene, file_text, flattened, to_save};
+pub(crate) use apply::{Change, Refused};
+pub use text::{Wrong, edits_of, quoted};
 pub use value::{Kind, Value};
 
-use crate::{Bsdf, Scene, nesting};
-use places::Places;
-use std::borrow::Cow;
+use crate::Scene;
 use std::collections::BTreeMap;
 use std::fmt;
 
@@ -137,9 +140,9 @@ impl Edits {
         self.values.contains_key(subject)
     }
 
-    /// Changes a property of a subject.
+    /// Changes a property of a subject. A value that it cannot have is refused where changes are made.
     pub fn set(&mut self, subject: &Subject, property: &'static Property, value: Value) {
-        self.values.entry(subject.clone()).or_default().insert(property.name, value);
+        self.values.entry(subject.clone()).or_default().insert(property.name, value.without_signed_zeros());
     }
 
     /// Leaves a property to the scene again.
@@ -180,69 +183,9 @@ impl Edits {
         let stated = self.get(subject, property).filter(|_| matches!(subject, Subject::Shape(_)));
         Some(stated.cloned().unwrap_or(now))
     }
-
-    /// The scene with these changes; its meshes stay shared.
-    ///
-    /// # Errors
-    /// If the scene lacks a part or a variant that is changed, or if glass would overlap other glass, or shapes would lie
-    /// beyond what coordinates may be.
-    pub fn applied_to(&self, scene: &Scene) -> Result<Scene, CannotEdit> {
-        let mut edited = scene.clone();
-        if let Some(name) = &self.variant {
-            edited.wear(name).map_err(CannotEdit)?;
-        }
-        let worn = self.variant.as_ref().map(|_| edited.clone());
-        let places = Places::of(self.values.len(), scene);
-        for (subject, values) in &self.values {
-            let lacks = || CannotEdit(format!("{} has no {}", scene.name, lacking(subject)));
-            let index = places.find(subject).ok_or_else(lacks)?;
-            for property in subject.properties() {
-                if let Some(value) = values.get(property.name) {
-                    (property.set)(&mut edited, index, value);
-                }
-            }
-        }
-        shapes::remove_hidden(&mut edited, self, &places);
-        // a file's variant is shown as the file has it, with whatever glass
-        self.check(worn.as_ref().unwrap_or(scene), &edited)?;
-        Ok(edited)
-    }
-
-    /// Whether what was changed can be shown.
-    fn check(&self, scene: &Scene, edited: &Scene) -> Result<(), CannotEdit> {
-        let moved = self.values.keys().any(|subject| matches!(subject, Subject::Shape(_)));
-        if moved && let Some(index) = shapes::beyond_coordinates(edited) {
-            let name = edited.shape_name(index).into_owned();
-            return Err(CannotEdit(format!("{} would reach farther than 1e12 from 0", Subject::Shape(name))));
-        }
-        let is_glass = |scene: &Scene, index: usize| {
-            matches!(scene.material_of(&scene.shapes[index]).bsdf, Bsdf::Dielectric { .. })
-        };
-        let other_glass = edited.shapes.len() != scene.shapes.len()
-            || (0..edited.shapes.len()).any(|index| {
-                is_glass(edited, index)
-                    && (!is_glass(scene, index) || edited.shapes[index].geometry != scene.shapes[index].geometry)
-            });
-        let overlaps = |scene: &Scene| nesting::overlap(&scene.shapes, &scene.materials);
-        match other_glass.then(|| overlaps(edited)).flatten() {
-            Some((_, second)) if overlaps(scene).is_none() => {
-                let name = edited.shape_name(second).into_owned();
-                Err(CannotEdit(format!(
-                    "{} would overlap other glass: glass lies apart, or one wholly inside the other",
-                    Subject::Shape(name)
-                )))
-            }
-            _ => Ok(()),
-        }
-    }
 }
 
-fn lacking(subject: &Subject) -> Cow<'static, str> {
-    match subject {
-        Subject::Sun => "sun".into(),
-        other => other.to_string().into(),
-    }
-}
-
+#[cfg(test)]
+mod limit_tests;
 #[cfg(test)]
 mod tests;

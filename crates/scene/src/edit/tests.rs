@@ -1,11 +1,11 @@
 use super::*;
-use crate::{Geometry, Vec3, builtin};
+use crate::{Bsdf, Geometry, Vec3, builtin};
 
-fn scene(name: &str) -> Scene {
+pub(super) fn scene(name: &str) -> Scene {
     builtin::named(name).expect("a built-in scene")
 }
 
-fn edits(changes: &[(Subject, &str, Value)]) -> Edits {
+pub(super) fn edits(changes: &[(Subject, &str, Value)]) -> Edits {
     let mut edits = Edits::default();
     for (subject, name, value) in changes {
         edits.set(subject, subject.property(name).expect("a property"), value.clone());
@@ -13,7 +13,7 @@ fn edits(changes: &[(Subject, &str, Value)]) -> Edits {
     edits
 }
 
-fn subjects(scene: &Scene) -> Vec<Subject> {
+pub(super) fn subjects(scene: &Scene) -> Vec<Subject> {
     let materials = scene.materials.iter().map(|material| Subject::Material(material.name.clone()));
     let shapes = (0..scene.shapes.len()).map(|index| Subject::Shape(scene.shape_name(index).into_owned()));
     let lights = (0..scene.point_lights.len()).map(|index| Subject::Light(scene.light_name(index).into_owned()));
@@ -30,10 +30,6 @@ fn every_property_set_to_what_it_is_changes_nothing() {
                 let index = subject.index_in(&scene).expect("it is there");
                 let Some(value) = (property.get)(&scene, index) else { continue };
                 assert!(property.kind.holds(&value), "{name}: {subject}: {} is {value:?}", property.name);
-                // angles and middles are rounded on the way
-                if ["elevation", "azimuth", "center", "turn", "turn_y", "scale"].contains(&property.name) {
-                    continue;
-                }
                 let same = edits(&[(subject.clone(), property.name, value)]).applied_to(&scene).expect("it can be");
                 assert!(same == scene, "{name}: {subject}: {}", property.name);
             }
@@ -96,7 +92,7 @@ fn what_is_left_out_is_gone_and_others_keep_their_names() {
 fn a_part_that_is_not_there_is_named() {
     let lost = edits(&[(Subject::Material("velvet".into()), "colour", Value::Triple(Vec3::ONE))]);
     let why = lost.applied_to(&scene("cornell")).expect_err("no velvet").to_string();
-    assert_eq!(why, "cornell has no material 'velvet'");
+    assert!(why.starts_with("cornell has no material 'velvet'"), "{why}");
 }
 
 #[test]

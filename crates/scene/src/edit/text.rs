@@ -18,10 +18,12 @@ const NAMED: [&str; 3] = ["material", "shape", "light"];
 const SINGLE: [&str; 2] = ["sun", "sky"];
 const VARIANT: &str = "variant";
 
-/// What is wrong, at a byte range of the text.
+/// What is wrong with a text.
 #[derive(Debug)]
-pub(crate) struct Wrong {
+pub struct Wrong {
+    /// The bytes of it that are.
     pub at: Range<usize>,
+    /// What was expected there, in a line.
     pub message: String,
 }
 
@@ -59,8 +61,11 @@ fn first_line(text: &str) -> String {
     text.lines().next().unwrap_or_default().to_owned()
 }
 
-/// What a table of changes says.
-pub(crate) fn edits_of(value: Spanned<DeValue>) -> Result<Edits, Wrong> {
+/// What a table of changes says, whose values know where they stand in the text.
+///
+/// # Errors
+/// What is wrong first, and where.
+pub fn edits_of(value: Spanned<DeValue>) -> Result<Edits, Wrong> {
     let mut edits = Edits::default();
     for (key, value) in table_of(value, "edit")? {
         let (at, name) = (key.span(), key.into_inner());
@@ -205,8 +210,8 @@ fn text_of(value: &Value) -> String {
     }
 }
 
-/// A basic string of TOML.
-pub(crate) fn quoted(text: &str) -> String {
+/// A text as a basic string of TOML, quotes with it.
+pub fn quoted(text: &str) -> String {
     let mut quoted = String::from("\"");
     for letter in text.chars() {
         match letter {

@@ -1,5 +1,6 @@
 //! What a property can be, and may be.
 
+use crate::limits;
 use glam::Vec3;
 use std::ops::RangeInclusive;
 
@@ -30,6 +31,15 @@ impl Value {
     /// The word, if it is one.
     pub fn word(&self) -> Option<&str> {
         if let Value::Word(word) = self { Some(word) } else { None }
+    }
+
+    /// The same with 0 for -0, as it is read from a text: the sign would turn what is drawn at random.
+    pub(super) fn without_signed_zeros(self) -> Self {
+        match self {
+            Value::Number(number) => Value::Number(number + 0.0),
+            Value::Triple(triple) => Value::Triple(triple + 0.0),
+            other => other,
+        }
     }
 
     /// The flag, if it is one.
@@ -70,12 +80,11 @@ pub enum Kind {
 impl Kind {
     /// Whether the value is one of these. Words are not looked up.
     pub fn holds(&self, value: &Value) -> bool {
-        const LARGEST: f32 = 1e12;
         match (self, value) {
             (Kind::Number { range, .. }, Value::Number(number)) => range.contains(number),
             (Kind::Colour, Value::Triple(v)) => v.cmpge(Vec3::ZERO).all() && v.cmple(Vec3::ONE).all(),
-            (Kind::Light, Value::Triple(v)) => v.cmpge(Vec3::ZERO).all() && v.cmple(Vec3::splat(LARGEST)).all(),
-            (Kind::Point | Kind::Turn, Value::Triple(v)) => v.abs().cmple(Vec3::splat(LARGEST)).all(),
+            (Kind::Light, Value::Triple(v)) => v.cmpge(Vec3::ZERO).all() && v.cmple(Vec3::splat(limits::LARGEST)).all(),
+            (Kind::Point | Kind::Turn, Value::Triple(v)) => v.abs().cmple(Vec3::splat(limits::LARGEST)).all(),
             (Kind::Word, Value::Word(_)) | (Kind::Flag, Value::Flag(_)) => true,
             _ => false,
         }

@@ -32,7 +32,7 @@ pub(crate) fn beside(folder: &Path, name: &str) -> Result<PathBuf, String> {
 }
 
 /// Whether a path has no root and goes up no farther than it has gone down.
-fn is_inside(path: &Path) -> bool {
+pub(crate) fn is_inside(path: &Path) -> bool {
     let depth = path.components().try_fold(0usize, |depth, part| match part {
         Component::Normal(_) => Some(depth + 1),
         Component::CurDir => Some(depth),

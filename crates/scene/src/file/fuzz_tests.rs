@@ -131,3 +131,24 @@ fn broken_scenes_are_read_or_refused_in_one_line() {
     }
     assert!((30..2900).contains(&read), "{read} of 3000 broken scenes were read");
 }
+
+const CHANGED: &str = "base = \"cornell-balls\"\n[camera]\nfov_y = 30\neye = [1, 2, 3]\n[edit]\nsky = { radiance = [0, 1, 0] }\n\
+[edit.material.glass]\nior = 1.4\n[edit.material.red]\nlobe = \"rough_conductor\"\nmetal = \"gold\"\nroughness = 0.2\n\
+[edit.shape.\"BALL\"]\ncenter = [100, 300, 200]\nscale = 0.5\nhidden = false\n";
+
+#[test]
+fn broken_files_of_changed_scenes_are_read_or_refused_in_one_line() {
+    let (mut random, mut read) = (Random(0x0f1e_2d3c_4b5a_6978), 0);
+    let balls = crate::builtin::named("cornell-balls").expect("a built-in scene");
+    let ball = (0..balls.shapes.len()).find(|index| balls.shapes[*index].geometry.kind() == "sphere");
+    let whole = CHANGED.replace("BALL", &balls.shape_name(ball.expect("a ball")));
+    assert!(parse(&whole, "fuzz", Path::new("fuzz.toml")).is_ok());
+    for _ in 0..3000 {
+        let text = String::from_utf8_lossy(&broken(whole.as_bytes(), &mut random)).into_owned();
+        match parse(&text, "fuzz", Path::new("fuzz.toml")) {
+            Ok(_) => read += 1,
+            Err(fault) => assert_eq!(fault.to_string().lines().count(), 1, "{fault}"),
+        }
+    }
+    assert!((30..2900).contains(&read), "{read} of 3000 broken files were read");
+}

@@ -4,6 +4,7 @@
 mod advice;
 mod begun;
 mod beside;
+pub(crate) mod changed;
 mod gltf;
 mod material;
 mod meshes;
@@ -36,6 +37,7 @@ use std::sync::Arc;
 use toml::Spanned;
 
 pub use beside::{allow_files_outside, allows_files_outside};
+pub(crate) use shapes::beyond_copies;
 
 /// Why there is no scene.
 #[derive(Debug, thiserror::Error)]
@@ -120,6 +122,11 @@ const LARGEST_FILE: u64 = 256 << 20;
 /// [`SceneError::OtherFormat`] if its name says so, [`SceneError::Read`] if it cannot be read, [`SceneError::Wrong`] or
 /// [`SceneError::Mesh`] or [`SceneError::Model`] if it does not hold a scene or a model, [`SceneError::Stopped`] if it was told to stop.
 pub fn load(path: &Path, progress: &Progress) -> Result<Scene, SceneError> {
+    load_below(path, progress, &[])
+}
+
+/// As [`load`], of what the files `above` stand on, each on the next.
+fn load_below(path: &Path, progress: &Progress, above: &[PathBuf]) -> Result<Scene, SceneError> {
     if model::is_model(path) {
         return showcase::around(path, progress);
     }
@@ -136,7 +143,7 @@ pub fn load(path: &Path, progress: &Progress) -> Result<Scene, SceneError> {
         SceneError::Read { path: path.to_owned(), why, meant }
     })?;
     let name = path.file_stem().map(|s| s.to_string_lossy().into_owned()).unwrap_or_default();
-    parse_telling(&text, &name, path, progress)
+    parse_below(&text, &name, path, progress, above)
 }
 
 /// The scene file in a missing one's folder whose name is nearest to its.
@@ -180,17 +187,24 @@ pub fn parse(text: &str, name: &str, path: &Path) -> Result<Scene, SceneError> {
 /// # Errors
 /// As those of [`parse`], and [`SceneError::Stopped`].
 pub fn parse_telling(text: &str, name: &str, path: &Path, progress: &Progress) -> Result<Scene, SceneError> {
-    let wrong = |fault: Fault| {
-        if progress.is_stopped() {
-            return SceneError::Stopped;
-        }
-        let (line, column) = line_and_column(text, fault.at.start);
-        SceneError::Wrong { path: path.to_owned(), line, column, message: fault.message }
+    parse_below(text, name, path, progress, &[])
+}
+
+fn parse_below(
+    text: &str,
+    name: &str,
+    path: &Path,
+    progress: &Progress,
+    above: &[PathBuf],
+) -> Result<Scene, SceneError> {
+    if changed::is_changed(text) {
+        return changed::parse(text, name, path, progress, above);
+    }
+    let wrong = |fault: Fault| match progress.is_stopped() {
+        true => SceneError::Stopped,
+        false => fault.in_file(text, path),
     };
-    let raw: RawScene = toml::from_str(text).map_err(|e| {
-        let (at, message) = (e.span().unwrap_or(0..0), e.message().lines().collect::<Vec<_>>().join(", "));
-        wrong(Fault { message: advice::advised(text, at.clone(), message), at })
-    })?;
+    let raw: RawScene = advice::from_toml(text).map_err(wrong)?;
     build(raw, name, path.parent().unwrap_or(Path::new("")), progress).map_err(wrong)
 }
 
@@ -198,6 +212,13 @@ pub fn parse_telling(text: &str, name: &str, path: &Path, progress: &Progress) -
 struct Fault {
     at: Range<usize>,
     message: String,
+}
+
+impl Fault {
+    fn in_file(self, text: &str, path: &Path) -> SceneError {
+        let (line, column) = line_and_column(text, self.at.start);
+        SceneError::Wrong { path: path.to_owned(), line, column, message: self.message }
+    }
 }
 
 fn fault<T>(at: Range<usize>, message: impl Into<String>) -> Result<T, Fault> {

@@ -1,6 +1,7 @@
 //! Numbers with a range, and lists of three of them. Each says in its error what it expected, and TOML adds where; so a
 //! NaN, an infinity, a number too large for f32 or a list of another length never gets past the file.
 
+use crate::limits::{LARGEST, SMALLEST};
 use glam::{Vec2, Vec3};
 use serde::de::{Deserialize, Deserializer, Error, IgnoredAny, SeqAccess, Visitor};
 use std::fmt;
@@ -13,11 +14,6 @@ pub trait Range {
     /// Whether a finite number lies in the range.
     fn holds(value: f32) -> bool;
 }
-
-/// Squares and volumes of larger numbers leave f32 behind.
-const LARGEST: f32 = 1e12;
-/// As do squares and volumes of smaller lengths, below the least number that is not 0.
-pub const SMALLEST: f32 = 1e-12;
 
 macro_rules! ranges {
     ($($name:ident, $expected:literal, $holds:expr;)*) => {$(

@@ -3,9 +3,8 @@
 use super::meshes::Made;
 use super::part_names::PartNames;
 use super::raw::{RawBox, RawDisk, RawRectangle, RawSphere, Table};
-use super::{Fault, advice, fault, number};
-use crate::direction::unit;
-use crate::{Geometry, Instance, Material, Mesh, Shape, nesting};
+use super::{Fault, advice, fault};
+use crate::{Geometry, Instance, Material, Mesh, Shape, limits, nesting};
 use glam::Vec3;
 use std::ops::Range;
 use toml::Spanned;
@@ -50,14 +49,7 @@ impl<'a> Shapes<'a> {
 
     /// Small meshes that are copied have at most [`Mesh::MOST_COPIED`] triangles.
     fn check_copies(&self) -> Result<(), Fault> {
-        let mut copied = 0;
-        let beyond = self.list.iter().position(|shape| {
-            if let Geometry::Instance(Instance { mesh, .. }) = &shape.geometry {
-                copied += if mesh.is_large() { 0 } else { mesh.triangles().len() as u64 };
-            }
-            copied > Mesh::MOST_COPIED
-        });
-        let Some(at) = beyond else { return Ok(()) };
+        let Some(at) = beyond_copies(&self.list) else { return Ok(()) };
         let most = Mesh::MOST_COPIED;
         let line = format!(
             "instances of meshes below {} triangles have more than {most} triangles together: give them larger meshes, \
@@ -80,6 +72,17 @@ impl<'a> Shapes<'a> {
     }
 }
 
+/// The first shape with which small meshes that are copied have more than [`Mesh::MOST_COPIED`] triangles.
+pub(crate) fn beyond_copies(shapes: &[Shape]) -> Option<usize> {
+    let mut copied = 0;
+    shapes.iter().position(|shape| {
+        if let Geometry::Instance(Instance { mesh, .. }) = &shape.geometry {
+            copied += if mesh.is_large() { 0 } else { mesh.triangles().len() as u64 };
+        }
+        copied > Mesh::MOST_COPIED
+    })
+}
+
 /// What is no copy of a mesh.
 fn made(geometry: Geometry, name: Option<Spanned<String>>, wears: Spanned<String>) -> Made {
     Made { kind: geometry.kind(), geometry, name, copied: None, wears }
@@ -91,9 +94,7 @@ pub fn sphere(Table(raw): Table<RawSphere>) -> Result<Made, Fault> {
 
 pub fn rectangle(Table(raw): Table<RawRectangle>) -> Result<Made, Fault> {
     let (at, edge_u, edge_v) = (raw.edge_v.span(), Vec3::from(raw.edge_u), Vec3::from(raw.edge_v.into_inner()));
-    let [u, v] = [edge_u, edge_v].map(|edge| unit(edge).unwrap_or(Vec3::ZERO));
-    let shortest = edge_u.as_dvec3().length().min(edge_v.as_dvec3().length());
-    if !(u.cross(v).length() > 1e-6 && shortest >= number::SMALLEST.into()) {
+    if !limits::spans(edge_u, edge_v) {
         return fault(at, "edge_u and edge_v must span an area, and be 1e-12 long at least");
     }
     Ok(made(Geometry::Rectangle { corner: raw.corner.into(), edge_u, edge_v }, raw.name, raw.material))

@@ -261,6 +261,9 @@ pub fn of_scenes(name: &str) -> Option<&'static Setting<SceneChanges>> {
     OF_SCENES.iter().find(|setting| setting.name == name)
 }
 
+/// The option, and the record, of what is changed in a scene part by part: the text of [`Edits`](scene::edit::Edits).
+pub const EDIT: &str = "edit";
+
 impl Technique {
     /// Its settings with their values, as far as a file keeps them; `spp` is what the picture has.
     pub fn values(&self, spp: u32) -> Vec<(&'static str, Value)> {
@@ -286,19 +289,20 @@ impl Technique {
 
 impl SceneChanges {
     /// What was changed, by the options' names without dashes. What was not is the scene's, and may differ from glass
-    /// to glass.
+    /// to glass. What is changed part by part comes last.
     pub fn options(&self) -> Records {
         self.options_where(|_| true)
     }
 
-    /// Those that this technique sees.
+    /// Those that this technique sees; parts are for all.
     pub fn options_of(&self, technique: TechniqueName) -> Records {
         self.options_where(|setting| setting.is_of(technique))
     }
 
     fn options_where(&self, wanted: impl Fn(&Setting<SceneChanges>) -> bool) -> Records {
         let changed = OF_SCENES.iter().filter(|setting| wanted(setting)).filter_map(|setting| setting.record(self));
-        changed.map(|(name, value)| (name, value.to_string())).collect()
+        let edits = Some((EDIT, self.edits.to_string())).filter(|_| !self.edits.is_empty());
+        changed.map(|(name, value)| (name, value.to_string())).chain(edits).collect()
     }
 }
 

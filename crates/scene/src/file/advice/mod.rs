@@ -7,11 +7,21 @@ mod types;
 
 pub(super) use names::{unknown_material, unknown_mesh};
 
+use super::Fault;
 use place::Place;
 use std::ops::Range;
 
+/// The values of a text of TOML, with advice where they are others than expected.
+pub(super) fn from_toml<T: serde::de::DeserializeOwned>(text: &str) -> Result<T, Fault> {
+    toml::from_str(text).map_err(|fault| {
+        let at = fault.span().unwrap_or(0..0);
+        let message = fault.message().lines().collect::<Vec<_>>().join(", ");
+        Fault { message: advised(text, at.clone(), message), at }
+    })
+}
+
 /// The parser's message about this place of the text, with the cure if the mistake is a usual one.
-pub(super) fn advised(text: &str, at: Range<usize>, message: String) -> String {
+fn advised(text: &str, at: Range<usize>, message: String) -> String {
     let place = Place { text, at };
     if let Some(line) = place.single_brackets(&message) {
         return line;

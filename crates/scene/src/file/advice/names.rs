@@ -101,10 +101,30 @@ pub(super) fn unknown_field(place: &Place, message: &str) -> Option<String> {
     if word == "diameter" && is_known("radius") {
         return Some(radius_of_diameter(place));
     }
+    if let Some(line) = of_a_changed_scene(word, is_known("base"), is_known("material") && is_known("camera")) {
+        return Some(line);
+    }
     // the scene itself: a material that stands among its tables
     let material =
         (is_known("material") && is_known("camera")).then(|| format!("a material of this name is [material.{word}]"));
     meant(word, &known).map(|name| format!("did you mean `{name}`?")).or(material)
+}
+
+/// What stands in a changed scene alone, and what in others.
+fn of_a_changed_scene(word: &str, is_changed: bool, is_scene: bool) -> Option<String> {
+    match word {
+        "base" | "edit" if is_scene => {
+            Some("a changed scene begins with base = \"NAME\", before its first table".into())
+        }
+        "material" | "sun" | "sky" if is_changed => {
+            Some(format!("what is changed in the base's stands in [edit.{word}]"))
+        }
+        "sphere" | "rectangle" | "disk" | "box" | "mesh" | "statue" | "instance" | "point_light" if is_changed => Some(
+            "a changed scene has its base's: what is changed in one stands in [edit.shape.NAME] or [edit.light.NAME]"
+                .into(),
+        ),
+        _ => None,
+    }
 }
 
 fn meant<'a>(word: &str, known: &[&'a str]) -> Option<&'a str> {

@@ -91,7 +91,7 @@ pub const OF_SCENES: &[Setting<SceneChanges>] = &[
         help: "index outside over inside of all glass",
         always_recorded: false,
         get: |changes| changes.refraction_ratio.map(Value::Number),
-        set: |changes, value| changes.refraction_ratio = number(value),
+        set: |changes, value| changes.set_refraction_ratio(number(value)),
         control: Control {
             label: "Refraction ratio",
             aside: |value| number(value).map_or_else(String::new, |ratio| format!(" (n = {:.2})", 1.0 / ratio)),
@@ -115,7 +115,7 @@ pub const OF_SCENES: &[Setting<SceneChanges>] = &[
         help: "angular radius of the sun, 0 is a delta light",
         always_recorded: false,
         get: |changes| changes.sun_radius.map(Value::Number),
-        set: |changes, value| changes.sun_radius = number(value),
+        set: |changes, value| changes.set_sun_radius(number(value)),
         control: Control {
             label: "Sun radius (the fake's is 0)",
             hover: "0: hard shadows, and caustics that chance never finds, but connections and photons do. Larger: softer \
