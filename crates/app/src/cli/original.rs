@@ -3,6 +3,7 @@
 use crate::cli::RenderArgs;
 use crate::ruler::made_before;
 use anyhow::ensure;
+use scene::edit::CannotEdit;
 use scene::{Scene, SceneError, SceneHash};
 use std::path::{Path, PathBuf};
 use technique::{Denoiser, Shot};
@@ -35,6 +36,9 @@ impl RenderArgs {
                 "the scene of {} is not found; run this in the folder where it was made",
                 image_file::shown(&original.file)
             )),
+            (Some(original), None) if fault.is::<CannotEdit>() => {
+                fault.context(format!("the scene of {} has become another", image_file::shown(&original.file)))
+            }
             _ => fault,
         })
     }

@@ -32,7 +32,7 @@ pub fn run(args: &SweepArgs) -> anyhow::Result<()> {
         return super::print(&jobs(args, &plan, &shot));
     }
     check_files(args)?;
-    Sheet::check_size(&plan, shot.size, args.errors.is_some())?;
+    Sheet::check_size(&plan, &shot, args.errors.is_some())?;
     let _heeded = interrupt::heed();
     let tiles = make(&plan, &shot)?;
     let display = DisplayTransform { exposure: args.exposure };

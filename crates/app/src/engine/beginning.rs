@@ -2,7 +2,7 @@
 
 use super::load::{self, Asked, Loaded, Opened, ReferenceFile};
 use super::memory;
-use crate::model::{Model, Remembered, SavedWindow, ViewArgs};
+use crate::model::{Document, Model, Remembered, SavedWindow, ViewArgs};
 use anyhow::bail;
 use scene::Progress;
 
@@ -36,7 +36,7 @@ impl Beginning {
     /// The scene that was read, as the options and the session or the picture that was opened set it up.
     ///
     /// # Errors
-    /// If the camera that is asked for sees nothing.
+    /// If the camera that is asked for sees nothing, or the scene lacks what is to be changed in it.
     pub fn model(&self, args: &ViewArgs) -> anyhow::Result<Model> {
         let opened = &self.opened;
         let setup = opened.setup.clone().unwrap_or_default().overridden_by(&args.setup);
@@ -50,6 +50,8 @@ impl Beginning {
             args.slide.into_iter().for_each(|slide| _ = model.show_slide(slide));
             model.set_up(&setup).map_err(anyhow::Error::msg)?;
         }
+        let Document { changes, .. } = &model.document;
+        changes.edits.without_effect(model.document.seen()).iter().for_each(|line| note!("note: {line}"));
         if let Some(workspace) = &args.workspace {
             model.session.sweep.open = workspace == "sweep";
             model.session.trees.open = workspace == "trees";

@@ -1,6 +1,7 @@
 //! The thread that writes pictures and fills the clipboard: encoding, disk and other programs take their time.
 
 use super::capture::{Capture, Pixels};
+use super::changed_scene::SceneToSave;
 use super::report::{ReportToSave, SlideToSave};
 use super::session::SessionToSave;
 use super::worker::{Control, Service, Worker};
@@ -31,6 +32,8 @@ pub enum Content {
     Samples(Vec<(PaneId, Arc<PixelSamples>)>),
     /// What makes all pictures again.
     Session(Box<SessionToSave>),
+    /// What is changed in the scene.
+    Scene(Box<SceneToSave>),
     /// A page of all that is known of them.
     Report(Box<ReportToSave>),
     /// Pictures with large labels.
@@ -92,9 +95,7 @@ impl Service for Exports {
     fn serve(&mut self, queue: Vec<Export>, control: &Control<Vec<Export>, Vec<Outcome>>) {
         for export in queue {
             let outcome = match &export.to {
-                Destination::File(path) => {
-                    save(&export, path).map(|path| format!("Saved {}", image_file::shown(&path)))
-                }
+                Destination::File(path) => save(&export, path).map(|path| told(&export.content, &path)),
                 Destination::Clipboard => copy(&export, &mut self.clipboard).map(|()| "Copied the picture".into()),
             };
             control.tell(|list| list.push(outcome.map_err(|fault| format!("{fault:#}"))));
@@ -104,6 +105,15 @@ impl Service for Exports {
     fn recover(&mut self, control: &Control<Vec<Export>, Vec<Outcome>>) {
         self.clipboard = None;
         control.tell(|list| list.push(Err("the export stopped at a fault of its own".into())));
+    }
+}
+
+/// What is said of a file that was written.
+fn told(content: &Content, path: &Path) -> String {
+    let saved = format!("Saved {}", image_file::shown(path));
+    match content {
+        Content::Scene(scene) => format!("{saved}: {}", scene.how_to_open(path)),
+        _ => saved,
     }
 }
 
@@ -117,6 +127,9 @@ fn save(export: &Export, path: &Path) -> anyhow::Result<PathBuf> {
     }
     if let Content::Session(session) = content {
         return session.save(path);
+    }
+    if let Content::Scene(scene) = content {
+        return scene.save(path);
     }
     if let Content::Report(report) = content {
         return report.save(path);
@@ -142,6 +155,7 @@ fn save(export: &Export, path: &Path) -> anyhow::Result<PathBuf> {
             | Content::Text(_)
             | Content::Samples(_)
             | Content::Session(_)
+            | Content::Scene(_)
             | Content::Report(_),
             _,
         ) => {
@@ -178,6 +192,10 @@ fn copy(export: &Export, clipboard: &mut Option<arboard::Clipboard>) -> anyhow::
         Content::Samples(panes) => {
             let outcome = opened(clipboard).and_then(|open| open.set_text(samples_csv(panes)));
             return outcome.context("cannot copy the table; save it instead");
+        }
+        Content::Scene(scene) => {
+            let outcome = opened(clipboard).and_then(|open| open.set_text(scene.text_in(Path::new(""))));
+            return outcome.context("cannot copy the scene; save it instead");
         }
         Content::Session(session) => {
             let outcome = opened(clipboard).and_then(|open| open.set_text(session.text()));

@@ -11,6 +11,7 @@ pub mod ask;
 mod asked_pane;
 pub mod beginning;
 pub mod capture;
+pub mod changed_scene;
 mod course;
 pub mod dialogue;
 mod earlier;

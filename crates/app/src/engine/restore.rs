@@ -7,7 +7,7 @@ use compare::ErrorMetric;
 use image_file::shown;
 use scene::{Scene, SceneHash, Vec3};
 use std::path::Path;
-use technique::settings::of_scenes;
+use technique::settings::{EDIT, of_scenes};
 use technique::{OWN_FOV, PaneSetup, Recorded, SampleRanges, TechniqueName, made_by_command, made_from, scene_hash};
 
 /// A picture's scene and all that it says beside.
@@ -194,6 +194,7 @@ fn look(setup: &mut Setup, name: &str, value: &str) -> anyhow::Result<bool> {
         "target" => setup.target = Some(point(value)?),
         "up" => setup.up = Some(point(value)?),
         "fov" => setup.fov = Some(number(value)?),
+        EDIT => setup.changes.take_edits(&value.parse().with_context(|| format!("{EDIT} is damaged"))?),
         _ => {
             let Some(change) = of_scenes(name) else { return Ok(false) };
             let value = change.kind.parse(value);

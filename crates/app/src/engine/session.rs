@@ -134,7 +134,7 @@ impl SessionToSave {
 }
 
 /// A built-in scene's name, or its file as a folder finds it.
-fn source_from(folder: &Path, source: &str) -> String {
+pub(super) fn source_from(folder: &Path, source: &str) -> String {
     match builtin::text(source) {
         Some(_) => source.to_owned(),
         None => file_from(folder, Path::new(source)).display().to_string(),

@@ -17,6 +17,7 @@ use crate::ruler::ReferenceImage;
 use film::Image;
 use pathtrace::Stats;
 use scene::Scene;
+use scene::edit::Edits;
 use std::sync::Arc;
 use technique::Provenance;
 
@@ -73,6 +74,15 @@ pub struct ReportedReference {
     pub image: ReferenceImage,
     /// How it came about: "64 pictures, 12.3 s".
     pub made: String,
+}
+
+impl LabReport {
+    /// The scene's name, and that it is a changed one where it is.
+    fn name_of_scene(&self) -> String {
+        let shown = self.pictures.first().map(|picture| &picture.provenance.shot.changes.edits);
+        let edited = shown.and_then(Edits::told);
+        std::iter::once(self.scene.name.clone()).chain(edited).collect::<Vec<_>>().join(", ")
+    }
 }
 
 impl ReportedPicture {

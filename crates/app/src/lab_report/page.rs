@@ -22,7 +22,7 @@ impl LabReport {
     /// If there is no memory for a map, or a picture cannot be encoded.
     pub fn html(&self) -> anyhow::Result<String> {
         let measured = self.measured()?;
-        let title = escaped(&format!("{}: lab report", self.scene.name));
+        let title = escaped(&format!("{}: lab report", self.name_of_scene()));
         let sections = [
             ("Pictures", self.all_pictures(&measured)?),
             ("Errors", self.errors(&measured)),
@@ -190,7 +190,7 @@ impl LabReport {
         let Some(shot) = self.pictures.first().map(|picture| &picture.provenance.shot) else { return String::new() };
         let point = |p: scene::Vec3| format!("{}, {}, {}", p.x, p.y, p.z);
         let rows = [
-            ("Scene", self.scene.name.clone()),
+            ("Scene", self.name_of_scene()),
             ("Opened as", shot.source.clone()),
             ("Hash of the scene", shot.scene.as_read.to_string()),
             ("Size", format!("{} × {} pixels", shot.size.0, shot.size.1)),

@@ -2,8 +2,11 @@
 
 use super::LabReport;
 use scene::Scene;
+use scene::edit::Edits;
 use technique::PaneSettings;
-use technique::settings::{OF_SCENES, Setting, all_of_panes};
+use technique::settings::{EDIT, OF_SCENES, Setting, all_of_panes};
+
+const OF_EDITS: &str = "what is changed in the scene part by part";
 
 /// A setting and what it is in each picture.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -56,7 +59,13 @@ impl LabReport {
             let usual = vec![(row.own)(&self.scene).map(|value| value.to_string()); self.pictures.len()];
             Row { name: row.name, values: self.pictures.iter().map(value).collect(), usual, help: row.help }
         };
-        OF_SCENES.iter().map(of).collect()
+        let edits = |picture: &super::ReportedPicture| {
+            Some(picture.provenance.shot.changes.edits.to_string())
+                .filter(|edits| *edits != Edits::default().to_string())
+        };
+        let values = self.pictures.iter().map(edits).collect();
+        let edits = Row { name: EDIT, values, usual: vec![None; self.pictures.len()], help: OF_EDITS };
+        OF_SCENES.iter().map(of).chain([edits]).collect()
     }
 }
 

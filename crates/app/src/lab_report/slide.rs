@@ -124,7 +124,7 @@ impl LabReport {
     fn title_over(&self, columns: &[Column]) -> String {
         let is_judged = columns.iter().any(|column| column.is_judged);
         let against = if is_judged { ", held against the reference" } else { "" };
-        format!("{}{against}", self.scene.name)
+        format!("{}{against}", self.name_of_scene())
     }
 
     fn columns(&self) -> Result<Vec<Column>, CompareError> {

@@ -48,7 +48,8 @@ impl Document {
     }
 
     /// Another version of the scene that is open. A camera that was moved stays; one that was the scene's own follows it.
-    pub fn reread(&mut self, scene: Scene) {
+    /// Changes that fit it stay too; returns the others, each in a few words.
+    pub fn reread(&mut self, scene: Scene) -> Vec<String> {
         let (own, new) = (self.scene.camera, scene.camera);
         let up = if self.camera.up == own.up { new.up } else { self.camera.up };
         let kept = Camera { up, near: new.near, far: new.far, ..self.camera };
@@ -56,8 +57,22 @@ impl Document {
         self.camera = if moved { kept } else { new };
         self.scene = Arc::new(scene);
         self.changed = (SceneChanges::default(), self.scene.clone());
-        // what there is no more is changed no more
-        _ = self.apply_changes();
+        let (edits, mut lost) = self.changes.edits.fitting(&self.scene);
+        self.changes.edits = edits;
+        lost.extend(self.apply_changes().err().map(|why| why.to_string()));
+        lost
+    }
+
+    /// Makes the changes in the scene, without those of parts that it lacks.
+    ///
+    /// # Errors
+    /// Why not all can be made: a line.
+    pub fn apply_what_fits(&mut self) -> Result<(), CannotEdit> {
+        let wished = self.changes.clone();
+        let Err(why) = self.apply_changes() else { return Ok(()) };
+        let (edits, _) = wished.edits.fitting(&self.scene);
+        self.changes = SceneChanges { edits, ..wished };
+        self.apply_changes().and(Err(why))
     }
 
     /// Makes the changes in the scene, where they are others than before. Those that cannot be made are taken back.

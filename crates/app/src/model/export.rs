@@ -21,6 +21,8 @@ pub enum ExportSubject {
     Samples,
     /// No picture, but what makes all of them again.
     Session,
+    /// What is changed in the scene, as a scene's file of its own.
+    Scene,
     /// Pictures, settings, errors, times and plots as one page.
     Report,
     /// Pictures with large labels, to be shown to a class.

@@ -2,7 +2,8 @@
 
 use super::{Axis, Document, Equal, PaneSource, Panes, Resolution, Session};
 use film::DisplayTransform;
-use scene::Camera;
+use scene::edit::Edits;
+use scene::{Camera, Scene};
 use technique::{PaneSettings, SceneChanges};
 
 /// Everything that a slider, a choice or the mouse on the picture changes. View and line are not part of it: moving them loses nothing.
@@ -75,6 +76,29 @@ impl History {
         self.undone.clear();
         if self.earlier.len() > MOST_STEPS {
             self.earlier.remove(0);
+        }
+    }
+
+    /// Stands at these settings, to which the last undo or redo came: what could not be made of them is no step.
+    pub fn stand_at(&mut self, settings: Settings) {
+        self.settled = settings;
+    }
+
+    /// Leaves out of all steps what is changed in parts that the scene, which has become another, has no more.
+    pub fn fit(&mut self, scene: &Scene) {
+        let mut last = (Edits::default(), Edits::default());
+        let later = self.undone.iter_mut();
+        for settings in self.earlier.iter_mut().chain([&mut self.settled]).chain(later) {
+            let edits = &mut settings.changes.edits;
+            // most steps change nothing here
+            if *edits != last.0 {
+                last = (edits.clone(), edits.fitting(scene).0);
+            }
+            edits.clone_from(&last.1);
+        }
+        for steps in [&mut self.earlier, &mut self.undone] {
+            steps.dedup();
+            steps.pop_if(|step| *step == self.settled);
         }
     }
 

@@ -126,14 +126,18 @@ impl Model {
         self.begin_history();
     }
 
-    /// Shows another version of the scene that is open; camera, view and settings stay. Returns whether it is another.
-    pub fn reread(&mut self, scene: Scene) -> bool {
-        let changed = *self.document.scene != scene;
-        if changed {
-            self.document.reread(scene);
-            self.session.look_at_what_there_is(&self.document.scene);
+    /// Shows another version of the scene that is open; camera, view, settings and what is changed in parts that it still
+    /// has stay. Returns `None` if it is the same, and else a line about the changes that go, if any do.
+    pub fn reread(&mut self, scene: Scene) -> Option<Vec<String>> {
+        if *self.document.scene == scene {
+            return None;
         }
-        changed
+        let lost = self.document.reread(scene);
+        self.history.fit(&self.document.scene);
+        self.session.look_at_what_there_is(&self.document.scene);
+        let line =
+            || format!("what was changed in it and does not fit any more is as the file has it: {}", lost.join("; "));
+        Some((!lost.is_empty()).then(line).into_iter().collect())
     }
 
     /// Undo does not go behind this.
@@ -209,15 +213,21 @@ impl Model {
     /// Takes back the last change of a setting.
     pub fn undo(&mut self) {
         if let Some(earlier) = self.history.undo(&self.settings()) {
-            earlier.restore(&mut self.document, &mut self.session);
+            self.go_to(earlier);
         }
     }
 
     /// Makes the change again that the last undo took back.
     pub fn redo(&mut self) {
         if let Some(later) = self.history.redo(&self.settings()) {
-            later.restore(&mut self.document, &mut self.session);
+            self.go_to(later);
         }
+    }
+
+    fn go_to(&mut self, settings: Settings) {
+        settings.restore(&mut self.document, &mut self.session);
+        self.apply_changes();
+        self.history.stand_at(self.settings());
     }
 
     /// Ends a frame in which the user may have changed anything; a change is not over yet while the user is `busy`.

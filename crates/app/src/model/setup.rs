@@ -3,7 +3,6 @@
 use super::{CompareWith, Line, Model, PaneId, PaneSource, Panes, Region, View};
 use compare::ErrorMetric;
 use scene::{Camera, Vec3};
-use technique::settings::OF_SCENES;
 use technique::{PaneSetup, SceneChanges};
 
 /// What is not as it would be by itself; `None` leaves it.
@@ -54,10 +53,13 @@ impl Model {
     /// Takes all that is set up. Undo does not go behind it.
     ///
     /// # Errors
-    /// If its camera sees nothing; the scene's own stays, and the rest is taken.
+    /// If its camera sees nothing, where the scene's own stays, or if the scene lacks what is changed in it, which is left. The
+    /// rest is taken.
     pub fn set_up(&mut self, setup: &Setup) -> Result<(), String> {
+        self.document.changes = setup.changes.clone();
+        let changes = self.document.apply_what_fits().map_err(|why| why.to_string());
         for (id, pane) in setup.panes.iter() {
-            pane.apply(&mut self.session.panes[id], &self.document.scene);
+            pane.apply(&mut self.session.panes[id], self.document.seen());
             self.session.set_source(id, PaneSource::Made);
         }
         let session = &mut self.session;
@@ -81,10 +83,9 @@ impl Model {
             session.comparison.held[metric as usize] = held;
         }
         session.display.exposure = setup.exposure.unwrap_or(session.display.exposure);
-        self.document.changes = setup.changes.clone();
         let camera = self.look(setup);
         self.begin_history();
-        camera
+        changes.and(camera)
     }
 
     /// Stands where this camera does, of which a picture shows all as it is seen now. Undo does not go behind it.
@@ -127,16 +128,12 @@ impl Setup {
         for (id, source) in other.sources.iter() {
             self.sources.insert(id, source.clone());
         }
-        for setting in OF_SCENES {
-            (setting.get)(&other.changes).into_iter().for_each(|value| (setting.set)(&mut self.changes, value));
-        }
-        self.changes.edits = other.changes.edits.over(&self.changes.edits);
         // another camera stands elsewhere
         let stays = other.camera.is_none();
         Setup {
             panes: self.panes,
             sources: self.sources,
-            changes: self.changes,
+            changes: other.changes.over(&self.changes),
             eye: other.eye.or(self.eye.filter(|_| stays)),
             target: other.target.or(self.target.filter(|_| stays)),
             up: other.up.or(self.up.filter(|_| stays)),

@@ -192,6 +192,7 @@ impl Model {
         }
         // what was played with before is not on the slide
         self.document.changes = SceneChanges::default();
+        self.apply_changes();
         self.document.camera = self.document.scene.camera;
         self.session.display = DisplayTransform::default();
         self.say(Ok(format!("{}: {}", slide.title, slide.about)));
@@ -202,7 +203,7 @@ impl Model {
         let settings = &mut self.session.panes[pane];
         preset.apply(settings);
         if preset.values().all(|(setting, _)| setting.name != "estimator") {
-            settings.take_usual_estimator(&self.document.scene);
+            settings.take_usual_estimator(self.document.seen());
         }
         self.session.set_source(pane, PaneSource::Made);
     }

@@ -7,6 +7,7 @@ use crate::model::{SweepMeasure, SweepPlan, TileFacts, best, captions};
 use film::DisplayTransform;
 use image_file::{ImageFileError, MOST_PIXELS, Records};
 use std::sync::Arc;
+use technique::Shot;
 
 /// The tiles and what is said of them.
 #[derive(Debug, Clone)]
@@ -140,13 +141,14 @@ fn columns_of(plan: &SweepPlan) -> u32 {
 const LONG: u32 = 5;
 
 impl Sheet {
-    /// Whether tiles of this size will make one picture with what stands below them.
+    /// Whether tiles of what is seen will make one picture with what stands below them.
     ///
     /// # Errors
     /// [`SheetError::TooLarge`] of more pixels than a picture may have.
-    pub fn check_size(plan: &SweepPlan, size: (u32, u32), with_errors: bool) -> Result<(), SheetError> {
+    pub fn check_size(plan: &SweepPlan, shot: &Shot, with_errors: bool) -> Result<(), SheetError> {
         let names = plan.tiles.first().map_or(0, |tile| tile.names.len());
-        Layout::checked(plan, size, names + 1 + usize::from(with_errors)).map(|_| ())
+        let more = usize::from(with_errors) + usize::from(!shot.changes.edits.is_empty());
+        Layout::checked(plan, shot.size, names + 1 + more).map(|_| ())
     }
 
     /// The whole as a picture.

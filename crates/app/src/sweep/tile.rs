@@ -203,7 +203,8 @@ impl TileMaker {
         let (seconds, made_by) = (start.elapsed().as_secs_f64(), gpu.describe());
         // what has failed once is opened anew
         let film = drawn.inspect_err(|_| self.raster = None)?;
-        let facts = TileFacts { seconds, done: true, ..TileFacts::default() };
+        let edited = asked.shot.changes.edits.told();
+        let facts = TileFacts { seconds, done: true, edited, ..TileFacts::default() };
         let provenance = Provenance { shot: asked.shot.clone(), technique: asked.pane.in_use(), device: Device::Gpu };
         Ok(Tile { image: film.image(), made_by, ..Tile::without_light(facts, provenance) })
     }
@@ -274,7 +275,8 @@ impl<'a, O: Onlooker> TileWatch<'a, O> {
         }
         let filtering = denoised.as_ref().map_or(0.0, |denoised| denoised.seconds);
         let seconds = seconds + filtering;
-        let facts = TileFacts { spp: Some(samples), seconds, errors: None, done, fault: self.refused.clone() };
+        let (edited, fault) = (self.asked.shot.changes.edits.told(), self.refused.clone());
+        let facts = TileFacts { spp: Some(samples), seconds, errors: None, done, edited, fault };
         let mut image = denoised.map_or(mean, |denoised| denoised.image);
         image.layers.clear();
         Tile {

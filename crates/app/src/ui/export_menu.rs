@@ -1,5 +1,5 @@
 //! The export menu: the picture as seen or one pane, to a file or the clipboard, or as a command to type; the session,
-//! which makes all of it again; and a report or a slide of it.
+//! which makes all of it again; the changed scene; and a report or a slide of it.
 
 use super::widgets::{Explained, framed, menu};
 use super::{UiCommand, UiContext, dialogue_button};
@@ -9,6 +9,7 @@ use crate::model::{
 };
 use egui::Ui;
 use image_file::{self, Kind};
+use scene::builtin;
 use std::path::{Path, PathBuf};
 
 /// The file for the picture as seen: in the folder that was typed, or the default one.
@@ -61,6 +62,7 @@ fn title(subject: ExportSubject) -> String {
         ExportSubject::Sweep(SweepFile::Table) => "Its table".into(),
         ExportSubject::Samples => "The samples".into(),
         ExportSubject::Session => "Session".into(),
+        ExportSubject::Scene => "Changed scene".into(),
         ExportSubject::Report => "Report".into(),
         ExportSubject::Slide(_) => "Slide".into(),
     }
@@ -70,6 +72,7 @@ fn title(subject: ExportSubject) -> String {
 fn about(subject: ExportSubject) -> Option<&'static str> {
     match subject {
         ExportSubject::Session => Some(OF_SESSIONS),
+        ExportSubject::Scene => Some(OF_SCENES),
         ExportSubject::Report => Some(OF_REPORTS),
         ExportSubject::Slide(_) => Some(OF_SLIDES),
         _ => None,
@@ -82,6 +85,9 @@ fn is_of_two_kinds(subject: ExportSubject) -> bool {
 }
 
 const OF_SESSIONS: &str = "Scene, camera, A, B and view as a text (.toml): opened, it makes all of this again";
+
+const OF_SCENES: &str =
+    "What is changed in the scene and where the camera stands, as a scene (.toml) that names the one that it changes";
 
 const OF_REPORTS: &str = "Pictures, errors, plots, settings, times, machine and session as one page (.html), to be read, printed and handed in";
 
@@ -108,16 +114,38 @@ fn stem(model: &Model, subject: ExportSubject) -> String {
             format!("samples-at-{column}-{row}")
         }
         (ExportSubject::Session, _) => "session".into(),
+        (ExportSubject::Scene, _) => return name_of_changed_scene(model),
         (ExportSubject::Report, _) => "report".into(),
         (ExportSubject::Slide(_), _) => "slide".into(),
         (ExportSubject::ErrorMap, _) => format!("error-{}", session.comparison.metric.name()),
         (ExportSubject::AsSeen, _) if session.trees.open => format!("trees-level-{}", session.trees.level),
         (ExportSubject::AsSeen, view) => view.name().to_lowercase().replace(' ', "-"),
     };
-    // a scene's name comes from a file's; what a file may not be called stays out
-    let name = &model.document.scene.name;
-    let scene: String = name.chars().filter(|c| c.is_alphanumeric() || "-_ ".contains(*c)).collect();
-    format!("visavis-{scene}-{of}")
+    format!("visavis-{}-{of}", name_of_scene(model))
+}
+
+/// The scene's name comes from a file's; what a file may not be called stays out.
+fn name_of_scene(model: &Model) -> String {
+    model.document.scene.name.chars().filter(|c| c.is_alphanumeric() || "-_ ".contains(*c)).collect()
+}
+
+/// "room-edited", also of one that is called so already: the file gets a number then.
+fn name_of_changed_scene(model: &Model) -> String {
+    let file = file_of_scene(model).and_then(|file| Some(file.file_stem()?.to_string_lossy().into_owned()));
+    let stem = file.unwrap_or_else(|| name_of_scene(model));
+    if stem.ends_with("-edited") { stem } else { format!("{stem}-edited") }
+}
+
+/// The file that was opened; `None` of a built-in scene.
+fn file_of_scene(model: &Model) -> Option<PathBuf> {
+    let source = &model.document.source;
+    builtin::text(source).is_none().then(|| std::path::absolute(source).ok()).flatten()
+}
+
+/// Where it is saved by itself: a changed scene beside the one that it changes, all else in the folder of pictures.
+fn usual_folder(model: &Model, subject: ExportSubject) -> PathBuf {
+    let beside = file_of_scene(model).filter(|_| subject == ExportSubject::Scene);
+    beside.and_then(|file| Some(file.parent()?.to_owned())).unwrap_or_else(default_folder)
 }
 
 /// What a file of the sweep is called: "sweep-bounces", "sweep-estimator-by-sampler".
@@ -131,16 +159,16 @@ fn sweep_name(model: &Model) -> String {
 fn subjects(cx: &UiContext) -> [Vec<ExportSubject>; 2] {
     if cx.model.session.sweep.open {
         let files = [SweepFile::Picture, SweepFile::Table].map(ExportSubject::Sweep);
-        return [files.to_vec(), vec![ExportSubject::Session]];
+        return [files.to_vec(), vec![ExportSubject::Session, ExportSubject::Scene]];
     }
     if cx.model.session.trees.open {
-        return [vec![ExportSubject::AsSeen], vec![ExportSubject::Session]];
+        return [vec![ExportSubject::AsSeen], vec![ExportSubject::Session, ExportSubject::Scene]];
     }
     let panes = cx.model.session.panes.ids().map(ExportSubject::Pane);
     let map = cx.shown.map.is_some().then_some(ExportSubject::ErrorMap);
     let pictures = std::iter::once(ExportSubject::AsSeen).chain(panes).chain(map).collect();
     let slide = ExportSubject::Slide(cx.model.state.export.slide);
-    [pictures, vec![ExportSubject::Session, ExportSubject::Report, slide]]
+    [pictures, vec![ExportSubject::Session, ExportSubject::Scene, ExportSubject::Report, slide]]
 }
 
 pub fn show(cx: &mut UiContext, ui: &mut Ui) {
@@ -222,13 +250,13 @@ fn file(cx: &mut UiContext, ui: &mut Ui) {
     // a name that says its kind has chosen it
     menu.exr = Kind::of(Path::new(menu.file.trim())).map_or(menu.exr, |kind| kind == Kind::Exr);
     let kind = match subject {
-        ExportSubject::Session => "toml",
+        ExportSubject::Session | ExportSubject::Scene => "toml",
         ExportSubject::Sweep(SweepFile::Table) => "csv",
         ExportSubject::Report => "html",
         _ if menu.exr && is_of_two_kinds(subject) => "exr",
         _ => "png",
     };
-    let proposal = default_folder().join(format!("{}.{kind}", stem(cx.model, subject)));
+    let proposal = usual_folder(cx.model, subject).join(format!("{}.{kind}", stem(cx.model, subject)));
     let label = ui.label("File");
     let hint = proposal.display().to_string();
     let edit =
@@ -253,7 +281,7 @@ fn file(cx: &mut UiContext, ui: &mut Ui) {
             ui.close();
         }
         // of which there is nothing to be seen elsewhere
-        if [ExportSubject::Session, ExportSubject::Report].contains(&subject) {
+        if [ExportSubject::Session, ExportSubject::Scene, ExportSubject::Report].contains(&subject) {
             return;
         }
         let copy =

@@ -2,6 +2,7 @@
 
 use super::Viewer;
 use super::judge::Judge;
+use crate::engine::changed_scene::SceneToSave;
 use crate::engine::dialogue::{Answer, Choice};
 use crate::engine::export::{Content, Export};
 use crate::engine::load::{Loaded, Opened, Refusal};
@@ -157,10 +158,12 @@ impl Viewer {
             Ok(scene) => {
                 self.model.state.scene_fault = None;
                 let notes = scene.notes();
-                let changed = self.model.reread(scene);
-                let aside = if changed { "" } else { ": nothing has changed" };
+                let lost = self.model.reread(scene);
+                let aside = if lost.is_some() { "" } else { ": nothing has changed" };
                 let said = format!("Read {name} again{aside}");
-                match (changed || asked, notes.is_empty()) {
+                let is_told = asked || lost.is_some();
+                let notes = [lost.unwrap_or_default(), notes].concat();
+                match (is_told, notes.is_empty()) {
                     (true, true) => self.model.say(Ok(said)),
                     (true, false) => self.tell(&[vec![said], notes].concat()),
                     (false, _) => {}
@@ -174,6 +177,22 @@ impl Viewer {
     /// Keeps all that makes what is seen.
     pub(super) fn export_session(&self, to: Destination) {
         self.engine.export(Export { content: Content::Session(Box::new(self.session())), records: Vec::new(), to });
+    }
+
+    /// Keeps what is changed in the scene as a scene of its own.
+    pub(super) fn export_scene(&mut self, to: Destination) {
+        let document = &self.model.document;
+        let camera = Some(document.camera).filter(|camera| *camera != document.scene.camera);
+        let edits = match document.changes.as_edits(&document.scene) {
+            Ok(edits) => edits,
+            Err(why) => return self.model.say(Err(why.to_string())),
+        };
+        if edits.is_empty() && camera.is_none() {
+            let name = &document.scene.name;
+            return self.model.say(Err(format!("nothing is changed in {name}: there is no changed scene to save")));
+        }
+        let scene = SceneToSave { edits, camera, source: document.source.clone() };
+        self.engine.export(Export { content: Content::Scene(Box::new(scene)), records: Vec::new(), to });
     }
 
     /// What makes all of it again.

@@ -146,6 +146,7 @@ impl Viewer {
                 ExportSubject::Sweep(file) => self.export_sweep(file, request.to),
                 ExportSubject::Samples => self.export_samples(request.to),
                 ExportSubject::Session => self.export_session(request.to),
+                ExportSubject::Scene => self.export_scene(request.to),
                 ExportSubject::Report => self.export_report(request.to),
                 ExportSubject::Slide(size) => self.export_slide(size, request.to),
             },

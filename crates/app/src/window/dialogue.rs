@@ -34,6 +34,7 @@ pub fn choose(wish: &FileWish, window: &Window) -> Choice {
             let name = wish.near.file_name().unwrap_or_default().to_string_lossy();
             let filtered = match subject {
                 ExportSubject::Session => dialogue.set_title("Save the session").add_filter("Sessions", &["toml"]),
+                ExportSubject::Scene => dialogue.set_title("Save the changed scene").add_filter("Scenes", &["toml"]),
                 ExportSubject::Report => dialogue.set_title("Save the report").add_filter("Pages", &["html"]),
                 _ => dialogue.set_title("Save the picture").add_filter("Pictures", &["png", "exr"]),
             };

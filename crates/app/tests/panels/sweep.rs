@@ -18,6 +18,7 @@ fn shown() -> ViewModel {
         seconds: 0.25,
         errors: Some(TileErrors { errors: Errors { rel_mse, rmse, ..Errors::default() }, flip: 0.5 }),
         done: true,
+        edited: None,
         fault: None,
     };
     shown.sweep.tiles = [(1, 0.4, 0.3), (4, 0.1, 0.2), (16, 0.2, 0.1)].map(tile).into();

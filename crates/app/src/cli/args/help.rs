@@ -233,7 +233,7 @@ mod tests {
         let text = text();
         let window = text.split("visavis render SCENE").next().expect("the window's options");
         let options = window.lines().filter_map(|line| line.strip_prefix("    --")?.split([' ', ',']).next());
-        let expected = "a b slide view against exposure camera eye target up fov allow-outside refraction-ratio sun-radius theme device frame-stats \
+        let expected = "a b slide view against exposure camera eye target up fov edit variant allow-outside refraction-ratio sun-radius theme device frame-stats \
                         workspace help version";
         assert_eq!(options.collect::<Vec<_>>(), expected.split(' ').collect::<Vec<_>>());
     }

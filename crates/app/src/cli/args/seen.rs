@@ -2,8 +2,10 @@
 //! them.
 
 use super::options::CommandOption;
-use super::values::{number, point, size, text};
+use super::usage;
+use super::values::{number, point, shown, size, text};
 use crate::engine::session::is_session_file;
+use scene::edit::Edits;
 use scene::{Camera, Scene, Vec3, builtin};
 use std::path::Path;
 use std::sync::Arc;
@@ -34,12 +36,13 @@ impl Seen {
     /// meant.
     ///
     /// # Errors
-    /// If it cannot be read, or if the camera sees nothing.
+    /// If it cannot be read, if it lacks what is to be changed in it, or if the camera sees nothing.
     pub fn of(&self, source: &str) -> anyhow::Result<Shot> {
         let mut scene = self.changes.applied_to(&scene_of(source)?)?;
         let own_up = scene.camera.up;
         scene.camera = self.camera(&scene)?;
-        scene.notes().iter().for_each(|line| note!("note: {line}"));
+        let idle = self.changes.edits.without_effect(&scene);
+        scene.notes().iter().chain(&idle).for_each(|line| note!("note: {line}"));
         let (source, changes, camera, size) = (source.to_owned(), self.changes.clone(), scene.camera, self.size);
         Ok(Shot { source, changes, scene: Arc::new(scene), camera, own_up, size })
     }
@@ -76,6 +79,14 @@ fn scene_of(source: &str) -> anyhow::Result<Scene> {
 
 /// Options that are read into what is seen, for commands that have one.
 pub fn options<A: AsMut<Seen>>() -> Vec<CommandOption<A>> {
+    let mut options = of_the_camera();
+    options.extend(of_parts());
+    options.push(allow_outside());
+    options
+}
+
+/// Of the picture's size and the camera.
+fn of_the_camera<A: AsMut<Seen>>() -> Vec<CommandOption<A>> {
     vec![
         CommandOption {
             names: &["--size"],
@@ -135,7 +146,36 @@ pub fn options<A: AsMut<Seen>>() -> Vec<CommandOption<A>> {
                 Ok(())
             },
         },
-        allow_outside(),
+    ]
+}
+
+/// Of what is changed in the scene part by part.
+fn of_parts<A: AsMut<Seen>>() -> [CommandOption<A>; 2] {
+    [
+        CommandOption {
+            names: &["--edit"],
+            value: "EDITS",
+            help: "changes parts of the scene, by the names that its file has: '{ material.glass = { ior = 1.4 }, shape.\"sphere 1\" = { \
+                   center = [0, 1, 0] }, sun = { elevation = 20 } }', TOML in a line (docs/files.md lists what can be changed); given \
+                   again, later ones hold over earlier ones",
+            read: |args, parser| {
+                let words = text(parser)?;
+                match words.parse::<Edits>() {
+                    Ok(edits) => args.as_mut().changes.take_edits(&edits),
+                    Err(why) => return usage(format!("--edit {}: {why}", shown(&words))),
+                }
+                Ok(())
+            },
+        },
+        CommandOption {
+            names: &["--variant"],
+            value: "NAME",
+            help: "which of the variants of a model its parts wear (default the file's own)",
+            read: |args, parser| {
+                args.as_mut().changes.edits.variant = Some(text(parser)?);
+                Ok(())
+            },
+        },
     ]
 }
 

@@ -10,7 +10,7 @@ use compare::ErrorMetric;
 use image_file::{Kind, shown};
 use scene::{Camera, Scene, SceneHash, Vec3};
 use std::path::{Path, PathBuf};
-use technique::settings::{OF_SCENES, of_panes};
+use technique::settings::{EDIT, OF_SCENES, of_panes};
 use technique::{DeviceChoice, PaneSettings, PaneSetup, SceneChanges, TechniqueName};
 use toml::de::DeTable;
 
@@ -188,6 +188,8 @@ fn camera(mut table: Table, text: &str) -> Result<DraftCamera, Fault> {
 
 fn changes(mut table: Table) -> Result<SceneChanges, Fault> {
     let mut changes = SceneChanges::default();
+    changes.edits = table.read(EDIT, Entry::edits)?.unwrap_or_default();
+    // what is said of all glass and of the sun holds over it
     for row in OF_SCENES {
         let Some(entry) = table.take(row.name) else { continue };
         let word = entry.word().unwrap_or_default();

@@ -1,6 +1,7 @@
 //! Tables of a session's file, taken apart key by key, so that whatever is wrong is told with its place and with
 //! what was expected there.
 
+use scene::edit::{Edits, Wrong, edits_of};
 use scene::{Vec3, nearest_or_begun};
 use std::ops::Range;
 use toml::Spanned;
@@ -132,6 +133,12 @@ impl<'t> Entry<'t> {
             (at, _) => fault(&at, format!("{}: expected {expected}", self.key)),
         };
         array.into_iter().map(one).collect()
+    }
+
+    /// What is changed in a scene part by part.
+    pub fn edits(self) -> Result<Edits, Fault> {
+        let wrong = |Wrong { at, message }| Fault { at, message };
+        edits_of(Spanned::new(self.at, self.value)).map_err(wrong)
     }
 
     pub fn text(&self, expected: &str) -> Result<String, Fault> {

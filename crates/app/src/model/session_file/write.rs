@@ -7,9 +7,10 @@ use crate::model::{
 };
 use compare::ErrorMetric;
 use image_file::shown;
+use scene::edit::quoted;
 use scene::{Camera, Scene, Vec3};
 use std::fmt::Write;
-use technique::settings::{OF_SCENES, Value, all_of_panes};
+use technique::settings::{EDIT, OF_SCENES, Value, all_of_panes};
 use technique::{DeviceChoice, PaneSettings, TechniqueName};
 
 impl SavedSession {
@@ -23,7 +24,9 @@ impl SavedSession {
         );
         table(&mut text, "[camera]", camera(&self.camera, scene));
         let changes = OF_SCENES.iter().filter_map(|row| Some((row.name, (row.get)(&self.changes)?)));
-        table(&mut text, "[scene_changes]", changes.map(|(name, value)| (name, word(value))).collect());
+        let edits = Some((EDIT, self.changes.edits.to_string())).filter(|_| !self.changes.edits.is_empty());
+        let changes = changes.map(|(name, value)| (name, word(value))).chain(edits);
+        table(&mut text, "[scene_changes]", changes.collect());
         table(&mut text, "[view]", self.view());
         for (id, pane) in self.session.panes.iter() {
             panes(&mut text, (id, pane), self.session.source(id), scene);
@@ -194,17 +197,4 @@ fn word(value: Value) -> String {
 /// The fewest digits that come back as this number. Large ones have an exponent: TOML's whole numbers end at 2^63.
 fn number(number: f32) -> String {
     format!("{number:?}")
-}
-
-/// A basic string of TOML.
-fn quoted(text: &str) -> String {
-    let mut quoted = String::from("\"");
-    for letter in text.chars() {
-        match letter {
-            '"' | '\\' => quoted.extend(['\\', letter]),
-            control if control.is_control() => _ = write!(quoted, "\\u{:04X}", u32::from(control)),
-            other => quoted.push(other),
-        }
-    }
-    quoted + "\""
 }

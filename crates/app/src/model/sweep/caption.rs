@@ -16,6 +16,8 @@ pub struct TileFacts {
     pub errors: Option<TileErrors>,
     /// Whether it is all that was asked for.
     pub done: bool,
+    /// That the scene that it shows was changed part by part, in a few words.
+    pub edited: Option<String>,
     /// Why there is no picture, or one that was not made as it should be: one line.
     pub fault: Option<String>,
 }
@@ -64,7 +66,7 @@ fn drown(one: &TileFacts, other: &TileFacts) -> bool {
     one.errors.reference_noise.is_some_and(|noise| (one.errors.rel_mse - other.errors.rel_mse).abs() < noise)
 }
 
-/// The lines below each tile: its values; then what it took; then how far off it is, where that is known.
+/// The lines below each tile: its values; that its scene is a changed one; then what it took; then how far off it is, where that is known.
 pub fn captions(plan: &SweepPlan, tiles: &[TileFacts], measure: SweepMeasure) -> Vec<Vec<String>> {
     let best = best(tiles, measure);
     let blank = TileFacts::default();
@@ -74,7 +76,7 @@ pub fn captions(plan: &SweepPlan, tiles: &[TileFacts], measure: SweepMeasure) ->
             let mark = if best.contains(&index) { ", best" } else { "" };
             format!("{} {}{mark}", measure.name(), brief(errors.measured(measure)))
         });
-        planned.names.iter().cloned().chain([took(facts)]).chain(error).collect()
+        planned.names.iter().chain(&facts.edited).cloned().chain([took(facts)]).chain(error).collect()
     };
     plan.tiles.iter().enumerate().map(caption).collect()
 }
@@ -135,7 +137,7 @@ mod tests {
     fn facts(spp: u32, rel_mse: f64) -> TileFacts {
         let errors = Errors { rel_mse, rmse: 1.0 / rel_mse, ..Errors::default() };
         let errors = Some(TileErrors { errors, flip: 0.5 });
-        TileFacts { spp: Some(spp), seconds: 0.126, errors, done: true, fault: None }
+        TileFacts { spp: Some(spp), seconds: 0.126, errors, done: true, edited: None, fault: None }
     }
 
     fn plan() -> SweepPlan {

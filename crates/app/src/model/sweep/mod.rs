@@ -255,7 +255,7 @@ impl Model {
         let of = sweep.of;
         self.session.set_source(of, PaneSource::Made);
         let pane = &mut self.session.panes[of];
-        preset.base().apply(pane, &self.document.scene);
+        preset.base().apply(pane, self.document.seen());
         self.say(Ok(format!("{}: {}", preset.title, preset.about)));
     }
 

@@ -113,7 +113,7 @@ pub fn show(cx: &mut UiContext, pane: PaneId, ui: &mut Ui) {
 
 fn of_technique(cx: &mut UiContext, pane: PaneId, ui: &mut Ui) {
     let technique = cx.model.session.panes[pane].technique;
-    let scene = &cx.model.document.scene;
+    let scene = cx.model.document.seen();
     let mut usable: Vec<_> =
         all_of_panes().filter(|row| row.is_of(technique) && row.needs.missing_in(scene).is_none()).collect();
     let order = order(technique);

@@ -9,14 +9,15 @@ use technique::settings::{OF_SCENES, Setting};
 
 /// What can be changed in the scene that is open.
 pub fn usable(model: &Model) -> impl Iterator<Item = &'static Setting<SceneChanges>> {
-    OF_SCENES.iter().filter(|row| row.needs.missing_in(&model.document.scene).is_none())
+    OF_SCENES.iter().filter(|row| row.needs.missing_in(model.document.seen()).is_none())
 }
 
 pub fn show(cx: &mut UiContext, ui: &mut Ui) {
     for setting in usable(cx.model).collect::<Vec<_>>() {
         let document = &mut cx.model.document;
+        let seen = document.seen().clone();
         let kept = &mut SwitchedOff::default();
-        let mut place = Place { pane: None, scene: &document.scene, kept, dump: cx.dump, fault: None };
+        let mut place = Place { pane: None, scene: &seen, kept, dump: cx.dump, fault: None };
         match place.show(setting, &document.changes, ui) {
             Some(Change::Set(value)) => (setting.set)(&mut document.changes, value),
             Some(Change::Reset) => document.changes.reset(setting),

@@ -28,7 +28,7 @@ pub fn presets(cx: &mut UiContext, ui: &mut Ui) {
 pub fn varied(cx: &mut UiContext, ui: &mut Ui) {
     let sweep = &mut cx.model.session.sweep;
     let technique = cx.model.session.panes.get(sweep.of).map_or(TechniqueName::Path, |pane| pane.technique);
-    let of = (technique, &*cx.model.document.scene);
+    let of = (technique, &**cx.model.document.seen());
     axis("Columns", false, &mut sweep.columns, of, ui, cx.dump);
     axis("Rows", true, &mut sweep.rows, of, ui, cx.dump);
     let words = Equal::ALL.map(|equal| (equal.name().to_owned(), explain(equal), sweep.equal == equal));

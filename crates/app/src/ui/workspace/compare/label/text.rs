@@ -59,6 +59,7 @@ impl LabelText {
         }
         text.figures.push(cost(shown, paused));
         text.notes.extend(troubles(shown));
+        text.facts.extend(shown.provenance.as_ref().and_then(|made| made.shot.changes.edits.told()));
         if let Some((traced, made)) = traced(shown) {
             text.notes.extend(missing(&traced.blind_spots(&made.shot.scene)));
             let source = traced.noise_source(&made.shot.scene).filter(|_| shown.noisy);
