@@ -236,7 +236,9 @@ mod tests {
 
     /// Two pictures of a scene that was changed and turned, as pictures and as what makes them again.
     fn pictures() -> [Provenance; 2] {
-        let changes = SceneChanges { refraction_ratio: Some(0.6), ..SceneChanges::default() };
+        let edits =
+            "{ material.checkerboard = { odd = [0.5, 0.25, 0] }, sun.elevation = 30 }".parse().expect("changes");
+        let changes = SceneChanges { refraction_ratio: Some(0.6), edits, ..SceneChanges::default() };
         let scene = scene::builtin::named("whitted").expect("a built-in scene");
         let camera = Camera { up: Vec3::new(0.2, 0.9, -0.1), ..scene.camera.orbited(0.3, 0.1) };
         let (source, own_up, size) = ("whitted".into(), scene.camera.up, (1, 1));

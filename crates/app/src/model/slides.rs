@@ -237,8 +237,11 @@ mod tests {
         let bounces = |pane| model.session.panes[pane].truth.path.bounces;
         assert_eq!([PaneId::A, PaneId::B].map(bounces), [Some(0), Some(1)]);
         (model.document.changes.sun_radius, model.document.camera.fov_y) = (Some(1.0), 20.0);
+        model.document.changes.take_edits(&"{ material.white.colour = [1, 0, 0] }".parse().unwrap());
+        model.apply_changes();
         assert_eq!(model.show_slide(slide), None, "its scene is open");
         assert_eq!(model.document.changes, SceneChanges::default());
+        assert!(**model.document.seen() == *model.document.scene);
         assert_eq!(model.document.camera, model.document.scene.camera);
         assert_eq!(model.show_slide(&SLIDES[0]), Some("phong"));
         model.open(open("whitted"), "whitted".into());

@@ -7,6 +7,7 @@ mod closer;
 mod comparison;
 mod denoising;
 mod device;
+mod edits;
 mod export;
 mod external;
 mod files;

@@ -156,7 +156,7 @@ fn of_parts<A: AsMut<Seen>>() -> [CommandOption<A>; 2] {
             names: &["--edit"],
             value: "EDITS",
             help: "changes parts of the scene, by the names that its file has: '{ material.glass = { ior = 1.4 }, shape.\"sphere 1\" = { \
-                   center = [0, 1, 0] }, sun = { elevation = 20 } }', TOML in a line (docs/files.md lists what can be changed); given \
+                   center = [0, 1, 0] }, sun = { elevation = 20 } }', TOML in a line (assets/README.md lists what can be changed); given \
                    again, later ones hold over earlier ones",
             read: |args, parser| {
                 let words = text(parser)?;

@@ -226,6 +226,15 @@ fn what_a_session_cannot_mean_is_told_with_line_and_column() {
             "a.toml:4:20: refraction-ratio 0: expected a number from 0.001 to 1000",
         ),
         ("[scene_changes]\nsun_radius = 0", "; did you mean sun-radius?"),
+        ("[scene_changes]\nedit = 3", "a.toml:4:8: edit: expected a table of what is changed in it"),
+        (
+            "[scene_changes]\nedit = { sun = { elevation = 20, azimut = 3 } }",
+            "a.toml:4:34: 'azimut' cannot be changed in the sun",
+        ),
+        (
+            "[scene_changes]\nedit = { material.glass = { ior = 0 } }",
+            "a.toml:4:36: ior of material 'glass': expected a number from 0.01 to 100",
+        ),
         ("[view]\nshow = \"walk\"", "a.toml:4:8: show walk: expected a, b, wipe, side or map"),
         ("[view]\nline_at = 1.5", "a.toml:4:11: line_at: expected a number from 0 to 1"),
         ("[view]\nexposure = nan", "a.toml:4:12: exposure: expected stops from -30 to 30"),
@@ -254,6 +263,36 @@ fn what_a_session_cannot_mean_is_told_with_line_and_column() {
         let fault = parsed(&text, &scene).expect_err(lines);
         assert!(fault.starts_with("a.toml:") && fault.contains(said) && !fault.contains('\n'), "{lines}: {fault}");
     }
+}
+
+#[test]
+fn what_is_changed_part_by_part_comes_back_and_tables_are_read_too() {
+    let mut model = model("whitted");
+    let edits = "{ material.glass.reflectivity = 0.25, sun = { elevation = 20.0, azimuth = -35.5 } }";
+    model.document.changes.take_edits(&edits.parse().unwrap());
+    model.document.changes.set_refraction_ratio(Some(0.6));
+    let told = text(&model);
+    assert!(told.contains("\nedit = { material.glass = { reflectivity = 0.25 }, sun = { "), "{told}");
+    let read = parsed(&told, &model.document.scene).expect("a session");
+    assert_eq!(read.changes, model.document.changes);
+    let mut restored = self::model("whitted");
+    restored.restore(&read, &Setup::default()).expect("all of it fits");
+    assert_eq!(restored.document.changes, model.document.changes);
+    assert!(!restored.can_undo_and_redo()[0]);
+    let tables = "session = 1\nscene = \"whitted\"\n[scene_changes.edit.sun]\nelevation = 20\n";
+    let read = parsed(tables, &model.document.scene).expect("a session");
+    assert_eq!(read.changes.edits, "{ sun.elevation = 20 }".parse().unwrap());
+}
+
+#[test]
+fn of_a_sessions_changes_those_are_made_that_its_scene_has_and_the_others_told() {
+    let mut model = model("cornell");
+    let lines = "session = 1\nscene = \"cornell\"\n[scene_changes]\n\
+                 edit = { material.white.colour = [1, 0, 0], material.gone.colour = [1, 1, 1] }\n";
+    let read = parsed(lines, &model.document.scene).expect("a session");
+    let why = model.restore(&read, &Setup::default()).expect_err("one is not there");
+    assert!(why.starts_with("cornell has no material 'gone'"), "{why}");
+    assert_eq!(model.document.changes.edits, "{ material.white.colour = [1, 0, 0] }".parse().unwrap());
 }
 
 #[test]

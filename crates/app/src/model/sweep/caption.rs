@@ -181,6 +181,13 @@ mod tests {
     }
 
     #[test]
+    fn tiles_of_a_changed_scene_say_so_between_values_and_cost() {
+        let edited = Some("edited: 2 parts".to_owned());
+        let tiles = [1, 4, 1, 4].map(|spp| TileFacts { edited: edited.clone(), ..facts(spp, 0.1) });
+        assert_eq!(captions(&plan(), &tiles, SweepMeasure::RelMse)[0][2..4], ["edited: 2 parts", "1 spp, 0.13 s"]);
+    }
+
+    #[test]
     fn what_went_wrong_is_told_beside_what_the_picture_took() {
         let mut tile = TileFacts { fault: Some("not denoised: no memory".into()), ..facts(4, 0.1) };
         assert_eq!(took(&tile), "4 spp, 0.13 s; not denoised: no memory");

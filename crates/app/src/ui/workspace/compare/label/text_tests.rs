@@ -40,6 +40,17 @@ fn label(shown: &PaneView, told: Option<Told>) -> LabelText {
 }
 
 #[test]
+fn a_picture_of_a_changed_scene_says_so() {
+    for mut shown in [path(&[], 4), fake(0.1, Compiling::Included)] {
+        assert!(label(&shown, None).facts.iter().all(|fact| !fact.contains("edited")));
+        let mut made = Provenance::clone(shown.provenance.as_ref().expect("a picture"));
+        made.shot.changes.edits = "{ sun.elevation = 20, material.glass.ior = 2 }".parse().expect("changes");
+        shown.provenance = Some(Arc::new(made));
+        assert!(label(&shown, None).facts.contains(&"edited: 2 parts".to_owned()));
+    }
+}
+
+#[test]
 fn the_cost_is_that_of_the_picture_that_is_shown() {
     assert_eq!(label(&path(&[("spp", "256")], 64), None).figures, ["64 of 256 spp, 500 ms"]);
     assert_eq!(label(&path(&[("spp", "64")], 64), None).figures, ["64 spp, 500 ms"], "it has all that it shall have");
