@@ -18,6 +18,7 @@ mod gpu_tracer;
 pub mod integrator;
 pub mod intersect;
 pub mod light;
+mod objects;
 pub mod prepared;
 mod probe;
 mod replicates;
@@ -40,6 +41,7 @@ pub use integrator::photon::{
 };
 pub use integrator::settings::{ConesAt, Directions, Estimator, LightSampling, PathSettings, Roulette, SettingsError};
 pub use integrator::whitted::{GlassShadows, WhittedSettings};
+pub use objects::{MOST_ALONG, MetShape, NO_SHAPE};
 pub use probe::ProbedPixel;
 pub use replicates::{FEWEST_REPLICATES, estimate_with_replicates};
 pub use sampling::sampler::SamplerKind;

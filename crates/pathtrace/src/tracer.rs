@@ -119,6 +119,11 @@ impl Tracer {
         pass.trace(&self.scene, self.lanes, film, stop)
     }
 
+    /// The scene and what is traced in.
+    pub(crate) fn ready(&self) -> (&PreparedScene, Lanes) {
+        (&self.scene, self.lanes)
+    }
+
     pub(crate) fn job<'a>(&'a self, pass: FilmPass, stop: &'a Stop) -> FilmJob<'a> {
         let Tracer { scene, stand_ins, guides, lanes } = self;
         FilmJob { scene, stand_ins, guides, lanes: *lanes, pass, stop }

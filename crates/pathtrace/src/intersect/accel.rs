@@ -9,9 +9,10 @@ use super::bvh8_collapse::Shapes;
 use super::coincident::Groups;
 use super::cutouts::Cutouts;
 use super::instances::Instances;
+use super::owners::Owners;
 use super::primitive::primitives;
 use super::{Blocker, Hit, Intersection, NO_INSTANCE, Ray};
-use scene::Scene;
+use scene::{Scene, Shape};
 use simd::{Lanes, RowLanes};
 
 /// All shapes of a scene, ready for rays.
@@ -20,6 +21,7 @@ pub struct Accel {
     instances: Instances,
     /// Triangles, spheres and disks in the hierarchy.
     count: usize,
+    owners: Owners,
 }
 
 enum Hierarchy {
@@ -34,7 +36,8 @@ impl Accel {
     /// Builds the structure. Triangles without area, which no ray can meet, are left out. `light_of_shape` is
     /// [`crate::light::Lights::light_of_shape`] of the scene.
     pub fn new(scene: &Scene, light_of_shape: &[u32]) -> Self {
-        let (primitives, surfaces, groups) = primitives(scene, light_of_shape, |shape| is_instanced(scene, shape));
+        let is_left_out = |shape: &Shape| is_instanced(scene, shape);
+        let (primitives, surfaces, groups, owners) = primitives(scene, light_of_shape, is_left_out);
         let count = primitives.len();
         let shapes = Shapes { primitives: &primitives, surfaces: &surfaces };
         let eight = if count < LARGE { None } else { Bvh8::new(shapes, RowLanes::nearest_to(Lanes::best())) };
@@ -43,7 +46,7 @@ impl Accel {
             Some(bvh) => Hierarchy::Eight(Bvh8 { groups, cutouts, ..bvh }),
             None => Hierarchy::Two(Bvh2 { groups, cutouts, ..Bvh2::new(&primitives, &surfaces) }),
         };
-        Accel { hierarchy, instances: Instances::new(scene), count }
+        Accel { hierarchy, instances: Instances::new(scene), count, owners }
     }
 
     /// Number of triangles, spheres and disks, those of a large mesh as often as it stands in the scene.
@@ -101,6 +104,11 @@ impl Accel {
             Hierarchy::Two(bvh) => bvh.ids[hit.primitive as usize],
             Hierarchy::Eight(bvh) => bvh.id(hit),
         }
+    }
+
+    /// Index into the scene's shapes of what was hit.
+    pub fn shape(&self, hit: &Hit) -> u32 {
+        if hit.instance != NO_INSTANCE { self.instances.shape(hit) } else { self.owners.of(self.id(hit)) }
     }
 
     /// What the ray meets first: [`Accel::closest`] and [`Accel::intersection`].

@@ -109,6 +109,19 @@ impl Aggregate {
         if self.accel.instances().is_empty() { hits } else { self.or_instances(rays, wanted, hits) }
     }
 
+    /// Indices into the scene's shapes of what was met, of each lane; `None` where nothing was.
+    #[inline(never)]
+    pub fn shapes(&self, lanes: u32, hits: &[Hit; MOST_LANES]) -> [Option<u32>; MOST_LANES] {
+        std::array::from_fn(|lane| (lanes >> lane & 1 != 0).then(|| self.shape(&hits[lane])))
+    }
+
+    fn shape(&self, hit: &Hit) -> u32 {
+        match &self.shape_list {
+            Some(shape_list) if hit.instance == NO_INSTANCE => shape_list.shape(hit),
+            _ => self.accel.shape(hit),
+        }
+    }
+
     /// What the rays have met that have these hits.
     #[inline(always)]
     pub fn intersections<F: Float>(&self, rays: &Rays<F>, hits: &Hits<F>) -> Intersections<F> {

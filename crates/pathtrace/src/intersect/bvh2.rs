@@ -43,7 +43,7 @@ pub(super) struct Nearest {
 impl Bvh2 {
     /// Of a whole scene, however large, large meshes with all their triangles.
     pub(crate) fn of(scene: &Scene, light_of_shape: &[u32]) -> Self {
-        let (primitives, surfaces, groups) = primitives(scene, light_of_shape, |_| false);
+        let (primitives, surfaces, groups, _) = primitives(scene, light_of_shape, |_| false);
         Bvh2 { groups, ..Bvh2::new(&primitives, &surfaces) }
     }
 

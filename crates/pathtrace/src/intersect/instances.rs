@@ -48,6 +48,8 @@ struct Placed {
     /// In the world, with room for the rounding of its corners, of the box test and of rays in the mesh's space.
     bounds: Aabb,
     material: u32,
+    /// Index into the scene's shapes.
+    shape: u32,
 }
 
 /// Where on a large mesh a hit lies: what its attributes are mixed from.
@@ -76,8 +78,8 @@ impl MeshPoint<'_> {
 impl Instances {
     /// Those of a scene, with the trees of their meshes. Matrices that cannot be undone leave nothing that a ray could meet.
     pub fn new(scene: &Scene) -> Self {
-        let instanced = scene.shapes.iter().filter(|shape| is_instanced(scene, shape));
-        let placed: Vec<Placed> = instanced.filter_map(Placed::new).collect();
+        let instanced = scene.shapes.iter().enumerate().filter(|(_, shape)| is_instanced(scene, shape));
+        let placed: Vec<Placed> = instanced.filter_map(|(index, shape)| Placed::new(index, shape)).collect();
         let (nodes, order) = tree_over(&placed);
         Instances { placed, nodes, order, lanes: RowLanes::nearest_to(Lanes::best()) }
     }
@@ -154,6 +156,11 @@ impl Instances {
         Intersection { point, material: placed.material, light: NO_LIGHT }
     }
 
+    /// Index into the scene's shapes of what was hit.
+    pub fn shape(&self, hit: &Hit) -> u32 {
+        self.placed[hit.instance as usize].shape
+    }
+
     /// What the attributes of a hit are mixed from.
     pub fn attributes(&self, hit: &Hit) -> MeshPoint<'_> {
         debug_assert_ne!(hit.instance, NO_INSTANCE);
@@ -169,7 +176,7 @@ impl Instances {
 }
 
 impl Placed {
-    fn new(shape: &Shape) -> Option<Self> {
+    fn new(index: usize, shape: &Shape) -> Option<Self> {
         let (mesh, to_world) = match &shape.geometry {
             Geometry::Mesh(mesh) => (mesh, DAffine3::IDENTITY),
             Geometry::Instance(Instance { mesh, to_world }) => (mesh, to_world.as_daffine3()),
@@ -187,7 +194,7 @@ impl Placed {
         let material = shape.material as u32;
         let tree = MeshTree::of(mesh, &|_| true)?;
         let bounds = bounds_of(&tree.mesh, &to_world, &reach);
-        Some(Placed { tree, to_world, to_mesh, normals_to_world, reach, bounds, material })
+        Some(Placed { tree, to_world, to_mesh, normals_to_world, reach, bounds, material, shape: index as u32 })
     }
 
     fn ray_in_mesh(&self, ray: &Ray, tmax: f32) -> Ray {

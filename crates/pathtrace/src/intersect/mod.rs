@@ -32,6 +32,7 @@ pub mod instances;
 mod mesh_build;
 pub mod mesh_tree;
 mod mesh_walk;
+mod owners;
 pub(crate) mod pairs;
 pub(crate) mod primitive;
 pub(crate) mod ray;

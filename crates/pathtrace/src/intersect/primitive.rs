@@ -3,6 +3,7 @@
 use super::baking::is_instanced;
 use super::coincident::{FLAT, Groups, MOST_TRIANGLES, Outline};
 use super::disk::Disk;
+use super::owners::Owners;
 use super::pairs::SortedBoxes;
 use super::sphere::{Sphere, SphereLanes};
 use super::triangle::{ShearedRay, Triangle, triangle_normal};
@@ -99,16 +100,17 @@ pub fn area_lights_first(scene: &Scene) -> impl Iterator<Item = usize> {
 }
 
 /// A scene's primitives in the order that decides ties, without triangles that have no area: no ray can meet them. And
-/// which of them coincide. Large meshes are left out where they are instances of trees of their own.
+/// which of them coincide, and which shapes they belong to. Large meshes are left out where they are instances of trees of their own.
 pub(super) fn primitives(
     scene: &Scene,
     light_of_shape: &[u32],
     is_left_out: impl Fn(&Shape) -> bool,
-) -> (Vec<Primitive>, Vec<Surface>, Groups) {
-    let (mut primitives, mut surfaces) = (Vec::new(), Vec::new());
+) -> (Vec<Primitive>, Vec<Surface>, Groups, Owners) {
+    let (mut primitives, mut surfaces, mut owners) = (Vec::new(), Vec::new(), Owners::default());
     let mut outlines = Vec::new();
     for index in area_lights_first(scene).filter(|index| !is_left_out(&scene.shapes[*index])) {
         let shape = &scene.shapes[index];
+        owners.begin(index, primitives.len());
         let material = shape.material as u32;
         let first_light = light_of_shape[index];
         let mut light = first_light;
@@ -141,7 +143,7 @@ pub(super) fn primitives(
         }
     }
     let groups = Groups::of(&outlines, surfaces.len(), lights_after(scene, surfaces.iter().map(|s| s.light)));
-    (primitives, surfaces, groups)
+    (primitives, surfaces, groups, owners)
 }
 
 /// Boxes around all shapes but one, with room for rounding.

@@ -2,6 +2,7 @@
 
 use super::surfaces::Surface;
 use super::{Facet, Origin, PlaneNormal, ShapeList, Shapes};
+use crate::intersect::Hit;
 use crate::intersect::attributes::{MeshAttributes, TriangleRow};
 use crate::intersect::coincident::Groups;
 use crate::intersect::disk::Disk;
@@ -48,6 +49,11 @@ pub(crate) struct ListedPlane {
 }
 
 impl ShapeList {
+    /// Index into the scene's shapes of what a hit of this list has met.
+    pub(crate) fn shape(&self, hit: &Hit) -> u32 {
+        self.origins[hit.primitive as usize].shape as u32
+    }
+
     /// What shading needs of the shapes, in the order of their ids.
     pub(crate) fn surfaces(&self) -> Vec<primitive::Surface> {
         let entry = |of: &Surface| primitive::Surface { normal: of.normal, material: of.material, light: of.light };
