@@ -175,8 +175,8 @@ fn variants_wear_the_materials_of_their_mappings_and_else_the_usual_ones() {
     let over = |upper: [Vec3; 4]| move |[x, y]: [f32; 2]| if y.abs() < 0.5 { upper[quarter([x, y])] } else { below };
     model.shows(over([Vec3::splat(0.5); 4]), &places);
     model.shows_as("picture", over(texels.map(colour)), &places);
-    // what shines by day has the sun's light too, but is black
-    let lit_below = places[..4].to_vec();
-    model.shows_as("lamp", over([SHINES; 4]), &lit_below);
-    model.shows_as("lamp 2", over([SHINES; 4]), &lit_below);
+    // a lamp lights what is around it
+    let on_the_lamp = &places[..4];
+    model.shows_as("lamp", over([SHINES; 4]), on_the_lamp);
+    model.shows_as("lamp 2", over([SHINES; 4]), on_the_lamp);
 }

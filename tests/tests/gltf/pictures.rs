@@ -93,7 +93,7 @@ impl Model {
 
     /// Whether it is seen in every technique where the model is shown in this variant.
     pub fn shows_as(&self, variant: &str, expected: impl Fn([f32; 2]) -> Vec3, places: &[[f32; 2]]) {
-        let edits = Edits { variant: Some(variant.into()), ..Edits::default() };
+        let edits: Edits = format!("{{ variant = {variant:?} }}").parse().unwrap_or_else(|why| panic!("{why}"));
         let scene = edits.applied_to(&self.load()).unwrap_or_else(|why| panic!("{why}"));
         assert_all_see(&scene, &ALL, expected, places);
     }

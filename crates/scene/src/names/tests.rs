@@ -40,11 +40,13 @@ fn every_part_of_a_built_in_scene_has_a_name_of_its_own() {
 
 #[test]
 fn names_are_no_part_of_what_a_picture_depends_on() {
-    let scene = builtin::named("whitted").unwrap();
-    let text = builtin::text("whitted").unwrap();
-    let unnamed: Vec<&str> = text.lines().filter(|line| !line.starts_with("name = ")).collect();
-    assert!(unnamed.len() < text.lines().count());
-    let unnamed = crate::parse(&unnamed.join("\n"), "whitted", std::path::Path::new("whitted")).unwrap();
-    assert_ne!(unnamed.names, scene.names);
-    assert_eq!(unnamed.as_read, scene.as_read);
+    for name in builtin::names().chain(builtin::hard_names()) {
+        let (scene, text) = (builtin::named(name).unwrap(), builtin::text(name).unwrap());
+        let is_a_name = |line: &&str| line.starts_with("name = ") && !text.contains(&line.replace("name = ", "of = "));
+        let unnamed: Vec<&str> = text.lines().filter(|line| !is_a_name(line)).collect();
+        assert!(unnamed.len() < text.lines().count(), "{name} names nothing");
+        let unnamed = crate::parse(&unnamed.join("\n"), name, std::path::Path::new(name)).unwrap();
+        assert_ne!(unnamed.names, scene.names, "{name}");
+        assert_eq!(unnamed.as_read, scene.as_read, "{name}");
+    }
 }
