@@ -26,7 +26,7 @@ use std::process::ExitCode;
 #[derive(Debug)]
 pub enum Command {
     /// The viewer.
-    View(ViewArgs),
+    View(Box<ViewArgs>),
     /// A picture to a file, without a window.
     Render(Box<RenderArgs>),
     /// A lab report or a slide of two pictures.

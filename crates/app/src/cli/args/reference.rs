@@ -25,7 +25,7 @@ pub enum ReferenceArgs {
         /// Where to write it, an .exr.
         out: PathBuf,
         /// What is seen.
-        seen: Seen,
+        seen: Box<Seen>,
         /// When it is good enough.
         goal: Goal,
     },
@@ -105,7 +105,7 @@ pub fn parse(parser: lexopt::Parser) -> Result<Command, CliError> {
         (None, None, false) if nothing_else => ReferenceArgs::Usage,
         (_, _, true) => return usage("--clear empties the store and does nothing else: visavis reference --clear"),
         (Some(scene), Some(out), false) if Kind::of(&out) == Some(Kind::Exr) => {
-            ReferenceArgs::Make { scene, out, seen, goal: goal(noise, limit) }
+            ReferenceArgs::Make { scene, out, seen: Box::new(seen), goal: goal(noise, limit) }
         }
         (Some(_), Some(out), false) => return usage(format!("-o must end in .exr: {}", image_file::shown(&out))),
         (None, _, false) => return usage("reference needs a scene: visavis reference SCENE -o OUT.exr"),

@@ -186,7 +186,7 @@ pub fn parse(parser: lexopt::Parser) -> Result<Command, CliError> {
         Typed::Print(text) | Typed::Words(Reading { print: Some(text), .. }, _) => Ok(Command::Print(text)),
         Typed::Words(Reading { args, seen, .. }, words) => {
             let scene = words.into_iter().next().map(OsString::string).transpose()?;
-            Ok(Command::View(of_scene(args, seen, scene)?))
+            Ok(Command::View(Box::new(of_scene(args, seen, scene)?)))
         }
     }
 }

@@ -187,8 +187,8 @@ fn camera(mut table: Table, text: &str) -> Result<DraftCamera, Fault> {
 }
 
 fn changes(mut table: Table) -> Result<SceneChanges, Fault> {
-    let mut changes = SceneChanges::default();
-    changes.edits = table.read(EDIT, Entry::edits)?.unwrap_or_default();
+    let edits = table.read(EDIT, Entry::edits)?.unwrap_or_default();
+    let mut changes = SceneChanges { edits, ..SceneChanges::default() };
     // what is said of all glass and of the sun holds over it
     for row in OF_SCENES {
         let Some(entry) = table.take(row.name) else { continue };
