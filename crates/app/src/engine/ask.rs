@@ -49,6 +49,8 @@ pub struct Engine {
     pub(super) trees: Option<super::trees::TreeStudy>,
     /// Looks into a pixel.
     pub probes: super::probe::Probes,
+    /// Finds which shape each pixel shows.
+    pub objects: super::objects::Objects,
     pub(crate) light: LightMeter,
     pub(super) wake: Wake,
     asked: Asked,
@@ -106,6 +108,7 @@ impl Engine {
             sweeper: None,
             trees: None,
             probes: Default::default(),
+            objects: Default::default(),
             wake,
             asked: Asked::default(),
         })
@@ -116,6 +119,7 @@ impl Engine {
         self.gpu = window.clone();
         self.sweeper = None;
         self.show_trees_again();
+        self.objects.show_again();
         self.pane_workers.values_mut().for_each(|workers| workers.move_to(window.clone()));
         for pane in self.asked.panes.values_mut() {
             pane.made.take_if(|(_, technique, _)| matches!(technique, Technique::Fake(_)));
@@ -183,6 +187,7 @@ impl Engine {
         self.ask_sweep(wanted);
         self.ask_trees(wanted);
         self.probes.follow(wanted, &self.threads, &self.wake);
+        self.objects.follow(wanted.objects.as_ref(), &self.threads, &self.wake);
         jobs
     }
 

@@ -51,7 +51,7 @@ pub use magnification::Magnification;
 pub use message::{Message, in_few};
 pub use pane::{PaneId, Panes};
 pub use pane_source::{External, PaneSource, USUAL_PORT};
-pub use parts::{ObjectMap, ObjectsWish, PartsState};
+pub use parts::{ObjectMap, ObjectsWish, PartsState, ShapesAlong};
 pub use picture_area::PictureArea;
 pub use plots::{Cost, Curve, Measure, Owner, PlotSettings, csv, guide, judge_of_all, pin};
 pub use probe::{

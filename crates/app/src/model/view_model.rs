@@ -2,7 +2,7 @@
 
 use super::{
     Against, Effort, ErrorHistory, ErrorMap, ErrorPoint, External, LightByBounce, ObjectMap, PaneId, PaneProbe,
-    PaneSource, Panes, Progress, Region, TileFacts, TreesView,
+    PaneSource, Panes, Progress, Region, ShapesAlong, TileFacts, TreesView,
 };
 use crate::ruler::ReferenceImage;
 use compare::{Errors, Histogram};
@@ -21,6 +21,8 @@ pub struct ViewModel {
     pub probe: Panes<PaneProbe>,
     /// Which shape each pixel shows, while parts of the scene are looked at: of the view that was asked for last.
     pub objects: Option<Arc<ObjectMap>>,
+    /// Which shapes lie behind each other where that view is looked into.
+    pub along: Option<ShapesAlong>,
     /// How far the reference has come, while it is asked for.
     pub reference: Option<Progress>,
     /// How much light each bounce brings, of panes where that is looked at.

@@ -58,7 +58,8 @@ pub struct Textures {
     pub panes: Panes<TextureId>,
     /// The map of errors.
     pub map: Option<TextureId>,
-    /// The outline of the part of the scene that is in hand: white where it is, clear elsewhere, over the whole picture.
+    /// The outline of the part of the scene that is in hand, over the whole picture: white within it, dark around it, clear
+    /// elsewhere. Of the view of [`ViewModel::objects`].
     pub outline: Option<TextureId>,
     /// The tiles of a sweep, in their order.
     pub tiles: Vec<Option<TextureId>>,

@@ -4,6 +4,7 @@
 mod external;
 mod files;
 mod judge;
+mod objects;
 mod plots;
 mod presentation;
 mod probe;
@@ -86,6 +87,7 @@ impl Viewer {
         self.follow_the_reference();
         self.collect_sweep(textures);
         self.collect_trees(textures);
+        self.collect_objects(textures);
         self.presentation.update_probe(self.engine.probes.collect());
         self.collect_files();
         for (pane, light) in self.engine.light.measured().iter() {
@@ -231,6 +233,7 @@ impl Viewer {
             "paused": state.paused,
             "sweep": self.sweep_dump(),
             "trees": self.trees_dump(),
+            "objects": self.objects_dump(),
             "theme": state.theme.name(),
             "picture_size": state.picture.size,
             "eye": document.camera.eye.to_array(),

@@ -40,6 +40,8 @@ pub enum Place {
     Pane(PaneId),
     /// The map of errors.
     ErrorMap,
+    /// The outline of the part of the scene that is in hand.
+    Outline,
     /// A tile of a sweep, by its place.
     Tile(usize),
     /// Rays through the statue in one structure, by its place.
@@ -119,6 +121,7 @@ impl Presentation {
         let is_traced =
             |pane| wanted.panes.get(pane).is_some_and(|pane| matches!(pane.technique, Technique::Traced(_)));
         self.shown.probe.retain(|pane, _| wanted.probe.is_some() && is_traced(pane));
+        self.keep_objects(wanted);
         if wanted.map.is_none() {
             (self.shown.map, self.textures.map) = (None, None);
         }

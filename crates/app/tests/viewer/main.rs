@@ -13,6 +13,7 @@ mod external;
 mod files;
 mod labels;
 mod layout;
+mod objects;
 mod plots;
 mod probe;
 mod reports;

@@ -110,6 +110,7 @@ impl Workspace for Compare {
             comparisons: panes.map(|id| session.comparison.comparison(id)).collect(),
             histograms: model.state.histograms,
             probe: session.probe.open.then_some(ProbeWish { at: session.probe.at, sample: model.state.probed_sample }),
+            objects: model.objects_wish(),
             light: light_wishes(model),
             map: (session.view == View::ErrorMap).then(|| session.comparison.map()),
             ..model.wanted(session.panes.ids())

@@ -57,6 +57,7 @@ pub fn show(cx: &mut UiContext, ui: &mut Ui) {
         picture(cx, ui, place, *clip, *pane);
         map_faces::show(cx, ui, place, *clip, *pane);
         if map_faces::map_of(cx, *pane).is_none() {
+            outline(cx, ui, place, *clip, *pane);
             region::show(cx, &ui.painter().with_clip_rect(*clip), place);
             probe::mark(cx, &ui.painter().with_clip_rect(*clip), place);
         }
@@ -148,6 +149,18 @@ fn picture(cx: &mut UiContext, ui: &Ui, rect: Rect, clip: Rect, pane: PaneId) {
             magnify::paint(ui.painter(), *texture, rect, clip);
         }
         (None, None) => drop(in_the_middle("rendering ...", Color32::WHITE)),
+    }
+}
+
+/// The outline of the part in hand, where the picture is of the view that it was made for: over one that lags behind the
+/// camera it would lie beside what it outlines.
+fn outline(cx: &mut UiContext, ui: &Ui, rect: Rect, clip: Rect, pane: PaneId) {
+    let shown = cx.shown.panes.get(pane).filter(|shown| shown.fault.is_none());
+    let shot = shown.and_then(|shown| Some(&shown.provenance.as_ref()?.shot));
+    let is_of_it = cx.shown.objects.as_ref().zip(shot).is_some_and(|(map, shot)| map.is_of(shot));
+    if let Some(texture) = cx.textures.outline.filter(|_| is_of_it) {
+        magnify::paint(ui.painter(), texture, rect, clip);
+        cx.dump.note_text(&format!("outline {pane}"), "", rect, clip);
     }
 }
 

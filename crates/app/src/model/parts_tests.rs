@@ -1,0 +1,126 @@
+//! Tests of which parts are looked at.
+
+use super::*;
+use crate::model::{PictureArea, Theme};
+
+#[test]
+fn a_change_that_cannot_be_made_is_told_and_the_one_before_stays() {
+    let scene = scene::builtin::named("cornell-balls").expect("a built-in scene");
+    let glass =
+        scene.shapes.iter().position(|shape| matches!(scene.material_of(shape).bsdf, scene::Bsdf::Dielectric { .. }));
+    let glass = glass.expect("a glass ball");
+    let other = (0..scene.shapes.len())
+        .find(|index| *index != glass && scene.shapes[*index].geometry.kind() == "sphere")
+        .expect("another ball");
+    let subject = Subject::Shape(scene.shape_name(other).into_owned());
+    let (wears, center) = (subject.property("material").expect("a row"), subject.property("center").expect("a row"));
+    let material = Value::Word(scene.material_of(&scene.shapes[glass]).name.clone());
+    let beside = Value::Triple(scene.shapes[glass].geometry.center() + 0.1);
+    let mut model = Model::new(scene, "cornell-balls".into(), Theme::Dark);
+    model.edit(&subject, wears, Some(material));
+    assert!(model.state.message.is_none());
+    let before = model.document.changes.clone();
+    model.edit(&subject, center, Some(beside));
+    assert!(model.state.message.take().is_some_and(|message| message.text.contains("would overlap")));
+    assert_eq!(model.document.changes, before);
+    model.edit(&subject, wears, None);
+    assert!(model.document.changes.edits.is_empty());
+}
+
+/// A viewer's model with the parts open, beside a picture of 8 x 6 pixels.
+fn looking(scene: &str) -> Model {
+    let mut model = Model::new(scene::builtin::named(scene).expect("a built-in scene"), scene.into(), Theme::Dark);
+    model.state.picture = PictureArea::of_size((8, 6), [0.0; 4]);
+    model.state.parts.open = true;
+    model
+}
+
+/// What is known where each row of the map shows these shapes.
+fn shown(model: &Model, rows: [[u32; 4]; 3], along: Option<ShapesAlong>) -> ViewModel {
+    let (scene, camera) = (model.document.seen().clone(), model.document.camera);
+    let map = ObjectMap { scene, camera, size: (4, 3), shapes: rows.concat() };
+    ViewModel { objects: Some(Arc::new(map)), along, ..ViewModel::default() }
+}
+
+fn chosen(model: &Model) -> Option<usize> {
+    model.state.parts.selected.as_ref().and_then(|part| part.index_in(model.document.seen()))
+}
+
+#[test]
+fn where_parts_are_seen_is_wanted_only_while_they_are_looked_at_and_there_is_a_picture() {
+    let mut model = looking("cornell");
+    let wish = model.objects_wish().expect("a wish");
+    assert!(Arc::ptr_eq(&wish.scene, model.document.seen()) && wish.size == (8, 6) && wish.outlined.is_empty());
+    assert!(model.objects_wish() == Some(wish));
+    model.state.picture.size = (0, 6);
+    assert!(model.objects_wish().is_none());
+    model.state.picture.size = (8, 6);
+    model.state.parts.open = false;
+    assert!(model.objects_wish().is_none());
+}
+
+#[test]
+fn the_chosen_shape_is_outlined_or_all_that_wear_the_chosen_material_and_no_light() {
+    let mut model = looking("cornell");
+    let scene = model.document.seen().clone();
+    let mut outlined_of = |part: Subject| {
+        model.state.parts.selected = Some(part);
+        model.objects_wish().expect("a wish").outlined
+    };
+    assert_eq!(outlined_of(Subject::Shape(scene.shape_name(3).into_owned())), [3]);
+    let material = scene.shapes[0].material;
+    let wearing = outlined_of(Subject::Material(scene.materials[material].name.clone()));
+    assert!(wearing.len() > 1 && wearing.iter().all(|shape| scene.shapes[*shape as usize].material == material));
+    assert_eq!(wearing.len(), scene.shapes.iter().filter(|shape| shape.material == material).count());
+    for part in [Subject::Sky, Subject::Sun, Subject::Shape("none".into()), Subject::Material("none".into())] {
+        assert!(outlined_of(part).is_empty());
+    }
+}
+
+#[test]
+fn a_click_chooses_what_is_seen_and_one_at_the_same_place_what_is_behind() {
+    const NOTHING: u32 = ObjectMap::NOTHING;
+    let rows = [[2, 2, 3, NOTHING], [2, 2, 3, NOTHING], [2, 2, 3, NOTHING]];
+    let mut model = looking("cornell");
+    let at = [0.1, 0.5];
+    model.choose_at(at, &ViewModel::default());
+    assert_eq!((chosen(&model), model.state.parts.looked_into), (None, None), "nothing is known yet");
+    let at_first = shown(&model, rows, None);
+    model.choose_at(at, &at_first);
+    assert_eq!((chosen(&model), model.state.parts.looked_into), (Some(2), Some(at)));
+    model.choose_at(at, &at_first);
+    assert_eq!(chosen(&model), Some(2), "what is behind is not known yet");
+    let looked_into = shown(&model, rows, Some(ShapesAlong { at, shapes: vec![2, 5, 1] }));
+    for (place, expected) in [(at, 5), ([0.2, 0.4], 1), (at, 2), (at, 5)] {
+        model.choose_at(place, &looked_into);
+        assert_eq!((chosen(&model), model.state.parts.looked_into), (Some(expected), Some(at)));
+    }
+    model.choose_at([0.9, 0.5], &looked_into);
+    assert_eq!(
+        (chosen(&model), model.state.parts.looked_into),
+        (None, Some([0.9, 0.5])),
+        "elsewhere, where nothing is"
+    );
+    assert_eq!(ShapesAlong { at, shapes: Vec::new() }.behind(None), None);
+}
+
+#[test]
+fn a_map_is_of_one_scene_seen_from_one_place_at_one_size() {
+    let mut model = looking("cornell");
+    let map = shown(&model, [[0; 4]; 3], None).objects.expect("a map");
+    let is_of = |model: &Model| {
+        let shot = model.document.shot(&model.state.picture);
+        let wish = model.objects_wish().expect("a wish");
+        assert_eq!(map.is_of(&shot), wish.is_of_the_view_of(&map));
+        map.is_of(&shot)
+    };
+    assert!(is_of(&model));
+    model.document.camera.fov_y += 1.0;
+    assert!(!is_of(&model));
+    model.document.camera.fov_y = map.camera.fov_y;
+    model.state.picture.size = (9, 6);
+    assert!(!is_of(&model));
+    model.state.picture.size = (8, 6);
+    model.document.open((*map.scene).clone(), "cornell".into());
+    assert!(!is_of(&model), "another scene, however alike");
+}
