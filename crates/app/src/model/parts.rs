@@ -17,6 +17,8 @@ pub struct PartsState {
     /// Where the picture was clicked last, in shares from its upper left corner: all that lies behind each other there is
     /// found out, so that the next click there chooses what is behind.
     pub looked_into: Option<[f32; 2]>,
+    /// What was told of the last change of a part, if it could not be made.
+    pub refused: Option<String>,
 }
 
 /// Which shape each pixel of a view shows first, glass and all.

@@ -4,6 +4,7 @@ use super::{
     Curve, ExportMenu, Magnification, Message, PaneId, Panes, PartsState, PictureArea, Remembered, Slide, SweepPlan,
     Theme,
 };
+use scene::Vec3;
 use std::path::PathBuf;
 
 /// The state of the controls.
@@ -105,6 +106,15 @@ pub enum Drag {
     Magnified,
     /// Marks a region between two points, in shares of a picture.
     Region([[f32; 2]; 2]),
+    /// Moves the shape that is chosen.
+    Part {
+        /// Where its middle stood when the drag began.
+        from: Vec3,
+        /// Whether it was moved since.
+        moved: bool,
+    },
+    /// Nothing more: what it did was given up.
+    Nothing,
 }
 
 /// A sweep as far as it can be made.

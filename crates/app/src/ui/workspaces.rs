@@ -14,7 +14,7 @@ use egui::{Frame, Margin, Ui};
 /// All that there are, in the order of the rail; the first one is the usual one. The first three are everybody's, to choose
 /// from in the bar.
 fn registry() -> Vec<Box<dyn Workspace>> {
-    vec![Box::new(Compare), Box::new(Sweep), Box::new(Trees), Box::new(Empty)]
+    vec![Box::<Compare>::default(), Box::new(Sweep), Box::new(Trees), Box::new(Empty)]
 }
 
 /// How many everybody has.

@@ -37,7 +37,7 @@ pub fn is_low(ui: &Ui) -> bool {
 type Part = fn(&mut UiContext, &mut Ui);
 
 /// Shows a workspace's controls at the right, unless they are hidden: `heads` are always in sight, `cards` are scrolled.
-pub fn panel(cx: &mut UiContext, ui: &mut Ui, heads: Part, cards: Part) {
+pub fn panel(cx: &mut UiContext, ui: &mut Ui, heads: Part, cards: impl FnOnce(&mut UiContext, &mut Ui)) {
     if !cx.model.state.panel {
         return;
     }
@@ -57,7 +57,7 @@ pub fn panel(cx: &mut UiContext, ui: &mut Ui, heads: Part, cards: Part) {
     });
 }
 
-fn all(cx: &mut UiContext, ui: &mut Ui, heads: Part, cards: Part) {
+fn all(cx: &mut UiContext, ui: &mut Ui, heads: Part, cards: impl FnOnce(&mut UiContext, &mut Ui)) {
     heads(cx, ui);
     ui.add_space(4.0);
     cards(cx, ui);

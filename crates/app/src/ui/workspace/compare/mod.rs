@@ -12,11 +12,13 @@ mod magnify;
 mod map;
 mod map_faces;
 mod mouse;
+mod parts;
 mod picture;
 pub mod plots;
 mod probe;
 mod region;
 
+use self::parts::Parts;
 use super::Workspace;
 use crate::model::{CompareWith, LightWish, Model, PaneId, ProbeWish, View, Wanted};
 use crate::ui::pressed::{HelpLine, Keys};
@@ -25,7 +27,10 @@ use crate::ui::{UiContext, controls};
 use egui::{Key, Ui};
 
 /// The workspace of pictures A and B with what lies between them: wipe, side by side, error map.
-pub struct Compare;
+#[derive(Default)]
+pub struct Compare {
+    parts: Parts,
+}
 
 /// The keys of the views, in the order of [`View::ALL`].
 const VIEW_KEYS: [Key; View::ALL.len()] = [Key::Num1, Key::Num2, Key::Num3, Key::Num4, Key::Num5];
@@ -60,6 +65,7 @@ impl Workspace for Compare {
         if ui.ctx().content_rect().width() >= ROOMY {
             region_button(cx, ui);
             probe::button(cx, ui);
+            parts::button(cx, ui);
         }
     }
 
@@ -76,6 +82,7 @@ impl Workspace for Compare {
         }
         arrows::keys(cx, keys);
         probe::keys(cx, keys);
+        parts::keys(cx, keys);
         cx.model.state.loupe ^= keys.presses(Key::I) % 2 == 1;
         if keys.presses(Key::F) % 2 == 1 {
             flicker::toggle(cx);
@@ -88,14 +95,21 @@ impl Workspace for Compare {
     }
 
     fn escape(&mut self, cx: &mut UiContext) {
-        region::end(cx);
+        if !(parts::mouse::give_up(cx) || region::end(cx)) {
+            cx.model.state.parts.open = false;
+        }
     }
 
     fn ui(&mut self, cx: &mut UiContext, ui: &mut Ui) {
         // until the card is found open
         cx.model.state.histograms = false;
         cx.model.state.light_bars.clear();
-        controls::panel(cx, ui, heads, cards);
+        self.parts.follow(cx);
+        controls::panel(cx, ui, heads, |cx, ui| {
+            self.parts.cards(cx, ui);
+            cards(cx, ui);
+        });
+        self.parts.beside(cx, ui);
         plots::drawer(cx, ui);
         probe::drawer(cx, ui);
         // no ground under the pictures, which cover it: where the processor draws, every layer is paid for
@@ -138,6 +152,8 @@ impl Workspace for Compare {
             ("I", "loupe: the pixels under the mouse of A, B, reference and error, with their numbers"),
             ("F", "A and B by turns, twice a second"),
             ("B", "probe: a pixel's samples, their mean and the integral; a click chooses the pixel"),
+            ("O", "parts: what there is in the scene, to look at and to change; a click chooses, Esc closes"),
+            ("Ctrl+drag", "with parts open: move a shape along the picture; with Shift: up and down alone"),
             ("Alt+arrows", "move the probe's pixel; with Shift: another of its samples"),
         ]
     }

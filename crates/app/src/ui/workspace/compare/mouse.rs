@@ -1,7 +1,7 @@
 //! The mouse on the picture, and the arrow keys once it has the focus: the line, orbit, pan, dolly and zoom, a region,
 //! and what is seen of magnified pictures.
 
-use super::{magnify, probe, region};
+use super::{magnify, parts, probe, region};
 use crate::model::{Drag, Line, Magnification, View};
 use crate::ui::UiContext;
 use egui::{CursorIcon, EventFilter, Key, PointerButton, Pos2, Rect, Ui, Vec2};
@@ -21,11 +21,13 @@ pub fn listen(cx: &mut UiContext, ui: &Ui, response: &egui::Response, rect: Rect
         Drag::Camera if response.dragged() => turn_camera(cx, ui, response, rect),
         Drag::Magnified if response.dragged() => magnify::drag(cx, response.drag_delta(), frames),
         Drag::Region(corners) => region::drag(cx, response, frames, corners),
+        Drag::Part { from, moved } if response.dragged() => parts::mouse::drag(cx, ui, response, frames, (from, moved)),
         _ => {}
     }
     move_line(cx, ui, response, rect);
     if let (true, Some(at)) = (response.clicked(), response.interact_pointer_pos()) {
         probe::choose(cx, frames, at);
+        parts::mouse::choose(cx, frames, at);
     }
     if response.double_clicked() {
         put_back(cx, response, rect);
@@ -44,9 +46,15 @@ pub fn listen(cx: &mut UiContext, ui: &Ui, response: &egui::Response, rect: Rect
 }
 
 /// What a drag does that has just begun.
-fn begun(cx: &UiContext, ui: &Ui, rect: Rect, frames: &[Rect]) -> Drag {
+fn begun(cx: &mut UiContext, ui: &Ui, rect: Rect, frames: &[Rect]) -> Drag {
     let (origin, modifiers) = ui.input(|i| (i.pointer.press_origin(), i.modifiers));
     let Some(origin) = origin else { return Drag::Camera };
+    if modifiers.command
+        && !modifiers.alt
+        && let Some(drag) = parts::mouse::begun(cx, frames, origin)
+    {
+        return drag;
+    }
     let model = &cx.model;
     if modifiers.alt || model.state.marking {
         Drag::Region([magnify::picture_at(&model.state.magnification, frames, origin); 2])

@@ -1,7 +1,7 @@
 //! The picture area: one pane, both under the wipe or both side by side, or the map of their errors, and what is known
 //! about each on top.
 
-use super::{external, flicker, label, loupe, magnify, map, map_faces, mouse, probe, region};
+use super::{external, flicker, label, loupe, magnify, map, map_faces, mouse, parts, probe, region};
 use crate::model::{Line, PaneId, PictureArea, View};
 use crate::ui::UiContext;
 use crate::ui::overlay::{say, spoken, text_box};
@@ -74,6 +74,7 @@ pub fn show(cx: &mut UiContext, ui: &mut Ui) {
     }
     magnify::label(cx, ui, rect);
     loupe::show(cx, ui, rect, &frames, response.hover_pos());
+    parts::mouse::show_name(cx, ui, &response, &frames);
     if !cx.model.state.posing {
         let hints = ["Drag the line.", "Drag the picture to orbit.", "T swaps A and B.", "? shows all keys."];
         let without_a_line = usize::from(view != View::Wipe);
