@@ -5,6 +5,7 @@
 mod closer;
 mod light;
 mod numbers;
+mod parts;
 mod plots;
 mod probe;
 mod settings;

@@ -7,7 +7,7 @@ use egui_kittest::kittest::Queryable;
 
 impl Panels {
     /// Types into the number of this name and leaves it by Enter.
-    fn type_number(&mut self, name: &str, text: &str) {
+    pub(super) fn type_number(&mut self, name: &str, text: &str) {
         self.harness.get_by_role_and_label(Role::SpinButton, name).click();
         self.harness.run_steps(2);
         self.harness.key_press_modifiers(Modifiers::COMMAND, Key::A);
@@ -16,7 +16,7 @@ impl Panels {
         self.harness.run_steps(2);
     }
 
-    fn enter(&mut self) {
+    pub(super) fn enter(&mut self) {
         self.harness.key_press(Key::Enter);
         self.harness.run_steps(3);
     }
@@ -25,7 +25,7 @@ impl Panels {
         self.model.borrow().document.changes.refraction_ratio
     }
 
-    fn message(&self) -> String {
+    pub(super) fn message(&self) -> String {
         self.model.borrow().state.message.as_ref().map_or(String::new(), |message| message.text.clone())
     }
 }

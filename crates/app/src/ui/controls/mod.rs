@@ -37,7 +37,18 @@ pub fn is_low(ui: &Ui) -> bool {
 type Part = fn(&mut UiContext, &mut Ui);
 
 /// Shows a workspace's controls at the right, unless they are hidden: `heads` are always in sight, `cards` are scrolled.
-pub fn panel(cx: &mut UiContext, ui: &mut Ui, heads: Part, cards: impl FnOnce(&mut UiContext, &mut Ui)) {
+pub fn panel(cx: &mut UiContext, ui: &mut Ui, heads: Part, cards: Part) {
+    panel_with(cx, ui, |_, _| (), heads, cards);
+}
+
+/// The same with what is in hand: it stands above the cards, and where the window is low above all.
+pub fn panel_with(
+    cx: &mut UiContext,
+    ui: &mut Ui,
+    in_hand: impl FnOnce(&mut UiContext, &mut Ui),
+    heads: Part,
+    cards: Part,
+) {
     if !cx.model.state.panel {
         return;
     }
@@ -48,19 +59,21 @@ pub fn panel(cx: &mut UiContext, ui: &mut Ui, heads: Part, cards: impl FnOnce(&m
         let scrolled = egui::ScrollArea::vertical().auto_shrink(false);
         if is_low(ui) {
             // heads that stay would leave the cards no room
-            scrolled.show(ui, |ui| all(cx, ui, heads, cards));
+            scrolled.show(ui, |ui| {
+                in_hand(cx, ui);
+                heads(cx, ui);
+                ui.add_space(4.0);
+                cards(cx, ui);
+            });
         } else {
             heads(cx, ui);
             ui.add_space(4.0);
-            scrolled.show(ui, |ui| cards(cx, ui));
+            scrolled.show(ui, |ui| {
+                in_hand(cx, ui);
+                cards(cx, ui);
+            });
         }
     });
-}
-
-fn all(cx: &mut UiContext, ui: &mut Ui, heads: Part, cards: impl FnOnce(&mut UiContext, &mut Ui)) {
-    heads(cx, ui);
-    ui.add_space(4.0);
-    cards(cx, ui);
 }
 
 /// What is changed in the scene; absent where nothing can be.

@@ -1,6 +1,6 @@
 //! The card for looking closer: how large pictures are shown, and the region that figures speak of.
 
-use super::{flicker, region};
+use super::{flicker, parts, region};
 use crate::model::Magnification;
 use crate::ui::UiContext;
 use crate::ui::theme::palette;
@@ -28,6 +28,11 @@ pub fn show(cx: &mut UiContext, ui: &mut Ui) {
     let check = ui.checkbox(&mut flickers.clone(), "Flicker between A and B").explained(FLICKER);
     if cx.dump.note("flicker", flickers, check).clicked() {
         flicker::toggle(cx);
+    }
+    let open = cx.model.state.parts.open;
+    let check = ui.checkbox(&mut open.clone(), "Parts of the scene").explained("What there is, to be changed (O)");
+    if cx.dump.note("parts of the scene", open, check).clicked() {
+        parts::open_or_close(cx.model, !open);
     }
     marked(cx, ui);
 }

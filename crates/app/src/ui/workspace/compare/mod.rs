@@ -105,10 +105,7 @@ impl Workspace for Compare {
         cx.model.state.histograms = false;
         cx.model.state.light_bars.clear();
         self.parts.follow(cx);
-        controls::panel(cx, ui, heads, |cx, ui| {
-            self.parts.cards(cx, ui);
-            cards(cx, ui);
-        });
+        controls::panel_with(cx, ui, |cx, ui| self.parts.cards(cx, ui), heads, cards);
         self.parts.beside(cx, ui);
         plots::drawer(cx, ui);
         probe::drawer(cx, ui);

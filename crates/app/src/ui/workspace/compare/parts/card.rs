@@ -6,8 +6,8 @@ use crate::model::Model;
 use crate::ruler::counted;
 use crate::ui::UiContext;
 use crate::ui::theme::palette;
-use crate::ui::widgets::{Explained, card, fold};
-use egui::{Button, RichText, Ui, accesskit};
+use crate::ui::widgets::{Explained, card, fold, framed};
+use egui::{RichText, Ui, accesskit};
 use scene::edit::Subject;
 use scene::{Scene, Vec3};
 use std::sync::Arc;
@@ -90,7 +90,10 @@ pub fn show(cx: &mut UiContext, known: &Known, wearers: Option<u32>, ui: &mut Ui
 }
 
 fn lines(cx: &mut UiContext, known: &Known, wearers: Option<u32>, ui: &mut Ui) {
-    let worn = wearers.map(|count| format!("worn by {}", counted(count as usize, "shape")));
+    let worn = wearers.map(|count| match count {
+        0 => "worn by no shape".into(),
+        count => format!("worn by {}", counted(count as usize, "shape")),
+    });
     let text = known.lines.iter().cloned().chain(worn).collect::<Vec<_>>().join("; ");
     let said = ui.label(RichText::new(&text).color(palette(ui).dim));
     cx.dump.note(&format!("text {}", words::kind(&known.part)), &text, said);
@@ -118,7 +121,7 @@ fn leave(cx: &mut UiContext, known: &Known, kind: &str, ui: &mut Ui) {
         return;
     }
     let name = format!("Leave the {kind} as in the file");
-    let button = ui.add(Button::new("Leave as in the file")).explained("Takes back what is changed on this card");
+    let button = ui.add(framed("Leave as in the file", ui)).explained("Takes back what is changed on this card");
     if cx.dump.note(&format!("leave {kind}"), "", button.accessible_name(name)).clicked() {
         cx.model.document.changes.edits.reset_all(&known.part);
         cx.model.apply_changes();

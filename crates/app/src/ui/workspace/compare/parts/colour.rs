@@ -34,9 +34,10 @@ impl Place<'_> {
         ui: &mut Ui,
     ) -> Option<Vec3> {
         let strength = light.max_element();
-        let colour = if strength > 0.0 { light / strength } else { Vec3::ONE };
+        // what is dark has no colour, and shines as soon as it is given one
+        let (colour, picked_at) = if strength > 0.0 { (light / strength, strength) } else { (Vec3::ONE, 1.0) };
         let numbers = ui.horizontal_wrapped(|ui| {
-            let picked = self.picker(label, colour, ui).map(|colour| colour * strength);
+            let picked = self.picker(label, colour, ui).map(|colour| colour * picked_at);
             let scale = Scale::Logarithmic(STRENGTHS);
             self.triple(CHANNELS, (label, help), (scale, 0.0..=MOST, ""), light, ui).or(picked)
         });

@@ -149,7 +149,7 @@ impl Place<'_> {
                 }
             }
         });
-        let response = response.response.accessible_name(format!("{label}: {}", in_words(chosen)));
+        let response = response.response.accessible_name(format!("{label}: {} (menu)", in_words(chosen)));
         self.dump.note(self.name, chosen, response);
         clicked
     }

@@ -11,10 +11,10 @@ mod words;
 use self::card::Known;
 use self::rows::{List, Row};
 use crate::model::{Model, PartFacts, PartTree};
-use crate::ui::UiContext;
 use crate::ui::pressed::Keys;
-use crate::ui::theme::palette;
-use crate::ui::widgets::{Explained, Icon, card, icon_button};
+use crate::ui::theme::{bold, palette};
+use crate::ui::widgets::{Explained, Icon, card, framed, icon_button};
+use crate::ui::{UiContext, controls};
 use egui::{Frame, Key, Margin, RichText, TextStyle, Ui};
 use scene::Scene;
 use scene::edit::{Edits, Property, Subject, Value};
@@ -24,8 +24,12 @@ use std::sync::Arc;
 const ROOMY: f32 = 1000.0;
 /// Of the tree at the left, in sizes of the type: at first, at least and at most.
 const WIDTHS: [f32; 3] = [17.0, 11.0, 32.0];
+/// And at first no wider than this, in points.
+const USUAL_AT_MOST: f32 = 240.0;
 /// Rows of the tree that are seen where it stands on a card.
 const ROWS_ON_A_CARD: usize = 9;
+/// And where the window is low.
+const ROWS_OF_FEW: usize = 5;
 /// Of so many parts one finds any at a glance.
 const AT_A_GLANCE: usize = 12;
 
@@ -66,9 +70,9 @@ pub fn keys(cx: &mut UiContext, keys: &Keys) {
     }
 }
 
-fn open_or_close(model: &mut Model, open: bool) {
+/// Opens them with the controls, among which it stands what they are, or closes them.
+pub fn open_or_close(model: &mut Model, open: bool) {
     model.state.parts.open = open;
-    // what is told of them stands among the controls
     model.state.panel |= open;
 }
 
@@ -143,6 +147,7 @@ impl Parts {
         let frame = Frame::new().fill(palette(ui).panel).inner_margin(Margin { left: 8, right: 8, top: 8, bottom: 6 });
         let type_size = TextStyle::Body.resolve(ui.style()).size;
         let [usual, least, most] = WIDTHS.map(|width| width * type_size);
+        let usual = usual.min(USUAL_AT_MOST);
         let panel =
             egui::Panel::left("parts").resizable(true).default_size(usual).size_range(least..=most).frame(frame);
         panel.show(ui, |ui| {
@@ -162,7 +167,8 @@ impl Parts {
             card(None, ui, |ui| {
                 self.head(cx, ui);
                 let row = tree::row_height(ui) + ui.spacing().item_spacing.y;
-                tree::show(self, cx, ui, row * ROWS_ON_A_CARD.min(self.list.rows.len()) as f32);
+                let most = if controls::is_low(ui) { ROWS_OF_FEW } else { ROWS_ON_A_CARD };
+                tree::show(self, cx, ui, row * most.min(self.list.rows.len()) as f32);
                 self.foot(cx, ui);
             });
         }
@@ -195,11 +201,12 @@ impl Parts {
             let room = ui.available_width() - tree::text_width(close, ui) - 28.0;
             ui.scope(|ui| {
                 ui.set_max_width(room);
-                let name = ui.add(egui::Label::new(RichText::new(&scene.name).strong()).truncate());
+                let name = ui.add(egui::Label::new(bold(&scene.name)).truncate());
                 cx.dump.note("text scene of parts", &scene.name, name);
             });
             ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
-                let close = ui.button(close).explained("Close the parts (O, Esc)").accessible_name("Close the parts");
+                let close =
+                    ui.add(framed(close, ui)).explained("Close the parts (O, Esc)").accessible_name("Close the parts");
                 if cx.dump.note("close parts", "", close).clicked() {
                     cx.model.state.parts.open = false;
                 }
@@ -220,7 +227,7 @@ impl Parts {
     fn foot(&mut self, cx: &mut UiContext, ui: &mut Ui) {
         let changed = !cx.model.document.changes.edits.is_empty();
         let text = "Leave all as in the file";
-        let button = ui.add_enabled(changed, egui::Button::new(text)).explained("Takes back every change of a part");
+        let button = ui.add_enabled(changed, framed(text, ui)).explained("Takes back every change of a part");
         if cx.dump.note("leave all", changed, button).clicked() {
             cx.model.document.changes.edits = Edits::default();
             cx.model.apply_changes();

@@ -6,9 +6,9 @@ use crate::ui::UiContext;
 use crate::ui::overlay::{spoken, text_box};
 use crate::ui::workspace::compare::magnify;
 use egui::{Align2, Color32, Pos2, Rect, Response, Ui, vec2};
+use scene::Vec3;
 use scene::edit::{Subject, Value};
 use scene::glam::Vec2;
-use scene::{Scene, Vec3};
 
 /// Degrees about the middle of the sun that count as the sun, if it is not larger itself.
 const SUN: f32 = 1.0;
@@ -26,12 +26,26 @@ fn part_at(map: &ObjectMap, at: [f32; 2]) -> Subject {
     if map.scene.sun.is_some_and(is_there) { Subject::Sun } else { Subject::Sky }
 }
 
-/// What lies under a point of the window, if it is known.
-fn part_under(cx: &UiContext, frames: &[Rect], at: Pos2) -> Option<Subject> {
+/// What is called so there: "sphere 3, glass".
+fn name_at(map: &ObjectMap, at: [f32; 2]) -> String {
+    let Some(shape) = map.shape_at(at).filter(|shape| *shape < map.scene.shapes.len()) else {
+        return if part_at(map, at) == Subject::Sun { "sun".into() } else { "sky".into() };
+    };
+    let (name, worn) = (map.scene.shape_name(shape), &map.scene.material_of(&map.scene.shapes[shape]).name);
+    if name == worn.as_str() { name.into_owned() } else { format!("{name}, {worn}") }
+}
+
+/// The map of the shapes and the place in it that is under a point of the window, if it is known what lies there.
+fn place_under<'a>(cx: &UiContext<'a>, frames: &[Rect], at: Pos2) -> Option<(&'a ObjectMap, [f32; 2])> {
     let share = magnify::picture_at(&cx.model.state.magnification, frames, at);
     let within = share.iter().all(|share| (0.0..1.0).contains(share));
-    let map = cx.shown.objects.as_ref().filter(|_| within && cx.model.state.parts.open)?;
-    Some(part_at(map, share))
+    let map = cx.shown.objects.as_deref().filter(|_| within && cx.model.state.parts.open)?;
+    Some((map, share))
+}
+
+/// What lies under a point of the window, if it is known.
+fn part_under(cx: &UiContext, frames: &[Rect], at: Pos2) -> Option<Subject> {
+    place_under(cx, frames, at).map(|(map, share)| part_at(map, share))
 }
 
 /// A click chooses what lies there.
@@ -46,8 +60,8 @@ pub fn choose(cx: &mut UiContext, frames: &[Rect], at: Pos2) {
 pub fn show_name(cx: &mut UiContext, ui: &Ui, response: &Response, frames: &[Rect]) {
     let busy = cx.model.state.posing || cx.model.state.loupe || ui.input(|i| i.pointer.any_down());
     let Some(at) = response.hover_pos().filter(|_| !busy) else { return };
-    let Some(part) = part_under(cx, frames, at) else { return };
-    let text = named(cx.shown.objects.as_ref().map(|map| &*map.scene), &part);
+    let Some((map, share)) = place_under(cx, frames, at) else { return };
+    let text = name_at(map, share);
     let area = response.rect;
     let (left, top) = (at.x < area.center().x, at.y < area.center().y);
     let offset = vec2(if left { 16.0 } else { -12.0 }, if top { 20.0 } else { -12.0 });
@@ -60,20 +74,6 @@ pub fn show_name(cx: &mut UiContext, ui: &Ui, response: &Response, frames: &[Rec
     let place = text_box(ui, area, at + offset, align, &text, Color32::WHITE);
     cx.dump.note_text("part under the mouse", &text, place, area);
     spoken(ui, "part under the mouse", &text, place, false);
-}
-
-/// "sphere 3, glass".
-fn named(scene: Option<&Scene>, part: &Subject) -> String {
-    match part {
-        Subject::Shape(name) => {
-            let material =
-                scene.and_then(|scene| Some(scene.material_of(&scene.shapes[part.index_in(scene)?]).name.clone()));
-            material.filter(|material| material != name).map_or_else(|| name.clone(), |worn| format!("{name}, {worn}"))
-        }
-        Subject::Material(name) | Subject::Light(name) => name.clone(),
-        Subject::Sun => "sun".into(),
-        Subject::Sky => "sky".into(),
-    }
 }
 
 /// The drag that moves the shape that it begins on, or else the one that is chosen.

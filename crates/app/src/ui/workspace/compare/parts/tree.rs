@@ -68,7 +68,7 @@ pub fn show(parts: &mut Parts, cx: &mut UiContext, ui: &mut Ui, height: f32) {
                 }
             }
         });
-        parts.seen = [shown.state.offset().y, shown.inner_rect.height()];
+        parts.seen = [shown.state.clamped_offset().y, shown.inner_rect.height()];
     });
     (parts.tree, parts.facts) = (Some(tree), Some(facts));
 }
@@ -206,8 +206,8 @@ fn draw(cx: &mut UiContext, ui: &mut Ui, look: &Look) -> Response {
     }
     let mut left = rect.left() + 4.0 + STEP * look.depth as f32;
     if let Some(open) = look.open {
-        chevron(ui, pos2(left - 4.0, rect.center().y), open);
-        left += 8.0;
+        chevron(ui, pos2(left - 1.0, rect.center().y), open);
+        left += 10.0;
     }
     if let Some(swatch) = &look.colours {
         let side = (0.5 * rect.height()).round();
@@ -227,14 +227,15 @@ fn draw(cx: &mut UiContext, ui: &mut Ui, look: &Look) -> Response {
         right -= 9.0;
         ui.painter().circle_filled(pos2(right, rect.center().y), 3.0, colours.accent);
     }
-    text(ui, look, left, right - 5.0, rect);
+    let is_cut = text(ui, look, left, right - 5.0, rect);
     let response = cx.dump.note(&format!("part {}", look.name), on, response);
     menu(cx, &response, look);
-    let whole = look.name.split_once(' ').map_or("", |(_, name)| name);
-    response.explained(if look.part.is_some() && whole != look.text { whole } else { "" })
+    let whole = look.name.split_once(' ').map_or(look.text.as_str(), |(_, name)| name);
+    response.explained(if is_cut || (look.part.is_some() && whole != look.text) { whole } else { "" })
 }
 
-fn text(ui: &Ui, look: &Look, left: f32, right: f32, rect: Rect) {
+/// Returns whether there is no room for all of it.
+fn text(ui: &Ui, look: &Look, left: f32, right: f32, rect: Rect) -> bool {
     let (colours, size) = (palette(ui), TextStyle::Body.resolve(ui.style()).size);
     let font = if look.is_title { FontId::new(size, semi_bold()) } else { TextStyle::Body.resolve(ui.style()) };
     let colour = if look.hidden { colours.dim.gamma_multiply(0.75) } else { colours.text };
@@ -242,7 +243,9 @@ fn text(ui: &Ui, look: &Look, left: f32, right: f32, rect: Rect) {
     let mut job = LayoutJob::simple_singleline(shown.into(), font, colour);
     job.wrap = TextWrapping::truncate_at_width((right - left).max(8.0));
     let galley = ui.painter().layout_job(job);
+    let is_cut = galley.elided;
     ui.painter().galley(pos2(left, rect.center().y - 0.5 * galley.size().y), galley, colour);
+    is_cut
 }
 
 /// A button at the right end of a row that brings its shape back; returns where it begins.

@@ -96,7 +96,7 @@ fn pattern(texture: &Texture) -> &'static str {
 pub fn short(value: f32) -> String {
     let value = f64::from(value);
     let digits = if value == 0.0 { 0.0 } else { 2.0 - value.abs().log10().floor() };
-    if !(-9.0..=6.0).contains(&digits) {
+    if !(-6.0..=6.0).contains(&digits) {
         return format!("{value:.2e}");
     }
     let text = format!("{value:.*}", digits.max(0.0) as usize);
