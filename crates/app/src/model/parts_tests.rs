@@ -124,3 +124,77 @@ fn a_map_is_of_one_scene_seen_from_one_place_at_one_size() {
     model.document.open((*map.scene).clone(), "cornell".into());
     assert!(!is_of(&model), "another scene, however alike");
 }
+
+fn material(model: &Model, name: &str) -> Subject {
+    let subject = Subject::Material(name.into());
+    assert!(subject.index_in(&model.document.scene).is_some());
+    subject
+}
+
+fn changed(model: &mut Model, subject: &Subject, property: &str, number: f32) {
+    let property = subject.property(property).expect("a row");
+    model.edit(subject, property, Some(Value::Number(number)));
+    model.settle(false);
+}
+
+#[test]
+fn undo_gives_changes_back_and_the_scene_with_them() {
+    let scene = scene::builtin::named("whitted").expect("a built-in scene");
+    let mut model = Model::new(scene, "whitted".into(), Theme::Dark);
+    let glass = material(&model, "glass");
+    let ior = |model: &Model| {
+        let seen = model.document.seen();
+        (glass.property("ior").expect("a row").get)(seen, glass.index_in(seen).expect("glass"))
+    };
+    let own = ior(&model);
+    changed(&mut model, &glass, "ior", 1.25);
+    changed(&mut model, &glass, "ior", 1.75);
+    model.undo();
+    assert_eq!(ior(&model), Some(Value::Number(1.25)));
+    model.undo();
+    assert_eq!((ior(&model), model.document.changes.edits.is_empty()), (own, true));
+    model.redo();
+    assert_eq!(ior(&model), Some(Value::Number(1.25)));
+    // the slider of all glass takes the place of what was said of one, in one step
+    for ratio in [0.9, 0.8] {
+        model.document.changes.set_refraction_ratio(Some(ratio));
+        model.settle(ratio == 0.9);
+    }
+    assert!(model.document.changes.edits.is_empty());
+    model.undo();
+    assert_eq!(ior(&model), Some(Value::Number(1.25)));
+}
+
+#[test]
+fn a_change_that_is_refused_is_no_step() {
+    let scene = scene::builtin::named("cornell").expect("a built-in scene");
+    let mut model = Model::new(scene, "cornell".into(), Theme::Dark);
+    let white = material(&model, "white");
+    let lobe = white.property("lobe").expect("a row");
+    model.edit(&white, lobe, Some(Value::Word("felt".into())));
+    model.settle(false);
+    assert!(model.state.message.is_some());
+    assert_eq!(model.can_undo_and_redo(), [false, false]);
+}
+
+#[test]
+fn of_a_scene_that_is_read_again_changes_stay_that_fit_and_no_undo_brings_the_others_back() {
+    let scene = scene::builtin::named("whitted").expect("a built-in scene");
+    let mut without = scene.clone();
+    without.materials.iter_mut().filter(|m| m.name == "glass").for_each(|m| m.name = "ice".into());
+    let mut model = Model::new(scene, "whitted".into(), Theme::Dark);
+    let glass = material(&model, "glass");
+    changed(&mut model, &glass, "ior", 1.25);
+    changed(&mut model, &Subject::Sun, "elevation", 30.0);
+    let lost = model.reread(without.clone()).expect("it is another");
+    assert!(lost.len() == 1 && lost[0].ends_with(": material 'glass'"), "{lost:?}");
+    assert_eq!(model.document.changes.edits, "{ sun.elevation = 30 }".parse().expect("changes"));
+    let towards = |model: &Model| model.document.seen().sun.expect("a sun").towards;
+    assert!((towards(&model).y - 0.5).abs() < 1e-6);
+    model.settle(false);
+    model.undo();
+    assert!(model.document.changes.edits.is_empty() && model.state.message.is_none());
+    assert_eq!(towards(&model), without.sun.expect("a sun").towards);
+    assert!(!model.can_undo_and_redo()[0], "what was changed in glass is no step");
+    assert_eq!(model.reread(without), None);
+}
