@@ -54,6 +54,15 @@ fn nearest(tree: &MeshTree, ray: &Ray) -> Option<(u32, u32)> {
     hits.min_by(|a, b| a.partial_cmp(b).unwrap()).map(|(t, place)| (t.to_bits(), place))
 }
 
+/// Whether the tree without decoding meets the same by every bit.
+fn unpacked_finds_the_same(tree: &MeshTree, ray: &Ray, lanes: RowLanes) -> bool {
+    let packed = lanes.run(ClosestOf { tree, ray });
+    let packed = packed.map(|hit| (hit.t.to_bits(), hit.triangle, hit.barycentrics().map(f32::to_bits)));
+    let unpacked = tree.unpacked().closest(ray);
+    let unpacked = unpacked.map(|hit| (hit.t.to_bits(), hit.primitive, hit.barycentrics.map(f32::to_bits)));
+    packed == unpacked && packed.is_some() == tree.unpacked().occluded(ray)
+}
+
 #[test]
 fn a_meshs_tree_finds_what_testing_everything_finds() {
     let single = statue_mesh(4);
@@ -68,10 +77,12 @@ fn a_meshs_tree_finds_what_testing_everything_finds() {
                 let expected = nearest(&tree, ray);
                 let found = lanes.run(ClosestOf { tree: &tree, ray }).map(|hit| (hit.t.to_bits(), hit.triangle));
                 let mut same = found == expected && lanes.run(OccludedBy { tree: &tree, ray }) == expected.is_some();
+                same &= unpacked_finds_the_same(&tree, ray, lanes);
                 if let Some((t, _)) = expected {
                     // strictly before the end
                     let until = Ray { tmax: f32::from_bits(t), ..*ray };
                     let shorter = nearest(&tree, &until);
+                    same &= unpacked_finds_the_same(&tree, &until, lanes);
                     let found = lanes.run(ClosestOf { tree: &tree, ray: &until });
                     same &= found.map(|hit| (hit.t.to_bits(), hit.triangle)) == shorter;
                     same &= lanes.run(OccludedBy { tree: &tree, ray: &until }) == shorter.is_some();

@@ -9,6 +9,7 @@
 
 use super::baking::is_instanced;
 use super::mesh_tree::MeshTree;
+use super::mesh_unpacked::MOST_UNPACKED;
 use super::mesh_walk::{ClosestOf, CompressedRay, EachMet, OccludedBy};
 use super::{Hit, Intersection, NO_INSTANCE, NO_LIGHT, Ray, SurfacePoint, gamma};
 use obvhs::Boundable;
@@ -33,6 +34,8 @@ pub struct Instances {
     /// The tree over their boxes, and their numbers in its order; nothing if they are few.
     nodes: Vec<CwBvhNode>,
     order: Vec<u32>,
+    /// Whether there is memory for trees that need no decoding.
+    unpacked: bool,
     lanes: RowLanes,
 }
 
@@ -81,7 +84,11 @@ impl Instances {
         let instanced = scene.shapes.iter().enumerate().filter(|(_, shape)| is_instanced(scene, shape));
         let placed: Vec<Placed> = instanced.filter_map(|(index, shape)| Placed::new(index, shape)).collect();
         let (nodes, order) = tree_over(&placed);
-        Instances { placed, nodes, order, lanes: RowLanes::nearest_to(Lanes::best()) }
+        let unpacked = triangles_of(&placed) <= MOST_UNPACKED;
+        if unpacked {
+            placed.iter().for_each(|placed| _ = placed.tree.unpacked());
+        }
+        Instances { placed, nodes, order, unpacked, lanes: RowLanes::nearest_to(Lanes::best()) }
     }
 
     /// How many there are.
@@ -107,11 +114,8 @@ impl Instances {
             // what comes earlier in the scene is there also at the same distance
             let is_earlier = nearest.is_some_and(|hit| (index as u32) < hit.instance);
             let reach = if is_earlier { tmax.next_up() } else { tmax };
-            let placed = &self.placed[index];
-            let tree = &*placed.tree;
-            if let Some(hit) = self.lanes.run(ClosestOf { tree, ray: &placed.ray_in_mesh(ray, reach) }) {
-                let instance = index as u32;
-                nearest = Some(Hit { t: hit.t, primitive: hit.triangle, instance, barycentrics: hit.barycentrics() });
+            if let Some(hit) = self.closest_of(&self.placed[index], ray, reach) {
+                nearest = Some(Hit { instance: index as u32, ..hit });
             }
             Some(nearest.map_or(tmax, |hit| hit.t))
         };
@@ -125,13 +129,28 @@ impl Instances {
         let mut occluded = false;
         let visit = |index: usize, tmax: f32| {
             let placed = &self.placed[index];
-            let tree = &*placed.tree;
-            occluded =
-                blocks(placed.material) && self.lanes.run(OccludedBy { tree, ray: &placed.ray_in_mesh(ray, ray.tmax) });
+            occluded = blocks(placed.material) && self.is_occluded_by(placed, ray);
             (!occluded).then_some(tmax)
         };
         self.visit_met(ray, visit);
         occluded
+    }
+
+    /// The nearest hit of one of them before `tmax`, of no instance yet.
+    #[inline(always)]
+    fn closest_of(&self, placed: &Placed, ray: &Ray, tmax: f32) -> Option<Hit> {
+        let (tree, ray) = (&*placed.tree, &placed.ray_in_mesh(ray, tmax));
+        if self.unpacked {
+            return tree.unpacked().closest(ray);
+        }
+        let hit = self.lanes.run(ClosestOf { tree, ray })?;
+        Some(Hit { t: hit.t, primitive: hit.triangle, instance: NO_INSTANCE, barycentrics: hit.barycentrics() })
+    }
+
+    #[inline(always)]
+    fn is_occluded_by(&self, placed: &Placed, ray: &Ray) -> bool {
+        let (tree, ray) = (&*placed.tree, &placed.ray_in_mesh(ray, ray.tmax));
+        if self.unpacked { tree.unpacked().occluded(ray) } else { self.lanes.run(OccludedBy { tree, ray }) }
     }
 
     /// Shows those whose boxes the ray meets to the visitor, which says how far it goes from there on; `None` ends it.
@@ -173,6 +192,14 @@ impl Instances {
             normals_to_world: *normals_to_world,
         }
     }
+}
+
+/// Triangles of the meshes of these, each counted once.
+fn triangles_of(placed: &[Placed]) -> usize {
+    let mut trees: Vec<&Arc<MeshTree>> = placed.iter().map(|placed| &placed.tree).collect();
+    trees.sort_by_key(|tree| Arc::as_ptr(tree));
+    trees.dedup_by_key(|tree| Arc::as_ptr(tree));
+    trees.into_iter().map(|tree| tree.triangles.len()).sum()
 }
 
 impl Placed {

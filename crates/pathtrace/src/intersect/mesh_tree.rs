@@ -9,10 +9,11 @@
 
 use super::baking::is_instanced;
 use super::mesh_build::{Progress, build};
+use super::mesh_unpacked::Unpacked;
 use obvhs::cwbvh::node::CwBvhNode;
 use scene::{Mesh, Scene};
 use std::sync::atomic::{AtomicU32, Ordering};
-use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError, Weak};
+use std::sync::{Arc, Condvar, Mutex, MutexGuard, OnceLock, PoisonError, Weak};
 use std::time::Duration;
 
 /// A mesh, ready for rays in its own space.
@@ -24,6 +25,8 @@ pub struct MeshTree {
     /// Indices into the mesh's positions, in the order in which leaves name triangles. Of triangles that a ray meets at one
     /// distance the first here is the hit, on either machine.
     pub triangles: Vec<[u32; 3]>,
+    /// The same for fast rays on the processor, once somebody has asked for it.
+    unpacked: OnceLock<Unpacked>,
 }
 
 /// A mesh that was asked for, and its tree.
@@ -75,9 +78,15 @@ impl MeshTree {
         }
     }
 
+    /// The same tree for fast rays on the processor, made once, which takes [`Unpacked::bytes`] more.
+    pub(super) fn unpacked(&self) -> &Unpacked {
+        self.unpacked.get_or_init(|| Unpacked::of(self))
+    }
+
     /// Bytes that it takes beside its mesh.
     pub fn bytes(&self) -> usize {
-        size_of_val(&*self.nodes) + size_of_val(&*self.triangles)
+        let unpacked = self.unpacked.get().map_or(0, Unpacked::bytes);
+        size_of_val(&*self.nodes) + size_of_val(&*self.triangles) + unpacked
     }
 }
 
@@ -137,7 +146,7 @@ impl Building {
             progress(done)
         };
         let (nodes, triangles) = on_threads_of_its_own(|| build(mesh, &noted))?;
-        let tree = Arc::new(MeshTree { mesh: mesh.clone(), nodes, triangles });
+        let tree = Arc::new(MeshTree { mesh: mesh.clone(), nodes, triangles, unpacked: OnceLock::new() });
         for known in known().iter_mut().filter(|known| known.mesh.ptr_eq(&self.mesh)) {
             known.state = State::Built(Arc::downgrade(&tree));
         }

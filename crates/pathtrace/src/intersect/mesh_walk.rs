@@ -112,7 +112,7 @@ fn occupied(node: &CwBvhNode) -> u32 {
 
 /// A child by its slot: a node by its place, or so many triangles from a place on.
 #[inline(always)]
-fn child(node: &CwBvhNode, slot: usize) -> Child {
+pub(super) fn child(node: &CwBvhNode, slot: usize) -> Child {
     let before = (1u32 << slot) - 1;
     if u32::from(node.imask) >> slot & 1 != 0 {
         return Child(node.child_base_idx + (u32::from(node.imask) & before).count_ones());
@@ -168,7 +168,7 @@ impl<'a, R: Rows, T> Boxes for Compressed<'a, R, T> {
 
 /// Where a leaf's triangles begin, and how many there are.
 #[inline(always)]
-fn leaf(child: Child) -> (usize, usize) {
+pub(super) fn leaf(child: Child) -> (usize, usize) {
     let first = child.0 & (MOST as u32 - 1);
     (first as usize, (child.0 >> COUNT & 3) as usize + 1)
 }

@@ -31,6 +31,7 @@ mod instance_tests;
 pub mod instances;
 mod mesh_build;
 pub mod mesh_tree;
+mod mesh_unpacked;
 mod mesh_walk;
 mod owners;
 pub(crate) mod pairs;

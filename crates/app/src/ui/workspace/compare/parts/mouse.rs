@@ -48,11 +48,16 @@ fn part_under(cx: &UiContext, frames: &[Rect], at: Pos2) -> Option<Subject> {
     place_under(cx, frames, at).map(|(map, share)| part_at(map, share))
 }
 
-/// A click chooses what lies there.
+/// A click chooses what lies there, and another at the same place what lies behind.
 pub fn choose(cx: &mut UiContext, frames: &[Rect], at: Pos2) {
-    if let Some(part) = part_under(cx, frames, at) {
-        cx.model.state.hint = false;
-        cx.model.state.parts.selected = Some(part);
+    let Some((map, share)) = place_under(cx, frames, at) else { return };
+    cx.model.state.hint = false;
+    match part_at(map, share) {
+        Subject::Shape(_) => cx.model.choose_at(share, cx.shown),
+        other => {
+            cx.model.state.parts.selected = Some(other);
+            cx.model.state.parts.looked_into = None;
+        }
     }
 }
 
