@@ -169,7 +169,10 @@ impl Parts {
                 let row = tree::row_height(ui) + ui.spacing().item_spacing.y;
                 let most = if controls::is_low(ui) { ROWS_OF_FEW } else { ROWS_ON_A_CARD };
                 tree::show(self, cx, ui, row * most.min(self.list.rows.len()) as f32);
-                self.foot(cx, ui);
+                // where every line counts it is there with what it takes back
+                if !cx.model.document.changes.edits.is_empty() {
+                    self.foot(cx, ui);
+                }
             });
         }
         match &self.known {
@@ -224,7 +227,7 @@ impl Parts {
         }
     }
 
-    fn foot(&mut self, cx: &mut UiContext, ui: &mut Ui) {
+    fn foot(&self, cx: &mut UiContext, ui: &mut Ui) {
         let changed = !cx.model.document.changes.edits.is_empty();
         let text = "Leave all as in the file";
         let button = ui.add_enabled(changed, framed(text, ui)).explained("Takes back every change of a part");
