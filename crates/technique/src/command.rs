@@ -53,7 +53,7 @@ impl Shot {
 }
 
 fn line(command: &str, source: &str, out: &str, options: &Records) -> String {
-    let options = options.iter().map(|(name, value)| format!(" --{name} {value}"));
+    let options = options.iter().map(|(name, value)| format!(" --{name} {}", quoted(value)));
     format!("visavis {command} {} -o {}{}", quoted(source), quoted(out), options.collect::<String>())
 }
 
@@ -116,10 +116,13 @@ mod tests {
     #[test]
     fn a_command_is_read_back_as_it_was_told() {
         for source in ["whitted", "my scene.toml", "it's/a b.toml", ""] {
-            let options = vec![("technique", "path".to_owned()), ("eye", "1,-2,3".to_owned())];
+            let edit = "{ material.\"it's\" = { ior = 2.0 } }";
+            let options = [("technique", "path"), ("eye", "1,-2,3"), ("edit", edit)];
+            let options: Records = options.into_iter().map(|(name, value)| (name, value.to_owned())).collect();
             let read = made_by_command(&line("render", source, "a b.png", &options)).expect("a command");
             let before = ["--connections=off", "--cones=off", "--split-glass=off"];
-            let expected = [&["--technique=path", "--eye=1,-2,3"][..], &before].concat();
+            let edit = format!("--edit={edit}");
+            let expected = [&["--technique=path", "--eye=1,-2,3", &edit][..], &before].concat();
             assert_eq!(
                 (read.scene.as_str(), read.options),
                 (source, expected.into_iter().map(str::to_owned).collect())

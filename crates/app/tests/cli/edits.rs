@@ -102,7 +102,6 @@ fn what_cannot_be_changed_is_told_in_a_line_and_nothing_is_written() {
     refused("{ sun.elevation = 3 }", 1, &["cornell has no sun"]);
     refused("{ material.white.lobe = \"mirrour\" }", 1, &["did you mean 'mirror'?"]);
     assert_refused(&["render", "cornell", "-o", out, "--variant", "beach"], 1, &["no variant of cornell", "'beach'"]);
-    assert_refused(&["cornell", "--edit", "{ sun.elevation = 3 }"], 1, &["cornell has no sun"]);
     let page = folder.file("report.html");
     let report = ["report", "cornell", "-o", page.to_str().expect("a plain path")];
     assert_refused(&[&report[..], &["--variant", "beach"]].concat(), 1, &["'beach'"]);

@@ -233,7 +233,7 @@ fn what_a_session_cannot_mean_is_told_with_line_and_column() {
         ),
         (
             "[scene_changes]\nedit = { material.glass = { ior = 0 } }",
-            "a.toml:4:36: ior of material 'glass': expected a number from 0.01 to 100",
+            "a.toml:4:35: ior of material 'glass': expected a number from 0.01 to 100",
         ),
         ("[view]\nshow = \"walk\"", "a.toml:4:8: show walk: expected a, b, wipe, side or map"),
         ("[view]\nline_at = 1.5", "a.toml:4:11: line_at: expected a number from 0 to 1"),
