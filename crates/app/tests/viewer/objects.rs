@@ -31,7 +31,7 @@ fn what_is_chosen_is_outlined_over_both_pictures_of_the_view_and_nothing_is_whil
     let frame = user.wait_for("the outline", |f| f.shows("outline A") && f.shows("outline B"));
     let [width, height] = [0, 1].map(|side| frame.state("picture_size")[side].as_u64().expect("a size") as u32);
     assert_eq!(outlines(&user), [((width.div_ceil(2), height.div_ceil(2)), TextureFilter::Linear)]);
-    assert!(frame.state("objects")["along"].as_array().is_some_and(|along| along.len() > 1));
+    assert!(frame.state("objects")["along"].as_array().is_some_and(|along| !along.is_empty()));
     user.change(|model| model.document.camera.fov_y += 2.0);
     user.frame();
     let frame = user.frame();
