@@ -122,17 +122,17 @@ fn a_click_belongs_to_the_parts_or_to_the_probe() {
 #[test]
 fn the_tree_lists_what_there_is_and_every_widget_has_a_name() {
     let mut whitted = of(built_in("whitted"));
-    for row in ["Lights (2)", "Sun", "Sky", "Shapes (3)", "Shape sphere 1", "Materials (3)", "Material glass"] {
+    for row in ["Lights (2)", "Sun", "Sky", "Shapes (3)", "Shape glass ball", "Materials (3)", "Material glass"] {
         assert!(whitted.harness.query_by_label(row).is_some(), "{row}");
     }
     assert!(!whitted.shows("Find a part") && !whitted.shows("Variants") && !whitted.shows("Cameras"));
     whitted.click("Shapes (3)", 0);
     assert!(whitted.rows_of_shapes().is_empty(), "folded");
-    whitted.choose(shape("sphere 2"));
-    assert!(whitted.rows_of_shapes().contains(&"Shape sphere 2".into()), "what is chosen is seen");
+    whitted.choose(shape("metal ball"));
+    assert!(whitted.rows_of_shapes().contains(&"Shape metal ball".into()), "what is chosen is seen");
     whitted.count_named();
     let cornell = of(built_in("cornell-balls"));
-    assert!(cornell.shows("Light rectangle 8") && cornell.shows("Find a part"));
+    assert!(cornell.shows("Light lamp") && cornell.shows("Find a part"));
 }
 
 #[test]
@@ -143,10 +143,10 @@ fn a_click_chooses_the_shape_there_or_the_sky_and_the_name_stands_at_the_mouse()
     let (ball, beside) = (panels.point(0.2, 0.9), panels.point(0.9, 0.9));
     panels.mouse(ball, None, Modifiers::NONE);
     panels.harness.run_steps(2);
-    assert!(panels.shows("sphere 2, metal"));
+    assert!(panels.shows("metal ball, metal"));
     panels.click_at(ball);
-    assert_eq!(panels.chosen(), Some(shape("sphere 2")));
-    assert!(panels.shows("Part: sphere 2") && panels.shows("Material: metal"), "with what it wears");
+    assert_eq!(panels.chosen(), Some(shape("metal ball")));
+    assert!(panels.shows("Part: metal ball") && panels.shows("Material: metal"), "with what it wears");
     assert!(panels.shows("sphere, radius 1; mirror"));
     panels.click_at(beside);
     assert_eq!(panels.chosen(), Some(Subject::Sky));
@@ -250,12 +250,12 @@ fn a_variant_is_chosen_by_its_name() {
 #[test]
 fn what_is_left_out_stays_in_the_tree_and_comes_back() {
     let mut panels = of(built_in("whitted"));
-    panels.click("Shape sphere 1", 0);
+    panels.click("Shape glass ball", 0);
     panels.click("Left out", 0);
     assert_eq!(panels.seen().shapes.len(), 2);
-    assert!(panels.shows("Shape sphere 1, left out, changed") && panels.shows("Part: sphere 1"));
+    assert!(panels.shows("Shape glass ball, left out, changed") && panels.shows("Part: glass ball"));
     panels.count_named();
-    panels.click("Show sphere 1 again", 0);
+    panels.click("Show glass ball again", 0);
     assert!(panels.nothing_is_changed() && panels.seen().shapes.len() == 3);
 }
 
@@ -338,7 +338,7 @@ fn ctrl_and_a_drag_move_the_shape_in_one_step() {
     };
     drag(&mut panels, Modifiers::COMMAND);
     let_go(&mut panels, Modifiers::COMMAND);
-    assert_eq!(panels.chosen(), Some(shape("sphere 2")));
+    assert_eq!(panels.chosen(), Some(shape("metal ball")));
     let moved = center(&panels) - before;
     let frame = camera.frame(1.0);
     assert!(moved.length() > 0.01 && moved.dot(frame.forward).abs() < 1e-4 * moved.length(), "{moved}");
@@ -373,9 +373,9 @@ fn narrow_windows_have_the_tree_among_the_controls() {
         model.state.parts.open = true;
         let mut panels = Panels::showing(model);
         panels.harness.set_size(size.into());
-        panels.choose(shape("sphere 2"));
+        panels.choose(shape("metal ball"));
         panels.harness.run_steps(4);
-        let tree = panels.harness.get_by_label("Shape sphere 2").rect();
+        let tree = panels.harness.get_by_label("Shape metal ball").rect();
         let [left, _, right, _] = panels.model.borrow().state.picture.corners;
         assert_eq!(tree.left() < left, size[0] >= 1000.0, "{size:?}");
         assert!(right - left > 0.45 * size[0], "{size:?}: the picture is {} wide", right - left);
