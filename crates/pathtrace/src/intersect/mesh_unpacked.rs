@@ -17,8 +17,8 @@ use scene::Vec3;
 use scene::glam::Vec3A;
 use simd::{Lanes, RowLanes};
 
-/// Most triangles of all meshes of a scene together that are unpacked: they take about 150 bytes each.
-pub const MOST_UNPACKED: usize = 1 << 21;
+/// Most triangles of all meshes of a scene together that are unpacked: they take about 160 bytes each.
+pub const MOST_UNPACKED: usize = 1 << 20;
 
 /// Blocks of nodes, then of leaves.
 pub struct Unpacked(Bvh8);
