@@ -17,7 +17,7 @@ use scene::Vec3;
 use scene::glam::Vec3A;
 use simd::{Lanes, RowLanes};
 
-/// Most triangles of all meshes of a scene together that are unpacked: they take about 160 bytes each.
+/// Most triangles of all meshes of a scene together that are unpacked: they take about 200 bytes each.
 pub const MOST_UNPACKED: usize = 1 << 20;
 
 /// Blocks of nodes, then of leaves.
