@@ -10,7 +10,7 @@ use std::collections::{HashMap, HashSet};
 pub struct Names {
     /// Of shapes; `/` stands between the parts of a model and what is below them.
     pub shapes: Vec<String>,
-    /// Of point lights.
+    /// Of point lights, in the scene's order.
     pub lights: Vec<String>,
 }
 

@@ -35,7 +35,7 @@ pub enum PartChild {
     Branch(u32),
     /// The shape of this index in the scene.
     Shape {
-        /// Its index.
+        /// The index of a shape in its scene's list.
         index: u32,
         /// Where in its name begins what it is called here, in bytes.
         label_at: u32,
@@ -177,7 +177,7 @@ pub struct PartFacts {
 }
 
 impl PartFacts {
-    /// Of this scene.
+    /// Facts of this scene, counted once.
     pub fn new(scene: Arc<Scene>) -> Self {
         let mut wearers = vec![0; scene.materials.len()];
         scene.shapes.iter().for_each(|shape| wearers[shape.material] += 1);

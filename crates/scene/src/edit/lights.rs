@@ -5,7 +5,7 @@ use crate::{EnvironmentMap, Scene, Spot, limits};
 use glam::Vec3;
 use std::sync::Arc;
 
-/// Of a point light.
+/// What can be changed in a point light.
 pub const OF_POINT_LIGHTS: &[Property] = &[
     Property {
         name: "position",
@@ -49,7 +49,7 @@ pub const OF_POINT_LIGHTS: &[Property] = &[
     },
 ];
 
-/// Of the sun.
+/// What can be changed in the sun.
 pub const OF_SUN: &[Property] = &[
     Property {
         name: "elevation",
@@ -101,7 +101,7 @@ pub const OF_SUN: &[Property] = &[
     },
 ];
 
-/// Of the sky.
+/// What can be changed in the sky.
 pub const OF_SKY: &[Property] = &[
     Property {
         name: "radiance",

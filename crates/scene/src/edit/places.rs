@@ -32,7 +32,7 @@ impl<'a> Places<'a> {
         Places { scene, by_name: (count > MANY).then(by_name) }
     }
 
-    /// As [`Subject::index_in`].
+    /// The index of a subject, as [`Subject::index_in`] finds it.
     pub fn find(&self, subject: &Subject) -> Option<usize> {
         match (&self.by_name, subject) {
             (Some(by_name), Subject::Material(name)) => by_name.materials.get(name.as_str()).copied(),

@@ -13,7 +13,7 @@ pub enum Value {
     Triple(Vec3),
     /// One of the words that the property offers.
     Word(String),
-    /// Yes or no.
+    /// Whether it is so: true or false.
     Flag(bool),
 }
 
@@ -73,7 +73,7 @@ pub enum Kind {
     Turn,
     /// A word out of those that [`Property::words`](super::Property::words) lists for the scene.
     Word,
-    /// Yes or no.
+    /// Whether it is so: true or false.
     Flag,
 }
 

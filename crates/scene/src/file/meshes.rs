@@ -43,7 +43,7 @@ pub struct Made {
     pub name: Option<Spanned<String>>,
     /// What a copy is called otherwise.
     pub copied: Option<String>,
-    /// Its material.
+    /// The material that it wears.
     pub wears: Spanned<String>,
 }
 

@@ -107,7 +107,7 @@ struct Finder {
     threads: Arc<Threads>,
     /// A scene, and that ready for rays.
     ready: Option<(Arc<Scene>, Arc<Tracer>)>,
-    /// The last map.
+    /// The map of the view that was asked for last.
     map: Option<Arc<ObjectMap>>,
     /// Of the job in hand.
     number: u64,

@@ -100,7 +100,7 @@ fn together(
 
 /// What the file of a scene's changes is to say. `source` is what the scene was opened by, a built-in name or a file;
 /// where that is a changed scene itself, the new file stands on the same base, unless one file cannot say both changes.
-/// Reads that base.
+/// Reads the base that it stands on.
 pub fn to_save(source: &str, camera: Option<CameraChange>, edits: &Edits, progress: &Progress) -> ChangedScene {
     let on_base = || {
         let below = flattened(Path::new(source), progress).filter(|_| builtin::text(source).is_none())?;

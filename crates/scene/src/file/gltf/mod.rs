@@ -139,7 +139,7 @@ struct Use<'a> {
 }
 
 impl Use<'_> {
-    /// For faults.
+    /// What faults call it by.
     fn name(&self, document: &Document) -> String {
         let index = self.placed.node.mesh.unwrap_or_default();
         let name = document.root.meshes.get(index as usize).and_then(|mesh| mesh.name.as_deref());
@@ -147,7 +147,7 @@ impl Use<'_> {
     }
 }
 
-/// What is shown.
+/// The parts of a file that are shown.
 struct Shown {
     shapes: Vec<Shape>,
     names: Vec<String>,

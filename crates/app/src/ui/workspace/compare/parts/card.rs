@@ -17,7 +17,7 @@ const STEP: f32 = 1.0 / 512.0;
 
 /// What is known of a part of a scene. Some of it takes time for each shape, so that it is found out once for each change.
 pub struct Known {
-    /// The part.
+    /// The part that all of it is about.
     pub part: Subject,
     /// The place of a material in the scene's list.
     pub material: Option<usize>,

@@ -11,20 +11,20 @@ const MOST_FOUND: usize = 2000;
 /// What belongs together in the tree.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Section {
-    /// The file's.
+    /// Cameras that the scene's file has.
     Cameras,
     /// What shines, be it a shape or not.
     Lights,
-    /// By their names.
+    /// Shapes, as a tree of their names.
     Shapes,
-    /// What shapes wear.
+    /// Materials, which are what shapes wear.
     Materials,
     /// Versions of a model.
     Variants,
 }
 
 impl Section {
-    /// Its title.
+    /// The title over its rows.
     pub fn name(self) -> &'static str {
         match self {
             Section::Cameras => "Cameras",
@@ -43,11 +43,11 @@ pub enum Row {
     Section(Section, usize),
     /// One of the file's cameras.
     Camera(usize),
-    /// The sun.
+    /// The sun, where the scene has one.
     Sun,
     /// What comes from where nothing is.
     Sky,
-    /// A point light.
+    /// A point light by its index in the scene.
     Light(usize),
     /// A shape that shines, by its index in the scene with its changes.
     Shining(u32),
@@ -58,16 +58,16 @@ pub enum Row {
         /// How many branches it is in.
         depth: usize,
     },
-    /// A shape.
+    /// A shape by its index in the scene.
     Shape {
-        /// Its index.
+        /// Its index in the scene's list of its kind.
         index: u32,
         /// Where in its name begins what is shown.
         label_at: u32,
         /// How many branches it is in.
         depth: usize,
     },
-    /// A material.
+    /// A material by its index in the scene.
     Material(usize),
     /// A variant, or the usual one.
     Variant(Option<usize>),

@@ -92,7 +92,7 @@ fn pattern(texture: &Texture) -> &'static str {
     }
 }
 
-/// In three digits.
+/// A number in three digits at most.
 pub fn short(value: f32) -> String {
     let value = f64::from(value);
     let digits = if value == 0.0 { 0.0 } else { 2.0 - value.abs().log10().floor() };
