@@ -1,10 +1,13 @@
-//#import raster/view.wgsl
+//#import raster/frame.wgsl
 //#import raster/surface.wgsl
 //#import raster/refraction.wgsl
 //#import raster/shading.wgsl
 //#import raster/shadow.wgsl
+//#import raster/repair/glass.wgsl
+//#import raster/repair/soft_shadow.wgsl
+//#import raster/repair/sunlight.wgsl
 // Pass 2: every shape, shaded where it is drawn. The same pass fills the faces of the cube maps and the picture.
-// Mirror of the structs: crates/raster/src/gpu_data.rs, which has those of all passes.
+// No twin: the rasteriser runs on devices alone.
 
 const SHADING_THREE: u32 = 0u;
 const SHADING_PHONG: u32 = 1u;
@@ -25,38 +28,12 @@ const AREA_LIGHT_SPOT: u32 = 5u;
 // one of FILTER_*
 override SHADOW_FILTER: u32 = FILTER_PCF_SOFT;
 override GLASS: bool = false;
+override MIRROR: bool = false;
 override SUN: bool = true;
 // one of AREA_LIGHT_*
 override AREA_LIGHT: u32 = AREA_LIGHT_NONE;
 // one of SHADING_*
 override SHADING: u32 = SHADING_THREE;
-
-struct Lights {
-    sun_towards: vec3f,
-    sun_incident: vec3f,
-    refracts_per_vertex: u32,
-    area_light_position: vec3f,
-    area_light_pattern: u32,
-    area_light_normal: vec3f,
-    // cosine to a spot's axis, which area_light_normal is, at which it is dark
-    cone_outer: f32,
-    area_light_incident: vec3f,
-    // added to depths before they are compared
-    shadow_bias: f32,
-    ambient: vec3f,
-    // how much of its way to full light a cosine above cone_outer is
-    cone_slope: f32,
-    sky: vec3f,
-    // 0: the sun's; 1 to 6: the area light's, +x, -x, +y, -y, +z, -z
-    shadow_views: array<View, 7>,
-}
-
-@group(0) @binding(0) var<uniform> view: View;
-@group(0) @binding(1) var<uniform> lights: Lights;
-@group(0) @binding(2) var shadow_map: texture_2d_array<u32>;
-@group(1) @binding(0) var<uniform> object: Object;
-@group(1) @binding(1) var cube_map: texture_cube<f32>;
-@group(1) @binding(2) var cube_sampler: sampler;
 
 struct Varying {
     @builtin(position) clip: vec4f,
@@ -78,7 +55,15 @@ const LARGEST_HALF: f32 = 65504.0;
 
 @fragment
 fn fragment(in: Varying, @builtin(front_facing) front: bool) -> @location(0) vec4f {
-    return vec4f(min(radiance(in, front), vec3f(LARGEST_HALF)), 1.0);
+    return vec4f(min(radiance(in, front), vec3f(LARGEST_HALF)), distance_in_cube_map(in));
+}
+
+// What cube maps keep beside the light.
+fn distance_in_cube_map(in: Varying) -> f32 {
+    if repaired(REPAIR_SURROUNDINGS) || repaired(REPAIR_SKY) {
+        return length(in.position - view.eye) * view.per_distance;
+    }
+    return 1.0;
 }
 
 // Into a target of f32 bits, which every backend can draw.
@@ -101,7 +86,7 @@ struct BitsAndDepth {
 
 @fragment
 fn fragment_and_depth(in: Varying, @builtin(front_facing) front: bool) -> FragmentAndDepth {
-    return FragmentAndDepth(vec4f(min(radiance(in, front), vec3f(LARGEST_HALF)), 1.0), reversed_depth(in));
+    return FragmentAndDepth(vec4f(min(radiance(in, front), vec3f(LARGEST_HALF)), distance_in_cube_map(in)), reversed_depth(in));
 }
 
 @fragment
@@ -127,6 +112,9 @@ fn seen(in: Varying, front: bool) -> vec3f {
         return glass(in);
     }
     let n = shading_normal(in.position, in.normal, in.uv, view.eye, front);
+    if MIRROR {
+        return mirrored(in.position, n, object.even) + surface_emission(object, front, in.uv);
+    }
     return surface(in.position, n, in.uv) + surface_emission(object, front, in.uv);
 }
 
@@ -136,6 +124,13 @@ fn refracted(position: vec3f, normal: vec3f) -> vec3f {
 }
 
 fn glass(in: Varying) -> vec3f {
+    if repaired(REPAIR_FRONT_FACE) || repaired(REPAIR_TWO_INTERFACES) || repaired(REPAIR_FRESNEL) {
+        return repaired_glass(in.position, normalize(in.normal));
+    }
+    if repaired(REPAIR_PROXY_SPHERE) || repaired(REPAIR_SURROUNDINGS) {
+        let seen = surroundings(in.position, refracted(in.position, normalize(in.normal)));
+        return mix(vec3f(1.0), seen, object.reflectivity);
+    }
     let per_fragment = refracted(in.position, normalize(in.normal));
     let direction = select(per_fragment, in.refracted, lights.refracts_per_vertex != 0u);
     // where its own may not be seen another cube map is bound, and not looked at
@@ -149,17 +144,45 @@ fn surface(p: vec3f, n: vec3f, uv: vec2f) -> vec3f {
     let facets = metallic_and_roughness(object, uv);
     let v = normalize(view.eye - p);
     var sum = colour * lights.ambient;
+    if repaired(REPAIR_SKY) {
+        sum *= open_sky(p, n);
+    }
     if SUN {
         let l = lights.sun_towards;
-        sum += shadow(0u, p, dot(n, l)) * shaded(n, l, v, colour, facets, lights.sun_incident);
+        sum += sunlit(p, dot(n, l)) * shaded(n, l, v, colour, facets, lights.sun_incident);
     }
     if AREA_LIGHT != AREA_LIGHT_NONE {
         let to_area_light = lights.area_light_position - p;
         let l = normalize(to_area_light);
-        let seen = shadow(1u + face_of(-to_area_light), p, dot(n, l));
+        let seen = sees_area_light(p, to_area_light, dot(n, l));
         sum += seen * shaded(n, l, v, colour, facets, area_light_incident(to_area_light, l));
     }
     return sum;
+}
+
+// What reaches p of the sun's light, as a multiple of it.
+fn sunlit(p: vec3f, n_dot_l: f32) -> f32 {
+    var share = 0.0;
+    if repaired(REPAIR_SOFT_SHADOWS) {
+        share = soft_sun(p, n_dot_l);
+    } else {
+        share = shadow(0u, p, n_dot_l);
+    }
+    if repaired(REPAIR_LIGHT_THROUGH_GLASS) || repaired(REPAIR_CAUSTICS) {
+        share *= through_glass(p);
+    }
+    if repaired(REPAIR_CAUSTICS) {
+        share += caustics(p);
+    }
+    return share;
+}
+
+// The share of the area light that is seen from p.
+fn sees_area_light(p: vec3f, to_area_light: vec3f, n_dot_l: f32) -> f32 {
+    if repaired(REPAIR_SOFT_SHADOWS) {
+        return soft_area_light(p, n_dot_l);
+    }
+    return shadow(1u + face_of(-to_area_light), p, n_dot_l);
 }
 
 fn shaded(n: vec3f, l: vec3f, v: vec3f, colour: vec3f, facets: vec2f, incident: vec3f) -> vec3f {

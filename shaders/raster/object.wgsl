@@ -23,6 +23,12 @@ struct Object {
     metallic: f32,
     roughness: f32,
     coat: f32,
+    // of the sphere that its cube map is taken to lie on
+    proxy_radius: f32,
+    // middle and radius; radius 0 of other shapes
+    sphere: vec4f,
+    // from where its cube map looks, and the unit of the distances in it
+    cube_middle: vec4f,
     // of corners and their normals, where those are in a mesh's own space; a row of the map in each column
     to_world: mat3x4f,
     normal_to_world: mat3x4f,

@@ -12,4 +12,6 @@ struct View {
     texel: vec2f,
     // distance of the near plane, of a perspective view
     near: f32,
+    // what distances are multiplied by that a cube map keeps
+    per_distance: f32,
 }

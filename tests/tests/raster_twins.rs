@@ -204,6 +204,43 @@ fn refraction_agrees_on_both_sides_of_the_critical_angle() {
 }
 
 #[test]
+fn what_repairs_know_in_closed_form_agrees() {
+    let mut random = Random(4, 0);
+    let mut input = Vec::new();
+    while input.len() < 9 * ITEMS {
+        let (n, towards) = (random.direction(), random.direction() * random.between(1.05, 6.0));
+        let (cosine, ratio, spread) = (random.between(0.0, 1.0), random.between(0.4, 2.5), random.between(0.0, 0.2));
+        // nearer to the critical angle than this the square root magnifies rounding
+        if (1.0 - ratio * ratio * (1.0 - cosine * cosine)).abs() > 1e-3 {
+            input.extend([n.to_array(), towards.to_array(), [cosine, ratio, spread]].concat());
+        }
+    }
+    let at = |x: &[f32], i: usize| Vec3::from_slice(&x[i..i + 3]);
+    let on_cpu: Vec<_> = input.chunks_exact(9).collect();
+    let fresnel = "dielectric_reflectance(numbers[at + 6u], numbers[at + 7u])";
+    let through = "let_through(numbers[at + 6u], numbers[at + 7u])";
+    let sky = "covered_sky(vec(at), vec(at + 3u), 1.0)";
+    let body = format!("return vec3f({fresnel}, {through}, {sky});");
+    let on_gpu = run("raster/repair/spheres.wgsl", &body, 9, &input, &[1.0]);
+    let expected = on_cpu.iter().map(|x| {
+        let reflected = shading::dielectric_reflectance(x[6], x[7]);
+        Vec3::new(reflected, shading::let_through(x[6], x[7]), shading::covered_sky(at(x, 0), at(x, 3), 1.0))
+    });
+    let apart_by = apart(&on_gpu, &expected.collect::<Vec<_>>());
+    assert!(apart_by < 1e-4, "{apart_by}");
+    // the sun's place is that of the sphere's edge, or it would be all or nothing
+    let body = "let edge = normalize(vec(at + 3u) + 0.1 * vec(at));\nreturn vec3f(covered_sun(vec(at + 3u), 0.5, edge, numbers[at + 8u]), 0.0);";
+    let on_gpu = run("raster/repair/spheres.wgsl", body, 9, &input, &[1.0]);
+    let expected = on_cpu.iter().map(|x| {
+        let edge = (at(x, 3) + 0.1 * at(x, 0)).normalize();
+        let [share, aside] = shading::covered_sun(at(x, 3), 0.5, edge, x[8]);
+        Vec3::new(share, aside, 0.0)
+    });
+    let apart_by = apart(&on_gpu, &expected.collect::<Vec<_>>());
+    assert!(apart_by < 2e-4, "{apart_by}");
+}
+
+#[test]
 fn checkerboards_agree_away_from_their_edges() {
     let board = Checkerboard {
         even: Vec3::new(0.8, 0.8, 0.0),

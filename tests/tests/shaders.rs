@@ -8,7 +8,7 @@ use pathtrace::gpu::photon_data::{EmissionHeader, Grid, Photon, PhotonParams};
 use pathtrace::gpu::rays::{RayAnswer, RayQuery};
 use pathtrace::gpu::scene_data::{Checkerboard, Header, Light, Material};
 use pathtrace::gpu::shape_data::{FewShape as Shape, Node, ShapeData as Primitive, Surface};
-use raster::gpu_data::{ImagePlace, Lights, Look, Object, View};
+use raster::gpu_data::{ImagePlace, Lights, Look, Object, Sphere, View};
 use std::mem::offset_of;
 use std::path::{Path, PathBuf};
 
@@ -86,7 +86,7 @@ fn mirrors_have_the_layout_of_their_structs() {
     assert_same_layout!(
         "raster/view.wgsl",
         View,
-        [clip_from_world, depth_from_world, eye, sees_cube_maps, texel, near]
+        [clip_from_world, depth_from_world, eye, sees_cube_maps, texel, near, per_distance]
     );
     assert_same_layout!(
         "raster/forward.wgsl",
@@ -104,9 +104,20 @@ fn mirrors_have_the_layout_of_their_structs() {
             ambient,
             cone_slope,
             sky,
-            shadow_views
+            sun_tangent,
+            shadow_views,
+            sun_radiance,
+            sun_cosine,
+            sun_right,
+            area_light_radius,
+            sun_up,
+            glass_count,
+            sphere_count,
+            receiver_depth,
+            spheres
         ]
     );
+    assert_same_layout!("raster/frame.wgsl", Sphere, [middle, radius, refraction_ratio]);
     assert_same_layout!(
         "raster/object.wgsl",
         Object,
@@ -128,6 +139,9 @@ fn mirrors_have_the_layout_of_their_structs() {
             metallic,
             roughness,
             coat,
+            proxy_radius,
+            sphere,
+            cube_middle,
             to_world,
             normal_to_world
         ]

@@ -3,10 +3,11 @@
 
 use crate::error::RasterError;
 use crate::gpu_data::{Object, View};
-use crate::passes::{Drawing, Things, Uniforms, bind, bits_of, offset, resolve, sized};
+use crate::passes::{Drawing, Things, bind, bits_of, resolve, sized};
 use crate::pipelines::Pipelines;
 use crate::plan::Plan;
 use crate::targets::FeatureTargets;
+use crate::uniforms::{Uniforms, offset};
 use film::Features;
 use gpu::{Gpu, GpuError};
 use scene::Vec3;

@@ -1,5 +1,5 @@
 //! Mirrors of the structs that the shaders read; field for field the ones in `shaders/raster/view.wgsl`,
-//! `object.wgsl`, `surface.wgsl` and `forward.wgsl`. A test compares every offset with the shader compiler's. Padding is spelled out as `unused*`.
+//! `object.wgsl`, `surface.wgsl` and `frame.wgsl`. A test compares every offset with the shader compiler's. Padding is spelled out as `unused*`.
 
 use bytemuck::{Pod, Zeroable};
 use scene::Vec3;
@@ -61,11 +61,28 @@ pub struct View {
     pub texel: Vec2,
     /// Distance of the near plane, of a perspective view.
     pub near: f32,
-    /// Padding.
-    pub unused: f32,
+    /// What distances are multiplied by that a cube map keeps.
+    pub per_distance: f32,
 }
 
-/// `Lights` in `shaders/raster/forward.wgsl`.
+/// How many [`Sphere`]s are known: at most half of them glass.
+pub const MOST_SPHERES: usize = 16;
+
+/// `Sphere` in `shaders/raster/frame.wgsl`: a sphere that repairs know in closed form.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
+pub struct Sphere {
+    /// Where it is.
+    pub middle: Vec3,
+    /// Its radius.
+    pub radius: f32,
+    /// Index of refraction outside over inside; 0 of what is no glass.
+    pub refraction_ratio: f32,
+    /// Padding, as WGSL aligns it.
+    pub unused: [u32; 3],
+}
+
+/// `Lights` in `shaders/raster/frame.wgsl`.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
 pub struct Lights {
@@ -95,10 +112,30 @@ pub struct Lights {
     pub cone_slope: f32,
     /// Radiance of the sky.
     pub sky: Vec3,
-    /// Padding.
-    pub unused2: u32,
+    /// Tangent of the sun's angular radius.
+    pub sun_tangent: f32,
     /// The shadow map's layers: the sun's, then six of the area light.
     pub shadow_views: [View; 7],
+    /// Radiance of the sun's disc; zero of one that is a mere direction.
+    pub sun_radiance: Vec3,
+    /// Cosine of the sun's angular radius.
+    pub sun_cosine: f32,
+    /// Across sunlight, to the right in caustic maps ...
+    pub sun_right: Vec3,
+    /// Radius of a disc as large as the area light.
+    pub area_light_radius: f32,
+    /// ... and upwards.
+    pub sun_up: Vec3,
+    /// How many of the spheres are glass, which come first.
+    pub glass_count: u32,
+    /// How many spheres there are.
+    pub sphere_count: u32,
+    /// Padding, as WGSL aligns it.
+    pub unused2: [u32; 3],
+    /// The plane whose value is how far along sunlight a point lies, 0 to 1 across the scene.
+    pub receiver_depth: Vec4,
+    /// The spheres of the scene, as far as they are known.
+    pub spheres: [Sphere; MOST_SPHERES],
 }
 
 /// `Object` in `shaders/raster/object.wgsl`: what one shape looks like.
@@ -139,8 +176,12 @@ pub struct Object {
     pub roughness: f32,
     /// What the coat of what is no metal reflects head-on.
     pub coat: f32,
-    /// Padding, as WGSL aligns it.
-    pub unused: f32,
+    /// Radius of the sphere that its cube map is taken to lie on.
+    pub proxy_radius: f32,
+    /// Middle and radius of a sphere; radius 0 of other shapes.
+    pub sphere: Vec4,
+    /// From where its cube map looks, and the unit of the distances in it.
+    pub cube_middle: Vec4,
     /// From the mesh's own space, if its corners are in that: the rows of the map.
     pub to_world: [Vec4; 3],
     /// The same for its normals, but for their length.

@@ -25,6 +25,7 @@
 
 mod build;
 mod casting;
+mod caustic;
 mod clearance;
 mod cube;
 mod cut;
@@ -40,12 +41,15 @@ mod passes;
 mod pipelines;
 mod plan;
 pub mod planes;
+pub mod repair;
 mod settings;
 pub mod shaders;
 pub mod shading;
+mod spheres;
 mod targets;
 mod tessellation;
 mod texture;
+mod uniforms;
 mod variant;
 mod world;
 
@@ -53,17 +57,19 @@ pub use cut::{Cut, cut};
 pub use error::RasterError;
 pub use knobs::{FakeKnobs, ShadowFilter};
 pub use plan::MOST_CUBE_MAPS;
+pub use repair::{Repair, Repairs};
 pub use settings::{Fake, RasterSettings, Shading, Show};
 
 use film::Pixel;
 use film::{Features, Film, colour};
 use gpu::{Gpu, GpuError};
 use looks::Looks;
-use passes::{Maps, Things, Uniforms};
+use passes::{Maps, Things};
 use pipelines::Pipelines;
 use plan::Plan;
 use scene::{Camera, Scene, Vec3};
 use targets::{Colours, Kept};
+use uniforms::Uniforms;
 use world::World;
 
 /// The rasteriser. It keeps pipelines, targets and geometry from frame to frame, and rebuilds only what changed.
@@ -115,7 +121,8 @@ impl Raster {
             return film.ok_or(RasterError::Memory { width, height });
         }
         self.check(camera, settings)?;
-        let scene = &settings.knobs.applied(scene);
+        let settings = &self.without_what_cannot_be_drawn(settings);
+        let scene = &settings.applied(scene);
         let plan = Plan::new(scene, camera, settings);
         maps::check(settings.show, &plan)?;
         let world = World::current(&mut self.world, &self.gpu, scene)?;
@@ -151,9 +158,9 @@ impl Raster {
         settings: &RasterSettings,
     ) -> Result<Features, RasterError> {
         // whose samples are passes
-        let settings = &RasterSettings { fake: Fake::Fair, ..*settings };
+        let settings = &RasterSettings { fake: Fake::Fair, repairs: Repairs::NONE, ..*settings };
         self.check(camera, settings)?;
-        let scene = &settings.knobs.applied(scene);
+        let scene = &settings.applied(scene);
         let plan = Plan::new(scene, camera, settings);
         let world = World::current(&mut self.world, &self.gpu, scene)?;
         let looks = Looks::current(&mut self.looks, &self.gpu, &self.pipelines.look_layout, scene)?;
@@ -165,6 +172,16 @@ impl Raster {
             features::draw(&self.gpu, &self.pipelines, &self.uniforms, things, targets, &plan)
         })?;
         features::read(&self.gpu, targets)
+    }
+
+    /// Distances in cube maps and sums of sunlight need half floats, which OpenGL's core profile does not draw.
+    fn without_what_cannot_be_drawn(&self, settings: &RasterSettings) -> RasterSettings {
+        let repairs = if targets::draws_half_floats(&self.gpu) {
+            settings.repairs
+        } else {
+            settings.repairs.without(Repair::Surroundings).without(Repair::Caustics)
+        };
+        RasterSettings { repairs, ..*settings }
     }
 
     /// Refuses what no frame can be drawn of.

@@ -8,6 +8,7 @@ use crate::cube;
 use crate::gpu_data::*;
 use crate::planes::Planes;
 use crate::settings::{Fake, RasterSettings};
+use crate::spheres;
 use crate::tessellation::{corners, large_mesh, unit_normal};
 use bytemuck::Zeroable;
 use film::colour;
@@ -27,6 +28,8 @@ pub struct AreaLight {
     pub normal: Vec3,
     /// Radiant flux over pi: radiance times shining area; of a spot what it would be without its cone.
     pub power: Vec3,
+    /// Radius of a disc as large as it looks; 0 of points.
+    pub radius: f32,
     pattern: u32,
     /// Of a spot: cosine of its outer cone, and the share of its light that a cosine above that adds.
     cone: [f32; 2],
@@ -53,8 +56,11 @@ impl AreaLight {
             _ => (Vec3::ZERO, AREA_LIGHT_ALL_AROUND),
         };
         let sides = if pattern == AREA_LIGHT_TWO_SIDED { 2.0 } else { 1.0 };
-        let power = emission.radiance * (area(&shape.geometry) * sides);
-        Some(AreaLight { position: shape.geometry.center(), normal, power, pattern, cone: [0.0; 2] })
+        let area = area(&shape.geometry);
+        let power = emission.radiance * (area * sides);
+        let silhouette = if pattern == AREA_LIGHT_ALL_AROUND { 0.25 * area } else { area };
+        let radius = (silhouette * FRAC_1_PI).sqrt();
+        Some(AreaLight { position: shape.geometry.center(), normal, power, radius, pattern, cone: [0.0; 2] })
     }
 
     /// As a small sphere of this intensity, whose silhouette is a quarter of its surface.
@@ -63,6 +69,7 @@ impl AreaLight {
             position: light.position,
             normal: Vec3::ZERO,
             power: 4.0 * light.intensity,
+            radius: 0.0,
             pattern: AREA_LIGHT_ALL_AROUND,
             cone: [0.0; 2],
         };
@@ -138,6 +145,7 @@ pub fn lights(scene: &Scene, settings: &RasterSettings, casts: impl Fn(usize) ->
     if let Some(area_light) = area_light {
         lights.area_light_position = area_light.position;
         lights.area_light_normal = area_light.normal;
+        lights.area_light_radius = area_light.radius;
         [lights.cone_outer, lights.cone_slope] = area_light.cone;
         lights.area_light_pattern = if as_taught { AREA_LIGHT_WITHOUT_DECAY } else { area_light.pattern };
         lights.area_light_incident = if as_taught { intensity } else { area_light.incident() };
@@ -147,6 +155,7 @@ pub fn lights(scene: &Scene, settings: &RasterSettings, casts: impl Fn(usize) ->
             lights.shadow_views[1 + axis] = area_light_view(scene, area_light.position, axis, planes);
         }
     }
+    spheres::fill(&mut lights, scene, settings);
     lights
 }
 

@@ -3,6 +3,7 @@
 use crate::casting::Casting;
 use crate::gpu_data::Object;
 use crate::settings::RasterSettings;
+use crate::spheres;
 use bytemuck::Zeroable;
 use scene::glam::{Affine3A, Mat3A, Vec4};
 use scene::{Bsdf, Geometry, Material, Scene, Texture};
@@ -26,10 +27,23 @@ pub fn object(scene: &Scene, index: usize, casting: Casting, settings: &RasterSe
         object.emission = emission.radiance;
         object.emitting_sides = if emission.two_sided { 2 } else { 1 };
     }
+    if settings.repairs().count() > 0 {
+        known_in_closed_form(&mut object, scene, index);
+    }
     if let Geometry::Instance(instance) = &shape.geometry {
         put(&mut object, &instance.to_world);
     }
     object
+}
+
+/// What repairs are told of the shape and of its cube map.
+fn known_in_closed_form(object: &mut Object, scene: &Scene, index: usize) {
+    let geometry = &scene.shapes[index].geometry;
+    if let Geometry::Sphere { center, radius } = geometry {
+        object.sphere = center.extend(*radius);
+    }
+    object.cube_middle = geometry.center().extend(spheres::per_distance(scene));
+    object.proxy_radius = spheres::proxy_radius(scene, index);
 }
 
 /// The colours, which pictures are multiplied by.

@@ -3,74 +3,25 @@
 //! the same texture.
 
 use crate::casting::Casting;
-use crate::error::RasterError;
-use crate::gpu_data::Object;
+use crate::caustic;
+use crate::gpu_data::{Lights, Object, View};
 use crate::knobs::ShadowFilter;
 use crate::looks::Looks;
 use crate::pipelines::{Into, Pipelines};
 use crate::plan::Plan;
+use crate::repair::{Repair, Repairs};
 use crate::settings::{Fake, Show};
 use crate::targets::{Layers, Targets};
+use crate::uniforms::{Uniforms, offset};
 use crate::variant::Variant;
 use crate::world::World;
-use bytemuck::Pod;
-use gpu::{Gpu, GpuError};
+use gpu::Gpu;
 use scene::Vec3;
 use scene::glam::Vec4;
-use wgpu::{
-    BindGroup, BindGroupLayout, BindingResource, BufferUsages, CommandEncoder, RenderPass, RenderPipeline, TextureView,
-};
+use wgpu::{BindGroup, BindGroupLayout, BindingResource, CommandEncoder, RenderPass, RenderPipeline, TextureView};
 
-/// Distance of uniforms that dynamic offsets choose from: every device allows this one.
-const STRIDE: usize = 256;
-
-/// The uniform buffers; they grow with the scene.
-#[derive(Debug)]
-pub struct Uniforms {
-    /// The uniform buffer of all cameras.
-    pub views: wgpu::Buffer,
-    lights: wgpu::Buffer,
-    /// The uniform buffer of all shapes.
-    pub objects: wgpu::Buffer,
-}
-
-impl Uniforms {
-    /// Buffers that the first frame replaces.
-    pub fn new(gpu: &Gpu) -> Result<Uniforms, GpuError> {
-        let empty = || uniforms(gpu, "the fake's numbers", &[0; STRIDE]);
-        Ok(Uniforms { views: empty()?, lights: empty()?, objects: empty()? })
-    }
-
-    /// Fills them with a frame's numbers.
-    pub fn write(&mut self, gpu: &Gpu, plan: &Plan) -> Result<(), RasterError> {
-        fill(gpu, "the cameras", &mut self.views, &spaced(&plan.views))?;
-        fill(gpu, "the lights", &mut self.lights, bytemuck::bytes_of(&plan.lights))?;
-        let shapes = format!("a scene of {} shapes", plan.objects.len());
-        fill(gpu, &shapes, &mut self.objects, &spaced(&plan.objects))?;
-        Ok(())
-    }
-}
-
-fn uniforms(gpu: &Gpu, what: &str, bytes: &[u8]) -> Result<wgpu::Buffer, GpuError> {
-    gpu.buffer(what, bytes, BufferUsages::UNIFORM | BufferUsages::COPY_DST)
-}
-
-fn fill(gpu: &Gpu, what: &str, buffer: &mut wgpu::Buffer, bytes: &[u8]) -> Result<(), GpuError> {
-    if (buffer.size() as usize) < bytes.len() {
-        *buffer = uniforms(gpu, what, bytes)?;
-    } else {
-        gpu.queue.write_buffer(buffer, 0, bytes);
-    }
-    Ok(())
-}
-
-fn spaced<T: Pod>(items: &[T]) -> Vec<u8> {
-    let mut bytes = vec![0; STRIDE * items.len()];
-    for (slot, item) in bytes.chunks_exact_mut(STRIDE).zip(items) {
-        slot[..size_of::<T>()].copy_from_slice(bytemuck::bytes_of(item));
-    }
-    bytes
-}
+/// Distance of the sky in cube maps, the largest half float; as `shaders/raster/repair/surroundings.wgsl` has it.
+pub const NOWHERE: f32 = 65504.0;
 
 /// All that shadow map and cube maps depend on, and where they are drawn: the camera is not part of it.
 #[derive(Debug, PartialEq)]
@@ -83,6 +34,7 @@ pub struct Maps {
     cube_maps: Vec<usize>,
     sky: Vec3,
     fake: Fake,
+    repairs: Repairs,
     filter: ShadowFilter,
     corners: wgpu::Buffer,
     shadow_map: TextureView,
@@ -105,6 +57,7 @@ impl Maps {
             cube_maps: plan.cube_maps.clone(),
             sky: plan.sky,
             fake: plan.fake,
+            repairs: plan.repairs,
             filter: plan.filter,
             corners: things.world.small_corners().clone(),
             shadow_map: targets.shadow.map.all.clone(),
@@ -177,8 +130,18 @@ pub fn draw(
         Show::ShadowMap | Show::Feature(_) => 0,
     };
     if !maps_stay {
-        for (index, &glass) in plan.cube_maps.iter().enumerate().take(cube_maps) {
-            frame.shadow_map(&mut encoder, Some(glass));
+        for layer in 0..plan.receivers.len() {
+            frame.receivers(&mut encoder, layer);
+            frame.caustic(&mut encoder, layer);
+        }
+        let own_shadow = plan.repairs.has(Repair::OwnShadow);
+        // once more where maps show one another, the first of which has seen the others empty
+        let rounds = if plan.repairs.has(Repair::Mirrors) && cube_maps > 1 { 2 } else { 1 };
+        if plan.repairs.has(Repair::Mirrors) {
+            (0..cube_maps).for_each(|index| frame.clear_cube_map(&mut encoder, index));
+        }
+        for (index, &glass) in plan.cube_maps.iter().enumerate().take(cube_maps).cycle().take(rounds * cube_maps) {
+            frame.shadow_map(&mut encoder, Some(glass).filter(|_| !own_shadow));
             frame.cube_map(&mut encoder, index, glass);
         }
         if plan.show != Show::CubeFaces {
@@ -199,28 +162,34 @@ struct Groups {
     shadow: BindGroup,
     object: BindGroup,
     frame: BindGroup,
+    /// The same while caustic maps are drawn: the shadow map is that of what they fall on.
+    receivers: BindGroup,
     without_cube_map: BindGroup,
     with_cube_map: Vec<BindGroup>,
 }
 
 impl Groups {
     fn new(gpu: &Gpu, pipelines: &Pipelines, uniforms: &Uniforms, targets: Targets<'_>) -> Groups {
-        let view = || sized::<crate::gpu_data::View>(&uniforms.views);
+        let view = || sized::<View>(&uniforms.views);
         let shadow_map = BindingResource::TextureView(&targets.shadow.map.all);
         let object = |cube: &TextureView| {
             let sampler = BindingResource::Sampler(&pipelines.sampler);
-            let object = sized::<crate::gpu_data::Object>(&uniforms.objects);
+            let object = sized::<Object>(&uniforms.objects);
             bind(gpu, &pipelines.object_layout, &[object, BindingResource::TextureView(cube), sampler])
         };
-        let surface = sized::<crate::gpu_data::Object>(&uniforms.objects);
+        let surface = sized::<Object>(&uniforms.objects);
+        let frame = |light: &TextureView, receivers: &TextureView| {
+            let [light, receivers] = [light, receivers].map(BindingResource::TextureView);
+            let sampler = BindingResource::Sampler(&pipelines.sampler);
+            let lights = sized::<Lights>(&uniforms.lights);
+            bind(gpu, &pipelines.frame_layout, &[view(), lights, shadow_map.clone(), light, receivers, sampler])
+        };
+        let caustics = targets.caustics;
         Groups {
             object: bind(gpu, &pipelines.surface_layout, &[surface]),
             shadow: bind(gpu, &pipelines.shadow_layout, &[view()]),
-            frame: bind(
-                gpu,
-                &pipelines.frame_layout,
-                &[view(), sized::<crate::gpu_data::Lights>(&uniforms.lights), shadow_map],
-            ),
+            frame: frame(&caustics.light.all, &caustics.receivers.all),
+            receivers: frame(&caustics.none[0], &caustics.receivers.all),
             without_cube_map: object(&targets.cubes.none),
             with_cube_map: targets.cubes.each.iter().map(|cube| object(&cube.all)).collect(),
         }
@@ -269,6 +238,38 @@ impl Frame<'_> {
         }
     }
 
+    /// What the sun sees behind a sphere of glass.
+    fn receivers(&self, encoder: &mut CommandEncoder, layer: usize) {
+        let caustics = self.targets.caustics;
+        let target = Target {
+            colour: &caustics.receivers.each[layer],
+            resolved: None,
+            depth: Some(&caustics.depth),
+            clear: bits(Vec3::ONE),
+        };
+        let mut pass = target.begin(encoder);
+        pass.set_bind_group(0, &self.groups.shadow, &[offset(self.plan.receivers.start + layer)]);
+        let mut drawing = Drawing::new(&mut pass, self.things);
+        // what casts no shadow receives one
+        for (shape, variant) in self.plan.drawn(None).filter(|(_, variant)| !variant.glass) {
+            let pipeline = self.pipelines.casting(Casting::BothSides, variant);
+            drawing.draw((shape, self.plan.materials[shape]), pipeline, &self.groups.object);
+        }
+    }
+
+    fn caustic(&self, encoder: &mut CommandEncoder, layer: usize) {
+        let Some(pipeline) = &self.pipelines.caustic else { return };
+        let view = offset(self.plan.receivers.start + layer);
+        caustic::draw(encoder, pipeline, (&self.groups.receivers, view), self.targets.caustics, layer);
+    }
+
+    fn clear_cube_map(&self, encoder: &mut CommandEncoder, index: usize) {
+        for face in &self.targets.cubes.each[index].each {
+            let target = Target { colour: face, resolved: None, depth: None, clear: self.sky() };
+            drop(target.begin(encoder));
+        }
+    }
+
     fn cube_map(&self, encoder: &mut CommandEncoder, index: usize, glass: usize) {
         for layer in 0..6 {
             let target = Target {
@@ -295,22 +296,26 @@ impl Frame<'_> {
     }
 
     /// Every shape but `without`, as `view` sees it. In a cube map no glass has a cube map of its own, least of all the
-    /// one that is being drawn.
+    /// one that is being drawn; where mirrors are repaired the others have the one that there is by then.
     fn shapes(&self, pass: &mut RenderPass<'_>, view: usize, without: Option<usize>) {
         pass.set_bind_group(0, &self.groups.frame, &[offset(view)]);
         let into = if without.is_some() { Into::CubeMap } else { Into::Picture };
         let mut drawing = Drawing::new(pass, self.things);
+        let others = self.plan.repairs.has(Repair::Mirrors);
         for (shape, variant) in self.plan.drawn(without) {
-            let cube_map = self.plan.cube_maps.iter().position(|&glass| glass == shape).filter(|_| without.is_none());
+            let cube_map =
+                self.plan.cube_maps.iter().position(|&glass| glass == shape).filter(|_| without.is_none() || others);
             let group = cube_map.map_or(&self.groups.without_cube_map, |index| &self.groups.with_cube_map[index]);
             let pipeline = self.pipelines.forward(self.plan.choice(), into, variant);
             drawing.draw((shape, self.plan.materials[shape]), pipeline, group);
         }
     }
 
+    /// The sky of a cube map, which is nowhere where it keeps distances.
     fn sky(&self) -> wgpu::Color {
         let [r, g, b] = self.plan.sky.to_array().map(f64::from);
-        wgpu::Color { r, g, b, a: 1.0 }
+        let keeps_distances = self.plan.repairs.has_any(&[Repair::Surroundings, Repair::Sky]);
+        wgpu::Color { r, g, b, a: if keeps_distances { f64::from(NOWHERE) } else { 1.0 } }
     }
 
     fn sky_of_picture(&self) -> wgpu::Color {
@@ -344,11 +349,6 @@ fn bits(colour: Vec3) -> wgpu::Color {
 pub fn bits_of(colour: Vec4) -> wgpu::Color {
     let [r, g, b, a] = colour.to_array().map(|channel| f64::from(channel.to_bits()));
     wgpu::Color { r, g, b, a }
-}
-
-/// Where the uniforms of this number begin.
-pub fn offset(slot: usize) -> u32 {
-    (slot * STRIDE) as u32
 }
 
 /// What one pass draws into.

@@ -2,15 +2,17 @@
 
 use crate::build::Build;
 use crate::casting::Casting;
+use crate::caustic;
 use crate::error::RasterError;
 use crate::gpu_data::Lights;
 use crate::knobs::ShadowFilter;
 use crate::plan::Plan;
+use crate::repair::{Repair, Repairs};
 use crate::settings::Fake;
 use crate::shaders;
 use crate::targets::{Colours, FEATURES, SHADOW};
 use crate::variant::{Space, Variant};
-use gpu::{Gpu, GpuError};
+use gpu::Gpu;
 use scene::Vec3;
 use std::collections::hash_map::Entry;
 use std::collections::{HashMap, HashSet};
@@ -32,6 +34,8 @@ pub enum Into {
 pub struct Choice {
     /// Decides the targets' formats.
     pub fake: Fake,
+    /// What is repaired of it.
+    pub repairs: Repairs,
     /// How shadow maps are looked up.
     pub filter: ShadowFilter,
     /// Whether a sun shines.
@@ -42,9 +46,9 @@ pub struct Choice {
 
 impl Choice {
     /// What a picture under `lights` needs.
-    pub fn of(fake: Fake, filter: ShadowFilter, lights: &Lights) -> Choice {
+    pub fn of((fake, repairs): (Fake, Repairs), filter: ShadowFilter, lights: &Lights) -> Choice {
         let sun = lights.sun_incident.cmpgt(Vec3::ZERO).any();
-        Choice { fake, filter, sun, area_light: lights.area_light_pattern }
+        Choice { fake, repairs, filter, sun, area_light: lights.area_light_pattern }
     }
 
     /// Values of the overrides in `shaders/raster/forward.wgsl` and in what it imports.
@@ -52,6 +56,8 @@ impl Choice {
         let own = [
             ("SHADOW_FILTER", f64::from(self.filter.code())),
             ("GLASS", f64::from(u8::from(variant.glass))),
+            ("MIRROR", f64::from(u8::from(variant.mirror))),
+            ("REPAIRS", f64::from(self.repairs.bits())),
             ("SUN", f64::from(u8::from(self.sun))),
             ("AREA_LIGHT", f64::from(self.area_light)),
             ("SHADING", f64::from(variant.shading)),
@@ -79,6 +85,8 @@ pub struct Pipelines {
     pub surface_layout: BindGroupLayout,
     /// Group 2 of all passes that draw shapes: pictures.
     pub look_layout: BindGroupLayout,
+    /// Of the mesh of sunlight, once one is drawn.
+    pub caustic: Option<RenderPipeline>,
     forward_module: wgpu::ShaderModule,
     shadow_module: wgpu::ShaderModule,
     features_module: Option<wgpu::ShaderModule>,
@@ -100,8 +108,8 @@ impl Pipelines {
     /// Sees to it that all that draws a plan is compiled; returns whether some was not.
     ///
     /// # Errors
-    /// [`GpuError::Refused`] if the device can't take them.
-    pub fn prepare(&mut self, gpu: &Gpu, plan: &Plan) -> Result<bool, GpuError> {
+    /// [`RasterError::Gpu`] if the device can't take them.
+    pub fn prepare(&mut self, gpu: &Gpu, plan: &Plan) -> Result<bool, RasterError> {
         let variants: HashSet<Variant> = plan.variants.iter().copied().flatten().collect();
         let into = if plan.cube_maps.is_empty() { &[Into::Picture][..] } else { &[Into::CubeMap, Into::Picture] };
         let mut compiled = false;
@@ -118,6 +126,19 @@ impl Pipelines {
             if !self.shadow.contains_key(&key) {
                 let made = gpu.checked("the fake's pipelines", || self.compile_shadow(gpu, key))?;
                 (compiled, _) = (true, self.shadow.insert(key, made));
+            }
+        }
+        if !plan.receivers.is_empty() {
+            let receivers = plan.drawn(None).map(|(_, variant)| (Casting::BothSides, variant.in_shadow_map()));
+            for key in receivers.collect::<HashSet<_>>() {
+                if !self.shadow.contains_key(&key) {
+                    let made = gpu.checked("the fake's pipelines", || self.compile_shadow(gpu, key))?;
+                    (compiled, _) = (true, self.shadow.insert(key, made));
+                }
+            }
+            if self.caustic.is_none() {
+                self.caustic = Some(caustic::pipeline(gpu, &self.frame_layout)?);
+                compiled = true;
             }
         }
         Ok(compiled)
@@ -172,7 +193,8 @@ impl Pipelines {
         };
         let constants = &choice.constants(variant);
         let build = Build { samples, constants, ..Build::of(groups, &self.forward_module, format) };
-        let cull_mode = variant.glass.then_some(Face::Front);
+        let near_side = choice.repairs.has_any(&[Repair::FrontFace, Repair::TwoInterfaces, Repair::Fresnel]);
+        let cull_mode = variant.glass.then_some(if near_side { Face::Back } else { Face::Front });
         Build { cull_mode, front_face: front_face(variant), ..build }.pipeline(gpu)
     }
 
@@ -205,7 +227,9 @@ fn compile(
     let cube = texture(wgpu::TextureSampleType::Float { filterable: true }, TextureViewDimension::Cube);
     let picture = texture(wgpu::TextureSampleType::Float { filterable: true }, TextureViewDimension::D2);
     let sampler = BindingType::Sampler(wgpu::SamplerBindingType::Filtering);
-    let frame = [uniform::<crate::gpu_data::View>(true), uniform::<crate::gpu_data::Lights>(false), array];
+    let caustics = texture(wgpu::TextureSampleType::Float { filterable: true }, TextureViewDimension::D2Array);
+    let lights = uniform::<crate::gpu_data::Lights>(false);
+    let frame = [uniform::<crate::gpu_data::View>(true), lights, array, caustics, array, sampler];
     let object = [uniform::<crate::gpu_data::Object>(true), cube, sampler];
     let look = [[uniform::<crate::gpu_data::Look>(false)].as_slice(), &[picture; 5], &[sampler; 5]].concat();
     let resolve_layout = layout(gpu, &[array]);
@@ -224,6 +248,7 @@ fn compile(
         surface_layout: layout(gpu, &object[..1]),
         look_layout: layout(gpu, &look),
         resolve_layout,
+        caustic: None,
         forward_module: forward,
         shadow_module: shadow,
         features_module: None,

@@ -8,7 +8,9 @@ use crate::lights;
 use crate::object::object;
 use crate::pipelines::Choice;
 use crate::planes::Planes;
+use crate::repair::{Repair, Repairs};
 use crate::settings::{Fake, RasterSettings, Show};
+use crate::spheres;
 use crate::targets::{CubePlan, PicturePlan, ShadowPlan, TargetPlan};
 use crate::variant::Variant;
 use bytemuck::Zeroable;
@@ -26,6 +28,23 @@ pub const SHADOW_VIEWS: usize = 7;
 /// Sub-pixel positions of the fair fake's passes, in pixels from the middle: the rotated grid of 4x multisampling.
 const ROTATED_GRID: [Vec2; 4] =
     [Vec2::new(-0.125, -0.375), Vec2::new(0.375, -0.125), Vec2::new(-0.375, 0.125), Vec2::new(0.125, 0.375)];
+
+/// Those of Direct3D's standard pattern of 8 samples, in pixels from the middle.
+const EIGHT_PLACES: [Vec2; 8] = {
+    const fn place(x: f32, y: f32) -> Vec2 {
+        Vec2::new(x / 16.0, y / 16.0)
+    }
+    [
+        place(1.0, -3.0),
+        place(-1.0, 3.0),
+        place(5.0, 1.0),
+        place(-3.0, -5.0),
+        place(-5.0, 5.0),
+        place(-7.0, -1.0),
+        place(3.0, 7.0),
+        place(7.0, -7.0),
+    ]
+};
 
 /// Everything that a frame's passes read.
 #[derive(Debug)]
@@ -48,10 +67,14 @@ pub struct Plan {
     pub shadow_size: u32,
     /// The shapes that have cube maps.
     pub cube_maps: Vec<usize>,
+    /// Which views see what light through spheres of glass falls on, one for each caustic map.
+    pub receivers: Range<usize>,
     /// Which views are the picture's.
     pub picture_views: Range<usize>,
     /// Fair or as taught.
     pub fake: Fake,
+    /// What is repaired of it.
+    pub repairs: Repairs,
     /// How shadow maps are looked up.
     pub filter: ShadowFilter,
     /// Which of the passes is the last.
@@ -65,17 +88,30 @@ impl Plan {
     pub fn new(scene: &Scene, camera: &Camera, settings: &RasterSettings) -> Plan {
         let fake = settings.fake;
         let variants: Vec<_> = scene.shapes.iter().map(|shape| Variant::of(scene, shape, settings)).collect();
-        let casting = casting::of_all(scene, &variants, fake);
+        let mut casting = casting::of_all(scene, &variants, fake);
+        for (shape, casting) in casting.iter_mut().enumerate() {
+            if spheres::lets_sun_through(scene, shape, settings) {
+                *casting = Casting::Nothing;
+            }
+        }
         let lights = lights::lights(scene, settings, |shape| casting[shape] != Casting::Nothing);
-        let glass = |shape: &usize| matches!(scene.material_of(&scene.shapes[*shape]).bsdf, Bsdf::Dielectric { .. });
-        let cube_maps: Vec<_> = (0..scene.shapes.len()).filter(glass).take(MOST_CUBE_MAPS).collect();
+        let repairs = settings.repairs();
+        let shows_surroundings = |shape: &usize| match scene.material_of(&scene.shapes[*shape]).bsdf {
+            Bsdf::Dielectric { .. } => true,
+            Bsdf::Mirror { .. } => repairs.has(Repair::Mirrors),
+            _ => false,
+        };
+        let cube_maps: Vec<_> = (0..scene.shapes.len()).filter(shows_surroundings).take(MOST_CUBE_MAPS).collect();
         let mut objects: Vec<_> =
             (0..scene.shapes.len()).map(|shape| object(scene, shape, casting[shape], settings)).collect();
         let mut views = lights.shadow_views.to_vec();
         for &shape in &cube_maps {
             objects[shape].has_cube_map = 1;
-            views.extend(cube_map_views(scene, &scene.shapes[shape].geometry, fake));
+            views.extend(cube_map_views(scene, &scene.shapes[shape].geometry, settings));
         }
+        let casters = if repairs.has(Repair::Caustics) { spheres::casters(scene, settings) } else { Vec::new() };
+        let receivers = views.len()..views.len() + casters.len();
+        views.extend((0..casters.len()).map(|layer| spheres::receivers_view(&lights, layer, scene)));
         let first = views.len();
         views.extend(picture_views(scene, camera, settings));
         let shadow_layers = shadow_layers(scene, fake);
@@ -90,7 +126,9 @@ impl Plan {
             variants,
             materials: scene.shapes.iter().map(|shape| shape.material).collect(),
             cube_maps,
+            receivers,
             fake,
+            repairs,
             filter: settings.knobs.filter,
             show: settings.show,
             sky: scene.sky,
@@ -105,7 +143,7 @@ impl Plan {
 
     /// What its forward passes have compiled in.
     pub fn choice(&self) -> Choice {
-        Choice::of(self.fake, self.filter, &self.lights)
+        Choice::of((self.fake, self.repairs), self.filter, &self.lights)
     }
 
     /// The targets that this frame needs.
@@ -114,7 +152,8 @@ impl Plan {
         TargetPlan {
             shadow: ShadowPlan { size: self.shadow_size, with_area_light: self.shadow_layers.end > 1 },
             cubes: CubePlan { size: scene.fake.cube_map, count: self.cube_maps.len(), fake },
-            picture: PicturePlan { width, height, fake },
+            caustics: self.receivers.len(),
+            picture: PicturePlan { width, height, fake, passes: passes(settings).len() as u32 },
         }
     }
 
@@ -131,14 +170,19 @@ fn shadow_layers(scene: &Scene, fake: Fake) -> Range<usize> {
     first..end
 }
 
+/// Where in the pixels the passes over a picture look.
+fn passes(settings: &RasterSettings) -> &'static [Vec2] {
+    match settings.fake {
+        Fake::AsTaught => &[Vec2::ZERO],
+        Fake::Fair if settings.repairs().has(Repair::Antialiasing) => &EIGHT_PLACES,
+        Fake::Fair => &ROTATED_GRID,
+    }
+}
+
 fn picture_views(scene: &Scene, camera: &Camera, settings: &RasterSettings) -> Vec<View> {
     let size = Vec2::new(settings.width as f32, settings.height as f32);
     let planes = Planes::of(scene, camera, size.x / size.y);
     let clip_from_world = planes.applied_to(camera.clip_from_world(size.x / size.y));
-    let shifts: &[Vec2] = match settings.fake {
-        Fake::AsTaught => &[Vec2::ZERO],
-        Fake::Fair => &ROTATED_GRID,
-    };
     let view = |&shift: &Vec2| View {
         clip_from_world: shifted(clip_from_world, shift, size),
         near: planes.near,
@@ -146,7 +190,7 @@ fn picture_views(scene: &Scene, camera: &Camera, settings: &RasterSettings) -> V
         sees_cube_maps: 1,
         ..View::zeroed()
     };
-    shifts.iter().map(view).collect()
+    passes(settings).iter().map(view).collect()
 }
 
 /// The view with its pixels moved by `shift` pixels to the right and down.
@@ -157,9 +201,9 @@ fn shifted(clip_from_world: Mat4, shift: Vec2, size: Vec2) -> Mat4 {
 
 /// As taught three.js' CubeCamera, whose near .1 and far 5000 are made for a glass of radius 1: here they are shares of
 /// its radius. Fair it cuts nothing.
-fn cube_map_views(scene: &Scene, glass: &Geometry, fake: Fake) -> [View; 6] {
+fn cube_map_views(scene: &Scene, glass: &Geometry, settings: &RasterSettings) -> [View; 6] {
     let eye = glass.center();
-    let planes = match fake {
+    let planes = match settings.fake {
         Fake::AsTaught => {
             let (low, high) = glass.bounds();
             let radius = 0.5 * (high - low).max_element();
@@ -167,8 +211,11 @@ fn cube_map_views(scene: &Scene, glass: &Geometry, fake: Fake) -> [View; 6] {
         }
         Fake::Fair => Planes::fitted(scene, eye, SQRT_2),
     };
+    // maps show one another where mirrors have them
+    let sees_cube_maps = u32::from(settings.repairs().has(Repair::Mirrors));
+    let per_distance = spheres::per_distance(scene);
     std::array::from_fn(|layer| {
         let clip_from_world = cube::clip_from_world(eye, cube::axis_of_layer(layer), 1.0, planes);
-        View { clip_from_world, near: planes.near, eye, ..View::zeroed() }
+        View { clip_from_world, near: planes.near, eye, sees_cube_maps, per_distance, ..View::zeroed() }
     })
 }

@@ -2,8 +2,12 @@
 
 use crate::knobs::FakeKnobs;
 use crate::lights;
+use crate::repair::{Repair, Repairs};
 use film::Feature;
 use scene::Scene;
+
+/// Segments of spheres whose tessellation is repaired.
+const REPAIRED_SEGMENTS: u32 = 256;
 
 /// Size and manner of a picture.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -18,6 +22,8 @@ pub struct RasterSettings {
     pub shading: Shading,
     /// Numbers in place of the scene's.
     pub knobs: FakeKnobs,
+    /// What is repaired of the fair fake; nothing is as taught.
+    pub repairs: Repairs,
     /// What is shown: the picture, what of surfaces it is made from, or a map.
     pub show: Show,
 }
@@ -31,8 +37,23 @@ impl RasterSettings {
             fake: Fake::default(),
             shading: Shading::default(),
             knobs: FakeKnobs::default(),
+            repairs: Repairs::NONE,
             show: Show::default(),
         }
+    }
+
+    /// The scene with the numbers of knobs and repairs in place of its own.
+    pub(crate) fn applied(&self, scene: &Scene) -> Scene {
+        let mut scene = self.knobs.applied(scene);
+        if self.repairs().has(Repair::Antialiasing) {
+            scene.fake.segments = scene.fake.segments.max(REPAIRED_SEGMENTS);
+        }
+        scene
+    }
+
+    /// What is repaired of this fake.
+    pub(crate) fn repairs(&self) -> Repairs {
+        if self.fake == Fake::Fair { self.repairs } else { Repairs::NONE }
     }
 }
 

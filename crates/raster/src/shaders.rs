@@ -1,20 +1,34 @@
 //! The rasteriser's shaders: every file under `shaders/raster/`. A new one is one line of [`SOURCES`].
 
+use crate::caustic::{CELLS, SUNS};
 use crate::gpu_data::*;
+use crate::passes::NOWHERE;
 use crate::pipelines::Choice;
+use crate::repair;
 use crate::shading::{LEAST_COSINE, LEAST_WIDTH, SMALLEST};
+use crate::spheres::CAUSTIC_REACH;
 use crate::variant::Variant;
-use crate::{Fake, ShadowFilter};
+use crate::{Fake, Repairs, ShadowFilter};
 use bytemuck::Zeroable;
 use gpu::wgsl::{self, Composed, Source, WgslError};
+use std::f32::consts::PI;
 
 /// One line a file.
 pub const SOURCES: &[Source<'static>] = gpu::wgsl_sources![
     "raster/bent.wgsl",
     "raster/features.wgsl",
     "raster/forward.wgsl",
+    "raster/frame.wgsl",
     "raster/object.wgsl",
     "raster/refraction.wgsl",
+    "raster/repair/caustic.wgsl",
+    "raster/repair/fresnel.wgsl",
+    "raster/repair/glass.wgsl",
+    "raster/repair/repairs.wgsl",
+    "raster/repair/soft_shadow.wgsl",
+    "raster/repair/spheres.wgsl",
+    "raster/repair/sunlight.wgsl",
+    "raster/repair/surroundings.wgsl",
     "raster/shading.wgsl",
     "raster/shadow.wgsl",
     "raster/shadow_map.wgsl",
@@ -35,13 +49,15 @@ pub fn compose(root: &str) -> Result<Composed, WgslError> {
 
 /// Constants that stand on both sides under one name. A test holds each against what the shaders say.
 pub fn shared_constants() -> Vec<(&'static str, f64)> {
-    gpu::named_values![
+    let own = gpu::named_values![
         AREA_LIGHT_ALL_AROUND,
         AREA_LIGHT_NONE,
         AREA_LIGHT_ONE_SIDED,
         AREA_LIGHT_SPOT,
         AREA_LIGHT_TWO_SIDED,
         AREA_LIGHT_WITHOUT_DECAY,
+        CAUSTIC_REACH,
+        CELLS,
         FILTER_HARD,
         FILTER_PCF,
         FILTER_PCF_SOFT,
@@ -52,16 +68,21 @@ pub fn shared_constants() -> Vec<(&'static str, f64)> {
         IMAGE_NORMAL,
         LEAST_COSINE,
         LEAST_WIDTH,
+        MOST_SPHERES,
+        NOWHERE,
+        PI,
         SHADING_BLINN_PHONG,
         SHADING_COOK_TORRANCE,
         SHADING_PHONG,
         SHADING_THREE,
         SMALLEST,
-    ]
+        SUNS,
+    ];
+    own.into_iter().chain(repair::shader_numbers()).collect()
 }
 
 /// Names of the overrides that the forward pass is compiled with.
 pub fn override_names() -> Vec<&'static str> {
-    let choice = Choice::of(Fake::Fair, ShadowFilter::Hard, &Lights::zeroed());
+    let choice = Choice::of((Fake::Fair, Repairs::NONE), ShadowFilter::Hard, &Lights::zeroed());
     choice.constants(Variant::PLAIN).into_iter().map(|(name, _)| name).collect()
 }

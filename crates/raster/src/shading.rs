@@ -1,11 +1,13 @@
 //! The fake's formulas on the CPU: twins, by name and parameters, of the functions in `shaders/raster/shading.wgsl`,
-//! `refraction.wgsl` and `shadow.wgsl`. Tests hold the two against each other, and closed forms are computed with them.
+//! `refraction.wgsl`, `shadow.wgsl`, `shaders/raster/repair/fresnel.wgsl` and `shaders/raster/repair/spheres.wgsl`. Tests
+//! hold the two against each other, and closed forms are computed with them.
 //!
 //! `n` unit normal, `l` unit direction to the light, `v` unit direction to the viewer, `incident` the light that a
 //! white Lambert surface facing the light would send back. Ambient light, `colour * ambient`, is the caller's.
 
 use scene::Vec3;
 use scene::material::Checkerboard;
+use std::f32::consts::FRAC_1_PI;
 
 /// See the same name in `shaders/raster/shading.wgsl`.
 pub(crate) const SMALLEST: f32 = 1e-37;
@@ -151,9 +153,105 @@ pub fn pcf_soft(nearest: impl Fn(u32, u32) -> f32, size: u32, uv: [f32; 2], dept
     (whole + sides + mix(above, below, f[1])) / 9.0
 }
 
+/// The share of unpolarised light that a smooth dielectric reflects: Fresnel's equations. `cosine` of the angle to the normal,
+/// on the side that light comes from; `ratio` is the index of refraction there over the one behind.
+pub fn dielectric_reflectance(cosine: f32, ratio: f32) -> f32 {
+    let square = 1.0 - ratio * ratio * (1.0 - cosine * cosine);
+    if square <= 0.0 {
+        return 1.0;
+    }
+    let inner = square.sqrt();
+    let outer = cosine.max(0.0);
+    let across = (ratio * outer - inner) / (ratio * outer + inner);
+    let along = (outer - ratio * inner) / (outer + ratio * inner);
+    0.5 * (across * across + along * along)
+}
+
+/// The share of the cosine-weighted hemisphere about unit normal `n` that a sphere covers, seen from outside of it; `towards` is
+/// the way to its middle. Where the horizon cuts it: Naraghi and Chung, "Radiation configuration factors between disks and a
+/// class of axisymmetric bodies", 1982.
+pub fn covered_sky(n: Vec3, towards: Vec3, radius: f32) -> f32 {
+    let distance = towards.length().max(radius * 1.000_001);
+    let cosine = n.dot(towards) / distance;
+    let square = distance * distance / (radius * radius);
+    let beyond = 1.0 - square * cosine * cosine;
+    if beyond <= 0.0 {
+        return cosine.max(0.0) / square;
+    }
+    let tangent = (square - 1.0).max(1e-12).sqrt();
+    let sine = (1.0 - cosine * cosine).max(1e-12).sqrt();
+    let horizon = (-cosine * tangent / sine).clamp(-1.0, 1.0);
+    let share = cosine * horizon.acos() - beyond.sqrt() * tangent;
+    ((share / square + (beyond.sqrt() / tangent).atan()) * FRAC_1_PI).max(0.0)
+}
+
+/// The share of the sun's disc that a sphere covers, its edge taken to be straight there, and how far from the sphere's middle
+/// light passes, in radii, at most 1; `l` unit direction to the sun, `spread` the tangent of its angular radius.
+pub fn covered_sun(towards: Vec3, radius: f32, l: Vec3, spread: f32) -> [f32; 2] {
+    let along = towards.dot(l);
+    let aside = (towards - along * l).length();
+    let x = ((radius - aside) / (along * spread).max(1e-6 * radius)).clamp(-1.0, 1.0);
+    let share = 0.5 + (x.asin() + x * (1.0 - x * x).sqrt()) * FRAC_1_PI;
+    [if along > 0.0 { share } else { 0.0 }, (aside / radius).min(1.0)]
+}
+
+/// What of light goes straight through a sphere of glass that it meets at this distance from its middle, in radii.
+pub fn let_through(aside: f32, ratio: f32) -> f32 {
+    let passed = 1.0 - dielectric_reflectance((1.0 - aside * aside).max(0.0).sqrt(), ratio);
+    passed * passed
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// By the midpoint rule over the hemisphere, in f64.
+    fn covered_sky_by_counting(towards: Vec3, radius: f32) -> f64 {
+        const SIDE: usize = 1000;
+        let c = towards.as_dvec3();
+        let least = (1.0 - f64::from(radius).powi(2) / c.length_squared()).sqrt();
+        let covered = |index: usize| {
+            // cosine-weighted directions about z
+            let (u, v) = ((index % SIDE) as f64 + 0.5, (index / SIDE) as f64 + 0.5);
+            let (sine, angle) = ((u / SIDE as f64).sqrt(), std::f64::consts::TAU * v / SIDE as f64);
+            let d = scene::glam::DVec3::new(sine * angle.cos(), sine * angle.sin(), (1.0 - sine * sine).sqrt());
+            d.dot(c.normalize()) > least
+        };
+        (0..SIDE * SIDE).filter(|index| covered(*index)).count() as f64 / (SIDE * SIDE) as f64
+    }
+
+    #[test]
+    fn a_sphere_covers_as_much_of_the_sky_as_is_counted_above_below_and_across_the_horizon() {
+        let places =
+            [(0.0, 2.0), (1.5, 1.5), (2.0, 0.5), (2.0, 0.0), (2.0, -0.5), (1.2, 0.3), (3.0, -2.0), (0.0, -3.0)];
+        for (aside, above) in places {
+            let towards = Vec3::new(0.6 * aside, 0.8 * aside, above);
+            let (formula, counted) = (covered_sky(Vec3::Z, towards, 1.0), covered_sky_by_counting(towards, 1.0));
+            // cells that the sphere's rim cuts
+            assert!((f64::from(formula) - counted).abs() < 1e-3, "{towards}: {formula} is not {counted}");
+        }
+    }
+
+    #[test]
+    fn glass_reflects_what_fresnel_says_at_normal_incidence_brewsters_angle_and_beyond_the_critical_one() {
+        assert!((dielectric_reflectance(1.0, 1.0 / 1.5) - 0.04).abs() < 1e-6);
+        // where the part in the plane of incidence vanishes: half of the other part is left
+        let brewster = (1.5f32).atan().cos();
+        let across = ((1.5f32 * 1.5 - 1.0) / (1.5 * 1.5 + 1.0)).powi(2);
+        assert!((dielectric_reflectance(brewster, 1.0 / 1.5) - 0.5 * across).abs() < 1e-6);
+        assert_eq!(dielectric_reflectance(0.7, 1.5), 1.0, "the critical angle's cosine is .745");
+        assert!(dielectric_reflectance(0.0, 1.0 / 1.5) > 0.999_999);
+    }
+
+    #[test]
+    fn a_sphere_covers_half_of_a_sun_behind_its_edge_and_all_of_one_behind_its_middle() {
+        let share = |x: f32| covered_sun(Vec3::new(x, 0.0, 10.0), 1.0, Vec3::Z, 0.01)[0];
+        assert_eq!([share(0.0), share(0.8), share(1.2)], [1.0, 1.0, 0.0]);
+        assert!((share(1.0) - 0.5).abs() < 1e-5);
+        // a chord at half the sun's radius cuts off 1/3 - sqrt(3)/(4 pi)
+        assert!((share(1.05) - 0.195_5).abs() < 1e-3, "{}", share(1.05));
+        assert_eq!(covered_sun(Vec3::new(0.0, 0.0, -10.0), 1.0, Vec3::Z, 0.01)[0], 0.0, "behind the point");
+    }
 
     #[test]
     fn beyond_the_critical_angle_refraction_mirrors() {

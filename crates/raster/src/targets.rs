@@ -1,5 +1,6 @@
 //! What is drawn into: shadow map, cube maps, picture. Each is kept as long as what it depends on stays.
 
+use crate::caustic;
 use crate::settings::Fake;
 use gpu::upload::TexturePlan;
 use gpu::{Gpu, GpuError};
@@ -14,6 +15,12 @@ pub const SHADOW: TextureFormat = TextureFormat::R32Uint;
 /// The features' texels, bits of f32 as well.
 pub const FEATURES: TextureFormat = TextureFormat::Rgba32Uint;
 
+/// What is bound only because something must be.
+const BOUND: TextureUsages = TextureUsages::TEXTURE_BINDING;
+
+/// How often features are drawn for one mean.
+const FEATURE_PASSES: u32 = 4;
+
 /// What is drawn and then looked up.
 const LOOKED_UP: TextureUsages = TextureUsages::RENDER_ATTACHMENT.union(TextureUsages::TEXTURE_BINDING);
 
@@ -24,8 +31,6 @@ pub struct Colours {
     pub picture: TextureFormat,
     /// Samples per pixel in hardware.
     pub samples: u32,
-    /// Passes over the picture.
-    pub passes: u32,
     /// Of the cube maps: one that is filtered everywhere.
     pub cube_map: TextureFormat,
 }
@@ -35,23 +40,20 @@ impl Colours {
     /// bytes.
     pub fn of(fake: Fake, gpu: &Gpu) -> Colours {
         match fake {
-            Fake::AsTaught => Colours {
-                picture: TextureFormat::Rgba8Unorm,
-                samples: 4,
-                passes: 1,
-                cube_map: TextureFormat::Rgba8Unorm,
-            },
+            Fake::AsTaught => {
+                Colours { picture: TextureFormat::Rgba8Unorm, samples: 4, cube_map: TextureFormat::Rgba8Unorm }
+            }
             Fake::Fair => Colours {
                 picture: TextureFormat::Rgba32Uint,
                 samples: 1,
-                passes: 4,
                 cube_map: if draws_half_floats(gpu) { TextureFormat::Rgba16Float } else { TextureFormat::Rgba8Unorm },
             },
         }
     }
 }
 
-fn draws_half_floats(gpu: &Gpu) -> bool {
+/// Whether half floats can be drawn into.
+pub fn draws_half_floats(gpu: &Gpu) -> bool {
     let usages = gpu.adapter.get_texture_format_features(TextureFormat::Rgba16Float).allowed_usages;
     usages.contains(TextureUsages::RENDER_ATTACHMENT)
 }
@@ -63,6 +65,8 @@ pub struct TargetPlan {
     pub shadow: ShadowPlan,
     /// Of the cube maps.
     pub cubes: CubePlan,
+    /// How many caustic maps.
+    pub caustics: usize,
     /// Of the picture.
     pub picture: PicturePlan,
 }
@@ -96,6 +100,8 @@ pub struct PicturePlan {
     pub height: u32,
     /// Which fake's formats.
     pub fake: Fake,
+    /// How often it is drawn for one mean.
+    pub passes: u32,
 }
 
 /// Views of a shadow map or cube map.
@@ -127,6 +133,19 @@ pub struct CubeTargets {
     pub depth: TextureView,
 }
 
+/// What spheres of glass do to sunlight, a layer for each.
+#[derive(Debug)]
+pub struct CausticTargets {
+    /// Multiples of the sun's light.
+    pub light: Layers,
+    /// How far along sunlight what it falls on lies.
+    pub receivers: Layers,
+    /// Depth buffer beside that.
+    pub depth: TextureView,
+    /// Stand in where nothing is drawn, and where these are drawn.
+    pub none: [TextureView; 2],
+}
+
 /// The picture.
 #[derive(Debug)]
 pub struct PictureTargets {
@@ -154,6 +173,7 @@ pub struct FeatureTargets {
 pub struct Kept {
     shadow: Option<(ShadowPlan, ShadowTargets)>,
     cubes: Option<(CubePlan, CubeTargets)>,
+    caustics: Option<(usize, CausticTargets)>,
     picture: Option<(PicturePlan, PictureTargets)>,
     features: Option<([u32; 2], FeatureTargets)>,
 }
@@ -165,6 +185,8 @@ pub struct Targets<'a> {
     pub shadow: &'a ShadowTargets,
     /// What surrounds the glass.
     pub cubes: &'a CubeTargets,
+    /// What it focuses.
+    pub caustics: &'a CausticTargets,
     /// What is seen.
     pub picture: &'a PictureTargets,
 }
@@ -175,6 +197,7 @@ impl Kept {
         Ok(Targets {
             shadow: fitting(&mut self.shadow, plan.shadow, |plan| shadow_targets(gpu, plan))?,
             cubes: fitting(&mut self.cubes, plan.cubes, |plan| cube_targets(gpu, plan))?,
+            caustics: fitting(&mut self.caustics, plan.caustics, |count| caustic_targets(gpu, count))?,
             picture: fitting(&mut self.picture, plan.picture, |plan| picture_targets(gpu, plan))?,
         })
     }
@@ -222,6 +245,26 @@ fn cube_targets(gpu: &Gpu, plan: CubePlan) -> Result<CubeTargets, GpuError> {
     })
 }
 
+fn caustic_targets(gpu: &Gpu, count: usize) -> Result<CausticTargets, GpuError> {
+    let texture = |size, layers, format| gpu.texture("a caustic map", &square(size, layers, format));
+    let maps = |size, count| {
+        let light =
+            TexturePlan { usage: if size > 1 { LOOKED_UP } else { BOUND }, ..square(size, count, caustic::FORMAT) };
+        let light = gpu.texture("a caustic map", &light)?;
+        Ok::<_, GpuError>([light, texture(size, count, SHADOW)?].map(|map| layers(&map, TextureViewDimension::D2Array)))
+    };
+    let size = if count == 0 { 1 } else { caustic::SIZE };
+    // as for shadow maps: neither 1 nor 6
+    let layers_of_all = match count {
+        0 | 1 => 2,
+        6 => 7,
+        count => count as u32,
+    };
+    let [light, receivers] = maps(size, layers_of_all)?;
+    let depth = whole(&texture(size, 1, DEPTH)?);
+    Ok(CausticTargets { light, receivers, depth, none: maps(1, 2)?.map(|map| map.all) })
+}
+
 fn picture_targets(gpu: &Gpu, plan: PicturePlan) -> Result<PictureTargets, GpuError> {
     let colours = Colours::of(plan.fake, gpu);
     let one = TexturePlan {
@@ -234,11 +277,11 @@ fn picture_targets(gpu: &Gpu, plan: PicturePlan) -> Result<PictureTargets, GpuEr
     };
     let resolved = gpu.texture("a picture", &one)?;
     let usage = if colours.samples > 1 { TextureUsages::RENDER_ATTACHMENT } else { LOOKED_UP };
-    let all = TexturePlan { layers: colours.passes, samples: colours.samples, usage, ..one };
+    let all = TexturePlan { layers: plan.passes, samples: colours.samples, usage, ..one };
     let passes = gpu.texture("a picture", &all)?;
     let depth = TexturePlan { format: DEPTH, layers: 1, usage: TextureUsages::RENDER_ATTACHMENT, ..all };
     let depth = gpu.texture("a picture", &depth)?;
-    let dimension = if colours.passes > 1 { TextureViewDimension::D2Array } else { TextureViewDimension::D2 };
+    let dimension = if plan.passes > 1 { TextureViewDimension::D2Array } else { TextureViewDimension::D2 };
     Ok(PictureTargets { passes: layers(&passes, dimension), depth: whole(&depth), resolved: whole(&resolved) })
 }
 
@@ -246,7 +289,7 @@ fn feature_targets(gpu: &Gpu, [width, height]: [u32; 2]) -> Result<FeatureTarget
     let usage = TextureUsages::RENDER_ATTACHMENT | TextureUsages::COPY_SRC;
     let one = TexturePlan { width, height, layers: 1, samples: 1, format: FEATURES, usage };
     let depth = TexturePlan { format: DEPTH, usage: TextureUsages::RENDER_ATTACHMENT, ..one };
-    let all = TexturePlan { layers: Colours::of(Fake::Fair, gpu).passes, usage: LOOKED_UP, ..one };
+    let all = TexturePlan { layers: FEATURE_PASSES, usage: LOOKED_UP, ..one };
     let texture = |plan: &TexturePlan| gpu.texture("what is seen of surfaces", plan);
     let passes = || Ok::<_, GpuError>(layers(&texture(&all)?, TextureViewDimension::D2Array));
     Ok(FeatureTargets {

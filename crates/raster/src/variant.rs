@@ -3,6 +3,7 @@
 
 use crate::gpu_data::*;
 use crate::looks::{bits, pictures};
+use crate::repair::Repair;
 use crate::settings::{Fake, RasterSettings, Shading};
 use scene::{Alpha, Bsdf, Geometry, Material, Scene, Shape};
 
@@ -22,6 +23,8 @@ pub enum Space {
 pub struct Variant {
     /// Glass looks up its cube map, and only its back faces are drawn.
     pub glass: bool,
+    /// It has a cube map, in which it mirrors.
+    pub mirror: bool,
     /// How highlights are shaded, one of `SHADING_*`.
     pub shading: u32,
     /// Where its corners are.
@@ -41,6 +44,7 @@ impl Variant {
     /// The simplest way to draw.
     pub const PLAIN: Variant = Variant {
         glass: false,
+        mirror: false,
         shading: SHADING_THREE,
         space: Space::World,
         flat: false,
@@ -58,9 +62,11 @@ impl Variant {
         let glass = matches!(material.bsdf, Bsdf::Dielectric { .. });
         let images = bits(&pictures(material));
         let mesh = shape.geometry.mesh_of();
+        let mirror = settings.repairs().has(Repair::Mirrors) && matches!(material.bsdf, Bsdf::Mirror { .. });
         Some(Variant {
             glass,
-            shading: if glass { SHADING_THREE } else { shading(material, settings) },
+            mirror,
+            shading: if glass || mirror { SHADING_THREE } else { shading(material, settings) },
             space: match &shape.geometry {
                 Geometry::Instance(instance) if instance.mirrors() => Space::MirroredMesh,
                 Geometry::Instance(_) => Space::Mesh,
@@ -83,7 +89,7 @@ impl Variant {
     /// What of it the features' pass tells apart.
     pub fn in_features(self) -> Variant {
         let images = self.images & !IMAGE_METALLIC_ROUGHNESS;
-        Variant { glass: false, shading: SHADING_THREE, images, uvs: self.uvs && images != 0, ..self }
+        Variant { glass: false, mirror: false, shading: SHADING_THREE, images, uvs: self.uvs && images != 0, ..self }
     }
 
     /// Values of the overrides in `shaders/raster/surface.wgsl`.

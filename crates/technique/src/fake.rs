@@ -1,6 +1,6 @@
 //! The settings of the fake.
 
-use raster::{Fake, FakeKnobs, RasterSettings, Shading, Show};
+use raster::{Fake, FakeKnobs, RasterSettings, Repairs, Shading, Show};
 use scene::Scene;
 
 /// The settings of the fake.
@@ -14,6 +14,8 @@ pub struct FakeSettings {
     pub reflectivity: Option<f32>,
     /// The other numbers that may be turned.
     pub knobs: FakeKnobs,
+    /// What is repaired of the fair fake.
+    pub repairs: Repairs,
     /// The picture, what is seen without its light, or one of the maps that it is made from.
     pub show: Show,
 }
@@ -39,7 +41,8 @@ impl FakeSettings {
 
     /// With a size, as the raster wants them.
     pub fn sized(&self, width: u32, height: u32) -> RasterSettings {
-        RasterSettings { width, height, fake: self.fake, shading: self.shading, knobs: self.knobs, show: self.show }
+        let &FakeSettings { fake, shading, knobs, repairs, show, .. } = self;
+        RasterSettings { width, height, fake, shading, knobs, repairs, show }
     }
 
     /// Whether it shows the scene's light, rather than what it falls on or a map.

@@ -5,6 +5,7 @@ use egui::accesskit::Role;
 use egui_kittest::Node;
 use egui_kittest::kittest::{NodeT, Queryable};
 use pathtrace::Roulette;
+use raster::Repair;
 use technique::TechniqueName;
 use technique::settings::{Kind, Look, OF_SCENES, Setting, Value, all_of_panes};
 use visavis::model::{Model, PaneId};
@@ -26,6 +27,11 @@ fn control_names<T>(
             setting.words(technique, scene).into_iter().map(|(word, ..)| (Role::Button, of_word(word))).collect()
         }
         (Kind::LightPaths, _) => ["all", "direct", "bounce", "up to"].map(|word| (Role::Button, of_word(word))).into(),
+        // a box for each that has something to repair, and words for all at once
+        (Kind::Repairs, _) => {
+            let usable = Repair::ALL.into_iter().filter(|repair| (repair.row().missing_in)(scene).is_none());
+            usable.map(|repair| (Role::CheckBox, repair.row().title.to_owned())).collect()
+        }
         (_, Look::Typed) => one(Role::SpinButton),
         _ => one(Role::Slider),
     }
@@ -71,6 +77,11 @@ fn move_control(node: &Node, (look, kind): (&Look, &Kind), name: &str, value: Va
                 "Roulette: survive" => Roulette { probability: Some(0.8), ..before },
                 _ => Roulette { throughput: !before.throughput, ..before },
             })
+        }
+        (Look::Repairs, Value::Repairs(before)) => {
+            node.click_accesskit();
+            let ticked = Repair::ALL.into_iter().find(|repair| repair.row().title == name).expect("a repair");
+            Value::Repairs(if before.has(ticked) { before.without(ticked) } else { before.with(ticked) })
         }
         (Look::LightPaths, _) => {
             node.click_accesskit();

@@ -56,6 +56,8 @@ pub enum Look {
     Words(&'static [(&'static str, &'static str)]),
     /// Names of parts of the light with their number, and an expression to be typed.
     LightPaths,
+    /// A box to tick for each repair of the fake.
+    Repairs,
 }
 
 /// Decimals of a number that is told, where its step has no more.
@@ -164,7 +166,8 @@ mod tests {
             }
             (Kind::Whole(_), Look::Typed)
             | (Kind::Bounces, Look::WholeOrNone(_))
-            | (Kind::LightPaths, Look::LightPaths) => true,
+            | (Kind::LightPaths, Look::LightPaths)
+            | (Kind::Repairs, Look::Repairs) => true,
             (Kind::Choice(accepted), Look::Words(words)) => {
                 words.iter().all(|(word, _)| accepted.contains(&word.replace(' ', "-").as_str()))
             }

@@ -10,7 +10,7 @@ pub use rows::{OF_SCENES, all_of_panes, light_words};
 use crate::{PaneSettings, SceneChanges, Technique, TechniqueName, bounces_name, roulette_name};
 use image_file::Records;
 use pathtrace::{LightPaths, Roulette};
-use raster::Show;
+use raster::{Repairs, Show};
 use scene::Scene;
 use std::fmt;
 use std::ops::RangeInclusive;
@@ -67,6 +67,8 @@ pub enum Kind {
     Roulette,
     /// The part of the light that counts, by a name or an expression.
     LightPaths,
+    /// Repairs of the fake: names with + between, none or all.
+    Repairs,
 }
 
 /// A value of a setting.
@@ -84,6 +86,8 @@ pub enum Value {
     Roulette(Roulette),
     /// The part of the light that counts.
     LightPaths(LightPaths),
+    /// What is repaired of the fake.
+    Repairs(Repairs),
 }
 
 /// What a scene must have.
@@ -140,6 +144,7 @@ impl Kind {
             Kind::Bounces => word.parse().ok().map(|n| Value::Bounces(Some(n))),
             Kind::Roulette => roulette(word).map(Value::Roulette),
             Kind::LightPaths => return rows::light_paths(word),
+            Kind::Repairs => Repairs::parse(word).ok().map(Value::Repairs),
         };
         value.ok_or_else(|| self.expected())
     }
@@ -159,6 +164,7 @@ impl Kind {
             Kind::Bounces => format!("a whole number from 0 to {} or inf", u32::MAX),
             Kind::Roulette => "a probability above 0 and at most 1, throughput, both as P+throughput, or off".into(),
             Kind::LightPaths => rows::LIGHT_PATHS.into(),
+            Kind::Repairs => format!("none, all, or some of {} with + between", Repairs::names().join(", ")),
         }
     }
 
@@ -197,6 +203,7 @@ impl fmt::Display for Value {
             Value::Bounces(bounces) => f.write_str(&bounces_name(*bounces)),
             Value::Roulette(roulette) => f.write_str(&roulette_name(*roulette)),
             Value::LightPaths(paths) => paths.fmt(f),
+            Value::Repairs(repairs) => repairs.fmt(f),
         }
     }
 }

@@ -82,6 +82,7 @@ fn examples(kind: &Kind) -> Vec<String> {
         Kind::Bounces => ["0", "7", "inf"].map(str::to_owned).into(),
         Kind::Roulette => ["off", "throughput", "0.5", "0.8+throughput"].map(str::to_owned).into(),
         Kind::LightPaths => ["all", "direct", "bounce-3", "L(D|S)*[GS]+.?E"].map(str::to_owned).into(),
+        Kind::Repairs => ["none", "all", "sky+fresnel"].map(str::to_owned).into(),
     }
 }
 

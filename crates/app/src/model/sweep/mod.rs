@@ -162,6 +162,7 @@ fn values_of(row: &Setting<PaneSettings>, technique: TechniqueName, scene: &Scen
         }
         (_, look @ (Look::Steps { .. } | Look::Logarithmic(_))) => numbers_of(look),
         (_, Look::LightPaths) => ["all", "direct", "indirect", "bounce-1"].map(String::from).into(),
+        (_, Look::Repairs) => ["none", "two-interfaces", "surroundings+two-interfaces", "all"].map(String::from).into(),
         (_, Look::Typed | Look::Words(_)) => ["1", "2", "3", "4"].map(String::from).into(),
     }
 }

@@ -8,6 +8,7 @@ mod head;
 mod light;
 mod pane;
 mod presets;
+mod repairs;
 mod scene;
 mod setting;
 

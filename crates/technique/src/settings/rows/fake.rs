@@ -3,7 +3,7 @@
 use super::{BLANK, LOCAL, PLAIN, RASTER, each, named, number, whole};
 use crate::settings::{Control, Kind, Look, Need, Setting, Value};
 use crate::{PaneSettings, TechniqueName};
-use raster::{Fake, FakeKnobs, Shading, ShadowFilter, Show};
+use raster::{Fake, FakeKnobs, Repair, Repairs, Shading, ShadowFilter, Show};
 use scene::Scene;
 use scene::stand_ins::FakeMaterial;
 
@@ -24,6 +24,39 @@ pub const ROWS: &[Setting<PaneSettings>] = &[
                 ("fair", "The fake on the light that is traced, linear"),
                 ("as-taught", "As the tutorial's viewer drew it: its bytes are the light"),
             ]),
+            ..BLANK
+        },
+        ..PLAIN
+    },
+    Setting {
+        name: "repairs",
+        of: RASTER,
+        kind: Kind::Repairs,
+        letter: "NAMES",
+        default: Some(Value::Repairs(Repairs::NONE)),
+        help: "what is repaired of the fair fake: none, all, or names with + between",
+        acts: |pane, scene| draws_surfaces(pane, scene) && pane.fake.fake == Fake::Fair,
+        get: |pane| Some(Value::Repairs(pane.fake.repairs)),
+        set: |pane, value| {
+            let Value::Repairs(repairs) = value else { return };
+            pane.fake.repairs = repairs;
+        },
+        control: Control {
+            label: "Repairs",
+            aside: |value| match value {
+                Value::Repairs(repairs) if repairs != Repairs::NONE => {
+                    format!(" ({} of {})", repairs.count(), Repair::ALL.len())
+                }
+                _ => String::new(),
+            },
+            brief: Some(|value| match value {
+                Value::Repairs(Repairs::ALL) => "all repairs".into(),
+                Value::Repairs(repairs) if repairs.count() > 2 => format!("{} repairs", repairs.count()),
+                repairs => format!("repaired: {repairs}"),
+            }),
+            hover: "Defects of the fake, one by one, in the order in which light meets them: what each repair does is told at its name",
+            look: Look::Repairs,
+            more: RASTER,
             ..BLANK
         },
         ..PLAIN
