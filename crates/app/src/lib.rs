@@ -11,6 +11,7 @@ pub mod cli;
 pub mod engine;
 pub mod environment;
 pub mod lab_report;
+pub mod ladder;
 pub mod lettering;
 pub mod model;
 pub mod ruler;

@@ -8,6 +8,7 @@ mod compare;
 mod denoise;
 mod info;
 mod interrupt;
+mod ladder;
 mod merge;
 mod original;
 mod reference;
@@ -16,7 +17,8 @@ mod report;
 mod sweep;
 
 pub use args::{
-    BenchArgs, CheckArgs, CompareArgs, DenoiseArgs, MergeArgs, ReferenceArgs, RenderArgs, ReportArgs, Seen, SweepArgs,
+    BenchArgs, CheckArgs, CompareArgs, DenoiseArgs, LadderArgs, MergeArgs, ReferenceArgs, RenderArgs, ReportArgs, Seen,
+    SweepArgs,
 };
 
 use crate::model::ViewArgs;
@@ -45,6 +47,8 @@ pub enum Command {
     Check(CheckArgs),
     /// Many pictures of one scene as one.
     Sweep(Box<SweepArgs>),
+    /// The fake, repaired step by step.
+    Ladder(Box<LadderArgs>),
     /// Adapters, limits, and what would be used.
     Info,
     /// A text to print.
@@ -115,6 +119,7 @@ impl Command {
             Command::Reference(args) => reference::run(&args),
             Command::Check(args) => check::run(&args),
             Command::Sweep(args) => sweep::run(&args),
+            Command::Ladder(args) => ladder::run(&args),
             Command::Info => info::run(),
             Command::Print(text) => print(&text),
         }

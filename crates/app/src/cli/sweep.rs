@@ -136,7 +136,7 @@ fn make(plan: &SweepPlan, shot: &Shot) -> anyhow::Result<Vec<Tile>> {
 }
 
 /// What the fake is drawn by, and what rays are traced on.
-fn devices() -> Devices {
+pub fn devices() -> Devices {
     Devices {
         threads: Arc::new(Threads::all()),
         open_gpu: Box::new(|| Gpu::headless().context("the raster technique needs a GPU")),

@@ -12,6 +12,7 @@ mod files;
 mod films;
 #[cfg(unix)]
 mod interrupts;
+mod ladder;
 mod light;
 mod merge;
 mod pictures;

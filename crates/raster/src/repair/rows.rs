@@ -25,16 +25,16 @@ pub const ROWS: [Row; Repair::ALL.len()] = [
     Row {
         repair: Repair::Antialiasing,
         name: "antialiasing",
-        title: "Antialiasing and tessellation",
+        title: "Antialiasing, tessellation",
         text: "Four samples a pixel leave steps at edges and in the far checkerboard, and a sphere of a hundred segments has corners. \
-               Eight samples at the places of Direct3D's standard pattern, and spheres of 256 segments: steps of an eighth stay.",
+               Eight samples at the places of Direct3D's standard pattern, and spheres of 160 segments: steps of an eighth stay.",
         slide: "Task 1: Faking Whitted with rasterisation",
         missing_in: |_| None,
     },
     Row {
         repair: Repair::Sky,
         name: "sky",
-        title: "A sky instead of constant ambient light",
+        title: "A sky, not ambient light",
         text: "Ambient light comes from everywhere, under a ball too. Instead each sphere takes from a point the share of the sky that it \
                covers, weighed by the cosine, in closed form; and the sky that glass and mirrors show has the sun in it. Other shapes \
                still take no sky away.",
@@ -44,7 +44,7 @@ pub const ROWS: [Row; Repair::ALL.len()] = [
     Row {
         repair: Repair::OwnShadow,
         name: "own-shadow",
-        title: "The own shadow in the cube map",
+        title: "Own shadow in cube maps",
         text: "A glass is hidden while its cube map is drawn, and its shadow with it: seen through the glass the floor below it is lit. \
                The shadow map of the picture serves the cube maps too.",
         slide: "Task 1: Refraction, cube map",
@@ -53,7 +53,7 @@ pub const ROWS: [Row; Repair::ALL.len()] = [
     Row {
         repair: Repair::FrontFace,
         name: "front-face",
-        title: "Refraction at the front face",
+        title: "Bent at the front face",
         text: "The fake draws the far side of the glass and bends light there, as if it had entered unbent. Instead the near side is drawn, \
                where light from the eye meets the glass first. Of its way inside and out again nothing is known yet.",
         slide: "Task 1: Refraction, ratio of refraction indices",
@@ -62,7 +62,7 @@ pub const ROWS: [Row; Repair::ALL.len()] = [
     Row {
         repair: Repair::ProxySphere,
         name: "proxy-sphere",
-        title: "Parallax: a sphere about the cube map",
+        title: "Parallax by a sphere",
         text: "A cube map is looked up by direction alone, as if everything were infinitely far away. Instead the ray is followed to a \
                sphere about the map's middle, as large as the way to what is next to it (Lagarde and Zanuttini 2012). What is not on \
                that sphere is still seen in a wrong place.",
@@ -72,7 +72,7 @@ pub const ROWS: [Row; Repair::ALL.len()] = [
     Row {
         repair: Repair::Surroundings,
         name: "surroundings",
-        title: "Parallax: the surroundings themselves",
+        title: "Parallax by distances",
         text: "The cube map keeps how far away it saw each thing, and the ray is followed until it lies behind one (Szirmay-Kalos et al. \
                2005), whatever the shape of the room. What the map's middle does not see stays unknown.",
         slide: "Task 1: Refraction, cube map",
@@ -81,7 +81,7 @@ pub const ROWS: [Row; Repair::ALL.len()] = [
     Row {
         repair: Repair::TwoInterfaces,
         name: "two-interfaces",
-        title: "Light bends at both interfaces",
+        title: "Bent at both interfaces",
         text: "Light enters a sphere of glass and leaves it again; in the fake it bends once. A ray is bent where it enters, followed \
                through the sphere, and bent where it leaves, in closed form. Glass of other shapes bends light at its front face alone.",
         slide: "Task 1: Refraction; Whitted: refracted rays",
@@ -90,7 +90,7 @@ pub const ROWS: [Row; Repair::ALL.len()] = [
     Row {
         repair: Repair::Fresnel,
         name: "fresnel",
-        title: "Fresnel and total internal reflection",
+        title: "Fresnel reflection",
         text: "The fake shows a tenth of white in nine tenths of what lies behind. Instead Fresnel's equations say what is reflected and \
                what goes through, and light that grazes a bubble does not get in at all. Of light that is reflected inside, once is counted.",
         slide: "Whitted: reflected and refracted rays",

@@ -1,7 +1,7 @@
 //! The text of `--help`, made from the tables of options and of settings: what is in none of them is no option.
 
 use super::options::CommandOption;
-use super::{bench, check, compare, denoise, merge, reference, render, report, sweep, view};
+use super::{bench, check, compare, denoise, ladder, merge, reference, render, report, sweep, view};
 use technique::TechniqueName;
 use technique::settings::{OF_SCENES, Setting, all_of_panes};
 
@@ -152,6 +152,13 @@ fn commands() -> Vec<Block> {
             "many pictures of one scene as one: a strip of 2 to 8 values of a setting of render, or of technique; a matrix of two \
              settings, 16 tiles at most; each tile is what render makes of the same settings",
             &sweep::options(),
+        )
+        .with_scene_settings(),
+        Block::new(
+            "visavis ladder SCENE -o DIR",
+            "from the fake as taught to the truth, one repaired defect a rung: for each its picture, the error that is left against the \
+             scene's reference, which is made if it is not there, and milliseconds a frame",
+            &ladder::options(),
         )
         .with_scene_settings(),
         Block::new(

@@ -5,6 +5,7 @@ pub mod check;
 pub mod compare;
 pub mod denoise;
 mod help;
+pub mod ladder;
 pub mod merge;
 pub mod options;
 pub mod reference;
@@ -20,6 +21,7 @@ pub use bench::BenchArgs;
 pub use check::CheckArgs;
 pub use compare::CompareArgs;
 pub use denoise::DenoiseArgs;
+pub use ladder::LadderArgs;
 pub use merge::MergeArgs;
 pub use reference::ReferenceArgs;
 pub use render::{RenderArgs, made_by};
@@ -58,6 +60,7 @@ impl Command {
             "merge" => merge::parse,
             "bench" => bench::parse,
             "sweep" => sweep::parse,
+            "ladder" => ladder::parse,
             "info" => parse_info,
             "check" => check::parse,
             "reference" => reference::parse,

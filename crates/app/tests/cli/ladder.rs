@@ -1,0 +1,62 @@
+//! The ladder without a window: each rung is the picture that `render` makes of the same settings.
+
+use super::{assert_refused, json, program, visavis};
+use visavis_tests::TestFolder;
+
+#[test]
+fn each_rung_has_a_picture_that_its_command_makes_again_and_errors_fall_to_the_truth() {
+    let folder = TestFolder::new();
+    let out = folder.file("rungs").display().to_string();
+    let report = json(&visavis(&["ladder", "cornell", "-o", &out, "--size", "48x36", "--spp", "64", "--json"]));
+    let rungs = report["rungs"].as_array().expect("rungs");
+    let names: Vec<_> = rungs.iter().map(|rung| rung["name"].as_str().expect("a name")).collect();
+    assert_eq!(names, ["as-taught", "encoding", "antialiasing", "soft-shadows", "whitted", "path"]);
+    let error = |index: usize| rungs[index]["relmse"].as_f64().expect("a figure");
+    assert!(error(5) < 0.2 * error(1) && rungs.iter().all(|rung| rung["anew_ms"].as_f64() > Some(0.0)));
+    let idle = report["idle"].as_array().expect("what there is no use for");
+    assert!(idle.iter().any(|repair| repair["name"] == "mirrors" && repair["missing"] == "mirror"));
+    let again = folder.file("again.png");
+    for (index, rung) in rungs.iter().enumerate() {
+        let mut words: Vec<&str> = rung["command"].as_str().expect("a command").split(' ').skip(1).collect();
+        let place = words.iter().position(|word| *word == "-o").expect("an output");
+        let again = again.display().to_string();
+        words[place + 1] = &again;
+        assert!(program().args(&words).status().expect("the program").success(), "{words:?}");
+        let pixels = |file: &std::path::Path| image::open(file).expect("a picture").to_rgba8();
+        let kept = folder.file("rungs").join(format!("{index:02}-{}.png", names[index]));
+        assert!(pixels(&kept) == pixels(again.as_ref()), "{} is another picture", kept.display());
+    }
+    let csv = std::fs::read_to_string(folder.file("rungs").join("ladder.csv")).expect("a table");
+    assert_eq!(csv.lines().count(), 1 + rungs.len());
+    let svg = std::fs::read_to_string(folder.file("rungs").join("ladder.svg")).expect("a chart");
+    assert!(svg.contains("Path tracing") && svg.ends_with("</svg>\n"));
+    let sheet = image::open(folder.file("rungs").join("sheet.png")).expect("a sheet");
+    assert!(sheet.width() > 4 * 48 && sheet.height() > 2 * 36);
+}
+
+#[test]
+fn best_first_begins_with_what_is_worth_most_and_ends_where_the_other_order_does() {
+    let folder = TestFolder::new();
+    let climbed = |order: &str| {
+        let out = folder.file(order).display().to_string();
+        let words = ["ladder", "whitted", "-o", &out, "--size", "32x18", "--spp", "1", "--order", order, "--json"];
+        let report = json(&visavis(&words));
+        let rungs = report["rungs"].as_array().expect("rungs").clone();
+        let of = |name: &str| rungs.iter().position(|rung| rung["name"] == name).expect("a rung");
+        let last = rungs.len() - 3;
+        (of("mirrors"), of("sky"), rungs[last]["relmse"].as_f64().expect("a figure"))
+    };
+    let (mirrors, sky, end) = climbed("best-first");
+    let (.., end_of_other) = climbed("light");
+    // seen in the picture the mirror is most of the error, and the sky's share is none that pays
+    assert!(mirrors < sky && (end - end_of_other).abs() < 1e-6 * end, "{mirrors} {sky} {end} {end_of_other}");
+}
+
+#[test]
+fn what_is_missing_or_wrong_is_said() {
+    let refused = |words: &[&str], line: &str| assert_refused(words, 2, &[line]);
+    refused(&["ladder"], "ladder needs a scene: visavis ladder SCENE -o DIR");
+    refused(&["ladder", "whitted"], "ladder needs a folder for its pictures: -o DIR");
+    refused(&["ladder", "whitted", "-o", "x", "--order", "worst"], "--order worst: expected light or best-first");
+    refused(&["ladder", "whitted", "-o", "x", "--spp", "0"], "--spp 0: expected a whole number from 1");
+}
