@@ -5,7 +5,7 @@
 use super::baking::is_instanced;
 use super::bvh2::Bvh2;
 use super::bvh8::Bvh8;
-use super::bvh8_collapse::Shapes;
+use super::bvh8_collapse::Listed;
 use super::coincident::Groups;
 use super::cutouts::Cutouts;
 use super::instances::Instances;
@@ -39,7 +39,7 @@ impl Accel {
         let is_left_out = |shape: &Shape| is_instanced(scene, shape);
         let (primitives, surfaces, groups, owners) = primitives(scene, light_of_shape, is_left_out);
         let count = primitives.len();
-        let shapes = Shapes { primitives: &primitives, surfaces: &surfaces };
+        let shapes = Listed { primitives: &primitives, surfaces: &surfaces };
         let eight = if count < LARGE { None } else { Bvh8::new(shapes, RowLanes::nearest_to(Lanes::best())) };
         let cutouts = Cutouts::of(scene);
         let hierarchy = match eight {
@@ -133,6 +133,9 @@ impl Accel {
     /// Whether anything beside large meshes that `blocks` lies on the ray before `ray.tmax`.
     #[inline]
     pub fn occluded_by(&self, ray: &Ray, blocks: impl Fn(Blocker) -> bool) -> bool {
+        if self.count == 0 {
+            return false;
+        }
         match &self.hierarchy {
             Hierarchy::Two(bvh) => bvh.occluded_by(ray, blocks),
             Hierarchy::Eight(bvh) => bvh.occluded_by(ray, blocks),

@@ -211,10 +211,15 @@ impl<'a> Leaf<'a> {
     }
 }
 
+/// Whether a block is a node, and not a leaf.
+pub(super) fn is_node(block: &Block) -> bool {
+    block[KIND] != 0.0
+}
+
 /// Copies a block of a part of the hierarchy whose blocks and round shapes come after so many of others.
 pub(super) fn copy_moved(to: &mut Block, from: &Block, blocks: usize, curved: usize) {
     *to = *from;
-    if from[KIND] != 0.0 {
+    if is_node(from) {
         for child in &mut to[CHILDREN..CHILDREN + 8] {
             *child = f32::from_bits(Child(child.to_bits()).moved(blocks, curved).0);
         }

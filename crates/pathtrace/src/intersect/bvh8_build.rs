@@ -7,7 +7,7 @@
 //! keep.
 
 use super::bvh8::{Block, Blocks, Bvh8, Child, Node, copy_moved};
-use super::bvh8_collapse::{Forest, Link, Part, Place, Shapes, Tree};
+use super::bvh8_collapse::{Forest, Link, Listed, Part, Place, Shapes, Tree};
 use super::bvh8_walk::DEEPEST;
 use super::coincident::Groups;
 use super::primitive::{Primitive, padding};
@@ -53,7 +53,7 @@ impl Boxed {
 
 impl Bvh8 {
     /// `None` if the hierarchy would be deeper than a walk can be, or of nothing.
-    pub fn new(shapes: Shapes, lanes: RowLanes) -> Option<Self> {
+    pub fn new(shapes: Listed, lanes: RowLanes) -> Option<Self> {
         if shapes.primitives.is_empty() {
             return None;
         }
@@ -74,12 +74,12 @@ impl Bvh8 {
             let top = binary(&boxes, (0..boxes.len() as u32).collect(), REINSERTED[1]);
             trees.push(Tree::of_trees(top, &ends, &trees));
         }
-        furnished(&Forest { trees, ends, shapes }, lanes)
+        furnished(Forest { trees, ends, shapes }, lanes)
     }
 }
 
 /// Halves space until pieces are small, and makes a tree of each.
-fn split(boxed: &mut [Boxed], shapes: Shapes) -> Vec<Tree> {
+fn split(boxed: &mut [Boxed], shapes: Listed) -> Vec<Tree> {
     if boxed.len() <= PIECE {
         let bvh = binary(boxed, boxed.iter().map(|b| b.shape).collect(), REINSERTED[0]);
         return vec![Tree::of_shapes(bvh, shapes)];
@@ -119,8 +119,8 @@ fn binary<T: Boundable>(boxes: &[T], numbers: Vec<u32>, reinserted: f32) -> Bvh2
     bvh
 }
 
-/// Puts the hierarchy that a forest plans into blocks.
-fn furnished(forest: &Forest, lanes: RowLanes) -> Option<Bvh8> {
+/// Puts the hierarchy that a forest plans into blocks; `None` if it is deeper than a walk can be.
+pub(super) fn furnished(forest: Forest<impl Shapes>, lanes: RowLanes) -> Option<Bvh8> {
     let (mut top, mut links, mut depth) = (Vec::new(), Vec::new(), 0);
     let mut asked = vec![Vec::new(); forest.trees.len()];
     if forest.is_top(forest.root()) {
@@ -141,6 +141,8 @@ fn furnished(forest: &Forest, lanes: RowLanes) -> Option<Bvh8> {
         part
     };
     let parts: Vec<Part> = asked.into_par_iter().map(part_of).collect();
+    // a plan takes twice the memory of what is planned
+    drop(forest);
     depth += parts.iter().map(|part| part.depth).max().unwrap_or(0);
     (depth <= DEEPEST).then(|| join(top, &links, parts, lanes))
 }

@@ -12,11 +12,29 @@ use obvhs::bvh2::node::Bvh2Node;
 /// Children of a node.
 const WIDTH: usize = 8;
 
-/// What the hierarchies' leaves refer to.
+/// What the hierarchies' leaves refer to, by number.
+pub(super) trait Shapes: Copy + Sync {
+    /// What rays are held against.
+    fn primitive(&self, shape: u32) -> Primitive;
+    /// What shading asks of it.
+    fn surface(&self, shape: u32) -> Surface;
+}
+
+/// Shapes in lists, by their places.
 #[derive(Clone, Copy)]
-pub(super) struct Shapes<'a> {
+pub(super) struct Listed<'a> {
     pub primitives: &'a [Primitive],
     pub surfaces: &'a [Surface],
+}
+
+impl Shapes for Listed<'_> {
+    fn primitive(&self, shape: u32) -> Primitive {
+        self.primitives[shape as usize]
+    }
+
+    fn surface(&self, shape: u32) -> Surface {
+        self.surfaces[shape as usize]
+    }
 }
 
 /// How best to represent a subtree by several nodes and leaves.
@@ -64,8 +82,8 @@ pub(super) struct Tree {
 
 impl Tree {
     /// A tree of shapes, each in a leaf whose `first_index` it is.
-    pub fn of_shapes(bvh: Bvh2, shapes: Shapes) -> Self {
-        let size = |shape: u32| match shapes.primitives[shape as usize] {
+    pub fn of_shapes(bvh: Bvh2, shapes: impl Shapes) -> Self {
+        let size = |shape: u32| match shapes.primitive(shape) {
             Primitive::Triangle(_) => 1,
             Primitive::Sphere(_) | Primitive::Disk(_) => LEAF_WIDTH as u32 + 1,
         };
@@ -140,11 +158,11 @@ pub(super) struct Place {
 }
 
 /// Trees of shapes and, as the last, the tree over their subtrees, unless there is but one.
-pub(super) struct Forest<'a> {
+pub(super) struct Forest<S> {
     pub trees: Vec<Tree>,
     /// What the leaves of the last are.
     pub ends: Vec<Place>,
-    pub shapes: Shapes<'a>,
+    pub shapes: S,
 }
 
 /// A part of the hierarchy, numbered as if it were alone.
@@ -165,7 +183,7 @@ pub(super) struct Link {
     pub place: Place,
 }
 
-impl Forest<'_> {
+impl<S: Shapes> Forest<S> {
     /// Where the hierarchy begins.
     pub fn root(&self) -> Place {
         Place { tree: self.trees.len() - 1, node: 0 }
@@ -240,13 +258,12 @@ impl Forest<'_> {
 
     /// Adds a sphere, a disk, or triangles side by side.
     fn add_leaf(&self, place: Place, part: &mut Part) -> Child {
-        let Shapes { primitives, surfaces } = self.shapes;
         let tree = &self.trees[place.tree];
         let mut block = Leaf::EMPTY;
         for (lane, node) in tree.subtrees(place.node, 1).into_iter().enumerate() {
             let id = tree.node(node).first_index;
-            let surface = surfaces[id as usize];
-            match primitives[id as usize] {
+            let surface = self.shapes.surface(id);
+            match self.shapes.primitive(id) {
                 Primitive::Triangle(triangle) => Leaf::set_triangle(&mut block, lane, triangle.corners, id, &surface),
                 primitive => {
                     part.curved.push(Curved { primitive, id, surface });

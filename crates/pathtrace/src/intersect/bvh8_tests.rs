@@ -4,7 +4,7 @@
 use super::Ray;
 use super::bvh2::Bvh2;
 use super::bvh8::Bvh8;
-use super::bvh8_collapse::Shapes;
+use super::bvh8_collapse::Listed;
 use super::disk::Disk;
 use super::primitive::{Primitive, Surface};
 use super::sphere::Sphere;
@@ -43,8 +43,8 @@ impl Model {
         self.primitives.push(primitive);
     }
 
-    fn shapes(&self) -> Shapes<'_> {
-        Shapes { primitives: &self.primitives, surfaces: &self.surfaces }
+    fn shapes(&self) -> Listed<'_> {
+        Listed { primitives: &self.primitives, surfaces: &self.surfaces }
     }
 
     /// A surface over a grid of `n` by `n` quads, from the unit square's points.

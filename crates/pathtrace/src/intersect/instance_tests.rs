@@ -54,13 +54,13 @@ fn nearest(tree: &MeshTree, ray: &Ray) -> Option<(u32, u32)> {
     hits.min_by(|a, b| a.partial_cmp(b).unwrap()).map(|(t, place)| (t.to_bits(), place))
 }
 
-/// Whether the tree without decoding meets the same by every bit.
+/// Whether the tree that is unpacked meets the same by every bit.
 fn unpacked_finds_the_same(tree: &MeshTree, ray: &Ray, lanes: RowLanes) -> bool {
     let packed = lanes.run(ClosestOf { tree, ray });
     let packed = packed.map(|hit| (hit.t.to_bits(), hit.triangle, hit.barycentrics().map(f32::to_bits)));
-    let unpacked = tree.unpacked().closest(ray);
-    let unpacked = unpacked.map(|hit| (hit.t.to_bits(), hit.primitive, hit.barycentrics.map(f32::to_bits)));
-    packed == unpacked && packed.is_some() == tree.unpacked().occluded(ray)
+    let unpacked = tree.unpacked().expect("it is not deep");
+    let hit = unpacked.closest(ray).map(|hit| (hit.t.to_bits(), hit.primitive, hit.barycentrics.map(f32::to_bits)));
+    packed == hit && packed.is_some() == unpacked.occluded(ray)
 }
 
 #[test]

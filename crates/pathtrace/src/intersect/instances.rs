@@ -44,6 +44,8 @@ struct Placed {
     tree: Arc<MeshTree>,
     to_world: DAffine3,
     to_mesh: DAffine3,
+    /// Whether it stands where its own space says.
+    is_in_place: bool,
     /// Of normals: the inverse transposed.
     normals_to_world: DMat3,
     /// Absolute values of `to_world`'s matrix: how far errors in the mesh's space reach.
@@ -140,8 +142,10 @@ impl Instances {
     #[inline(always)]
     fn closest_of(&self, placed: &Placed, ray: &Ray, tmax: f32) -> Option<Hit> {
         let (tree, ray) = (&*placed.tree, &placed.ray_in_mesh(ray, tmax));
-        if self.unpacked {
-            return tree.unpacked().closest(ray);
+        if self.unpacked
+            && let Some(unpacked) = tree.unpacked()
+        {
+            return unpacked.closest(ray);
         }
         let hit = self.lanes.run(ClosestOf { tree, ray })?;
         Some(Hit { t: hit.t, primitive: hit.triangle, instance: NO_INSTANCE, barycentrics: hit.barycentrics() })
@@ -150,7 +154,12 @@ impl Instances {
     #[inline(always)]
     fn is_occluded_by(&self, placed: &Placed, ray: &Ray) -> bool {
         let (tree, ray) = (&*placed.tree, &placed.ray_in_mesh(ray, ray.tmax));
-        if self.unpacked { tree.unpacked().occluded(ray) } else { self.lanes.run(OccludedBy { tree, ray }) }
+        if self.unpacked
+            && let Some(unpacked) = tree.unpacked()
+        {
+            return unpacked.occluded(ray);
+        }
+        self.lanes.run(OccludedBy { tree, ray })
     }
 
     /// Shows those whose boxes the ray meets to the visitor, which says how far it goes from there on; `None` ends it.
@@ -215,16 +224,23 @@ impl Placed {
         if !to_mesh.is_finite() {
             return None;
         }
+        let is_in_place = to_world == DAffine3::IDENTITY;
         let m = to_world.matrix3;
         let reach = DMat3::from_cols(m.x_axis.abs(), m.y_axis.abs(), m.z_axis.abs());
         let normals_to_world = to_mesh.matrix3.transpose();
         let material = shape.material as u32;
         let tree = MeshTree::of(mesh, &|_| true)?;
         let bounds = bounds_of(&tree.mesh, &to_world, &reach);
-        Some(Placed { tree, to_world, to_mesh, normals_to_world, reach, bounds, material, shape: index as u32 })
+        let shape = index as u32;
+        Some(Placed { tree, to_world, to_mesh, is_in_place, normals_to_world, reach, bounds, material, shape })
     }
 
+    #[inline(always)]
     fn ray_in_mesh(&self, ray: &Ray, tmax: f32) -> Ray {
+        if self.is_in_place {
+            // what the map to itself makes of it, by every bit: it knows no -0.0
+            return Ray { origin: ray.origin + Vec3::ZERO, tmax, ..*ray };
+        }
         let origin = self.to_mesh.transform_point3(ray.origin.as_dvec3()).as_vec3();
         let direction = self.to_mesh.transform_vector3(ray.direction.as_dvec3()).as_vec3();
         Ray { tmax, ..Ray::new(origin, direction) }

@@ -84,11 +84,16 @@ fn nodes_of(mesh: &Mesh, make: Make, progress: Progress) -> Option<Tree> {
     (!stopped.load(Ordering::Relaxed)).then(|| joined(pieces, make))
 }
 
-/// The triangles' boxes, padded as [`super::primitive::padding`] pads those of a scene.
-fn boxes_of(mesh: &Mesh) -> Vec<Boxed> {
+/// How much the boxes of a mesh's triangles are grown, as [`super::primitive::padding`] says it of a scene's.
+pub(super) fn padding(mesh: &Mesh) -> Vec3 {
     let (lo, hi) = mesh.bounds();
     let largest = lo.abs().max(hi.abs()).max_element();
-    let padding = Vec3::splat((largest + (hi - lo).max_element()) / 1_048_576.0 + super::gamma(1) * largest);
+    Vec3::splat((largest + (hi - lo).max_element()) / 1_048_576.0 + super::gamma(1) * largest)
+}
+
+/// The triangles' padded boxes.
+fn boxes_of(mesh: &Mesh) -> Vec<Boxed> {
+    let padding = padding(mesh);
     let boxed = |(index, triangle): (usize, &[u32; 3])| {
         let [a, b, c] = triangle.map(|corner| mesh.positions()[corner as usize]);
         Boxed { lower: a.min(b).min(c) - padding, upper: a.max(b).max(c) + padding, shape: index as u32 }

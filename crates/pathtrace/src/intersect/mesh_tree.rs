@@ -26,7 +26,7 @@ pub struct MeshTree {
     /// distance the first here is the hit, on either machine.
     pub triangles: Vec<[u32; 3]>,
     /// The same for fast rays on the processor, once somebody has asked for it.
-    unpacked: OnceLock<Unpacked>,
+    unpacked: OnceLock<Option<Unpacked>>,
 }
 
 /// A mesh that was asked for, and its tree.
@@ -78,14 +78,15 @@ impl MeshTree {
         }
     }
 
-    /// The same tree for fast rays on the processor, made once, which takes [`Unpacked::bytes`] more.
-    pub(super) fn unpacked(&self) -> &Unpacked {
-        self.unpacked.get_or_init(|| Unpacked::of(self))
+    /// The same tree for fast rays on the processor, made once, which takes [`Unpacked::bytes`] more; `None` if there
+    /// can be none.
+    pub(super) fn unpacked(&self) -> Option<&Unpacked> {
+        self.unpacked.get_or_init(|| on_threads_of_its_own(|| Unpacked::of(self))).as_ref()
     }
 
     /// Bytes that it takes beside its mesh.
     pub fn bytes(&self) -> usize {
-        let unpacked = self.unpacked.get().map_or(0, Unpacked::bytes);
+        let unpacked = self.unpacked.get().and_then(Option::as_ref).map_or(0, Unpacked::bytes);
         size_of_val(&*self.nodes) + size_of_val(&*self.triangles) + unpacked
     }
 }
@@ -220,6 +221,15 @@ mod tests {
         let ask = || MeshTree::of(&mesh, &|_| true).expect("a tree").triangles.len();
         let ((a, b), (c, d)) = pool.install(|| rayon::join(|| rayon::join(ask, ask), || rayon::join(ask, ask)));
         assert_eq!([a, b, c, d], [180_000; 4]);
+    }
+
+    #[test]
+    fn tasks_of_one_pool_that_ask_for_it_unpacked_at_once_do_not_wait_for_themselves() {
+        let tree = MeshTree::of(&sheet(300), &|_| true).expect("a tree");
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(2).build().expect("a pool");
+        let ask = || tree.unpacked().map(Unpacked::bytes);
+        let ((a, b), (c, d)) = pool.install(|| rayon::join(|| rayon::join(ask, ask), || rayon::join(ask, ask)));
+        assert!(a > Some(0) && [b, c, d] == [a; 3]);
     }
 
     #[test]

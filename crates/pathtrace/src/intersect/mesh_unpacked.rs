@@ -1,57 +1,68 @@
-//! A mesh's tree as the processor goes through it faster where there is memory for it: the same nodes and leaves, with
-//! the planes of boxes as floats and the corners of triangles side by side in blocks of a [`Bvh8`], so that nothing is
+//! A mesh's tree as the processor goes through it faster where there is memory for it: a [`Bvh8`], so that nothing is
 //! decoded, and looked up by index, on a ray's way.
 //!
-//! Triangles keep the order of their corners and their places in the tree's order: what a ray meets, at which distance
-//! and with which weights, is by every bit what [`super::mesh_walk`] finds.
+//! Leaves of the compressed tree name up to three triangles and seldom have so many, those of a [`Bvh8`] hold four side by
+//! side. So of the compressed nodes only what lies below which is taken: boxes are made anew from the triangles, children
+//! are joined by two into a binary hierarchy, and [`super::bvh8_collapse`] says which of its nodes and leaves to keep, as
+//! it does for small shapes.
+//!
+//! Triangles keep the order of their corners and their places in the tree's order, by which of several at one distance the
+//! first is met. Boxes of neither tree leave out what a ray meets: what it meets, at which distance and with which
+//! weights, is by every bit what [`super::mesh_walk`] finds.
 
-use super::bvh8::{Blocks, Bvh8, Child, Leaf, Node};
-use super::coincident::Groups;
+use super::bvh8::{Bvh8, Child};
+use super::bvh8_build::furnished;
+use super::bvh8_collapse::{Forest, Place, Shapes, Tree};
+use super::mesh_build::padding;
 use super::mesh_tree::MeshTree;
 use super::mesh_walk::{child, leaf};
-use super::primitive::Surface;
+use super::primitive::{Primitive, Surface};
+use super::triangle::Triangle;
 use super::{Hit, NO_INSTANCE, NO_LIGHT, Ray};
 use obvhs::aabb::Aabb;
+use obvhs::bvh2::Bvh2;
+use obvhs::bvh2::node::Bvh2Node;
 use obvhs::cwbvh::node::CwBvhNode;
+use rayon::prelude::*;
 use scene::Vec3;
 use scene::glam::Vec3A;
 use simd::{Lanes, RowLanes};
 
-/// Most triangles of all meshes of a scene together that are unpacked: they take about 200 bytes each.
-pub const MOST_UNPACKED: usize = 1 << 20;
+/// Most triangles of all meshes of a scene together that are unpacked: they take about 100 bytes each.
+pub const MOST_UNPACKED: usize = 1 << 21;
 
-/// Blocks of nodes, then of leaves.
+/// Most triangles of a part that is planned, and put into blocks, by one thread.
+const PART: usize = 8192;
+
+/// Triangles by their places in the tree's order.
 pub struct Unpacked(Bvh8);
 
 impl Unpacked {
-    /// Of a tree that is there.
-    pub fn of(tree: &MeshTree) -> Self {
-        let leaves = tree.nodes.iter().map(|node| children(node).filter(|(_, child)| child.is_leaf()).count());
-        let nodes = tree.nodes.len();
-        let mut blocks = Blocks::zeroed(nodes + leaves.sum::<usize>());
-        let (to_nodes, to_leaves) = blocks.all_mut().split_at_mut(nodes);
-        let mut next = 0;
-        for (node, block) in tree.nodes.iter().zip(to_nodes) {
-            *block = Node::EMPTY;
-            for (slot, packed) in children(node) {
-                let mut here = packed;
-                if packed.is_leaf() {
-                    fill(&mut to_leaves[next], tree, packed);
-                    here = Child::triangles(nodes + next);
-                    next += 1;
-                }
-                Node::set_child(block, slot, &bounds(node, slot), here);
-            }
+    /// Of a tree that is there, on all threads; `None` if it has no triangles or would be deeper than a walk can be.
+    pub fn of(tree: &MeshTree) -> Option<Self> {
+        let triangles = Triangles { tree, padding: padding(&tree.mesh) };
+        let sizes = sizes(&tree.nodes);
+        let is_part = |child: Child| child.is_leaf() || sizes[child.index()] <= PART;
+        let mut roots = Vec::new();
+        add_parts(&tree.nodes, Child::ROOT, &is_part, &mut roots);
+        let of_part = |root: &Child| {
+            let open = |child: Child| child.is_leaf().then(|| triangles.in_leaf(child));
+            Some(Tree::of_shapes(binary(&tree.nodes, *root, open)?, triangles))
+        };
+        let mut trees = roots.par_iter().map(of_part).collect::<Option<Vec<Tree>>>()?;
+        let mut ends = Vec::new();
+        if trees.len() > 1 {
+            // the same way down as that of `add_parts`
+            let open = |child: Child| {
+                let part = is_part(child).then_some(ends.len())?;
+                ends.push(Place { tree: part, node: 0 });
+                Some(vec![Bvh2Node::new(*trees[part].node(0).aabb(), 1, part as u32)])
+            };
+            let top = binary(&tree.nodes, Child::ROOT, open)?;
+            trees.push(Tree::of_trees(top, &ends, &trees));
         }
         let lanes = RowLanes::nearest_to(Lanes::best());
-        Unpacked(Bvh8 {
-            root: Child::ROOT,
-            blocks,
-            curved: Vec::new(),
-            groups: Groups::default(),
-            cutouts: None,
-            lanes,
-        })
+        furnished(Forest { trees, ends, shapes: triangles }, lanes).map(Unpacked)
     }
 
     /// The nearest hit before `ray.tmax`, whose primitive is the triangle's place in the tree's order.
@@ -80,35 +91,121 @@ impl Unpacked {
     pub fn bytes(&self) -> usize {
         size_of_val(self.0.blocks.all())
     }
-}
 
-/// A node's children with their slots.
-fn children(node: &CwBvhNode) -> impl Iterator<Item = (usize, Child)> + '_ {
-    (0..8).filter(|slot| !node.is_child_empty(*slot)).map(|slot| (slot, child(node, slot)))
-}
-
-/// A child's box, its planes rounded away from what is inside.
-fn bounds(node: &CwBvhNode, slot: usize) -> Aabb {
-    let corner = node.p.to_array();
-    let lows = [node.child_min_x[slot], node.child_min_y[slot], node.child_min_z[slot]];
-    let highs = [node.child_max_x[slot], node.child_max_y[slot], node.child_max_z[slot]];
-    let plane = |axis: usize, steps: u8| {
-        let step = f64::from(f32::from_bits(u32::from(node.e[axis]) << 23));
-        f64::from(corner[axis]) + f64::from(steps) * step
-    };
-    let below = |exact: f64| if f64::from(exact as f32) > exact { (exact as f32).next_down() } else { exact as f32 };
-    let low = Vec3::from([0, 1, 2].map(|axis| below(plane(axis, lows[axis]))));
-    let high = Vec3::from([0, 1, 2].map(|axis| -below(-plane(axis, highs[axis]))));
-    Aabb::new(Vec3A::from(low), Vec3A::from(high))
-}
-
-/// A leaf's triangles, each with its place in the tree's order.
-fn fill(block: &mut super::bvh8::Block, tree: &MeshTree, packed: Child) {
-    // what a hit's attributes are mixed from is looked up for the one that is left
-    let surface = Surface { normal: Vec3::ZERO, material: 0, light: NO_LIGHT };
-    let (first, count) = leaf(packed);
-    for lane in 0..count {
-        let corners = tree.triangles[first + lane].map(|corner| tree.mesh.positions()[corner as usize]);
-        Leaf::set_triangle(block, lane, corners, (first + lane) as u32, &surface);
+    /// How many nodes and leaves it has.
+    #[cfg(test)]
+    pub fn blocks(&self) -> [usize; 2] {
+        let all = self.0.blocks.all();
+        let nodes = all.iter().filter(|block| super::bvh8::is_node(block)).count();
+        [nodes, all.len() - nodes]
     }
+}
+
+/// The triangles of a tree, by their places in its order.
+#[derive(Clone, Copy)]
+struct Triangles<'a> {
+    tree: &'a MeshTree,
+    padding: Vec3,
+}
+
+impl Triangles<'_> {
+    fn corners(&self, place: usize) -> [Vec3; 3] {
+        self.tree.triangles[place].map(|corner| self.tree.mesh.positions()[corner as usize])
+    }
+
+    /// Each as a leaf of a binary hierarchy.
+    fn in_leaf(&self, packed: Child) -> Vec<Bvh2Node> {
+        let (first, count) = leaf(packed);
+        let node = |place: usize| {
+            let [a, b, c] = self.corners(place);
+            let (low, high) = (a.min(b).min(c) - self.padding, a.max(b).max(c) + self.padding);
+            Bvh2Node::new(Aabb::new(Vec3A::from(low), Vec3A::from(high)), 1, place as u32)
+        };
+        (first..first + count).map(node).collect()
+    }
+}
+
+impl Shapes for Triangles<'_> {
+    fn primitive(&self, place: u32) -> Primitive {
+        // unsorted, as the tree has them
+        Primitive::Triangle(Triangle::sorted(self.corners(place as usize)))
+    }
+
+    fn surface(&self, _: u32) -> Surface {
+        // what a hit's attributes are mixed from is looked up for the one that is left
+        Surface { normal: Vec3::ZERO, material: 0, light: NO_LIGHT }
+    }
+}
+
+/// What is in a node's boxes.
+fn children(node: &CwBvhNode) -> impl Iterator<Item = Child> + '_ {
+    (0..8).filter(|slot| !node.is_child_empty(*slot)).map(|slot| child(node, slot))
+}
+
+/// How many triangles lie below each node. Children lie behind their parents.
+fn sizes(nodes: &[CwBvhNode]) -> Vec<usize> {
+    let mut sizes = vec![0; nodes.len()];
+    for (index, node) in nodes.iter().enumerate().rev() {
+        let size = |child: Child| if child.is_leaf() { leaf(child).1 } else { sizes[child.index()] };
+        sizes[index] = children(node).map(size).sum();
+    }
+    sizes
+}
+
+/// The topmost nodes and leaves below a child that are parts.
+fn add_parts(nodes: &[CwBvhNode], below: Child, is_part: &impl Fn(Child) -> bool, parts: &mut Vec<Child>) {
+    if is_part(below) {
+        return parts.push(below);
+    }
+    for child in children(&nodes[below.index()]) {
+        add_parts(nodes, child, is_part, parts);
+    }
+}
+
+/// A binary hierarchy of what lies below a child; `open` says what stands for a child that it goes no further from.
+fn binary(nodes: &[CwBvhNode], below: Child, mut open: impl FnMut(Child) -> Option<Vec<Bvh2Node>>) -> Option<Bvh2> {
+    let mut binary = vec![Bvh2Node::default()];
+    binary[0] = joined(nodes, below, &mut open, &mut binary)?;
+    Some(Bvh2 { nodes: binary, ..Bvh2::default() })
+}
+
+/// Adds all of a child but its root, which it returns.
+fn joined(
+    nodes: &[CwBvhNode],
+    below: Child,
+    open: &mut impl FnMut(Child) -> Option<Vec<Bvh2Node>>,
+    binary: &mut Vec<Bvh2Node>,
+) -> Option<Bvh2Node> {
+    if let Some(roots) = open(below) {
+        return joined_by_two(roots, binary);
+    }
+    let mut roots = Vec::with_capacity(24);
+    for child in children(&nodes[below.index()]) {
+        match open(child) {
+            Some(opened) => roots.extend(opened),
+            None => roots.extend(joined(nodes, child, open, binary)),
+        }
+    }
+    joined_by_two(roots, binary)
+}
+
+/// Joins two at a time, those whose box is smallest together, until one is left.
+fn joined_by_two(mut roots: Vec<Bvh2Node>, binary: &mut Vec<Bvh2Node>) -> Option<Bvh2Node> {
+    while roots.len() > 1 {
+        let mut least = (f32::INFINITY, 0, 1);
+        for second in 1..roots.len() {
+            for first in 0..second {
+                let area = roots[first].aabb().union(roots[second].aabb()).half_area();
+                if area < least.0 {
+                    least = (area, first, second);
+                }
+            }
+        }
+        let (_, first, second) = least;
+        // the second first: what takes its place is none of both
+        let pair = [roots.swap_remove(second), roots.swap_remove(first)];
+        roots.push(Bvh2Node::new(pair[0].aabb().union(pair[1].aabb()), 0, binary.len() as u32));
+        binary.extend(pair);
+    }
+    roots.pop()
 }

@@ -32,6 +32,8 @@ pub mod instances;
 mod mesh_build;
 pub mod mesh_tree;
 mod mesh_unpacked;
+#[cfg(test)]
+mod mesh_unpacked_tests;
 mod mesh_walk;
 mod owners;
 pub(crate) mod pairs;
