@@ -94,11 +94,6 @@ impl Child {
         }
         (Self::triangles(index / LEAF_WIDTH), index % LEAF_WIDTH)
     }
-
-    /// Its blocks moved on by so many, and what is round too.
-    pub fn moved(self, blocks: usize, curved: usize) -> Self {
-        Child(self.0 + if self.is_curved() { curved } else { blocks } as u32)
-    }
 }
 
 /// A node or a leaf.
@@ -109,8 +104,6 @@ impl Child {
 pub(super) type Block = [f32; 64];
 
 const CHILDREN: usize = 6 * 8;
-/// The last float of a block is 1 in a node, 0 in a leaf.
-const KIND: usize = 63;
 const IDS: usize = 9;
 const NORMALS: usize = 10;
 const MATERIALS: usize = 13;
@@ -129,7 +122,6 @@ impl<'a> Node<'a> {
             block[i] = if i / 8 % 2 == 0 { f32::INFINITY } else { f32::NEG_INFINITY };
             i += 1;
         }
-        block[KIND] = 1.0;
         block
     };
 
@@ -208,21 +200,6 @@ impl<'a> Leaf<'a> {
         rows[IDS][lane] = f32::from_bits(id);
         rows[MATERIALS][lane] = f32::from_bits(surface.material);
         rows[LIGHTS][lane] = f32::from_bits(surface.light);
-    }
-}
-
-/// Whether a block is a node, and not a leaf.
-pub(super) fn is_node(block: &Block) -> bool {
-    block[KIND] != 0.0
-}
-
-/// Copies a block of a part of the hierarchy whose blocks and round shapes come after so many of others.
-pub(super) fn copy_moved(to: &mut Block, from: &Block, blocks: usize, curved: usize) {
-    *to = *from;
-    if is_node(from) {
-        for child in &mut to[CHILDREN..CHILDREN + 8] {
-            *child = f32::from_bits(Child(child.to_bits()).moved(blocks, curved).0);
-        }
     }
 }
 

@@ -6,8 +6,8 @@
 //! nowhere but in these, and a large shape finds its place at the top. [`super::bvh8_collapse`] says which nodes to
 //! keep.
 
-use super::bvh8::{Block, Blocks, Bvh8, Child, Node, copy_moved};
-use super::bvh8_collapse::{Forest, Link, Listed, Part, Place, Shapes, Tree};
+use super::bvh8::{Block, Blocks, Bvh8, Child, Node};
+use super::bvh8_collapse::{Forest, Listed, Part, Place, Room, Shapes, Tree};
 use super::bvh8_walk::DEEPEST;
 use super::coincident::Groups;
 use super::primitive::{Primitive, padding};
@@ -74,7 +74,7 @@ impl Bvh8 {
             let top = binary(&boxes, (0..boxes.len() as u32).collect(), REINSERTED[1]);
             trees.push(Tree::of_trees(top, &ends, &trees));
         }
-        furnished(Forest { trees, ends, shapes }, lanes)
+        furnished(&Forest { trees, ends, shapes }, lanes)
     }
 }
 
@@ -111,16 +111,17 @@ pub(super) fn halve(boxed: &mut [Boxed]) -> usize {
     if first == 0 || first == boxed.len() { boxed.len() / 2 } else { first }
 }
 
-/// A binary hierarchy, one shape a leaf.
+/// A binary hierarchy of boxes of these numbers, one a leaf.
 fn binary<T: Boundable>(boxes: &[T], numbers: Vec<u32>, reinserted: f32) -> Bvh2 {
     let mut builder = PlocBuilder::with_capacity(boxes.len());
-    let mut bvh = builder.build(PlocSearchDistance::Low, boxes, numbers, SortPrecision::U64, 2);
+    let places = (0..boxes.len() as u32).collect();
+    let mut bvh = builder.build(PlocSearchDistance::Low, boxes, places, SortPrecision::U64, 2);
     ReinsertionOptimizer::default().run(&mut bvh, reinserted, None);
-    bvh
+    Bvh2 { primitive_indices: numbers, ..bvh }
 }
 
 /// Puts the hierarchy that a forest plans into blocks; `None` if it is deeper than a walk can be.
-pub(super) fn furnished(forest: Forest<impl Shapes>, lanes: RowLanes) -> Option<Bvh8> {
+pub(super) fn furnished(forest: &Forest<impl Shapes>, lanes: RowLanes) -> Option<Bvh8> {
     let (mut top, mut links, mut depth) = (Vec::new(), Vec::new(), 0);
     let mut asked = vec![Vec::new(); forest.trees.len()];
     if forest.is_top(forest.root()) {
@@ -131,54 +132,40 @@ pub(super) fn furnished(forest: Forest<impl Shapes>, lanes: RowLanes) -> Option<
     } else {
         asked[0].push(forest.root());
     }
-    let part_of = |places: Vec<Place>| {
-        let mut part = Part::default();
-        for place in places {
-            let (child, depth) = forest.add(place, &mut part);
-            part.children.push(child);
-            part.depth = part.depth.max(depth);
-        }
-        part
-    };
-    let parts: Vec<Part> = asked.into_par_iter().map(part_of).collect();
-    // a plan takes twice the memory of what is planned
-    drop(forest);
-    depth += parts.iter().map(|part| part.depth).max().unwrap_or(0);
-    (depth <= DEEPEST).then(|| join(top, &links, parts, lanes))
-}
-
-/// Moves all blocks together, those of the top first, and links them.
-fn join(mut top: Vec<Block>, links: &[Link], parts: Vec<Part>, lanes: RowLanes) -> Bvh8 {
-    let (mut rooms_before, mut rounds_before) = (top.len(), 0);
-    let mut before = Vec::with_capacity(parts.len());
-    for part in &parts {
-        before.push((rooms_before, rounds_before));
-        (rooms_before, rounds_before) = (rooms_before + part.blocks.len(), rounds_before + part.curved.len());
+    // measured first, so that parts are written where they stay
+    let room_of = |places: &Vec<Place>| places.iter().map(|place| forest.room(*place)).fold(Room::default(), Room::and);
+    let rooms: Vec<Room> = asked.par_iter().map(room_of).collect();
+    let all = rooms.iter().copied().fold(Room { blocks: top.len(), ..Room::default() }, Room::and);
+    if depth + all.depth > DEEPEST {
+        return None;
     }
-    let mut asked: Vec<_> = parts.iter().map(|part| part.children.iter()).collect();
-    let mut next = |tree: usize| {
-        let (blocks, curved) = before[tree];
-        asked[tree].next().map_or(Child::ROOT, |child| child.moved(blocks, curved))
+    let mut blocks = Blocks::zeroed(all.blocks);
+    let (to_top, rest) = blocks.all_mut().split_at_mut(top.len());
+    let parts = parts(&rooms, rest, top.len());
+    let added = |(mut part, places): (Part, Vec<Place>)| {
+        let children: Vec<Child> = places.into_iter().map(|place| forest.add(place, &mut part)).collect();
+        (children, part.curved)
     };
+    let (children, curved): (Vec<_>, Vec<_>) = parts.into_par_iter().zip(asked).map(added).unzip();
+    let mut children: Vec<_> = children.into_iter().map(Vec::into_iter).collect();
+    let mut next = |tree: usize| children[tree].next().unwrap_or(Child::ROOT);
     let root = if top.is_empty() { next(0) } else { Child::ROOT };
-    for link in links {
+    for link in &links {
         Node::relink(&mut top[link.block], link.index, next(link.place.tree));
     }
-    let mut blocks = Blocks::zeroed(rooms_before);
-    let (to_top, mut rest) = blocks.all_mut().split_at_mut(top.len());
     to_top.copy_from_slice(&top);
-    let mut curved = Vec::with_capacity(rounds_before);
-    let mut copies = Vec::with_capacity(parts.len());
-    for (part, before) in parts.into_iter().zip(before) {
-        let (to, others) = rest.split_at_mut(part.blocks.len());
-        rest = others;
-        curved.extend(part.curved);
-        copies.push((to, part.blocks, before));
+    let curved = curved.into_iter().flatten().collect();
+    Some(Bvh8 { root, blocks, curved, groups: Groups::default(), cutouts: None, lanes })
+}
+
+/// Parts of these sizes, one after the other, behind as many blocks as come first.
+fn parts<'a>(rooms: &[Room], mut rest: &'a mut [Block], before: usize) -> Vec<Part<'a>> {
+    let (mut first_block, mut first_curved) = (before, 0);
+    let mut parts = Vec::with_capacity(rooms.len());
+    for room in rooms {
+        let (blocks, others) = std::mem::take(&mut rest).split_at_mut(room.blocks);
+        parts.push(Part { blocks, taken: 0, first_block, curved: Vec::with_capacity(room.curved), first_curved });
+        (rest, first_block, first_curved) = (others, first_block + room.blocks, first_curved + room.curved);
     }
-    copies.into_par_iter().for_each(|(to, from, (blocks, curved))| {
-        for (to, from) in to.iter_mut().zip(&from) {
-            copy_moved(to, from, blocks, curved);
-        }
-    });
-    Bvh8 { root, blocks, curved, groups: Groups::default(), cutouts: None, lanes }
+    parts
 }

@@ -81,25 +81,25 @@ pub(super) struct Tree {
 }
 
 impl Tree {
-    /// A tree of shapes, each in a leaf whose `first_index` it is.
+    /// A tree of shapes, of which leaves hold as many as a block at most.
     pub fn of_shapes(bvh: Bvh2, shapes: impl Shapes) -> Self {
-        let size = |shape: u32| match shapes.primitive(shape) {
+        let size = |shape: &u32| match shapes.primitive(*shape) {
             Primitive::Triangle(_) => 1,
             Primitive::Sphere(_) | Primitive::Disk(_) => LEAF_WIDTH as u32 + 1,
         };
-        Self::planned(bvh, LEAF_WIDTH as u32, |shape| (size(shape), Plan::default()))
+        Self::planned(bvh, LEAF_WIDTH as u32, |in_leaf| (in_leaf.iter().map(size).sum(), Plan::default()))
     }
 
-    /// A tree over subtrees of others.
+    /// A tree over subtrees of others, one a leaf.
     pub fn of_trees(bvh: Bvh2, ends: &[Place], trees: &[Tree]) -> Self {
-        Self::planned(bvh, 0, |end| {
-            let Place { tree, node } = ends[end as usize];
+        Self::planned(bvh, 0, |in_leaf| {
+            let Place { tree, node } = ends[in_leaf[0] as usize];
             (trees[tree].sizes[node], trees[tree].plans[node])
         })
     }
 
     /// Plans all subtrees of more triangles than `leaf_size`, children before their parents.
-    fn planned(bvh: Bvh2, leaf_size: u32, of_leaf: impl Fn(u32) -> (u32, Plan)) -> Self {
+    fn planned(bvh: Bvh2, leaf_size: u32, of_leaf: impl Fn(&[u32]) -> (u32, Plan)) -> Self {
         let count = bvh.nodes.len();
         let mut tree = Tree { bvh, sizes: vec![0; count], plans: vec![Plan::default(); count] };
         let mut order = Vec::with_capacity(count);
@@ -113,7 +113,7 @@ impl Tree {
         }
         for node in order.into_iter().rev() {
             if tree.node(node).is_leaf() {
-                (tree.sizes[node], tree.plans[node]) = of_leaf(tree.node(node).first_index);
+                (tree.sizes[node], tree.plans[node]) = of_leaf(tree.in_leaf(node));
             } else {
                 let [left, right] = tree.children(node);
                 tree.sizes[node] = tree.sizes[left] + tree.sizes[right];
@@ -133,6 +133,12 @@ impl Tree {
     fn children(&self, node: usize) -> [usize; 2] {
         let first = self.node(node).first_index as usize;
         [first, first + 1]
+    }
+
+    /// The numbers of what is in a leaf.
+    fn in_leaf(&self, leaf: usize) -> &[u32] {
+        let Bvh2Node { first_index, prim_count, .. } = *self.node(leaf);
+        &self.bvh.primitive_indices[first_index as usize..][..prim_count as usize]
     }
 
     /// The largest subtrees of at most `size` triangles, below a node.
@@ -165,15 +171,45 @@ pub(super) struct Forest<S> {
     pub shapes: S,
 }
 
-/// A part of the hierarchy, numbered as if it were alone.
-#[derive(Default)]
-pub(super) struct Part {
-    pub blocks: Vec<Block>,
-    pub curved: Vec<Curved>,
-    /// What was asked for, in order.
-    pub children: Vec<Child>,
+/// What a part of the hierarchy takes.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Room {
+    pub blocks: usize,
+    /// How many shapes are round.
+    pub curved: usize,
     /// Nodes on the longest way down.
     pub depth: usize,
+}
+
+impl Room {
+    /// For both, side by side.
+    pub fn and(self, other: Room) -> Room {
+        Room {
+            blocks: self.blocks + other.blocks,
+            curved: self.curved + other.curved,
+            depth: self.depth.max(other.depth),
+        }
+    }
+}
+
+/// Where a part of the hierarchy is put.
+pub(super) struct Part<'a> {
+    pub blocks: &'a mut [Block],
+    /// Of its blocks those that are taken, and the number that the first has among all.
+    pub taken: usize,
+    pub first_block: usize,
+    pub curved: Vec<Curved>,
+    /// The place that its first round shape will have among all.
+    pub first_curved: usize,
+}
+
+impl Part<'_> {
+    /// Takes the next block. Returns its number among all.
+    fn take(&mut self, block: Block) -> usize {
+        self.blocks[self.taken] = block;
+        self.taken += 1;
+        self.first_block + self.taken - 1
+    }
 }
 
 /// A child of a block at the top that will be known later.
@@ -196,7 +232,8 @@ impl<S: Shapes> Forest<S> {
     /// The place itself, or the subtree that stands in it.
     fn resolved(&self, place: Place) -> Place {
         let node = self.trees[place.tree].node(place.node);
-        if self.is_top(place) && node.is_leaf() { self.ends[node.first_index as usize] } else { place }
+        let is_end = self.is_top(place) && node.is_leaf();
+        if is_end { self.ends[self.trees[place.tree].in_leaf(place.node)[0] as usize] } else { place }
     }
 
     /// The roots of a subtree, of which there may be `count`.
@@ -215,19 +252,19 @@ impl<S: Shapes> Forest<S> {
         self.roots(Place { tree, node: right }, count - of_left, roots);
     }
 
-    /// Adds a node of no children, and says which it will have.
-    fn open(&self, place: Place, blocks: &mut Vec<Block>) -> (usize, Vec<Place>) {
+    /// What will be in a node.
+    fn children(&self, place: Place) -> Vec<Place> {
         let mut roots = Vec::with_capacity(WIDTH);
         self.roots(place, WIDTH, &mut roots);
-        blocks.push(Node::EMPTY);
-        (blocks.len() - 1, roots)
+        roots
     }
 
     /// Adds the nodes above the trees of shapes. Returns the longest way down through them.
     pub fn add_top(&self, place: Place, blocks: &mut Vec<Block>, links: &mut Vec<Link>) -> (Child, usize) {
-        let (block, roots) = self.open(place, blocks);
+        let block = blocks.len();
+        blocks.push(Node::EMPTY);
         let mut depth = 0;
-        for (index, place) in roots.into_iter().enumerate() {
+        for (index, place) in self.children(place).into_iter().enumerate() {
             let child = if self.is_top(place) {
                 let (child, below) = self.add_top(place, blocks, links);
                 depth = depth.max(below);
@@ -241,37 +278,50 @@ impl<S: Shapes> Forest<S> {
         (Child::node(block), depth + 1)
     }
 
-    /// Adds all that lies below a place in a tree of shapes. Returns the longest way down through it.
-    pub fn add(&self, place: Place, part: &mut Part) -> (Child, usize) {
-        if self.trees[place.tree].plans[place.node].left[WIDTH] == 0 {
-            return (self.add_leaf(place, part), 0);
+    fn is_leaf(&self, Place { tree, node }: Place) -> bool {
+        self.trees[tree].plans[node].left[WIDTH] == 0
+    }
+
+    /// What all that lies below a place in a tree of shapes takes.
+    pub fn room(&self, place: Place) -> Room {
+        if self.is_leaf(place) {
+            let is_curved = self.trees[place.tree].sizes[place.node] > LEAF_WIDTH as u32;
+            return Room { blocks: usize::from(!is_curved), curved: usize::from(is_curved), depth: 0 };
         }
-        let (block, roots) = self.open(place, &mut part.blocks);
-        let mut depth = 0;
-        for (index, place) in roots.into_iter().enumerate() {
-            let (child, below) = self.add(place, part);
-            depth = depth.max(below);
+        let children = self.children(place).into_iter().map(|child| self.room(child));
+        let Room { blocks, curved, depth } = children.fold(Room::default(), Room::and);
+        Room { blocks: blocks + 1, curved, depth: depth + 1 }
+    }
+
+    /// Adds all that lies below a place in a tree of shapes.
+    pub fn add(&self, place: Place, part: &mut Part) -> Child {
+        if self.is_leaf(place) {
+            return self.add_leaf(place, part);
+        }
+        let number = part.take(Node::EMPTY);
+        let block = number - part.first_block;
+        for (index, place) in self.children(place).into_iter().enumerate() {
+            let child = self.add(place, part);
             Node::set_child(&mut part.blocks[block], index, self.trees[place.tree].node(place.node).aabb(), child);
         }
-        (Child::node(block), depth + 1)
+        Child::node(number)
     }
 
     /// Adds a sphere, a disk, or triangles side by side.
     fn add_leaf(&self, place: Place, part: &mut Part) -> Child {
         let tree = &self.trees[place.tree];
+        let leaves = tree.subtrees(place.node, 1);
         let mut block = Leaf::EMPTY;
-        for (lane, node) in tree.subtrees(place.node, 1).into_iter().enumerate() {
-            let id = tree.node(node).first_index;
+        for (lane, &id) in leaves.iter().flat_map(|leaf| tree.in_leaf(*leaf)).enumerate() {
             let surface = self.shapes.surface(id);
             match self.shapes.primitive(id) {
                 Primitive::Triangle(triangle) => Leaf::set_triangle(&mut block, lane, triangle.corners, id, &surface),
                 primitive => {
                     part.curved.push(Curved { primitive, id, surface });
-                    return Child::curved(part.curved.len() - 1);
+                    return Child::curved(part.first_curved + part.curved.len() - 1);
                 }
             }
         }
-        part.blocks.push(block);
-        Child::triangles(part.blocks.len() - 1)
+        Child::triangles(part.take(block))
     }
 }

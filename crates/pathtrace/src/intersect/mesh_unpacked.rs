@@ -3,14 +3,14 @@
 //!
 //! Leaves of the compressed tree name up to three triangles and seldom have so many, those of a [`Bvh8`] hold four side by
 //! side. So of the compressed nodes only what lies below which is taken: boxes are made anew from the triangles, children
-//! are joined by two into a binary hierarchy, and [`super::bvh8_collapse`] says which of its nodes and leaves to keep, as
-//! it does for small shapes.
+//! are joined by two into a binary hierarchy with as many in a leaf as fit, and [`super::bvh8_collapse`] says which of its
+//! nodes to keep, as it does for small shapes.
 //!
 //! Triangles keep the order of their corners and their places in the tree's order, by which of several at one distance the
 //! first is met. Boxes of neither tree leave out what a ray meets: what it meets, at which distance and with which
 //! weights, is by every bit what [`super::mesh_walk`] finds.
 
-use super::bvh8::{Bvh8, Child};
+use super::bvh8::{Bvh8, Child, LEAF_WIDTH};
 use super::bvh8_build::furnished;
 use super::bvh8_collapse::{Forest, Place, Shapes, Tree};
 use super::mesh_build::padding;
@@ -28,7 +28,8 @@ use scene::Vec3;
 use scene::glam::Vec3A;
 use simd::{Lanes, RowLanes};
 
-/// Most triangles of all meshes of a scene together that are unpacked: they take about 100 bytes each.
+/// Most triangles of all meshes of a scene together that are unpacked. They take 99 bytes each, 208 MB in all, and half as
+/// much again while they are made: beyond that, memory is worth more than the third that rays gain.
 pub const MOST_UNPACKED: usize = 1 << 21;
 
 /// Most triangles of a part that is planned, and put into blocks, by one thread.
@@ -46,23 +47,23 @@ impl Unpacked {
         let mut roots = Vec::new();
         add_parts(&tree.nodes, Child::ROOT, &is_part, &mut roots);
         let of_part = |root: &Child| {
-            let open = |child: Child| child.is_leaf().then(|| triangles.in_leaf(child));
-            Some(Tree::of_shapes(binary(&tree.nodes, *root, open)?, triangles))
+            let ends = |child: Child| child.is_leaf().then(|| triangles.in_leaf(child));
+            Some(Tree::of_shapes(Joiner::run(&tree.nodes, *root, LEAF_WIDTH, ends)?, triangles))
         };
         let mut trees = roots.par_iter().map(of_part).collect::<Option<Vec<Tree>>>()?;
         let mut ends = Vec::new();
         if trees.len() > 1 {
             // the same way down as that of `add_parts`
-            let open = |child: Child| {
+            let next = |child: Child| {
                 let part = is_part(child).then_some(ends.len())?;
                 ends.push(Place { tree: part, node: 0 });
-                Some(vec![Bvh2Node::new(*trees[part].node(0).aabb(), 1, part as u32)])
+                Some(vec![Root::leaf(*trees[part].node(0).aabb(), part as u32)])
             };
-            let top = binary(&tree.nodes, Child::ROOT, open)?;
+            let top = Joiner::run(&tree.nodes, Child::ROOT, 1, next)?;
             trees.push(Tree::of_trees(top, &ends, &trees));
         }
         let lanes = RowLanes::nearest_to(Lanes::best());
-        furnished(Forest { trees, ends, shapes: triangles }, lanes).map(Unpacked)
+        furnished(&Forest { trees, ends, shapes: triangles }, lanes).map(Unpacked)
     }
 
     /// The nearest hit before `ray.tmax`, whose primitive is the triangle's place in the tree's order.
@@ -95,9 +96,17 @@ impl Unpacked {
     /// How many nodes and leaves it has.
     #[cfg(test)]
     pub fn blocks(&self) -> [usize; 2] {
-        let all = self.0.blocks.all();
-        let nodes = all.iter().filter(|block| super::bvh8::is_node(block)).count();
-        [nodes, all.len() - nodes]
+        let (mut open, mut nodes, mut leaves) = (vec![self.0.root], 0, 0);
+        while let Some(child) = open.pop() {
+            if child.is_leaf() {
+                leaves += 1;
+                continue;
+            }
+            nodes += 1;
+            let node = super::bvh8::Node(&self.0.blocks.all()[child.index()]);
+            open.extend((0..8).filter(|slot| node.bounds(0, 0)[*slot] < f32::INFINITY).map(|slot| node.child(slot)));
+        }
+        [nodes, leaves]
     }
 }
 
@@ -113,15 +122,15 @@ impl Triangles<'_> {
         self.tree.triangles[place].map(|corner| self.tree.mesh.positions()[corner as usize])
     }
 
-    /// Each as a leaf of a binary hierarchy.
-    fn in_leaf(&self, packed: Child) -> Vec<Bvh2Node> {
+    /// Those of a compressed leaf.
+    fn in_leaf(&self, packed: Child) -> Vec<Root> {
         let (first, count) = leaf(packed);
-        let node = |place: usize| {
+        let root = |place: usize| {
             let [a, b, c] = self.corners(place);
             let (low, high) = (a.min(b).min(c) - self.padding, a.max(b).max(c) + self.padding);
-            Bvh2Node::new(Aabb::new(Vec3A::from(low), Vec3A::from(high)), 1, place as u32)
+            Root::leaf(Aabb::new(Vec3A::from(low), Vec3A::from(high)), place as u32)
         };
-        (first..first + count).map(node).collect()
+        (first..first + count).map(root).collect()
     }
 }
 
@@ -162,50 +171,95 @@ fn add_parts(nodes: &[CwBvhNode], below: Child, is_part: &impl Fn(Child) -> bool
     }
 }
 
-/// A binary hierarchy of what lies below a child; `open` says what stands for a child that it goes no further from.
-fn binary(nodes: &[CwBvhNode], below: Child, mut open: impl FnMut(Child) -> Option<Vec<Bvh2Node>>) -> Option<Bvh2> {
-    let mut binary = vec![Bvh2Node::default()];
-    binary[0] = joined(nodes, below, &mut open, &mut binary)?;
-    Some(Bvh2 { nodes: binary, ..Bvh2::default() })
+/// A binary hierarchy of what lies below a compressed child, in the making.
+struct Joiner<'a, E> {
+    nodes: &'a [CwBvhNode],
+    /// What stands for a child that it goes no further from.
+    ends: E,
+    /// How much fits into one leaf.
+    most_in_leaf: usize,
+    binary: Bvh2,
 }
 
-/// Adds all of a child but its root, which it returns.
-fn joined(
-    nodes: &[CwBvhNode],
-    below: Child,
-    open: &mut impl FnMut(Child) -> Option<Vec<Bvh2Node>>,
-    binary: &mut Vec<Bvh2Node>,
-) -> Option<Bvh2Node> {
-    if let Some(roots) = open(below) {
-        return joined_by_two(roots, binary);
-    }
-    let mut roots = Vec::with_capacity(24);
-    for child in children(&nodes[below.index()]) {
-        match open(child) {
-            Some(opened) => roots.extend(opened),
-            None => roots.extend(joined(nodes, child, open, binary)),
-        }
-    }
-    joined_by_two(roots, binary)
+/// What has no parent yet: a node, or a leaf of these.
+struct Root {
+    node: Bvh2Node,
+    in_leaf: [u32; LEAF_WIDTH],
 }
 
-/// Joins two at a time, those whose box is smallest together, until one is left.
-fn joined_by_two(mut roots: Vec<Bvh2Node>, binary: &mut Vec<Bvh2Node>) -> Option<Bvh2Node> {
-    while roots.len() > 1 {
-        let mut least = (f32::INFINITY, 0, 1);
-        for second in 1..roots.len() {
-            for first in 0..second {
-                let area = roots[first].aabb().union(roots[second].aabb()).half_area();
-                if area < least.0 {
-                    least = (area, first, second);
+impl Root {
+    fn leaf(bounds: Aabb, number: u32) -> Self {
+        let mut in_leaf = [0; LEAF_WIDTH];
+        in_leaf[0] = number;
+        Root { node: Bvh2Node::new(bounds, 1, 0), in_leaf }
+    }
+}
+
+impl<'a, E: FnMut(Child) -> Option<Vec<Root>>> Joiner<'a, E> {
+    /// `None` of nothing.
+    fn run(nodes: &'a [CwBvhNode], below: Child, most_in_leaf: usize, ends: E) -> Option<Bvh2> {
+        let mut joiner = Joiner { nodes, ends, most_in_leaf, binary: Bvh2::default() };
+        joiner.binary.nodes.push(Bvh2Node::default());
+        let root = joiner.below(below)?;
+        joiner.binary.nodes[0] = joiner.closed(root);
+        Some(joiner.binary)
+    }
+
+    fn below(&mut self, child: Child) -> Option<Root> {
+        let ends = (self.ends)(child);
+        let roots = ends.unwrap_or_else(|| {
+            let mut roots = Vec::with_capacity(24);
+            for child in children(&self.nodes[child.index()]) {
+                match (self.ends)(child) {
+                    Some(ends) => roots.extend(ends),
+                    None => roots.extend(self.below(child)),
                 }
             }
-        }
-        let (_, first, second) = least;
-        // the second first: what takes its place is none of both
-        let pair = [roots.swap_remove(second), roots.swap_remove(first)];
-        roots.push(Bvh2Node::new(pair[0].aabb().union(pair[1].aabb()), 0, binary.len() as u32));
-        binary.extend(pair);
+            roots
+        });
+        self.joined(roots)
     }
-    roots.pop()
+
+    /// Joins two at a time, those whose box is smallest together, until one is left.
+    fn joined(&mut self, mut roots: Vec<Root>) -> Option<Root> {
+        while roots.len() > 1 {
+            let mut least = (f32::INFINITY, 0, 1);
+            for second in 1..roots.len() {
+                for first in 0..second {
+                    let area = roots[first].node.aabb().union(roots[second].node.aabb()).half_area();
+                    if area < least.0 {
+                        least = (area, first, second);
+                    }
+                }
+            }
+            // the second first: what takes its place is none of both
+            let pair = [least.2, least.1].map(|index| roots.swap_remove(index));
+            roots.push(self.both(pair));
+        }
+        roots.pop()
+    }
+
+    /// Puts two into one leaf if they fit, else above them a node.
+    fn both(&mut self, [mut one, other]: [Root; 2]) -> Root {
+        let bounds = one.node.aabb().union(other.node.aabb());
+        let [count, more] = [&one, &other].map(|root| root.node.prim_count as usize);
+        if count > 0 && more > 0 && count + more <= self.most_in_leaf {
+            one.in_leaf[count..count + more].copy_from_slice(&other.in_leaf[..more]);
+            one.node = Bvh2Node::new(bounds, (count + more) as u32, 0);
+            return one;
+        }
+        let node = Bvh2Node::new(bounds, 0, self.binary.nodes.len() as u32);
+        let pair = [self.closed(one), self.closed(other)];
+        self.binary.nodes.extend(pair);
+        Root { node, in_leaf: [0; LEAF_WIDTH] }
+    }
+
+    /// As the child of another.
+    fn closed(&mut self, Root { mut node, in_leaf }: Root) -> Bvh2Node {
+        if node.is_leaf() {
+            node.first_index = self.binary.primitive_indices.len() as u32;
+            self.binary.primitive_indices.extend(&in_leaf[..node.prim_count as usize]);
+        }
+        node
+    }
 }
