@@ -242,6 +242,7 @@ pub(super) struct Nearest {
 
 impl Bvh8 {
     /// The nearest hit before `ray.tmax`, see [`super::Accel::closest`].
+    #[inline]
     pub fn closest(&self, ray: &Ray) -> Option<Hit> {
         let Nearest { t, child, lane, areas: [u, v, w], .. } = self.nearest(ray);
         if !child.is_leaf() {
@@ -271,6 +272,12 @@ impl Bvh8 {
             true => self.curved[child.index()].id,
             false => Leaf(&self.blocks.all()[child.index()]).id(lane),
         }
+    }
+
+    /// The corners of the triangle that was hit; of what is round none that say anything.
+    pub fn corners(&self, hit: &Hit) -> [Vec3; 3] {
+        let (child, lane) = Child::of_primitive(hit.primitive);
+        if child.is_curved() { [Vec3::ZERO; 3] } else { Leaf(&self.blocks.all()[child.index()]).corners(lane) }
     }
 
     /// Whether a ray that cuts a leaf's triangle into these areas passes a hole in it.

@@ -13,8 +13,8 @@ use simd::{Float, MOST_LANES, Word};
 pub struct Hit {
     /// Distance in lengths of the ray's direction.
     pub t: f32,
-    /// Which one, by the number that the structure has for it which has found it; of an instance the triangle's
-    /// place in its tree.
+    /// Which one, by the number that the structure has for it which has found it; of an instance
+    /// that which [`super::instances::Instances`] have for its triangle.
     pub primitive: u32,
     /// The large mesh's instance that it belongs to, or [`NO_INSTANCE`].
     pub instance: u32,
@@ -129,7 +129,7 @@ pub struct Intersections<F: Float> {
     /// Index into the list of lights, or [`NO_LIGHT`].
     pub light: F::U,
     /// Which one, by its place in the order of the structure that has found it, for what its mesh says of it; of no meaning
-    /// where no mesh of the scene says anything. Of an instance the triangle's place in its tree.
+    /// where no mesh of the scene says anything. Of an instance as [`Hit::primitive`] says it.
     pub triangle: F::U,
     /// The large mesh of each lane, as [`Hit::instance`].
     pub instance: F::U,

@@ -59,7 +59,8 @@ fn unpacked_finds_the_same(tree: &MeshTree, ray: &Ray, lanes: RowLanes) -> bool 
     let packed = lanes.run(ClosestOf { tree, ray });
     let packed = packed.map(|hit| (hit.t.to_bits(), hit.triangle, hit.barycentrics().map(f32::to_bits)));
     let unpacked = tree.unpacked().expect("it is not deep");
-    let hit = unpacked.closest(ray).map(|hit| (hit.t.to_bits(), hit.primitive, hit.barycentrics.map(f32::to_bits)));
+    let place = |hit: &Hit| unpacked.place(hit) as u32;
+    let hit = unpacked.closest(ray).map(|hit| (hit.t.to_bits(), place(&hit), hit.barycentrics.map(f32::to_bits)));
     packed == hit && packed.is_some() == unpacked.occluded(ray)
 }
 

@@ -9,7 +9,7 @@
 
 use super::baking::is_instanced;
 use super::mesh_tree::MeshTree;
-use super::mesh_unpacked::MOST_UNPACKED;
+use super::mesh_unpacked::{MOST_UNPACKED, Unpacked};
 use super::mesh_walk::{ClosestOf, CompressedRay, EachMet, OccludedBy};
 use super::{Hit, Intersection, NO_INSTANCE, NO_LIGHT, Ray, SurfacePoint, gamma};
 use obvhs::Boundable;
@@ -138,13 +138,17 @@ impl Instances {
         occluded
     }
 
+    /// The tree that needs no decoding, if rays go through that: only it knows its hits' primitives.
+    #[inline(always)]
+    fn unpacked<'a>(&self, placed: &'a Placed) -> Option<&'a Unpacked> {
+        if self.unpacked { placed.tree.unpacked() } else { None }
+    }
+
     /// The nearest hit of one of them before `tmax`, of no instance yet.
     #[inline(always)]
     fn closest_of(&self, placed: &Placed, ray: &Ray, tmax: f32) -> Option<Hit> {
         let (tree, ray) = (&*placed.tree, &placed.ray_in_mesh(ray, tmax));
-        if self.unpacked
-            && let Some(unpacked) = tree.unpacked()
-        {
+        if let Some(unpacked) = self.unpacked(placed) {
             return unpacked.closest(ray);
         }
         let hit = self.lanes.run(ClosestOf { tree, ray })?;
@@ -154,9 +158,7 @@ impl Instances {
     #[inline(always)]
     fn is_occluded_by(&self, placed: &Placed, ray: &Ray) -> bool {
         let (tree, ray) = (&*placed.tree, &placed.ray_in_mesh(ray, ray.tmax));
-        if self.unpacked
-            && let Some(unpacked) = tree.unpacked()
-        {
+        if let Some(unpacked) = self.unpacked(placed) {
             return unpacked.occluded(ray);
         }
         self.lanes.run(OccludedBy { tree, ray })
@@ -180,7 +182,14 @@ impl Instances {
     /// What the ray has met that has this hit.
     pub fn intersection(&self, hit: &Hit) -> Intersection {
         let placed = &self.placed[hit.instance as usize];
-        let point = placed.point(self.attributes(hit));
+        let corners = match self.unpacked(placed) {
+            Some(unpacked) => unpacked.corners(hit),
+            None => {
+                let positions = placed.tree.mesh.positions();
+                placed.tree.triangles[hit.primitive as usize].map(|corner| positions[corner as usize])
+            }
+        };
+        let point = placed.point(corners, hit.barycentrics);
         Intersection { point, material: placed.material, light: NO_LIGHT }
     }
 
@@ -192,13 +201,14 @@ impl Instances {
     /// What the attributes of a hit are mixed from.
     pub fn attributes(&self, hit: &Hit) -> MeshPoint<'_> {
         debug_assert_ne!(hit.instance, NO_INSTANCE);
-        let Placed { tree, to_world, normals_to_world, .. } = &self.placed[hit.instance as usize];
+        let placed = &self.placed[hit.instance as usize];
+        let place = self.unpacked(placed).map_or(hit.primitive as usize, |unpacked| unpacked.place(hit));
         MeshPoint {
-            mesh: &tree.mesh,
-            corners: tree.triangles[hit.primitive as usize],
+            mesh: &placed.tree.mesh,
+            corners: placed.tree.triangles[place],
             barycentrics: hit.barycentrics,
-            to_world: *to_world,
-            normals_to_world: *normals_to_world,
+            to_world: placed.to_world,
+            normals_to_world: placed.normals_to_world,
         }
     }
 }
@@ -248,9 +258,9 @@ impl Placed {
 
     /// The point of a triangle in the world, and its outward normal: that of the winding, which a map that mirrors turns
     /// over and back again.
-    fn point(&self, at: MeshPoint) -> SurfacePoint {
-        let [a, b, c] = at.corners.map(|corner| at.mesh.positions()[corner as usize].as_dvec3());
-        let weights = DVec3::from_array(at.barycentrics.map(f64::from));
+    fn point(&self, corners: [Vec3; 3], barycentrics: [f32; 3]) -> SurfacePoint {
+        let [a, b, c] = corners.map(|corner| corner.as_dvec3());
+        let weights = DVec3::from_array(barycentrics.map(f64::from));
         let weights = weights / weights.element_sum();
         let in_mesh = a * weights.x + b * weights.y + c * weights.z;
         let in_world = self.to_world.transform_point3(in_mesh);

@@ -18,7 +18,7 @@ use super::mesh_tree::MeshTree;
 use super::mesh_walk::{child, leaf};
 use super::primitive::{Primitive, Surface};
 use super::triangle::Triangle;
-use super::{Hit, NO_INSTANCE, NO_LIGHT, Ray};
+use super::{Hit, NO_LIGHT, Ray};
 use obvhs::aabb::Aabb;
 use obvhs::bvh2::Bvh2;
 use obvhs::bvh2::node::Bvh2Node;
@@ -66,20 +66,21 @@ impl Unpacked {
         furnished(&Forest { trees, ends, shapes: triangles }, lanes).map(Unpacked)
     }
 
-    /// The nearest hit before `ray.tmax`, whose primitive is the triangle's place in the tree's order.
+    /// The nearest hit before `ray.tmax`, whose primitive only [`Unpacked::place`] and [`Unpacked::corners`] know.
     #[inline(always)]
     pub fn closest(&self, ray: &Ray) -> Option<Hit> {
         // a hit at the end itself is beyond it
-        let nearest = self.0.nearest(&Ray { tmax: ray.tmax.next_down(), ..*ray });
-        let [u, v, w] = nearest.areas;
-        let sum = u + v + w;
-        let hit = Hit {
-            t: nearest.t,
-            primitive: nearest.id,
-            instance: NO_INSTANCE,
-            barycentrics: [u / sum, v / sum, w / sum],
-        };
-        nearest.child.is_leaf().then_some(hit)
+        self.0.closest(&Ray { tmax: ray.tmax.next_down(), ..*ray })
+    }
+
+    /// The place in the tree's order of the triangle that was hit.
+    pub fn place(&self, hit: &Hit) -> usize {
+        self.0.id(hit) as usize
+    }
+
+    /// Its corners, which lie where the ray has just met them.
+    pub fn corners(&self, hit: &Hit) -> [Vec3; 3] {
+        self.0.corners(hit)
     }
 
     /// Whether any triangle lies on the ray before `ray.tmax`.

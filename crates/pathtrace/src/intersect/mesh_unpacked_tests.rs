@@ -33,8 +33,11 @@ fn differing(tree: &MeshTree, far: f32, rays: u32) -> (usize, usize) {
         let at = p + (q - p) * y * w + (r - p) * z * (1.0 - w);
         let direction = sampling::cone(2.0, [a, b]);
         let ray = &Ray::new(at - direction * far * w, direction);
-        let packed = lanes.run(ClosestOf { tree, ray }).map(|hit| (hit.t, hit.triangle, hit.barycentrics()));
-        let hit = unpacked.closest(ray).map(|hit| (hit.t, hit.primitive, hit.barycentrics));
+        let corners = |place: u32| tree.triangles[place as usize].map(|corner| tree.mesh.positions()[corner as usize]);
+        let packed = lanes.run(ClosestOf { tree, ray });
+        let packed = packed.map(|hit| (hit.t, hit.triangle, hit.barycentrics(), corners(hit.triangle)));
+        let hit = unpacked.closest(ray);
+        let hit = hit.map(|hit| (hit.t, unpacked.place(&hit) as u32, hit.barycentrics, unpacked.corners(&hit)));
         differing += usize::from(packed != hit || packed.is_some() != unpacked.occluded(ray));
         met += usize::from(hit.is_some());
     }
