@@ -19,7 +19,7 @@ use std::sync::Arc;
 #[path = "../../examples/meshes/statue.rs"]
 mod statue;
 
-fn statue_mesh(level: u32) -> Arc<Mesh> {
+pub(super) fn statue_mesh(level: u32) -> Arc<Mesh> {
     let (positions, triangles) = statue::statue(level);
     Arc::new(Mesh::new(positions, triangles))
 }

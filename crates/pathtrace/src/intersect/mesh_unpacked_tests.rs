@@ -2,6 +2,7 @@
 //! odd. What they meet of usual ones is in [`super::instance_tests`].
 
 use super::Ray;
+use super::instance_tests::statue_mesh;
 use super::mesh_tree::MeshTree;
 use super::mesh_walk::ClosestOf;
 use crate::sampling;
@@ -9,9 +10,6 @@ use crate::sampling::sampler::Sampler;
 use scene::{Mesh, Vec3};
 use simd::{Lanes, RowLanes};
 use std::sync::Arc;
-
-#[path = "../../examples/meshes/statue.rs"]
-mod statue;
 
 fn tree_of(corners: Vec<[Vec3; 3]>) -> Arc<MeshTree> {
     let triangles = (0..corners.len() as u32).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect();
@@ -45,8 +43,7 @@ fn differing(tree: &MeshTree, far: f32, rays: u32) -> (usize, usize) {
 }
 
 fn tree_of_statue(level: u32) -> Arc<MeshTree> {
-    let (positions, triangles) = statue::statue(level);
-    MeshTree::of(&Arc::new(Mesh::new(positions, triangles)), &|_| true).expect("a tree")
+    MeshTree::of(&statue_mesh(level), &|_| true).expect("a tree")
 }
 
 #[test]
