@@ -74,6 +74,7 @@ impl<'a> Meshes<'a> {
     fn read(&mut self, file: Spanned<String>, smooth: bool) -> Result<Mesh, Fault> {
         let at = file.span();
         let path = beside(self.folder, file.get_ref()).or_else(|why| fault(at.clone(), why))?;
+        self.progress.reads(&path);
         let (mesh, remarks) = model::read(&path, smooth, self.progress).or_else(|why| fault(at, why))?;
         self.remarks.extend(remarks);
         Ok(mesh)

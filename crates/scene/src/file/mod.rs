@@ -127,6 +127,7 @@ pub fn load(path: &Path, progress: &Progress) -> Result<Scene, SceneError> {
 
 /// As [`load`], of what the files `above` stand on, each on the next.
 fn load_below(path: &Path, progress: &Progress, above: &[PathBuf]) -> Result<Scene, SceneError> {
+    progress.reads(path);
     if model::is_model(path) {
         return showcase::around(path, progress);
     }
@@ -233,7 +234,7 @@ fn line_and_column(text: &str, at: usize) -> (usize, usize) {
 
 fn build(raw: RawScene, name: &str, folder: &Path, progress: &Progress) -> Result<Scene, Fault> {
     let camera = camera(raw.camera)?;
-    let mut pictures = Pictures::beside(folder);
+    let mut pictures = Pictures::beside(folder, progress);
     let materials = raw.material.into_iter().map(|(name, m)| material::material(name, m, &mut pictures));
     let materials = materials.collect::<Result<Vec<_>, _>>()?;
     let mut meshes = Meshes::new(folder, progress);
@@ -248,7 +249,7 @@ fn build(raw: RawScene, name: &str, folder: &Path, progress: &Progress) -> Resul
     shapes.check()?;
     let Shapes { list: shapes, names, .. } = shapes;
     let sun = raw.sun.map(|Table(raw)| sun(raw)).transpose()?;
-    let (sky, environment) = sky::sky(raw.sky.0, folder)?;
+    let (sky, environment) = sky::sky(raw.sky.0, folder, progress)?;
     let mut light_names = PartNames::of("light");
     let point_lights = raw.point_light.into_iter().map(|Table(p)| {
         light_names.add("light", p.name, None)?;

@@ -6,7 +6,7 @@ use super::raw::Table;
 use super::{Fault, fault};
 use crate::image_texture::{Sampling, Wrap};
 use crate::material::SurfaceDetail;
-use crate::{Alpha, ImageTexture, NormalMap, Texture};
+use crate::{Alpha, ImageTexture, NormalMap, Progress, Texture};
 use glam::{Mat2, Vec2, Vec3};
 use image_file::{Encoding, ImageFileError};
 use serde::de::value::SeqAccessDeserializer;
@@ -82,14 +82,15 @@ type Kept = (PathBuf, Encoding, Arc<ImageTexture>);
 /// The pictures of a scene, each read once.
 pub struct Pictures<'a> {
     folder: &'a Path,
+    progress: &'a Progress<'a>,
     read: Vec<Kept>,
     texels_left: u64,
 }
 
 impl<'a> Pictures<'a> {
     /// Of a scene in this folder.
-    pub fn beside(folder: &'a Path) -> Self {
-        Pictures { folder, read: Vec::new(), texels_left: MOST_TEXELS }
+    pub fn beside(folder: &'a Path, progress: &'a Progress<'a>) -> Self {
+        Pictures { folder, progress, read: Vec::new(), texels_left: MOST_TEXELS }
     }
 
     /// A colour that varies as a picture does.
@@ -146,7 +147,10 @@ impl<'a> Pictures<'a> {
         }
         let texture = match any {
             Some(image) => image.with_sampling(sampling),
-            None => self.read(&path, encoding, sampling).or_else(|why| fault(at, why))?,
+            None => {
+                self.progress.reads(&path);
+                self.read(&path, encoding, sampling).or_else(|why| fault(at, why))?
+            }
         };
         let texture = Arc::new(texture);
         self.read.push((path, encoding, texture.clone()));
@@ -259,7 +263,8 @@ mod tests {
         std::fs::create_dir_all(&folder).unwrap();
         std::fs::write(folder.join("p.png"), encode_rgba8(2, 1, &[9; 8], &Vec::new()).unwrap()).unwrap();
         std::fs::write(folder.join("q.png"), encode_rgba8(2, 1, &[7; 8], &Vec::new()).unwrap()).unwrap();
-        let mut pictures = Pictures { texels_left: 3, ..Pictures::beside(&folder) };
+        let progress = Progress::untold();
+        let mut pictures = Pictures { texels_left: 3, ..Pictures::beside(&folder, &progress) };
         let mut read = |toml: &str| pictures.without_factor(toml::from_str(toml).unwrap(), Encoding::Linear);
         let shifted = "image = 'p.png'\noffset = [0.5, 0]";
         let images = ["image = 'p.png'", shifted, "image = 'p.png'", shifted].map(|toml| read(toml).ok().unwrap());

@@ -1,6 +1,7 @@
 use super::*;
 use crate::{Bsdf, Conductor, Geometry};
 
+mod files_read;
 mod metallic_roughness;
 mod names;
 mod spot;

@@ -73,6 +73,8 @@ fn scene(file: Vec<u8>, name: &str, folder: &Path, progress: &Progress) -> Resul
     let mut remarks = Remarks::default();
     let parts = container::parts(&file)?;
     let root = container::parse(&file[parts.json.clone()], &mut remarks)?;
+    let named = root.buffers.iter().map(|buffer| &buffer.uri).chain(root.images.iter().map(|image| &image.uri));
+    uri::files(named.flatten().map(String::as_str), folder).for_each(|file| progress.reads(&file));
     let document = Document::new(root, file, &parts, folder, buffers::MOST_BYTES)?;
     tell_of_what_stays(&document, &mut remarks);
     let placed = nodes::placed(&document, &mut remarks)?;

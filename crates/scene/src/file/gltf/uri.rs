@@ -54,6 +54,11 @@ fn inside(uri: &str, folder: &Path) -> Result<PathBuf, Refused> {
     })
 }
 
+/// The files that these stand for; what stands for none is refused where it is read.
+pub fn files<'a>(uris: impl Iterator<Item = &'a str>, folder: &Path) -> impl Iterator<Item = PathBuf> {
+    uris.filter(|uri| !uri.starts_with("data:")).filter_map(|uri| inside(uri, folder).ok())
+}
+
 /// A regular file of `most` bytes at most. Anything else, such as a pipe or a device, might never end.
 pub fn read(path: &Path, most: u64) -> std::io::Result<Vec<u8>> {
     use std::io::{Error, ErrorKind};
