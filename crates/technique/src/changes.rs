@@ -1,10 +1,10 @@
 //! What is changed in a scene, said after each other by options, records, sessions and controls: what is said last of a
-//! number holds, whether for all glass or for one.
+//! number holds: what is said of one glass later than of all is that one's own, and the others stay with what is said of all.
 
 use crate::SceneChanges;
 use crate::settings::OF_SCENES;
 use scene::edit::{CannotEdit, Edits, Property, Subject, Value};
-use scene::{Bsdf, Scene};
+use scene::{Bsdf, Material, Scene};
 
 /// Properties that a number for the whole scene stands over.
 const IOR: &str = "ior";
@@ -23,22 +23,22 @@ impl SceneChanges {
         self.edits.reset_everywhere(ANGULAR_RADIUS);
     }
 
-    /// Changes parts beside what is changed already. A number of all glass, or of the sun, that would hold over one of them
-    /// is left to the scene again.
+    /// Changes parts beside what is changed already. The number of all glass stays with the others than those; that of the
+    /// sun, of which there is one, is left to the scene again where the edits say another.
     pub fn take_edits(&mut self, edits: &Edits) {
-        let states = |property: &str| edits.iter().any(|(_, values)| values.contains_key(property));
-        self.refraction_ratio = self.refraction_ratio.filter(|_| !states(IOR));
-        self.sun_radius = self.sun_radius.filter(|_| !states(ANGULAR_RADIUS));
+        let states_the_suns = edits.iter().any(|(_, values)| values.contains_key(ANGULAR_RADIUS));
+        self.sun_radius = self.sun_radius.filter(|_| !states_the_suns);
         self.edits = edits.over(&self.edits);
     }
 
     /// These changes over others: where both say something of the same, these hold.
     pub fn over(&self, others: &SceneChanges) -> SceneChanges {
         let mut all = others.clone();
-        all.take_edits(&self.edits);
         for setting in OF_SCENES {
             (setting.get)(self).into_iter().for_each(|value| (setting.set)(&mut all, value));
         }
+        // after all glass, whose number takes the place of what others said of each
+        all.take_edits(&self.edits);
         all
     }
 
@@ -51,14 +51,32 @@ impl SceneChanges {
         let mut all = self.edits.clone();
         let edited = self.edits.applied_to(scene)?;
         if let Some(ratio) = self.refraction_ratio {
-            for material in edited.materials.iter().filter(|m| matches!(m.bsdf, Bsdf::Dielectric { .. })) {
-                state(&mut all, &Subject::Material(material.name.clone()), IOR, 1.0 / ratio)?;
+            for index in self.glass_without_its_own(&edited) {
+                let subject = Subject::Material(edited.materials[index].name.clone());
+                state(&mut all, &subject, IOR, 1.0 / ratio)?;
             }
         }
         if let Some(radius) = self.sun_radius.filter(|_| edited.sun.is_some()) {
             state(&mut all, &Subject::Sun, ANGULAR_RADIUS, radius)?;
         }
         Ok(all)
+    }
+}
+
+impl SceneChanges {
+    /// The materials of glass, by their places, for which the ratio of all glass holds: those of which no index is said.
+    pub fn glass_without_its_own(&self, scene: &Scene) -> Vec<usize> {
+        let says_none = |material: &Material| {
+            let subject = Subject::Material(material.name.clone());
+            let own = subject.property(IOR).and_then(|ior| self.edits.get(&subject, ior));
+            matches!(material.bsdf, Bsdf::Dielectric { .. }) && own.is_none()
+        };
+        (0..).zip(&scene.materials).filter(|(_, material)| says_none(material)).map(|(index, _)| index).collect()
+    }
+
+    /// Leaves the ratio of all glass to the scene again where each glass has an index of its own.
+    pub fn drop_idle_ratio(&mut self, scene: &Scene) {
+        self.refraction_ratio = self.refraction_ratio.filter(|_| !self.glass_without_its_own(scene).is_empty());
     }
 }
 
@@ -93,8 +111,10 @@ mod tests {
         changes.set_sun_radius(Some(1.0));
         assert_eq!(changes.edits, edits("{ material.glass.reflectivity = 0.5 }"));
         changes.take_edits(&edits("{ material.glass.ior = 1.3 }"));
-        assert_eq!((changes.refraction_ratio, changes.sun_radius), (None, Some(1.0)));
+        assert_eq!((changes.refraction_ratio, changes.sun_radius), (Some(0.5), Some(1.0)), "of the other glasses");
         assert_eq!(changes.edits, edits("{ material.glass = { ior = 1.3, reflectivity = 0.5 } }"));
+        changes.take_edits(&edits("{ sun.angular_radius = 3 }"));
+        assert_eq!(changes.sun_radius, None, "there is no other sun");
     }
 
     #[test]
@@ -103,11 +123,49 @@ mod tests {
             |ratio, text: &str| SceneChanges { refraction_ratio: ratio, sun_radius: None, edits: edits(text) };
         let picture = changes(Some(0.6), "{ shape.a.hidden = true, sun.elevation = 5 }");
         let typed = changes(None, "{ sun.elevation = 9, material.glass.ior = 2 }");
-        let both = changes(None, "{ shape.a.hidden = true, sun.elevation = 9, material.glass.ior = 2 }");
+        let both = changes(Some(0.6), "{ shape.a.hidden = true, sun.elevation = 9, material.glass.ior = 2 }");
         assert_eq!(typed.over(&picture), both);
         let ratio = changes(Some(0.7), "{}");
         assert_eq!(ratio.over(&both), changes(Some(0.7), "{ shape.a.hidden = true, sun.elevation = 9 }"));
         assert_eq!(SceneChanges::default().over(&both), both);
+        assert_eq!(both.over(&changes(None, "{ material.ice.ior = 3 }")), both);
+    }
+
+    /// The scene's glass, and a second one.
+    fn two_glasses() -> Scene {
+        let mut scene = scene::builtin::named("whitted").expect("a built-in scene");
+        let glass = scene.materials.iter().find(|material| material.name == "glass").expect("glass").clone();
+        scene.materials.push(Material { name: "ice".into(), ..glass });
+        scene
+    }
+
+    #[test]
+    fn glass_with_an_index_of_its_own_keeps_it_and_the_ratio_holds_for_the_others() {
+        let scene = two_glasses();
+        let seen = |changes: &SceneChanges| {
+            let seen = changes.applied_to(&scene).expect("it can be");
+            let glass = seen.materials.iter().filter_map(|material| match material.bsdf {
+                Bsdf::Dielectric { ior } => Some((material.name.clone(), ior, material.fake.refraction_ratio)),
+                _ => None,
+            });
+            glass.collect::<Vec<_>>()
+        };
+        let mut changes = SceneChanges { refraction_ratio: Some(0.8), ..SceneChanges::default() };
+        let own = ("glass".to_owned(), 1.25, Some(0.8));
+        assert_eq!(seen(&changes), [own.clone(), ("ice".into(), 1.25, Some(0.8))]);
+        changes.take_edits(&edits("{ material.ice.ior = 2 }"));
+        let [glass, ice] = &seen(&changes)[..] else { panic!("two glasses") };
+        assert_eq!((glass, ice.1), (&own, 2.0));
+        assert_ne!(ice.2, Some(0.8), "the fake's neither");
+        let folded =
+            SceneChanges { edits: changes.as_edits(&scene).expect("it can be said"), ..SceneChanges::default() };
+        let indices = |changes| seen(changes).into_iter().map(|(_, ior, _)| ior).collect::<Vec<_>>();
+        assert_eq!(indices(&folded), indices(&changes));
+        changes.drop_idle_ratio(&scene);
+        assert_eq!(changes.refraction_ratio, Some(0.8));
+        changes.take_edits(&edits("{ material.glass.ior = 2 }"));
+        changes.drop_idle_ratio(&scene);
+        assert_eq!(changes.refraction_ratio, None, "it holds for none");
     }
 
     #[test]

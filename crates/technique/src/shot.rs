@@ -29,7 +29,8 @@ pub struct SceneChanges {
     pub refraction_ratio: Option<f32>,
     /// Angular radius of the sun in degrees, from 0 to below 90.
     pub sun_radius: Option<f32>,
-    /// What is changed part by part; what is said of all glass and of the sun above holds over it.
+    /// What is changed part by part. An index of refraction that is said here holds over that of all glass above, and the
+    /// radius of the sun above over one that is said here.
     pub edits: Edits,
 }
 
@@ -54,7 +55,10 @@ impl SceneChanges {
     pub fn applied_to(&self, scene: &Scene) -> Result<Scene, CannotEdit> {
         let mut scene = self.edits.applied_to(scene)?;
         if let Some(ratio) = self.refraction_ratio {
-            scene.set_refraction_ratio(ratio);
+            let holds_for = self.glass_without_its_own(&scene);
+            let mut of_all = scene.clone();
+            of_all.set_refraction_ratio(ratio);
+            holds_for.into_iter().for_each(|index| scene.materials[index] = of_all.materials[index].clone());
         }
         if let (Some(radius), Some(sun)) = (self.sun_radius, &mut scene.sun) {
             sun.angular_radius = radius;

@@ -120,14 +120,16 @@ const SAME_PLACE: u32 = 2;
 impl Model {
     /// Changes a property of a part of the scene, or leaves it to the scene again. What cannot be made is told, and left.
     pub fn edit(&mut self, subject: &Subject, property: &'static Property, value: Option<Value>) {
+        let seen = self.document.seen().clone();
         let changes = &mut self.document.changes;
         match value {
             Some(value) => changes.edits.set(subject, property, value),
             None => changes.edits.reset(subject, property),
         }
-        // the slider of all glass, or of the sun, would hold over what is changed here
         match property.name {
-            "ior" => changes.refraction_ratio = None,
+            // the slider of all glass stays with the others
+            "ior" => changes.drop_idle_ratio(&seen),
+            // there is one sun, over which its slider would hold
             "angular_radius" => changes.sun_radius = None,
             _ => {}
         }

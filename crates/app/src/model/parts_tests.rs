@@ -167,6 +167,38 @@ fn undo_gives_changes_back_and_the_scene_with_them() {
 }
 
 #[test]
+fn an_index_of_one_glass_leaves_the_others_at_the_slider_of_all_until_each_has_its_own() {
+    let mut scene = scene::builtin::named("whitted").expect("a built-in scene");
+    let glass = scene.materials.iter().find(|material| material.name == "glass").expect("glass").clone();
+    scene.materials.push(scene::Material { name: "ice".into(), ..glass });
+    let mut model = Model::new(scene, "whitted".into(), Theme::Dark);
+    let [glass, ice] = ["glass", "ice"].map(|name| material(&model, name));
+    let indices = |model: &Model| {
+        let dielectric = |material: &scene::Material| match material.bsdf {
+            scene::Bsdf::Dielectric { ior } => Some(ior),
+            _ => None,
+        };
+        model.document.seen().materials.iter().filter_map(dielectric).collect::<Vec<_>>()
+    };
+    model.document.changes.set_refraction_ratio(Some(0.8));
+    model.settle(false);
+    changed(&mut model, &ice, "ior", 2.0);
+    assert_eq!((indices(&model), model.document.changes.refraction_ratio), (vec![1.25, 2.0], Some(0.8)));
+    // and there and back, as sessions and undo keep it
+    model.undo();
+    assert_eq!(indices(&model), [1.25, 1.25]);
+    model.redo();
+    assert_eq!(indices(&model), [1.25, 2.0]);
+    changed(&mut model, &glass, "ior", 1.5);
+    assert_eq!((indices(&model), model.document.changes.refraction_ratio), (vec![1.5, 2.0], None));
+    let row = ice.property("ior").expect("a row");
+    model.document.changes.set_refraction_ratio(Some(0.5));
+    changed(&mut model, &ice, "ior", 3.0);
+    model.edit(&ice, row, None);
+    assert_eq!(indices(&model), [2.0, 2.0], "what is taken back is at the slider again");
+}
+
+#[test]
 fn a_change_that_is_refused_is_no_step() {
     let scene = scene::builtin::named("cornell").expect("a built-in scene");
     let mut model = Model::new(scene, "cornell".into(), Theme::Dark);

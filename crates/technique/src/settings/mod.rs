@@ -317,8 +317,8 @@ impl SceneChanges {
     /// Leaves a number to the scene again.
     pub fn reset(&mut self, setting: &Setting<SceneChanges>) {
         let others = OF_SCENES.iter().filter(|other| other.name != setting.name);
-        let fresh = SceneChanges { edits: self.edits.clone(), ..SceneChanges::default() };
-        *self = set_again(fresh, others, self);
+        let fresh = set_again(SceneChanges::default(), others, self);
+        *self = SceneChanges { edits: self.edits.clone(), ..fresh };
     }
 }
 

@@ -62,6 +62,10 @@ fn what_is_reset_is_a_new_panes_or_the_scenes_and_all_else_stays() {
     let mut changes = SceneChanges { refraction_ratio: Some(0.5), sun_radius: Some(1.0), ..SceneChanges::default() };
     changes.reset(of_scenes("sun-radius").unwrap());
     assert_eq!(changes, SceneChanges { refraction_ratio: Some(0.5), ..SceneChanges::default() });
+    let of_one = SceneChanges { edits: "{ material.ice.ior = 2 }".parse().unwrap(), ..changes };
+    let mut changes = SceneChanges { sun_radius: Some(1.0), ..of_one.clone() };
+    changes.reset(of_scenes("sun-radius").unwrap());
+    assert_eq!(changes, of_one);
 }
 
 #[test]

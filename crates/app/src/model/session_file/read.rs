@@ -188,8 +188,7 @@ fn camera(mut table: Table, text: &str) -> Result<DraftCamera, Fault> {
 
 fn changes(mut table: Table) -> Result<SceneChanges, Fault> {
     let edits = table.read(EDIT, Entry::edits)?.unwrap_or_default();
-    let mut changes = SceneChanges { edits, ..SceneChanges::default() };
-    // what is said of all glass and of the sun holds over it
+    let mut changes = SceneChanges::default();
     for row in OF_SCENES {
         let Some(entry) = table.take(row.name) else { continue };
         let word = entry.word().unwrap_or_default();
@@ -197,6 +196,8 @@ fn changes(mut table: Table) -> Result<SceneChanges, Fault> {
         let value = value.or_else(|expected| fault(&entry.at, format!("{} {word}: expected {expected}", row.name)))?;
         (row.set)(&mut changes, value);
     }
+    // what is said of one glass holds over what is said of all
+    changes.take_edits(&edits);
     table.end()?;
     Ok(changes)
 }

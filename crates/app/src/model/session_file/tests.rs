@@ -270,8 +270,12 @@ fn what_a_session_cannot_mean_is_told_with_line_and_column() {
 fn what_is_changed_part_by_part_comes_back_and_tables_are_read_too() {
     let mut model = model("whitted");
     let edits = "{ material.glass.reflectivity = 0.25, sun = { elevation = 20.0, azimuth = -35.5 } }";
-    model.document.changes.take_edits(&edits.parse().unwrap());
     model.document.changes.set_refraction_ratio(Some(0.6));
+    model.document.changes.take_edits(&edits.parse().unwrap());
+    let mut of_one = model.document.clone();
+    of_one.changes.take_edits(&"{ material.glass.ior = 2 }".parse().unwrap());
+    let told = text(&Model { document: of_one.clone(), ..self::model("whitted") });
+    assert_eq!(parsed(&told, &model.document.scene).expect("a session").changes, of_one.changes);
     let told = text(&model);
     assert!(told.contains("\nedit = { material.glass = { reflectivity = 0.25 }, sun = { "), "{told}");
     let read = parsed(&told, &model.document.scene).expect("a session");
