@@ -4,12 +4,11 @@ use super::Wake;
 use super::find_scene::scene_of;
 use super::restore::{self, Kept, Told};
 use super::session;
-use super::watch::Stamp;
 use super::worker::{Control, Service, Worker};
 use crate::model::{SavedSession, Setup};
 use image_file::{Kind, shown};
 use reference::Reference;
-use scene::{Progress, Scene, SceneError, builtin};
+use scene::{FileRead, Progress, Scene, SceneError, builtin};
 use std::cell::RefCell;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU32, Ordering};
@@ -32,7 +31,7 @@ struct Heard {
 }
 
 /// How long reading takes before it is worth a word.
-const WORTH_A_WORD: Duration = Duration::from_millis(200);
+pub const WORTH_A_WORD: Duration = Duration::from_millis(200);
 
 /// What was in a file, or under a name.
 #[derive(Debug)]
@@ -63,8 +62,8 @@ pub struct Opened {
     pub source: String,
     /// The scene that was read from it.
     pub scene: Scene,
-    /// When that file was written, if it is one.
-    pub stamp: Option<Stamp>,
+    /// The files that the scene was read from, as they were; none of a built-in scene.
+    pub files: Vec<FileRead>,
     /// What the picture sets up that was opened, if one was.
     pub setup: Option<Setup>,
     /// The session that was opened, or in which that picture was seen.
@@ -140,15 +139,16 @@ fn refusal(asked: &str, fault: &SceneError) -> Refusal {
 /// # Errors
 /// What is wrong with it.
 pub(super) fn read_scene(source: &str, progress: &Progress) -> Result<Opened, SceneError> {
-    // before it is read, so that what is written meanwhile is newer
-    let stamp = Stamp::of(Path::new(source)).filter(|_| builtin::text(source).is_none());
-    let scene = builtin::named_telling(source, progress)?;
+    // of this scene alone: another of its name may have been read before
+    let hear = |what: &str, share: f32| progress.tell(what, share).is_ok();
+    let own = Progress::new(&hear);
+    let scene = builtin::named_telling(source, &own)?;
     let notes = scene.notes();
     Ok(Opened {
         asked: source.to_owned(),
         source: source.to_owned(),
         scene,
-        stamp,
+        files: own.files(),
         setup: None,
         session: None,
         reference: None,

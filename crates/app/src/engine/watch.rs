@@ -1,43 +1,29 @@
-//! Watches the file of the scene that is open, and reads it again where it changes: by its time and size, twice a second,
-//! which needs nothing of the system. Editors write a new file and give it the name of the old one: what has the name counts.
+//! Watches the files that the scene that is open was read from, and reads it again where one changes: by their times and sizes,
+//! twice a second, which needs nothing of the system. Editors write a new file and give it the name of the old one: what has
+//! the name counts.
 
 use super::Wake;
 use super::worker::{Control, Service, Worker};
-use scene::{Progress, Scene, SceneError, builtin};
+use scene::{FileRead, FileStamp, Progress, Scene, SceneError, builtin};
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, SystemTime};
 
-/// How often a file is looked at.
+/// How often the files are looked at.
 const EVERY: Duration = Duration::from_millis(500);
 
 /// How long a file that has changed must stay as it is: it may be in the middle of being written.
 const SETTLED: Duration = Duration::from_millis(100);
 
-/// What tells that a file was written.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Stamp {
-    modified: Option<SystemTime>,
-    bytes: u64,
-}
-
-impl Stamp {
-    /// Of a file; `None` if there is none.
-    pub fn of(path: &Path) -> Option<Self> {
-        let found = std::fs::metadata(path).ok().filter(|found| found.is_file())?;
-        Some(Stamp { modified: found.modified().ok(), bytes: found.len() })
-    }
-}
-
-/// A scene's file as it was when it was read.
+/// A scene's files as they were when it was read.
 #[derive(Debug, Clone)]
 pub struct Watched {
     /// Counts the scenes opened.
     pub opened: u64,
     /// Where the file of the scene lies that is open.
     pub path: PathBuf,
-    /// `None` if it was not there.
-    pub stamp: Option<Stamp>,
+    /// All that it was read from: itself, its base, and the pictures and models that they name.
+    pub files: Vec<FileRead>,
     /// Whether it is read again without having changed.
     pub at_once: bool,
 }
@@ -90,15 +76,20 @@ impl Service for Files {
     type Update = News;
 
     fn serve(&mut self, watched: Option<Watched>, control: &Control<Self::Job, Self::Update>) {
-        let Some(Watched { opened, path, mut stamp, at_once }) = watched else { return };
+        let Some(Watched { opened, path, mut files, at_once }) = watched else { return };
         let (mut reads, mut folder) = (at_once, Folder::beside(&path));
         while !control.ends_soon() {
             if reads {
-                stamp = Stamp::of(&path);
                 let goes_on = |_: &str, _: f32| !control.ends_soon();
-                let scene = builtin::named_telling(&path.display().to_string(), &Progress::new(&goes_on));
+                let progress = Progress::new(&goes_on);
+                let scene = builtin::named_telling(&path.display().to_string(), &progress);
                 if matches!(scene, Err(SceneError::Stopped)) {
                     return;
+                }
+                files = progress.files();
+                if files.is_empty() {
+                    // a name without a suffix is no file's while there is none
+                    files.push(FileRead { path: path.clone(), stamp: None });
                 }
                 let scene = scene.map_err(|fault| fault.to_string());
                 control.tell(|news| news.reread = Some(Reread { opened, scene }));
@@ -107,12 +98,13 @@ impl Service for Files {
                 control.tell(|news| news.folder = Some(scenes));
             }
             control.rest(EVERY);
-            let now = Stamp::of(&path);
-            reads = now != stamp;
+            let written: Vec<FileRead> =
+                files.iter().filter(|file| file.has_changed()).map(|file| FileRead::now(&file.path)).collect();
+            reads = !written.is_empty();
             if reads {
                 control.rest(SETTLED);
-                // else it is looked at once more
-                reads = Stamp::of(&path) == now;
+                // else they are looked at once more
+                reads = !written.iter().any(FileRead::has_changed);
             }
         }
     }
@@ -142,7 +134,7 @@ struct Candidate {
     path: PathBuf,
     is_scene: bool,
     /// The file as it was when it was none; `None` if it could not be read.
-    looked_into: Option<Stamp>,
+    looked_into: Option<FileStamp>,
 }
 
 fn is_model(suffix: &OsStr) -> bool {
@@ -157,7 +149,7 @@ impl Candidate {
 
     /// Looks into one that was no scene and has changed: who makes a file may write it later, which no folder tells.
     fn look_again(&mut self) {
-        let stamp = Stamp::of(&self.path);
+        let stamp = FileStamp::of(&self.path);
         if self.is_scene || stamp.is_none() || stamp == self.looked_into {
             return;
         }
@@ -230,14 +222,20 @@ mod tests {
         }
     }
 
+    /// Watches a scene's file from now on, as it is.
+    fn watch(watcher: &Watcher, path: &Path) {
+        let progress = Progress::untold();
+        scene::load(path, &progress).expect("a scene");
+        watcher.watch(Some(Watched { opened: 1, path: path.to_owned(), files: progress.files(), at_once: false }));
+    }
+
     #[test]
     fn a_file_is_read_again_when_it_is_written_or_replaced_and_told_where_it_is_faulty() {
         let folder = TestFolder::new();
         let (path, other) = (folder.file("scene.toml"), folder.file("other"));
         std::fs::write(&path, SCENE).expect("a file");
         let watcher = Watcher::start(Arc::new(|| {})).expect("a thread");
-        let stamp = Stamp::of(&path);
-        watcher.watch(Some(Watched { opened: 1, path: path.clone(), stamp, at_once: false }));
+        watch(&watcher, &path);
 
         std::fs::write(&path, SCENE.replace("radius = 1", "radius = none")).expect("a file");
         let fault = next(&watcher).expect_err("a fault");
@@ -252,13 +250,36 @@ mod tests {
     }
 
     #[test]
+    fn a_scene_is_read_again_when_a_file_that_its_base_names_is_written_goes_or_comes() {
+        let folder = TestFolder::new();
+        let [path, base, model] = ["own.toml", "base.toml", "m.obj"].map(|name| folder.file(name));
+        let height = |scene: Scene| scene.bounds().1.y;
+        let triangle = |height: &str| {
+            std::fs::write(&model, format!("v 0 0 0\nv 1 0 0\nv 0 {height} 0\nf 1 2 3\n")).expect("a file");
+        };
+        std::fs::write(&path, "base = 'base.toml'\n").expect("a file");
+        std::fs::write(&base, format!("{SCENE}[[mesh]]\nfile = 'm.obj'\nmaterial = 'a'\n")).expect("a file");
+        triangle("2");
+        let watcher = Watcher::start(Arc::new(|| {})).expect("a thread");
+        watch(&watcher, &path);
+        triangle("3.5");
+        assert_eq!(next(&watcher).map(height), Ok(3.5));
+        std::fs::remove_file(&model).expect("a file");
+        let fault = next(&watcher).expect_err("a fault");
+        assert!(fault.contains("base.toml:") && fault.contains("m.obj"), "{fault}");
+        triangle("4.25");
+        assert_eq!(next(&watcher).map(height), Ok(4.25));
+        std::fs::write(&base, SCENE).expect("a file");
+        assert_eq!(next(&watcher).map(height), Ok(1.0), "the ball alone");
+    }
+
+    #[test]
     fn asked_to_it_reads_at_once_what_has_not_changed() {
         let folder = TestFolder::new();
         let path = folder.file("scene.toml");
         std::fs::write(&path, SCENE).expect("a file");
         let watcher = Watcher::start(Arc::new(|| {})).expect("a thread");
-        let stamp = Stamp::of(&path);
-        watcher.watch(Some(Watched { opened: 1, path, stamp, at_once: true }));
+        watcher.watch(Some(Watched { opened: 1, path, files: Vec::new(), at_once: true }));
         assert!(next(&watcher).is_ok());
     }
 

@@ -8,11 +8,11 @@ use crate::engine::export::{Content, Export};
 use crate::engine::load::{Loaded, Opened, Refusal};
 use crate::engine::memory::{Memo, Memory};
 use crate::engine::session::SessionToSave;
-use crate::engine::watch::{News, Reread, Stamp, Watched};
+use crate::engine::watch::{News, Reread, Watched};
 use crate::model::{Destination, ExportRequest, FilePurpose, Remembered, SavedSession, WindowPlace};
 use crate::ui::UiCommand;
 use image_file::shown;
-use scene::builtin;
+use scene::{FileRead, builtin};
 use std::path::{Path, PathBuf};
 
 impl Viewer {
@@ -44,8 +44,8 @@ impl Viewer {
 
     /// Goes on with the scene that the model was begun with.
     pub fn begin_with(&mut self, opened: Opened) {
-        let Opened { asked, stamp, reference, notes, .. } = opened;
-        self.follow_the_file(&asked, stamp);
+        let Opened { asked, files, reference, notes, .. } = opened;
+        self.follow_the_file(&asked, files);
         // who opens the window has said all of them on stderr
         self.model.say_notes(&notes);
         self.judge = reference.map(|reference| Judge::of_its_scene(reference, &self.model, notes));
@@ -56,11 +56,11 @@ impl Viewer {
         self.model.say_notes(notes).iter().for_each(|line| note!("note: {line}"));
     }
 
-    /// Follows the file of the scene that is open, and remembers what opened it.
-    fn follow_the_file(&mut self, asked: &str, stamp: Option<Stamp>) {
+    /// Follows the files of the scene that is open, and remembers what opened it.
+    fn follow_the_file(&mut self, asked: &str, files: Vec<FileRead>) {
         self.model.state.scene_fault = None;
         self.model.state.neighbours.clear();
-        self.watch(stamp, false);
+        self.watch(files, false);
         if builtin::text(asked).is_none()
             && let Ok(file) = std::path::absolute(asked)
         {
@@ -68,10 +68,10 @@ impl Viewer {
         }
     }
 
-    fn watch(&self, stamp: Option<Stamp>, at_once: bool) {
+    fn watch(&self, files: Vec<FileRead>, at_once: bool) {
         let document = &self.model.document;
         let is_file = builtin::text(&document.source).is_none();
-        let watched = Watched { opened: document.opened, path: PathBuf::from(&document.source), stamp, at_once };
+        let watched = Watched { opened: document.opened, path: PathBuf::from(&document.source), files, at_once };
         self.engine.watch(is_file.then_some(watched));
     }
 
@@ -82,7 +82,7 @@ impl Viewer {
             return self.model.say(Ok(format!("{source} is built in: there is no file to read again")));
         }
         self.asked_again = true;
-        self.watch(Stamp::of(Path::new(&source)), true);
+        self.watch(Vec::new(), true);
     }
 
     /// Takes what was read, chosen or found on disk since the last frame.
@@ -116,7 +116,7 @@ impl Viewer {
         if self.is_seen(&opened) {
             return self.judge = opened.reference.map(Judge::alone);
         }
-        let Opened { asked, source, scene, stamp, setup, session, reference, notes } = opened;
+        let Opened { asked, source, scene, files, setup, session, reference, notes } = opened;
         let what = match (&setup, &session) {
             (Some(_), _) => format!("{} as {} shows it", scene.name, shown(Path::new(&asked))),
             (None, Some(_)) => format!("the session {} of {}", shown(Path::new(&asked)), scene.name),
@@ -136,7 +136,7 @@ impl Viewer {
             Ok(()) => self.tell(&notes),
         }
         self.presentation.clear();
-        self.follow_the_file(&asked, stamp);
+        self.follow_the_file(&asked, files);
         self.judge = reference.map(|reference| Judge::of_its_scene(reference, &self.model, notes));
     }
 

@@ -3,9 +3,9 @@
 
 use super::protocol::{MOST_PIXELS, MOST_SIDE};
 use crate::engine::bare;
-use crate::engine::watch::Stamp;
 use film::Image;
 use image_file::{Loaded, shown};
+use scene::FileStamp;
 use std::io::ErrorKind;
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
@@ -18,9 +18,9 @@ const RETRY: Duration = Duration::from_secs(2);
 pub struct Follower {
     path: PathBuf,
     /// As it was when it was last looked at.
-    seen: Option<Stamp>,
+    seen: Option<FileStamp>,
     /// As it was when it was last read, and when that was.
-    read: Option<(Option<Stamp>, Instant)>,
+    read: Option<(Option<FileStamp>, Instant)>,
     begun: Option<Instant>,
     state: FileState,
 }
@@ -51,7 +51,7 @@ impl Follower {
     /// Looks at the file; returns what there is to show, if that has changed since a version.
     pub fn since(&mut self, version: Option<u64>) -> Option<&FileState> {
         let before = self.seen;
-        self.seen = Stamp::of(&self.path);
+        self.seen = FileStamp::of(&self.path);
         if self.is_due(before) {
             self.read = Some((self.seen, Instant::now()));
             self.look_into();
@@ -60,7 +60,7 @@ impl Follower {
     }
 
     /// At first, and where it has changed and stays as it is; where it could not be read, now and then.
-    fn is_due(&self, before: Option<Stamp>) -> bool {
+    fn is_due(&self, before: Option<FileStamp>) -> bool {
         match self.read {
             None => true,
             Some((then, _)) if then != self.seen => before == self.seen,
