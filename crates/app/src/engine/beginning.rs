@@ -1,10 +1,13 @@
 //! What a window or a report begins with: a scene as its session, a picture of it or options set it up.
 
-use super::load::{self, Asked, Loaded, Opened, ReferenceFile};
-use super::memory;
+use super::load::{self, Asked, Loaded, Loader, Opened, ReferenceFile, Refusal};
+use super::{Wake, memory};
 use crate::model::{Document, Model, Remembered, SavedWindow, ViewArgs};
 use anyhow::bail;
 use scene::Progress;
+use std::sync::mpsc::{Receiver, channel};
+use std::sync::{Arc, OnceLock};
+use std::time::{Duration, Instant};
 
 /// What a window begins with.
 pub struct Beginning {
@@ -22,7 +25,11 @@ impl Beginning {
     pub fn read(scene: &str) -> anyhow::Result<Self> {
         let remembered = recall();
         let asked = Asked::Open { name: scene.to_owned(), recent: remembered.recent.clone() };
-        match load::read(&asked, &Progress::untold()) {
+        Beginning::with(load::read(&asked, &Progress::untold()), remembered)
+    }
+
+    fn with(read: Result<Loaded, Refusal>, remembered: Remembered) -> anyhow::Result<Self> {
+        match read {
             Ok(Loaded::Scene(opened)) => Ok(Beginning { opened: *opened, remembered }),
             Ok(Loaded::Reference(ReferenceFile { sceneless: Some(line), .. })) => bail!("{line}"),
             Ok(Loaded::Reference(ReferenceFile { file, .. })) => bail!(
@@ -31,6 +38,11 @@ impl Beginning {
             ),
             Err(refusal) => bail!("{}", refusal.line),
         }
+    }
+
+    /// The window's size in points, where a session that was opened has one.
+    pub fn window_size(&self) -> Option<[f64; 2]> {
+        self.opened.session.as_ref().and_then(|session| session.window.size)
     }
 
     /// The scene that was read, as the options and the session or the picture that was opened set it up.
@@ -60,6 +72,69 @@ impl Beginning {
     }
 }
 
+/// What a window begins with while it is read beside whoever opens the window.
+pub struct Reading {
+    loader: Loader,
+    remembered: Remembered,
+    doing: Option<String>,
+    woken: Receiver<()>,
+    /// Of the window, once there is one.
+    wake: Arc<OnceLock<Wake>>,
+}
+
+impl Reading {
+    /// Begins to read a scene, a session or a picture by its name or file.
+    pub fn begin(scene: &str) -> Self {
+        let remembered = recall();
+        let (tell, woken) = channel();
+        let wake = Arc::new(OnceLock::<Wake>::new());
+        let of_the_window = wake.clone();
+        let loader = Loader::new(Arc::new(move || {
+            // nobody waits here once there is a window
+            let _ = tell.send(());
+            of_the_window.get().into_iter().for_each(|wake| wake());
+        }));
+        loader.load(Asked::Open { name: scene.to_owned(), recent: remembered.recent.clone() });
+        Reading { loader, remembered, doing: None, woken, wake }
+    }
+
+    /// What was read within so long, if it was.
+    pub fn within(&mut self, time: Duration) -> Option<anyhow::Result<Beginning>> {
+        let begun = Instant::now();
+        loop {
+            let read = self.read();
+            let left = time.saturating_sub(begun.elapsed());
+            if read.is_some() || left.is_zero() {
+                return read;
+            }
+            // either way it is looked at again
+            let _ = self.woken.recv_timeout(left);
+        }
+    }
+
+    /// What was read by now, once.
+    pub fn read(&mut self) -> Option<anyhow::Result<Beginning>> {
+        let read = self.loader.loaded(&mut self.doing)?;
+        Some(Beginning::with(read, std::mem::take(&mut self.remembered)))
+    }
+
+    /// Lets a window hear of what is new.
+    pub fn wakes(&self, wake: Wake) {
+        // there is one window
+        let _ = self.wake.set(wake);
+    }
+
+    /// What is being read, and how far, in words.
+    pub fn doing(&self) -> Option<&str> {
+        self.doing.as_deref()
+    }
+
+    /// What earlier windows have left.
+    pub fn remembered(&self) -> &Remembered {
+        &self.remembered
+    }
+}
+
 /// What the program remembers of earlier windows; what cannot be read is told and left.
 fn recall() -> Remembered {
     let file = memory::file_of_the_user();
@@ -84,6 +159,27 @@ mod tests {
             .model(&args)
             .unwrap()
             .beside(Adapters::default(), args.device)
+    }
+
+    #[test]
+    fn what_is_read_beside_is_waited_for_no_longer_than_it_may_take_and_tells_how_far_it_is() {
+        let folder = visavis_tests::TestFolder::new();
+        let large = folder.file("large.toml");
+        let statue = "[camera]\neye = [0, 1, 5]\ntarget = [0, 1, 0]\nfov_y = 45\n[material.a]\n\
+                      diffuse = { albedo = [1, 1, 1] }\n[[statue]]\nlevel = 11\nmaterial = \"a\"\n";
+        std::fs::write(&large, statue).unwrap();
+        let minute = Duration::from_secs(60);
+        let read = |scene: &str| Reading::begin(scene).within(minute).expect("it is small");
+        assert_eq!(read("cornell").expect("a scene").opened.source, "cornell");
+        let fault = read("gone.toml").map(|_| ()).expect_err("there is none").to_string();
+        assert!(fault.contains("gone.toml"), "{fault}");
+        let mut reading = Reading::begin(large.to_str().unwrap());
+        assert!(reading.within(Duration::ZERO).is_none() && reading.doing().is_none());
+        let (tell, told) = channel();
+        reading.wakes(Arc::new(move || _ = tell.send(())));
+        told.recv_timeout(minute).expect("the window is woken");
+        assert!(reading.read().is_none());
+        assert!(reading.doing().is_some_and(|doing| doing.starts_with("making a statue of level 11: ")));
     }
 
     #[test]

@@ -1,6 +1,7 @@
 //! The app around the viewer: one winit window, one egui context, one wgpu device that the window and the fake share.
 
 mod app;
+mod canvas;
 mod dialogue;
 mod frame_stats;
 mod icon;
@@ -9,13 +10,19 @@ mod recovery;
 mod scale_factor;
 mod surface;
 mod textures;
+mod waiting;
 mod window_state;
 
-use crate::engine::beginning::Beginning;
+use crate::engine::beginning::Reading;
+use crate::engine::load::WORTH_A_WORD;
 use crate::model::ViewArgs;
-use anyhow::Context;
+use anyhow::{Context, bail};
 use egui_winit::accesskit_winit;
+use std::time::Duration;
 use winit::event_loop::EventLoop;
+
+/// How long a scene's fault is waited for where there is no display: it goes first.
+const FAULTS_FIRST: Duration = Duration::from_secs(5);
 
 /// Something happened beside the UI thread that it should look at.
 #[derive(Debug)]
@@ -34,28 +41,34 @@ impl From<accesskit_winit::Event> for UserEvent {
     }
 }
 
-/// Opens the viewer and returns when it is closed. Who asks the program to end calls what `heed` is given, and is heeded as
+/// Opens the viewer and returns when it is closed. A scene that takes long is read while the window is open already. Who asks the program to end calls what `heed` is given, and is heeded as
 /// long as lives what it returns.
 ///
 /// # Errors
 /// If the scene does not load, if there is no display, or if no adapter can draw the window.
 pub fn open<Heeded>(args: &ViewArgs, heed: impl FnOnce(Box<dyn Fn() + Send>) -> Heeded) -> anyhow::Result<()> {
     let started = std::time::Instant::now();
-    let beginning = Beginning::read(&args.scene)?;
+    let mut reading = Reading::begin(&args.scene);
+    // what is broken is mostly known by then, and needs no window to be told
+    let first = reading.within(WORTH_A_WORD).transpose()?;
     scale_factor::check_variable()?;
-    let events = EventLoop::<UserEvent>::with_user_event().build().map_err(|e| {
-        anyhow::anyhow!(
-            "no window can be opened here ({}); without a display, use: visavis render {} -o out.png",
-            cause(&e),
-            beginning.opened.source
-        )
-    })?;
+    let events = match EventLoop::<UserEvent>::with_user_event().build() {
+        Ok(events) => events,
+        Err(fault) => {
+            let first = first.or(reading.within(FAULTS_FIRST).transpose()?);
+            let scene = first.map_or(args.scene.clone(), |beginning| beginning.opened.source);
+            bail!(
+                "no window can be opened here ({}); without a display, use: visavis render {scene} -o out.png",
+                cause(&fault)
+            );
+        }
+    };
     let proxy = events.create_proxy();
     let _heeded = heed(Box::new(move || {
         // a window that is closed has ended
         let _ = proxy.send_event(UserEvent::Ended);
     }));
-    let mut app = app::App::new(beginning, args.clone(), events.create_proxy(), started);
+    let mut app = app::App::new(first.ok_or(reading), args.clone(), events.create_proxy(), started);
     events.run_app(&mut app).context("the window stopped")?;
     app.outcome()
 }

@@ -1,8 +1,11 @@
 //! Files in the real window: options, title, a scene that changes on disk, and what the next window remembers.
 
-use super::{alone, both_ready, says};
+use super::{alone, both_ready, says, viewer_on};
 use std::path::Path;
 use visavis_tests::{Screen, TestFolder, ViewerUnderTest};
+
+/// The keysym.
+const ESCAPE: u32 = 0xff1b;
 
 fn write(file: &Path, fov: &str) {
     let cornell = scene::builtin::text("cornell").expect("a built-in scene");
@@ -42,6 +45,47 @@ fn a_lecture_is_opened_by_its_options_and_its_window_comes_back() {
     assert_eq!(screen.title(window), "cornell - Visavis");
     screen.click(again.point("scene", 0.5, 0.5));
     next.wait_for("the file of before", |f| f.shows("recent lecture.toml"));
+}
+
+/// A scene whose statue takes seconds to be made, and what stands behind it.
+fn write_large(file: &Path, level: u32, behind: &str) -> String {
+    let before = "[camera]\neye = [0, 1, 5]\ntarget = [0, 1, 0]\nfov_y = 45\n[material.a]\n\
+                  diffuse = { albedo = [1, 1, 1] }\n";
+    let statue = format!("[[statue]]\nlevel = {level}\nmaterial = \"a\"\n");
+    std::fs::write(file, format!("{before}{statue}{behind}")).expect("a file");
+    file.to_str().expect("a plain path").to_owned()
+}
+
+#[test]
+fn a_window_is_there_before_its_large_scene_and_escape_opens_another_in_its_place() {
+    let _alone = alone();
+    let (screen, folder) = (Screen::start(1280, 720), TestFolder::new());
+    let large = write_large(&folder.file("large.toml"), 11, "");
+    let mut viewer = viewer_on(&screen, &[&large, "--b", "path,spp=2", "--edit", "{ material.a.colour = [1, 0, 0] }"]);
+    let waits = viewer.wait_for("how far it is", |f| f.state("loading").is_string());
+    assert!(waits.value("opening").ends_with("large.toml") && !waits.shows("picture"), "{waits:?}");
+    assert!(waits.value("loading").starts_with("making a statue of level 11: "), "{waits:?}");
+    screen.focus("Visavis");
+    screen.press(ESCAPE);
+    let usual = viewer.wait_for("another scene", both_ready);
+    assert!(usual.state("scene") == "whitted" && says(&usual, "Reading was stopped"), "{}", usual.state("message"));
+
+    drop(viewer);
+    let mut viewer = viewer_on(&screen, &[&large]);
+    viewer.wait_for("how far it is", |f| f.state("loading").is_string());
+    screen.close(screen.focus("Visavis"));
+    assert!(viewer.wait_for_end().success());
+}
+
+#[test]
+fn a_large_scene_whose_fault_comes_late_ends_the_window_with_one_line() {
+    let _alone = alone();
+    let (screen, folder) = (Screen::start(1280, 720), TestFolder::new());
+    let faulty = write_large(&folder.file("large.toml"), 9, "[[instance]]\nof = \"nothing\"\n");
+    let mut viewer = viewer_on(&screen, &[&faulty]);
+    assert_eq!(viewer.wait_for_end().code(), Some(1));
+    let said = viewer.said();
+    assert!(said.starts_with("visavis: ") && said.lines().count() == 1 && said.contains("large.toml:"), "{said}");
 }
 
 #[test]
