@@ -66,8 +66,8 @@ pub struct UiState {
     pub neighbours: Vec<PathBuf>,
     /// The files that were opened last, and the window of before.
     pub remembered: Remembered,
-    /// Whether small pictures of the scenes are asked for.
-    pub thumbnails: bool,
+    /// Whether small pictures of the built-in scenes are asked for, and those of the hard cases.
+    pub thumbnails: [bool; 2],
     /// Whether a file dialogue of the system's is open.
     pub choosing_file: bool,
     /// A scene to open, as typed.
@@ -175,7 +175,7 @@ impl UiState {
             loading: None,
             neighbours: Vec::new(),
             remembered: Remembered::default(),
-            thumbnails: false,
+            thumbnails: [false; 2],
             choosing_file: false,
             scene_file: String::new(),
             reference_file: String::new(),

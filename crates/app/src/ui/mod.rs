@@ -14,11 +14,13 @@ mod scene_menu;
 mod slides_menu;
 mod theme;
 mod top_bar;
+mod waiting;
 mod widgets;
 mod workspace;
 mod workspaces;
 
 pub use dump::{Dump, Widget};
+pub use waiting::show_waiting;
 pub use workspace::{Icon, Workspace};
 pub use workspaces::Workspaces;
 
@@ -41,8 +43,8 @@ pub enum UiCommand {
     ReadAgain,
     /// Let the user choose a file in a dialogue of the system's.
     Choose(FileWish),
-    /// Draw small pictures of the hard cases.
-    DrawThumbnails,
+    /// Draw small pictures of these built-in scenes, and no others.
+    DrawThumbnails(Vec<&'static str>),
     /// Read a reference from a file.
     LoadReference(PathBuf),
     /// Fill the screen with the window, or give it back its frame.

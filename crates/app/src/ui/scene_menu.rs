@@ -3,7 +3,9 @@
 use super::widgets::{Explained, framed, menu};
 use super::{UiCommand, UiContext, dialogue_button};
 use crate::model::{FilePurpose, FileWish};
-use egui::{Image, Response, RichText, ScrollArea, Sense, Ui, vec2};
+use egui::{
+    Atom, Button, Color32, Grid, Image, Rect, Response, RichText, ScrollArea, Sense, TextureId, Ui, Vec2, pos2, vec2,
+};
 use image_file::shown;
 use scene::builtin;
 use std::path::{Path, PathBuf};
@@ -14,6 +16,10 @@ const MOST_LETTERS: usize = 18;
 /// Height in points beyond which a list of files scrolls.
 const TALLEST: f32 = 150.0;
 
+/// Width and height in points of a scene's picture, and how many stand in a row.
+const PICTURE: Vec2 = vec2(66.0, 44.0);
+const IN_A_ROW: usize = 2;
+
 /// Width in points of what is said of a hard case.
 const ABOUT: f32 = 360.0;
 
@@ -22,12 +28,7 @@ pub fn show(cx: &mut UiContext, ui: &mut Ui) {
     let short: String = name.chars().take(MOST_LETTERS).collect();
     let title = if short == *name { format!("Scene: {name}") } else { format!("Scene: {short}…") };
     let (response, _) = menu(title).ui(ui, |ui| {
-        for name in builtin::names() {
-            let chosen = cx.model.document.source == name;
-            let item = ui.selectable_label(chosen, name).explained(&builtin::about(name).unwrap_or_default());
-            let item = cx.dump.note(&format!("scene {name}"), "", item);
-            open_if_clicked(&item, name, cx, ui);
-        }
+        built_in(cx, ui);
         let hard = ui.menu_button("Hard cases", |ui| hard_cases(cx, ui));
         cx.dump.note("hard cases", "", hard.response);
         let neighbours = cx.model.state.neighbours.clone();
@@ -43,6 +44,35 @@ pub fn show(cx: &mut UiContext, ui: &mut Ui) {
     cx.dump.note("scene", &cx.model.document.scene.name, response);
 }
 
+/// Each with its picture.
+fn built_in(cx: &mut UiContext, ui: &mut Ui) {
+    if !std::mem::replace(&mut cx.model.state.thumbnails[0], true) {
+        cx.commands.push(UiCommand::DrawThumbnails(builtin::names().collect()));
+    }
+    Grid::new("built-in scenes").num_columns(IN_A_ROW).spacing(vec2(4.0, 2.0)).show(ui, |ui| {
+        for (place, name) in builtin::names().enumerate() {
+            let picture = picture(cx.textures.thumbnails.get(name).copied());
+            let chosen = cx.model.document.source == name;
+            let item = ui.add(Button::selectable(chosen, (picture, name)));
+            let item = item.explained(&builtin::about(name).unwrap_or_default());
+            let item = cx.dump.note(&format!("scene {name}"), "", item);
+            open_if_clicked(&item, name, cx, ui);
+            if (place + 1) % IN_A_ROW == 0 {
+                ui.end_row();
+            }
+        }
+    });
+}
+
+/// Takes its room before it is there.
+fn picture(texture: Option<TextureId>) -> Atom<'static> {
+    Atom::paint(PICTURE, move |ui, args| {
+        if let Some(texture) = texture {
+            ui.painter().image(texture, args.rect, Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0)), Color32::WHITE);
+        }
+    })
+}
+
 fn open_if_clicked(item: &Response, name: &str, cx: &mut UiContext, ui: &mut Ui) {
     if item.clicked() {
         cx.commands.push(UiCommand::Open(name.to_owned()));
@@ -52,8 +82,9 @@ fn open_if_clicked(item: &Response, name: &str, cx: &mut UiContext, ui: &mut Ui)
 
 /// Each with its picture and what it is for.
 fn hard_cases(cx: &mut UiContext, ui: &mut Ui) {
-    if !std::mem::replace(&mut cx.model.state.thumbnails, true) {
-        cx.commands.push(UiCommand::DrawThumbnails);
+    if !std::mem::replace(&mut cx.model.state.thumbnails[1], true) {
+        // one wish takes the place of the other
+        cx.commands.push(UiCommand::DrawThumbnails(builtin::names().chain(builtin::hard_names()).collect()));
     }
     let tallest = (ui.ctx().content_rect().height() - 120.0).max(100.0);
     ScrollArea::vertical().max_height(tallest).show(ui, |ui| {
@@ -157,7 +188,7 @@ fn read_again(cx: &mut UiContext, ui: &mut Ui) {
         return;
     }
     let button = ui.add(framed("Read again", ui)).explained(
-        "The scene's file is read again by itself when it changes; models and pictures that it names only here (Ctrl+R)",
+        "The scene is read again by itself when its file changes, or one that it names: its base, a picture, a model (Ctrl+R reads it at once)",
     );
     if cx.dump.note("read again", "", button).clicked() {
         cx.commands.push(UiCommand::ReadAgain);

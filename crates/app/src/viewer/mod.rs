@@ -160,7 +160,7 @@ impl Viewer {
             UiCommand::StopLoading => self.stop_loading(),
             UiCommand::LoadReference(file) => self.engine.load(Asked::Reference(file)),
             UiCommand::ReadAgain => self.read_again(),
-            UiCommand::DrawThumbnails => self.engine.draw_thumbnails(scene::builtin::hard_names()),
+            UiCommand::DrawThumbnails(names) => self.engine.draw_thumbnails(names),
             UiCommand::Choose(_) | UiCommand::FullScreen | UiCommand::Quit => return Some(command),
         }
         None
@@ -209,7 +209,7 @@ impl Viewer {
 
     /// Goes on with another device of the window, whose textures are lost.
     pub fn move_to(&mut self, gpu: &Gpu) {
-        self.model.state.thumbnails = false;
+        self.model.state.thumbnails = [false; 2];
         self.presentation.lose_textures();
         self.engine.move_to(gpu);
     }

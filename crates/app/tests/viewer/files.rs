@@ -4,7 +4,9 @@ use super::export::export;
 use super::{User, both_whole, says};
 use egui::{Key, Modifiers};
 use std::path::Path;
+use std::time::{Duration, Instant};
 use visavis::model::{CompareWith, ComparisonSettings, PaneId};
+use visavis::viewer::Place;
 use visavis_tests::Frame;
 
 /// A scene with a field of view of so many degrees.
@@ -305,6 +307,30 @@ fn files_that_were_opened_are_offered_again_until_they_are_gone() {
     let told = user.wait_for("the refusal", |f| says(f, "no longer among the files opened before"));
     assert_eq!(told.state("scene"), "other");
     assert!(!user.click("Scene: other").shows("recent box.toml"));
+}
+
+#[test]
+fn built_in_scenes_are_offered_with_their_pictures_which_take_their_room_before_they_are_there() {
+    let mut user = User::of("cornell");
+    let before = user.click("Scene: cornell");
+    let put_up = |user: &User, name: &'static str| {
+        let uploads = user.uploads.borrow();
+        uploads.iter().any(|(place, size, _)| *place == Place::Thumbnail(name) && *size == (132, 88))
+    };
+    let start = Instant::now();
+    while !scene::builtin::names().all(|name| put_up(&user, name)) {
+        user.frame();
+        assert!(start.elapsed() < Duration::from_secs(60), "no pictures");
+    }
+    let after = user.frame();
+    for name in scene::builtin::names() {
+        let item = format!("scene {name}");
+        let [left, top, right, bottom] = after.rect(&item);
+        assert!(right - left > 66.0 && bottom - top >= 44.0, "{name}");
+        assert_eq!(after.rect(&item), before.rect(&item), "{name}");
+    }
+    user.click("phong");
+    user.wait_for("the other scene", |f| f.state("scene") == "phong");
 }
 
 #[test]
