@@ -3,7 +3,7 @@
 //! Twin: `shaders/pathtrace/prepared.wgsl`.
 
 use crate::bsdf::interaction::facing;
-use crate::bsdf::materials::Materials;
+use crate::bsdf::materials::{Kinds, Materials};
 use crate::bsdf::{Interactions, shading};
 use crate::caster::Casters;
 use crate::caster::cone::Cones;
@@ -119,13 +119,13 @@ impl PreparedScene {
         let (mut normal, mut uv) = (facing(hit.point.normal, wo), [F::splat(0.0); 2]);
         if let Some(attributes) = self.aggregate.attributes(hit) {
             uv = attributes.uv;
-            normal = self.shading_normal(hit, &attributes, normal, wo);
+            normal = self.shading_normal(hit, &attributes, normal, wo, kinds);
         }
         let colour = self.materials.colour(hit.material, kinds, &hit.point, uv);
         Interactions { point: hit.point, normal, wo, colour, kinds, material: hit.material, uv }
     }
 
-    /// The normal on the side of `wo` that surfaces are shaded by; their own where nothing says another.
+    /// The normal that surfaces are shaded by, on the side that `wo` sees; their own where nothing says another.
     #[inline(always)]
     fn shading_normal<F: Float>(
         &self,
@@ -133,13 +133,14 @@ impl PreparedScene {
         attributes: &SurfaceAttributes<F>,
         own: Vector<F>,
         wo: Vector<F>,
+        kinds: Kinds<F::U>,
     ) -> Vector<F> {
         if !self.materials.has().shading_normals {
             return own;
         }
         let textures = self.materials.textures();
         let bumps = textures.has_normals().then(|| textures.normals(hit.material, attributes.uv));
-        shading::shading_normal(hit.point.normal, attributes, bumps, wo)
+        shading::shading_normal(hit.point.normal, attributes, bumps, wo, kinds.only_mirrors())
     }
 
     /// Where something stands between the `wanted` points and what shines on them; if `opaque`, glass does not count.

@@ -14,6 +14,7 @@ pub const SOURCES: &[Source<'static>] = gpu::wgsl_sources![
     "pathtrace/bsdf/textures.wgsl",
     "pathtrace/bsdf/rough_conductor.wgsl",
     "pathtrace/bsdf/shading.wgsl",
+    "pathtrace/bsdf/two_normals.wgsl",
     "pathtrace/camera.wgsl",
     "pathtrace/caster/caster.wgsl",
     "pathtrace/caster/cone.wgsl",

@@ -5,6 +5,7 @@ use crate::bsdf::materials::{
     CHECKERED, HAS_INDEX, LOBE_DIELECTRIC, LOBE_LAMBERT, LOBE_METALLIC_ROUGHNESS, LOBE_MIRROR, LOBE_ROUGH_CONDUCTOR,
 };
 use crate::bsdf::metallic_roughness::{LEAST_SPECULAR, POLISHED, SMOOTHEST};
+use crate::bsdf::shading::LEAST_UPRIGHT;
 use crate::caster::cone::{CONE_DENSITY, MOST_CONES, MOST_SHARE, NARROWEST, WIDEST};
 use crate::caster::sphere_chain::{LAST_STEP, MOST_ROOTS, MOST_STEPS, NEAR_AXIS};
 use crate::drive::gpu::dispatch::GROUP;
@@ -88,6 +89,7 @@ pub fn shared_constants() -> Vec<(&'static str, f64)> {
         LEAF,
         LEAST_SQUARE,
         LEAST_SPECULAR,
+        LEAST_UPRIGHT,
         LIGHT_BALL,
         LIGHT_DISK,
         LIGHT_ENVIRONMENT,

@@ -7,7 +7,7 @@
 struct Interaction {
     // where, with the bound on its error and the outward normal
     point: SurfacePoint,
-    // unit normal on the side of wo that it is shaded by
+    // unit normal that it is shaded by, on the side of the surface that wo sees; where facets cover a body that of the body
     normal: vec3f,
     // unit direction back along the ray
     wo: vec3f,

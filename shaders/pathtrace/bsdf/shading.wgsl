@@ -2,12 +2,15 @@
 //#import pathtrace/bsdf/interaction.wgsl
 //#import pathtrace/bsdf/textures.wgsl
 //#import pathtrace/intersect/aggregate.wgsl
-// Shading normals, and what keeps light from coming through surfaces where they and the triangles disagree: turned as in
-// Cycles (Blender, ensure_valid_specular_reflection); Veach, "Robust Monte Carlo Methods for Light Transport Simulation"
+// Shading normals, and what keeps light from coming through surfaces where they and the triangles disagree: turned for what
+// mirrors, and for that alone, as in Cycles (Blender, ensure_valid_specular_reflection); Veach, "Robust Monte Carlo Methods for Light Transport Simulation"
 // (1997), 5.3; Chiang, Li and Burley, "Taming the Shadow Terminator" (SIGGRAPH Talks 2019). Twin:
 // crates/pathtrace/src/bsdf/shading.rs.
 
-// The unit normal that a surface is shaded by, on the side of wo.
+// least cosine between the normals of a triangle and of a matt surface
+const LEAST_UPRIGHT: f32 = 0.01;
+
+// The unit normal that a surface is shaded by, on its side that wo sees. Those that do nothing but mirror have that of bent.
 fn shading_normal(hit: Hit, attributes: SurfaceAttributes, wo: vec3f) -> vec3f {
     let outwards = hit.point.normal;
     var normal = outwards;
@@ -20,10 +23,32 @@ fn shading_normal(hit: Hit, attributes: SurfaceAttributes, wo: vec3f) -> vec3f {
         let scale = materials[hit.material].normal_scale;
         normal = bumped(normal, tangent_of(hit), found * vec3f(scale, scale, 1.0));
     }
-    if dot(outwards, wo) < 0.0 {
-        return bent(-outwards, -normal, wo);
+    let behind = dot(outwards, wo) < 0.0;
+    let geometric = select(outwards, -outwards, behind);
+    let seen = select(normal, -normal, behind);
+    let lobe = materials[hit.material].lobe;
+    if (lobe & (LOBE_MIRROR | LOBE_DIELECTRIC | LOBE_ROUGH_CONDUCTOR)) != 0u {
+        return bent(geometric, seen, wo);
     }
-    return bent(outwards, normal, wo);
+    return upright(geometric, seen);
+}
+
+// The unit normal by which facets mirror on a surface that has a matt body too.
+fn mirroring_normal(at: Interaction) -> vec3f {
+    return bent(facing(at.point.normal, at.wo), at.normal, at.wo);
+}
+
+// The normal, raised to LEAST_UPRIGHT above the triangle of normal g where it is lower.
+fn upright(g: vec3f, n: vec3f) -> vec3f {
+    let along_g = dot(n, g);
+    if along_g >= LEAST_UPRIGHT {
+        return n;
+    }
+    let sideways = n - g * along_g;
+    if dot(sideways, sideways) <= SMALLEST_POSITIVE {
+        return g;
+    }
+    return unit_vector(unit_vector(sideways) + g * LEAST_UPRIGHT);
 }
 
 // A normal of a texture, put onto a surface.
@@ -123,8 +148,20 @@ fn of_arriving(at: Interaction) -> f32 {
     return over_geometric(at, at.wo);
 }
 
-// By what the weight of a direction wi is multiplied that a photon takes.
+// A surface as a photon leaves it: one with a matt body sends light out by the triangle's own normal.
+fn as_left(at: Interaction) -> Interaction {
+    var left = at;
+    if is_diffuse(at) || (METALLIC_ROUGHNESS && (at.lobe & LOBE_METALLIC_ROUGHNESS) != 0u) {
+        left.normal = facing(at.point.normal, at.wo);
+    }
+    return left;
+}
+
+// By what the weight of a direction wi is multiplied that a photon takes leaving a surface. Not of metallic-roughness.
 fn adjoint(at: Interaction, wi: vec3f) -> f32 {
+    if is_diffuse(at) {
+        return of_arriving(at);
+    }
     let leaves = over_geometric(at, wi);
     if leaves <= SMALLEST_POSITIVE {
         return 0.0;

@@ -27,7 +27,7 @@ fn connect(at: Interaction, u: vec4f) {
         return;
     }
     let by = connection(at.point.position, chain, sample);
-    if !by.possible || is_behind(by, at.normal) {
+    if !by.possible || (is_behind(by, at.normal) && is_behind(by, mirroring_of(at))) {
         return;
     }
     for (var index = 0u; index < roots_at_most(by.equation); index++) {
@@ -52,7 +52,7 @@ fn is_left_to_chance(sample: LightSample) -> bool {
 
 // Takes the light of a connection, if nothing stands in its way; under MIS weighted against chance.
 fn receive_by(at: Interaction, by: Connection, ray: ConnectedRay) {
-    let cosine = dot(at.normal, ray.wi);
+    let cosine = cosine_of(at, ray.wi);
     if cosine <= 0.0 || ray.density <= 0.0 || !arrives(at.point, by, ray) {
         return;
     }

@@ -294,10 +294,19 @@ fn sample_with_cones(u: vec3f) -> BsdfSample {
 // A direction of the tutorial's naive tracer, whatever the surface (Task 2 b); its weight is in the throughput.
 fn sample_uniformly(u: vec2f) -> BsdfSample {
     let local = uniform_hemisphere(u);
-    let wi = to_world(local, vertex.normal);
+    // shaded by several normals it is above the triangle
+    var above = vertex.normal;
+    if SHADING_NORMALS {
+        above = facing(vertex.point.normal, vertex.normal);
+    }
+    let wi = to_world(local, above);
+    var cosine = local.z;
+    if SHADING_NORMALS {
+        cosine = max(cosine_of(vertex, wi), 0.0);
+    }
     let bsdf = eval_bsdf(vertex, wi);
     path.throughput *= bsdf.colour;
-    path.throughput *= bsdf.factor * local.z / UNIFORM_HEMISPHERE_PDF;
+    path.throughput *= bsdf.factor * cosine / UNIFORM_HEMISPHERE_PDF;
     return BsdfSample(wi, bsdf.colour, UNIFORM_HEMISPHERE_PDF);
 }
 
@@ -326,7 +335,7 @@ fn sample_lights(u: vec4f) {
         return;
     }
     let sample = sample_light(vertex.point.position, u.z, u.xy);
-    let cosine = dot(vertex.normal, sample.wi);
+    let cosine = cosine_of(vertex, sample.wi);
     if sample.pdf == 0.0 || cosine <= 0.0 {
         return;
     }

@@ -10,7 +10,8 @@ use simd::{Float, Vector, Word};
 pub struct Interactions<F: Float> {
     /// Where, with the bound on its error and the outward normal.
     pub point: SurfacePoints<F>,
-    /// Unit normal on the side of `wo` that it is shaded by: see [`super::shading`].
+    /// Unit normal that it is shaded by, on the side of the surface that `wo` sees: see [`super::shading`]. Where
+    /// facets cover a body that of the body.
     pub normal: Vector<F>,
     /// Unit direction back along the ray.
     pub wo: Vector<F>,

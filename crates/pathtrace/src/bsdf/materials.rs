@@ -145,6 +145,12 @@ impl<U: Word> Kinds<U> {
         self.has(LOBE_ROUGH_CONDUCTOR | LOBE_METALLIC_ROUGHNESS)
     }
 
+    /// Does nothing but mirror or refract, by facets or as a whole.
+    #[inline(always)]
+    pub fn only_mirrors(self) -> U::M {
+        self.has(DELTA | LOBE_ROUGH_CONDUCTOR)
+    }
+
     /// Shines.
     #[inline(always)]
     pub fn area_light(self) -> U::M {

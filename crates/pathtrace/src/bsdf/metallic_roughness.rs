@@ -74,18 +74,18 @@ impl<F: Float> MetallicRoughnesses<F> {
 
     /// The body's albedo, were there no coat.
     #[inline(always)]
-    fn body(&self) -> Vector<F> {
+    pub(super) fn body(&self) -> Vector<F> {
         self.base_colour * (F::splat(1.0) - self.metallic)
     }
 
     #[inline(always)]
-    fn facets(&self) -> Microfacets<F> {
+    pub(super) fn facets(&self) -> Microfacets<F> {
         Microfacets { alpha: self.roughness * self.roughness }
     }
 
     /// What facets reflect, of metal and coat together.
     #[inline(always)]
-    fn fresnel(&self, cosine: F) -> Vector<F> {
+    pub(super) fn fresnel(&self, cosine: F) -> Vector<F> {
         let rest = grazing(cosine);
         self.straight() * (F::splat(1.0) - rest) + Vector::along_all(rest)
     }
@@ -93,7 +93,7 @@ impl<F: Float> MetallicRoughnesses<F> {
     /// Share of the light that reaches the body and comes back out, by the cosine to the facet and the smaller one of both
     /// directions to the normal.
     #[inline(always)]
-    fn passes_coat(&self, of_facet: F, lower: F) -> F {
+    pub(super) fn passes_coat(&self, of_facet: F, lower: F) -> F {
         let one = F::splat(1.0);
         let reflected = self.coat + (one - self.coat) * grazing(of_facet);
         one - reflected.max(coat_albedo(self.coat, self.roughness, lower))
@@ -102,7 +102,7 @@ impl<F: Float> MetallicRoughnesses<F> {
     /// Probability of drawing by the facets: their share of what is reflected, as it is estimated for `wo` at this cosine.
     /// The body's is no more than the estimate anywhere, so that the choice of it weighs no sample up.
     #[inline(always)]
-    fn specular_probability(&self, cosine: F) -> F {
+    pub(super) fn specular_probability(&self, cosine: F) -> F {
         let specular = coat_albedo(self.straight().max_element(), self.roughness, cosine);
         let coat = coat_albedo(self.coat, self.roughness, cosine);
         let diffuse = self.body().max_element() * (F::splat(1.0) - coat);

@@ -16,6 +16,7 @@ pub mod mirror;
 pub mod rough_conductor;
 pub mod shading;
 pub mod textures;
+mod two_normals;
 
 pub use dielectric::{Interface, Interfaces};
 pub use interaction::Interactions;
@@ -24,6 +25,7 @@ use materials::Materials;
 pub use metallic_roughness::MetallicRoughness;
 pub use rough_conductor::RoughConductor;
 use simd::{Float, Mask, Vector};
+use two_normals::TwoNormals;
 
 /// A BSDF's value: a colour times a number, kept apart so that products are rounded in one order whatever the lobe.
 #[derive(Debug, Clone, Copy)]
@@ -67,10 +69,41 @@ impl Materials {
     #[inline(always)]
     pub fn sample<F: Float>(&self, here: F::M, at: &Interactions<F>, u: [F; 3]) -> BsdfSamples<F> {
         let sample = self.sample_lobe(here, at, u);
-        if self.has().shading_normals {
-            return BsdfSamples { weight: sample.weight * shading::kept(at, sample.wi), ..sample };
+        if !self.has().shading_normals {
+            return sample;
         }
-        sample
+        let sample = BsdfSamples { weight: sample.weight * shading::kept(at, sample.wi), ..sample };
+        let two = self.has_two_normals(here, at);
+        if two.any() { BsdfSamples::select(two, self.two_normals(at).sample(u), sample) } else { sample }
+    }
+
+    /// Draws the direction in which a photon goes on `here` that came from `wo`, as [`Materials::sample`] does for paths.
+    #[inline(always)]
+    pub fn sample_adjoint<F: Float>(&self, here: F::M, at: &Interactions<F>, u: [F; 3]) -> BsdfSamples<F> {
+        if !self.has().shading_normals {
+            return self.sample(here, at, u);
+        }
+        let sample = self.sample_lobe(here, &shading::as_left(at), u);
+        let kept = shading::kept(&shading::as_left(at), sample.wi);
+        let sample = BsdfSamples { weight: sample.weight * kept * shading::adjoint(at, sample.wi), ..sample };
+        let two = self.has_two_normals(here, at);
+        if two.any() { BsdfSamples::select(two, self.two_normals(at).sample_adjoint(u), sample) } else { sample }
+    }
+
+    /// Where body and facets may be shaded by different normals.
+    #[inline(always)]
+    fn has_two_normals<F: Float>(&self, here: F::M, at: &Interactions<F>) -> F::M {
+        let has = self.has();
+        if has.shading_normals && has.metallic_roughness {
+            here & at.kinds.metallic_roughness()
+        } else {
+            F::M::splat(false)
+        }
+    }
+
+    #[inline(always)]
+    fn two_normals<F: Float>(&self, at: &Interactions<F>) -> TwoNormals<F> {
+        TwoNormals::new(at, self.metallic_roughness(at))
     }
 
     #[inline(always)]
@@ -91,7 +124,7 @@ impl Materials {
             sample = BsdfSamples::select(rough, drawn, sample);
         }
         let coated = here & at.kinds.metallic_roughness();
-        if self.has().metallic_roughness && coated.any() {
+        if self.has().metallic_roughness && !self.has().shading_normals && coated.any() {
             let drawn = metallic_roughness::sample(at, &self.metallic_roughness(at), u);
             sample = BsdfSamples::select(coated, drawn, sample);
         }
@@ -104,11 +137,37 @@ impl Materials {
         dielectric::reflected_beside(at, self.ior(at.material), wi)
     }
 
-    /// The BSDF for light from the unit direction `wi`, on the side of `wo`. Not of lobes that leave no choice.
+    /// The BSDF for light from the unit direction `wi`, on the side of `wo`, of which [`Materials::cosine`] is the cosine. Not
+    /// of lobes that leave no choice.
     #[inline(always)]
     pub fn eval<F: Float>(&self, at: &Interactions<F>, wi: Vector<F>) -> ScaledColours<F> {
         let ScaledColours { colour, factor } = self.eval_lobe(at, wi);
-        ScaledColours { colour, factor: self.shadowed(at.normal, at.point.normal, wi, factor) }
+        let value = ScaledColours { colour, factor: self.shadowed(at.normal, at.point.normal, wi, factor) };
+        let two = self.has_two_normals(F::M::splat(true), at);
+        if two.any() { ScaledColours::select(two, self.two_normals(at).eval(wi), value) } else { value }
+    }
+
+    /// The cosine of light from `wi` to the normal, and where there are two to the one that it is nearer to: above 0 where any
+    /// may be scattered.
+    #[inline(always)]
+    pub fn cosine<F: Float>(&self, at: &Interactions<F>, wi: Vector<F>) -> F {
+        let cosine = at.normal.dot(wi);
+        let two = self.has_two_normals(F::M::splat(true), at);
+        if two.any() { cosine.max(self.mirroring_normal(at).dot(wi)) } else { cosine }
+    }
+
+    /// What surfaces send on to `wi` of a photon's power that came from `wo`, over the cosine of `wi` to the normal of the
+    /// surface as it is left ([`shading::as_left`]).
+    #[inline(always)]
+    pub fn eval_adjoint<F: Float>(&self, at: &Interactions<F>, wi: Vector<F>) -> ScaledColours<F> {
+        if !self.has().shading_normals {
+            return self.eval(at, wi);
+        }
+        let ScaledColours { colour, factor } = self.eval_lobe(at, wi);
+        let kept = shading::kept(&shading::as_left(at), wi);
+        let value = ScaledColours { colour, factor: factor * kept * shading::adjoint(at, wi) };
+        let two = self.has_two_normals(F::M::splat(true), at);
+        if two.any() { ScaledColours::select(two, self.two_normals(at).eval_adjoint(wi), value) } else { value }
     }
 
     /// A value or a cosine for light from `wi`, with what shading normals leave of it.
@@ -125,14 +184,14 @@ impl Materials {
             value = ScaledColours::select(rough, rough_conductor::eval(at, &self.rough_conductor(at), wi), value);
         }
         let coated = at.kinds.metallic_roughness();
-        if self.has().metallic_roughness && coated.any() {
+        if self.has().metallic_roughness && !self.has().shading_normals && coated.any() {
             value =
                 ScaledColours::select(coated, metallic_roughness::eval(at, &self.metallic_roughness(at), wi), value);
         }
         value
     }
 
-    /// Density per solid angle of [`Materials::sample`] at `wi`, whose cosine to the normal is above 0. Not of lobes that
+    /// Density per solid angle of [`Materials::sample`] at `wi`, whose [`Materials::cosine`] is above 0. Not of lobes that
     /// leave no choice.
     #[inline(always)]
     pub fn pdf<F: Float>(&self, at: &Interactions<F>, wi: Vector<F>, cosine: F) -> F {
@@ -143,7 +202,12 @@ impl Materials {
         }
         let coated = at.kinds.metallic_roughness();
         if self.has().metallic_roughness && coated.any() {
-            density = F::select(coated, metallic_roughness::pdf(at, &self.metallic_roughness(at), wi), density);
+            let of_coated = if self.has().shading_normals {
+                self.two_normals(at).pdf(wi)
+            } else {
+                metallic_roughness::pdf(at, &self.metallic_roughness(at), wi)
+            };
+            density = F::select(coated, of_coated, density);
         }
         density
     }
@@ -163,13 +227,21 @@ impl Materials {
         speculars
     }
 
+    /// The normal that mirrors, or that facets do.
+    #[inline(always)]
+    pub fn mirroring_normal<F: Float>(&self, at: &Interactions<F>) -> Vector<F> {
+        let two = self.has_two_normals(F::M::splat(true), at);
+        if two.any() { Vector::select(two, shading::mirroring_normal(at), at.normal) } else { at.normal }
+    }
+
     #[inline(always)]
     fn speculars_of_lobe<F: Float>(&self, here: F::M, at: &Interactions<F>) -> Speculars<F> {
         let (nowhere, one) = (F::M::splat(false), F::splat(1.0));
         let mirrors = here & at.kinds.mirror() & !at.colour.is_zero();
+        let normal = self.mirroring_normal(at);
         let mut speculars = Speculars {
             reflects: mirrors,
-            reflected: mirror::reflected(at.wo, at.normal),
+            reflected: mirror::reflected(at.wo, normal),
             reflectance: ScaledColours { colour: at.colour, factor: one },
             refracts: nowhere,
             refracted: at.wo,
@@ -183,7 +255,7 @@ impl Materials {
         }
         let coated = here & at.kinds.metallic_roughness();
         if self.has().metallic_roughness && coated.any() {
-            let [share, _] = self.metallic_roughness(at).stand_ins(at.normal.dot(at.wo));
+            let [share, _] = self.metallic_roughness(at).stand_ins(normal.dot(at.wo));
             speculars.reflectance.colour = Vector::select(coated, share, speculars.reflectance.colour);
             speculars.reflects = speculars.reflects | (coated & !share.is_zero());
         }
@@ -208,7 +280,7 @@ impl Materials {
         let albedo = Vector::select(at.is_diffuse(), at.colour, Vector::zero());
         let coated = at.kinds.metallic_roughness();
         if self.has().metallic_roughness && coated.any() {
-            let [_, rest] = self.metallic_roughness(at).stand_ins(at.normal.dot(at.wo));
+            let [_, rest] = self.metallic_roughness(at).stand_ins(self.mirroring_normal(at).dot(at.wo));
             return Vector::select(coated, rest, albedo);
         }
         albedo

@@ -1,27 +1,35 @@
 //! Shading normals: what a mesh of few triangles, or a texture, says of a surface that is smoother or rougher than its
 //! triangles are, and what keeps light from coming through it where both disagree.
 //!
-//! A ray's side is that of the triangle. The normal is turned to that side, and no further from the triangle's than
-//! leaves the mirror direction above it, as Cycles does (Blender, `ensure_valid_specular_reflection`). A direction on
-//! another side of the triangle than of the shading surface is black (Veach, "Robust Monte Carlo Methods for Light
-//! Transport Simulation" (1997), 5.3). The edge of a shadow that the triangles cast on what looks round is smoothed as in
-//! Chiang, Li and Burley, "Taming the Shadow Terminator" (SIGGRAPH Talks 2019).
+//! A ray's side is that of the triangle, and the normal is turned to that side. What mirrors is shaded by a normal that is no
+//! further from the triangle's than leaves the mirror direction above it, what is matt by the normal as it is, as in Cycles
+//! (Blender, `ensure_valid_specular_reflection`, which is asked for lobes of facets alone): Lambert's law knows no mirror
+//! direction, and a normal that is turned towards the eye gets other light. A direction on another side of the triangle than
+//! of the shading surface is black (Veach, "Robust Monte Carlo Methods for Light Transport Simulation" (1997), 5.3). The
+//! edge of a shadow that the triangles cast on what looks round is smoothed as in Chiang, Li and Burley, "Taming the Shadow
+//! Terminator" (SIGGRAPH Talks 2019).
 //!
 //! Twin: `shaders/pathtrace/bsdf/shading.wgsl`.
 
 use super::Interactions;
 use super::interaction::facing;
 use crate::intersect::SurfaceAttributes;
-use simd::{Float, Vector};
+use simd::{Float, Mask, Vector};
 
-/// The unit normal that a surface with this unit outward normal is shaded by, on the side of `wo`; `bumps` are the normals
-/// of a texture, x along the tangent and z along the normal.
+/// Least cosine between the normals of a triangle and of a matt surface: where a texture says that it is seen from below,
+/// it is as good as upright. No photon's power grows by more than about its inverse.
+pub const LEAST_UPRIGHT: f32 = 0.01;
+
+/// The unit normal that a surface with this unit outward normal is shaded by, on its side that `wo` sees; `bumps` are the
+/// normals of a texture, x along the tangent and z along the normal. Surfaces that do nothing but mirror have that of
+/// [`bent`].
 #[inline(always)]
 pub fn shading_normal<F: Float>(
     outwards: Vector<F>,
     attributes: &SurfaceAttributes<F>,
     bumps: Option<Vector<F>>,
     wo: Vector<F>,
+    mirrors: F::M,
 ) -> Vector<F> {
     let zero = F::splat(0.0);
     let smooth = attributes.normal.normalize();
@@ -29,7 +37,15 @@ pub fn shading_normal<F: Float>(
     let bumpy = bumps.map_or(smooth, |bumps| bumped(smooth, attributes, bumps));
     let behind = outwards.dot(wo).lt(zero);
     let geometric = Vector::select(behind, -outwards, outwards);
-    bent(geometric, Vector::select(behind, -bumpy, bumpy), wo)
+    let seen = Vector::select(behind, -bumpy, bumpy);
+    let matt = upright(geometric, seen);
+    if mirrors.any() { Vector::select(mirrors, bent(geometric, seen, wo), matt) } else { matt }
+}
+
+/// The unit normal by which facets mirror on a surface that has a matt body too.
+#[inline(always)]
+pub fn mirroring_normal<F: Float>(at: &Interactions<F>) -> Vector<F> {
+    bent(facing(at.point.normal, at.wo), at.normal, at.wo)
 }
 
 /// A normal of a texture, put onto a surface.
@@ -41,6 +57,17 @@ fn bumped<F: Float>(normal: Vector<F>, attributes: &SurfaceAttributes<F>, bumps:
     let bumped = (s * bumps.x + t * bumps.y + normal * bumps.z).normalize();
     // where there is no tangent it is NaN
     Vector::select(bumped.is_finite(), bumped, normal)
+}
+
+/// The normal, raised to [`LEAST_UPRIGHT`] above the triangle of normal `g` where it is lower.
+#[inline(always)]
+fn upright<F: Float>(g: Vector<F>, n: Vector<F>) -> Vector<F> {
+    let (along_g, least) = (n.dot(g), F::splat(LEAST_UPRIGHT));
+    let x = (n - g * along_g).normalize();
+    let raised = (x + g * least).normalize();
+    // of normals that are one there is no plane
+    let raised = Vector::select(raised.is_finite(), raised, g);
+    Vector::select(along_g.ge(least), n, raised)
 }
 
 /// The normal, turned towards that of the triangle on the side of `wo` as far as the mirror direction of `wo` asks that is
@@ -108,12 +135,21 @@ pub fn of_arriving<F: Float>(at: &Interactions<F>) -> F {
     over_geometric(at, at.wo)
 }
 
-/// By what the weight of a direction `wi` is multiplied that a photon takes: light walks there against the way that lobes
-/// are made for, and shading normals are no symmetric matter (Veach, as above).
+/// A surface as a photon leaves it. One with a matt body sends light out by the triangle's own normal: the shading normal
+/// says how much arrives, and is not asked again from where that is seen, which may be behind it.
+#[inline(always)]
+pub fn as_left<F: Float>(at: &Interactions<F>) -> Interactions<F> {
+    let matt = at.is_diffuse() | at.kinds.metallic_roughness();
+    Interactions { normal: Vector::select(matt, facing(at.point.normal, at.wo), at.normal), ..*at }
+}
+
+/// By what the weight of a direction `wi` is multiplied in which a photon leaves a surface ([`as_left`]): light walks there against
+/// the way that lobes are made for, and shading normals are no symmetric matter (Veach, as above). Not of
+/// metallic-roughness.
 #[inline(always)]
 pub fn adjoint<F: Float>(at: &Interactions<F>, wi: Vector<F>) -> F {
-    let (zero, leaves) = (F::splat(0.0), over_geometric(at, wi));
-    F::select(leaves.gt(zero), over_geometric(at, at.wo) / leaves, zero)
+    let (zero, arrives, leaves) = (F::splat(0.0), of_arriving(at), over_geometric(at, wi));
+    F::select(at.is_diffuse(), arrives, F::select(leaves.gt(zero), arrives / leaves, zero))
 }
 
 #[cfg(test)]
@@ -150,6 +186,24 @@ mod tests {
             turned += u32::from(!kept);
         }
         assert!((20_000..90_000).contains(&turned), "{turned}");
+    }
+
+    /// Matt surfaces keep their normals, but for those that lean below the triangle, which are raised in their own plane.
+    #[test]
+    fn matt_normals_stay_above_the_triangle() {
+        let mut raised = 0;
+        for i in 0..10_000 {
+            let [g, n] = [1, 3].map(|block| lane_vector(direction(i, block)));
+            let upright = upright(g, n);
+            let kept = (upright - n).length_squared() == 0.0;
+            assert!((upright.length_squared() - 1.0).abs() < 1e-5, "{i}: {upright:?}");
+            assert!(upright.dot(g) > 0.99 * LEAST_UPRIGHT && upright.dot(n.cross(g)).abs() < 1e-5, "{i}: {upright:?}");
+            assert_eq!(kept, n.dot(g) >= LEAST_UPRIGHT, "{i}");
+            raised += u32::from(!kept);
+        }
+        assert!((4_000..6_000).contains(&raised), "{raised}");
+        let g = lane_vector(Vec3::Z);
+        assert!((upright(g, -g) - g).length_squared() == 0.0, "straight below there is no plane");
     }
 
     fn n_mirrors(n: Vector<f32>, wo: Vector<f32>) -> Vector<f32> {

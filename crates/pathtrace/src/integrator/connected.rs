@@ -3,6 +3,7 @@
 //!
 //! Twin: `shaders/pathtrace/integrator/connected.wgsl`.
 
+use crate::bsdf::Interactions;
 use crate::caster::connect::{ConnectedRays, Connections, End, facing};
 use crate::caster::sphere_chain::MOST_ROOTS;
 use crate::integrator::chain_state::SeenFromCenter;
@@ -61,7 +62,7 @@ impl<F: Float> PathLanes<'_, F> {
         let light = self.scene.lights.table().sample_whole(chain.center, u[2], [u[0], u[1]]);
         let connections = Connections::new(at.point.position, chain, light);
         let fits = fits & !self.is_left_to_chance(&connections.light);
-        let mut wanted = from.here & fits & connections.possible & !connections.is_behind(at.normal);
+        let mut wanted = from.here & fits & connections.possible & !self.is_behind(&connections, at);
         if let Some(counted) = &self.plan.counted {
             let first = counted.after_specular(from.light_path);
             let last = F::U::select(connections.chain.through, counted.after_specular(first), first);
@@ -73,6 +74,13 @@ impl<F: Float> PathLanes<'_, F> {
                 self.receive_by(root.found, (from, &directions), &connections, &connections.ray(&root));
             }
         }
+    }
+
+    /// Where nothing of a sphere lies above the surface.
+    #[inline(always)]
+    fn is_behind(&self, connections: &Connections<F>, at: &Interactions<F>) -> F::M {
+        let materials = &self.scene.materials;
+        connections.is_behind(at.normal) & connections.is_behind(materials.mirroring_normal(at))
     }
 
     /// Where a sample is of a sky that is a picture, and connections are not weighed against chance, which finds what comes
@@ -97,7 +105,7 @@ impl<F: Float> PathLanes<'_, F> {
         ray: &ConnectedRays<F>,
     ) {
         let at = &from.at;
-        let (zero, cosine) = (F::splat(0.0), at.normal.dot(ray.wi));
+        let (zero, cosine) = (F::splat(0.0), self.scene.materials.cosine(at, ray.wi));
         let arrives = self.arrives(here & cosine.gt(zero) & ray.density.gt(zero), &at.point, by, ray);
         if !arrives.any() {
             return;

@@ -3,6 +3,7 @@
 //!
 //! Twin: `shaders/pathtrace/integrator/path.wgsl`.
 
+use crate::bsdf::interaction::facing;
 use crate::bsdf::materials::Materials;
 use crate::bsdf::{BsdfSamples, Interactions, lambert};
 use crate::caster::cone::SeenCones;
@@ -62,13 +63,17 @@ impl<F: Float> DirectionsAt<'_, F> {
         }
     }
 
-    /// Uniform on the hemisphere.
+    /// Uniform on the hemisphere above the surface.
     #[inline(always)]
     fn uniformly(&self, at: &Interactions<F>, throughput: Vector<F>, u: [F; 2]) -> Drawn<F> {
         let local = uniform_hemisphere(u);
-        let wi = to_world(local, at.normal);
+        // shaded by several normals it is the triangle's
+        let has_shading_normals = self.materials.has().shading_normals;
+        let above = if has_shading_normals { facing(at.point.normal, at.normal) } else { at.normal };
+        let wi = to_world(local, above);
+        let cosine = if has_shading_normals { self.materials.cosine(at, wi).max(F::splat(0.0)) } else { local.z };
         let mut weight = self.materials.eval(at, wi);
-        weight.factor = local.z * (weight.factor / F::splat(UNIFORM_HEMISPHERE_PDF));
+        weight.factor = cosine * (weight.factor / F::splat(UNIFORM_HEMISPHERE_PDF));
         let throughput = weight.times(throughput);
         let sample = BsdfSamples { wi, weight: weight.colour, pdf: F::splat(UNIFORM_HEMISPHERE_PDF) };
         Drawn { sample, throughput, deserved: throughput }

@@ -176,7 +176,7 @@ impl<'a> Start<'a> {
         }
         let u = sampler.unit4(PathStates::leaving_camera(rays).light_dimension());
         let sample = self.scene.lights.table().sample(self.at.point.position, u[2], [u[0], u[1]]);
-        let cosine = self.at.normal.dot(sample.wi);
+        let cosine = self.scene.materials.cosine(&self.at, sample.wi);
         let product = home - self.emitted;
         let reaches = sample.shines && cosine > 0.0 && product != Vec3::ZERO;
         let weight = match self.plan.light {
@@ -197,7 +197,7 @@ impl<'a> Start<'a> {
     /// The direction in which the walk has left as `path`, from which nothing has come yet.
     fn leaving(&self, lanes: &PathLanes<f32>, path: &PathStates<f32>) -> Option<Term> {
         let wi = path.rays.direction;
-        let cosine = self.at.normal.dot(wi);
+        let cosine = self.scene.materials.cosine(&self.at, wi);
         if cosine <= 0.0 {
             return None;
         }

@@ -332,7 +332,7 @@ impl<'a, F: Float> PathLanes<'a, F> {
     #[inline(always)]
     fn sample_lights(&mut self, here: F::M, at: &Interactions<F>, directions: &DirectionsAt<F>, u: [F; 4]) {
         let sample = self.scene.lights.table().sample(at.point.position, u[2], [u[0], u[1]]);
-        let cosine = at.normal.dot(sample.wi);
+        let cosine = self.scene.materials.cosine(at, sample.wi);
         let faced = self.counting(here) & sample.shines & cosine.gt(F::splat(0.0));
         self.rays += u64::from(faced.count());
         if !faced.any() {

@@ -4,6 +4,7 @@
 #![expect(clippy::expect_used, reason = "a test stops at the first thing that is not as it must be")]
 
 mod device;
+mod grazing;
 mod subjects;
 
 use film::Film;
@@ -12,7 +13,7 @@ use pathtrace::{
     Tracer, WhittedSettings,
 };
 use scene::glam::{Affine3A, Quat, Vec4};
-use scene::{Alpha, Bsdf, Geometry, Instance, Mesh, NormalMap, Scene, Shape, Texture, Vec3};
+use scene::{Alpha, Bsdf, Geometry, Instance, Mesh, MetallicRoughness, NormalMap, Scene, Shape, Texture, Vec3};
 use std::sync::Arc;
 use subjects::{SUN, WHITE, apart, ball, ball_under, globe, grey, picture, plain, render, sheet, with_mesh};
 
@@ -310,7 +311,7 @@ fn normals_of_an_instance_turn_with_it() {
 pub fn everything() -> Scene {
     let light = format!("{SUN}\n[sky]\nradiance = [0.2, 0.3, 0.4]");
     let mut scene = with_mesh(ball_under(&light, "diffuse = { albedo = [0.8, 0.7, 0.6] }"), 0, ball(true));
-    let mut materials: Vec<_> = (0..5).map(|_| scene.materials[0].clone()).collect();
+    let mut materials: Vec<_> = (0..6).map(|_| scene.materials[0].clone()).collect();
     materials[0].bsdf = Bsdf::Diffuse { albedo: Texture::Image { image: gradient(), factor: Vec3::splat(0.9) } };
     let bumps = [[0.6, 0.5, 1.0, 1.0], [0.5, 0.4, 1.0, 1.0], [0.4, 0.5, 1.0, 1.0], [0.5, 0.6, 1.0, 1.0]];
     materials[1].surface.normal_map = Some(NormalMap { image: picture(2, &bumps, true), scale: 0.8 });
@@ -319,12 +320,21 @@ pub fn everything() -> Scene {
     materials[3].emission = Some(scene::material::Emission { radiance: Vec3::splat(3.0), two_sided: false });
     materials[3].surface.emission = Some(gradient());
     materials[4].bsdf = Bsdf::Mirror { reflectance: Vec3::splat(0.9) };
+    let base_colour = Texture::Image { image: gradient(), factor: Vec3::splat(0.9) };
+    materials[5].bsdf = Bsdf::MetallicRoughness(MetallicRoughness {
+        base_colour,
+        metallic: 0.2,
+        roughness: 0.4,
+        metallic_roughness: None,
+        ior: 1.5,
+    });
+    materials[5].surface.normal_map = Some(NormalMap { image: picture(2, &bumps, true), scale: 5.0 });
     scene.materials = materials;
-    let at = |x: f32, size: f32, mesh: Mesh, material: usize| {
+    let at = |x: f32, y: f32, size: f32, mesh: Mesh, material: usize| {
         let to_world = Affine3A::from_scale_rotation_translation(
             Vec3::splat(size),
             Quat::from_rotation_y(0.5),
-            Vec3::new(x, 0.1, 0.3),
+            Vec3::new(x, y, 0.3),
         );
         let geometry = Geometry::Instance(Instance { mesh: Arc::new(mesh), to_world });
         Shape { geometry, material }
@@ -333,7 +343,8 @@ pub fn everything() -> Scene {
         geometry: Geometry::Mesh(Arc::new(sheet(Vec3::new(x, y, 0.9), Vec3::X * 0.5, Vec3::Y * 0.5, 2))),
         material,
     };
-    let mut shapes = vec![at(-0.4, 0.5, globe(24, 12, true), 0), at(0.7, 0.4, globe(12, 6, true), 4)];
+    let mut shapes = vec![at(-0.4, 0.1, 0.5, globe(24, 12, true), 0), at(0.7, 0.1, 0.4, globe(12, 6, true), 4)];
+    shapes.push(at(0.15, 0.9, 0.3, globe(12, 6, true), 5));
     shapes.extend([floor(-0.6, 1), small(-0.9, 0.3, 2), small(0.2, 0.5, 3)]);
     scene.shapes = shapes.into();
     scene

@@ -91,7 +91,7 @@ fn scatter(vertex: Interaction) -> bool {
 // it.
 fn sample_lights(vertex: Interaction, u: vec4f) {
     let sample = sample_light(vertex.point.position, u.z, u.xy);
-    let cosine = dot(vertex.normal, sample.wi);
+    let cosine = cosine_of(vertex, sample.wi);
     if sample.pdf == 0.0 || cosine <= 0.0 {
         return;
     }

@@ -87,14 +87,10 @@ fn segment() -> bool {
         keep(vertex);
     }
     let u = unit4(sampler_, FIRST_DIMENSION + 2u + vertices);
-    let sample = sample_bsdf(vertex, u.xyw);
+    let sample = sample_adjoint(vertex, u.xyw);
     let spared = is_delta(vertex) && vertices < SPARED_VERTICES;
-    var weight = sample.weight;
-    if SHADING_NORMALS {
-        weight *= adjoint(vertex, sample.wi);
-    }
-    throughput = surviving(throughput * weight, spared, u.z);
-    if DIELECTRIC && dot(vertex.normal, sample.wi) < 0.0 {
+    throughput = surviving(throughput * sample.weight, spared, u.z);
+    if DIELECTRIC && vertex.lobe == LOBE_DIELECTRIC && dot(vertex.normal, sample.wi) < 0.0 {
         power *= basic(vertex);
     }
     ray = Ray(leaving_towards(vertex.point, sample.wi), sample.wi, FAR);

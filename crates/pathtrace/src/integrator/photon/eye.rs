@@ -188,7 +188,7 @@ impl<F: Float> EyeLanes<'_, F> {
     #[inline(always)]
     fn sample_lights(&mut self, here: F::M, at: &Interactions<F>, u: [F; 4]) {
         let sample = self.scene.lights.table().sample(at.point.position, u[2], [u[0], u[1]]);
-        let cosine = at.normal.dot(sample.wi);
+        let cosine = self.scene.materials.cosine(at, sample.wi);
         let faced = here & sample.shines & cosine.gt(F::splat(0.0));
         self.rays += u64::from(faced.count());
         if !faced.any() {

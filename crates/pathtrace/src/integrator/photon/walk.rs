@@ -265,13 +265,10 @@ impl<'a, F: Float> PhotonLanes<'a, F> {
         let (pixel, sample) = (F::U::splat(self.pass.number), F::U::load(&self.photon));
         let dimension = self.path.vertices.wrapping_add(F::U::splat(FIRST_DIMENSION + 2));
         let u = Sampler { kind, pixel, sample, seed }.unit4(dimension);
-        let sample = self.scene.materials.sample(scattering, &vertex, [u[0], u[1], u[3]]);
-        let refracted = vertex.normal.dot(sample.wi).lt(F::splat(0.0));
+        let sample = self.scene.materials.sample_adjoint(scattering, &vertex, [u[0], u[1], u[3]]);
+        let refracted = vertex.kinds.glass() & vertex.normal.dot(sample.wi).lt(F::splat(0.0));
         let spared = vertex.is_delta() & self.path.vertices.lt(F::U::splat(SPARED_VERTICES));
-        let mut throughput = self.path.throughput * sample.weight;
-        if self.scene.materials.has().shading_normals {
-            throughput = throughput * shading::adjoint(&vertex, sample.wi);
-        }
+        let throughput = self.path.throughput * sample.weight;
         let (survives, throughput) =
             survivors(throughput, throughput, F::splat(1.0), spared, Roulette::THROUGHPUT, u[2]);
         if self.scene.materials.has().glass {
@@ -319,22 +316,25 @@ impl<'a, F: Float> PhotonLanes<'a, F> {
             Purpose::Map if diffuse.any() => self.keep(diffuse, vertex),
             Purpose::Splats(pinhole) if here.any() => {
                 let (power, scene) = (self.power * self.path.throughput, self.scene);
-                let seen = pinhole.connect(here, vertex, scene, &mut self.scratch);
+                let seen = pinhole.connect(here, &self.as_left(vertex), scene, &mut self.scratch);
                 self.stats.rays += u64::from(here.count());
-                let mut radiance = scene.materials.eval(vertex, seen.wi).times(power * seen.weight);
-                if scene.materials.has().shading_normals {
-                    radiance = radiance * shading::adjoint(vertex, seen.wi);
-                }
+                let radiance = scene.materials.eval_adjoint(vertex, seen.wi).times(power * seen.weight);
                 self.splat(seen.seen, seen.pixel, radiance);
             }
             Purpose::Marks(pinhole) if diffuse.any() => {
-                let seen = pinhole.connect(diffuse, vertex, self.scene, &mut self.scratch);
+                let seen = pinhole.connect(diffuse, &self.as_left(vertex), self.scene, &mut self.scratch);
                 self.stats.rays += u64::from(diffuse.count());
                 let power = self.power * self.path.throughput;
                 self.splat(seen.seen, seen.pixel, power * (F::splat(1.0) / power.max_element()));
             }
             _ => {}
         }
+    }
+
+    /// A surface as light leaves it.
+    #[inline(always)]
+    fn as_left(&self, vertex: &Interactions<F>) -> Interactions<F> {
+        if self.scene.materials.has().shading_normals { shading::as_left(vertex) } else { *vertex }
     }
 
     #[inline(always)]
