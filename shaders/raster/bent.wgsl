@@ -5,6 +5,22 @@
 // Below this square a vector has no direction. Here alone: only devices draw.
 const SMALLEST_SQUARE: f32 = 1e-37;
 
+// Least cosine between the normals of a triangle and of a matt surface: rays' own. Here alone: see above.
+const LEAST_UPRIGHT: f32 = 0.01;
+
+// The normal, raised to LEAST_UPRIGHT above the triangle of normal g where it is lower.
+fn upright(g: vec3f, n: vec3f) -> vec3f {
+    let along_g = dot(n, g);
+    if along_g >= LEAST_UPRIGHT {
+        return n;
+    }
+    let sideways = n - g * along_g;
+    if dot(sideways, sideways) <= SMALLEST_SQUARE {
+        return g;
+    }
+    return normalize(normalize(sideways) + g * LEAST_UPRIGHT);
+}
+
 // The normal n, turned towards g, that of the triangle on the side of wo, as far as the mirror direction of wo asks that
 // is to lie above the triangle: at a sine of a hundredth, or nearly as high as wo where that is lower.
 fn bent(g: vec3f, n: vec3f, wo: vec3f) -> vec3f {

@@ -111,9 +111,9 @@ fn seen(in: Varying, front: bool) -> vec3f {
     if GLASS {
         return glass(in);
     }
-    let n = shading_normal(in.position, in.normal, in.uv, view.eye, front);
+    let n = shading_normals(in.position, in.normal, in.uv, view.eye, front);
     if MIRROR {
-        return mirrored(in.position, n, object.even) + surface_emission(object, front, in.uv);
+        return mirrored(in.position, n.mirroring, object.even) + surface_emission(object, front, in.uv);
     }
     return surface(in.position, n, in.uv) + surface_emission(object, front, in.uv);
 }
@@ -139,22 +139,22 @@ fn glass(in: Varying) -> vec3f {
     return mix(vec3f(1.0), select(lights.sky, seen, sees), object.reflectivity);
 }
 
-fn surface(p: vec3f, n: vec3f, uv: vec2f) -> vec3f {
-    let colour = surface_colour(object, p, n, uv);
+fn surface(p: vec3f, n: Normals, uv: vec2f) -> vec3f {
+    let colour = surface_colour(object, p, n.matt, uv);
     let facets = metallic_and_roughness(object, uv);
     let v = normalize(view.eye - p);
     var sum = colour * lights.ambient;
     if repaired(REPAIR_SKY) {
-        sum *= open_sky(p, n);
+        sum *= open_sky(p, n.matt);
     }
     if SUN {
         let l = lights.sun_towards;
-        sum += sunlit(p, dot(n, l)) * shaded(n, l, v, colour, facets, lights.sun_incident);
+        sum += sunlit(p, dot(n.matt, l)) * shaded(n, l, v, colour, facets, lights.sun_incident);
     }
     if AREA_LIGHT != AREA_LIGHT_NONE {
         let to_area_light = lights.area_light_position - p;
         let l = normalize(to_area_light);
-        let seen = sees_area_light(p, to_area_light, dot(n, l));
+        let seen = sees_area_light(p, to_area_light, dot(n.matt, l));
         sum += seen * shaded(n, l, v, colour, facets, area_light_incident(to_area_light, l));
     }
     return sum;
@@ -185,8 +185,28 @@ fn sees_area_light(p: vec3f, to_area_light: vec3f, n_dot_l: f32) -> f32 {
     return shadow(1u + face_of(-to_area_light), p, n_dot_l);
 }
 
-fn shaded(n: vec3f, l: vec3f, v: vec3f, colour: vec3f, facets: vec2f, incident: vec3f) -> vec3f {
+fn shaded(n: Normals, l: vec3f, v: vec3f, colour: vec3f, facets: vec2f, incident: vec3f) -> vec3f {
     let kd = object.diffuse * colour;
+    if !has_two_normals() {
+        return shaded_by_one(n.matt, l, v, kd, colour, facets, incident);
+    }
+    var body = kd;
+    if SHADING == SHADING_COOK_TORRANCE {
+        body = below_coat(l, v, kd, facets.x, object.coat);
+    }
+    let highlight = shaded_by_one(n.mirroring, l, v, vec3f(0.0), colour, facets, incident);
+    return lambert(n.matt, l, body, incident) + highlight;
+}
+
+fn shaded_by_one(
+    n: vec3f,
+    l: vec3f,
+    v: vec3f,
+    kd: vec3f,
+    colour: vec3f,
+    facets: vec2f,
+    incident: vec3f,
+) -> vec3f {
     switch SHADING {
         case SHADING_COOK_TORRANCE: {
             return cook_torrance(n, l, v, kd, colour, facets.x, facets.y, object.coat, incident);

@@ -22,6 +22,11 @@ fn half_vector(l: vec3f, v: vec3f) -> vec3f {
     return h * inverseSqrt(max(dot(h, h), SMALLEST));
 }
 
+// Lambert's law alone.
+fn lambert(n: vec3f, l: vec3f, kd: vec3f, incident: vec3f) -> vec3f {
+    return incident * (kd * max(dot(n, l), 0.0));
+}
+
 // Phong 1975, as on the slides: k_d max(0, N.L) + k_s max(0, R.V)^p, dark where the light is behind the surface.
 fn phong(n: vec3f, l: vec3f, v: vec3f, kd: vec3f, ks: f32, p: f32, incident: vec3f) -> vec3f {
     let cosine = dot(n, l);
@@ -66,6 +71,17 @@ fn smith_visibility(n_dot_l: f32, n_dot_v: f32, width: f32) -> f32 {
     let masked = n_dot_l * sqrt(n_dot_v * n_dot_v * (1.0 - square) + square);
     let shadowed = n_dot_v * sqrt(n_dot_l * n_dot_l * (1.0 - square) + square);
     return 0.5 / (masked + shadowed);
+}
+
+// How far Schlick's approximation has gone from the reflectance head-on to 1.
+fn schlick(l: vec3f, v: vec3f) -> f32 {
+    let away = 1.0 - clamp(dot(v, half_vector(l, v)), 0.0, 1.0);
+    return away * away * away * away * away;
+}
+
+// What the coat and the metal of cook_torrance leave of the matt body kd.
+fn below_coat(l: vec3f, v: vec3f, kd: vec3f, metallic: f32, f0: f32) -> vec3f {
+    return (1.0 - metallic) * (1.0 - (f0 + (1.0 - f0) * schlick(l, v))) * kd;
 }
 
 // Cook and Torrance 1982 with the terms of glTF 2.0, appendix B: a matt body kd under a coat that reflects f0 head-on,

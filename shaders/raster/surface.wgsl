@@ -110,8 +110,20 @@ fn surface_emission(object: Object, front: bool, uv: vec2f) -> vec3f {
     return own;
 }
 
-// The unit normal at p on the side of the eye. `outwards` is interpolated.
-fn shading_normal(p: vec3f, outwards: vec3f, uv: vec2f, eye: vec3f, front: bool) -> vec3f {
+// The unit normals that a surface is shaded by, on its side that the eye sees: what is matt by the one that the mesh and its
+// pictures say, highlights by the one that mirrors nothing from below.
+struct Normals {
+    matt: vec3f,
+    mirroring: vec3f,
+}
+
+// Whether both may differ.
+fn has_two_normals() -> bool {
+    return SMOOTH || (UVS && (IMAGES & IMAGE_NORMAL) != 0u);
+}
+
+// Those at p. `outwards` is interpolated.
+fn shading_normals(p: vec3f, outwards: vec3f, uv: vec2f, eye: vec3f, front: bool) -> Normals {
     let side = select(-1.0, 1.0, front);
     var n = normalize(outwards);
     let g = triangle_normal(p, eye, n * side);
@@ -125,10 +137,10 @@ fn shading_normal(p: vec3f, outwards: vec3f, uv: vec2f, eye: vec3f, front: bool)
         n = mapped_normal(p, n, uv);
     }
     n = n * side;
-    if SMOOTH || (UVS && (IMAGES & IMAGE_NORMAL) != 0u) {
-        n = bent(g, n, normalize(eye - p));
+    if has_two_normals() {
+        return Normals(upright(g, n), bent(g, n, normalize(eye - p)));
     }
-    return n;
+    return Normals(n, n);
 }
 
 // The unit normal of the triangle at p on the side of the eye; where neighbouring pixels are too near to tell, `n`.

@@ -134,6 +134,39 @@ fn illumination_models_agree() {
     }
 }
 
+/// What [`illumination_models_agree`] and [`cook_torrance_agrees`] hold together, by itself: surfaces with two normals add it up.
+#[test]
+fn bodies_below_highlights_agree() {
+    let mut random = Random(6, 0);
+    let mut input = Vec::new();
+    for _ in 0..ITEMS {
+        for direction in [random.direction(), random.direction(), random.direction()] {
+            input.extend(direction.to_array());
+        }
+        input.extend((0..8).map(|_| random.unit()));
+    }
+    let body = "let below = below_coat(vec(at + 3u), vec(at + 6u), vec(at + 9u), numbers[at + 15u], numbers[at + 16u]);
+        return lambert(vec(at), vec(at + 3u), below, vec(at + 12u));";
+    let on_gpu = run("raster/shading.wgsl", body, 17, &input, &[1.0]);
+    let at = |x: &[f32], i: usize| Vec3::from_slice(&x[i..i + 3]);
+    let twin = |x: &[f32]| {
+        let facets = Facets { metallic: x[15], roughness: 0.4, f0: x[16] };
+        let below = shading::below_coat(at(x, 3), at(x, 6), at(x, 9), facets);
+        shading::lambert(at(x, 0), at(x, 3), below, at(x, 12))
+    };
+    let on_cpu: Vec<_> = input.chunks_exact(17).map(twin).collect();
+    let apart = apart(&on_gpu, &on_cpu);
+    assert!(apart < 1e-5, "{apart}");
+    // both parts of Cook and Torrance's model make it up
+    for x in input.chunks_exact(17) {
+        let facets = Facets { metallic: x[15], roughness: 0.4, f0: x[16] };
+        let [n, l, v] = [at(x, 0), at(x, 3), at(x, 6)];
+        let model = |kd: Vec3| shading::cook_torrance([n, l, v], kd, Vec3::splat(0.5), facets, at(x, 12));
+        let sum = twin(x) + model(Vec3::ZERO);
+        assert!(sum.abs_diff_eq(model(at(x, 9)), 1e-4 * sum.max_element().max(1.0)), "{sum} {}", model(at(x, 9)));
+    }
+}
+
 #[test]
 fn cook_torrance_agrees() {
     let mut random = Random(5, 0);

@@ -27,6 +27,11 @@ fn half_vector(l: Vec3, v: Vec3) -> Vec3 {
     h / h.dot(h).max(SMALLEST).sqrt()
 }
 
+/// Lambert's law alone: `kd max(0, N.L)`.
+pub fn lambert(n: Vec3, l: Vec3, kd: Vec3, incident: Vec3) -> Vec3 {
+    incident * (kd * n.dot(l).max(0.0))
+}
+
 /// Phong 1975 as on the slides: `kd max(0, N.L) + ks max(0, R.V)^p`, dark where the light is behind the surface. The
 /// lobe's integral `2 pi / (p + 2)` shrinks with `p`: this model is not energy-conserving.
 pub fn phong(n: Vec3, l: Vec3, v: Vec3, kd: Vec3, ks: f32, p: f32, incident: Vec3) -> Vec3 {
@@ -81,6 +86,16 @@ pub struct Facets {
     pub roughness: f32,
     /// What the coat of the rest reflects head-on.
     pub f0: f32,
+}
+
+/// How far Schlick's approximation has gone from the reflectance head-on to 1.
+fn schlick(l: Vec3, v: Vec3) -> f32 {
+    (1.0 - v.dot(half_vector(l, v)).clamp(0.0, 1.0)).powi(5)
+}
+
+/// What the coat and the metal of [`cook_torrance`] leave of the matt body `kd`.
+pub fn below_coat(l: Vec3, v: Vec3, kd: Vec3, facets: Facets) -> Vec3 {
+    (1.0 - facets.metallic) * (1.0 - (facets.f0 + (1.0 - facets.f0) * schlick(l, v))) * kd
 }
 
 /// Cook and Torrance 1982 with the terms of glTF 2.0, appendix B: a matt body `kd` under a coat, mixed with metal that

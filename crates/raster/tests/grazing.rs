@@ -1,4 +1,5 @@
-//! Shading normals where surfaces are seen at grazing angles, against rays' rule found by bisection in f64.
+//! Shading normals where surfaces are seen at grazing angles: those of highlights against rays' rule found by bisection in
+//! f64, matt ones as they are.
 
 #![allow(clippy::unwrap_used)]
 
@@ -6,7 +7,7 @@ use gpu::Gpu;
 use raster::{Raster, RasterSettings, Shading};
 use scene::glam::{DVec3, Vec2};
 use scene::image_texture::Sampling;
-use scene::{Geometry, ImageTexture, Mesh, NormalMap, Scene, Shape, Vec3};
+use scene::{Bsdf, Geometry, ImageTexture, Mesh, NormalMap, Scene, Shape, Texture, Vec3};
 use std::f32::consts::PI;
 use std::path::Path;
 use std::sync::Arc;
@@ -62,8 +63,15 @@ fn bent(n: DVec3, wo: DVec3) -> DVec3 {
     at(inside)
 }
 
+/// The square with a highlight for a colour: the cosine between its normal and the half vector.
+fn shining(mut scene: Scene) -> Scene {
+    scene.materials[0].bsdf = Bsdf::Diffuse { albedo: Texture::Constant(Vec3::ZERO) };
+    (scene.materials[0].fake.specular, scene.materials[0].fake.shininess) = (1.0, 1.0);
+    scene
+}
+
 #[test]
-fn normals_bend_as_those_of_rays_do_where_surfaces_are_seen_at_grazing_angles() {
+fn normals_of_highlights_bend_as_those_of_rays_do_and_matt_ones_stay_where_surfaces_are_seen_at_grazing_angles() {
     let gpu = Gpu::headless().unwrap();
     let mut raster = Raster::new(&gpu).unwrap();
     // whose highlight a specular of 0 takes away; that of the others rises to 1 at grazing angles
@@ -78,16 +86,21 @@ fn normals_bend_as_those_of_rays_do_where_surfaces_are_seen_at_grazing_angles() 
         let scene = scene(height, n, pictured);
         let features = raster.features(&scene, &scene.camera, &settings).unwrap();
         let film = raster.render(&scene, &scene.camera, &settings).unwrap();
+        let highlight = raster.render(&shining(scene.clone()), &scene.camera, &settings).unwrap();
         let middle = Vec2::splat((SIZE / 2) as f32 + 0.5) / SIZE as f32;
         let wo = -scene.camera.frame(1.0).direction(middle).as_dvec3().normalize();
         let expected = bent(n.as_dvec3(), wo);
         turned += u32::from(expected != n.as_dvec3());
         let found = features.normal[(SIZE / 2 * (SIZE + 1)) as usize].as_dvec3();
-        // half a byte's 256th of the picture's normal, and roots of squares that cancel
-        assert!((found - expected).abs().max_element() < 2e-3, "{found} is not {expected}: {n}, {height}, {pictured}");
-        // the mean of four places in the pixel, whose normals differ by a hundredth
+        // half a byte's 256th of the picture's normal
+        assert!((found - n.as_dvec3()).abs().max_element() < 2e-3, "{found} is not {n}: {height}, {pictured}");
+        // the mean of four places in the pixel
         let light = f64::from(film.at(SIZE / 2, SIZE / 2).x * PI);
-        assert!((light - expected.z).abs() < 5e-3, "{light} is not {}: {n}, {height}, {pictured}", expected.z);
+        assert!((light - f64::from(n.z)).abs() < 5e-3, "{light} is not {}: {n}, {height}, {pictured}", n.z);
+        // whose normals differ by a hundredth there
+        let light = f64::from(highlight.at(SIZE / 2, SIZE / 2).x * PI);
+        let cosine = expected.dot((wo + DVec3::Z).normalize());
+        assert!((light - cosine).abs() < 5e-3, "{light} is not {cosine}: {n}, {height}, {pictured}");
     }
     assert_eq!(gpu.fault(), None);
     assert!((6..20).contains(&turned), "{turned} of 24 are turned");
