@@ -17,6 +17,9 @@ const VERSION: u32 = 3;
 /// all.
 const VERSION_OF_CASTERS: u32 = 1;
 
+/// The same of scenes with shading normals alone: 1, they are turned for what mirrors and for nothing that is matt.
+const VERSION_OF_SHADING_NORMALS: u32 = 1;
+
 impl Key {
     /// Of what the truth of a scene depends on, down to the last bit of every number, and of nothing else: the fake's
     /// numbers may move, and the scene's file may have a new name.
@@ -28,6 +31,9 @@ impl Key {
             canonical.scene(scene);
             if scene.needs().casters {
                 canonical.word(VERSION_OF_CASTERS);
+            }
+            if scene.needs().shading_normals {
+                canonical.word(VERSION_OF_SHADING_NORMALS);
             }
         }))
     }
