@@ -3,9 +3,9 @@
 //#import pathtrace/bsdf/textures.wgsl
 //#import pathtrace/intersect/aggregate.wgsl
 // Shading normals, and what keeps light from coming through surfaces where they and the triangles disagree: turned for what
-// mirrors, and for that alone, as in Cycles (Blender, ensure_valid_specular_reflection); Veach, "Robust Monte Carlo Methods for Light Transport Simulation"
-// (1997), 5.3; Chiang, Li and Burley, "Taming the Shadow Terminator" (SIGGRAPH Talks 2019). Twin:
-// crates/pathtrace/src/bsdf/shading.rs.
+// mirrors, and for that alone, as in Cycles (Blender, ensure_valid_specular_reflection); Veach, "Robust Monte Carlo Methods
+// for Light Transport Simulation" (1997), 5.3; Chiang, Li and Burley, "Taming the Shadow Terminator" (SIGGRAPH Talks 2019).
+// Twin: crates/pathtrace/src/bsdf/shading.rs.
 
 // least cosine between the normals of a triangle and of a matt surface
 const LEAST_UPRIGHT: f32 = 0.01;

@@ -294,19 +294,20 @@ fn sample_with_cones(u: vec3f) -> BsdfSample {
 // A direction of the tutorial's naive tracer, whatever the surface (Task 2 b); its weight is in the throughput.
 fn sample_uniformly(u: vec2f) -> BsdfSample {
     let local = uniform_hemisphere(u);
-    // shaded by several normals it is above the triangle
+    // with shading normals above the triangle, where all are that light may come from by any of them
     var above = vertex.normal;
     if SHADING_NORMALS {
         above = facing(vertex.point.normal, vertex.normal);
     }
     let wi = to_world(local, above);
-    var cosine = local.z;
-    if SHADING_NORMALS {
-        cosine = max(cosine_of(vertex, wi), 0.0);
-    }
     let bsdf = eval_bsdf(vertex, wi);
+    var factor = bsdf.factor * local.z / UNIFORM_HEMISPHERE_PDF;
+    if SHADING_NORMALS {
+        let cosine = cosine_of(vertex, wi);
+        factor = select(0.0, bsdf.factor * cosine / UNIFORM_HEMISPHERE_PDF, cosine > 0.0);
+    }
     path.throughput *= bsdf.colour;
-    path.throughput *= bsdf.factor * cosine / UNIFORM_HEMISPHERE_PDF;
+    path.throughput *= factor;
     return BsdfSample(wi, bsdf.colour, UNIFORM_HEMISPHERE_PDF);
 }
 

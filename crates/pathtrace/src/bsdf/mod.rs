@@ -80,14 +80,21 @@ impl Materials {
     /// Draws the direction in which a photon goes on `here` that came from `wo`, as [`Materials::sample`] does for paths.
     #[inline(always)]
     pub fn sample_adjoint<F: Float>(&self, here: F::M, at: &Interactions<F>, u: [F; 3]) -> BsdfSamples<F> {
+        let left = self.as_left(at);
+        let sample = self.sample_lobe(here, &left, u);
         if !self.has().shading_normals {
-            return self.sample(here, at, u);
+            return sample;
         }
-        let sample = self.sample_lobe(here, &shading::as_left(at), u);
-        let kept = shading::kept(&shading::as_left(at), sample.wi);
-        let sample = BsdfSamples { weight: sample.weight * kept * shading::adjoint(at, sample.wi), ..sample };
+        let share = shading::kept(&left, sample.wi) * shading::adjoint(at, sample.wi);
+        let sample = BsdfSamples { weight: sample.weight * share, ..sample };
         let two = self.has_two_normals(here, at);
         if two.any() { BsdfSamples::select(two, self.two_normals(at).sample_adjoint(u), sample) } else { sample }
+    }
+
+    /// Surfaces as photons leave them: see [`shading::as_left`].
+    #[inline(always)]
+    pub fn as_left<F: Float>(&self, at: &Interactions<F>) -> Interactions<F> {
+        if self.has().shading_normals { shading::as_left(at) } else { *at }
     }
 
     /// Where body and facets may be shaded by different normals.
@@ -157,15 +164,15 @@ impl Materials {
     }
 
     /// What surfaces send on to `wi` of a photon's power that came from `wo`, over the cosine of `wi` to the normal of the
-    /// surface as it is left ([`shading::as_left`]).
+    /// surface as it is left ([`Materials::as_left`]).
     #[inline(always)]
     pub fn eval_adjoint<F: Float>(&self, at: &Interactions<F>, wi: Vector<F>) -> ScaledColours<F> {
-        if !self.has().shading_normals {
-            return self.eval(at, wi);
-        }
         let ScaledColours { colour, factor } = self.eval_lobe(at, wi);
-        let kept = shading::kept(&shading::as_left(at), wi);
-        let value = ScaledColours { colour, factor: factor * kept * shading::adjoint(at, wi) };
+        if !self.has().shading_normals {
+            return ScaledColours { colour, factor };
+        }
+        let share = shading::kept(&self.as_left(at), wi) * shading::adjoint(at, wi);
+        let value = ScaledColours { colour, factor: factor * share };
         let two = self.has_two_normals(F::M::splat(true), at);
         if two.any() { ScaledColours::select(two, self.two_normals(at).eval_adjoint(wi), value) } else { value }
     }

@@ -67,13 +67,17 @@ impl<F: Float> DirectionsAt<'_, F> {
     #[inline(always)]
     fn uniformly(&self, at: &Interactions<F>, throughput: Vector<F>, u: [F; 2]) -> Drawn<F> {
         let local = uniform_hemisphere(u);
-        // shaded by several normals it is the triangle's
+        // with shading normals above the triangle, where all are that light may come from by any of them
         let has_shading_normals = self.materials.has().shading_normals;
         let above = if has_shading_normals { facing(at.point.normal, at.normal) } else { at.normal };
         let wi = to_world(local, above);
-        let cosine = if has_shading_normals { self.materials.cosine(at, wi).max(F::splat(0.0)) } else { local.z };
         let mut weight = self.materials.eval(at, wi);
-        weight.factor = cosine * (weight.factor / F::splat(UNIFORM_HEMISPHERE_PDF));
+        weight.factor = if has_shading_normals {
+            let (zero, cosine) = (F::splat(0.0), self.materials.cosine(at, wi));
+            F::select(cosine.gt(zero), cosine * (weight.factor / F::splat(UNIFORM_HEMISPHERE_PDF)), zero)
+        } else {
+            local.z * (weight.factor / F::splat(UNIFORM_HEMISPHERE_PDF))
+        };
         let throughput = weight.times(throughput);
         let sample = BsdfSamples { wi, weight: weight.colour, pdf: F::splat(UNIFORM_HEMISPHERE_PDF) };
         Drawn { sample, throughput, deserved: throughput }

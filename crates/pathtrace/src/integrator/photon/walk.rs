@@ -316,25 +316,20 @@ impl<'a, F: Float> PhotonLanes<'a, F> {
             Purpose::Map if diffuse.any() => self.keep(diffuse, vertex),
             Purpose::Splats(pinhole) if here.any() => {
                 let (power, scene) = (self.power * self.path.throughput, self.scene);
-                let seen = pinhole.connect(here, &self.as_left(vertex), scene, &mut self.scratch);
+                let seen = pinhole.connect(here, &scene.materials.as_left(vertex), scene, &mut self.scratch);
                 self.stats.rays += u64::from(here.count());
                 let radiance = scene.materials.eval_adjoint(vertex, seen.wi).times(power * seen.weight);
                 self.splat(seen.seen, seen.pixel, radiance);
             }
             Purpose::Marks(pinhole) if diffuse.any() => {
-                let seen = pinhole.connect(diffuse, &self.as_left(vertex), self.scene, &mut self.scratch);
+                let left = self.scene.materials.as_left(vertex);
+                let seen = pinhole.connect(diffuse, &left, self.scene, &mut self.scratch);
                 self.stats.rays += u64::from(diffuse.count());
                 let power = self.power * self.path.throughput;
                 self.splat(seen.seen, seen.pixel, power * (F::splat(1.0) / power.max_element()));
             }
             _ => {}
         }
-    }
-
-    /// A surface as light leaves it.
-    #[inline(always)]
-    fn as_left(&self, vertex: &Interactions<F>) -> Interactions<F> {
-        if self.scene.materials.has().shading_normals { shading::as_left(vertex) } else { *vertex }
     }
 
     #[inline(always)]
