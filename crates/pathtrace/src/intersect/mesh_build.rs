@@ -5,7 +5,6 @@
 
 use super::bvh8_build::{Boxed, halve};
 use super::bvh8_walk::DEEPEST;
-use super::mesh_walk::MOST;
 use obvhs::aabb::Aabb;
 use obvhs::bvh2::Bvh2;
 use obvhs::bvh2::node::Bvh2Node;
@@ -20,15 +19,12 @@ use scene::{Mesh, Vec3};
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
 /// Triangles that obvhs gets at a time.
-const PIECE: usize = 1 << 15;
+pub(super) const PIECE: usize = 1 << 15;
 /// Most triangles of a leaf.
-const LEAF: u32 = 3;
+pub(super) const LEAF: u32 = 3;
 
 /// Says which share of the work is done, and hears whether it goes on.
 pub type Progress<'a> = &'a (dyn Fn(f32) -> bool + Sync);
-
-/// Nodes, and triangles in the order of the leaves.
-pub(super) type Arrays = (Vec<CwBvhNode>, Vec<[u32; 3]>);
 
 /// How a binary tree is made before it is compressed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -39,20 +35,14 @@ enum Make {
     Balanced,
 }
 
-/// The arrays of a mesh's tree; `None` once `progress` says so, or if there are more triangles than a leaf can name.
-pub(super) fn build(mesh: &Mesh, progress: Progress) -> Option<Arrays> {
-    if mesh.triangles().len() > MOST {
-        return None;
-    }
-    let (nodes, order) = nodes_of(mesh, Make::Clustered, progress)?;
-    let is_deep = depth(&nodes) > DEEPEST;
-    let (nodes, order) = if is_deep { nodes_of(mesh, Make::Balanced, progress)? } else { (nodes, order) };
-    let triangles = order.par_iter().map(|&index| mesh.triangles()[index as usize]).collect();
-    Some((nodes, triangles))
-}
+/// Nodes, and triangles by their numbers in the order of the leaves.
+pub(super) type Tree = (Vec<CwBvhNode>, Vec<u32>);
 
-/// Of a piece, or of all pieces together.
-type Tree = (Vec<CwBvhNode>, Vec<u32>);
+/// A mesh's tree; `None` once `progress` says so.
+pub(super) fn build(mesh: &Mesh, progress: Progress) -> Option<Tree> {
+    let (nodes, order) = nodes_of(mesh, Make::Clustered, progress)?;
+    if depth(&nodes) <= DEEPEST { Some((nodes, order)) } else { nodes_of(mesh, Make::Balanced, progress) }
+}
 
 fn nodes_of(mesh: &Mesh, make: Make, progress: Progress) -> Option<Tree> {
     if !progress(0.0) {
@@ -251,7 +241,7 @@ fn opened(top: &CwBvh) -> (Vec<CwBvhNode>, Vec<(usize, usize)>) {
 }
 
 /// How many nodes lie on the longest way down. Children lie behind their parents.
-fn depth(nodes: &[CwBvhNode]) -> usize {
+pub(super) fn depth(nodes: &[CwBvhNode]) -> usize {
     let mut depths = vec![1u16; nodes.len()];
     for (index, node) in nodes.iter().enumerate() {
         let first = node.child_base_idx as usize;
@@ -264,7 +254,9 @@ fn depth(nodes: &[CwBvhNode]) -> usize {
 
 #[cfg(test)]
 mod tests {
+    use super::super::mesh_tree::tests::sheet;
     use super::*;
+    use std::sync::Mutex;
 
     /// Triangles, each a thousandth smaller than the one before and closer to one corner: what is clustered from the bottom
     /// up is a chain.
@@ -280,12 +272,28 @@ mod tests {
         let mesh = chain();
         let (nodes, _) = nodes_of(&mesh, Make::Clustered, &|_| true).expect("a tree");
         assert!(depth(&nodes) > DEEPEST, "{}", depth(&nodes));
-        let (nodes, triangles) = build(&mesh, &|_| true).expect("a tree");
+        let (nodes, mut order) = build(&mesh, &|_| true).expect("a tree");
         assert!(depth(&nodes) <= DEEPEST);
-        let sorted = |mut triangles: Vec<[u32; 3]>| {
-            triangles.sort_unstable();
-            triangles
+        order.sort_unstable();
+        assert!(order.into_iter().eq(0..2000));
+    }
+
+    #[test]
+    fn progress_goes_from_nothing_to_all_and_a_build_that_is_given_up_ends() {
+        let mesh = sheet(300);
+        let heard = Mutex::new(Vec::new());
+        let note = |done: f32| {
+            heard.lock().expect("a list").push(done);
+            true
         };
-        assert_eq!(sorted(triangles), mesh.triangles());
+        assert!(build(&mesh, &note).is_some());
+        let heard = heard.into_inner().expect("a list");
+        let most = heard.iter().copied().fold(0.0, f32::max);
+        assert_eq!((heard[0], most), (0.0, 1.0));
+        assert!(heard.len() > 6, "{heard:?}");
+        let said = AtomicUsize::new(0);
+        assert!(build(&mesh, &|_| said.fetch_add(1, Ordering::Relaxed) == 0).is_none());
+        // whoever asks while another is told so may hear it as well
+        assert!(said.load(Ordering::Relaxed) <= 3);
     }
 }

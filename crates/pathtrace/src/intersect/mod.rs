@@ -30,6 +30,8 @@ mod hit;
 mod instance_tests;
 pub mod instances;
 mod mesh_build;
+pub mod mesh_kept;
+mod mesh_known;
 pub mod mesh_tree;
 mod mesh_unpacked;
 #[cfg(test)]

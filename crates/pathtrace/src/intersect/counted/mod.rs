@@ -105,7 +105,12 @@ impl CountedMesh {
             Structure::Two => Kept::Two(TwoBoxes::new(mesh)),
             Structure::Eight => Kept::Eight(MeshTree::of(mesh, goes_on)?),
         };
-        goes_on(1.0).then(|| CountedMesh { mesh: mesh.clone(), kept, build_seconds: begun.elapsed().as_secs_f64() })
+        // which may have been read, or been there
+        let build_seconds = match &kept {
+            Kept::Eight(tree) => tree.seconds,
+            Kept::List | Kept::Two(_) => begun.elapsed().as_secs_f64(),
+        };
+        goes_on(1.0).then(|| CountedMesh { mesh: mesh.clone(), kept, build_seconds })
     }
 
     /// The nearest hit before `ray.tmax`, and what it took.
