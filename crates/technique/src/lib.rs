@@ -36,6 +36,8 @@ mod speeds;
 mod sums;
 mod threads;
 mod traced;
+mod trees;
+mod watch;
 
 pub use accumulation::Accumulation;
 pub use backend::{Backend, GpuBackend};
@@ -55,7 +57,7 @@ pub use provenance::{
     DENOISE, EARLIER_VIEWS, FILTER, Made, NONFINITE, OWN_FOV, Provenance, Recorded, SAMPLES, WEIGHTS, denoised_by,
     is_of_its_pixels, light_of, made_from, sample_ranges, scene_hash, tell_samples,
 };
-pub use renderer::{Frame, Pacing, Rendered, Renderer, Watch};
+pub use renderer::{Rendered, Renderer};
 pub use runs::Runs;
 pub use sample_ranges::SampleRanges;
 pub use setup::PaneSetup;
@@ -66,6 +68,9 @@ pub use traced::{
     ChainSettings, LightPaneSettings, NormalsPaneSettings, PhotonPaneSettings, TracedSettings, TreeSettings,
     TruthSettings, bounces_name, roulette_name,
 };
+
+pub use trees::{TreeProgress, Trees};
+pub use watch::{Frame, Pacing, Watch};
 
 use film::Feature;
 use pathtrace::{Integrator, LightPaths};

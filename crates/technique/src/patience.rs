@@ -1,7 +1,6 @@
 //! Someone who ends a while later than another, where nothing has been shown yet: else a drag would never show anything.
 
-use crate::renderer::Watch;
-use crate::{DenoiseSettings, Frame, Pacing};
+use crate::{DenoiseSettings, Frame, Pacing, TreeProgress, Watch};
 use pathtrace::gpu::GpuTraceError;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
@@ -72,6 +71,10 @@ impl<W: Watch> Watch for Patient<'_, W> {
     fn show(&self, frame: Frame) {
         self.watch.show(frame);
         self.has_shown.store(true, Ordering::Relaxed);
+    }
+
+    fn waits_for_trees(&self, trees: Option<TreeProgress>) {
+        self.watch.waits_for_trees(trees);
     }
 
     fn count(&self, spp: u32) {

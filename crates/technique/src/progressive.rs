@@ -2,11 +2,12 @@
 //! wished number or a new request. The last films are kept: a request that differs only in the wished number goes on
 //! where one of them stopped, and a view that was left for a moment is there again.
 
+use crate::Watch;
 use crate::history::Past;
 use crate::patience::Patient;
-use crate::renderer::{Renderer, Watch};
+use crate::renderer::Renderer;
 use crate::speeds::Speeds;
-use crate::{Accumulation, Adapters, Backend, Device, Rank, Runs, Shot, Technique, Threads, TracedSettings};
+use crate::{Accumulation, Adapters, Backend, Device, Rank, Runs, Shot, Technique, Threads, TracedSettings, Trees};
 use scene::{Scene, Shape};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -155,6 +156,7 @@ impl ProgressiveRenderer {
     pub fn render(&mut self, request: &Request, watch: &impl Watch) -> Result<(), NoMemory> {
         self.begun = Instant::now();
         let request = &self.as_seen(request);
+        let Some(_trees) = self.trees(request, watch) else { return Ok(()) };
         let kept = self.best_kept(request);
         // a picture without a weight is no rough one of the weight
         let weight = request.settings.denoise.shows_the_weight();
@@ -183,6 +185,25 @@ impl ProgressiveRenderer {
         }
         self.ready = Some(renderer);
         refined
+    }
+
+    /// The trees that the scene is made ready with, unless it is, or a device has them; `None` if it ends before.
+    fn trees(&mut self, request: &Request, watch: &impl Watch) -> Option<Option<Trees>> {
+        let (scene, device, adapter) = (&request.shot.scene, self.device_for(request), self.adapter_for(request));
+        let has_them = |ready: &Renderer| {
+            let is_on_the_device = device == Device::Gpu && ready.is_ready_for(ready.scene(), device, &adapter);
+            ready.is_ready_for(scene, device, &adapter)
+                || (is_on_the_device && Trees::are_shared_by(ready.scene(), scene))
+        };
+        if self.ready.as_ref().is_some_and(has_them) {
+            return Some(None);
+        }
+        let trees = Trees::of(scene, &|trees| {
+            trees.into_iter().for_each(|trees| watch.waits_for_trees(Some(trees)));
+            !watch.ends_now()
+        });
+        watch.waits_for_trees(None);
+        trees.map(Some)
     }
 
     /// The request of the scene as its rays see it, which is one and the same as long as its sun stays.

@@ -15,6 +15,7 @@ mod reference;
 mod render;
 mod report;
 mod sweep;
+mod trees;
 
 pub use args::{
     BenchArgs, CheckArgs, CompareArgs, DenoiseArgs, LadderArgs, MergeArgs, ReferenceArgs, RenderArgs, ReportArgs, Seen,

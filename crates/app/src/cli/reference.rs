@@ -1,6 +1,6 @@
 //! `visavis reference`: references made, fetched and thrown away; and how other commands come by one.
 
-use super::{ReferenceArgs, interrupt};
+use super::{ReferenceArgs, interrupt, trees};
 use crate::ruler::{brief, counted};
 use anyhow::Context;
 use pathtrace::FEWEST_REPLICATES;
@@ -92,7 +92,9 @@ pub fn obtain(shot: &Shot, goal: Option<Goal>) -> anyhow::Result<Reference> {
 /// Makes a reference, or goes on with one, until it is good enough. Every doubling is handed to `keep`: hours of work
 /// do not go with a power cut.
 fn make(shot: &Shot, goal: &Goal, begun: Option<&Reference>, keep: impl Fn(&Reference)) -> anyhow::Result<Reference> {
+    let trees = trees::of(&shot.scene)?;
     let mut renderer = Renderer::on_the_processor(shot.scene.clone(), Arc::new(Threads::all()));
+    drop(trees);
     let (width, height) = shot.size;
     let mut maker = Maker::new(&mut renderer, shot, begun)
         .with_context(|| format!("not enough memory for {width}x{height} pixels; ask for a smaller --size"))?;

@@ -6,7 +6,7 @@ mod terminal;
 
 use self::report::report;
 use self::terminal::Terminal;
-use super::{RenderArgs, interrupt, reference};
+use super::{RenderArgs, interrupt, reference, trees};
 use crate::ruler::{FEWEST_RUNS_OF_A_BIAS, bias_words, brief, error_records, error_words, noise_line};
 use anyhow::Context;
 use compare::Errors;
@@ -333,6 +333,7 @@ pub(super) fn trace(
 
 /// The scene made ready. What a device refuses the processor traces, unless the device is what is asked for.
 fn backend(gpu: Option<&Gpu>, scene: &Scene, choice: DeviceChoice) -> anyhow::Result<Backend> {
+    let _trees = trees::of(scene)?;
     match gpu.map(|gpu| Backend::on_the_device(gpu, scene)) {
         Some(Ok(backend)) => return Ok(backend),
         Some(Err(fault)) if choice == DeviceChoice::Gpu => return Err(fault).context(INSTEAD),

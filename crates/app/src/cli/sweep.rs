@@ -1,6 +1,6 @@
 //! `visavis sweep`: many pictures of one scene with their captions as one picture, without a window.
 
-use super::{SweepArgs, interrupt, reference};
+use super::{SweepArgs, interrupt, reference, trees};
 use crate::engine::restore::SESSION;
 use crate::model::{
     Model, PlannedTile, SavedSession, SweepMeasure, SweepPlan, Theme, TileFacts, best, captions, sweep_csv,
@@ -142,6 +142,7 @@ pub fn devices() -> Devices {
         open_gpu: Box::new(|| Gpu::headless().context("the raster technique needs a GPU")),
         ready: Box::new(|traced, scene, samples| {
             let choice = traced.device_choice();
+            let _trees = trees::of(scene)?;
             match choice.open(samples)?.map(|gpu| Backend::on_the_device(&gpu, scene)) {
                 Some(Ok(backend)) => Ok((backend, None)),
                 Some(Err(fault)) if choice == DeviceChoice::Gpu => Err(fault).context(INSTEAD),

@@ -7,7 +7,7 @@ use super::export::{Export, Exporter, Outcome};
 use super::load::{Asked as AskedFile, Loaded, Loader, Refusal};
 use super::make_reference::OpenStore;
 use super::pane_workers::PaneWorkers;
-use super::post_process::{PaneUpdate, PaneUpdates, PostProcess};
+use super::post_process::{PaneUpdates, PostProcess};
 use super::reference::{ReferenceUpdate, ReferenceWorker, Wish};
 use super::sweep::Sweeper;
 use super::thumbnails::Thumbnails;
@@ -128,6 +128,11 @@ impl Engine {
         self.post_process.set_comparisons(self.asked.comparisons.clone(), self.asked.map);
     }
 
+    /// What the rays of panes wait for now, in words, where that has changed since the last call.
+    pub fn waiting(&self) -> Panes<Option<String>> {
+        self.pane_workers.iter().filter_map(|(id, workers)| Some((id, workers.news()?))).collect()
+    }
+
     /// What is new since the last call.
     pub fn collect(&mut self) -> Option<PaneUpdates> {
         let mut updates = self.post_process.collect()?;
@@ -135,7 +140,7 @@ impl Engine {
             updates.get(id).into_iter().for_each(|update| pane.follow(update));
         }
         let (oldest_view, asked) = (self.asked.oldest_view, &self.asked.panes);
-        updates.retain(|id, update| asked.get(id).is_some() && !is_older_than(update, oldest_view));
+        updates.retain(|id, update| asked.get(id).is_some() && !update.is_older_than(oldest_view));
         Some(updates)
     }
 
@@ -221,7 +226,8 @@ impl Engine {
     fn workers(&mut self, id: PaneId) -> &mut PaneWorkers {
         if self.pane_workers.get(id).is_none() {
             let tracers = (self.adapters.clone(), self.threads.clone());
-            let mut workers = PaneWorkers::new(id, self.gpu.clone(), tracers, self.post_process.clone());
+            let mut workers =
+                PaneWorkers::new(id, self.gpu.clone(), tracers, self.post_process.clone(), self.wake.clone());
             workers.hold(self.asked.paused);
             self.pane_workers.insert(id, workers);
         }
@@ -378,10 +384,6 @@ impl Asked {
         let (view, shrink, own_camera) = (asked.view, pane.shrink, pane.own_camera);
         Some(Order { job: self.jobs, view, shrink, restarts, own_camera, provenance })
     }
-}
-
-fn is_older_than(update: &PaneUpdate, oldest_view: u64) -> bool {
-    matches!(update, PaneUpdate::Picture(frame) if frame.picture.order.view < oldest_view)
 }
 
 impl Drop for Engine {

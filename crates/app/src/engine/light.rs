@@ -7,7 +7,7 @@ use film::Film;
 use film::colour::luminance;
 use pathtrace::{Integrator, Tracer};
 use std::sync::Arc;
-use technique::{Rank, Technique, Threads};
+use technique::{Rank, Technique, Threads, Trees};
 
 /// Pixels along the longer side of the small pictures, 160 x 90 in a wide window.
 const LONGER_SIDE: u32 = 160;
@@ -82,7 +82,10 @@ fn luminances<'a>(
     ends: &'a (impl Fn() -> bool + Sync),
 ) -> impl Iterator<Item = f64> + 'a {
     let tracer = match wish.technique {
-        Technique::Traced(traced) => Some(Tracer::new(&traced.applied_to(&wish.shot.scene))),
+        Technique::Traced(traced) => {
+            let scene = traced.applied_to(&wish.shot.scene);
+            Trees::of(&scene, &|_| !ends()).map(|_trees| Tracer::new(&scene))
+        }
         Technique::Fake(_) => None,
     };
     light_parts().map_while(move |part| match wish.technique.with_light(part.into())? {

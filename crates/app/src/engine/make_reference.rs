@@ -4,7 +4,7 @@
 use pathtrace::FEWEST_REPLICATES;
 use reference::{Goal, Key, Maker, Reference, Store, StoreError};
 use std::sync::Arc;
-use technique::{Rank, Renderer, Shot, Threads};
+use technique::{Rank, Renderer, Shot, Threads, Trees};
 
 /// Where references are kept, looked up anew for each.
 pub type OpenStore = Arc<dyn Fn() -> Result<Store, StoreError> + Send + Sync>;
@@ -57,6 +57,8 @@ impl ReferenceMaking {
     pub fn make(&mut self, shot: &Shot, watch: &impl ReferenceWatch) {
         let (kept, store) = self.fetch(shot, watch);
         watch.show(kept.as_ref(), false);
+        // who waits holds no threads
+        let Some(_trees) = Trees::of(&shot.scene, &|_| !watch.ends_soon()) else { return };
         let mut renderer = match self.renderer.take() {
             Some(renderer) if Arc::ptr_eq(renderer.scene(), &shot.scene) => renderer,
             _ => Renderer::on_the_processor(shot.scene.clone(), self.threads.clone()),

@@ -3,8 +3,8 @@
 use super::external::{ExternalJob, ExternalWorker};
 use super::fake::FakeWorker;
 use super::post_process::PostProcess;
-use super::rays::RayWorker;
-use super::{Job, Order};
+use super::rays::{RayNews, RayWorker};
+use super::{Job, Order, Wake};
 use crate::model::{PaneId, PaneSource};
 use anyhow::Context;
 use gpu::Gpu;
@@ -18,6 +18,7 @@ pub struct PaneWorkers {
     adapters: Adapters,
     threads: Arc<Threads>,
     post_process: Arc<PostProcess>,
+    wake: Wake,
     fake: Option<FakeWorker>,
     rays: Option<RayWorker>,
     external: Option<ExternalWorker>,
@@ -33,9 +34,10 @@ impl PaneWorkers {
         gpu: Gpu,
         (adapters, threads): (Adapters, Arc<Threads>),
         post_process: Arc<PostProcess>,
+        wake: Wake,
     ) -> Self {
         let (fake, rays, external, listened_to) = (None, None, None, None);
-        PaneWorkers { pane, gpu, adapters, threads, post_process, fake, rays, external, listened_to, held: false }
+        PaneWorkers { pane, gpu, adapters, threads, post_process, wake, fake, rays, external, listened_to, held: false }
     }
 
     /// Draws the fake on another device of the window's from now on.
@@ -113,6 +115,11 @@ impl PaneWorkers {
         self.listened_to = None;
     }
 
+    /// What rays wait for now, if that has changed since the last call.
+    pub fn news(&self) -> Option<RayNews> {
+        self.rays.as_ref()?.news()
+    }
+
     /// Holds the tracing of rays, or lets it go on.
     pub fn hold(&mut self, held: bool) {
         self.held = held;
@@ -139,8 +146,8 @@ impl PaneWorkers {
 
     fn rays(&mut self) -> anyhow::Result<&mut RayWorker> {
         if self.rays.is_none() {
-            let worker =
-                RayWorker::start(self.pane, (self.adapters.clone(), self.threads.clone()), self.post_process.clone());
+            let tracers = (self.adapters.clone(), self.threads.clone());
+            let worker = RayWorker::start(self.pane, tracers, self.post_process.clone(), self.wake.clone());
             let worker = worker.context("no thread for tracing rays")?;
             worker.hold(self.held);
             self.rays = Some(worker);

@@ -44,6 +44,13 @@ pub enum PaneUpdate {
     Fault(String),
 }
 
+impl PaneUpdate {
+    /// Whether it is a picture of a view before this one.
+    pub fn is_older_than(&self, oldest_view: u64) -> bool {
+        matches!(self, PaneUpdate::Picture(frame) if frame.picture.order.view < oldest_view)
+    }
+}
+
 /// What the UI collects.
 pub type PaneUpdates = Panes<PaneUpdate>;
 

@@ -9,7 +9,7 @@ use crate::model::{MOST_PROBED, PaneId, PaneProbe, Panes, PixelSamples, ProbeWis
 use pathtrace::{FirstVertex, Integrator, ProbedPixel, Tracer};
 use scene::Scene;
 use std::sync::Arc;
-use technique::{Rank, Shot, Technique, Threads, TracedSettings};
+use technique::{Rank, Shot, Technique, Threads, TracedSettings, Trees};
 
 /// Samples of the first step, and how many times as many there are after the next: something is seen at once.
 const FIRST_STEP: u32 = 256;
@@ -200,6 +200,7 @@ impl Prober {
             return Some(());
         }
         let scene = settings.applied_to(&shot.scene);
+        let _trees = Trees::of(&scene, &|_| !ends())?;
         let tracer = self.threads.turn_unless(ends, Rank::FirstPicture, || Tracer::new(&scene))?;
         self.panes.insert(id, Kept::new(tracer, picture));
         Some(())

@@ -2,14 +2,14 @@
 
 use super::post_process::PostProcess;
 use super::worker::{Control, Service, Worker};
-use super::{FAULT, Job, Order, Picture, Undenoised, step_back};
+use super::{FAULT, Job, Order, Picture, Undenoised, Wake, step_back};
 use crate::model::{Effort, PaneId};
-use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 use technique::{
     Adapters, DenoiseSettings, Denoised, Frame, Halves, NOISY, NoMemory, Pacing, ProgressiveRenderer, Request, Reused,
-    Threads, TracedSettings, Watch,
+    Threads, TracedSettings, TreeProgress, Watch,
 };
 
 /// A picture to make.
@@ -19,15 +19,19 @@ pub type RayJob = Job<TracedSettings>;
 /// showing costs too, and a picture changes ever less.
 const REFRESH: [Duration; 2] = [Duration::from_millis(150), Duration::from_secs(1)];
 
+/// What is waited for, in words, where a picture has to wait.
+pub type RayNews = Option<String>;
+
 /// The worker; dropping it ends its thread.
 pub struct RayWorker {
-    worker: Worker<Option<RayJob>>,
+    worker: Worker<Option<RayJob>, RayNews>,
     /// The job in hand, or the last one.
     last: Option<Request>,
 }
 
 impl RayWorker {
-    /// Starts the thread, which traces on `threads` or by one of `adapters`.
+    /// Starts the thread, which traces on `threads` or by one of `adapters`. `wake` is called whenever [`RayWorker::news`]
+    /// has something.
     ///
     /// # Errors
     /// If the system gives no thread.
@@ -35,13 +39,14 @@ impl RayWorker {
         pane: PaneId,
         (adapters, threads): (Adapters, Arc<Threads>),
         post_process: Arc<PostProcess>,
+        wake: Wake,
     ) -> std::io::Result<Self> {
         let service = move || {
             step_back();
             let renderer = ProgressiveRenderer::new(adapters.clone(), threads.clone());
             Rays { pane, adapters, threads, renderer, post_process, order: None }
         };
-        let worker = Worker::start(&format!("rays {pane:?}"), Arc::new(|| ()), service)?;
+        let worker = Worker::start(&format!("rays {pane:?}"), wake, service)?;
         Ok(RayWorker { worker, last: None })
     }
 
@@ -62,11 +67,18 @@ impl RayWorker {
         self.worker.cancel();
     }
 
+    /// What is waited for now, if that has changed since the last call.
+    pub fn news(&self) -> Option<RayNews> {
+        self.worker.collect()
+    }
+
     /// Holds the picture where it is, or lets it go on. While held, a new job still shows its first full picture.
     pub fn hold(&self, held: bool) {
         self.worker.hold(held);
     }
 }
+
+type RayControl = Control<Option<RayJob>, RayNews>;
 
 /// Traces rays for one pane.
 struct Rays {
@@ -81,9 +93,9 @@ struct Rays {
 
 impl Service for Rays {
     type Job = Option<RayJob>;
-    type Update = ();
+    type Update = RayNews;
 
-    fn serve(&mut self, job: Option<RayJob>, control: &Control<Option<RayJob>, ()>) {
+    fn serve(&mut self, job: Option<RayJob>, control: &RayControl) {
         let Some(job) = job else { return };
         self.order = Some(job.order.clone());
         let watch = PaneWatch {
@@ -93,6 +105,7 @@ impl Service for Rays {
             control,
             post_process: &self.post_process,
             filtering: AtomicU64::new(0),
+            waits: Mutex::new(None),
         };
         if let Err(NoMemory) = self.renderer.render(&request_of(&job), &watch) {
             let (width, height) = job.order.size();
@@ -101,7 +114,8 @@ impl Service for Rays {
         }
     }
 
-    fn recover(&mut self, _control: &Control<Option<RayJob>, ()>) {
+    fn recover(&mut self, control: &RayControl) {
+        control.tell(|news| *news = None);
         if let Some(order) = self.order.take() {
             self.post_process.report(self.pane, order, FAULT.into());
         }
@@ -120,10 +134,12 @@ struct PaneWatch<'a> {
     order: &'a Order,
     /// Whether its settings leave light of its scene to chance.
     has_noise_source: bool,
-    control: &'a Control<Option<RayJob>, ()>,
+    control: &'a RayControl,
     post_process: &'a PostProcess,
     /// Milliseconds that all between film and picture took last.
     filtering: AtomicU64,
+    /// What was told last that it waits for.
+    waits: Mutex<RayNews>,
 }
 
 impl Watch for PaneWatch<'_> {
@@ -152,6 +168,15 @@ impl Watch for PaneWatch<'_> {
         // a denoiser has half of the time at most
         let show = refresh.max(Duration::from_millis(self.filtering.load(Ordering::Relaxed)));
         Pacing { pass: refresh, show, growth: 1 }
+    }
+
+    fn waits_for_trees(&self, trees: Option<TreeProgress>) {
+        let words = trees.map(|trees| trees.to_string());
+        let mut told = self.waits.lock().unwrap_or_else(PoisonError::into_inner);
+        if *told != words {
+            told.clone_from(&words);
+            self.control.tell(|news| *news = words);
+        }
     }
 
     fn show(&self, frame: Frame) {

@@ -15,6 +15,8 @@ use technique::{Lag, Provenance, Technique};
 pub struct ViewModel {
     /// What is known of each pane's picture.
     pub panes: Panes<PaneView>,
+    /// What the rays of panes wait for, in words, before there is a picture.
+    pub waiting: Panes<String>,
     /// Where the errors are, while that is looked at.
     pub map: Option<Arc<ErrorMap>>,
     /// What is known of the pixel that is looked into.

@@ -81,6 +81,7 @@ impl Viewer {
             }
         }
         self.presentation.update(updates, textures);
+        self.presentation.update_waiting(self.engine.waiting());
         if let Some(drawn) = self.engine.error_map() {
             self.presentation.update_map(drawn, textures);
         }

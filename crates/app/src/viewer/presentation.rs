@@ -116,6 +116,7 @@ impl Presentation {
     pub fn keep(&mut self, wanted: &Wanted) {
         let is_wanted = |pane| wanted.panes.get(pane).is_some();
         self.shown.panes.retain(|pane, _| is_wanted(pane));
+        self.shown.waiting.retain(|pane, _| is_wanted(pane));
         self.textures.panes.retain(|pane, _| is_wanted(pane));
         self.pictures.retain(|pane, _| is_wanted(pane));
         let is_traced =
@@ -133,6 +134,16 @@ impl Presentation {
             textures.upload(Place::ErrorMap, (drawn.map.width, drawn.map.height()), &drawn.rgba, TextureFilter::Nearest)
         });
         self.shown.map = drawn.map(Arc::new);
+    }
+
+    /// Takes what panes wait for, or that they do no more.
+    pub fn update_waiting(&mut self, waiting: Panes<Option<String>>) {
+        for (pane, words) in waiting {
+            match words {
+                Some(words) => drop(self.shown.waiting.insert(pane, words)),
+                None => drop(self.shown.waiting.remove(pane)),
+            }
+        }
     }
 
     /// Takes what is new of the pixel that is looked into.

@@ -14,7 +14,7 @@ use outline::outline;
 use pathtrace::{MOST_ALONG, Tracer};
 use scene::Scene;
 use std::sync::Arc;
-use technique::{Rank, Threads};
+use technique::{Rank, Threads, Trees};
 
 /// First pictures of what was changed go before; between passes that add samples it has its turn.
 const RANK: Rank = Rank::Refinement;
@@ -193,6 +193,7 @@ impl Finder {
         if let Some((_, tracer)) = self.ready.as_ref().filter(|(ready, _)| Arc::ptr_eq(ready, scene)) {
             return Some(tracer.clone());
         }
+        let _trees = Trees::of(scene, &|_| !ends())?;
         // before there is another: both would take twice the memory
         self.ready = None;
         let tracer = Arc::new(self.threads.turn_unless(ends, RANK, || Tracer::new(scene))?);

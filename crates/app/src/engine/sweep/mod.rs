@@ -18,7 +18,7 @@ use crate::sweep::{Devices, Tile};
 use film::DisplayTransform;
 use gpu::Gpu;
 use std::sync::Arc;
-use technique::{Adapters, Backend, Device, Threads};
+use technique::{Adapters, Backend, Device, Threads, Trees};
 
 /// The threads; dropping it ends them.
 pub struct Sweeper {
@@ -145,6 +145,8 @@ fn devices(gpu: Gpu, adapters: Adapters, threads: Arc<Threads>) -> Devices {
         threads,
         open_gpu: Box::new(move || Ok(gpu.clone())),
         ready: Box::new(move |traced, scene, _| {
+            // who waits holds no threads
+            let _trees = Trees::of(scene, &|_| true);
             let processor =
                 |why| Ok((on.turn(technique::Rank::FirstPicture, || Backend::on_the_processor(scene)), why));
             if traced.device_choice().beside(adapters.only_software()) == Device::Cpu {

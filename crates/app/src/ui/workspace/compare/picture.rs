@@ -149,7 +149,15 @@ fn picture(cx: &mut UiContext, ui: &Ui, rect: Rect, clip: Rect, pane: PaneId) {
             }
             magnify::paint(ui.painter(), *texture, rect, clip);
         }
-        (None, None) => drop(in_the_middle("rendering ...", Color32::WHITE)),
+        (None, None) => {
+            let waiting = cx.shown.waiting.get(pane);
+            let place = in_the_middle(waiting.map_or("rendering ...", String::as_str), Color32::WHITE);
+            if let Some(words) = waiting {
+                let (name, text) = (format!("waiting {pane}"), format!("{pane}: {words}"));
+                cx.dump.note_text(&name, &text, place, clip);
+                spoken(ui, &name, &text, place, false);
+            }
+        }
     }
 }
 

@@ -33,6 +33,7 @@ pub fn show(cx: &mut UiContext, ui: &Ui, clip: Rect, pane: PaneId) {
     let beside = beside(cx, pane);
     let mut text = LabelText::of(pane, shown, beside, told(cx, pane, shown), cx.model.state.paused);
     text.notes.extend(no_error(shown, cx.model.session.comparison.comparison(pane).against, beside));
+    text.notes.extend(cx.shown.waiting.get(pane).cloned());
     let room = room(cx, clip, pane);
     let Some(galley) = fitting(ui, &text, pane, room.size()) else { return };
     let place = align(cx.model, pane).align_size_within_rect(galley.size(), room);
