@@ -16,6 +16,7 @@ pub mod lettering;
 pub mod model;
 pub mod ruler;
 pub mod sweep;
+mod tree_store;
 pub mod ui;
 pub mod viewer;
 pub mod window;

@@ -23,6 +23,8 @@ pub use args::{
 };
 
 use crate::model::ViewArgs;
+use crate::tree_store;
+use pathtrace::intersect::mesh_kept;
 use std::process::ExitCode;
 
 /// What the user asked for.
@@ -102,7 +104,10 @@ impl Command {
     /// [`CliError::Failed`] or [`CliError::Interrupted`], with one line for the user.
     pub fn execute(self) -> Result<(), CliError> {
         interrupt::listen();
-        match self.run() {
+        tree_store::keep();
+        let outcome = self.run();
+        mesh_kept::finish();
+        match outcome {
             outcome if interrupt::is_asked() => Err(CliError::Interrupted(outcome.err())),
             outcome => outcome.map_err(CliError::Failed),
         }

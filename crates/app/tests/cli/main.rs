@@ -19,19 +19,20 @@ mod pictures;
 mod references;
 mod report;
 mod sweep;
+mod trees;
 mod window;
 
 use serde_json::Value;
 use std::process::{Command, Output};
 use visavis_tests::TestFolder;
 
-/// The program without a display, and without the user's references.
+/// The program without a display, and without the user's references and trees.
 fn program() -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_visavis"));
     command.env_remove("DISPLAY").env_remove("WAYLAND_DISPLAY").env_remove("WAYLAND_SOCKET");
     // without it a library behind some GPU drivers writes a line of its own to stderr
     command.env("XDG_RUNTIME_DIR", std::env::temp_dir());
-    command.env("VISAVIS_CACHE", "/dev/null/no-store").env_remove("VISAVIS_CACHE_MIB");
+    command.env("VISAVIS_CACHE", "/dev/null/no-store").env_remove("VISAVIS_CACHE_MIB").env("VISAVIS_TREES_MIB", "0");
     command
 }
 

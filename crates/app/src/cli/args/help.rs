@@ -16,6 +16,7 @@ const TITLE: &str = "Visavis: the rasterised fake of a scene face to face with i
 
 const MORE: &str = "\
 References lie in the system's folder for caches, or in VISAVIS_CACHE; VISAVIS_CACHE_MIB limits their size (default 1024).
+Trees of large meshes lie beside them; VISAVIS_TREES_MIB limits their size (default 4096), and 0 keeps none.
 Exit code: 0 done, 1 failed (one line on stderr), 2 wrong usage. What a signal has ended ends by it: shells say 130
 after Ctrl-C, 143 after SIGTERM.
 Ctrl-C ends render and reference soon and saves what there is by then; a second one ends them at once.
