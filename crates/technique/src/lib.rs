@@ -12,6 +12,7 @@ mod accumulation;
 mod backend;
 mod blind_spot;
 mod changes;
+mod coarse;
 mod command;
 mod denoiser;
 mod device;

@@ -2,15 +2,18 @@
 //! wished number or a new request. The last films are kept: a request that differs only in the wished number goes on
 //! where one of them stopped, and a view that was left for a moment is there again.
 
+mod waiting;
+
 use crate::Watch;
 use crate::history::Past;
 use crate::patience::Patient;
 use crate::renderer::Renderer;
 use crate::speeds::Speeds;
-use crate::{Accumulation, Adapters, Backend, Device, Rank, Runs, Shot, Technique, Threads, TracedSettings, Trees};
+use crate::{Accumulation, Adapters, Backend, Device, Rank, Runs, Shot, Technique, Threads, TracedSettings};
 use scene::{Scene, Shape};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
+use waiting::Coarse;
 
 /// Time that a request may go on after a newer one came, if it has not shown anything yet: else a drag would never show
 /// anything.
@@ -75,6 +78,8 @@ pub struct ProgressiveRenderer {
     refusal: Option<Refusal>,
     /// The films of the last requests, the latest last.
     kept: Vec<CachedFilm>,
+    /// The scene that waits for its trees, with coarse meshes.
+    coarse: Option<Coarse>,
     /// What they showed, where that counts.
     past: Past,
     /// When the request in hand was begun.
@@ -144,6 +149,7 @@ impl ProgressiveRenderer {
             speeds: Speeds::default(),
             refusal: None,
             kept: Vec::new(),
+            coarse: None,
             past: Past::default(),
             begun: Instant::now(),
         }
@@ -185,25 +191,6 @@ impl ProgressiveRenderer {
         }
         self.ready = Some(renderer);
         refined
-    }
-
-    /// The trees that the scene is made ready with, unless it is, or a device has them; `None` if it ends before.
-    fn trees(&mut self, request: &Request, watch: &impl Watch) -> Option<Option<Trees>> {
-        let (scene, device, adapter) = (&request.shot.scene, self.device_for(request), self.adapter_for(request));
-        let has_them = |ready: &Renderer| {
-            let is_on_the_device = device == Device::Gpu && ready.is_ready_for(ready.scene(), device, &adapter);
-            ready.is_ready_for(scene, device, &adapter)
-                || (is_on_the_device && Trees::are_shared_by(ready.scene(), scene))
-        };
-        if self.ready.as_ref().is_some_and(has_them) {
-            return Some(None);
-        }
-        let trees = Trees::of(scene, &|trees| {
-            trees.into_iter().for_each(|trees| watch.waits_for_trees(Some(trees)));
-            !watch.ends_now()
-        });
-        watch.waits_for_trees(None);
-        trees.map(Some)
     }
 
     /// The request of the scene as its rays see it, which is one and the same as long as its sun stays.

@@ -237,6 +237,7 @@ impl Renderer {
             device: self.device(),
             refused: self.refusal.clone(),
             rough,
+            coarse: false,
             unfinished,
         }
     }

@@ -152,6 +152,7 @@ impl Runs {
             device: renderer.device(),
             refused: renderer.refusal().cloned(),
             rough: false,
+            coarse: false,
             unfinished: self.done < wanted,
         }
     }

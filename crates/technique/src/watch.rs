@@ -45,6 +45,8 @@ pub struct Frame<'a> {
     pub refused: Option<Arc<str>>,
     /// Whether this is a rough picture at a lower resolution.
     pub rough: bool,
+    /// Whether coarse meshes stand for those whose trees are not there yet; then it is rough too.
+    pub coarse: bool,
     /// Whether more of it will come.
     pub unfinished: bool,
 }

@@ -89,6 +89,7 @@ pub mod tests {
             filter_fault: None,
             cut: None,
             rough: false,
+            coarse: false,
             unfinished: true,
             order: Order { job: 1, view, shrink: 1, restarts: 0, own_camera, provenance },
         }

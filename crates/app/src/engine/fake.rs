@@ -272,6 +272,7 @@ impl JobInHand<'_> {
             filter_fault: None,
             cut: self.cut.clone(),
             rough: shrink > 1,
+            coarse: false,
             unfinished: shrink > 1 || compiled,
             order: self.job.order.clone(),
         };

@@ -80,6 +80,8 @@ pub struct Picture {
     pub cut: Option<Arc<str>>,
     /// Whether this is a rough picture at a lower resolution.
     pub rough: bool,
+    /// Whether coarse meshes stand for those whose trees are not there yet; then it is rough too.
+    pub coarse: bool,
     /// Whether more of this job will come.
     pub unfinished: bool,
     /// What it was made for.

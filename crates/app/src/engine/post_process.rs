@@ -301,7 +301,7 @@ impl Latest {
     fn reference_of(&self, picture: &Picture) -> Option<&ReferenceImage> {
         let (view, reference_image) = self.reference.as_ref()?;
         let fits = *view == picture.order.view && reference_image.image.size() == picture.image.size();
-        (fits && picture.order.provenance.technique.has_a_reference()).then_some(reference_image)
+        (fits && !picture.coarse && picture.order.provenance.technique.has_a_reference()).then_some(reference_image)
     }
 
     /// What is known of the noise of a pane's picture.
@@ -380,7 +380,7 @@ fn comparable(a: &Picture, b: &Picture) -> bool {
     let shows_the_scene = |picture: &Picture| picture.order.provenance.technique.shows_the_scene();
     let light = |picture: &Picture| picture.order.provenance.technique.light();
     let same = (a.image.size(), a.order.view, light(a)) == (b.image.size(), b.order.view, light(b));
-    same && shows_the_scene(a) && shows_the_scene(b)
+    same && !a.coarse && !b.coarse && shows_the_scene(a) && shows_the_scene(b)
 }
 
 #[cfg(test)]

@@ -35,6 +35,7 @@ fn picture(view: u64) -> Picture {
         filter_fault: None,
         cut: None,
         rough: false,
+        coarse: false,
         unfinished: false,
         order,
     }

@@ -221,6 +221,7 @@ impl Watch for PaneWatch<'_> {
             lag: frame.reused.map(|reused| reused.lag),
             cut: None,
             rough: frame.rough,
+            coarse: frame.coarse,
             unfinished: frame.unfinished,
             order: self.order.made_on(frame.device),
         };

@@ -67,6 +67,8 @@ pub struct PaneView {
     pub nonfinite: u64,
     /// Whether the picture is a rough first one.
     pub rough: bool,
+    /// Whether coarse meshes stand in it for large ones whose trees are not there yet.
+    pub coarse: bool,
     /// How many pixels of the picture area one of its pixels takes, along a side.
     pub shrink: u32,
     /// Whether more of it will come.

@@ -102,7 +102,7 @@ impl Presentation {
         (shown.refused, shown.cut) = (picture.refused.clone(), picture.cut.clone());
         shown.filter_fault = picture.filter_fault.clone();
         shown.adapter = Some(picture.adapter.clone());
-        (shown.rough, shown.unfinished) = (picture.rough, picture.unfinished);
+        (shown.rough, shown.coarse, shown.unfinished) = (picture.rough, picture.coarse, picture.unfinished);
         let coarser = picture.order.size().0.div_ceil(picture.image.width().max(1)) * picture.order.shrink;
         shown.shrink = if picture.external.is_some() { 1 } else { coarser };
         (shown.errors, shown.region) = (errors, region);

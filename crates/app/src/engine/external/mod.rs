@@ -173,6 +173,7 @@ impl Externals {
             filter_fault: None,
             cut: None,
             rough: false,
+            coarse: false,
             // nobody knows, and the reference does not wait for it
             unfinished: false,
             order: order.clone(),

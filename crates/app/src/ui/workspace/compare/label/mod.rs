@@ -33,7 +33,7 @@ pub fn show(cx: &mut UiContext, ui: &Ui, clip: Rect, pane: PaneId) {
     let beside = beside(cx, pane);
     let mut text = LabelText::of(pane, shown, beside, told(cx, pane, shown), cx.model.state.paused);
     text.notes.extend(no_error(shown, cx.model.session.comparison.comparison(pane).against, beside));
-    text.notes.extend(cx.shown.waiting.get(pane).cloned());
+    text.notes.extend(waiting(shown, cx.shown.waiting.get(pane)));
     let room = room(cx, clip, pane);
     let Some(galley) = fitting(ui, &text, pane, room.size()) else { return };
     let place = align(cx.model, pane).align_size_within_rect(galley.size(), room);
@@ -45,6 +45,15 @@ pub fn show(cx: &mut UiContext, ui: &Ui, clip: Rect, pane: PaneId) {
     if !cx.model.state.posing && !explanation.is_empty() {
         describe(ui, &response, &explanation);
         response.on_hover_text(explanation);
+    }
+}
+
+/// What its rays wait for, and what stands for that meanwhile.
+fn waiting(shown: &PaneView, words: Option<&String>) -> Option<String> {
+    match (shown.coarse, words) {
+        (true, Some(words)) => Some(format!("coarse meshes: {words}")),
+        (true, None) => Some("coarse meshes, until their trees are built".into()),
+        (false, words) => words.cloned(),
     }
 }
 
