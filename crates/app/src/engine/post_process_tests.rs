@@ -79,6 +79,21 @@ fn only_pictures_of_one_view_are_compared() {
     }
 }
 
+#[test]
+fn a_picture_with_coarse_meshes_is_compared_with_nothing() {
+    let reference_image = ReferenceImage { image: pixel(0.5), standard_errors: None, noise: Some(1.0) };
+    for against in [Against::Pane(PaneId::A), Against::Reference] {
+        let updates = frame(|post_process| {
+            post_process.set_comparisons(vec![Comparison { of: PaneId::B, against, region: None }], None);
+            post_process.set_reference(Some((1, reference_image.clone())));
+            post_process.deliver(PaneId::A, picture(1));
+            post_process.deliver(PaneId::B, Picture { rough: true, coarse: true, ..picture(1) });
+        });
+        let Some(PaneUpdate::Picture(shown)) = updates.get(PaneId::B) else { panic!("a picture") };
+        assert!(shown.picture.coarse && shown.errors.is_none(), "{against:?}");
+    }
+}
+
 /// The reference belongs to one view as the pictures do, and tells its noise.
 #[test]
 fn a_reference_judges_both_sides_of_its_own_view_alone() {

@@ -132,10 +132,13 @@ mod tests {
     use pathtrace::PathSettings;
     use std::sync::Mutex;
 
-    /// Keeps what it is shown: whether it is coarse, rough and unfinished, its film's size and its radiances.
+    /// Whether a picture is coarse, rough and unfinished, its film's size and its radiances.
+    type Sight = ([bool; 3], (u32, u32), Vec<scene::Vec3>);
+
+    /// Keeps what it is shown.
     #[derive(Default)]
     struct Looking {
-        shown: Mutex<Vec<([bool; 3], (u32, u32), Vec<scene::Vec3>)>>,
+        shown: Mutex<Vec<Sight>>,
     }
 
     impl Watch for Looking {

@@ -161,3 +161,17 @@ fn colour(pane: PaneId) -> Color32 {
         _ => Color32::WHITE,
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn coarse_meshes_are_said_to_be_such_with_or_without_what_is_waited_for() {
+        let (coarse, fine) = (PaneView { coarse: true, ..PaneView::default() }, PaneView::default());
+        let words = "building the tree of 2.1 million triangles: 40 %, 3 s left".to_owned();
+        assert_eq!(waiting(&coarse, Some(&words)), Some(format!("coarse meshes: {words}")));
+        assert!(waiting(&coarse, None).is_some_and(|said| said.starts_with("coarse meshes")));
+        assert_eq!([waiting(&fine, Some(&words)), waiting(&fine, None)], [Some(words), None]);
+    }
+}
