@@ -1,4 +1,4 @@
-//! A coarse stand-in for a scene whose large meshes have no trees yet: corners that lie in one cell of a grid become one
+//! A scene with coarse meshes in the place of those whose trees are not there yet: corners that lie in one cell of a grid become one
 //! (Rossignac and Borrel, "Multi-resolution 3D approximations for rendering complex scenes", 1993), in time linear in the mesh.
 
 use pathtrace::intersect::mesh_tree::meshes_with_trees;
@@ -22,22 +22,22 @@ const NONE: u32 = u32::MAX;
 /// `None` if there is none of them.
 pub fn coarse(scene: &Scene) -> Option<Scene> {
     let large = meshes_with_trees(scene).into_iter().filter(|mesh| mesh.triangles().len() > MOST);
-    let stand_ins: Vec<(&Arc<Mesh>, Arc<Mesh>)> = large.map(|mesh| (mesh, Arc::new(clustered(mesh)))).collect();
-    let stand_in = |mesh: &Arc<Mesh>| {
-        let found = stand_ins.iter().find(|(large, _)| Arc::ptr_eq(large, mesh));
+    let coarse_meshes: Vec<(&Arc<Mesh>, Arc<Mesh>)> = large.map(|mesh| (mesh, Arc::new(clustered(mesh)))).collect();
+    let coarse_of = |mesh: &Arc<Mesh>| {
+        let found = coarse_meshes.iter().find(|(large, _)| Arc::ptr_eq(large, mesh));
         found.map(|(_, coarse)| coarse.clone())
     };
     let mut shapes = scene.shapes.to_vec();
     for shape in &mut shapes {
         match &mut shape.geometry {
             Geometry::Mesh(mesh) | Geometry::Instance(Instance { mesh, .. }) => {
-                *mesh = stand_in(mesh).unwrap_or_else(|| mesh.clone());
+                *mesh = coarse_of(mesh).unwrap_or_else(|| mesh.clone());
             }
             Geometry::Sphere { .. } | Geometry::Rectangle { .. } | Geometry::Disk { .. } | Geometry::Box { .. } => {}
         }
     }
-    // a mesh in a point has nothing that stands for it
-    let is_seen = !stand_ins.is_empty() && stand_ins.iter().all(|(_, coarse)| !coarse.triangles().is_empty());
+    // a mesh in a point has no coarse one
+    let is_seen = !coarse_meshes.is_empty() && coarse_meshes.iter().all(|(_, coarse)| !coarse.triangles().is_empty());
     is_seen.then(|| Scene { shapes: shapes.into(), ..scene.clone() })
 }
 

@@ -37,10 +37,14 @@ impl Trees {
         let meshes = meshes_with_trees(scene);
         let triangles = meshes.iter().map(|mesh| mesh.triangles().len()).sum();
         let (meshes, begun) = (meshes.len(), Instant::now());
-        let first = Mutex::new(None);
+        let first = Mutex::new(None::<(Instant, f32)>);
         let progress = |share: f32| {
-            let (since, before) =
-                *first.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert_with(|| (Instant::now(), share));
+            let mut first = first.lock().unwrap_or_else(PoisonError::into_inner);
+            // what comes before the first piece has another pace
+            let known = first.filter(|(_, before)| share > *before);
+            let (since, before) = known.unwrap_or_else(|| (Instant::now(), share));
+            *first = Some((since, before));
+            drop(first);
             let left = time_left(before, share, since.elapsed());
             hear(Some(TreeProgress { triangles, meshes, share, left }).filter(|_| begun.elapsed() > WORTH_A_WORD))
         };
