@@ -12,8 +12,9 @@
 //! Directions are local, z along the normal on the side of `wo`. Twin: `shaders/pathtrace/bsdf/metallic_roughness.wgsl`.
 
 use super::microfacets::{Frame, Microfacets};
+use super::two_normals::{Shares, TwoNormals};
 use super::{BsdfSamples, Interactions, ScaledColours};
-use crate::sampling::warp::cosine_hemisphere;
+use crate::sampling::warp::{cosine_hemisphere, to_world};
 use crate::vectors::{glam_vector, in_all_lanes, lane_vector};
 use scene::Vec3;
 use simd::{Float, Vector};
@@ -44,24 +45,53 @@ pub struct MetallicRoughnesses<F: Float> {
 /// Draws directions by the facets that `wo` sees or by the cosine, from two random numbers for the direction and
 /// one for that choice.
 #[inline(always)]
-pub fn sample<F: Float>(at: &Interactions<F>, surface: &MetallicRoughnesses<F>, u: [F; 3]) -> BsdfSamples<F> {
-    let frame = Frame::around(at.normal);
-    let local = surface.sample(frame.local(at.wo), u);
-    BsdfSamples { wi: frame.world(local.wi), ..local }
+pub fn sample<F: Float>(
+    at: &Interactions<F>,
+    surface: &MetallicRoughnesses<F>,
+    normals: &TwoNormals<F>,
+    u: [F; 3],
+) -> BsdfSamples<F> {
+    let frame = Frame::around(normals.facets);
+    let wo = frame.local(at.wo);
+    let mut by_cosine = cosine_hemisphere([u[0], u[1]]);
+    if let Some(around) = normals.drawn_around() {
+        by_cosine = frame.local(to_world(by_cosine, around));
+    }
+    let (local, facet) = surface.draw(wo, by_cosine, u);
+    let wi = frame.world(local);
+    let sample = surface.weighted(wo, local, facet, &normals.shares(wi, local.z));
+    BsdfSamples { wi, ..sample }
 }
 
 /// The BSDF for light from the unit direction `wi` above the surface.
 #[inline(always)]
-pub fn eval<F: Float>(at: &Interactions<F>, surface: &MetallicRoughnesses<F>, wi: Vector<F>) -> ScaledColours<F> {
-    let frame = Frame::around(at.normal);
-    surface.eval(frame.local(at.wo), frame.local(wi))
+pub fn eval<F: Float>(
+    at: &Interactions<F>,
+    surface: &MetallicRoughnesses<F>,
+    normals: &TwoNormals<F>,
+    wi: Vector<F>,
+) -> ScaledColours<F> {
+    let frame = Frame::around(normals.facets);
+    let local = frame.local(wi);
+    surface.value(frame.local(at.wo), local, &normals.shares_of_value(wi, local.z))
 }
 
 /// Density per solid angle of [`sample`] at `wi`.
 #[inline(always)]
-pub fn pdf<F: Float>(at: &Interactions<F>, surface: &MetallicRoughnesses<F>, wi: Vector<F>) -> F {
-    let frame = Frame::around(at.normal);
-    surface.pdf(frame.local(at.wo), frame.local(wi))
+pub fn pdf<F: Float>(
+    at: &Interactions<F>,
+    surface: &MetallicRoughnesses<F>,
+    normals: &TwoNormals<F>,
+    wi: Vector<F>,
+) -> F {
+    let frame = Frame::around(normals.facets);
+    let local = frame.local(wi);
+    let cosine = match normals.drawn_around() {
+        Some(around) => around.dot(wi),
+        None => local.z,
+    };
+    let wo = frame.local(at.wo);
+    surface.density(wo, (wo + local).normalize(), cosine)
 }
 
 impl<F: Float> MetallicRoughnesses<F> {
@@ -74,18 +104,18 @@ impl<F: Float> MetallicRoughnesses<F> {
 
     /// The body's albedo, were there no coat.
     #[inline(always)]
-    pub(super) fn body(&self) -> Vector<F> {
+    fn body(&self) -> Vector<F> {
         self.base_colour * (F::splat(1.0) - self.metallic)
     }
 
     #[inline(always)]
-    pub(super) fn facets(&self) -> Microfacets<F> {
+    fn facets(&self) -> Microfacets<F> {
         Microfacets { alpha: self.roughness * self.roughness }
     }
 
     /// What facets reflect, of metal and coat together.
     #[inline(always)]
-    pub(super) fn fresnel(&self, cosine: F) -> Vector<F> {
+    fn fresnel(&self, cosine: F) -> Vector<F> {
         let rest = grazing(cosine);
         self.straight() * (F::splat(1.0) - rest) + Vector::along_all(rest)
     }
@@ -93,7 +123,7 @@ impl<F: Float> MetallicRoughnesses<F> {
     /// Share of the light that reaches the body and comes back out, by the cosine to the facet and the smaller one of both
     /// directions to the normal.
     #[inline(always)]
-    pub(super) fn passes_coat(&self, of_facet: F, lower: F) -> F {
+    fn passes_coat(&self, of_facet: F, lower: F) -> F {
         let one = F::splat(1.0);
         let reflected = self.coat + (one - self.coat) * grazing(of_facet);
         one - reflected.max(coat_albedo(self.coat, self.roughness, lower))
@@ -102,7 +132,7 @@ impl<F: Float> MetallicRoughnesses<F> {
     /// Probability of drawing by the facets: their share of what is reflected, as it is estimated for `wo` at this cosine.
     /// The body's is no more than the estimate anywhere, so that the choice of it weighs no sample up.
     #[inline(always)]
-    pub(super) fn specular_probability(&self, cosine: F) -> F {
+    fn specular_probability(&self, cosine: F) -> F {
         let specular = coat_albedo(self.straight().max_element(), self.roughness, cosine);
         let coat = coat_albedo(self.coat, self.roughness, cosine);
         let diffuse = self.body().max_element() * (F::splat(1.0) - coat);
@@ -110,43 +140,57 @@ impl<F: Float> MetallicRoughnesses<F> {
         F::select(both.gt(F::splat(0.0)), specular / both, one).max(F::splat(LEAST_SPECULAR))
     }
 
-    /// Draws a direction; the weight is 0 where it lies below the surface, and at most `1 / LEAST_SPECULAR`.
+    /// A direction by the facets or one `by_cosine`, and the facet that reflects to there.
     #[inline(always)]
-    pub fn sample(&self, wo: Vector<F>, u: [F; 3]) -> BsdfSamples<F> {
-        let (facets, zero) = (self.facets(), F::splat(0.0));
-        let specular = self.specular_probability(wo.z);
-        let by_facet = u[2].lt(specular);
-        let visible = facets.visible_normal(wo, [u[0], u[1]]);
+    fn draw(&self, wo: Vector<F>, by_cosine: Vector<F>, u: [F; 3]) -> (Vector<F>, Vector<F>) {
+        let by_facet = u[2].lt(self.specular_probability(wo.z));
+        let visible = self.facets().visible_normal(wo, [u[0], u[1]]);
         let reflected = visible * (wo.dot(visible) * 2.0) - wo;
-        let wi = Vector::select(by_facet, reflected, cosine_hemisphere([u[0], u[1]]));
-        let facet = Vector::select(by_facet, visible, (wo + wi).normalize());
-        let (cosine, above) = (wo.dot(facet), wi.z.gt(zero));
-        let diffuse_pdf = F::select(above, wi.z, zero) * FRAC_1_PI;
-        let facet_pdf = facets.pdf(wo, facet);
+        let wi = Vector::select(by_facet, reflected, by_cosine);
+        (wi, Vector::select(by_facet, visible, (wo + wi).normalize()))
+    }
+
+    /// The direction `wi`; the weight is 0 where it lies below the surface, and with one normal at most
+    /// `1 / LEAST_SPECULAR`.
+    #[inline(always)]
+    fn weighted(&self, wo: Vector<F>, wi: Vector<F>, facet: Vector<F>, shares: &Shares<F>) -> BsdfSamples<F> {
+        let (cosine, zero) = (wo.dot(facet), F::splat(0.0));
+        let (facet_pdf, diffuse_pdf) = (self.facet_density(wo, facet), cosine_density(shares.cosine));
+        let specular = self.specular_probability(wo.z);
         let pdf = specular * facet_pdf + (F::splat(1.0) - specular) * diffuse_pdf;
         // BSDF times cosine
-        let from_facets = self.fresnel(cosine) * (facets.passes(wo, wi) * facet_pdf);
-        let from_body = self.body() * (self.passes_coat(cosine, wo.z.min(wi.z)) * diffuse_pdf);
+        let from_facets = self.fresnel(cosine) * (self.facets().passes(wo, wi) * facet_pdf * shares.facets);
+        let from_facets = Vector::select(shares.facets.gt(zero), from_facets, Vector::zero());
+        let from_body = self.body() * (self.passes_coat(cosine, lower(wo, wi)) * diffuse_pdf * shares.body);
         let weight = (from_facets + from_body) * (F::splat(1.0) / pdf);
-        BsdfSamples { wi, weight: Vector::select(above, weight, Vector::zero()), pdf }
+        let any = shares.facets.gt(zero) | shares.body.gt(zero);
+        BsdfSamples { wi, weight: Vector::select(any, weight, Vector::zero()), pdf }
     }
 
     /// What facets and body scatter, both together.
     #[inline(always)]
-    pub fn eval(&self, wo: Vector<F>, wi: Vector<F>) -> ScaledColours<F> {
+    fn value(&self, wo: Vector<F>, wi: Vector<F>, shares: &Shares<F>) -> ScaledColours<F> {
         let facet = (wo + wi).normalize();
-        let cosine = wo.dot(facet);
-        let from_facets = self.fresnel(cosine) * self.facets().value(wo, wi, facet);
-        let from_body = self.body() * (self.passes_coat(cosine, wo.z.min(wi.z)) * FRAC_1_PI);
+        let (cosine, zero) = (wo.dot(facet), F::splat(0.0));
+        let from_facets = self.fresnel(cosine) * (self.facets().value(wo, wi, facet) * shares.facets);
+        let from_facets = Vector::select(shares.facets.gt(zero), from_facets, Vector::zero());
+        let from_body = self.body() * (self.passes_coat(cosine, lower(wo, wi)) * FRAC_1_PI * shares.body);
         ScaledColours { colour: from_facets + from_body, factor: F::splat(1.0) }
     }
 
-    /// Density of [`MetallicRoughnesses::sample`] per solid angle of `wi` above the surface.
+    /// Density per solid angle of the direction that this facet reflects to, which has this cosine to what the body's
+    /// are drawn around.
     #[inline(always)]
-    pub fn pdf(&self, wo: Vector<F>, wi: Vector<F>) -> F {
+    fn density(&self, wo: Vector<F>, facet: Vector<F>, cosine: F) -> F {
         let specular = self.specular_probability(wo.z);
-        let facet = (wo + wi).normalize();
-        specular * self.facets().pdf(wo, facet) + (F::splat(1.0) - specular) * (wi.z * FRAC_1_PI)
+        specular * self.facet_density(wo, facet) + (F::splat(1.0) - specular) * cosine_density(cosine)
+    }
+
+    /// The same of what facets reflect. From below none is seen.
+    #[inline(always)]
+    fn facet_density(&self, wo: Vector<F>, facet: Vector<F>) -> F {
+        let zero = F::splat(0.0);
+        F::select(facet.z.gt(zero), self.facets().pdf(wo, facet), zero)
     }
 
     /// What a tree of rays, each of which has one direction, makes of it: the share that is mirrored at this cosine, and
@@ -160,6 +204,19 @@ impl<F: Float> MetallicRoughnesses<F> {
         let mirrored = of_metal * self.metallic + Vector::along_all(of_coat * (F::splat(1.0) - self.metallic));
         [mirrored, self.body() * (F::splat(1.0) - of_coat)]
     }
+}
+
+/// Density per solid angle of directions by their cosine.
+#[inline(always)]
+fn cosine_density<F: Float>(cosine: F) -> F {
+    let zero = F::splat(0.0);
+    F::select(cosine.gt(zero), cosine, zero) * FRAC_1_PI
+}
+
+/// The smaller cosine of both directions to the facets' normal.
+#[inline(always)]
+fn lower<F: Float>(wo: Vector<F>, wi: Vector<F>) -> F {
+    wo.z.min(wi.z.max(F::splat(0.0)))
 }
 
 /// How far Schlick's approximation has gone from the reflectance at normal incidence to 1.
@@ -212,18 +269,21 @@ impl MetallicRoughness {
 
     /// A direction, BSDF times cosine over density (0 if it lies below the surface), and the density per solid angle.
     pub fn sample(&self, wo: Vec3, u: [f32; 3]) -> (Vec3, Vec3, f32) {
-        let sample = self.lane().sample(lane_vector(wo), u);
+        let (lane, wo) = (self.lane(), lane_vector(wo));
+        let (wi, facet) = lane.draw(wo, cosine_hemisphere([u[0], u[1]]), u);
+        let sample = lane.weighted(wo, wi, facet, &Shares::of_one_normal(wi.z));
         (glam_vector(sample.wi), glam_vector(sample.weight), sample.pdf)
     }
 
     /// The BSDF for light from `wi` above the surface.
     pub fn eval(&self, wo: Vec3, wi: Vec3) -> Vec3 {
-        let value = self.lane().eval(lane_vector(wo), lane_vector(wi));
+        let value = self.lane().value(lane_vector(wo), lane_vector(wi), &Shares::of_one_normal(wi.z));
         glam_vector(value.colour) * value.factor
     }
 
     /// Density of [`MetallicRoughness::sample`] per solid angle of `wi`.
     pub fn pdf(&self, wo: Vec3, wi: Vec3) -> f32 {
-        self.lane().pdf(lane_vector(wo), lane_vector(wi))
+        let (wo, wi) = (lane_vector(wo), lane_vector(wi));
+        self.lane().density(wo, (wo + wi).normalize(), wi.z)
     }
 }

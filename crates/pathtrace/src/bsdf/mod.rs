@@ -68,27 +68,23 @@ impl Materials {
     /// Draws a direction `here`, from two random numbers for the direction and one for the choice among several.
     #[inline(always)]
     pub fn sample<F: Float>(&self, here: F::M, at: &Interactions<F>, u: [F; 3]) -> BsdfSamples<F> {
-        let sample = self.sample_lobe(here, at, u);
+        let sample = self.sample_lobe(here, at, false, u);
         if !self.has().shading_normals {
             return sample;
         }
-        let sample = BsdfSamples { weight: sample.weight * shading::kept(at, sample.wi), ..sample };
-        let two = self.has_two_normals(here, at);
-        if two.any() { BsdfSamples::select(two, self.two_normals(at).sample(u), sample) } else { sample }
+        let share = self.unless_two_normals(at, shading::kept(at, sample.wi));
+        BsdfSamples { weight: sample.weight * share, ..sample }
     }
 
     /// Draws the direction in which a photon goes on `here` that came from `wo`, as [`Materials::sample`] does for paths.
     #[inline(always)]
     pub fn sample_adjoint<F: Float>(&self, here: F::M, at: &Interactions<F>, u: [F; 3]) -> BsdfSamples<F> {
-        let left = self.as_left(at);
-        let sample = self.sample_lobe(here, &left, u);
+        let sample = self.sample_lobe(here, at, true, u);
         if !self.has().shading_normals {
             return sample;
         }
-        let share = shading::kept(&left, sample.wi) * shading::adjoint(at, sample.wi);
-        let sample = BsdfSamples { weight: sample.weight * share, ..sample };
-        let two = self.has_two_normals(here, at);
-        if two.any() { BsdfSamples::select(two, self.two_normals(at).sample_adjoint(u), sample) } else { sample }
+        let share = shading::kept(&self.as_left(at), sample.wi) * shading::adjoint(at, sample.wi);
+        BsdfSamples { weight: sample.weight * self.unless_two_normals(at, share), ..sample }
     }
 
     /// Surfaces as photons leave them: see [`shading::as_left`].
@@ -97,26 +93,25 @@ impl Materials {
         if self.has().shading_normals { shading::as_left(at) } else { *at }
     }
 
-    /// Where body and facets may be shaded by different normals.
+    /// What shading normals leave of light, which lobes of [`TwoNormals`] count themselves.
     #[inline(always)]
-    fn has_two_normals<F: Float>(&self, here: F::M, at: &Interactions<F>) -> F::M {
-        let has = self.has();
-        if has.shading_normals && has.metallic_roughness {
-            here & at.kinds.metallic_roughness()
-        } else {
-            F::M::splat(false)
+    fn unless_two_normals<F: Float>(&self, at: &Interactions<F>, share: F) -> F {
+        if self.has().metallic_roughness {
+            return F::select(at.kinds.metallic_roughness(), F::splat(1.0), share);
         }
+        share
     }
 
     #[inline(always)]
-    fn two_normals<F: Float>(&self, at: &Interactions<F>) -> TwoNormals<F> {
-        TwoNormals::new(at, self.metallic_roughness(at))
+    fn two_normals<F: Float>(&self, at: &Interactions<F>, photons: bool) -> TwoNormals<F> {
+        TwoNormals::of(at, photons, self.has().shading_normals)
     }
 
     #[inline(always)]
-    fn sample_lobe<F: Float>(&self, here: F::M, at: &Interactions<F>, u: [F; 3]) -> BsdfSamples<F> {
+    fn sample_lobe<F: Float>(&self, here: F::M, at: &Interactions<F>, photons: bool, u: [F; 3]) -> BsdfSamples<F> {
         let diffuse = here & at.kinds.diffuse();
-        let mut sample = if diffuse.any() { lambert::sample(at, [u[0], u[1]]) } else { BsdfSamples::delta(at) };
+        let left = if photons { self.as_left(at) } else { *at };
+        let mut sample = if diffuse.any() { lambert::sample(&left, [u[0], u[1]]) } else { BsdfSamples::delta(at) };
         let mirrors = here & at.kinds.mirror();
         if self.has().mirrors && mirrors.any() {
             sample = BsdfSamples::select(mirrors, mirror::sample(at), sample);
@@ -131,8 +126,9 @@ impl Materials {
             sample = BsdfSamples::select(rough, drawn, sample);
         }
         let coated = here & at.kinds.metallic_roughness();
-        if self.has().metallic_roughness && !self.has().shading_normals && coated.any() {
-            let drawn = metallic_roughness::sample(at, &self.metallic_roughness(at), u);
+        if self.has().metallic_roughness && coated.any() {
+            let normals = self.two_normals(at, photons);
+            let drawn = metallic_roughness::sample(at, &self.metallic_roughness(at), &normals, u);
             sample = BsdfSamples::select(coated, drawn, sample);
         }
         sample
@@ -148,10 +144,24 @@ impl Materials {
     /// of lobes that leave no choice.
     #[inline(always)]
     pub fn eval<F: Float>(&self, at: &Interactions<F>, wi: Vector<F>) -> ScaledColours<F> {
-        let ScaledColours { colour, factor } = self.eval_lobe(at, wi);
-        let value = ScaledColours { colour, factor: self.shadowed(at.normal, at.point.normal, wi, factor) };
-        let two = self.has_two_normals(F::M::splat(true), at);
-        if two.any() { ScaledColours::select(two, self.two_normals(at).eval(wi), value) } else { value }
+        let ScaledColours { colour, factor } = self.eval_lobe(at, false, wi);
+        if !self.has().shading_normals {
+            return ScaledColours { colour, factor };
+        }
+        let share = shading::terminator(at.normal, at.point.normal, wi);
+        ScaledColours { colour, factor: factor * self.unless_two_normals(at, share) }
+    }
+
+    /// What surfaces send on to `wi` of a photon's power that came from `wo`, over the cosine of `wi` to the normal of the
+    /// surface as it is left ([`Materials::as_left`]).
+    #[inline(always)]
+    pub fn eval_adjoint<F: Float>(&self, at: &Interactions<F>, wi: Vector<F>) -> ScaledColours<F> {
+        let ScaledColours { colour, factor } = self.eval_lobe(at, true, wi);
+        if !self.has().shading_normals {
+            return ScaledColours { colour, factor };
+        }
+        let share = shading::kept(&self.as_left(at), wi) * shading::adjoint(at, wi);
+        ScaledColours { colour, factor: factor * self.unless_two_normals(at, share) }
     }
 
     /// The cosine of light from `wi` to the normal, and where there are two to the one that it is nearer to: above 0 where any
@@ -159,22 +169,12 @@ impl Materials {
     #[inline(always)]
     pub fn cosine<F: Float>(&self, at: &Interactions<F>, wi: Vector<F>) -> F {
         let cosine = at.normal.dot(wi);
-        let two = self.has_two_normals(F::M::splat(true), at);
-        if two.any() { cosine.max(self.mirroring_normal(at).dot(wi)) } else { cosine }
-    }
-
-    /// What surfaces send on to `wi` of a photon's power that came from `wo`, over the cosine of `wi` to the normal of the
-    /// surface as it is left ([`Materials::as_left`]).
-    #[inline(always)]
-    pub fn eval_adjoint<F: Float>(&self, at: &Interactions<F>, wi: Vector<F>) -> ScaledColours<F> {
-        let ScaledColours { colour, factor } = self.eval_lobe(at, wi);
-        if !self.has().shading_normals {
-            return ScaledColours { colour, factor };
+        let has = self.has();
+        if has.shading_normals && has.metallic_roughness {
+            // of surfaces with one normal it is the same
+            return cosine.max(self.mirroring_normal(at).dot(wi));
         }
-        let share = shading::kept(&self.as_left(at), wi) * shading::adjoint(at, wi);
-        let value = ScaledColours { colour, factor: factor * share };
-        let two = self.has_two_normals(F::M::splat(true), at);
-        if two.any() { ScaledColours::select(two, self.two_normals(at).eval_adjoint(wi), value) } else { value }
+        cosine
     }
 
     /// A value or a cosine for light from `wi`, with what shading normals leave of it.
@@ -184,16 +184,17 @@ impl Materials {
     }
 
     #[inline(always)]
-    fn eval_lobe<F: Float>(&self, at: &Interactions<F>, wi: Vector<F>) -> ScaledColours<F> {
+    fn eval_lobe<F: Float>(&self, at: &Interactions<F>, photons: bool, wi: Vector<F>) -> ScaledColours<F> {
         let mut value = lambert::eval(at);
         let rough = at.kinds.rough_conductor();
         if self.has().rough_conductors && rough.any() {
             value = ScaledColours::select(rough, rough_conductor::eval(at, &self.rough_conductor(at), wi), value);
         }
         let coated = at.kinds.metallic_roughness();
-        if self.has().metallic_roughness && !self.has().shading_normals && coated.any() {
-            value =
-                ScaledColours::select(coated, metallic_roughness::eval(at, &self.metallic_roughness(at), wi), value);
+        if self.has().metallic_roughness && coated.any() {
+            let normals = self.two_normals(at, photons);
+            let of_coated = metallic_roughness::eval(at, &self.metallic_roughness(at), &normals, wi);
+            value = ScaledColours::select(coated, of_coated, value);
         }
         value
     }
@@ -209,11 +210,8 @@ impl Materials {
         }
         let coated = at.kinds.metallic_roughness();
         if self.has().metallic_roughness && coated.any() {
-            let of_coated = if self.has().shading_normals {
-                self.two_normals(at).pdf(wi)
-            } else {
-                metallic_roughness::pdf(at, &self.metallic_roughness(at), wi)
-            };
+            let normals = self.two_normals(at, false);
+            let of_coated = metallic_roughness::pdf(at, &self.metallic_roughness(at), &normals, wi);
             density = F::select(coated, of_coated, density);
         }
         density
@@ -237,8 +235,12 @@ impl Materials {
     /// The normal that mirrors, or that facets do.
     #[inline(always)]
     pub fn mirroring_normal<F: Float>(&self, at: &Interactions<F>) -> Vector<F> {
-        let two = self.has_two_normals(F::M::splat(true), at);
-        if two.any() { Vector::select(two, shading::mirroring_normal(at), at.normal) } else { at.normal }
+        let has = self.has();
+        let coated = at.kinds.metallic_roughness();
+        if has.shading_normals && has.metallic_roughness && coated.any() {
+            return Vector::select(coated, shading::mirroring_normal(at), at.normal);
+        }
+        at.normal
     }
 
     #[inline(always)]
