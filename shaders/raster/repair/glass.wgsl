@@ -52,7 +52,9 @@ fn repaired_glass(p: vec3f, n: vec3f) -> vec3f {
             let second = leaves - 2.0 * dot(back, n_out) * object.sphere.w * back;
             let n_second = normalize(second - object.sphere.xyz);
             let last = refract(back, -n_second, 1.0 / object.refraction_ratio);
-            once_more = surroundings(select(met.place, second, is_sphere), select(inside, last, is_sphere & !none));
+            // a thousandth of the light: by its direction alone
+            let leaves_last = select(inside, last, is_sphere & !none);
+            once_more = shown(leaves_last, leaves_last);
         }
     } else {
         through = surroundings(met.place, inside);

@@ -4,9 +4,9 @@
 // the light ask for. No twin: the rasteriser runs on devices alone.
 
 // Places that are looked at for what casts, and for what is lit. Here alone: only devices draw.
-const SEARCHED: u32 = 20u;
+const SEARCHED: u32 = 12u;
 // See the one before. Here alone: only devices draw.
-const FILTERED: u32 = 40u;
+const FILTERED: u32 = 32u;
 
 // Place number `index` of `count` on the unit disc, evenly spread: Vogel 1979.
 fn disc(index: u32, count: u32) -> vec2f {
@@ -61,8 +61,8 @@ fn soft_sun(p: vec3f, n_dot_l: f32) -> f32 {
         nearer += casts * depth;
         count += casts;
     }
-    if count == 0.0 {
-        return 1.0;
+    if count == 0.0 || count == f32(SEARCHED) {
+        return 1.0 - count / f32(SEARCHED);
     }
     // at least a texel, or the map shows
     let width = max(spread * (at.z - nearer / count), 1.0 / f32(textureDimensions(shadow_map).x));
@@ -94,8 +94,8 @@ fn soft_area_light(p: vec3f, n_dot_l: f32) -> f32 {
         share += casts * tap.x / tap.y;
         count += casts;
     }
-    if count == 0.0 {
-        return 1.0;
+    if count == 0.0 || count == f32(SEARCHED) {
+        return 1.0 - count / f32(SEARCHED);
     }
     let nearness = share / count;
     let width = min(lights.area_light_radius * (1.0 - nearness) / (distance * nearness), 4.0 * widest);

@@ -8,9 +8,9 @@
 const NOWHERE: f32 = 65504.0;
 
 // Steps of the search along a ray. Here alone: only devices draw.
-const SEARCH_STEPS: u32 = 24u;
-// Halvings of the step that it ends in. Here alone: only devices draw.
-const HALVINGS: u32 = 5u;
+const SEARCH_STEPS: u32 = 12u;
+// How often the step that it ends in is cut. Here alone: only devices draw.
+const CUTS: u32 = 3u;
 
 // The radiance that arrives at p from unit direction d, which is not that of the object itself.
 fn surroundings(p: vec3f, d: vec3f) -> vec3f {
@@ -21,6 +21,11 @@ fn surroundings(p: vec3f, d: vec3f) -> vec3f {
     } else if repaired(REPAIR_PROXY_SPHERE) {
         towards = towards_sphere(from_middle, d, object.proxy_radius);
     }
+    return shown(towards, d);
+}
+
+// What the cube map shows in a direction, for a ray along d.
+fn shown(towards: vec3f, d: vec3f) -> vec3f {
     let seen = textureSampleLevel(cube_map, cube_sampler, cube_direction(towards), 0.0);
     // where its own may not be seen another cube map is bound, and not looked at
     let sees = (object.has_cube_map != 0u) & (view.sees_cube_maps != 0u);
@@ -48,27 +53,33 @@ fn behind(place: vec3f) -> f32 {
 // To what a ray meets, seen from the cube map's middle (Szirmay-Kalos et al. 2005). As the ray goes to infinity it is seen
 // in directions from that of its origin to its own: those are gone through evenly.
 fn towards_what_is_met(origin: vec3f, d: vec3f) -> vec3f {
-    var low = 0.0;
-    var high = 1.0;
-    let length_of_way = max(length(origin), 1e-6 / object.cube_middle.w);
+    // a place on the way, and how far behind what is shown there it lies
+    var low = vec2f(0.0, -1.0);
+    var high = vec2f(1.0, 0.0);
+    let way = max(length(origin), 1e-6 / object.cube_middle.w);
     for (var step = 1u; step < SEARCH_STEPS; step++) {
         let share = f32(step) / f32(SEARCH_STEPS);
-        if behind(origin + d * (length_of_way * share / (1.0 - share))) > 0.0 {
-            high = share;
+        let here = vec2f(share, behind(origin + d * (way * share / (1.0 - share))));
+        if here.y > 0.0 {
+            high = here;
             break;
         }
-        low = share;
+        low = here;
     }
-    if high >= 1.0 {
+    if high.x >= 1.0 {
         return d;
     }
-    for (var halving = 0u; halving < HALVINGS; halving++) {
-        let middle = 0.5 * (low + high);
-        if behind(origin + d * (length_of_way * middle / (1.0 - middle))) > 0.0 {
-            high = middle;
+    // the step is cut where a straight line would be at 0, but never near an end, where that is far off
+    for (var i = 0u; i < CUTS; i++) {
+        let share = clamp(low.y / (low.y - high.y), 0.1, 0.9);
+        let cut = mix(low.x, high.x, share);
+        let here = vec2f(cut, behind(origin + d * (way * cut / (1.0 - cut))));
+        if here.y > 0.0 {
+            high = here;
         } else {
-            low = middle;
+            low = here;
         }
     }
-    return origin + d * (length_of_way * high / (1.0 - high));
+    let met = mix(low.x, high.x, clamp(low.y / (low.y - high.y), 0.0, 1.0));
+    return origin + d * (way * met / (1.0 - met));
 }

@@ -8,7 +8,7 @@ use crate::model::{Compiling, Drawing, Effort, PaneId};
 use film::Film;
 use gpu::FaultInjection;
 use gpu::{Gpu, GpuError};
-use raster::{Raster, RasterError};
+use raster::{Raster, RasterError, Repairs};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 use technique::{FakeSettings, Threads};
@@ -46,6 +46,7 @@ impl FakeWorker {
             stage: Stage::on(device_beside(&window)),
             fault: FaultInjection::of_fakes(),
             seconds_per_pixel: 0.0,
+            repairs: Repairs::NONE,
             post_process,
             order: None,
             drawn: None,
@@ -104,6 +105,8 @@ struct Fakes {
     stage: Result<Stage, String>,
     fault: Option<FaultInjection>,
     seconds_per_pixel: f64,
+    /// Those that this is the time of.
+    repairs: Repairs,
     post_process: Arc<PostProcess>,
     /// Of the job in hand, or the last one.
     order: Option<Order>,
@@ -152,8 +155,11 @@ impl Fakes {
         let (width, height) = job.order.size();
         let pixels = f64::from(width) * f64::from(height);
         let expected = self.seconds_per_pixel * pixels;
-        let shrink = if expected > 4.0 * PATIENCE.as_secs_f64() { 4 } else { 2 };
-        let rough = expected > PATIENCE.as_secs_f64();
+        // how long repairs take is not known before, but that a processor takes long for them is
+        let unknown = self.repairs != job.settings.repairs && stage.gpu.is_software();
+        self.repairs = job.settings.repairs;
+        let shrink = if unknown || expected > 4.0 * PATIENCE.as_secs_f64() { 4 } else { 2 };
+        let rough = unknown || expected > PATIENCE.as_secs_f64();
         let in_hand = JobInHand { pane: self.pane, post_process: &self.post_process, job: &job, cut: cut(&job) };
         // the first one compiles its pipelines: where the processor plays the device, on a core
         let _spared = (self.seconds_per_pixel == 0.0).then(|| self.threads.spare_a_core());
