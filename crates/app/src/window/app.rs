@@ -151,7 +151,7 @@ impl App {
                 let dumped = self.write_dump();
                 return self.finish(events, dumped);
             }
-            Waited::Read(read) => (read, false),
+            Waited::Read(read) => (*read, false),
             Waited::Stopped => (self.usual(), true),
         };
         let Stage::Waits(waiting) = std::mem::replace(&mut self.stage, Stage::Over) else { return };

@@ -29,7 +29,7 @@ pub enum Waited {
     /// It still waits.
     On,
     /// The scene was read, or cannot be.
-    Read(anyhow::Result<Beginning>),
+    Read(Box<anyhow::Result<Beginning>>),
     /// The user wants it no more.
     Stopped,
     /// The user wants to quit.
@@ -52,7 +52,7 @@ impl Waiting {
     /// One frame: looks whether the scene is there, and else says how far it is.
     pub fn frame(&mut self) -> Waited {
         if let Some(read) = self.reading.read() {
-            return Waited::Read(read);
+            return Waited::Read(read.into());
         }
         let mut wish = None;
         let drawn = self.canvas.draw(|ui| {

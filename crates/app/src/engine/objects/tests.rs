@@ -82,6 +82,35 @@ fn a_place_that_is_looked_into_begins_with_what_the_map_shows_there() {
     }
 }
 
+/// The map has half the picture's pixels: along edges of shapes its pixels' middles show others than the picture's do.
+#[test]
+fn along_the_edges_of_shapes_too_it_is_the_maps_pixel_that_is_looked_into() {
+    let (scene, mut finder) = (scene(), Finder::new(Arc::new(Threads::all())));
+    let (columns, rows) = (37, 23);
+    for place in 0..columns * rows {
+        let [column, row] = [place % columns, place / columns];
+        let at = [(column as f32 + 0.3) / columns as f32, (row as f32 + 0.3) / rows as f32];
+        let wish = ObjectsWish { looked_into: Some(at), ..wish(&scene, &[]) };
+        let FoundObjects { map, along, .. } = finder.find(&wish, &|| false).expect("what is there");
+        let first = along.expect("what is there").shapes.first().map(|shape| *shape as usize);
+        assert_eq!(first, map.shape_at(at), "{at:?}");
+    }
+}
+
+#[test]
+fn an_answer_that_comes_after_another_question_is_dropped() {
+    let (scene, mut objects, threads) = (scene(), Objects::default(), Arc::new(Threads::all()));
+    let (tell, told) = std::sync::mpsc::channel();
+    let wake: Wake = Arc::new(move || _ = tell.send(()));
+    objects.follow(Some(&wish(&scene, &[])), &threads, &wake);
+    told.recv_timeout(Duration::from_secs(120)).expect("an answer");
+    // it is there, and nobody has taken it yet
+    let all: Vec<u32> = (0..scene.shapes.len() as u32).collect();
+    objects.follow(Some(&wish(&scene, &all)), &threads, &wake);
+    let found = until(|| objects.collect()).expect("no fault");
+    assert!(found.outline.is_some(), "of what was asked for last");
+}
+
 #[test]
 fn the_scene_stays_ready_while_the_camera_moves_and_another_scene_takes_its_place() {
     let (scene, other) = (scene(), scene());

@@ -83,7 +83,7 @@ fn key(cx: &mut UiContext, ui: &Ui, plot: Rect, with_extrapolated: bool) {
                 painter.line_segment(ends, Stroke::new(2.0, colour));
                 painter.add(mark(mark_of(structure), ends[0].lerp(ends[1], 0.5), colour));
             }
-            None => drop(painter.extend(Shape::dashed_line(&ends, Stroke::new(1.5, colour), DASH, DASH))),
+            None => painter.extend(Shape::dashed_line(&ends, Stroke::new(1.5, colour), DASH, DASH)),
         }
         cx.dump.note_text(&format!("key {}", text.text()), "", place, plot);
         painter.galley(at + vec2(piece + gap, 0.0), text, palette.text);
