@@ -103,7 +103,7 @@ pub const OF_SCENES: &[Setting<SceneChanges>] = &[
     },
     Setting {
         name: "sun-radius",
-        of: TRACED,
+        of: &TechniqueName::ALL,
         kind: Kind::DegreesBelow(90.0),
         fewer_in: &[],
         letter: "DEG",
@@ -117,9 +117,9 @@ pub const OF_SCENES: &[Setting<SceneChanges>] = &[
         get: |changes| changes.sun_radius.map(Value::Number),
         set: |changes, value| changes.set_sun_radius(number(value)),
         control: Control {
-            label: "Sun radius (the fake's is 0)",
+            label: "Sun radius",
             hover: "0: hard shadows, and caustics that chance never finds, but connections and photons do. Larger: softer \
-                    shadows",
+                    shadows, the fake's where they are repaired",
             look: Look::Steps { range: 0.0..=5.0, step: 0.1 },
             ..BLANK
         },
