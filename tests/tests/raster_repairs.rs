@@ -118,7 +118,7 @@ fn glass_with_both_interfaces_and_fresnel_shows_what_rays_find() {
     // edges of far cells, which four samples do not resolve
     assert!(repaired < 0.02 * fair, "{repaired} of {fair}");
     // most of the glass shows the sky, which has no parallax
-    assert!(repaired < 0.9 * without_parallax, "{repaired} of {without_parallax}");
+    assert!(repaired < 0.95 * without_parallax, "{repaired} of {without_parallax}");
 }
 
 #[test]

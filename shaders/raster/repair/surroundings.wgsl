@@ -8,7 +8,7 @@
 const NOWHERE: f32 = 65504.0;
 
 // Steps of the search along a ray. Here alone: only devices draw.
-const SEARCH_STEPS: u32 = 12u;
+const SEARCH_STEPS: u32 = 28u;
 // How often the step that it ends in is cut. Here alone: only devices draw.
 const CUTS: u32 = 3u;
 
