@@ -22,7 +22,7 @@ pub const LEAST_UPRIGHT: f32 = 0.01;
 
 /// The unit normal that a surface with this unit outward normal is shaded by, on its side that `wo` sees; `bumps` are the
 /// normals of a texture, x along the tangent and z along the normal. Surfaces that do nothing but mirror have that of
-/// [`bent`].
+/// `bent`.
 #[inline(always)]
 pub fn shading_normal<F: Float>(
     outwards: Vector<F>,
