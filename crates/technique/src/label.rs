@@ -4,7 +4,7 @@ use crate::settings::{Setting, Value, all_of_panes, grouped, light_words};
 use crate::{FakeSettings, PaneSettings, Technique, TracedSettings};
 use film::Feature;
 use pathtrace::Integrator;
-use raster::Show;
+use raster::{Fake, Show};
 use scene::Scene;
 
 impl Technique {
@@ -14,7 +14,11 @@ impl Technique {
             return self.title();
         }
         let says_most = match self {
-            Technique::Fake(fake) => fake.fake.name().to_owned(),
+            Technique::Fake(fake) => match (fake.fake, fake.repairs.count()) {
+                (Fake::Fair, 0) | (Fake::AsTaught, _) => fake.fake.name().to_owned(),
+                (Fake::Fair, 1) => format!("{}, 1 repair", fake.fake.name()),
+                (Fake::Fair, count) => format!("{}, {count} repairs", fake.fake.name()),
+            },
             Technique::Traced(traced) => match traced.integrator {
                 Integrator::Path(path) => path.estimator.name().to_owned(),
                 Integrator::Whitted(tree) => format!("depth {}", tree.depth),
@@ -120,6 +124,8 @@ mod tests {
             [TechniqueName::Raster, TechniqueName::Path, TechniqueName::Whitted, TechniqueName::Normals]
                 .map(|name| with(name, &[("bounces", "0"), ("spp", "4")]));
         assert_eq!(fake.label_beside(&path, &scene), "Fake, fair");
+        let repaired = |repairs: &str| with(TechniqueName::Raster, &[("repairs", repairs)]).label();
+        assert_eq!(["sky", "all"].map(repaired), ["Fake, fair, 1 repair", "Fake, fair, 12 repairs"]);
         assert_eq!(path.label_beside(&fake, &scene), "Path tracing, light");
         assert_eq!(whitted.label_beside(&path, &scene), "Whitted, depth 8");
         assert_eq!(normals.label_beside(&path, &scene), "Normals, world axes");
