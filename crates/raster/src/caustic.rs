@@ -9,7 +9,7 @@ use wgpu::{BindGroup, BindGroupLayout, CommandEncoder, RenderPipeline};
 
 /// Cells along a side of the mesh and places of the sun, as `shaders/raster/repair/caustic.wgsl` has them.
 pub const CELLS: u32 = 96;
-/// See [`CELLS`].
+/// Places of the sun's disc that the mesh is drawn from, see [`CELLS`].
 pub const SUNS: u32 = 16;
 
 /// Texels along a side of a caustic map, which is eight radii wide.

@@ -72,9 +72,9 @@ pub const MOST_SPHERES: usize = 16;
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
 pub struct Sphere {
-    /// Where it is.
+    /// Its middle, in world space.
     pub middle: Vec3,
-    /// Its radius.
+    /// Its radius, in units of the scene.
     pub radius: f32,
     /// Index of refraction outside over inside; 0 of what is no glass.
     pub refraction_ratio: f32,
@@ -124,7 +124,7 @@ pub struct Lights {
     pub sun_right: Vec3,
     /// Radius of a disc as large as the area light.
     pub area_light_radius: f32,
-    /// ... and upwards.
+    /// ... and upwards in them, across both.
     pub sun_up: Vec3,
     /// How many of the spheres are glass, which come first.
     pub glass_count: u32,

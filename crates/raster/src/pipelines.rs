@@ -122,24 +122,18 @@ impl Pipelines {
         }
         let casting = plan.casting.iter().zip(&plan.variants).filter(|(casting, _)| **casting != Casting::Nothing);
         let casting = casting.filter_map(|(casting, variant)| Some((*casting, (*variant)?.in_shadow_map())));
-        for key in casting.collect::<HashSet<_>>() {
+        // light through glass falls on either side of what is drawn
+        let receivers = plan.drawn(None).filter(|_| !plan.receivers.is_empty());
+        let receivers = receivers.map(|(_, variant)| (Casting::BothSides, variant.in_shadow_map()));
+        for key in casting.chain(receivers).collect::<HashSet<_>>() {
             if !self.shadow.contains_key(&key) {
                 let made = gpu.checked("the fake's pipelines", || self.compile_shadow(gpu, key))?;
                 (compiled, _) = (true, self.shadow.insert(key, made));
             }
         }
-        if !plan.receivers.is_empty() {
-            let receivers = plan.drawn(None).map(|(_, variant)| (Casting::BothSides, variant.in_shadow_map()));
-            for key in receivers.collect::<HashSet<_>>() {
-                if !self.shadow.contains_key(&key) {
-                    let made = gpu.checked("the fake's pipelines", || self.compile_shadow(gpu, key))?;
-                    (compiled, _) = (true, self.shadow.insert(key, made));
-                }
-            }
-            if self.caustic.is_none() {
-                self.caustic = Some(caustic::pipeline(gpu, &self.frame_layout)?);
-                compiled = true;
-            }
+        if !plan.receivers.is_empty() && self.caustic.is_none() {
+            self.caustic = Some(caustic::pipeline(gpu, &self.frame_layout)?);
+            compiled = true;
         }
         Ok(compiled)
     }

@@ -89,11 +89,9 @@ impl Plan {
         let fake = settings.fake;
         let variants: Vec<_> = scene.shapes.iter().map(|shape| Variant::of(scene, shape, settings)).collect();
         let mut casting = casting::of_all(scene, &variants, fake);
-        for (shape, casting) in casting.iter_mut().enumerate() {
-            if spheres::lets_sun_through(scene, shape, settings) {
-                *casting = Casting::Nothing;
-            }
-        }
+        // the shadows of these are known in closed form
+        let known = spheres::casters(scene, settings);
+        known.iter().for_each(|shape| casting[*shape] = Casting::Nothing);
         let lights = lights::lights(scene, settings, |shape| casting[shape] != Casting::Nothing);
         let repairs = settings.repairs();
         let shows_surroundings = |shape: &usize| match scene.material_of(&scene.shapes[*shape]).bsdf {
@@ -109,9 +107,9 @@ impl Plan {
             objects[shape].has_cube_map = 1;
             views.extend(cube_map_views(scene, &scene.shapes[shape].geometry, settings));
         }
-        let casters = if repairs.has(Repair::Caustics) { spheres::casters(scene, settings) } else { Vec::new() };
-        let receivers = views.len()..views.len() + casters.len();
-        views.extend((0..casters.len()).map(|layer| spheres::receivers_view(&lights, layer, scene)));
+        let caustics = if repairs.has(Repair::Caustics) { known.len() } else { 0 };
+        let receivers = views.len()..views.len() + caustics;
+        views.extend((0..caustics).map(|layer| spheres::receivers_view(&lights, layer, scene)));
         let first = views.len();
         views.extend(picture_views(scene, camera, settings));
         let shadow_layers = shadow_layers(scene, fake);

@@ -12,7 +12,7 @@ use scene::{Bsdf, Geometry, Scene, Vec3};
 pub const CAUSTIC_REACH: f32 = 4.0;
 
 /// Whether the sun's light goes through a shape, other than as a shadow map knows it.
-pub fn lets_sun_through(scene: &Scene, shape: usize, settings: &RasterSettings) -> bool {
+fn lets_sun_through(scene: &Scene, shape: usize, settings: &RasterSettings) -> bool {
     let through = settings.repairs().has_any(&[Repair::LightThroughGlass, Repair::Caustics]);
     through && scene.sun.is_some() && sphere(scene, shape).is_some_and(|sphere| sphere.refraction_ratio > 0.0)
 }
@@ -30,7 +30,8 @@ fn sphere(scene: &Scene, shape: usize) -> Option<Sphere> {
     material.emission.is_none().then_some(known)
 }
 
-/// The shapes whose caustics are drawn, in the order of the maps' layers.
+/// The spheres of glass that let the sun's light through, in the order of [`Lights::spheres`] and of the caustic maps' layers: as
+/// many as those have room for. Others cast the shadow of a stone.
 pub fn casters(scene: &Scene, settings: &RasterSettings) -> Vec<usize> {
     let all = (0..scene.shapes.len()).filter(|shape| lets_sun_through(scene, *shape, settings));
     all.take(MOST_SPHERES / 2).collect()

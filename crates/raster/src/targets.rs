@@ -185,7 +185,7 @@ pub struct Targets<'a> {
     pub shadow: &'a ShadowTargets,
     /// What surrounds the glass.
     pub cubes: &'a CubeTargets,
-    /// What it focuses.
+    /// What spheres of glass focus.
     pub caustics: &'a CausticTargets,
     /// What is seen.
     pub picture: &'a PictureTargets,

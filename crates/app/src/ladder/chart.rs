@@ -14,7 +14,7 @@ const TIMES: [f64; 2] = [680.0, 900.0];
 /// Colours of errors and of times, which differ in brightness too.
 const COLOURS: [&str; 2] = ["#2b6cb0", "#dd8a2e"];
 
-/// An SVG document.
+/// The bars of all rungs as an SVG document, white and without scripts.
 pub fn chart(scene: &str, reached: &[Reached]) -> String {
     let height = TOP + ROW * reached.len() as f64 + 20.0;
     let mut svg = format!(
@@ -59,7 +59,7 @@ pub fn chart(scene: &str, reached: &[Reached]) -> String {
 
 /// A logarithmic scale across a part of the width.
 struct Scale {
-    /// Powers of ten.
+    /// Its ends, as powers of ten.
     least: f64,
     most: f64,
     span: [f64; 2],

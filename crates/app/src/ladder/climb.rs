@@ -38,7 +38,7 @@ impl Order {
 /// A rung that was climbed.
 #[derive(Debug, Clone)]
 pub struct Reached {
-    /// Which one.
+    /// The rung that was reached.
     pub rung: Rung,
     /// The picture there, and what makes it again.
     pub tile: Tile,

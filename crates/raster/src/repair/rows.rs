@@ -6,7 +6,7 @@ use scene::{Bsdf, Geometry, Scene, Shape};
 
 /// A repair of the fake, and the defect that it repairs.
 pub struct Row {
-    /// Which one.
+    /// The repair that the row speaks of.
     pub repair: Repair,
     /// Of the option, and of the record.
     pub name: &'static str,
