@@ -29,7 +29,7 @@ enum Stage {
     Before(Box<Result<Beginning, Reading>>),
     /// There is one, and no scene.
     Waits(Box<Waiting>),
-    /// Both are there.
+    /// The window and the first scene are both there.
     Shows(Box<WindowState>),
     /// The window is closed.
     Over,

@@ -152,7 +152,7 @@ impl Canvas {
     /// begins again.
     ///
     /// # Errors
-    /// As [`scale_factor::check`].
+    /// Those of [`scale_factor::check`]: a scale that no window has.
     pub fn keep_scale(&self, size: &mut InnerSizeWriter) -> anyhow::Result<()> {
         scale_factor::check(self.window.scale_factor())?;
         // the window is there, and takes its size if it can

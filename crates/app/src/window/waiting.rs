@@ -11,12 +11,12 @@ use technique::Adapters;
 
 /// A window without a scene.
 pub struct Waiting {
-    /// The window itself.
+    /// The window, and what it is drawn with.
     pub canvas: Canvas,
     /// What there is to trace rays.
     pub adapters: Adapters,
     reading: Reading,
-    /// What is read.
+    /// The scene that is read, as the user named it.
     name: String,
     theme: Theme,
     dump: Dump,
@@ -26,7 +26,7 @@ pub struct Waiting {
 
 /// What became of a frame.
 pub enum Waited {
-    /// It still waits.
+    /// The scene is still being read.
     On,
     /// The scene was read, or cannot be.
     Read(Box<anyhow::Result<Beginning>>),

@@ -24,7 +24,7 @@ use winit::window::Fullscreen;
 pub struct WindowState {
     viewer: Viewer,
     textures: WindowTextures,
-    /// The window itself.
+    /// The window, and what it is drawn with.
     pub canvas: Canvas,
     /// The window's title as it was last set.
     title: String,

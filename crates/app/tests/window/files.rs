@@ -4,7 +4,7 @@ use super::{alone, both_ready, says, viewer_on};
 use std::path::Path;
 use visavis_tests::{Screen, TestFolder, ViewerUnderTest};
 
-/// The keysym.
+/// X11's keysym of the Escape key.
 const ESCAPE: u32 = 0xff1b;
 
 fn write(file: &Path, fov: &str) {

@@ -13,9 +13,9 @@ use simd::{Float, Vector};
 
 /// Of a surface in each lane.
 pub struct TwoNormals<F: Float> {
-    /// Of the facets.
+    /// The normal of the facets, bent for what mirrors.
     pub facets: Vector<F>,
-    /// Of the body.
+    /// The normal of the matt body, as the texture has it.
     body: Vector<F>,
     /// Of the triangle, on the side of `wo`.
     triangle: Vector<F>,

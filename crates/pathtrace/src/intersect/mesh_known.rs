@@ -19,7 +19,7 @@ const GRACE: Duration = Duration::from_millis(500);
 
 /// A mesh that was asked for, and its tree.
 struct Known {
-    /// Counts all builds.
+    /// Tells this build from all others of the program.
     number: u64,
     mesh: Weak<Mesh>,
     state: State,

@@ -197,7 +197,7 @@ impl Root {
 }
 
 impl<'a, E: FnMut(Child) -> Option<Vec<Root>>> Joiner<'a, E> {
-    /// `None` of nothing.
+    /// The binary tree below a child; `None` where there are no triangles.
     fn run(nodes: &'a [CwBvhNode], below: Child, most_in_leaf: usize, ends: E) -> Option<Bvh2> {
         let mut joiner = Joiner { nodes, ends, most_in_leaf, binary: Bvh2::default() };
         joiner.binary.nodes.push(Bvh2Node::default());
