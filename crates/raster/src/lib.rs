@@ -95,6 +95,12 @@ pub struct Work {
     pub kept_maps: bool,
 }
 
+/// A frame that was submitted: what reads it needs both.
+struct Drawn {
+    plan: Plan,
+    targets: targets::TargetPlan,
+}
+
 impl Raster {
     /// A rasteriser on a device.
     ///
@@ -120,6 +126,26 @@ impl Raster {
             let film = self.features(scene, camera, settings)?.film(feature, 1);
             return film.ok_or(RasterError::Memory { width, height });
         }
+        let drawn = self.submit(scene, camera, settings)?;
+        let targets = self.targets.current(&self.gpu, &drawn.targets)?;
+        if settings.show != Show::Picture {
+            return maps::film(&self.gpu, targets, &drawn.plan, settings);
+        }
+        let bytes = self.gpu.read_texture("the picture", targets.picture.resolved.texture())?;
+        resolve(&bytes, settings)
+    }
+
+    /// Draws a frame as [`Raster::render`] does and leaves it on the device. Waits until it is drawn: what a frame costs that
+    /// nobody reads back.
+    ///
+    /// # Errors
+    /// As [`Raster::render`].
+    pub fn draw(&mut self, scene: &Scene, camera: &Camera, settings: &RasterSettings) -> Result<(), RasterError> {
+        self.submit(scene, camera, settings)?;
+        Ok(self.gpu.wait_for_all("the picture")?)
+    }
+
+    fn submit(&mut self, scene: &Scene, camera: &Camera, settings: &RasterSettings) -> Result<Drawn, RasterError> {
         self.check(camera, settings)?;
         let settings = &self.without_what_cannot_be_drawn(settings);
         let scene = &settings.applied(scene);
@@ -128,7 +154,8 @@ impl Raster {
         let world = World::current(&mut self.world, &self.gpu, scene)?;
         let looks = Looks::current(&mut self.looks, &self.gpu, &self.pipelines.look_layout, scene)?;
         let things = Things { world, looks };
-        let targets = self.targets.current(&self.gpu, &plan.target_plan(scene, settings))?;
+        let target_plan = plan.target_plan(scene, settings);
+        let targets = self.targets.current(&self.gpu, &target_plan)?;
         let compiled = self.pipelines.prepare(&self.gpu, &plan)?;
         self.uniforms.write(&self.gpu, &plan)?;
         // kept from frame to frame while only the camera moves; a frame that fails has drawn nothing for certain
@@ -139,11 +166,7 @@ impl Raster {
             passes::draw(&self.gpu, &self.pipelines, &self.uniforms, things, targets, &plan, maps_stay)
         })?;
         self.maps = maps;
-        if settings.show != Show::Picture {
-            return maps::film(&self.gpu, targets, &plan, settings);
-        }
-        let bytes = self.gpu.read_texture("the picture", targets.picture.resolved.texture())?;
-        resolve(&bytes, settings)
+        Ok(Drawn { plan, targets: target_plan })
     }
 
     /// What is seen of surfaces from `camera`, without light: of the first one, be it glass or mirror, for either fake the

@@ -168,8 +168,8 @@ impl<'a, O: Onlooker> Climber<'a, O> {
         Ok(Reached { rung, tile, pane, errors, frame_ms, anew_ms })
     }
 
-    /// Medians of a frame with maps that stay and of one with all maps, in milliseconds, with the picture read back; pipelines
-    /// are compiled before.
+    /// Medians of a frame with maps that stay and of one with all maps, in milliseconds, until the device has drawn it: the
+    /// picture is not read back. Pipelines are compiled before.
     fn timed(&mut self, pane: &PaneSettings, times: usize) -> anyhow::Result<(f64, f64)> {
         let Technique::Fake(fake) = pane.in_use() else { return Ok((0.0, 0.0)) };
         let Shot { scene, camera, size: (width, height), .. } = self.shot;
@@ -179,7 +179,7 @@ impl<'a, O: Onlooker> Climber<'a, O> {
                 self.raster.forget_maps();
             }
             let start = Instant::now();
-            self.raster.render(&scene, camera, &settings)?;
+            self.raster.draw(&scene, camera, &settings)?;
             Ok(1e3 * start.elapsed().as_secs_f64())
         };
         frame(true)?;
