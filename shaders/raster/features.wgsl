@@ -48,7 +48,7 @@ fn fragment_bits_and_depth(in: Varying, @builtin(front_facing) front: bool) -> F
 // Clear glass takes no light away: its albedo is 1.
 fn features(in: Varying, front: bool) -> Features {
     let n = shading_normals(in.position, in.normal, in.uv, view.eye, front).matt;
-    let own = select(surface_colour(object, in.position, n, in.uv), vec3f(1.0), object.kind == 1u);
+    let own = select(surface_colour(object, in.position, n, in.uv, 1.0), vec3f(1.0), object.kind == 1u);
     let albedo = min(own + surface_emission(object, front, in.uv), vec3f(1.0));
     let from_eye = length(in.position - view.eye);
     if cut_out(in.uv) {

@@ -140,7 +140,7 @@ fn glass(in: Varying) -> vec3f {
 }
 
 fn surface(p: vec3f, n: Normals, uv: vec2f) -> vec3f {
-    let colour = surface_colour(object, p, n.matt, uv);
+    let colour = surface_colour(object, p, n.matt, uv, footprint());
     let facets = metallic_and_roughness(object, uv);
     let v = normalize(view.eye - p);
     var sum = colour * lights.ambient;
@@ -158,6 +158,12 @@ fn surface(p: vec3f, n: Normals, uv: vec2f) -> vec3f {
         sum += seen * shaded(n, l, v, colour, facets, area_light_incident(to_area_light, l));
     }
     return sum;
+}
+
+// How wide a sample is, in pixels: there are as many as together fill one. A cube map's face has one a texel, and distances.
+fn footprint() -> f32 {
+    let of_picture = select(0.5, inverseSqrt(8.0), repaired(REPAIR_ANTIALIASING));
+    return select(of_picture, 1.0, view.per_distance > 0.0);
 }
 
 // What reaches p of the sun's light, as a multiple of it.

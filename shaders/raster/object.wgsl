@@ -39,9 +39,13 @@ const SIDE_ROUNDING: f32 = 1.0 / 1048576.0;
 
 // The colour of its surface at p, of unit normal n.
 fn colour_of(object: Object, p: vec3f, n: vec3f) -> vec3f {
-    // a surface in the side between two cells belongs to the upper one, wherever its points are rounded to
-    let upper = p + abs(n) * (abs(p) + abs(object.origin)) * SIDE_ROUNDING;
+    let upper = on_upper_side(object, p, n);
     return checkerboard(Checkerboard(object.even, object.odd, object.origin, object.cells_per_unit), upper);
+}
+
+// A surface in the side between two cells belongs to the upper one, wherever its points are rounded to.
+fn on_upper_side(object: Object, p: vec3f, n: vec3f) -> vec3f {
+    return p + abs(n) * (abs(p) + abs(object.origin)) * SIDE_ROUNDING;
 }
 
 // The radiance that one of its sides sends out.

@@ -9,8 +9,16 @@ const IMAGE_NORMAL: u32 = 4u;
 const IMAGE_EMISSION: u32 = 8u;
 const IMAGE_ALPHA: u32 = 16u;
 
+const BOARD_AS_FORMULA: u32 = 0u;
+const BOARD_BILINEAR: u32 = 1u;
+const BOARD_TRILINEAR: u32 = 2u;
+const BOARD_ANISOTROPIC: u32 = 3u;
+
+
 // which of IMAGE_* a material has; no others are looked up
 override IMAGES: u32 = 0u;
+// how a checkerboard is looked up, one of BOARD_*
+override BOARD: u32 = BOARD_AS_FORMULA;
 // whether corners are in the mesh's own space
 override PLACED: bool = false;
 // whether normals are those of triangles, which share their corners with others
@@ -84,12 +92,62 @@ fn cut_out(uv: vec2f) -> bool {
     return false;
 }
 
-fn surface_colour(object: Object, p: vec3f, n: vec3f, uv: vec2f) -> vec3f {
+fn surface_colour(object: Object, p: vec3f, n: vec3f, uv: vec2f, footprint: f32) -> vec3f {
+    if BOARD != BOARD_AS_FORMULA {
+        return mapped_board(object, p, n, footprint);
+    }
     let own = colour_of(object, p, n);
     if (IMAGES & IMAGE_COLOUR) != 0u {
         return own * textureSample(colour_image, colour_sampler, placed(0u, uv)).rgb;
     }
     return own;
+}
+
+// Lookups along the longer side of a footprint. Here alone: only devices draw.
+const LOOKUPS: i32 = 8;
+
+// The checkerboard as a texture, which lies across the axis that n is nearest to; along that, cells are counted. A sample
+// is `footprint` pixels wide.
+fn mapped_board(object: Object, p: vec3f, n: vec3f, footprint: f32) -> vec3f {
+    let across = abs(n);
+    let x = (across.x > across.y) & (across.x > across.z);
+    let z = !x & (across.z > across.y);
+    let cells = object.cells_per_unit;
+    // two cells are the width of the texture
+    let uv = 0.5 * along_board((p - object.origin) * cells, x, z);
+    let side_x = 0.5 * footprint * along_board(dpdx(p) * cells, x, z);
+    let side_y = 0.5 * footprint * along_board(dpdy(p) * cells, x, z);
+    let even = share_of_even(uv, side_x, side_y);
+    let place = (on_upper_side(object, p, n) - object.origin) * cells;
+    let layer = floor(select(select(place.y, place.z, z), place.x, x));
+    let odd_layer = layer - 2.0 * floor(0.5 * layer) > 0.5;
+    return mix(object.odd, object.even, select(even, 1.0 - even, odd_layer));
+}
+
+// The two coordinates that are left without x or z, or else without y.
+fn along_board(v: vec3f, x: bool, z: bool) -> vec2f {
+    return select(select(v.xz, v.xy, z), v.yz, x);
+}
+
+// The mask's mean over a footprint of these two sides, as exactly as BOARD says. Devices differ in what they call
+// anisotropic, and llvmpipe's does not heed the sides that it is given: so its lookups are made here.
+fn share_of_even(uv: vec2f, side_x: vec2f, side_y: vec2f) -> f32 {
+    if BOARD == BOARD_BILINEAR {
+        return textureSampleLevel(colour_image, colour_sampler, uv, 0.0).r;
+    }
+    if BOARD == BOARD_TRILINEAR {
+        return textureSampleGrad(colour_image, colour_sampler, uv, side_x, side_y).r;
+    }
+    let x_is_longer = dot(side_x, side_x) > dot(side_y, side_y);
+    let longer = select(side_y, side_x, x_is_longer);
+    let shorter = length(select(side_x, side_y, x_is_longer));
+    let fine = vec2f(max(shorter, length(longer) / f32(LOOKUPS)), 0.0);
+    var sum = 0.0;
+    for (var i = 0; i < LOOKUPS; i++) {
+        let along = (f32(i) + 0.5) / f32(LOOKUPS) - 0.5;
+        sum += textureSampleGrad(colour_image, colour_sampler, uv + along * longer, fine, fine.yx).r;
+    }
+    return sum / f32(LOOKUPS);
 }
 
 // Share of metal, and roughness.

@@ -3,15 +3,19 @@
 use film::{Film, colour};
 use gpu::Gpu;
 use pathtrace::{PathSettings, Tracer};
-use raster::{Raster, RasterSettings, Repair, Repairs};
+use raster::{FakeKnobs, Raster, RasterSettings, Repair, Repairs, TextureFilter};
 use scene::{Scene, Vec3, builtin};
 use std::path::Path;
 
 const SIZE: (u32, u32) = (160, 90);
 
 fn fake(scene: &Scene, repairs: Repairs) -> Film {
+    turned(scene, repairs, FakeKnobs::default())
+}
+
+fn turned(scene: &Scene, repairs: Repairs, knobs: FakeKnobs) -> Film {
     let gpu = Gpu::headless().expect("a device");
-    let settings = RasterSettings { repairs, ..RasterSettings::new(SIZE.0, SIZE.1) };
+    let settings = RasterSettings { repairs, knobs, ..RasterSettings::new(SIZE.0, SIZE.1) };
     let film = Raster::new(&gpu).expect("a rasteriser").render(scene, &scene.camera, &settings).expect("a picture");
     assert_eq!(film.nonfinite, 0);
     film
@@ -119,6 +123,28 @@ fn glass_with_both_interfaces_and_fresnel_shows_what_rays_find() {
     assert!(repaired < 0.02 * fair, "{repaired} of {fair}");
     // most of the glass shows the sky, which has no parallax
     assert!(repaired < 0.95 * without_parallax, "{repaired} of {without_parallax}");
+}
+
+/// A floor of small cells to the horizon, as bright as its colour everywhere: nothing but how cells are looked up is wrong.
+#[test]
+fn cells_of_a_texture_are_near_their_means_where_it_is_looked_up_along_footprints() {
+    let text = "camera = { eye = [0, 1, 0], target = [0, 0.7, -4], fov_y = 40 }\n\
+                sky = { radiance = [1, 1, 1] }\n\
+                [material.board]\n\
+                diffuse = { albedo = { even = [0.8, 0.8, 0.8], odd = [0.1, 0.1, 0.1], origin = [0, 0, 0], cell = [0.5, 0, 0.5] } }\n\
+                [[rectangle]]\nmaterial = \"board\"\ncorner = [-30, 0, 1]\nedge_u = [60, 0, 0]\nedge_v = [0, 0, -60]\n";
+    let scene = scene::parse(text, "test", Path::new("test.toml")).expect("a scene");
+    let truth = truth(&scene, 512);
+    let mapped = |textures: TextureFilter| {
+        let knobs = FakeKnobs { textures, ..FakeKnobs::default() };
+        rel_mse(&turned(&scene, set(&[Repair::TextureMapping]), knobs), &truth)
+    };
+    let formula = rel_mse(&fake(&scene, Repairs::NONE), &truth);
+    let [bilinear, trilinear, anisotropic] = TextureFilter::ALL.map(mapped);
+    // a largest level alone is what the formula is, but for soft sides
+    assert!((bilinear - formula).abs() < 0.2 * formula, "{bilinear} of {formula}");
+    // trilinear blurs as much as that aliases
+    assert!(anisotropic < 0.3 * bilinear.min(trilinear), "{anisotropic}, {trilinear}, {bilinear}");
 }
 
 #[test]

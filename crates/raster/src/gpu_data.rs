@@ -25,6 +25,15 @@ pub const IMAGE_EMISSION: u32 = 8;
 /// The bit of the alpha mask's picture.
 pub const IMAGE_ALPHA: u32 = 16;
 
+/// A checkerboard is asked at a point.
+pub const BOARD_AS_FORMULA: u32 = 0;
+/// It is a texture: [`crate::TextureFilter::Bilinear`].
+pub const BOARD_BILINEAR: u32 = 1;
+/// [`crate::TextureFilter::Trilinear`].
+pub const BOARD_TRILINEAR: u32 = 2;
+/// [`crate::TextureFilter::Anisotropic`].
+pub const BOARD_ANISOTROPIC: u32 = 3;
+
 /// [`Lights::area_light_pattern`] where there is no area light.
 pub const AREA_LIGHT_NONE: u32 = 0;
 /// As taught: the same at every distance.

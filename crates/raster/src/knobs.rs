@@ -31,6 +31,10 @@ pub struct FakeKnobs {
     pub bias: f32,
     /// Segments of every sphere, around and from pole to pole, in [`FakeKnobs::SEGMENTS`].
     pub segments: Option<u32>,
+    /// Where glass bends light as taught.
+    pub refracted: RefractedAt,
+    /// How textures are looked up where the checkerboard is one.
+    pub textures: TextureFilter,
 }
 
 /// Ways to look up a shadow map: three.js r115's, by its names.
@@ -43,6 +47,74 @@ pub enum ShadowFilter {
     /// `PCFSoftShadowMap`: 3 x 3 texels, blended bilinearly. The tutorial's.
     #[default]
     PcfSoft,
+}
+
+/// Where the fake as taught bends light in glass; fair, every pixel does.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+pub enum RefractedAt {
+    /// At vertices, with directions interpolated between them: three.js r115's MeshBasic. The tutorial's.
+    #[default]
+    Vertices,
+    /// In a fragment shader of one's own.
+    Fragments,
+}
+
+impl RefractedAt {
+    /// Both, the tutorial's first.
+    pub const ALL: [RefractedAt; 2] = [RefractedAt::Vertices, RefractedAt::Fragments];
+
+    /// The name on the command line.
+    pub fn name(self) -> &'static str {
+        match self {
+            RefractedAt::Vertices => "vertices",
+            RefractedAt::Fragments => "fragments",
+        }
+    }
+
+    /// The one of that name.
+    pub fn named(name: &str) -> Option<RefractedAt> {
+        RefractedAt::ALL.into_iter().find(|at| at.name() == name)
+    }
+}
+
+/// How textures are looked up where many texels are one pixel.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+pub enum TextureFilter {
+    /// Four texels about a place, of the largest level: aliases.
+    Bilinear,
+    /// Of two levels whose texels are about as large as a pixel is along the longer side of its footprint: blurs the other.
+    Trilinear,
+    /// Eight such lookups along the longer side, of levels that are as fine as the shorter (McCormack et al., "Feline", 1999).
+    #[default]
+    Anisotropic,
+}
+
+impl TextureFilter {
+    /// All of them, from few texels to many.
+    pub const ALL: [TextureFilter; 3] = [TextureFilter::Bilinear, TextureFilter::Trilinear, TextureFilter::Anisotropic];
+
+    /// The name on the command line.
+    pub fn name(self) -> &'static str {
+        match self {
+            TextureFilter::Bilinear => "bilinear",
+            TextureFilter::Trilinear => "trilinear",
+            TextureFilter::Anisotropic => "anisotropic",
+        }
+    }
+
+    /// The filter of that name.
+    pub fn named(name: &str) -> Option<TextureFilter> {
+        TextureFilter::ALL.into_iter().find(|filter| filter.name() == name)
+    }
+
+    /// The number by which `shaders/raster/surface.wgsl` knows it.
+    pub(crate) fn code(self) -> u32 {
+        match self {
+            TextureFilter::Bilinear => gpu_data::BOARD_BILINEAR,
+            TextureFilter::Trilinear => gpu_data::BOARD_TRILINEAR,
+            TextureFilter::Anisotropic => gpu_data::BOARD_ANISOTROPIC,
+        }
+    }
 }
 
 impl ShadowFilter {
@@ -148,6 +220,8 @@ mod tests {
     #[test]
     fn names_are_read_back() {
         assert!(ShadowFilter::ALL.iter().all(|&filter| ShadowFilter::named(filter.name()) == Some(filter)));
+        assert!(TextureFilter::ALL.iter().all(|&filter| TextureFilter::named(filter.name()) == Some(filter)));
+        assert!(RefractedAt::ALL.iter().all(|&at| RefractedAt::named(at.name()) == Some(at)));
     }
 
     #[test]

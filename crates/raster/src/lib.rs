@@ -23,6 +23,7 @@
 //! light; as taught, a sun puts out all of them. Metal reflects nothing but the ambient light, and what glows by a picture is
 //! seen, but lights nothing.
 
+mod board;
 mod build;
 mod casting;
 mod caustic;
@@ -55,7 +56,7 @@ mod world;
 
 pub use cut::{Cut, cut};
 pub use error::RasterError;
-pub use knobs::{FakeKnobs, ShadowFilter};
+pub use knobs::{FakeKnobs, RefractedAt, ShadowFilter, TextureFilter};
 pub use plan::MOST_CUBE_MAPS;
 pub use repair::{Repair, Repairs};
 pub use settings::{Fake, RasterSettings, Shading, Show};
@@ -152,7 +153,7 @@ impl Raster {
         let plan = Plan::new(scene, camera, settings);
         maps::check(settings.show, &plan)?;
         let world = World::current(&mut self.world, &self.gpu, scene)?;
-        let looks = Looks::current(&mut self.looks, &self.gpu, &self.pipelines.look_layout, scene)?;
+        let looks = Looks::current(&mut self.looks, &self.gpu, &self.pipelines.look_layout, scene, plan.repairs)?;
         let things = Things { world, looks };
         let target_plan = plan.target_plan(scene, settings);
         let targets = self.targets.current(&self.gpu, &target_plan)?;
@@ -186,7 +187,7 @@ impl Raster {
         let scene = &settings.applied(scene);
         let plan = Plan::new(scene, camera, settings);
         let world = World::current(&mut self.world, &self.gpu, scene)?;
-        let looks = Looks::current(&mut self.looks, &self.gpu, &self.pipelines.look_layout, scene)?;
+        let looks = Looks::current(&mut self.looks, &self.gpu, &self.pipelines.look_layout, scene, plan.repairs)?;
         let things = Things { world, looks };
         let targets = self.targets.of_features(&self.gpu, [settings.width, settings.height])?;
         self.work = Work { compiled: self.pipelines.prepare_features(&self.gpu, &plan)?, kept_maps: false };

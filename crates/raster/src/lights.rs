@@ -6,6 +6,7 @@
 
 use crate::cube;
 use crate::gpu_data::*;
+use crate::knobs::RefractedAt;
 use crate::planes::Planes;
 use crate::settings::{Fake, RasterSettings};
 use crate::spheres;
@@ -131,7 +132,7 @@ pub fn lights(scene: &Scene, settings: &RasterSettings, casts: impl Fn(usize) ->
     let (sun, area_light) = lit(scene, settings.fake);
     let intensity = Vec3::splat(scene.fake.intensity);
     let mut lights = Lights {
-        refracts_per_vertex: u32::from(as_taught),
+        refracts_per_vertex: u32::from(as_taught && settings.knobs.refracted == RefractedAt::Vertices),
         ambient: if as_taught { settings.knobs.grey(scene) } else { settings.knobs.sky_light(scene) },
         shadow_bias: settings.knobs.bias,
         sky: scene.sky,

@@ -1,23 +1,30 @@
 //! The pictures of materials on the device, and how each is read: a bind group for each look that differs.
 
-use crate::gpu_data::{ImagePlace, Look};
+use crate::board;
+use crate::gpu_data::{BOARD_AS_FORMULA, ImagePlace, Look};
 use crate::passes::bind;
+use crate::repair::{Repair, Repairs};
+use crate::settings::RasterSettings;
 use crate::texture::{Bound, white};
 use bytemuck::Zeroable;
 use gpu::{Gpu, GpuError};
 use scene::image_texture::Sampling;
-use scene::{Alpha, Bsdf, ImageTexture, Material, Scene};
+use scene::{Alpha, Bsdf, ImageTexture, Material, Scene, Texture};
 use std::sync::Arc;
 use wgpu::{BindGroup, BindGroupLayout, BindingResource, BufferUsages};
 
 /// The pictures of a material in the order of `IMAGE_*`.
 pub type Pictures<T> = [Option<T>; 5];
 
-/// What a material has of them.
-pub fn pictures(material: &Material) -> Pictures<&Arc<ImageTexture>> {
+/// What a material has of them. Where textures are mapped, a checkerboard's mask is one.
+pub fn pictures(material: &Material, repairs: Repairs) -> Pictures<&Arc<ImageTexture>> {
+    let board = |colour: &Texture| is_mapped(colour, repairs).then(board::mask);
     let (colour, metallic_roughness) = match &material.bsdf {
-        Bsdf::Diffuse { albedo } => (albedo.image(), None),
-        Bsdf::MetallicRoughness(model) => (model.base_colour.image(), model.metallic_roughness.as_ref()),
+        Bsdf::Diffuse { albedo } => (albedo.image().or_else(|| board(albedo)), None),
+        Bsdf::MetallicRoughness(model) => {
+            let colour = &model.base_colour;
+            (colour.image().or_else(|| board(colour)), model.metallic_roughness.as_ref())
+        }
         Bsdf::Mirror { .. } | Bsdf::RoughConductor { .. } | Bsdf::Dielectric { .. } => (None, None),
     };
     let surface = &material.surface;
@@ -30,9 +37,25 @@ pub fn pictures(material: &Material) -> Pictures<&Arc<ImageTexture>> {
     [colour, metallic_roughness, normal, emission, alpha]
 }
 
-/// Those that there are, a bit each.
-pub fn bits<T>(pictures: &Pictures<T>) -> u32 {
-    pictures.iter().rev().fold(0, |bits, picture| bits << 1 | u32::from(picture.is_some()))
+/// Whether a colour is a checkerboard that is drawn as a texture.
+fn is_mapped(colour: &Texture, repairs: Repairs) -> bool {
+    repairs.has(Repair::TextureMapping) && matches!(colour, Texture::Checkerboard(_))
+}
+
+/// Those that there are, a bit each. A board's mask is none of them: it is looked up in another way.
+pub fn bits(pictures: &Pictures<&Arc<ImageTexture>>) -> u32 {
+    let is_one = |picture: &Arc<ImageTexture>| !Arc::ptr_eq(picture, board::mask());
+    pictures.iter().rev().fold(0, |bits, picture| bits << 1 | u32::from(picture.is_some_and(is_one)))
+}
+
+/// How a material's checkerboard is looked up: one of `BOARD_*`.
+pub fn board_of(material: &Material, settings: &RasterSettings) -> u32 {
+    let (Bsdf::Diffuse { albedo: colour }
+    | Bsdf::MetallicRoughness(scene::MetallicRoughness { base_colour: colour, .. })) = &material.bsdf
+    else {
+        return BOARD_AS_FORMULA;
+    };
+    if is_mapped(colour, settings.repairs()) { settings.knobs.textures.code() } else { BOARD_AS_FORMULA }
 }
 
 /// What a bind group is made of.
@@ -44,8 +67,8 @@ struct Description {
 
 impl Description {
     /// Of a material with pictures.
-    fn of(material: &Material) -> Option<Description> {
-        let pictures = pictures(material).map(|picture| picture.cloned());
+    fn of(material: &Material, repairs: Repairs) -> Option<Description> {
+        let pictures = pictures(material, repairs).map(|picture| picture.cloned());
         let (cutoff, alpha) = match &material.surface.alpha {
             Alpha::Mask { cutoff, factor, .. } => (*cutoff, *factor),
             Alpha::Opaque => (0.0, 1.0),
@@ -95,8 +118,9 @@ impl Looks {
         gpu: &Gpu,
         layout: &BindGroupLayout,
         scene: &Scene,
+        repairs: Repairs,
     ) -> Result<&'a Looks, GpuError> {
-        let descriptions: Vec<_> = scene.materials.iter().map(Description::of).collect();
+        let descriptions: Vec<_> = scene.materials.iter().map(|it| Description::of(it, repairs)).collect();
         match kept.take() {
             Some(looks) if looks.descriptions == descriptions => Ok(kept.insert(looks)),
             old => Ok(kept.insert(Looks::new(gpu, layout, descriptions, old)?)),

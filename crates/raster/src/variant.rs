@@ -2,7 +2,7 @@
 //! the forward pass says.
 
 use crate::gpu_data::*;
-use crate::looks::{bits, pictures};
+use crate::looks::{bits, board_of, pictures};
 use crate::repair::Repair;
 use crate::settings::{Fake, RasterSettings, Shading};
 use scene::{Alpha, Bsdf, Geometry, Material, Scene, Shape};
@@ -38,6 +38,8 @@ pub struct Variant {
     pub uvs: bool,
     /// Those of `IMAGE_*` that its material has.
     pub images: u32,
+    /// How its checkerboard is looked up, one of `BOARD_*`.
+    pub board: u32,
 }
 
 impl Variant {
@@ -51,6 +53,7 @@ impl Variant {
         smooth: false,
         uvs: false,
         images: 0,
+        board: BOARD_AS_FORMULA,
     };
 
     /// How the forward pass draws a shape; `None` of one that an alpha mask leaves nothing of.
@@ -60,7 +63,7 @@ impl Variant {
             return None;
         }
         let glass = matches!(material.bsdf, Bsdf::Dielectric { .. });
-        let images = bits(&pictures(material));
+        let images = bits(&pictures(material, settings.repairs()));
         let mesh = shape.geometry.mesh_of();
         let mirror = settings.repairs().has(Repair::Mirrors) && matches!(material.bsdf, Bsdf::Mirror { .. });
         Some(Variant {
@@ -77,6 +80,7 @@ impl Variant {
             smooth: mesh.is_some_and(|mesh| !mesh.normals().is_empty()),
             uvs: images != 0 && mesh.is_some_and(|mesh| !mesh.uvs().is_empty()),
             images,
+            board: board_of(material, settings),
         })
     }
 
@@ -93,12 +97,13 @@ impl Variant {
     }
 
     /// Values of the overrides in `shaders/raster/surface.wgsl`.
-    pub fn constants(&self) -> [(&'static str, f64); 5] {
+    pub fn constants(&self) -> [(&'static str, f64); 6] {
         [
             ("IMAGES", f64::from(self.images)),
             ("PLACED", f64::from(u8::from(self.space != Space::World))),
             ("FLAT", f64::from(u8::from(self.flat))),
             ("SMOOTH", f64::from(u8::from(self.smooth))),
+            ("BOARD", f64::from(self.board)),
             ("UVS", f64::from(u8::from(self.uvs))),
         ]
     }

@@ -13,6 +13,8 @@ use std::fmt;
 pub enum Repair {
     /// Twice the samples a pixel, and spheres of more segments.
     Antialiasing,
+    /// Checkerboards are textures with mip levels.
+    TextureMapping,
     /// The sky is seen and lights as far as spheres leave it open, and has its sun.
     Sky,
     /// The shadow of a shape is seen in its own cube map.
@@ -39,8 +41,9 @@ pub enum Repair {
 
 impl Repair {
     /// All of them, in the order in which light meets the defects.
-    pub const ALL: [Repair; 12] = [
+    pub const ALL: [Repair; 13] = [
         Repair::Antialiasing,
+        Repair::TextureMapping,
         Repair::Sky,
         Repair::OwnShadow,
         Repair::FrontFace,
@@ -79,6 +82,7 @@ impl Repair {
 pub(crate) fn shader_numbers() -> [(&'static str, f64); Repair::ALL.len()] {
     [
         ("REPAIR_ANTIALIASING", Repair::Antialiasing),
+        ("REPAIR_TEXTURE_MAPPING", Repair::TextureMapping),
         ("REPAIR_SKY", Repair::Sky),
         ("REPAIR_OWN_SHADOW", Repair::OwnShadow),
         ("REPAIR_FRONT_FACE", Repair::FrontFace),

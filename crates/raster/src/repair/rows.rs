@@ -2,7 +2,7 @@
 
 use super::Repair;
 use crate::lights::AreaLight;
-use scene::{Bsdf, Geometry, Scene, Shape};
+use scene::{Bsdf, Geometry, Scene, Shape, Texture};
 
 /// A repair of the fake, and the defect that it repairs.
 pub struct Row {
@@ -30,6 +30,16 @@ pub const ROWS: [Row; Repair::ALL.len()] = [
                Eight samples at the places of Direct3D's standard pattern, and spheres of 160 segments: steps of an eighth stay.",
         slide: "Task 1: Faking Whitted with rasterisation",
         missing_in: |_| None,
+    },
+    Row {
+        repair: Repair::TextureMapping,
+        name: "texture-mapping",
+        title: "Checkerboard as a texture",
+        text: "The checkerboard is a formula that is asked at points: where a pixel is larger than a cell it aliases. As a texture with \
+               mip levels (Williams 1983) its far cells are means, looked up along the pixel's footprint. Bilinear it aliases as the \
+               formula does; trilinear its far end is grey too early; up close its cells have soft sides.",
+        slide: "Other possible solutions: texture mapping",
+        missing_in: checkerboard,
     },
     Row {
         repair: Repair::Sky,
@@ -142,6 +152,15 @@ pub const ROWS: [Row; Repair::ALL.len()] = [
 
 fn has(scene: &Scene, wanted: impl Fn(&Shape, &Bsdf) -> bool) -> bool {
     scene.shapes.iter().any(|shape| wanted(shape, &scene.material_of(shape).bsdf))
+}
+
+fn checkerboard(scene: &Scene) -> Option<&'static str> {
+    let there = has(scene, |_, bsdf| match bsdf {
+        Bsdf::Diffuse { albedo: colour } => matches!(colour, Texture::Checkerboard(_)),
+        Bsdf::MetallicRoughness(model) => matches!(model.base_colour, Texture::Checkerboard(_)),
+        Bsdf::Mirror { .. } | Bsdf::RoughConductor { .. } | Bsdf::Dielectric { .. } => false,
+    });
+    (!there).then_some("checkerboard")
 }
 
 fn glass(scene: &Scene) -> Option<&'static str> {

@@ -3,7 +3,7 @@
 use super::{BLANK, LOCAL, PLAIN, RASTER, each, named, number, whole};
 use crate::settings::{Control, Kind, Look, Need, Setting, Value};
 use crate::{PaneSettings, TechniqueName};
-use raster::{Fake, FakeKnobs, Repair, Repairs, Shading, ShadowFilter, Show};
+use raster::{Fake, FakeKnobs, RefractedAt, Repair, Repairs, Shading, ShadowFilter, Show, TextureFilter};
 use scene::Scene;
 use scene::stand_ins::FakeMaterial;
 
@@ -56,6 +56,53 @@ pub const ROWS: &[Setting<PaneSettings>] = &[
             }),
             hover: "Defects of the fake, one by one, in the order in which light meets them: what each repair does is told at its name",
             look: Look::Repairs,
+            more: RASTER,
+            ..BLANK
+        },
+        ..PLAIN
+    },
+    Setting {
+        name: "texture-filter",
+        of: RASTER,
+        kind: Kind::Choice(&["bilinear", "trilinear", "anisotropic"]),
+        default: Some(Value::Word("anisotropic")),
+        help: "how textures are looked up where the checkerboard is one",
+        acts: |pane, scene| {
+            let mapped = pane.fake.fake == Fake::Fair && pane.fake.repairs.has(Repair::TextureMapping);
+            draws_surfaces(pane, scene) && mapped && (Repair::TextureMapping.row().missing_in)(scene).is_none()
+        },
+        get: |pane| Some(Value::Word(pane.fake.knobs.textures.name())),
+        set: |pane, value| each(named(value, TextureFilter::named), [&mut pane.fake.knobs.textures]),
+        control: Control {
+            label: "Texture filter",
+            brief: Some(|value| format!("{value} textures")),
+            look: Look::Words(&[
+                ("bilinear", "Four texels of the largest level: far cells alias"),
+                ("trilinear", "Mip levels for the longer side of a pixel's footprint: far cells blur"),
+                ("anisotropic", "Eight such lookups along the longer side, of finer levels"),
+            ]),
+            more: RASTER,
+            ..BLANK
+        },
+        ..PLAIN
+    },
+    Setting {
+        name: "refracted-at",
+        of: RASTER,
+        kind: Kind::Choice(&["vertices", "fragments"]),
+        default: Some(Value::Word("vertices")),
+        needs: Need::Glass,
+        help: "where the fake as taught bends light; fair, every pixel does",
+        acts: |pane, scene| draws_surfaces(pane, scene) && pane.fake.fake == Fake::AsTaught,
+        get: |pane| Some(Value::Word(pane.fake.knobs.refracted.name())),
+        set: |pane, value| each(named(value, RefractedAt::named), [&mut pane.fake.knobs.refracted]),
+        control: Control {
+            label: "Refracted at",
+            brief: Some(|value| format!("refracted at {value}")),
+            look: Look::Words(&[
+                ("vertices", "Directions between vertices are interpolated: the tutorial's"),
+                ("fragments", "A fragment shader of one's own bends light in every pixel"),
+            ]),
             more: RASTER,
             ..BLANK
         },
