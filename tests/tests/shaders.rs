@@ -13,7 +13,8 @@ use std::mem::offset_of;
 use std::path::{Path, PathBuf};
 
 /// The crates that bring shaders, with the folders under `shaders/` that are theirs.
-const LISTS: [(&[Source<'static>], &[&str]); 4] = [
+const LISTS: [(&[Source<'static>], &[&str]); 5] = [
+    (bench::device::shaders::SOURCES, &["bench/"]),
     (denoise::gpu::shaders::SOURCES, &["denoise/"]),
     (pathtrace::shaders::SOURCES, &["pathtrace/"]),
     (raster::shaders::SOURCES, &["raster/"]),

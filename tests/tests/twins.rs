@@ -17,8 +17,13 @@ struct Side {
     overrides: Vec<&'static str>,
 }
 
-fn sides() -> [Side; 3] {
+fn sides() -> [Side; 4] {
     [
+        Side {
+            library: bench::device::shaders::LIBRARY,
+            constants: bench::device::shaders::shared_constants(),
+            overrides: bench::device::shaders::override_names(),
+        },
         Side {
             library: denoise::gpu::shaders::LIBRARY,
             constants: denoise::gpu::shaders::shared_constants(),

@@ -10,6 +10,7 @@
 //! What is written, column by column: `docs/bench.md`.
 
 mod clock;
+pub mod device;
 mod error;
 mod host;
 pub mod journal;

@@ -59,6 +59,18 @@ pub fn run(args: &CheckArgs) -> anyhow::Result<()> {
     Ok(())
 }
 
+/// How many rows of the hard cases pass on a device, coarsely, and those that fail.
+///
+/// # Errors
+/// If the device fails.
+pub fn in_short(gpu: &Gpu) -> anyhow::Result<String> {
+    let rows = check::run_on_gpu(gpu, CASES, Effort::Quick, &AtomicBool::new(false), |_, _| true)?;
+    let of = |verdict| rows.iter().filter(move |row| row.verdict == verdict);
+    let mut text = format!("{} rows pass, {} fail\n", of(Verdict::Pass).count(), of(Verdict::Fail).count());
+    of(Verdict::Fail).for_each(|row| text += &format!("  {}. {row}\n", row.case));
+    Ok(text)
+}
+
 fn failed_cases(rows: &[Row]) -> String {
     let mut numbers: Vec<u32> = rows.iter().filter(|r| r.verdict == Verdict::Fail).map(|r| r.case).collect();
     numbers.dedup();

@@ -3,6 +3,11 @@
 use gpu::Gpu;
 
 pub fn run() -> anyhow::Result<()> {
+    super::print(&text())
+}
+
+/// A line for the processor, and one for each adapter.
+pub fn text() -> String {
     let adapters = Gpu::adapters();
     let hardware = adapters.iter().any(|adapter| adapter.chosen && !adapter.software);
     let rays = if hardware { "the gpu below, and the cpu where there is little to do" } else { "the cpu" };
@@ -20,5 +25,5 @@ pub fn run() -> anyhow::Result<()> {
             adapter.name, adapter.backend, adapter.device_type, adapter.why, adapter.driver, adapter.max_texture_size
         );
     }
-    super::print(&text)
+    text
 }

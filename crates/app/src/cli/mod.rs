@@ -6,6 +6,7 @@ mod bench;
 mod check;
 mod compare;
 mod denoise;
+mod device_report;
 mod info;
 mod interrupt;
 mod ladder;
@@ -18,8 +19,8 @@ mod sweep;
 mod trees;
 
 pub use args::{
-    BenchArgs, CheckArgs, CompareArgs, DenoiseArgs, LadderArgs, MergeArgs, ReferenceArgs, RenderArgs, ReportArgs, Seen,
-    SweepArgs,
+    BenchArgs, CheckArgs, CompareArgs, DenoiseArgs, DeviceReportArgs, LadderArgs, MergeArgs, ReferenceArgs, RenderArgs,
+    ReportArgs, Seen, SweepArgs,
 };
 
 use crate::model::ViewArgs;
@@ -54,6 +55,8 @@ pub enum Command {
     Ladder(Box<LadderArgs>),
     /// Adapters, limits, and what would be used.
     Info,
+    /// What a graphics device is worth.
+    DeviceReport(DeviceReportArgs),
     /// A text to print.
     Print(String),
 }
@@ -127,6 +130,7 @@ impl Command {
             Command::Sweep(args) => sweep::run(&args),
             Command::Ladder(args) => ladder::run(&args),
             Command::Info => info::run(),
+            Command::DeviceReport(args) => device_report::run(&args),
             Command::Print(text) => print(&text),
         }
     }

@@ -7,6 +7,7 @@ mod changed_scenes;
 mod denoise;
 mod denoising;
 mod device;
+mod device_report;
 mod edits;
 mod files;
 mod films;

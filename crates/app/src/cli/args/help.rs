@@ -1,7 +1,7 @@
 //! The text of `--help`, made from the tables of options and of settings: what is in none of them is no option.
 
 use super::options::CommandOption;
-use super::{bench, check, compare, denoise, ladder, merge, reference, render, report, sweep, view};
+use super::{bench, check, compare, denoise, device_report, ladder, merge, reference, render, report, sweep, view};
 use technique::TechniqueName;
 use technique::settings::{OF_SCENES, Setting, all_of_panes};
 
@@ -208,6 +208,13 @@ fn commands() -> Vec<Block> {
             &check::options(),
         ),
         Block::new::<()>("visavis info", "adapters, limits, what would be used and why", &[]),
+        Block::new(
+            "visavis device-report",
+            "one page on the graphics device: how fast it traces beside the processor, how long a picture takes while a slider \
+             moves, what it does at most, whether its pictures are the processor's, what happens where it is lost, and the hard \
+             cases; from this program alone, within ten minutes",
+            &device_report::options(),
+        ),
     ]
 }
 

@@ -4,6 +4,7 @@ pub mod bench;
 pub mod check;
 pub mod compare;
 pub mod denoise;
+pub mod device_report;
 mod help;
 pub mod ladder;
 pub mod merge;
@@ -21,6 +22,7 @@ pub use bench::BenchArgs;
 pub use check::CheckArgs;
 pub use compare::CompareArgs;
 pub use denoise::DenoiseArgs;
+pub use device_report::{DeviceReportArgs, ReportPart};
 pub use ladder::LadderArgs;
 pub use merge::MergeArgs;
 pub use reference::ReferenceArgs;
@@ -62,6 +64,7 @@ impl Command {
             "sweep" => sweep::parse,
             "ladder" => ladder::parse,
             "info" => parse_info,
+            "device-report" => device_report::parse,
             "check" => check::parse,
             "reference" => reference::parse,
             _ => return view::parse(parser),
