@@ -3,8 +3,8 @@
 
 use crate::variant::{MakeTracer, Variant};
 use pathtrace::{
-    ConesAt, Directions, Estimator, Integrator, LightPaths, LightTracingSettings, MetropolisSettings, PathSettings,
-    PhotonSettings, Roulette, SamplerKind,
+    Bugs, ConesAt, Directions, Estimator, Integrator, LightPaths, LightTracingSettings, MetropolisSettings,
+    PathSettings, PhotonSettings, Roulette, SamplerKind,
 };
 use raster::Fake;
 use scene::Scene;
@@ -30,6 +30,8 @@ const COMPLETE: PathSettings = PathSettings {
     split_glass: true,
     paths: LightPaths::ALL,
     seed: 1,
+    bugs: Bugs::NONE,
+    find_bug: 0,
 };
 
 /// The tutorial's: nothing is aimed at, and no way taken twice.

@@ -145,7 +145,7 @@ impl GpuTracer {
     /// Whether rays can be traced like this at once, without compiling anything first: that takes a software device
     /// seconds.
     pub fn has_compiled(&self, integrator: &Integrator) -> bool {
-        let key = integrator.pipeline_key(self.pipelines.needs().everything());
+        let key = integrator.told_in(&self.here).pipeline_key(self.pipelines.needs().everything());
         let photons = integrator
             .gathers()
             .is_none_or(|settings| self.photon_maps.is_some() && self.pipelines.has_compiled(&settings.walk_key()));
@@ -237,7 +237,7 @@ impl GpuTracer {
         until: u32,
         stop: &impl Fn() -> bool,
     ) -> Result<(), GpuTraceError> {
-        let key = integrator.pipeline_key(self.pipelines.needs().everything());
+        let key = integrator.told_in(&self.here).pipeline_key(self.pipelines.needs().everything());
         let key = key.map_err(GpuTraceError::ForTheProcessor)?;
         let pipeline = self.pipelines.prepare(&self.gpu, &key)?;
         let params = integrator.render_params(params(film, camera), &self.here.fake);

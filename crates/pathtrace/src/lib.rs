@@ -32,6 +32,7 @@ mod vectors;
 pub use caster::cone::shapes_with_cones;
 pub use features::{FeatureFilm, FeaturePass};
 pub use integrator::Integrator;
+pub use integrator::broken::{Bug, Bugs, Row as BugRow};
 pub use integrator::first_vertex::{FirstVertex, LeftOut, Met, Term, Terms};
 pub use integrator::light_paths::{LightPaths, LightPathsError, Named as NamedLightPaths};
 pub use integrator::metropolis::MetropolisSettings;

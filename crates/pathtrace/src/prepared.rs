@@ -7,6 +7,7 @@ use crate::bsdf::materials::{Kinds, Materials};
 use crate::bsdf::{Interactions, shading};
 use crate::caster::Casters;
 use crate::caster::cone::Cones;
+use crate::integrator::broken::Bugs;
 use crate::integrator::photon::usual_radius;
 use crate::integrator::settings::ConesAt;
 use crate::intersect::aggregate::Aggregate;
@@ -39,6 +40,8 @@ pub struct PreparedScene {
     pub emitters: Emitters,
     /// The radius of photon maps if nobody says otherwise.
     pub photon_radius: f32,
+    /// Bugs that do something here.
+    pub suited_bugs: Bugs,
 }
 
 /// What stands for the light that a shadow ray goes to, where it goes to none: of no surface, not even of one that is no
@@ -83,6 +86,7 @@ impl PreparedScene {
             casters: Casters::new(scene),
             emitters: Emitters::new(scene, &lights),
             photon_radius: usual_radius(scene),
+            suited_bugs: Bugs::suited_to(scene),
             cones: ConesAt::ALL.map(|at| Cones::new(at, scene, &lights)),
             lights,
         }

@@ -25,6 +25,8 @@ pub const SOURCES: &[Source<'static>] = gpu::wgsl_sources![
     "pathtrace/drive/rays.wgsl",
     "pathtrace/exact.wgsl",
     "pathtrace/features.wgsl",
+    "pathtrace/integrator/broken/walk.wgsl",
+    "pathtrace/integrator/broken/wrong.wgsl",
     "pathtrace/integrator/chain_state.wgsl",
     "pathtrace/integrator/connected.wgsl",
     "pathtrace/integrator/light_paths.wgsl",

@@ -18,6 +18,8 @@ use crate::drive::gpu::tables::{MOST_LEVELS, VECTORS_OF_A_NODE, WINDING_TURNED};
 use crate::drive::gpu::{PipelineKey, SceneNeeds};
 use crate::features::lanes::MOST_SPECULARS;
 use crate::integrator::Integrator;
+use crate::integrator::broken::wrong::{EPSILON, HALF_THICKNESS, LEAST_COSINE, LOST_BITS, WHITE};
+use crate::integrator::broken::{Bugs, shader_numbers};
 use crate::integrator::chain_state;
 use crate::integrator::forks::MOST_FORKS;
 use crate::integrator::light_paths::{ACCEPTS, BEGINS};
@@ -53,7 +55,7 @@ pub fn shared_constants() -> Vec<(&'static str, f64)> {
     const STAGE_OFF: u32 = chain_state::OFF;
     const STAGE_THROUGH: u32 = chain_state::THROUGH;
     const SMALLEST_POSITIVE: f32 = f32::MIN_POSITIVE;
-    gpu::named_values![
+    let named = gpu::named_values![
         ACCEPTS,
         ALL_DIRECTIONS,
         ALREADY_COUNTED,
@@ -75,10 +77,12 @@ pub fn shared_constants() -> Vec<(&'static str, f64)> {
         CONES_AT_USUAL,
         COUNT_SHIFT,
         CUT_SHIFT,
+        EPSILON,
         FIRST_DIMENSION,
         FRAC_1_PI,
         FRAC_PI_2,
         GROUP,
+        HALF_THICKNESS,
         HARD_CAP,
         HAS_INDEX,
         KIND_DISK,
@@ -87,6 +91,7 @@ pub fn shared_constants() -> Vec<(&'static str, f64)> {
         KIND_TRIANGLE,
         LAST_STEP,
         LEAF,
+        LEAST_COSINE,
         LEAST_SQUARE,
         LEAST_SPECULAR,
         LEAST_UPRIGHT,
@@ -102,6 +107,7 @@ pub fn shared_constants() -> Vec<(&'static str, f64)> {
         LOBE_METALLIC_ROUGHNESS,
         LOBE_MIRROR,
         LOBE_ROUGH_CONDUCTOR,
+        LOST_BITS,
         MET_BY_CHANCE,
         MOST_BRANCHES,
         MOST_CELLS,
@@ -143,18 +149,22 @@ pub fn shared_constants() -> Vec<(&'static str, f64)> {
         UNIFORM_HEMISPHERE_PDF,
         UNMOVED,
         VECTORS_OF_A_NODE,
+        WHITE,
         WIDEST,
         WINDING_TURNED,
         WRAP_CLAMP,
         WRAP_MIRROR,
-    ]
+    ];
+    named.into_iter().chain(shader_numbers()).collect()
 }
 
 /// Names of the overrides that pipelines are compiled with: what scenes ask for, and the settings of any integrator.
 pub fn override_names() -> Vec<&'static str> {
     let photons = PhotonSettings::default();
-    let integrators: [Integrator; 4] = [
+    let broken = PathSettings { bugs: Bugs::ALL, ..PathSettings::default() };
+    let integrators: [Integrator; 5] = [
         PathSettings::default().into(),
+        broken.into(),
         WhittedSettings::default().into(),
         NormalsSettings::default().into(),
         photons.into(),

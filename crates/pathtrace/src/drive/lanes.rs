@@ -72,16 +72,22 @@ const CHUNKS_PER_THREAD: usize = 8;
 impl FilmJob<'_> {
     /// Fills the film chunk by chunk, on the current rayon pool.
     pub fn fill(&self, film: &mut Film, plan: &impl LanePlan) -> Stats {
+        self.fill_chunks(film, |chunk| self.lanes.run(ChunkKernel { job: self, plan, chunk }))
+    }
+
+    /// The same, one ray at a time whatever the processor has: compiled once, and not once for each kind of lanes.
+    pub fn fill_one_by_one(&self, film: &mut Film, plan: &impl LanePlan) -> Stats {
+        self.fill_chunks(film, |chunk| ChunkKernel { job: self, plan, chunk }.run::<f32>())
+    }
+
+    fn fill_chunks(&self, film: &mut Film, fill: impl Fn(Chunk) -> Tally + Sync) -> Stats {
         let chunks = rayon::current_num_threads() * CHUNKS_PER_THREAD;
         let length = film.pixels().len().div_ceil(chunks).clamp(*CHUNK.start(), *CHUNK.end());
         let (stats, nonfinite) = film
             .pixels_mut()
             .par_chunks_mut(length)
             .enumerate()
-            .map(|(index, pixels)| {
-                let chunk = Chunk { first: (index * length) as u32, pixels };
-                self.lanes.run(ChunkKernel { job: self, plan, chunk })
-            })
+            .map(|(index, pixels)| fill(Chunk { first: (index * length) as u32, pixels }))
             .reduce(Tally::default, |a, b| (a.0.plus(b.0), a.1 + b.1));
         film.nonfinite += nonfinite;
         stats

@@ -5,6 +5,7 @@
 //! variant of [`Integrator`] with an arm in each of the matches below: all that the machines ask an integrator for.
 
 mod branches;
+pub mod broken;
 pub(crate) mod chain_state;
 mod connected;
 pub(crate) mod directions;
@@ -28,10 +29,12 @@ use crate::drive::gpu::{PipelineKey, film_data::RenderParams};
 use crate::drive::lanes::FilmJob;
 use crate::sampling::sampler::SamplerKind;
 use crate::stats::Stats;
+use broken::Bugs;
 use film::Film;
 use metropolis::MetropolisSettings;
 use normals::NormalsSettings;
 use photon::{LightTracingSettings, PhotonSettings};
+use scene::Scene;
 use scene::stand_ins::FakeNumbers;
 use settings::{PathSettings, SettingsError};
 use whitted::WhittedSettings;
@@ -122,6 +125,9 @@ impl Integrator {
     pub(crate) fn fill(&self, film: &mut Film, job: &FilmJob) -> Stats {
         match self {
             // none where the job was stopped while a guide was learned
+            Integrator::Path(settings) if settings.is_broken() => {
+                job.fill_one_by_one(film, &broken::walk::Plan::new(settings, settings.bugs_on(job.scene.suited_bugs)))
+            }
             Integrator::Path(settings) => {
                 path_plan::Plan::of(settings, job).map(|plan| job.fill(film, &plan)).unwrap_or_default()
             }
@@ -185,8 +191,16 @@ impl Integrator {
     /// Its settings, where it follows one random path a sample.
     pub(crate) fn paths(&self) -> Option<&PathSettings> {
         match self {
-            Integrator::Path(settings) => Some(settings),
+            Integrator::Path(settings) if !settings.is_broken() => Some(settings),
             _ => None,
+        }
+    }
+
+    /// The same with the bug told that its settings hide in this scene.
+    pub(crate) fn told_in(&self, scene: &Scene) -> Integrator {
+        match self {
+            Integrator::Path(settings) if settings.is_broken() => settings.told(Bugs::suited_to(scene)).into(),
+            other => *other,
         }
     }
 

@@ -104,7 +104,7 @@ pub(crate) const BY_BOTH: u32 = 2;
 
 impl PathSettings {
     pub(super) fn pipeline_key(&self, everything: bool) -> Result<PipelineKey, &'static str> {
-        if self.estimator.directions == Directions::Guided {
+        if self.estimator.directions == Directions::Guided && !self.is_broken() {
             return Err("a guide of paths is learned and followed by the processor alone");
         }
         let light_sampling = match self.estimator.light {
@@ -112,6 +112,9 @@ impl PathSettings {
             LightSampling::NextEvent => BY_SAMPLING,
             LightSampling::Mis => BY_BOTH,
         };
+        if self.is_broken() {
+            return Ok(self.broken_key(light_sampling));
+        }
         let constants = [
             ("UNIFORM_DIRECTIONS", flag(self.estimator.directions == Directions::Uniform)),
             ("LIGHT_SAMPLING", f64::from(light_sampling)),

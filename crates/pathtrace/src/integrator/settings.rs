@@ -2,6 +2,7 @@
 //! into how many they branch, and where the random numbers come from. All freely combined; [`Estimator`] names the
 //! usual pairs.
 
+use crate::integrator::broken::Bugs;
 use crate::integrator::light_paths::LightPaths;
 use crate::integrator::path_plan::MOST_BRANCHES;
 use crate::integrator::photon::MOST_PHOTONS;
@@ -215,6 +216,11 @@ pub struct PathSettings {
     pub sampler: SamplerKind,
     /// Selects one of 2^32 independent pictures.
     pub seed: u32,
+    /// What is wrong on purpose. With any bug paths are the tutorial's plain ones: no guide, no branches, no connections,
+    /// no cones, no glass that splits them.
+    pub bugs: Bugs,
+    /// Above 0: the number of a bug that is on as well, and not told. See [`PathSettings::hidden_bug`].
+    pub find_bug: u32,
 }
 
 /// Settings that no picture can be made with.
@@ -240,6 +246,9 @@ pub enum SettingsError {
     /// Chains cannot follow a guide, which is learned pixel by pixel.
     #[error("a guide is learned for paths, not for chains: choose another estimator than {0}")]
     GuidedChains(&'static str),
+    /// Bugs are those of the plain path tracer.
+    #[error("bugs are those of a plain path tracer, which knows no {0}: leave out one of the two")]
+    BrokenAnd(&'static str),
     /// A probability outside (0, 1].
     #[error("a path survives with a probability above 0 and at most 1, not {0}")]
     Probability(f32),
@@ -290,6 +299,12 @@ impl PathSettings {
         if let Some(p) = self.roulette.probability.filter(|p| !(*p > 0.0 && *p <= 1.0)) {
             return Err(SettingsError::Probability(p));
         }
+        if self.is_broken() && self.estimator.directions == Directions::Guided {
+            return Err(SettingsError::BrokenAnd("guide"));
+        }
+        if self.is_broken() && self.branches > 1 {
+            return Err(SettingsError::BrokenAnd("more than one direction at a vertex"));
+        }
         let (branches, vertices) = (self.branches, self.scattering_vertices());
         match branches {
             0 => Err(SettingsError::NoBranch),
@@ -319,6 +334,8 @@ impl Default for PathSettings {
             paths: LightPaths::ALL,
             sampler: SamplerKind::default(),
             seed: 1,
+            bugs: Bugs::NONE,
+            find_bug: 0,
         }
     }
 }

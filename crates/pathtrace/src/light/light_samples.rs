@@ -25,7 +25,7 @@ pub struct LightSamples<F: Float> {
 impl<F: Float> LightSamples<F> {
     /// Of two samples of one light.
     #[inline(always)]
-    pub(super) fn select(mask: F::M, yes: Self, no: Self) -> Self {
+    pub(crate) fn select(mask: F::M, yes: Self, no: Self) -> Self {
         LightSamples {
             shines: (mask & yes.shines) | (!mask & no.shines),
             wi: Vector::select(mask, yes.wi, no.wi),

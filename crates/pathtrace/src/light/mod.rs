@@ -23,6 +23,7 @@ pub use light_samples::LightSamples;
 pub use spherical_rectangle::SphericalRectangle;
 pub(crate) use spot::cone_of;
 pub use sun::SunDisc;
+pub(crate) use table::Table as LightTable;
 
 use crate::intersect::sphere::Sphere;
 use crate::intersect::{NO_LIGHT, SurfacePoint, triangle_normal};

@@ -2,6 +2,8 @@
 //!
 //! Twin: `shaders/pathtrace/light/light.wgsl`.
 
+mod lamps;
+
 use super::ball;
 use super::flat::{Flats, Outline};
 use super::spot::{self, Cones};
