@@ -248,7 +248,7 @@ fn of_paths(path: &PathSettings, scene: &Scene, delta_sun: bool) -> Vec<BlindSpo
 impl Connected {
     fn by(path: &PathSettings, scene: &Scene) -> Self {
         let needs = scene.needs();
-        if !(path.connections && path.estimator.samples_lights() && needs.casters) {
+        if !(path.connections && path.estimator.samples_lights() && needs.casters) || path.is_broken() {
             return Connected::Nothing;
         }
         let others = scene.shapes.iter().filter(|shape| !scene.is_caster(shape));

@@ -3,7 +3,7 @@
 use crate::settings::{Setting, Value, all_of_panes, grouped, light_words};
 use crate::{FakeSettings, PaneSettings, Technique, TracedSettings};
 use film::Feature;
-use pathtrace::Integrator;
+use pathtrace::{Integrator, PathSettings};
 use raster::{Fake, Show};
 use scene::Scene;
 
@@ -64,6 +64,9 @@ impl Technique {
             }
             Technique::Fake(FakeSettings { show: Show::CubeFaces, .. }) => "Cube faces of the fake".into(),
             Technique::Fake(FakeSettings { show: Show::ShadowMap, .. }) => "Shadow map of the fake".into(),
+            Technique::Traced(TracedSettings { integrator: Integrator::Path(path), .. }) if path.is_broken() => {
+                format!("{}, {}", self.name().in_full(), bug_words(path))
+            }
             Technique::Fake(_) | Technique::Traced(_) => self.name().in_full().into(),
         }
     }
@@ -77,6 +80,17 @@ impl Technique {
             own.filter(|_| own != others).map(|own| told_apart(row, own, others))
         });
         unlike.collect()
+    }
+}
+
+/// "2 bugs on", and whether one is hidden.
+fn bug_words(path: &PathSettings) -> String {
+    match (path.bugs.count(), path.find_bug) {
+        (0, _) => "a bug is on".into(),
+        (1, 0) => "1 bug on".into(),
+        (count, 0) => format!("{count} bugs on"),
+        (1, _) => "1 bug on and one to find".into(),
+        (count, _) => format!("{count} bugs on and one to find"),
     }
 }
 
@@ -130,6 +144,22 @@ mod tests {
         assert_eq!(path.label_beside(&fake, &scene), "Path tracing, light");
         assert_eq!(whitted.label_beside(&path, &scene), "Whitted, depth 8");
         assert_eq!(normals.label_beside(&path, &scene), "Normals, world axes");
+    }
+
+    #[test]
+    fn bugs_stand_in_every_label() {
+        let path = |changes: &[(&str, &str)]| with(TechniqueName::Path, changes);
+        let labels = [("bugs", "no-cosine"), ("bugs", "no-cosine+clamped"), ("find-bug", "7"), ("show", "albedo")]
+            .map(|change| path(&[change]).label());
+        let expected = ["1 bug on, light", "2 bugs on, light", "a bug is on, light"];
+        assert_eq!(labels[..3], expected.map(|words| format!("Path tracing, {words}")));
+        assert_eq!(path(&[("bugs", "clamped"), ("find-bug", "7"), ("show", "albedo")]).label(), labels[3]);
+        let both = path(&[("bugs", "clamped"), ("find-bug", "7")]).label();
+        assert_eq!(both, "Path tracing, 1 bug on and one to find, light");
+        let beside = self::labels("cornell", TechniqueName::Path, [&[("bugs", "clamped")], &[]]);
+        assert_eq!(beside, ["Path tracing, 1 bug on, light", "Path tracing, light"]);
+        let other = self::labels("cornell", TechniqueName::Path, [&[("bugs", "clamped")], &[("bugs", "no-pi")]]);
+        assert_eq!(other, ["Path tracing, 1 bug on, bugs: clamped", "Path tracing, 1 bug on, bugs: no-pi"]);
     }
 
     #[test]

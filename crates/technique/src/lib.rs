@@ -55,8 +55,8 @@ pub use pane::PaneSettings;
 pub use presets::Preset;
 pub use progressive::{NoMemory, ProgressiveRenderer, Request};
 pub use provenance::{
-    DENOISE, EARLIER_VIEWS, FILTER, Made, NONFINITE, OWN_FOV, Provenance, Recorded, SAMPLES, WEIGHTS, denoised_by,
-    is_of_its_pixels, light_of, made_from, sample_ranges, scene_hash, tell_samples,
+    DENOISE, EARLIER_VIEWS, FILTER, Made, NONFINITE, OWN_FOV, Provenance, Recorded, SAMPLES, WEIGHTS, bugs_of,
+    denoised_by, is_of_its_pixels, light_of, made_from, sample_ranges, scene_hash, tell_samples,
 };
 pub use renderer::{Rendered, Renderer};
 pub use runs::Runs;

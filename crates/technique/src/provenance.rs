@@ -119,6 +119,19 @@ pub fn denoised_by(records: &[(String, String)]) -> Option<&str> {
         .map(|(_, filter)| filter.as_str())
 }
 
+/// The bugs that a picture was made with on purpose, by its records: "bugs on (no-cosine)", or that one is hidden.
+pub fn bugs_of(records: &[(String, String)]) -> Option<String> {
+    let value = |name: &str, none: &str| {
+        records.iter().find(|(known, value)| known == name && value != none).map(|(_, value)| value.as_str())
+    };
+    match (value("bugs", "none"), value("find-bug", "0")) {
+        (None, None) => None,
+        (Some(bugs), None) => Some(format!("bugs on ({bugs})")),
+        (None, Some(_)) => Some("a bug on that is not told".into()),
+        (Some(bugs), Some(_)) => Some(format!("bugs on ({bugs} and one that is not told)")),
+    }
+}
+
 /// Which light a picture shows by its records, in the words of `--light`; `None` of records that say nothing of how it was made.
 pub fn light_of(records: &[(String, String)]) -> Option<&str> {
     let value = |name: &str| records.iter().find(|(known, _)| known == name).map(|(_, value)| value.as_str());

@@ -3,8 +3,8 @@
 use crate::{DenoiseSettings, DeviceChoice};
 use film::Feature;
 use pathtrace::{
-    Integrator, LightTracingSettings, MetropolisSettings, NormalsSettings, PathSettings, PhotonSettings, Roulette,
-    WhittedSettings,
+    Bug, Bugs, Integrator, LightTracingSettings, MetropolisSettings, NormalsSettings, PathSettings, PhotonSettings,
+    Roulette, WhittedSettings,
 };
 use scene::{Scene, Sun};
 use std::sync::Arc;
@@ -198,6 +198,12 @@ impl TracedSettings {
             Some(_) => None,
             None => self.integrator.needs_the_processor(),
         }
+    }
+
+    /// The bug that is on in this scene and not told, where there is one.
+    pub fn hidden_bug(&self, scene: &Arc<Scene>) -> Option<Bug> {
+        let Integrator::Path(path) = self.integrator else { return None };
+        path.hidden_bug(Bugs::suited_to(&self.applied_to(scene)))
     }
 
     /// Whether these rays see a sun without a disc.

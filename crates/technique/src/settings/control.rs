@@ -58,6 +58,8 @@ pub enum Look {
     LightPaths,
     /// A box to tick for each repair of the fake.
     Repairs,
+    /// A box to tick for each bug of a path tracer.
+    Bugs,
 }
 
 /// Decimals of a number that is told, where its step has no more.
@@ -167,7 +169,8 @@ mod tests {
             (Kind::Whole(_), Look::Typed)
             | (Kind::Bounces, Look::WholeOrNone(_))
             | (Kind::LightPaths, Look::LightPaths)
-            | (Kind::Repairs, Look::Repairs) => true,
+            | (Kind::Repairs, Look::Repairs)
+            | (Kind::Bugs, Look::Bugs) => true,
             (Kind::Choice(accepted), Look::Words(words)) => {
                 words.iter().all(|(word, _)| accepted.contains(&word.replace(' ', "-").as_str()))
             }

@@ -9,7 +9,7 @@ pub use rows::{OF_SCENES, all_of_panes, light_words};
 
 use crate::{PaneSettings, SceneChanges, Technique, TechniqueName, bounces_name, roulette_name};
 use image_file::Records;
-use pathtrace::{LightPaths, Roulette};
+use pathtrace::{Bugs, LightPaths, Roulette};
 use raster::{Repairs, Show};
 use scene::Scene;
 use std::fmt;
@@ -69,6 +69,8 @@ pub enum Kind {
     LightPaths,
     /// Repairs of the fake: names with + between, none or all.
     Repairs,
+    /// Bugs of a path tracer: names with + between, or none.
+    Bugs,
 }
 
 /// A value of a setting.
@@ -88,6 +90,8 @@ pub enum Value {
     LightPaths(LightPaths),
     /// What is repaired of the fake.
     Repairs(Repairs),
+    /// What is wrong on purpose.
+    Bugs(Bugs),
 }
 
 /// What a scene must have.
@@ -145,6 +149,7 @@ impl Kind {
             Kind::Roulette => roulette(word).map(Value::Roulette),
             Kind::LightPaths => return rows::light_paths(word),
             Kind::Repairs => Repairs::parse(word).ok().map(Value::Repairs),
+            Kind::Bugs => Bugs::parse(word).ok().map(Value::Bugs),
         };
         value.ok_or_else(|| self.expected())
     }
@@ -165,6 +170,7 @@ impl Kind {
             Kind::Roulette => "a probability above 0 and at most 1, throughput, both as P+throughput, or off".into(),
             Kind::LightPaths => rows::LIGHT_PATHS.into(),
             Kind::Repairs => format!("none, all, or some of {} with + between", Repairs::names().join(", ")),
+            Kind::Bugs => format!("none, or some of {} with + between", Bugs::names().join(", ")),
         }
     }
 
@@ -204,6 +210,7 @@ impl fmt::Display for Value {
             Value::Roulette(roulette) => f.write_str(&roulette_name(*roulette)),
             Value::LightPaths(paths) => paths.fmt(f),
             Value::Repairs(repairs) => repairs.fmt(f),
+            Value::Bugs(bugs) => bugs.fmt(f),
         }
     }
 }

@@ -15,7 +15,7 @@ pub const ROWS: &[Setting<PaneSettings>] = &[
         default: Some(Value::Word("on")),
         before: Some(Value::Word("off")),
         needs: Need::Caster,
-        acts: |pane, _| path_of(pane).estimator.samples_lights(),
+        acts: |pane, _| path_of(pane).estimator.samples_lights() && !path_of(pane).is_broken(),
         help: "light that is sampled also arrives by way of spheres of glass and mirror, computed; off: found by chance",
         always_recorded: true,
         get: |pane| Some(Value::Word(if path_of(pane).connections { "on" } else { "off" })),
@@ -74,7 +74,7 @@ pub const ROWS: &[Setting<PaneSettings>] = &[
         default: Some(Value::Word("on")),
         before: Some(Value::Word("off")),
         needs: Need::Glass,
-        acts: |pane, _| pane.truth.path.branches < 2,
+        acts: |pane, _| pane.truth.path.branches < 2 && !pane.truth.path.is_broken(),
         help: "whether the first glass that the camera sees both reflects and refracts a path; off: one of them by chance",
         always_recorded: true,
         get: |pane| Some(Value::Word(if pane.truth.path.split_glass { "on" } else { "off" })),
@@ -97,7 +97,7 @@ pub const ROWS: &[Setting<PaneSettings>] = &[
 /// Whether a scene has shapes that cones can be at, and paths draw directions that cones can take a part of.
 fn may_have_cones(path: &PathSettings, scene: &Scene) -> bool {
     let drawn_well = path.estimator.directions == Directions::Cosine && path.estimator.samples_lights();
-    drawn_well && !shapes_with_cones(ConesAt::Everything, scene).is_empty()
+    drawn_well && !path.is_broken() && !shapes_with_cones(ConesAt::Everything, scene).is_empty()
 }
 
 /// What a label calls it, such as "cones at glass".

@@ -1,5 +1,6 @@
 //! The rows, in the order in which files keep them.
 
+mod broken;
 mod caustics;
 mod denoise;
 mod fake;
@@ -137,6 +138,7 @@ pub fn all_of_panes() -> impl Iterator<Item = &'static Setting<PaneSettings>> {
         .chain(fake::ROWS)
         .chain(show::ROWS)
         .chain(light::ROWS)
+        .chain(broken::ROWS)
 }
 
 /// How the paths of the technique in use walk.
