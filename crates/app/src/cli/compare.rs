@@ -30,6 +30,7 @@ pub fn run(args: &CompareArgs) -> anyhow::Result<()> {
         image_file::check_writable(out)?;
     }
     tell_of_denoising(args);
+    tell_of_bugs(args);
     let r = match &args.reference {
         Some(file) => {
             refuse_other_light(&args.film, file)?;
@@ -72,6 +73,21 @@ fn tell_of_denoising(args: &CompareArgs) {
     if let Some((file, filter)) = args.reference.as_deref().and_then(|file| Some((file, denoised_by(file)?))) {
         note!("note: B is denoised ({filter}) and biased: it is no reference: {}", image_file::shown(file));
     }
+}
+
+/// A picture with bugs on has their errors, and one that is taken for the truth is none.
+fn tell_of_bugs(args: &CompareArgs) {
+    if let Some(bugs) = bugs_of(&args.film) {
+        note!("note: A has {bugs}: its errors are those as well: {}", image_file::shown(&args.film));
+    }
+    if let Some((file, bugs)) = args.reference.as_deref().and_then(|file| Some((file, bugs_of(file)?))) {
+        note!("note: B has {bugs}: the truth is broken, and no reference: {}", image_file::shown(file));
+    }
+}
+
+/// By the picture's own records, where it has any.
+fn bugs_of(file: &Path) -> Option<String> {
+    technique::bugs_of(&image_file::records(file).ok()?).map(|words| image_file::escaped(&words))
 }
 
 /// By the picture's own records, where it has any.

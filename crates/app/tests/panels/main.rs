@@ -2,6 +2,7 @@
 
 #![expect(clippy::expect_used, reason = "a test stops at the first thing that is not as it must be")]
 
+mod bugs;
 mod closer;
 mod light;
 mod numbers;

@@ -4,7 +4,7 @@ use super::Panels;
 use egui::accesskit::Role;
 use egui_kittest::Node;
 use egui_kittest::kittest::{NodeT, Queryable};
-use pathtrace::Roulette;
+use pathtrace::{Bug, Bugs, Roulette};
 use raster::Repair;
 use technique::TechniqueName;
 use technique::settings::{Kind, Look, OF_SCENES, Setting, Value, all_of_panes};
@@ -31,6 +31,9 @@ fn control_names<T>(
         (Kind::Repairs, _) => {
             let usable = Repair::ALL.into_iter().filter(|repair| (repair.row().missing_in)(scene).is_none());
             usable.map(|repair| (Role::CheckBox, repair.row().title.to_owned())).collect()
+        }
+        (Kind::Bugs, _) => {
+            Bugs::suited_to(scene).iter().map(|bug| (Role::CheckBox, bug.row().title.to_owned())).collect()
         }
         (_, Look::Typed) => one(Role::SpinButton),
         _ => one(Role::Slider),
@@ -82,6 +85,11 @@ fn move_control(node: &Node, (look, kind): (&Look, &Kind), name: &str, value: Va
             node.click_accesskit();
             let ticked = Repair::ALL.into_iter().find(|repair| repair.row().title == name).expect("a repair");
             Value::Repairs(if before.has(ticked) { before.without(ticked) } else { before.with(ticked) })
+        }
+        (Look::Bugs, Value::Bugs(before)) => {
+            node.click_accesskit();
+            let ticked = Bug::ALL.into_iter().find(|bug| bug.row().title == name).expect("a bug");
+            Value::Bugs(if before.has(ticked) { before.without(ticked) } else { before.with(ticked) })
         }
         (Look::LightPaths, _) => {
             node.click_accesskit();
@@ -154,6 +162,9 @@ fn every_setting_that_the_scene_can_use_has_one_control_that_sets_it() {
             panels.unfold_more(0);
             panels.model.borrow_mut().session.panes[PaneId::A].technique = technique;
             panels.harness.run_steps(3);
+            if technique == TechniqueName::Path {
+                panels.click("Break the truth", 0);
+            }
             let untouched = panels.model.borrow().session.panes[PaneId::B];
             for setting in all_of_panes().filter(|setting| setting.is_of(technique)) {
                 count += panels.expect_control(setting, Some(PaneId::A), |model| model.session.panes[PaneId::A]);

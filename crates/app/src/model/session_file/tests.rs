@@ -41,6 +41,7 @@ fn examples(kind: &Kind) -> Vec<String> {
         Kind::Roulette => ["off", "throughput", "0.7", "0.33333334+throughput"].map(str::to_owned).into(),
         Kind::LightPaths => ["all", "direct", "bounce-3", "L(D|S)*[GS]+.?E"].map(str::to_owned).into(),
         Kind::Repairs => ["none", "all", "sky+fresnel"].map(str::to_owned).into(),
+        Kind::Bugs => ["none", "no-cosine", "width-twice+clamped"].map(str::to_owned).into(),
     }
 }
 

@@ -10,6 +10,7 @@ pub use plan::{Line, MOST_TILES, MOST_VALUES, PlannedTile, SweepPlan, TECHNIQUE}
 pub use presets::{SWEEPS, SweepPreset};
 
 use super::{Model, PaneId, PaneSource, Session};
+use pathtrace::Bugs;
 use scene::Scene;
 use technique::settings::{Kind, Look, Setting, Value, all_of_panes, of_panes};
 use technique::{PaneSettings, TechniqueName};
@@ -163,6 +164,10 @@ fn values_of(row: &Setting<PaneSettings>, technique: TechniqueName, scene: &Scen
         (_, look @ (Look::Steps { .. } | Look::Logarithmic(_))) => numbers_of(look),
         (_, Look::LightPaths) => ["all", "direct", "indirect", "bounce-1"].map(String::from).into(),
         (_, Look::Repairs) => ["none", "two-interfaces", "surroundings+two-interfaces", "all"].map(String::from).into(),
+        (_, Look::Bugs) => {
+            let suited = Bugs::suited_to(scene);
+            std::iter::once("none".into()).chain(suited.iter().take(3).map(|bug| bug.name().to_owned())).collect()
+        }
         (_, Look::Typed | Look::Words(_)) => ["1", "2", "3", "4"].map(String::from).into(),
     }
 }

@@ -1,5 +1,6 @@
 //! Controls for every workspace, each group on a card. What the scene or the technique cannot use is absent.
 
+mod bugs;
 mod camera;
 mod device;
 mod display;

@@ -1,7 +1,7 @@
 //! The settings of a pane's technique: in which order they stand, and what is no setting. Their table says the rest.
 
 use super::setting::{Change, Place};
-use super::{device, external, light};
+use super::{bugs, device, external, light};
 use crate::model::{PaneId, PaneSource};
 use crate::ui::UiContext;
 use crate::ui::theme::palette;
@@ -119,6 +119,7 @@ fn of_technique(cx: &mut UiContext, pane: PaneId, ui: &mut Ui) {
     let order = order(technique);
     usable.sort_by_key(|row| order.iter().position(|name| *name == row.name).unwrap_or(order.len()));
     let settings = &cx.model.session.panes[pane];
+    let (broken, usable): (Vec<_>, Vec<_>) = usable.into_iter().partition(|row| bugs::is_here(row));
     let (more, first): (Vec<_>, Vec<_>) = usable.into_iter().partition(|row| is_rare(row, settings));
     let light = first.iter().position(|row| row.name == "light").map_or(0, |light| light + 1);
     rows(cx, pane, &first[..light], ui);
@@ -137,6 +138,7 @@ fn of_technique(cx: &mut UiContext, pane: PaneId, ui: &mut Ui) {
         rows(cx, pane, &more, ui);
     });
     cx.dump.note(&format!("{pane} more"), open, header);
+    bugs::show(cx, pane, &broken, ui);
     faults(cx, pane, ui);
 }
 
@@ -149,7 +151,7 @@ fn is_rare(row: &Setting<PaneSettings>, settings: &PaneSettings) -> bool {
     row.control.more.contains(&settings.technique) && !looked_at
 }
 
-fn rows(cx: &mut UiContext, pane: PaneId, rows: &[&Setting<PaneSettings>], ui: &mut Ui) {
+pub(super) fn rows(cx: &mut UiContext, pane: PaneId, rows: &[&Setting<PaneSettings>], ui: &mut Ui) {
     let settings = &mut cx.model.session.panes[pane];
     let scene = cx.model.document.seen().clone();
     let mut place = Place {

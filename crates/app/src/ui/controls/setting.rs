@@ -63,6 +63,11 @@ impl Place<'_> {
                 let said = (name.as_str(), label.as_str(), &*self.explanation(setting));
                 self.repairs(said, repairs, ui).map(Change::Set)
             }
+            (Value::Bugs(bugs), Look::Bugs) => {
+                let label = control.label_of(value);
+                let said = (name.as_str(), label.as_str(), &*self.explanation(setting));
+                self.bugs(said, bugs, ui).map(Change::Set)
+            }
             (value, look) => {
                 let shown = Shown {
                     name: &name,
@@ -190,7 +195,7 @@ fn number_of(value: Value) -> Option<f64> {
         Value::Number(number) => Some(f64::from(number)),
         Value::Whole(number) => Some(f64::from(number)),
         Value::Bounces(bounces) => Some(bounces.map_or(f64::INFINITY, f64::from)),
-        Value::Word(_) | Value::Roulette(_) | Value::LightPaths(_) | Value::Repairs(_) => None,
+        Value::Word(_) | Value::Roulette(_) | Value::LightPaths(_) | Value::Repairs(_) | Value::Bugs(_) => None,
     }
 }
 
@@ -200,7 +205,7 @@ fn value_like(value: Value, number: f64) -> Option<Value> {
         Value::Number(_) => Some(Value::Number(number as f32)),
         Value::Whole(_) => Some(Value::Whole(number as u32)),
         Value::Bounces(_) => Some(Value::Bounces(number.is_finite().then_some(number as u32))),
-        Value::Word(_) | Value::Roulette(_) | Value::LightPaths(_) | Value::Repairs(_) => None,
+        Value::Word(_) | Value::Roulette(_) | Value::LightPaths(_) | Value::Repairs(_) | Value::Bugs(_) => None,
     }
 }
 
@@ -214,7 +219,7 @@ fn scale_of(look: &Look) -> Option<Scale> {
         Look::WholeOrNone(range) => Some(Scale::WholeOrNone(range.clone())),
         Look::Doubling(exponents) => Some(Scale::Doubling(exponents.clone())),
         Look::Typed => Some(Scale::Typed),
-        Look::Words(_) | Look::LightPaths | Look::Repairs => None,
+        Look::Words(_) | Look::LightPaths | Look::Repairs | Look::Bugs => None,
     }
 }
 
@@ -225,6 +230,6 @@ fn bounds_of(kind: &Kind) -> RangeInclusive<f64> {
         Kind::DegreesBelow(most) => 0.0..=f64::from(most.next_down()),
         Kind::Whole(range) => f64::from(*range.start())..=f64::from(*range.end()),
         Kind::Bounces => 0.0..=f64::INFINITY,
-        Kind::Choice(_) | Kind::Roulette | Kind::LightPaths | Kind::Repairs => 0.0..=1.0,
+        Kind::Choice(_) | Kind::Roulette | Kind::LightPaths | Kind::Repairs | Kind::Bugs => 0.0..=1.0,
     }
 }
