@@ -16,6 +16,7 @@ mod coarse;
 mod command;
 mod denoiser;
 mod device;
+pub mod effects;
 mod fake;
 mod features;
 mod filters;
