@@ -1,22 +1,24 @@
 //! Effects of pixels that are known, and lines and labels of maps that are.
 
+#![expect(clippy::expect_used, reason = "a test stops at the first thing that is not as it must be")]
+
 use pathtrace::Tracer;
 use scene::{Vec3, builtin};
 use technique::Shot;
 use technique::effects::{Effect, EffectMap, EffectShare, MOST_CELLS};
 
 fn shot_of(scene: &str) -> Shot {
-    Shot::of(builtin::named(scene).unwrap(), (640, 360))
+    Shot::of(builtin::named(scene).expect("a built-in scene"), (640, 360))
 }
 
 fn map_of(shot: &Shot) -> EffectMap {
-    EffectMap::of(&Tracer::new(&shot.scene), shot, &|| false).unwrap()
+    EffectMap::of(&Tracer::new(&shot.scene), shot, &|| false).expect("nobody stops it")
 }
 
 /// The effect where a point of the scene is seen.
 fn seen_at(map: &EffectMap, shot: &Shot, point: [f32; 3]) -> Effect {
     let (width, height) = shot.size;
-    let at = shot.camera.frame(width as f32 / height as f32).project(Vec3::from(point)).unwrap();
+    let at = shot.camera.frame(width as f32 / height as f32).project(Vec3::from(point)).expect("before the camera");
     map.at([(at.x * width as f32) as u32, (at.y * height as f32) as u32], shot.size)
 }
 
@@ -75,7 +77,12 @@ fn a_ball_that_lies_on_the_floor_touches_it_and_focuses_the_lamp() {
     let shot = shot_of("cornell-balls");
     let map = map_of(&shot);
     let has = |effect| map.effects.iter().filter(|other| **other == effect).count() as f32 / map.effects.len() as f32;
-    assert!(has(Effect::Caustic) > 0.002 && has(Effect::Contact) > 0.01, "{} {}", has(Effect::Caustic), has(Effect::Contact));
+    assert!(
+        has(Effect::Caustic) > 0.002 && has(Effect::Contact) > 0.01,
+        "{} {}",
+        has(Effect::Caustic),
+        has(Effect::Contact)
+    );
     assert!(has(Effect::Refraction) > 0.01 && has(Effect::Reflection) > 0.01);
     let nephroid = map_of(&shot_of("caustic"));
     assert!(nephroid.effects.contains(&Effect::Caustic), "smooth metal focuses too");
@@ -121,7 +128,10 @@ fn shares_are_of_all_pixels_and_of_all_error() {
     };
     let errors: Vec<f32> = (0..width * height).map(error).collect();
     let shares = map.shares(&errors, width);
-    assert_eq!(shares.iter().map(|share| share.effect).collect::<Vec<_>>(), [Effect::Refraction, Effect::Sky, Effect::Direct]);
+    assert_eq!(
+        shares.iter().map(|share| share.effect).collect::<Vec<_>>(),
+        [Effect::Refraction, Effect::Sky, Effect::Direct]
+    );
     let sum = |of: fn(&EffectShare) -> f64| shares.iter().map(of).sum::<f64>();
     assert!((sum(|share| share.pixels) - 1.0).abs() < 1e-12 && (sum(|share| share.error) - 1.0).abs() < 1e-12);
     let cells = map.effects.iter().filter(|effect| **effect == Effect::Refraction).count() as f64;

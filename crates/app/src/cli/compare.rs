@@ -1,6 +1,8 @@
 //! `visavis compare`: how far one picture is from another, or from the reference of what it shows, in numbers and as a
 //! map.
 
+mod effects;
+
 use super::args::made_by;
 use super::{CompareArgs, reference};
 use crate::ruler::{HeatMap, Noise, Pair, error_words, kept_scene, noise_line};
@@ -8,6 +10,7 @@ use ::reference::Reference;
 use anyhow::ensure;
 use compare::flip::{PIXELS_PER_DEGREE, hdr_flip};
 use compare::{ErrorMetric, Errors, finite_mean};
+use effects::NamedEffects;
 use film::{DisplayTransform, Image};
 use image_file::{Kind, Loaded, Records};
 use serde_json::json;
@@ -52,11 +55,13 @@ pub fn run(args: &CompareArgs) -> anyhow::Result<()> {
     if found.errors.nonfinite > 0 {
         note!("note: {} pixels are not finite and are left out of every mean", found.errors.nonfinite);
     }
+    let effects = if args.effects { Some(NamedEffects::of(&args.film, &pair)?) } else { None };
     let map = match &args.heatmap {
-        Some(out) => Some(draw(args, &pair, out)?),
+        Some(out) => Some(draw(args, &pair, out, effects.as_ref())?),
         None => None,
     };
-    let text = if args.json { report(args, &pair, &found, map.as_ref()) } else { table(&found, map.as_ref()) };
+    let (map, effects) = (map.as_ref(), effects.as_ref());
+    let text = if args.json { report(args, &pair, &found, (map, effects)) } else { table(&found, (map, effects)) };
     super::print(&text)
 }
 
@@ -182,14 +187,21 @@ fn measure(pair: &Pair, reference: &Reference) -> anyhow::Result<Comparison> {
     })
 }
 
-fn draw(args: &CompareArgs, pair: &Pair, out: &Path) -> anyhow::Result<HeatMap> {
+fn draw(args: &CompareArgs, pair: &Pair, out: &Path, effects: Option<&NamedEffects>) -> anyhow::Result<HeatMap> {
     let map = HeatMap::of(pair, args.map, args.scale)?;
     let kind = Kind::of(out).unwrap_or(Kind::Png);
-    image_file::write_or_keep(out, &map.encode(kind, pair, Records::new())?)?;
+    let bytes = match effects.filter(|_| kind == Kind::Png) {
+        Some(effects) => effects.encode_over(&map)?,
+        None => map.encode(kind, pair, Records::new())?,
+    };
+    image_file::write_or_keep(out, &bytes)?;
     Ok(map)
 }
 
-fn table(found: &Comparison, map: Option<&HeatMap>) -> String {
+/// A map and the effects of light on it, where they are asked for.
+type Drawn<'a> = (Option<&'a HeatMap>, Option<&'a NamedEffects>);
+
+fn table(found: &Comparison, (map, effects): Drawn) -> String {
     let e = &found.errors;
     let [off, brightness] = error_words(e, None);
     let mut text = format!(
@@ -202,10 +214,11 @@ fn table(found: &Comparison, map: Option<&HeatMap>) -> String {
     if let Some(HeatMap { label, scale, .. }) = map {
         text += &format!("map       {label}, {} from {} to {}\n", scale.map.name(), scale.low, scale.high);
     }
+    effects.into_iter().for_each(|effects| text += &effects.lines());
     text
 }
 
-fn report(args: &CompareArgs, pair: &Pair, found: &Comparison, map: Option<&HeatMap>) -> String {
+fn report(args: &CompareArgs, pair: &Pair, found: &Comparison, (map, effects): Drawn) -> String {
     let e = &found.errors;
     let (width, height) = pair.images[0].size();
     let mut report = json!({
@@ -223,6 +236,9 @@ fn report(args: &CompareArgs, pair: &Pair, found: &Comparison, map: Option<&Heat
         report["map"] = json!({
             "label": label, "colours": scale.map.name(), "low": scale.low, "high": scale.high,
         });
+    }
+    if let Some(effects) = effects {
+        report["effects"] = effects.json();
     }
     format!("{report}\n")
 }

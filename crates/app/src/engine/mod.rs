@@ -1,6 +1,6 @@
 //! Rendering beside the UI. Each pane has its [`pane_workers`], a thread for each technique it has used: [`fake`],
 //! and [`rays`] with its [`technique::ProgressiveRenderer`], or [`external`] pictures of other programs. They turn jobs into [`Picture`]s. All who trace share one
-//! pool of threads, in turns. The [`mod@probe`] traces the samples of one pixel, and [`objects`] finds the shape that each pixel shows. The [`post_process`] turns pictures into bytes for the screen and measures how far
+//! pool of threads, in turns. The [`mod@probe`] traces the samples of one pixel, [`objects`] finds the shape that each pixel shows, and [`effects`] which effect of light makes it. The [`post_process`] turns pictures into bytes for the screen and measures how far
 //! apart they are, from each other or from what the [`mod@reference`] makes, and the [`error_map`] draws where; the
 //! [`export`] writes files and fills the clipboard, [`mod@report`]s too; [`load`], [`restore`], [`session`] and [`find_scene`] read them, [`beginning`] is what a window begins with, [`watch`] reads a scene again that
 //! has changed on disk, [`memory`] keeps what the next window is to know, [`dialogue`] waits for the system's own,
@@ -15,6 +15,7 @@ pub mod changed_scene;
 mod course;
 pub mod dialogue;
 mod earlier;
+pub mod effects;
 pub mod error_map;
 pub mod export;
 pub mod external;

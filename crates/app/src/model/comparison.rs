@@ -90,6 +90,8 @@ pub struct ComparisonSettings {
     pub held: [Option<f32>; ErrorMetric::ALL.len()],
     /// The part of the pictures that figures speak of; `None` for the whole.
     pub region: Option<Region>,
+    /// Whether the map names the effects of light that make its parts.
+    pub effects: bool,
 }
 
 impl Default for ComparisonSettings {
@@ -100,6 +102,7 @@ impl Default for ComparisonSettings {
             metric: ErrorMetric::Signed,
             held: [None; ErrorMetric::ALL.len()],
             region: None,
+            effects: false,
         }
     }
 }

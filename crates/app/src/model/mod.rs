@@ -6,6 +6,7 @@
 
 mod comparison;
 mod document;
+mod effects;
 mod effort;
 mod error_map;
 mod errors;
@@ -41,6 +42,7 @@ mod wanted;
 
 pub use comparison::{Against, CompareWith, Comparison, ComparisonSettings, MapWish};
 pub use document::Document;
+pub use effects::{EffectInHand, EffectsOfView, ShownEffects, Sides, label_texts, percent, put_labels};
 pub use effort::{Compiling, Drawing, Effort};
 pub use error_map::{ErrorMap, ErrorMapJob};
 pub use errors::{ErrorHistory, ErrorPoint};
@@ -267,6 +269,7 @@ impl Model {
             histograms: false,
             probe: None,
             objects: None,
+            effects: None,
             light: Vec::new(),
             display: session.display,
             paused: state.paused,

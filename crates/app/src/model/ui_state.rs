@@ -1,8 +1,8 @@
 //! What controls come back to, and what is in hand: nothing that anyone would miss the next day.
 
 use super::{
-    Curve, ExportMenu, Magnification, Message, PaneId, Panes, PartsState, PictureArea, Remembered, Slide, SweepPlan,
-    Theme,
+    Curve, EffectInHand, ExportMenu, Magnification, Message, PaneId, Panes, PartsState, PictureArea, Remembered, Slide,
+    SweepPlan, Theme,
 };
 use scene::Vec3;
 use std::path::PathBuf;
@@ -54,6 +54,8 @@ pub struct UiState {
     pub histograms: bool,
     /// The parts of the scene, and which of them is in hand.
     pub parts: PartsState,
+    /// The effect of light that is looked at alone on the map of errors.
+    pub effect: EffectInHand,
     /// Panes whose light by bounce is in sight.
     pub light_bars: Vec<PaneId>,
     /// The pane whose turn it is while A and B flicker.
@@ -169,6 +171,7 @@ impl UiState {
             probed_sample: None,
             histograms: false,
             parts: PartsState::default(),
+            effect: EffectInHand::default(),
             light_bars: Vec::new(),
             flicker: None,
             scene_fault: None,

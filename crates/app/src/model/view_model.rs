@@ -2,7 +2,7 @@
 
 use super::{
     Against, Effort, ErrorHistory, ErrorMap, ErrorPoint, External, LightByBounce, ObjectMap, PaneId, PaneProbe,
-    PaneSource, Panes, Progress, Region, ShapesAlong, TileFacts, TreesView,
+    PaneSource, Panes, Progress, Region, ShapesAlong, ShownEffects, TileFacts, TreesView,
 };
 use crate::ruler::ReferenceImage;
 use compare::{Errors, Histogram};
@@ -19,6 +19,8 @@ pub struct ViewModel {
     pub waiting: Panes<String>,
     /// Where the errors are, while that is looked at.
     pub map: Option<Arc<ErrorMap>>,
+    /// Which effects of light make what, while the map of errors names them.
+    pub effects: Option<ShownEffects>,
     /// What is known of the pixel that is looked into.
     pub probe: Panes<PaneProbe>,
     /// Which shape each pixel shows, while parts of the scene are looked at: of the view that was asked for last.

@@ -30,6 +30,8 @@ pub struct Wanted {
     pub probe: Option<ProbeWish>,
     /// Where parts of the scene are seen, while they are looked at.
     pub objects: Option<ObjectsWish>,
+    /// The view whose effects of light are named, if they are.
+    pub effects: Option<Shot>,
     /// Whose light by bounce is looked at.
     pub light: Vec<LightWish>,
     /// How all are shown.

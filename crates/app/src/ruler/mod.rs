@@ -11,7 +11,7 @@ mod reference_image;
 pub use figures::{
     FEWEST_RUNS_OF_A_BIAS, bias_words, brief, counted, error_records, error_words, formulas, noise_line,
 };
-pub use heat_map::{GREY, HeatMap, Pair};
+pub use heat_map::{BAR, GREY, HeatMap, Pair};
 pub use kept_scene::{kept_scene, made_before};
 pub use marks::marks;
 pub use noise::Noise;

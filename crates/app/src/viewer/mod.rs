@@ -1,6 +1,7 @@
 //! Model, workspaces, engine and what they have brought as one: what happens in a frame, whoever has a window for it. The
 //! real one is `window`; tests drive it without any.
 
+mod effects;
 mod external;
 mod files;
 mod judge;
@@ -18,6 +19,7 @@ pub use presentation::{Place, TextureStore};
 use crate::engine::Picture;
 use crate::engine::ask::Engine;
 use crate::engine::capture::Capture;
+use crate::engine::effects::Effects;
 use crate::engine::export::{Content, Export};
 use crate::engine::load::Asked;
 use crate::engine::memory::Memory;
@@ -51,6 +53,8 @@ pub struct Viewer {
     judge: Option<Judge>,
     /// The tiles of the sweep that is looked at.
     sweep: MadeSweep,
+    /// Finds which effects of light make what.
+    effects: Effects,
 }
 
 impl Viewer {
@@ -68,6 +72,7 @@ impl Viewer {
             asked_again: false,
             judge: None,
             sweep: MadeSweep::default(),
+            effects: Effects::default(),
         }
     }
 
@@ -89,6 +94,7 @@ impl Viewer {
         self.collect_sweep(textures);
         self.collect_trees(textures);
         self.collect_objects(textures);
+        self.collect_effects();
         self.presentation.update_probe(self.engine.probes.collect());
         self.collect_files();
         for (pane, light) in self.engine.light.measured().iter() {
@@ -198,6 +204,7 @@ impl Viewer {
         let judge = self.take_judge();
         let wanted = self.workspaces.open().wanted(&self.model);
         self.presentation.keep(&wanted);
+        self.ask_effects(&wanted);
         self.engine.ask(&wanted).values().for_each(|job| self.stopwatch.asked(*job));
         judge.into_iter().for_each(|file| self.engine.load_reference(file));
     }
@@ -235,6 +242,7 @@ impl Viewer {
             "sweep": self.sweep_dump(),
             "trees": self.trees_dump(),
             "objects": self.objects_dump(),
+            "effects": self.effects_dump(),
             "theme": state.theme.name(),
             "picture_size": state.picture.size,
             "eye": document.camera.eye.to_array(),

@@ -123,6 +123,7 @@ impl Presentation {
             |pane| wanted.panes.get(pane).is_some_and(|pane| matches!(pane.technique, Technique::Traced(_)));
         self.shown.probe.retain(|pane, _| wanted.probe.is_some() && is_traced(pane));
         self.keep_objects(wanted);
+        self.keep_effects(wanted);
         if wanted.map.is_none() {
             (self.shown.map, self.textures.map) = (None, None);
         }

@@ -33,7 +33,8 @@ impl LightShares {
     pub fn of(tracer: &Tracer, shot: &Shot, stop: &(dyn Fn() -> bool + Sync)) -> Option<Self> {
         let map = EffectMap::size_for(shot.size);
         let size = scaled(map, map.0.max(map.1).div_ceil(2));
-        let shapes = tracer.first_shapes(&shot.camera.frame(shot.size.0 as f32 / shot.size.1.max(1) as f32), size, stop)?;
+        let shapes =
+            tracer.first_shapes(&shot.camera.frame(shot.size.0 as f32 / shot.size.1.max(1) as f32), size, stop)?;
         let mut light = vec![[0.0; 3]; shapes.len()];
         for (class, paths) in CLASSES.into_iter().enumerate() {
             let estimator = Estimator::usual_for(&shot.scene.needs());
@@ -58,7 +59,8 @@ impl LightShares {
         let mut sums = [0.0; 3];
         for v in y.round() as i64 - WINDOW..=y.round() as i64 + WINDOW {
             for u in x.round() as i64 - WINDOW..=x.round() as i64 + WINDOW {
-                let Some(index) = self.index(u, v).filter(|index| self.shapes[*index] == shape && shape != NO_SHAPE) else {
+                let Some(index) = self.index(u, v).filter(|index| self.shapes[*index] == shape && shape != NO_SHAPE)
+                else {
                     continue;
                 };
                 let off = [u as f32 - x, v as f32 - y].map(|off| off * off);

@@ -158,7 +158,13 @@ impl EffectMap {
 }
 
 /// Of a surface that scatters light: what that light does before.
-fn of_the_light(light: &LightShares, surface: &FirstSurface, cell: [u32; 2], size: (u32, u32), at_edge: bool) -> Effect {
+fn of_the_light(
+    light: &LightShares,
+    surface: &FirstSurface,
+    cell: [u32; 2],
+    size: (u32, u32),
+    at_edge: bool,
+) -> Effect {
     if surface.touches {
         return Effect::Contact;
     }

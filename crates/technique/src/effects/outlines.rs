@@ -68,7 +68,8 @@ impl Borders {
                 let mut line = vec![begin, first];
                 self.take(begin, first);
                 let mut at = first;
-                while !ends[at] && at != begin
+                while !ends[at]
+                    && at != begin
                     && let Some(next) = self.next_to(at).next()
                 {
                     self.take(at, next);
@@ -101,8 +102,12 @@ fn smooth(mut line: Vec<[f32; 2]>) -> Vec<[f32; 2]> {
         line = (0..count).map(moved).collect();
     }
     let last = count - 1;
-    let mut kept: Vec<[f32; 2]> =
-        line.iter().enumerate().filter(|(index, _)| index % STEP == 0 || (!closed && *index == last)).map(|(_, p)| *p).collect();
+    let mut kept: Vec<[f32; 2]> = line
+        .iter()
+        .enumerate()
+        .filter(|(index, _)| index % STEP == 0 || (!closed && *index == last))
+        .map(|(_, p)| *p)
+        .collect();
     kept.extend(kept.first().copied().filter(|_| closed));
     kept
 }

@@ -25,9 +25,8 @@ impl EffectMap {
     /// Of each effect that is there the places for its label, in its largest part.
     pub fn label_places(&self) -> Vec<LabelPlaces> {
         let parts = parts(self);
-        let largest = |effect: Effect| {
-            parts.iter().filter(|part| self.effects[part[0]] == effect).max_by_key(|part| part.len())
-        };
+        let largest =
+            |effect: Effect| parts.iter().filter(|part| self.effects[part[0]] == effect).max_by_key(|part| part.len());
         let places = |effect: Effect| Some(LabelPlaces { effect, at: self.places_in(largest(effect)?) });
         Effect::ALL.into_iter().filter_map(places).collect()
     }

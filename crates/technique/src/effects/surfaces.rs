@@ -143,7 +143,8 @@ fn lamps(lights: &Lights) -> Vec<Lamp> {
         return vec![Lamp { points, weight: 1.0 / count as f32 }];
     }
     let sky = lights.environment().is_some().then(|| lights.len() - 1);
-    let chooses = |light: usize| (0..4096).map(|step| (step as f32 + 0.5) / 4096.0).find(|u| lights.choose(*u) == light);
+    let chooses =
+        |light: usize| (0..4096).map(|step| (step as f32 + 0.5) / 4096.0).find(|u| lights.choose(*u) == light);
     let lamp = |light: usize| {
         let (chosen_by, count) = (chooses(light)?, if lights.is_delta(light) { 1 } else { POINTS_ON_A_LAMP });
         let points = (0..count).map(|index| (chosen_by, point(index))).collect();

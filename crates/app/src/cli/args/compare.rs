@@ -22,6 +22,8 @@ pub struct CompareArgs {
     pub map: ErrorMetric,
     /// The error at the end of its scale; `None` fits it.
     pub scale: Option<f32>,
+    /// Whether to tell which effect of light has how much of the error, and to name them on the map.
+    pub effects: bool,
     /// Stops added before FLIP looks.
     pub exposure: f32,
     /// One JSON object on stdout instead of a table.
@@ -62,6 +64,16 @@ pub fn options() -> Vec<CommandOption<CompareArgs>> {
             },
         },
         CommandOption {
+            names: &["--effects"],
+            value: "",
+            help: "say what each effect of light (refraction, shadow edge, caustic ...) has of the squared relative error, and name them on \
+                   a .png of --heatmap; A has to say how it was made",
+            read: |args, _| {
+                args.effects = true;
+                Ok(())
+            },
+        },
+        CommandOption {
             names: &["--exposure"],
             value: "EV",
             help: "stops added before FLIP looks (default 0)",
@@ -90,6 +102,7 @@ pub fn parse(parser: lexopt::Parser) -> Result<Command, CliError> {
         heatmap: None,
         map: ErrorMetric::default(),
         scale: None,
+        effects: false,
         exposure: 0.0,
         json: false,
     };

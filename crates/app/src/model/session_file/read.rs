@@ -294,6 +294,7 @@ fn comparison(mut table: Table, session: &mut Session) -> Result<(), Fault> {
         region.map_or_else(|| entry.no(sides), Ok)
     })?;
     comparison.region = region;
+    comparison.effects = table.read("effects", |entry| entry.flag())?.unwrap_or_default();
     let mut scale = table.table("scale")?;
     for metric in ErrorMetric::ALL {
         let end = scale.read(metric.name(), |entry| entry.number("a number above 0", |end| end > 0.0))?;

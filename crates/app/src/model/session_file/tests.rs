@@ -99,6 +99,7 @@ fn all_else_of_a_session_comes_back_as_it_was() {
     (comparison.with, comparison.of, comparison.metric) = (CompareWith::Reference, PaneId::B, ErrorMetric::Flip);
     comparison.held = [Some(0.3), None, Some(3.4e38), Some(1e-38), None];
     comparison.region = crate::model::Region::between([0.1, 0.2], [1.0 / 3.0, 1.0]);
+    comparison.effects = true;
     session.plots.open = true;
     session.plots.over = crate::model::Cost::Seconds;
     session.plots.measure = crate::model::Measure::Mae;

@@ -135,6 +135,7 @@ fn comparison(text: &mut String, comparison: &ComparisonSettings) {
     ];
     let sides = |region: &Region| [region.start, region.end].concat().into_iter().map(number).collect::<Vec<_>>();
     lines.extend(comparison.region.iter().map(|region| ("region", format!("[{}]", sides(region).join(", ")))));
+    lines.extend(comparison.effects.then(|| ("effects", true.to_string())));
     table(text, "[comparison]", lines);
     let held = ErrorMetric::ALL.into_iter().zip(comparison.held);
     let held = held.filter_map(|(metric, end)| Some((metric.name(), number(end?))));

@@ -91,6 +91,7 @@ pub fn map(cx: &mut UiContext, ui: &mut Ui) {
     if let Some(held) = comparison.held_mut() {
         scale(held, ui, fitted, cx.dump);
     }
+    super::effects::controls(cx, ui);
 }
 
 /// Two settings can be compared under one scale: held where it is, or typed.

@@ -2,7 +2,7 @@
 //! and the numbers under the mouse.
 
 use super::comparison::reference_state;
-use super::{magnify, region};
+use super::{effects, magnify, region};
 use crate::model::{Against, Comparison, ErrorMap, IN_THE_REGION};
 use crate::ruler::{GREY, HeatMap, Pair, brief};
 use crate::ui::overlay::{spoken, text_box};
@@ -14,6 +14,9 @@ use std::sync::Arc;
 
 /// Steps of colour along the bar.
 const STEPS: u32 = 128;
+
+/// Around what the legend says, in points.
+const AROUND: egui::Vec2 = vec2(10.0, 6.0);
 
 /// Shows it at `place`, as far as it lies in `rect`.
 pub fn show(cx: &mut UiContext, ui: &Ui, (place, rect): (Rect, Rect), hover: Option<Pos2>) {
@@ -30,11 +33,13 @@ pub fn show(cx: &mut UiContext, ui: &Ui, (place, rect): (Rect, Rect), hover: Opt
         return;
     };
     magnify::paint(&painter, texture, place, rect);
+    effects::lines(cx, &painter, place);
     region::show(cx, &painter, place);
     let under_the_mouse =
         hover.filter(|_| !cx.model.state.posing && !cx.model.state.loupe).and_then(|at| numbers_at(map, place, at));
     if cx.model.state.labels {
-        legend(cx, ui, rect, map, under_the_mouse);
+        let legend = legend(cx, ui, rect, map, under_the_mouse);
+        effects::labels(cx, ui, (place, rect), legend);
     }
 }
 
@@ -84,8 +89,8 @@ fn numbers_at(map: &ErrorMap, place: Rect, at: Pos2) -> Option<String> {
     Some(format!("x {x}, y {y}: {error}\n{} {}\n{} {}", names[0], a?, names[1], r?))
 }
 
-/// The box in the corner, from top to bottom: name, bar, ticks, and the rest in words.
-fn legend(cx: &mut UiContext, ui: &Ui, rect: Rect, drawn: &ErrorMap, pixel: Option<String>) {
+/// The box in the corner, from top to bottom: name, bar, ticks, and the rest in words. Returns where it is.
+fn legend(cx: &mut UiContext, ui: &Ui, rect: Rect, drawn: &ErrorMap, pixel: Option<String>) -> Rect {
     let map = &drawn.map;
     let painter = ui.painter().with_clip_rect(rect);
     let font = theme::label_font(ui);
@@ -97,7 +102,7 @@ fn legend(cx: &mut UiContext, ui: &Ui, rect: Rect, drawn: &ErrorMap, pixel: Opti
     let line = name.rows.first().map_or(size, |row| row.height());
     let height = name.size().y + gap + bar_height + gap + line + gap + words.size().y;
     let place = Rect::from_min_size(rect.min + vec2(22.0, 16.0), vec2(width, height));
-    painter.rect_filled(place.expand2(vec2(10.0, 6.0)), 7.0, Color32::from_black_alpha(217));
+    painter.rect_filled(place.expand2(AROUND), 7.0, Color32::from_black_alpha(217));
 
     painter.galley(place.min, name.clone(), Color32::WHITE);
     let bar = Rect::from_min_size(pos2(place.left(), place.top() + name.size().y + gap), vec2(width, bar_height));
@@ -116,6 +121,7 @@ fn legend(cx: &mut UiContext, ui: &Ui, rect: Rect, drawn: &ErrorMap, pixel: Opti
     cx.dump.note_text("label map", &text, place, rect);
     cx.dump.note_text("bar map", map.scale.map.name(), bar, rect);
     spoken(ui, "label map", &text, place, false);
+    place.expand2(AROUND)
 }
 
 /// Mean, what is not finite, the numbers under the mouse.

@@ -3,6 +3,7 @@
 mod arrows;
 mod closer;
 mod comparison;
+mod effects;
 mod external;
 mod flicker;
 mod histogram;
@@ -80,6 +81,9 @@ impl Workspace for Compare {
         if keys.presses(Key::M) % 2 == 1 {
             region::toggle(cx);
         }
+        // as the switch, it is of the map alone
+        let on = cx.model.session.view == View::ErrorMap && keys.presses(Key::E) % 2 == 1;
+        cx.model.session.comparison.effects ^= on;
         arrows::keys(cx, keys);
         probe::keys(cx, keys);
         parts::keys(cx, keys);
@@ -104,6 +108,7 @@ impl Workspace for Compare {
         // until the card is found open
         cx.model.state.histograms = false;
         cx.model.state.light_bars.clear();
+        cx.model.state.effect.hovered = None;
         self.parts.follow(cx);
         controls::panel_with(cx, ui, |cx, ui| self.parts.cards(cx, ui), heads, cards);
         self.parts.beside(cx, ui);
@@ -122,6 +127,7 @@ impl Workspace for Compare {
             histograms: model.state.histograms,
             probe: session.probe.open.then_some(ProbeWish { at: session.probe.at, sample: model.state.probed_sample }),
             objects: model.objects_wish(),
+            effects: model.effects_wish(),
             light: light_wishes(model),
             map: (session.view == View::ErrorMap).then(|| session.comparison.map()),
             ..model.wanted(session.panes.ids())
@@ -140,6 +146,7 @@ impl Workspace for Compare {
             ("3", "wipe; again: turn the line"),
             ("4", "side by side"),
             ("5", "error map"),
+            ("E", "on the error map: outline and name the effects of light, with their shares of the error"),
             ("G", "plots of the errors"),
             ("M, Alt+drag", "mark the region that figures and plots speak of; M or Esc: the whole picture"),
             ("Ctrl+arrows", "mark the middle, then move the region; with Shift: larger, smaller"),
