@@ -10,6 +10,7 @@ mod denoising;
 mod device;
 mod device_report;
 mod edits;
+mod effects;
 mod files;
 mod films;
 #[cfg(unix)]

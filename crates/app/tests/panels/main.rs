@@ -4,6 +4,7 @@
 
 mod bugs;
 mod closer;
+mod effects;
 mod light;
 mod numbers;
 mod parts;

@@ -8,6 +8,7 @@ mod comparison;
 mod denoising;
 mod device;
 mod edits;
+mod effects;
 mod export;
 mod external;
 mod files;
