@@ -45,9 +45,10 @@ pub struct EffectInHand {
 }
 
 impl EffectInHand {
-    /// The effect whose part of the picture stays bright.
-    pub fn bright(self) -> Option<Effect> {
-        self.hovered.or(self.chosen)
+    /// The effect whose part of the picture stays bright, if it has one.
+    pub fn bright(self, of_view: &EffectsOfView) -> Option<Effect> {
+        let has_part = |effect: &Effect| of_view.places.iter().any(|places| places.effect == *effect);
+        self.hovered.or(self.chosen).filter(has_part)
     }
 }
 
@@ -64,20 +65,20 @@ impl Model {
 const MOST_LABELS: usize = 6;
 
 /// Effects that have less of the error, and less of the picture, have no label.
-const LEAST_SHARE: f64 = 0.005;
+const LEAST: (f64, f64) = (0.001, 0.01);
 
-/// "Caustic 63 %" of the effects that have most of the error, without the share while that is not known.
-pub fn label_texts(places: &[LabelPlaces], shares: &[EffectShare]) -> Vec<(Effect, String)> {
+/// "Caustic 63 %" of the effects that have most of the error, without the share while that is not known; of `alone` alone, where
+/// one is looked at.
+pub fn label_texts(places: &[LabelPlaces], shares: &[EffectShare], alone: Option<Effect>) -> Vec<(Effect, String)> {
+    let is_told = |effect: Effect| alone.is_none_or(|alone| alone == effect);
     if shares.is_empty() {
-        return places
-            .iter()
-            .map(|places| (places.effect, places.effect.title().to_owned()))
-            .take(MOST_LABELS)
-            .collect();
+        let titles = places.iter().map(|places| (places.effect, places.effect.title().to_owned()));
+        return titles.filter(|(effect, _)| is_told(*effect)).take(MOST_LABELS).collect();
     }
-    let worth_it = shares.iter().filter(|share| share.error >= LEAST_SHARE || share.pixels >= 10.0 * LEAST_SHARE);
+    let is_worth_it = |share: &EffectShare| share.error >= LEAST.0 || share.pixels >= LEAST.1 || alone.is_some();
+    let told = shares.iter().filter(|share| is_worth_it(share) && is_told(share.effect));
     let text = |share: &EffectShare| (share.effect, format!("{} {}", share.effect.title(), percent(share.error)));
-    worth_it.map(text).take(MOST_LABELS).collect()
+    told.map(text).take(MOST_LABELS).collect()
 }
 
 /// A share for people: "63 %", "0.4 %", "< 0.1 %", "0 %".
@@ -169,13 +170,18 @@ mod tests {
     fn labels_tell_the_share_of_the_error_and_leave_out_what_has_none() {
         let share = |effect, pixels, error| EffectShare { effect, pixels, error };
         let shares =
-            [share(Effect::Caustic, 0.05, 0.63), share(Effect::Sky, 0.6, 0.0), share(Effect::Contact, 0.02, 0.001)];
-        let texts = |shares: &[EffectShare]| {
+            [share(Effect::Caustic, 0.05, 0.63), share(Effect::Sky, 0.6, 0.0), share(Effect::Contact, 0.002, 0.0002)];
+        let texts = |shares: &[EffectShare], alone| {
             let places = [places(Effect::Sky, &[[0.5; 2]])];
-            label_texts(&places, shares).into_iter().map(|(_, text)| text).collect::<Vec<_>>()
+            label_texts(&places, shares, alone).into_iter().map(|(_, text)| text).collect::<Vec<_>>()
         };
-        assert_eq!(texts(&shares), ["Caustic 63 %", "Sky 0 %"]);
-        assert_eq!(texts(&[]), ["Sky"], "before errors are known");
+        assert_eq!(texts(&shares, None), ["Caustic 63 %", "Sky 0 %"]);
+        assert_eq!(texts(&[], None), ["Sky"], "before errors are known");
+        assert_eq!(
+            texts(&shares, Some(Effect::Contact)),
+            ["Contact < 0.1 %"],
+            "what is looked at alone, however small"
+        );
         assert_eq!([0.0, 0.0002, 0.0123, 0.5].map(percent), ["0 %", "< 0.1 %", "1.2 %", "50 %"]);
     }
 }

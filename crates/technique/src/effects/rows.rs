@@ -34,7 +34,7 @@ pub const ROWS: [Row; Effect::ALL.len()] = [
         name: "light-source",
         title: "Light source",
         about: "What shines itself is met first.",
-        fake: "What the fake draws in one colour is brighter than a screen can show.",
+        fake: "It is drawn as it shines; only its edge, of few samples, differs.",
         slide: "The rendering equation: Le",
     },
     Row {
@@ -50,7 +50,7 @@ pub const ROWS: [Row; Effect::ALL.len()] = [
         name: "reflection",
         title: "Reflection",
         about: "A mirror is met first, or metal of a roughness below 0.3.",
-        fake: "Light from a point makes a highlight where a mirror shows its surroundings.",
+        fake: "A grey ball with a highlight, where a mirror shows what is around it.",
         slide: "Task 1: the metal sphere",
     },
     Row {

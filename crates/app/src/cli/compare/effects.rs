@@ -98,7 +98,7 @@ impl NamedEffects {
         let look = Type { size: (TYPE.0 * height as f32).max(TYPE.1), semi_bold: false, colour: [255; 3] };
         let (beside, above) = ((0.5 * look.size).round(), (0.25 * look.size).round());
         let mut lettering = Lettering::default();
-        let laid: Vec<_> = label_texts(&self.of_view.places, &self.shares)
+        let laid: Vec<_> = label_texts(&self.of_view.places, &self.shares, None)
             .into_iter()
             .map(|(effect, text)| (effect, lettering.lay_out(&text, look, width, 1)))
             .collect();

@@ -22,7 +22,7 @@ const AROUND: egui::Vec2 = vec2(7.0, 3.0);
 /// Draws the lines over a map that lies at `place`, and takes the light from all but the effect in hand.
 pub fn lines(cx: &UiContext, painter: &Painter, place: Rect) {
     let Some(ShownEffects { of_view, .. }) = &cx.shown.effects else { return };
-    if let Some(bright) = cx.model.state.effect.bright() {
+    if let Some(bright) = cx.model.state.effect.bright(of_view) {
         painter.add(all_but(of_view, bright, place));
     }
     for (width, colour) in LINES {
@@ -60,7 +60,7 @@ pub fn labels(cx: &mut UiContext, ui: &Ui, (place, clip): (Rect, Rect), legend: 
     let Some(ShownEffects { of_view, shares }) = &cx.shown.effects else { return };
     let painter = ui.painter().with_clip_rect(clip);
     let font = theme::label_font(ui);
-    let laid: Vec<(Effect, Arc<Galley>)> = label_texts(&of_view.places, shares)
+    let laid: Vec<(Effect, Arc<Galley>)> = label_texts(&of_view.places, shares, cx.model.state.effect.bright(of_view))
         .into_iter()
         .map(|(effect, text)| (effect, painter.layout_no_wrap(text, font.clone(), Color32::WHITE)))
         .collect();
