@@ -3,6 +3,7 @@
 //#import raster/refraction.wgsl
 //#import raster/shading.wgsl
 //#import raster/shadow.wgsl
+//#import raster/repair/area_light.wgsl
 //#import raster/repair/glass.wgsl
 //#import raster/repair/soft_shadow.wgsl
 //#import raster/repair/sunlight.wgsl
@@ -155,7 +156,13 @@ fn surface(p: vec3f, n: Normals, uv: vec2f) -> vec3f {
         let to_area_light = lights.area_light_position - p;
         let l = normalize(to_area_light);
         let seen = sees_area_light(p, to_area_light, dot(n.matt, l));
-        sum += seen * shaded(n, l, v, colour, facets, area_light_incident(to_area_light, l));
+        let incident = area_light_incident(to_area_light, l);
+        if AREA_FORM == AREA_FORM_POINT {
+            sum += seen * shaded(n, l, v, colour, facets, incident);
+        } else {
+            let highlight = shaded_by_one(n.mirroring, l, v, vec3f(0.0), colour, facets, incident);
+            sum += seen * (body(l, v, colour, facets) * whole_area_light(p, n.matt) + highlight);
+        }
     }
     return sum;
 }
@@ -196,12 +203,17 @@ fn shaded(n: Normals, l: vec3f, v: vec3f, colour: vec3f, facets: vec2f, incident
     if !has_two_normals() {
         return shaded_by_one(n.matt, l, v, kd, colour, facets, incident);
     }
-    var body = kd;
-    if SHADING == SHADING_COOK_TORRANCE {
-        body = below_coat(l, v, kd, facets.x, object.coat);
-    }
     let highlight = shaded_by_one(n.mirroring, l, v, vec3f(0.0), colour, facets, incident);
-    return lambert(n.matt, l, body, incident) + highlight;
+    return lambert(n.matt, l, body(l, v, colour, facets), incident) + highlight;
+}
+
+// What Lambert's term takes of light.
+fn body(l: vec3f, v: vec3f, colour: vec3f, facets: vec2f) -> vec3f {
+    let kd = object.diffuse * colour;
+    if SHADING == SHADING_COOK_TORRANCE {
+        return below_coat(l, v, kd, facets.x, object.coat);
+    }
+    return kd;
 }
 
 fn shaded_by_one(

@@ -50,6 +50,15 @@ struct Lights {
     sphere_count: u32,
     // the plane whose value is how far along sunlight a point lies, 0 to 1 across the scene
     receiver_depth: vec4f,
+    // of the area light: from its middle on all around, or a parallelogram from a corner
+    area_light_radiance: vec3f,
+    area_light_sides: u32,
+    area_light_corner: vec3f,
+    // how many boxes there are
+    box_count: u32,
+    area_light_edge_u: vec3f,
+    area_light_form: u32,
+    area_light_edge_v: vec3f,
     spheres: array<Sphere, MOST_SPHERES>,
 }
 

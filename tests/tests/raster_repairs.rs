@@ -4,7 +4,7 @@ use film::{Film, colour};
 use gpu::Gpu;
 use pathtrace::{PathSettings, Tracer};
 use raster::{FakeKnobs, Raster, RasterSettings, Repair, Repairs, TextureFilter};
-use scene::{Scene, Vec3, builtin};
+use scene::{Geometry, Scene, Vec3, builtin};
 use std::path::Path;
 
 const SIZE: (u32, u32) = (160, 90);
@@ -22,8 +22,17 @@ fn turned(scene: &Scene, repairs: Repairs, knobs: FakeKnobs) -> Film {
 }
 
 fn truth(scene: &Scene, spp: u32) -> Film {
+    traced(scene, PathSettings::default(), spp)
+}
+
+/// What paths of so many bounces make.
+fn of_bounces(scene: &Scene, bounces: u32, spp: u32) -> Film {
+    traced(scene, PathSettings { bounces: Some(bounces), ..PathSettings::default() }, spp)
+}
+
+fn traced(scene: &Scene, settings: PathSettings, spp: u32) -> Film {
     let mut film = Film::new(SIZE.0, SIZE.1);
-    Tracer::new(scene).render(&mut film, &scene.camera, &PathSettings::default().into(), spp, &|| false);
+    Tracer::new(scene).render(&mut film, &scene.camera, &settings.into(), spp, &|| false);
     film
 }
 
@@ -145,6 +154,55 @@ fn cells_of_a_texture_are_near_their_means_where_it_is_looked_up_along_footprint
     assert!((bilinear - formula).abs() < 0.2 * formula, "{bilinear} of {formula}");
     // trilinear blurs as much as that aliases
     assert!(anisotropic < 0.3 * bilinear.min(trilinear), "{anisotropic}, {trilinear}, {bilinear}");
+}
+
+/// The Cornell box without highlights, which paths do not have, and without its boxes.
+fn empty_cornell() -> Scene {
+    let mut scene = matt_cornell();
+    let shapes = scene.shapes.to_vec();
+    let kept = shapes.into_iter().filter(|shape| !matches!(shape.geometry, Geometry::Box { .. }));
+    scene.shapes = kept.collect::<Vec<_>>().into();
+    scene
+}
+
+/// The Cornell box without highlights, which paths do not have.
+fn matt_cornell() -> Scene {
+    let mut scene = builtin::named("cornell").expect("a built-in scene");
+    scene.materials.iter_mut().for_each(|material| material.fake.specular = 0.0);
+    scene
+}
+
+/// The mean of two films' differences as a share of the second one's mean, by luminance, where `counts` says so.
+fn share_apart(a: &[Vec3], b: &[Vec3], counts: impl Fn(usize) -> bool) -> f32 {
+    let of = |(index, (a, b)): (usize, (&Vec3, &Vec3))| {
+        let [apart, all] = [(*a - *b).abs(), b.abs()].map(colour::luminance);
+        if counts(index) { [apart, all] } else { [0.0; 2] }
+    };
+    let [apart, all] = a.iter().zip(b).enumerate().map(of).fold([0.0; 2], |sum, x| [sum[0] + x[0], sum[1] + x[1]]);
+    apart / all
+}
+
+/// A floor beside a ball that shines, half of which lies below it: of the floor's horizon.
+fn ball_at_the_horizon() -> Scene {
+    let text = "camera = { eye = [-2, 4, 0], target = [4, 0, 0], fov_y = 40 }\n\
+         [material.white]\ndiffuse = { albedo = [0.8, 0.8, 0.8] }\nfake = { specular = 0 }\n\
+         [material.lamp]\nemissive = { radiance = [3, 3, 3] }\n\
+         [[rectangle]]\nmaterial = \"white\"\ncorner = [0, 0, 3]\nedge_u = [6, 0, 0]\nedge_v = [0, 0, -6]\n\
+         [[sphere]]\nmaterial = \"lamp\"\ncenter = [-2, 0.5, 0]\nradius = 1.5\n";
+    scene::parse(text, "test", Path::new("test.toml")).expect("a scene")
+}
+
+/// Near the lamp a point in its middle is too bright or too dark. What is left is mostly the noise of 256 paths a pixel.
+#[test]
+fn lamps_with_an_area_light_what_is_in_no_shadow_as_direct_light_does() {
+    for scene in [empty_cornell(), ball_at_the_horizon()] {
+        let truth = radiances(&of_bounces(&scene, 0, 256));
+        // the lamp itself, and what its rim covers of a pixel
+        let lit = |index: usize| truth[index].max_element() < 1.0;
+        let [point, area] = [Repairs::NONE, set(&[Repair::AreaLights])]
+            .map(|repairs| share_apart(&radiances(&fake(&scene, repairs)), &truth, lit));
+        assert!(area < 0.01 && point > 3.0 * area, "{}: {area} of {point}", scene.name);
+    }
 }
 
 #[test]

@@ -274,6 +274,25 @@ fn what_repairs_know_in_closed_form_agrees() {
 }
 
 #[test]
+fn what_parallelograms_cover_agrees() {
+    let mut random = Random(7, 0);
+    let mut input = Vec::new();
+    for _ in 0..ITEMS {
+        let (n, corner) = (random.direction(), random.direction() * random.between(0.2, 4.0));
+        let edges = [random.direction(), random.direction()].map(|edge| edge * random.between(0.1, 3.0));
+        input.extend([n, corner, edges[0], edges[1]].map(|v| v.to_array()).concat());
+    }
+    let body = "return vec3f(covered_by_quad(vec(at), vec(at + 3u), vec(at + 6u), vec(at + 9u)));";
+    let on_gpu = run("raster/repair/polygon.wgsl", body, 12, &input, &[1.0]);
+    let at = |x: &[f32], i: usize| Vec3::from_slice(&x[i..i + 3]);
+    let twin = |x: &[f32]| Vec3::splat(shading::covered_by_quad(at(x, 0), at(x, 3), at(x, 6), at(x, 9)));
+    let on_cpu: Vec<_> = input.chunks_exact(12).map(twin).collect();
+    let seen = on_cpu.iter().filter(|share| share.x.abs() > 0.01).count();
+    let apart = apart(&on_gpu, &on_cpu);
+    assert!(seen > ITEMS / 5 && apart < 1e-4, "{apart} of {seen}");
+}
+
+#[test]
 fn checkerboards_agree_away_from_their_edges() {
     let board = Checkerboard {
         even: Vec3::new(0.8, 0.8, 0.0),

@@ -115,6 +115,13 @@ fn mirrors_have_the_layout_of_their_structs() {
             glass_count,
             sphere_count,
             receiver_depth,
+            area_light_radiance,
+            area_light_sides,
+            area_light_corner,
+            box_count,
+            area_light_edge_u,
+            area_light_form,
+            area_light_edge_v,
             spheres
         ]
     );

@@ -47,6 +47,13 @@ pub const AREA_LIGHT_TWO_SIDED: u32 = 4;
 /// A point that shines into a cone.
 pub const AREA_LIGHT_SPOT: u32 = 5;
 
+/// [`Lights::area_light_form`] of a light that is taken to be a point.
+pub const AREA_FORM_POINT: u32 = 0;
+/// A parallelogram, in closed form.
+pub const AREA_FORM_QUAD: u32 = 1;
+/// A sphere, in closed form.
+pub const AREA_FORM_SPHERE: u32 = 2;
+
 /// How shadow maps are looked up: [`crate::ShadowFilter::Hard`].
 pub const FILTER_HARD: u32 = 0;
 /// [`crate::ShadowFilter::Pcf`].
@@ -143,6 +150,22 @@ pub struct Lights {
     pub unused2: [u32; 3],
     /// The plane whose value is how far along sunlight a point lies, 0 to 1 across the scene.
     pub receiver_depth: Vec4,
+    /// Radiance of an area light that has a form.
+    pub area_light_radiance: Vec3,
+    /// How many sides of a parallelogram shine.
+    pub area_light_sides: u32,
+    /// A corner of the parallelogram.
+    pub area_light_corner: Vec3,
+    /// How many boxes are known.
+    pub box_count: u32,
+    /// Edge of the parallelogram from its corner.
+    pub area_light_edge_u: Vec3,
+    /// How the area light is integrated: one of `AREA_FORM_*`; compiled in too.
+    pub area_light_form: u32,
+    /// The other edge from that corner.
+    pub area_light_edge_v: Vec3,
+    /// Padding, as WGSL aligns it.
+    pub unused4: u32,
     /// The spheres of the scene, as far as they are known.
     pub spheres: [Sphere; MOST_SPHERES],
 }

@@ -8,6 +8,7 @@ use crate::cube;
 use crate::gpu_data::*;
 use crate::knobs::RefractedAt;
 use crate::planes::Planes;
+use crate::repair::Repair;
 use crate::settings::{Fake, RasterSettings};
 use crate::spheres;
 use crate::tessellation::{corners, large_mesh, unit_normal};
@@ -32,8 +33,17 @@ pub struct AreaLight {
     /// Radius of a disc as large as it looks; 0 of points.
     pub radius: f32,
     pattern: u32,
+    form: Form,
     /// Of a spot: cosine of its outer cone, and the share of its light that a cosine above that adds.
     cone: [f32; 2],
+}
+
+/// What an area light looks like, as far as its light is known in closed form.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Form {
+    Unknown,
+    Quad { corner: Vec3, edge_u: Vec3, edge_v: Vec3, radiance: Vec3 },
+    Sphere { radiance: Vec3 },
 }
 
 impl AreaLight {
@@ -61,7 +71,13 @@ impl AreaLight {
         let power = emission.radiance * (area * sides);
         let silhouette = if pattern == AREA_LIGHT_ALL_AROUND { 0.25 * area } else { area };
         let radius = (silhouette * FRAC_1_PI).sqrt();
-        Some(AreaLight { position: shape.geometry.center(), normal, power, radius, pattern, cone: [0.0; 2] })
+        let radiance = emission.radiance;
+        let form = match shape.geometry {
+            Geometry::Rectangle { corner, edge_u, edge_v } => Form::Quad { corner, edge_u, edge_v, radiance },
+            Geometry::Sphere { .. } => Form::Sphere { radiance },
+            _ => Form::Unknown,
+        };
+        Some(AreaLight { position: shape.geometry.center(), normal, power, radius, pattern, form, cone: [0.0; 2] })
     }
 
     /// As a small sphere of this intensity, whose silhouette is a quarter of its surface.
@@ -72,6 +88,7 @@ impl AreaLight {
             power: 4.0 * light.intensity,
             radius: 0.0,
             pattern: AREA_LIGHT_ALL_AROUND,
+            form: Form::Unknown,
             cone: [0.0; 2],
         };
         let shines = light.intensity.max_element() > 0.0;
@@ -81,6 +98,29 @@ impl AreaLight {
             AreaLight { normal: spot.towards, pattern: AREA_LIGHT_SPOT, cone, ..all_around }
         });
         shines.then_some(lamp)
+    }
+
+    /// Whether what it sheds is known in closed form, nothing in its way.
+    pub fn has_a_known_form(&self) -> bool {
+        self.form != Form::Unknown
+    }
+
+    /// Has its light integrated over its form.
+    fn fill_form(&self, lights: &mut Lights) {
+        match self.form {
+            Form::Unknown => {}
+            Form::Quad { corner, edge_u, edge_v, radiance } => {
+                lights.area_light_form = AREA_FORM_QUAD;
+                lights.area_light_radiance = radiance;
+                lights.area_light_corner = corner;
+                (lights.area_light_edge_u, lights.area_light_edge_v) = (edge_u, edge_v);
+                lights.area_light_sides = if self.pattern == AREA_LIGHT_TWO_SIDED { 2 } else { 1 };
+            }
+            Form::Sphere { radiance } => {
+                lights.area_light_form = AREA_FORM_SPHERE;
+                lights.area_light_radiance = radiance;
+            }
+        }
     }
 
     /// What a white Lambert surface at distance 1, facing the area light, sends back: irradiance / pi.
@@ -149,6 +189,9 @@ pub fn lights(scene: &Scene, settings: &RasterSettings, casts: impl Fn(usize) ->
         lights.area_light_radius = area_light.radius;
         [lights.cone_outer, lights.cone_slope] = area_light.cone;
         lights.area_light_pattern = if as_taught { AREA_LIGHT_WITHOUT_DECAY } else { area_light.pattern };
+        if settings.repairs().has(Repair::AreaLights) {
+            area_light.fill_form(&mut lights);
+        }
         lights.area_light_incident = if as_taught { intensity } else { area_light.incident() };
         let reach = area_light_reach(scene.fake.shadow_map);
         let planes = Planes::fitted(scene, area_light.position, SQRT_2 * reach);

@@ -42,13 +42,16 @@ pub struct Choice {
     pub sun: bool,
     /// As in [`Lights::area_light_pattern`].
     pub area_light: u32,
+    /// As in [`Lights::area_light_form`].
+    pub area_form: u32,
 }
 
 impl Choice {
     /// What a picture under `lights` needs.
     pub fn of((fake, repairs): (Fake, Repairs), filter: ShadowFilter, lights: &Lights) -> Choice {
         let sun = lights.sun_incident.cmpgt(Vec3::ZERO).any();
-        Choice { fake, repairs, filter, sun, area_light: lights.area_light_pattern }
+        let (area_light, area_form) = (lights.area_light_pattern, lights.area_light_form);
+        Choice { fake, repairs, filter, sun, area_light, area_form }
     }
 
     /// Values of the overrides in `shaders/raster/forward.wgsl` and in what it imports.
@@ -60,6 +63,7 @@ impl Choice {
             ("REPAIRS", f64::from(self.repairs.bits())),
             ("SUN", f64::from(u8::from(self.sun))),
             ("AREA_LIGHT", f64::from(self.area_light)),
+            ("AREA_FORM", f64::from(self.area_form)),
             ("SHADING", f64::from(variant.shading)),
         ];
         [own.as_slice(), &variant.constants()].concat()

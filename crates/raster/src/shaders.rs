@@ -21,9 +21,11 @@ pub const SOURCES: &[Source<'static>] = gpu::wgsl_sources![
     "raster/frame.wgsl",
     "raster/object.wgsl",
     "raster/refraction.wgsl",
+    "raster/repair/area_light.wgsl",
     "raster/repair/caustic.wgsl",
     "raster/repair/fresnel.wgsl",
     "raster/repair/glass.wgsl",
+    "raster/repair/polygon.wgsl",
     "raster/repair/repairs.wgsl",
     "raster/repair/soft_shadow.wgsl",
     "raster/repair/spheres.wgsl",
@@ -50,6 +52,9 @@ pub fn compose(root: &str) -> Result<Composed, WgslError> {
 /// Constants that stand on both sides under one name. A test holds each against what the shaders say.
 pub fn shared_constants() -> Vec<(&'static str, f64)> {
     let own = gpu::named_values![
+        AREA_FORM_POINT,
+        AREA_FORM_QUAD,
+        AREA_FORM_SPHERE,
         AREA_LIGHT_ALL_AROUND,
         AREA_LIGHT_NONE,
         AREA_LIGHT_ONE_SIDED,

@@ -1,6 +1,6 @@
 //! The fake's formulas on the CPU: twins, by name and parameters, of the functions in `shaders/raster/shading.wgsl`,
-//! `refraction.wgsl`, `shadow.wgsl`, `shaders/raster/repair/fresnel.wgsl` and `shaders/raster/repair/spheres.wgsl`. Tests
-//! hold the two against each other, and closed forms are computed with them.
+//! `refraction.wgsl`, `shadow.wgsl`, `shaders/raster/repair/fresnel.wgsl`, `shaders/raster/repair/polygon.wgsl` and
+//! `shaders/raster/repair/spheres.wgsl`. Tests hold the two against each other, and closed forms are computed with them.
 //!
 //! `n` unit normal, `l` unit direction to the light, `v` unit direction to the viewer, `incident` the light that a
 //! white Lambert surface facing the light would send back. Ambient light, `colour * ambient`, is the caller's.
@@ -216,6 +216,41 @@ pub fn let_through(aside: f32, ratio: f32) -> f32 {
     passed * passed
 }
 
+/// What an edge from `a` to `b` adds to twice the irradiance of a polygon of radiance 1, seen from the origin.
+fn edge_light(n: Vec3, a: Vec3, b: Vec3) -> f32 {
+    let across = a.cross(b - a);
+    let sine = across.length();
+    n.dot(across) / sine.max(1e-30) * sine.atan2(a.dot(b))
+}
+
+/// The share of the cosine-weighted hemisphere about unit normal `n` that a parallelogram covers (Lambert 1760), what of it lies
+/// below the horizon cut off. Its corner is seen from the point; negative where that sees the back of `edge_u x edge_v`.
+pub fn covered_by_quad(n: Vec3, corner: Vec3, edge_u: Vec3, edge_v: Vec3) -> f32 {
+    let unit = (corner + 0.5 * (edge_u + edge_v)).length().max(1e-30).recip();
+    let corners = [corner, corner + edge_u, corner + edge_u + edge_v, corner + edge_v].map(|corner| unit * corner);
+    let mut sum = 0.0;
+    let (mut goes, mut comes) = (Vec3::ZERO, Vec3::ZERO);
+    for (a, b) in (0..4).map(|i| (corners[i], corners[(i + 1) % 4])) {
+        let above = [n.dot(a), n.dot(b)];
+        let difference = above[0] - above[1];
+        let cut = a.lerp(b, (above[0] / if difference != 0.0 { difference } else { 1.0 }).clamp(0.0, 1.0));
+        match above.map(|height| height >= 0.0) {
+            [true, true] => sum += edge_light(n, a, b),
+            [true, false] => {
+                sum += edge_light(n, a, cut);
+                goes = cut;
+            }
+            [false, true] => {
+                sum += edge_light(n, cut, b);
+                comes = cut;
+            }
+            [false, false] => {}
+        }
+    }
+    sum += edge_light(n, goes, comes);
+    -0.5 * sum * FRAC_1_PI
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -245,6 +280,41 @@ mod tests {
             // cells that the sphere's rim cuts
             assert!((f64::from(formula) - counted).abs() < 1e-3, "{towards}: {formula} is not {counted}");
         }
+    }
+
+    /// By the midpoint rule over the parallelogram, in f64.
+    fn covered_by_quad_by_counting(n: Vec3, [corner, u, v]: [Vec3; 3]) -> f64 {
+        const SIDE: usize = 400;
+        let [n, corner, u, v] = [n, corner, u, v].map(|x| x.as_dvec3());
+        let light = |index: usize| {
+            let at = |i: usize| (i as f64 + 0.5) / SIDE as f64;
+            let d = corner + u * at(index % SIDE) + v * at(index / SIDE);
+            n.dot(d).max(0.0) * -u.cross(v).dot(d) / d.length_squared().powi(2)
+        };
+        (0..SIDE * SIDE).map(light).sum::<f64>() / (SIDE * SIDE) as f64 / std::f64::consts::PI
+    }
+
+    #[test]
+    fn a_parallelogram_covers_as_much_as_is_counted_above_below_and_across_the_horizon_and_far_away() {
+        let (u, v) = (Vec3::new(2.0, 0.0, 0.3), Vec3::new(0.4, 1.5, 0.0));
+        let at = |corner: Vec3| [corner, u, v];
+        let quads = [
+            at(Vec3::new(-1.0, -1.0, 1.0)),
+            at(Vec3::new(-1.0, -1.0, -1.0)),
+            at(Vec3::new(0.5, 2.0, -0.1)),
+            [Vec3::new(1.0, -1.0, -0.5), Vec3::new(0.0, 2.0, 0.0), Vec3::new(0.1, 0.0, 1.3)],
+            [Vec3::new(1.0, -1.0, -0.5), Vec3::new(0.1, 0.0, 1.3), Vec3::new(0.0, 2.0, 0.0)],
+            [Vec3::new(0.2, 3.0, 0.0), Vec3::X, Vec3::Z],
+            at(Vec3::new(30.0, -20.0, 40.0)),
+        ];
+        for quad in quads {
+            let formula = f64::from(covered_by_quad(Vec3::Z, quad[0], quad[1], quad[2]));
+            let counted = covered_by_quad_by_counting(Vec3::Z, quad);
+            assert!((formula - counted).abs() < 2e-5 + 2e-3 * counted.abs(), "{quad:?}: {formula} is not {counted}");
+        }
+        // a scene's own scale is of no account
+        let scaled = |s: f32| covered_by_quad(Vec3::Z, s * Vec3::new(-1.0, -1.0, 1.0), s * u, s * v);
+        assert!([1e-12, 1e12].into_iter().all(|s| (scaled(s) - scaled(1.0)).abs() < 1e-6));
     }
 
     #[test]

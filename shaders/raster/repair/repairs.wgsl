@@ -13,6 +13,7 @@ const REPAIR_MIRRORS: u32 = 9u;
 const REPAIR_SOFT_SHADOWS: u32 = 10u;
 const REPAIR_LIGHT_THROUGH_GLASS: u32 = 11u;
 const REPAIR_CAUSTICS: u32 = 12u;
+const REPAIR_AREA_LIGHTS: u32 = 13u;
 
 // a bit for each
 override REPAIRS: u32 = 0u;

@@ -37,11 +37,13 @@ pub enum Repair {
     LightThroughGlass,
     /// Spheres of glass focus the sun's light.
     Caustics,
+    /// Area lights are no points.
+    AreaLights,
 }
 
 impl Repair {
     /// All of them, in the order in which light meets the defects.
-    pub const ALL: [Repair; 13] = [
+    pub const ALL: [Repair; 14] = [
         Repair::Antialiasing,
         Repair::TextureMapping,
         Repair::Sky,
@@ -55,6 +57,7 @@ impl Repair {
         Repair::SoftShadows,
         Repair::LightThroughGlass,
         Repair::Caustics,
+        Repair::AreaLights,
     ];
 
     /// What there is to say about it.
@@ -94,6 +97,7 @@ pub(crate) fn shader_numbers() -> [(&'static str, f64); Repair::ALL.len()] {
         ("REPAIR_SOFT_SHADOWS", Repair::SoftShadows),
         ("REPAIR_LIGHT_THROUGH_GLASS", Repair::LightThroughGlass),
         ("REPAIR_CAUSTICS", Repair::Caustics),
+        ("REPAIR_AREA_LIGHTS", Repair::AreaLights),
     ]
     .map(|(name, repair)| (name, f64::from(repair as u32)))
 }

@@ -148,6 +148,19 @@ pub const ROWS: [Row; Repair::ALL.len()] = [
         slide: "Task 1 c: What Whitted can't: caustics",
         missing_in: sunlit_glass_sphere,
     },
+    Row {
+        repair: Repair::AreaLights,
+        name: "area-lights",
+        title: "Lamps with an area",
+        text: "A lamp sheds its light from one point in its middle: too bright below it, and none at all on what that point does not \
+               see. Instead the irradiance of a rectangle or ball of even radiance is integrated in closed form (Lambert 1760), what \
+               of it the horizon hides cut off. Its shadow is still a factor of its own, and its highlight that of a point.",
+        slide: "Path tracing: area lights",
+        missing_in: |scene| {
+            let known = AreaLight::brightest(scene).is_some_and(|light| light.has_a_known_form());
+            (!known).then_some("rectangle or ball that lights most")
+        },
+    },
 ];
 
 fn has(scene: &Scene, wanted: impl Fn(&Shape, &Bsdf) -> bool) -> bool {
