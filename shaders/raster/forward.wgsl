@@ -4,6 +4,7 @@
 //#import raster/shading.wgsl
 //#import raster/shadow.wgsl
 //#import raster/repair/area_light.wgsl
+//#import raster/repair/bounce.wgsl
 //#import raster/repair/glass.wgsl
 //#import raster/repair/soft_shadow.wgsl
 //#import raster/repair/sunlight.wgsl
@@ -116,7 +117,11 @@ fn seen(in: Varying, front: bool) -> vec3f {
     if MIRROR {
         return mirrored(in.position, n.mirroring, object.even) + surface_emission(object, front, in.uv);
     }
-    return surface(in.position, n, in.uv) + surface_emission(object, front, in.uv);
+    var light = surface(in.position, n, in.uv) + surface_emission(object, front, in.uv);
+    if repaired(REPAIR_REFLECTIVE_SHADOW_MAP) {
+        light += matt_colour(in.position, n.matt, in.uv) * bounced(in.position, n.matt, in.clip.xy);
+    }
+    return light;
 }
 
 // Only back faces of glass are drawn: the normal that faces the viewer is the inner one.
@@ -171,6 +176,11 @@ fn surface(p: vec3f, n: Normals, uv: vec2f) -> vec3f {
 fn footprint() -> f32 {
     let of_picture = select(0.5, inverseSqrt(8.0), repaired(REPAIR_ANTIALIASING));
     return select(of_picture, 1.0, view.per_distance > 0.0);
+}
+
+// What a surface sends back of light from all around, but for highlights: metal nothing.
+fn matt_colour(p: vec3f, n: vec3f, uv: vec2f) -> vec3f {
+    return object.diffuse * (1.0 - metallic_and_roughness(object, uv).x) * surface_colour(object, p, n, uv, footprint());
 }
 
 // What reaches p of the sun's light, as a multiple of it.

@@ -4,6 +4,7 @@
 // Mirror of the structs: crates/raster/src/gpu_data.rs, which has those of all passes.
 
 const MOST_SPHERES: u32 = 16u;
+const MOST_BOXES: u32 = 16u;
 
 // Half the width of a caustic map, in radii of its sphere.
 const CAUSTIC_REACH: f32 = 4.0;
@@ -14,6 +15,14 @@ struct Sphere {
     radius: f32,
     // index of refraction outside over inside; 0 of what is no glass
     refraction_ratio: f32,
+}
+
+// A box that repairs know, turned about the vertical.
+struct KnownBox {
+    middle: vec3f,
+    cosine: f32,
+    half: vec3f,
+    sine: f32,
 }
 
 struct Lights {
@@ -60,6 +69,7 @@ struct Lights {
     area_light_form: u32,
     area_light_edge_v: vec3f,
     spheres: array<Sphere, MOST_SPHERES>,
+    boxes: array<KnownBox, MOST_BOXES>,
 }
 
 @group(0) @binding(0) var<uniform> view: View;
@@ -69,6 +79,9 @@ struct Lights {
 @group(0) @binding(3) var caustic_map: texture_2d_array<f32>;
 @group(0) @binding(4) var receiver_map: texture_2d_array<u32>;
 @group(0) @binding(5) var caustic_sampler: sampler;
+// light of the second bounce at a part of the picture's size, and where that is
+@group(0) @binding(6) var bounce_light: texture_2d<u32>;
+@group(0) @binding(7) var bounce_places: texture_2d<u32>;
 @group(1) @binding(0) var<uniform> object: Object;
 @group(1) @binding(1) var cube_map: texture_cube<f32>;
 @group(1) @binding(2) var cube_sampler: sampler;

@@ -8,7 +8,8 @@ struct View {
     eye: vec3f,
     // whether glass may look up its cube map: not while cube maps are drawn
     sees_cube_maps: u32,
-    // size of a shadow map's texel in units of depth: x + y * depth
+    // size of a shadow map's texel in units of depth: x + y * depth; of the picture's pixels as light of the second bounce is
+    // gathered for them; of a reflective shadow map's texels, see patches.wgsl
     texel: vec2f,
     // distance of the near plane, of a perspective view
     near: f32,

@@ -8,7 +8,7 @@ use pathtrace::gpu::photon_data::{EmissionHeader, Grid, Photon, PhotonParams};
 use pathtrace::gpu::rays::{RayAnswer, RayQuery};
 use pathtrace::gpu::scene_data::{Checkerboard, Header, Light, Material};
 use pathtrace::gpu::shape_data::{FewShape as Shape, Node, ShapeData as Primitive, Surface};
-use raster::gpu_data::{ImagePlace, Lights, Look, Object, Sphere, View};
+use raster::gpu_data::{ImagePlace, KnownBox, Lights, Look, Object, Sphere, View};
 use std::mem::offset_of;
 use std::path::{Path, PathBuf};
 
@@ -122,10 +122,12 @@ fn mirrors_have_the_layout_of_their_structs() {
             area_light_edge_u,
             area_light_form,
             area_light_edge_v,
-            spheres
+            spheres,
+            boxes
         ]
     );
     assert_same_layout!("raster/frame.wgsl", Sphere, [middle, radius, refraction_ratio]);
+    assert_same_layout!("raster/frame.wgsl", KnownBox, [middle, cosine, half, sine]);
     assert_same_layout!(
         "raster/object.wgsl",
         Object,

@@ -18,6 +18,8 @@ pub struct Build<'a> {
     pub front_face: FrontFace,
     /// One triangle without corners and depth.
     pub full_screen: bool,
+    /// Names of the entry points that write bits, without and with depths, if they are not the usual ones.
+    pub entry: Option<[&'static str; 2]>,
     /// Values of the module's overrides.
     pub constants: &'a [(&'a str, f64)],
 }
@@ -34,6 +36,7 @@ impl<'a> Build<'a> {
             cull_mode: None,
             front_face: FrontFace::Ccw,
             full_screen: false,
+            entry: None,
             constants: &[],
         }
     }
@@ -41,6 +44,9 @@ impl<'a> Build<'a> {
     fn fragment(&self, gpu: &Gpu) -> &'static str {
         let bits = self.format == TextureFormat::Rgba32Uint;
         let with_depth = gpu.adapter.get_info().backend == wgpu::Backend::Gl;
+        if let Some([without, with]) = self.entry {
+            return if with_depth { with } else { without };
+        }
         match (self.full_screen, with_depth, bits) {
             (true, ..) | (false, false, false) => "fragment",
             (false, false, true) => "fragment_bits",

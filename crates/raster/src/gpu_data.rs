@@ -54,6 +54,13 @@ pub const AREA_FORM_QUAD: u32 = 1;
 /// A sphere, in closed form.
 pub const AREA_FORM_SPHERE: u32 = 2;
 
+/// Who looks at patches of light: the eye.
+pub const PATCHES_SEEN: u32 = 0;
+/// The sun, see [`PATCHES_SEEN`].
+pub const PATCHES_OF_SUN: u32 = 1;
+/// The area light, see [`PATCHES_SEEN`].
+pub const PATCHES_OF_AREA_LIGHT: u32 = 2;
+
 /// How shadow maps are looked up: [`crate::ShadowFilter::Hard`].
 pub const FILTER_HARD: u32 = 0;
 /// [`crate::ShadowFilter::Pcf`].
@@ -73,7 +80,7 @@ pub struct View {
     pub eye: Vec3,
     /// 1 if glass may look up its cube map.
     pub sees_cube_maps: u32,
-    /// Size of a shadow map's texel in units of depth: `x + y * depth`.
+    /// Size of a shadow map's texel in units of depth: `x + y * depth`; of other views see `shaders/raster/view.wgsl`.
     pub texel: Vec2,
     /// Distance of the near plane, of a perspective view.
     pub near: f32,
@@ -96,6 +103,23 @@ pub struct Sphere {
     pub refraction_ratio: f32,
     /// Padding, as WGSL aligns it.
     pub unused: [u32; 3],
+}
+
+/// How many [`KnownBox`]es are known.
+pub const MOST_BOXES: usize = 16;
+
+/// `KnownBox` in `shaders/raster/frame.wgsl`: a box turned about the vertical.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
+pub struct KnownBox {
+    /// Its middle, in world space.
+    pub middle: Vec3,
+    /// Cosine of the angle that it is turned by ...
+    pub cosine: f32,
+    /// Half its size along its own axes.
+    pub half: Vec3,
+    /// ... and the sine of that.
+    pub sine: f32,
 }
 
 /// `Lights` in `shaders/raster/frame.wgsl`.
@@ -168,6 +192,8 @@ pub struct Lights {
     pub unused4: u32,
     /// The spheres of the scene, as far as they are known.
     pub spheres: [Sphere; MOST_SPHERES],
+    /// The boxes of the scene, likewise.
+    pub boxes: [KnownBox; MOST_BOXES],
 }
 
 /// `Object` in `shaders/raster/object.wgsl`: what one shape looks like.

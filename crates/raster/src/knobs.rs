@@ -1,5 +1,6 @@
 //! The knobs of the fake: numbers that a picture may take instead of the scene's, and how its shadows are filtered.
 
+use crate::bounce::GatherKnobs;
 use crate::gpu_data;
 use scene::{Scene, Vec3};
 use std::fmt::Display;
@@ -35,6 +36,8 @@ pub struct FakeKnobs {
     pub refracted: RefractedAt,
     /// How textures are looked up where the checkerboard is one.
     pub textures: TextureFilter,
+    /// How light of the second bounce is gathered.
+    pub gather: GatherKnobs,
 }
 
 /// Ways to look up a shadow map: three.js r115's, by its names.
@@ -179,6 +182,7 @@ impl FakeKnobs {
             .or_else(|| beyond("shadow map size", self.shadow_map, &Self::SHADOW_MAP))
             .or_else(|| beyond("shadow bias", Some(self.bias), &Self::BIAS))
             .or_else(|| beyond("number of segments", self.segments, &Self::SEGMENTS))
+            .or_else(|| self.gather.fault())
     }
 
     /// The scene with these numbers in place of its own, but for ambient light and Lambert's share.

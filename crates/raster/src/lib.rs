@@ -24,6 +24,7 @@
 //! seen, but lights nothing.
 
 mod board;
+mod bounce;
 mod build;
 mod casting;
 mod caustic;
@@ -33,6 +34,7 @@ mod cut;
 mod error;
 mod features;
 pub mod gpu_data;
+mod groups;
 mod knobs;
 pub mod lights;
 mod looks;
@@ -54,6 +56,7 @@ mod uniforms;
 mod variant;
 mod world;
 
+pub use bounce::{GatherKnobs, PatchClamp};
 pub use cut::{Cut, cut};
 pub use error::RasterError;
 pub use knobs::{FakeKnobs, RefractedAt, ShadowFilter, TextureFilter};
@@ -148,7 +151,7 @@ impl Raster {
 
     fn submit(&mut self, scene: &Scene, camera: &Camera, settings: &RasterSettings) -> Result<Drawn, RasterError> {
         self.check(camera, settings)?;
-        let settings = &self.without_what_cannot_be_drawn(settings);
+        let settings = &self.without_what_is_not_drawn(scene, settings);
         let scene = &settings.applied(scene);
         let plan = Plan::new(scene, camera, settings);
         maps::check(settings.show, &plan)?;
@@ -198,13 +201,17 @@ impl Raster {
         features::read(&self.gpu, targets)
     }
 
-    /// Distances in cube maps and sums of sunlight need half floats, which OpenGL's core profile does not draw.
-    fn without_what_cannot_be_drawn(&self, settings: &RasterSettings) -> RasterSettings {
+    /// Distances in cube maps and sums of sunlight need half floats, which OpenGL's core profile does not draw. Light of a second
+    /// bounce takes its time even where there is none.
+    fn without_what_is_not_drawn(&self, scene: &Scene, settings: &RasterSettings) -> RasterSettings {
         let repairs = if targets::draws_half_floats(&self.gpu) {
             settings.repairs
         } else {
             settings.repairs.without(Repair::Surroundings).without(Repair::Caustics)
         };
+        let idle =
+            [Repair::ReflectiveShadowMap].into_iter().filter(|repair| (repair.row().missing_in)(scene).is_some());
+        let repairs = idle.fold(repairs, Repairs::without);
         RasterSettings { repairs, ..*settings }
     }
 

@@ -2,9 +2,11 @@
 //! A cube map is drawn without its glass, and without the shadow of it; so each has its own shadow map before it, in
 //! the same texture.
 
+use crate::bounce;
 use crate::casting::Casting;
 use crate::caustic;
-use crate::gpu_data::{Lights, Object, View};
+use crate::gpu_data::Object;
+use crate::groups::Groups;
 use crate::knobs::ShadowFilter;
 use crate::looks::Looks;
 use crate::pipelines::{Into, Pipelines};
@@ -38,6 +40,7 @@ pub struct Maps {
     filter: ShadowFilter,
     corners: wgpu::Buffer,
     shadow_map: TextureView,
+    patches: TextureView,
     cubes: Vec<TextureView>,
 }
 
@@ -61,6 +64,7 @@ impl Maps {
             filter: plan.filter,
             corners: things.world.small_corners().clone(),
             shadow_map: targets.shadow.map.all.clone(),
+            patches: targets.bounce.patches[0].all.clone(),
             cubes: targets.cubes.each.iter().map(|cube| cube.all.clone()).collect(),
         })
     }
@@ -147,53 +151,16 @@ pub fn draw(
         if plan.show != Show::CubeFaces {
             frame.shadow_map(&mut encoder, None);
         }
+        frame.patches(&mut encoder);
     }
     if plan.show == Show::Picture {
+        frame.gather(gpu, &mut encoder);
         frame.picture(&mut encoder);
         if plan.fake == Fake::Fair {
             resolve(gpu, &mut encoder, pipelines, (&targets.picture.passes, &targets.picture.resolved));
         }
     }
     gpu.queue.submit([encoder.finish()]);
-}
-
-/// What is bound.
-struct Groups {
-    shadow: BindGroup,
-    object: BindGroup,
-    frame: BindGroup,
-    /// The same while caustic maps are drawn: the shadow map is that of what they fall on.
-    receivers: BindGroup,
-    without_cube_map: BindGroup,
-    with_cube_map: Vec<BindGroup>,
-}
-
-impl Groups {
-    fn new(gpu: &Gpu, pipelines: &Pipelines, uniforms: &Uniforms, targets: Targets<'_>) -> Groups {
-        let view = || sized::<View>(&uniforms.views);
-        let shadow_map = BindingResource::TextureView(&targets.shadow.map.all);
-        let object = |cube: &TextureView| {
-            let sampler = BindingResource::Sampler(&pipelines.sampler);
-            let object = sized::<Object>(&uniforms.objects);
-            bind(gpu, &pipelines.object_layout, &[object, BindingResource::TextureView(cube), sampler])
-        };
-        let surface = sized::<Object>(&uniforms.objects);
-        let frame = |light: &TextureView, receivers: &TextureView| {
-            let [light, receivers] = [light, receivers].map(BindingResource::TextureView);
-            let sampler = BindingResource::Sampler(&pipelines.sampler);
-            let lights = sized::<Lights>(&uniforms.lights);
-            bind(gpu, &pipelines.frame_layout, &[view(), lights, shadow_map.clone(), light, receivers, sampler])
-        };
-        let caustics = targets.caustics;
-        Groups {
-            object: bind(gpu, &pipelines.surface_layout, &[surface]),
-            shadow: bind(gpu, &pipelines.shadow_layout, &[view()]),
-            frame: frame(&caustics.light.all, &caustics.receivers.all),
-            receivers: frame(&caustics.none[0], &caustics.receivers.all),
-            without_cube_map: object(&targets.cubes.none),
-            with_cube_map: targets.cubes.each.iter().map(|cube| object(&cube.all)).collect(),
-        }
-    }
 }
 
 /// One `T` of a buffer that has many.
@@ -263,6 +230,23 @@ impl Frame<'_> {
         caustic::draw(encoder, pipeline, (&self.groups.receivers, view), self.targets.caustics, layer);
     }
 
+    /// What the lights see, as patches that send light on.
+    fn patches(&self, encoder: &mut CommandEncoder) {
+        let (Some(bounce), Some(pipelines)) = (&self.plan.bounce, &self.pipelines.bounce) else { return };
+        bounce::draw_patches(encoder, (self.plan, bounce), pipelines, self.things, self.targets.bounce, self.bound());
+    }
+
+    /// What those send to what the picture shows.
+    fn gather(&self, gpu: &Gpu, encoder: &mut CommandEncoder) {
+        let (Some(bounce), Some(pipelines)) = (&self.plan.bounce, &self.pipelines.bounce) else { return };
+        bounce::gather(gpu, encoder, (self.plan, bounce), pipelines, self.things, self.targets.bounce, self.bound());
+    }
+
+    fn bound(&self) -> bounce::Bound<'_> {
+        let Groups { frame, gathered, without_cube_map: object, .. } = &self.groups;
+        bounce::Bound { frame, gathered, object }
+    }
+
     fn clear_cube_map(&self, encoder: &mut CommandEncoder, index: usize) {
         for face in &self.targets.cubes.each[index].each {
             let target = Target { colour: face, resolved: None, depth: None, clear: self.sky() };
@@ -298,8 +282,9 @@ impl Frame<'_> {
     /// Every shape but `without`, as `view` sees it. In a cube map no glass has a cube map of its own, least of all the
     /// one that is being drawn; where mirrors are repaired the others have the one that there is by then.
     fn shapes(&self, pass: &mut RenderPass<'_>, view: usize, without: Option<usize>) {
-        pass.set_bind_group(0, &self.groups.frame, &[offset(view)]);
         let into = if without.is_some() { Into::CubeMap } else { Into::Picture };
+        let frame = if without.is_some() { &self.groups.frame } else { &self.groups.picture };
+        pass.set_bind_group(0, frame, &[offset(view)]);
         let mut drawing = Drawing::new(pass, self.things);
         let others = self.plan.repairs.has(Repair::Mirrors);
         for (shape, variant) in self.plan.drawn(without) {

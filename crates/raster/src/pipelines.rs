@@ -1,5 +1,6 @@
 //! Pipelines and the layouts of what is bound to them.
 
+use crate::bounce::{BouncePipelines, Layouts};
 use crate::build::Build;
 use crate::casting::Casting;
 use crate::caustic;
@@ -91,6 +92,8 @@ pub struct Pipelines {
     pub look_layout: BindGroupLayout,
     /// Of the mesh of sunlight, once one is drawn.
     pub caustic: Option<RenderPipeline>,
+    /// Of the second bounce, once it is gathered.
+    pub bounce: Option<BouncePipelines>,
     forward_module: wgpu::ShaderModule,
     shadow_module: wgpu::ShaderModule,
     features_module: Option<wgpu::ShaderModule>,
@@ -138,6 +141,14 @@ impl Pipelines {
         if !plan.receivers.is_empty() && self.caustic.is_none() {
             self.caustic = Some(caustic::pipeline(gpu, &self.frame_layout)?);
             compiled = true;
+        }
+        if plan.bounce.is_some() {
+            let bounce = match self.bounce.take() {
+                Some(bounce) => bounce,
+                None => BouncePipelines::new(gpu)?,
+            };
+            let (frame, object, look) = (&self.frame_layout, &self.object_layout, &self.look_layout);
+            compiled |= self.bounce.insert(bounce).prepare(gpu, Layouts { frame, object, look }, plan)?;
         }
         Ok(compiled)
     }
@@ -209,7 +220,8 @@ impl Pipelines {
     }
 }
 
-fn front_face(variant: Variant) -> FrontFace {
+/// Which way round the triangles of a variant are seen from outside.
+pub fn front_face(variant: Variant) -> FrontFace {
     if variant.space == Space::MirroredMesh { FrontFace::Cw } else { FrontFace::Ccw }
 }
 
@@ -222,12 +234,13 @@ fn compile(
     let texture =
         |sample_type, view_dimension| BindingType::Texture { sample_type, view_dimension, multisampled: false };
     let array = texture(wgpu::TextureSampleType::Uint, TextureViewDimension::D2Array);
+    let bits = texture(wgpu::TextureSampleType::Uint, TextureViewDimension::D2);
     let cube = texture(wgpu::TextureSampleType::Float { filterable: true }, TextureViewDimension::Cube);
     let picture = texture(wgpu::TextureSampleType::Float { filterable: true }, TextureViewDimension::D2);
     let sampler = BindingType::Sampler(wgpu::SamplerBindingType::Filtering);
     let caustics = texture(wgpu::TextureSampleType::Float { filterable: true }, TextureViewDimension::D2Array);
     let lights = uniform::<crate::gpu_data::Lights>(false);
-    let frame = [uniform::<crate::gpu_data::View>(true), lights, array, caustics, array, sampler];
+    let frame = [uniform::<crate::gpu_data::View>(true), lights, array, caustics, array, sampler, bits, bits];
     let object = [uniform::<crate::gpu_data::Object>(true), cube, sampler];
     let look = [[uniform::<crate::gpu_data::Look>(false)].as_slice(), &[picture; 5], &[sampler; 5]].concat();
     let resolve_layout = layout(gpu, &[array]);
@@ -247,6 +260,7 @@ fn compile(
         look_layout: layout(gpu, &look),
         resolve_layout,
         caustic: None,
+        bounce: None,
         forward_module: forward,
         shadow_module: shadow,
         features_module: None,
@@ -257,7 +271,7 @@ fn compile(
 }
 
 /// Bindings 0, 1, 2 ... of a group; every stage may read all of them.
-fn layout(gpu: &Gpu, bindings: &[BindingType]) -> BindGroupLayout {
+pub fn layout(gpu: &Gpu, bindings: &[BindingType]) -> BindGroupLayout {
     let entry = |(binding, ty): (usize, &BindingType)| wgpu::BindGroupLayoutEntry {
         binding: binding as u32,
         visibility: ShaderStages::VERTEX_FRAGMENT,

@@ -1,5 +1,6 @@
 //! A frame before it is drawn: every number that the passes need, computed on the CPU.
 
+use crate::bounce::{self, Bounce, BounceTargetPlan};
 use crate::casting::{self, Casting};
 use crate::cube;
 use crate::gpu_data::{Lights, Object, View};
@@ -69,6 +70,8 @@ pub struct Plan {
     pub cube_maps: Vec<usize>,
     /// Which views see what light through spheres of glass falls on, one for each caustic map.
     pub receivers: Range<usize>,
+    /// What is gathered of the second bounce.
+    pub bounce: Option<Bounce>,
     /// Which views are the picture's.
     pub picture_views: Range<usize>,
     /// Fair or as taught.
@@ -110,6 +113,7 @@ impl Plan {
         let caustics = if repairs.has(Repair::Caustics) { known.len() } else { 0 };
         let receivers = views.len()..views.len() + caustics;
         views.extend((0..caustics).map(|layer| spheres::receivers_view(&lights, layer, scene)));
+        let bounce = bounce::plan(scene, &lights, settings, &mut views);
         let first = views.len();
         views.extend(picture_views(scene, camera, settings));
         let shadow_layers = shadow_layers(scene, fake);
@@ -125,6 +129,7 @@ impl Plan {
             materials: scene.shapes.iter().map(|shape| shape.material).collect(),
             cube_maps,
             receivers,
+            bounce,
             fake,
             repairs,
             filter: settings.knobs.filter,
@@ -151,6 +156,10 @@ impl Plan {
             shadow: ShadowPlan { size: self.shadow_size, with_area_light: self.shadow_layers.end > 1 },
             cubes: CubePlan { size: scene.fake.cube_map, count: self.cube_maps.len(), fake },
             caustics: self.receivers.len(),
+            bounce: self.bounce.as_ref().map(|bounce| BounceTargetPlan {
+                layers: bounce.layers.iter().max().map_or(0, |layer| *layer as u32 + 1),
+                picture: [width, height],
+            }),
             picture: PicturePlan { width, height, fake, passes: passes(settings).len() as u32 },
         }
     }
@@ -186,6 +195,7 @@ fn picture_views(scene: &Scene, camera: &Camera, settings: &RasterSettings) -> V
         near: planes.near,
         eye: camera.eye,
         sees_cube_maps: 1,
+        texel: bounce::per_pixel([settings.width, settings.height]),
         ..View::zeroed()
     };
     passes(settings).iter().map(view).collect()

@@ -1,5 +1,6 @@
 //! The rasteriser's shaders: every file under `shaders/raster/`. A new one is one line of [`SOURCES`].
 
+use crate::bounce::{self, PATCHES_SIDE};
 use crate::caustic::{CELLS, SUNS};
 use crate::gpu_data::*;
 use crate::passes::NOWHERE;
@@ -22,11 +23,16 @@ pub const SOURCES: &[Source<'static>] = gpu::wgsl_sources![
     "raster/object.wgsl",
     "raster/refraction.wgsl",
     "raster/repair/area_light.wgsl",
+    "raster/repair/bounce.wgsl",
     "raster/repair/caustic.wgsl",
     "raster/repair/fresnel.wgsl",
+    "raster/repair/gather.wgsl",
     "raster/repair/glass.wgsl",
+    "raster/repair/octahedron.wgsl",
+    "raster/repair/patches.wgsl",
     "raster/repair/polygon.wgsl",
     "raster/repair/repairs.wgsl",
+    "raster/repair/smooth.wgsl",
     "raster/repair/soft_shadow.wgsl",
     "raster/repair/spheres.wgsl",
     "raster/repair/sunlight.wgsl",
@@ -77,8 +83,13 @@ pub fn shared_constants() -> Vec<(&'static str, f64)> {
         IMAGE_NORMAL,
         LEAST_COSINE,
         LEAST_WIDTH,
+        MOST_BOXES,
         MOST_SPHERES,
         NOWHERE,
+        PATCHES_OF_AREA_LIGHT,
+        PATCHES_OF_SUN,
+        PATCHES_SEEN,
+        PATCHES_SIDE,
         PI,
         SHADING_BLINN_PHONG,
         SHADING_COOK_TORRANCE,
@@ -90,8 +101,9 @@ pub fn shared_constants() -> Vec<(&'static str, f64)> {
     own.into_iter().chain(repair::shader_numbers()).collect()
 }
 
-/// Names of the overrides that the forward pass is compiled with.
+/// Names of the overrides that the forward pass and those of the second bounce are compiled with.
 pub fn override_names() -> Vec<&'static str> {
     let choice = Choice::of((Fake::Fair, Repairs::NONE), ShadowFilter::Hard, &Lights::zeroed());
-    choice.constants(Variant::PLAIN).into_iter().map(|(name, _)| name).collect()
+    let forward = choice.constants(Variant::PLAIN).into_iter().map(|(name, _)| name);
+    forward.chain(bounce::override_names()).collect()
 }

@@ -1,12 +1,12 @@
-//! The spheres of a scene that repairs know in closed form, and how the sun sees those of glass.
+//! The spheres and boxes of a scene that repairs know in closed form, and how the sun sees spheres of glass.
 
-use crate::gpu_data::{Lights, MOST_SPHERES, Sphere, View};
+use crate::gpu_data::{KnownBox, Lights, MOST_BOXES, MOST_SPHERES, Sphere, View};
 use crate::repair::Repair;
 use crate::settings::RasterSettings;
 use crate::tessellation::corners;
 use bytemuck::Zeroable;
 use scene::glam::camera::rh;
-use scene::{Bsdf, Geometry, Scene, Vec3};
+use scene::{Alpha, Bsdf, Geometry, Scene, Shape, Vec3};
 
 /// Half the width of a caustic map, in radii of its sphere; as `shaders/raster/frame.wgsl` has it.
 pub const CAUSTIC_REACH: f32 = 4.0;
@@ -30,6 +30,16 @@ fn sphere(scene: &Scene, shape: usize) -> Option<Sphere> {
     material.emission.is_none().then_some(known)
 }
 
+/// A shape as a box, if it is one that light does not go through.
+fn known_box(scene: &Scene, shape: &Shape) -> Option<KnownBox> {
+    let Geometry::Box { size, turn_y, .. } = shape.geometry else { return None };
+    let material = scene.material_of(shape);
+    let (sine, cosine) = turn_y.to_radians().sin_cos();
+    let known = KnownBox { middle: shape.geometry.center(), cosine, half: 0.5 * size, sine };
+    let opaque = !matches!(material.bsdf, Bsdf::Dielectric { .. }) && material.surface.alpha == Alpha::Opaque;
+    (opaque && material.emission.is_none()).then_some(known)
+}
+
 /// The spheres of glass that let the sun's light through, in the order of [`Lights::spheres`] and of the caustic maps' layers: as
 /// many as those have room for. Others cast the shadow of a stone.
 pub fn casters(scene: &Scene, settings: &RasterSettings) -> Vec<usize> {
@@ -49,6 +59,9 @@ pub fn fill(lights: &mut Lights, scene: &Scene, settings: &RasterSettings) {
     lights.glass_count = glass.len() as u32;
     lights.sphere_count = known.len() as u32;
     lights.spheres[..known.len()].copy_from_slice(&known);
+    let boxes: Vec<_> = scene.shapes.iter().filter_map(|shape| known_box(scene, shape)).take(MOST_BOXES).collect();
+    lights.box_count = boxes.len() as u32;
+    lights.boxes[..boxes.len()].copy_from_slice(&boxes);
     let Some(sun) = scene.sun else { return };
     let radius = sun.angular_radius.to_radians();
     lights.sun_tangent = radius.tan();

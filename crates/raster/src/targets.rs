@@ -1,5 +1,6 @@
 //! What is drawn into: shadow map, cube maps, picture. Each is kept as long as what it depends on stays.
 
+use crate::bounce::{BounceTargetPlan, BounceTargets, bounce_targets};
 use crate::caustic;
 use crate::settings::Fake;
 use gpu::upload::TexturePlan;
@@ -67,6 +68,8 @@ pub struct TargetPlan {
     pub cubes: CubePlan,
     /// How many caustic maps.
     pub caustics: usize,
+    /// Of the second bounce, if it is gathered.
+    pub bounce: Option<BounceTargetPlan>,
     /// Of the picture.
     pub picture: PicturePlan,
 }
@@ -174,6 +177,7 @@ pub struct Kept {
     shadow: Option<(ShadowPlan, ShadowTargets)>,
     cubes: Option<(CubePlan, CubeTargets)>,
     caustics: Option<(usize, CausticTargets)>,
+    bounce: Option<(Option<BounceTargetPlan>, BounceTargets)>,
     picture: Option<(PicturePlan, PictureTargets)>,
     features: Option<([u32; 2], FeatureTargets)>,
 }
@@ -187,6 +191,8 @@ pub struct Targets<'a> {
     pub cubes: &'a CubeTargets,
     /// What spheres of glass focus.
     pub caustics: &'a CausticTargets,
+    /// What surfaces send on.
+    pub bounce: &'a BounceTargets,
     /// What is seen.
     pub picture: &'a PictureTargets,
 }
@@ -198,6 +204,7 @@ impl Kept {
             shadow: fitting(&mut self.shadow, plan.shadow, |plan| shadow_targets(gpu, plan))?,
             cubes: fitting(&mut self.cubes, plan.cubes, |plan| cube_targets(gpu, plan))?,
             caustics: fitting(&mut self.caustics, plan.caustics, |count| caustic_targets(gpu, count))?,
+            bounce: fitting(&mut self.bounce, plan.bounce, |plan| bounce_targets(gpu, plan))?,
             picture: fitting(&mut self.picture, plan.picture, |plan| picture_targets(gpu, plan))?,
         })
     }
@@ -221,7 +228,8 @@ fn fitting<P: Copy + PartialEq, T>(
     Ok(&kept.insert(made).1)
 }
 
-fn square(size: u32, layers: u32, format: TextureFormat) -> TexturePlan {
+/// A square that is drawn, looked up and read back.
+pub fn square(size: u32, layers: u32, format: TextureFormat) -> TexturePlan {
     // read back to be looked at
     let usage = LOOKED_UP | if format == DEPTH { TextureUsages::empty() } else { TextureUsages::COPY_SRC };
     TexturePlan { width: size, height: size, layers, samples: 1, format, usage }
@@ -299,11 +307,13 @@ fn feature_targets(gpu: &Gpu, [width, height]: [u32; 2]) -> Result<FeatureTarget
     })
 }
 
-fn whole(texture: &wgpu::Texture) -> TextureView {
+/// All of a texture that has one layer.
+pub fn whole(texture: &wgpu::Texture) -> TextureView {
     texture.create_view(&wgpu::TextureViewDescriptor::default())
 }
 
-fn layers(texture: &wgpu::Texture, dimension: TextureViewDimension) -> Layers {
+/// All layers of a texture together, and each.
+pub fn layers(texture: &wgpu::Texture, dimension: TextureViewDimension) -> Layers {
     let view = |dimension, base_array_layer, array_layer_count| {
         texture.create_view(&wgpu::TextureViewDescriptor {
             dimension: Some(dimension),

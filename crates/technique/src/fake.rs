@@ -33,8 +33,8 @@ impl FakeSettings {
     /// Takes `scene`'s own numbers again, and looks at the picture where it has no such map.
     pub fn forget_the_scene(&mut self, scene: &Scene) {
         self.reflectivity = None;
-        let FakeKnobs { filter, bias, refracted, textures, .. } = self.knobs;
-        self.knobs = FakeKnobs { filter, bias, refracted, textures, ..FakeKnobs::default() };
+        let FakeKnobs { filter, bias, refracted, textures, gather, .. } = self.knobs;
+        self.knobs = FakeKnobs { filter, bias, refracted, textures, gather, ..FakeKnobs::default() };
         if !self.show.available(scene) {
             self.show = Show::Picture;
         }

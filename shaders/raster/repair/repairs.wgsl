@@ -14,6 +14,7 @@ const REPAIR_SOFT_SHADOWS: u32 = 10u;
 const REPAIR_LIGHT_THROUGH_GLASS: u32 = 11u;
 const REPAIR_CAUSTICS: u32 = 12u;
 const REPAIR_AREA_LIGHTS: u32 = 13u;
+const REPAIR_REFLECTIVE_SHADOW_MAP: u32 = 14u;
 
 // a bit for each
 override REPAIRS: u32 = 0u;

@@ -39,11 +39,13 @@ pub enum Repair {
     Caustics,
     /// Area lights are no points.
     AreaLights,
+    /// Lit surfaces light others, once.
+    ReflectiveShadowMap,
 }
 
 impl Repair {
     /// All of them, in the order in which light meets the defects.
-    pub const ALL: [Repair; 14] = [
+    pub const ALL: [Repair; 15] = [
         Repair::Antialiasing,
         Repair::TextureMapping,
         Repair::Sky,
@@ -58,6 +60,7 @@ impl Repair {
         Repair::LightThroughGlass,
         Repair::Caustics,
         Repair::AreaLights,
+        Repair::ReflectiveShadowMap,
     ];
 
     /// What there is to say about it.
@@ -98,6 +101,7 @@ pub(crate) fn shader_numbers() -> [(&'static str, f64); Repair::ALL.len()] {
         ("REPAIR_LIGHT_THROUGH_GLASS", Repair::LightThroughGlass),
         ("REPAIR_CAUSTICS", Repair::Caustics),
         ("REPAIR_AREA_LIGHTS", Repair::AreaLights),
+        ("REPAIR_REFLECTIVE_SHADOW_MAP", Repair::ReflectiveShadowMap),
     ]
     .map(|(name, repair)| (name, f64::from(repair as u32)))
 }

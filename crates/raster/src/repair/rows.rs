@@ -161,6 +161,16 @@ pub const ROWS: [Row; Repair::ALL.len()] = [
             (!known).then_some("rectangle or ball that lights most")
         },
     },
+    Row {
+        repair: Repair::ReflectiveShadowMap,
+        name: "reflective-shadow-map",
+        title: "Light from lit surfaces",
+        text: "Surfaces are lit by lights alone, not by each other. Instead all that a light sees is drawn as patches that send its light \
+               on (Dachsbacher and Stamminger 2005), and each pixel adds up some of them. Once, and not as glass and mirrors show \
+               it; of what stands between, balls and boxes are known.",
+        slide: "Path tracing: indirect light",
+        missing_in: no_second_bounce,
+    },
 ];
 
 fn has(scene: &Scene, wanted: impl Fn(&Shape, &Bsdf) -> bool) -> bool {
@@ -201,6 +211,22 @@ fn shadowed_glass(scene: &Scene) -> Option<&'static str> {
         return Some("light that casts shadows");
     }
     glass(scene)
+}
+
+/// A flat surface does not light itself.
+fn no_second_bounce(scene: &Scene) -> Option<&'static str> {
+    if scene.sun.is_none() && AreaLight::brightest(scene).is_none() {
+        return Some("light that comes from one place");
+    }
+    let matt = |shape: &&Shape| {
+        let material = scene.material_of(shape);
+        let matt = matches!(material.bsdf, Bsdf::Diffuse { .. } | Bsdf::MetallicRoughness(_));
+        matt && material.emission.is_none()
+    };
+    let flat = |shape: &Shape| matches!(shape.geometry, Geometry::Rectangle { .. } | Geometry::Disk { .. });
+    let matt: Vec<_> = scene.shapes.iter().filter(matt).collect();
+    let there = matt.len() > 1 || matt.iter().any(|shape| !flat(shape));
+    (!there).then_some("matt surface that another one lights")
 }
 
 fn sunlit_glass_sphere(scene: &Scene) -> Option<&'static str> {

@@ -6,6 +6,7 @@ mod denoise;
 mod fake;
 mod light;
 mod metropolis;
+mod patches;
 mod photon;
 mod show;
 mod traced;
@@ -139,6 +140,7 @@ pub fn all_of_panes() -> impl Iterator<Item = &'static Setting<PaneSettings>> {
         .chain(show::ROWS)
         .chain(light::ROWS)
         .chain(broken::ROWS)
+        .chain(patches::ROWS)
 }
 
 /// How the paths of the technique in use walk.
