@@ -1,7 +1,7 @@
 //! Near and far planes of the fake: without stated ones nothing is cut, however near, small or large; stated ones are
 //! obeyed, and told where they cut.
 
-use check::{CASES, Effort, Verdict};
+use check::{CASES, Effort, Machine, Runner, Verdict};
 use film::Film;
 use gpu::Gpu;
 use raster::{Cut, Fake, Raster, RasterSettings, cut};
@@ -20,7 +20,8 @@ fn settings(fake: Fake) -> RasterSettings {
 fn the_fake_of_a_scene_is_the_same_at_any_scale_on_each_device() {
     let case: Vec<_> = CASES.iter().filter(|case| case.number == 30).copied().collect();
     for gpu in Gpu::each().unwrap() {
-        let rows = check::run_on_gpu(&gpu, &case, Effort::Quick, &AtomicBool::new(false), |_, _| true).unwrap();
+        let never = AtomicBool::new(false);
+        let rows = Runner::new(Machine::Device(&gpu), Effort::Quick, &never).run(&case, |_, _| true).unwrap();
         let failed: Vec<_> = rows.iter().filter(|row| row.verdict == Verdict::Fail).map(ToString::to_string).collect();
         assert!(rows.len() > 30 && failed.is_empty(), "{}:\n{}", gpu.describe(), failed.join("\n"));
     }

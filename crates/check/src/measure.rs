@@ -1,21 +1,12 @@
 //! Measuring: exact comparisons, bounds, and means of independently seeded pictures.
 
 use crate::row::{Relation, Row, Verdict};
+use crate::runner::{Effort, Runner};
 use film::Film;
 use pathtrace::{Integrator, Tracer};
 use rayon::prelude::*;
 use scene::Camera;
 use std::sync::atomic::{AtomicBool, Ordering};
-use technique::Device;
-
-/// How thoroughly to look.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum Effort {
-    /// Within a minute: faults of half a percent are noticed; the costliest estimators are left out.
-    Quick,
-    /// Within ten minutes: faults of a tenth of a percent.
-    Full,
-}
 
 /// Independently seeded pictures of a Monte Carlo row.
 pub const PICTURES: u32 = 32;
@@ -26,12 +17,13 @@ const SIDE: u32 = 4;
 /// What a renderer's single precision may be off by beside chance, relative.
 const ROUNDING: f64 = 2e-6;
 
+/// By how much the expectations of a spoilt run are too large.
+const SPOILT: f64 = 1.05;
+
 /// One case on its way.
 pub struct Trial<'a> {
     case: u32,
-    device: Device,
-    effort: Effort,
-    stop: &'a AtomicBool,
+    runner: Runner<'a>,
     rows: Vec<Row>,
     nonfinite: u64,
 }
@@ -54,20 +46,23 @@ impl Mean {
     }
 }
 
+/// What a row compares.
+struct Numbers {
+    expected: f64,
+    measured: f64,
+    tolerance: f64,
+    power: Option<(f64, f64)>,
+}
+
 impl<'a> Trial<'a> {
     /// Begins case number `case`.
-    pub fn new(case: u32, effort: Effort, stop: &'a AtomicBool) -> Self {
-        Trial { case, device: Device::Cpu, effort, stop, rows: Vec::new(), nonfinite: 0 }
-    }
-
-    /// The same on another device.
-    pub fn on(self, device: Device) -> Self {
-        Trial { device, ..self }
+    pub fn new(case: u32, runner: &Runner<'a>) -> Self {
+        Trial { case, runner: *runner, rows: Vec::new(), nonfinite: 0 }
     }
 
     /// Whether everything is run.
     pub fn full(&self) -> bool {
-        self.effort == Effort::Full
+        self.runner.effort == Effort::Full
     }
 
     /// One of two numbers, by effort.
@@ -77,12 +72,12 @@ impl<'a> Trial<'a> {
 
     /// What says so.
     pub fn stop_flag(&self) -> &'a AtomicBool {
-        self.stop
+        self.runner.stop
     }
 
     /// Whether the user has had enough.
     pub fn stopped(&self) -> bool {
-        self.stop.load(Ordering::Relaxed)
+        self.runner.stop.load(Ordering::Relaxed)
     }
 
     /// The rows, and one that says that no sample was dropped for not being finite.
@@ -97,36 +92,47 @@ impl<'a> Trial<'a> {
         self.pick(0.005, 0.001)
     }
 
-    fn push(&mut self, subject: &str, quantity: &str, numbers: (f64, f64, f64), relation: Relation, verdict: Verdict) {
-        let (expected, measured, tolerance) = numbers;
+    fn push(&mut self, subject: &str, quantity: &str, numbers: Numbers, relation: Relation, verdict: Verdict) {
+        let Numbers { expected, measured, tolerance, power } = numbers;
         self.rows.push(Row {
             case: self.case,
-            device: self.device,
+            device: self.runner.machine.device(),
             subject: subject.to_owned(),
             quantity: quantity.to_owned(),
             expected,
             measured,
             relation,
             tolerance,
-            power: None,
+            power,
             verdict,
         });
+        if let Some(row) = self.rows.last() {
+            (self.runner.on_row)(row);
+        }
+    }
+
+    /// What a row expects, where the run is not spoilt.
+    fn demanded(&self, expected: f64) -> f64 {
+        if self.runner.spoilt { SPOILT * expected } else { expected }
     }
 
     /// Measured must be within `tolerance` of expected.
     pub fn equal(&mut self, subject: &str, quantity: &str, expected: f64, measured: f64, tolerance: f64) {
+        let expected = self.demanded(expected);
         let verdict = verdict((measured - expected).abs() <= tolerance);
-        self.push(subject, quantity, (expected, measured, tolerance), Relation::Equal, verdict);
+        let numbers = Numbers { expected, measured, tolerance, power: None };
+        self.push(subject, quantity, numbers, Relation::Equal, verdict);
     }
 
     /// Measured must not exceed the bound.
     pub fn at_most(&mut self, subject: &str, quantity: &str, bound: f64, measured: f64) {
-        self.push(subject, quantity, (bound, measured, 0.0), Relation::AtMost, verdict(measured <= bound));
+        let numbers = Numbers { expected: bound, measured, tolerance: 0.0, power: None };
+        self.push(subject, quantity, numbers, Relation::AtMost, verdict(measured <= bound));
     }
 
     /// Measured is only told.
     pub fn information(&mut self, subject: &str, quantity: &str, expected: f64, measured: f64) {
-        let numbers = (expected, measured, (measured - expected).abs());
+        let numbers = Numbers { expected, measured, tolerance: (measured - expected).abs(), power: None };
         self.push(subject, quantity, numbers, Relation::Equal, Verdict::Information);
     }
 
@@ -142,7 +148,7 @@ impl<'a> Trial<'a> {
         let mut films: Vec<Film> = (0..PICTURES).map(|_| Film::new(SIDE, SIDE)).collect();
         let mut more = 16;
         loop {
-            films.par_iter_mut().enumerate().for_each(|(i, film)| render(film, i as u32 + 1, more, self.stop));
+            films.par_iter_mut().enumerate().for_each(|(i, film)| render(film, i as u32 + 1, more, self.runner.stop));
             let spp = films[0].samples_per_pixel();
             let means: Vec<f64> = films.iter().map(|film| film.mean()[0]).collect();
             let n = f64::from(PICTURES);
@@ -186,11 +192,10 @@ impl<'a> Trial<'a> {
     ) {
         let tolerance = 4.0 * standard_error + ROUNDING * expected;
         let reached = standard_error / expected;
+        let expected = self.demanded(expected);
         let passed = (mean - expected).abs() <= tolerance && reached <= power;
-        self.push(subject, quantity, (expected, mean, tolerance), Relation::Equal, verdict(passed));
-        if let Some(row) = self.rows.last_mut() {
-            row.power = Some((reached, power));
-        }
+        let numbers = Numbers { expected, measured: mean, tolerance, power: Some((reached, power)) };
+        self.push(subject, quantity, numbers, Relation::Equal, verdict(passed));
     }
 
     /// A Monte Carlo row of a traced picture.

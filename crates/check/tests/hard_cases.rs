@@ -1,13 +1,15 @@
 //! Every hard case in quick mode, one test each, so that a failure has the case's name.
 
-use check::{CASES, Effort, Verdict};
+use check::{CASES, Effort, Machine, Runner, Verdict};
 use std::sync::atomic::AtomicBool;
 
 fn passes(number: u32) {
     let cases: Vec<_> = CASES.iter().filter(|case| case.number == number).copied().collect();
     let effort = if std::env::var_os("VISAVIS_CHECK_FULL").is_some() { Effort::Full } else { Effort::Quick };
     let started = std::time::Instant::now();
-    let rows = check::run(&cases, effort, &AtomicBool::new(false), |_, _| true);
+    let never = AtomicBool::new(false);
+    let rows = Runner::new(Machine::Processor, effort, &never).run(&cases, |_, _| true);
+    let rows = rows.unwrap_or_else(|fault| panic!("{fault}"));
     rows.iter().for_each(|row| println!("{row}"));
     println!("{number}: {} rows in {:.2} s", rows.len(), started.elapsed().as_secs_f64());
     let failed: Vec<String> = rows.iter().filter(|row| row.verdict == Verdict::Fail).map(ToString::to_string).collect();

@@ -1,6 +1,6 @@
 //! Every hard case that a graphics device renders, in quick mode, on the best device there is.
 
-use check::{CASES, Effort, Verdict, run_on_gpu};
+use check::{CASES, Effort, Machine, Runner, Verdict};
 use gpu::Gpu;
 use std::sync::atomic::AtomicBool;
 
@@ -8,8 +8,8 @@ fn passes(numbers: &[u32]) {
     let effort = if std::env::var_os("VISAVIS_CHECK_FULL").is_some() { Effort::Full } else { Effort::Quick };
     let cases: Vec<_> = CASES.iter().filter(|case| numbers.contains(&case.number)).copied().collect();
     let gpu = Gpu::headless().unwrap_or_else(|none| panic!("{none}"));
-    let mut reported = Vec::new();
-    let rows = run_on_gpu(&gpu, &cases, effort, &AtomicBool::new(false), |case, _| {
+    let (mut reported, never) = (Vec::new(), AtomicBool::new(false));
+    let rows = Runner::new(Machine::Device(&gpu), effort, &never).run(&cases, |case, _| {
         reported.push(case.number);
         true
     });

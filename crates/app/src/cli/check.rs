@@ -2,15 +2,19 @@
 
 use super::CheckArgs;
 use anyhow::Context;
-use check::{CASES, Case, Effort, Row, Verdict};
+use check::{CASES, Case, Effort, Machine, Row, Runner, Verdict};
 use gpu::Gpu;
 use serde_json::{Value, json};
 use std::sync::atomic::AtomicBool;
 use std::time::Instant;
+use technique::Device;
 
 pub fn run(args: &CheckArgs) -> anyhow::Result<()> {
     let chosen = |case: &&Case| args.cases.is_empty() || args.cases.contains(&case.number);
     let cases: Vec<Case> = CASES.iter().filter(chosen).copied().collect();
+    if args.list {
+        return super::print(&cases.iter().map(listed).collect::<String>());
+    }
     let effort = if args.quick { Effort::Quick } else { Effort::Full };
     let start = Instant::now();
     let mut printed = Ok(());
@@ -22,13 +26,16 @@ pub fn run(args: &CheckArgs) -> anyhow::Result<()> {
         }
         printed.is_ok()
     };
-    let rows = if args.on_gpu {
+    let gpu = if args.on_gpu {
         let gpu = Gpu::headless().context("--device gpu needs a graphics device")?;
         place = gpu.describe();
-        check::run_on_gpu(&gpu, &cases, effort, &never, tell)?
+        Some(gpu)
     } else {
-        check::run(&cases, effort, &never, tell)
+        None
     };
+    let machine = gpu.as_ref().map_or(Machine::Processor, Machine::Device);
+    let runner = Runner { spoilt: args.spoilt, ..Runner::new(machine, effort, &never) };
+    let rows = runner.run(&cases, tell)?;
     printed?;
     anyhow::ensure!(run > 0, "no graphics device renders these cases: --device cpu runs them");
     let seconds = start.elapsed().as_secs_f64();
@@ -75,6 +82,13 @@ fn failed_cases(rows: &[Row]) -> String {
     let mut numbers: Vec<u32> = rows.iter().filter(|r| r.verdict == Verdict::Fail).map(|r| r.case).collect();
     numbers.dedup();
     numbers.iter().map(u32::to_string).collect::<Vec<_>>().join(",")
+}
+
+/// A case with its claim, and where it runs.
+fn listed(case: &Case) -> String {
+    let machines = if case.runs_on(Device::Gpu) { "processor and device" } else { "processor" };
+    let Case { number, title, claim, .. } = case;
+    format!("{number:>2}. {title} ({machines})\n    {claim}\n")
 }
 
 /// A case with its rows.

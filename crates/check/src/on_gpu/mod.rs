@@ -14,17 +14,14 @@ mod rays;
 mod robustness;
 mod surfaces;
 
-use crate::case::Case;
-use crate::measure::{Effort, Mean, Trial, farthest, subject};
-use crate::row::Row;
+use crate::measure::{Mean, Trial, farthest, subject};
 use film::Film;
 use gpu::Gpu;
 use pathtrace::gpu::{GpuTraceError, GpuTracer};
 use pathtrace::{Integrator, LightSampling};
 use raster::RasterError;
 use scene::{Camera, Scene};
-use std::sync::atomic::{AtomicBool, Ordering};
-use technique::Device;
+use std::sync::atomic::Ordering;
 
 /// Why a device has not gone through with a case.
 #[derive(Debug, thiserror::Error)]
@@ -37,44 +34,16 @@ pub enum DeviceFault {
     Raster(#[from] RasterError),
 }
 
-type Outcome = Result<(), DeviceFault>;
+pub type Outcome = Result<(), DeviceFault>;
 
 /// What runs a case on a device.
-struct Bench<'a, 'b> {
-    gpu: &'a Gpu,
-    trial: &'a mut Trial<'b>,
+pub struct Bench<'a, 'b> {
+    pub gpu: &'a Gpu,
+    pub trial: &'a mut Trial<'b>,
 }
 
-/// Runs those of `cases` that a device renders, as [`crate::run`] does on the processor.
-///
-/// # Errors
-/// [`DeviceFault`] if the device fails.
-pub fn run_on_gpu(
-    gpu: &Gpu,
-    cases: &[Case],
-    effort: Effort,
-    stop: &AtomicBool,
-    mut on_rows: impl FnMut(&Case, &[Row]) -> bool,
-) -> Result<Vec<Row>, DeviceFault> {
-    let mut all = Vec::new();
-    for case in cases {
-        let Some(run) = of_number(case.number) else { continue };
-        let mut trial = Trial::new(case.number, effort, stop).on(Device::Gpu);
-        run(&mut Bench { gpu, trial: &mut trial })?;
-        if trial.stopped() {
-            break;
-        }
-        let rows = trial.into_rows();
-        let go_on = on_rows(case, &rows);
-        all.extend(rows);
-        if !go_on {
-            break;
-        }
-    }
-    Ok(all)
-}
-
-fn of_number(case: u32) -> Option<fn(&mut Bench) -> Outcome> {
+/// What runs the case on a device, if that renders it.
+pub fn of_number(case: u32) -> Option<fn(&mut Bench) -> Outcome> {
     Some(match case {
         1 => energy::white_furnace,
         2 => energy::closed_box,

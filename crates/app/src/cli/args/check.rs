@@ -18,6 +18,10 @@ pub struct CheckArgs {
     pub cases: Vec<u32>,
     /// One JSON object on stdout instead of a table.
     pub json: bool,
+    /// What cases claim, and nothing run.
+    pub list: bool,
+    /// Whether expectations are wrong on purpose.
+    pub spoilt: bool,
 }
 
 pub fn options() -> Vec<CommandOption<CheckArgs>> {
@@ -64,11 +68,29 @@ pub fn options() -> Vec<CommandOption<CheckArgs>> {
                 Ok(())
             },
         },
+        CommandOption {
+            names: &["--list"],
+            value: "",
+            help: "what each case claims, without running it",
+            read: |args, _| {
+                args.list = true;
+                Ok(())
+            },
+        },
+        CommandOption {
+            names: &["--spoil"],
+            value: "",
+            help: "expects a twentieth too much, to see the check fail",
+            read: |args, _| {
+                args.spoilt = true;
+                Ok(())
+            },
+        },
     ]
 }
 
 pub fn parse(parser: lexopt::Parser) -> Result<Command, CliError> {
-    let args = CheckArgs { quick: false, on_gpu: false, cases: Vec::new(), json: false };
+    let args = CheckArgs { quick: false, on_gpu: false, cases: Vec::new(), json: false, list: false, spoilt: false };
     match read(parser, args, &options(), 0, no_more)? {
         Typed::Words(args, _) => Ok(Command::Check(args)),
         Typed::Print(text) => Ok(Command::Print(text)),

@@ -150,8 +150,8 @@ pub fn of_the_window() -> Vec<CommandOption<Reading>> {
         },
         CommandOption {
             names: &["--workspace"],
-            value: "compare|sweep|trees",
-            help: "what the window is used for at first: A against B, many pictures at once, or what a tree saves (default compare)",
+            value: "compare|sweep|trees|cases",
+            help: "what the window is used for at first: A against B, many pictures at once, what a tree saves, or cases whose answers are known (default compare)",
             read: |reading, parser| {
                 reading.args.workspace = Some(a_workspace(parser)?);
                 Ok(())
