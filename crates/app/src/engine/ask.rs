@@ -43,10 +43,10 @@ pub struct Engine {
     pub(super) dialogues: Dialogues,
     /// Made when they are first asked for.
     pub(super) thumbnails: Option<Thumbnails>,
-    /// Made when a sweep is first asked for.
+    /// Made when they are first asked for, as are trees and hard cases.
     pub(super) sweeper: Option<Sweeper>,
-    /// Made when trees are first looked at.
     pub(super) trees: Option<super::trees::TreeStudy>,
+    pub(super) cases: Option<super::cases::CaseBench>,
     /// Looks into a pixel.
     pub probes: super::probe::Probes,
     /// Finds which shape each pixel shows.
@@ -107,6 +107,7 @@ impl Engine {
             thumbnails: None,
             sweeper: None,
             trees: None,
+            cases: None,
             probes: Default::default(),
             objects: Default::default(),
             wake,

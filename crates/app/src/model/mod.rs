@@ -4,6 +4,7 @@
 //! A [`Model`] is a [`Document`] (what is looked at), a [`Session`] (how) and a [`UiState`] (what controls remember).
 //! Out of it comes what is [`Wanted`]; what is made of that comes back as a [`ViewModel`].
 
+mod cases;
 mod comparison;
 mod document;
 mod effects;
@@ -31,6 +32,7 @@ mod session;
 mod session_file;
 mod setup;
 mod slides;
+mod standing;
 mod sweep;
 mod theme;
 mod trees;
@@ -40,6 +42,9 @@ mod view_args;
 mod view_model;
 mod wanted;
 
+pub use cases::{
+    CaseCourse, CaseMachine, CaseMark, CaseResult, CasesState, CasesView, WantedCases, off_by, telling_row,
+};
 pub use comparison::{Against, CompareWith, Comparison, ComparisonSettings, MapWish};
 pub use document::Document;
 pub use effects::{EffectInHand, EffectsOfView, ShownEffects, Sides, label_texts, percent, put_labels};
@@ -99,6 +104,7 @@ pub struct Model {
     /// The graphics devices that can trace rays.
     pub adapters: Adapters,
     history: History,
+    beside: standing::Beside,
 }
 
 impl Model {
@@ -107,7 +113,14 @@ impl Model {
         let (document, mut session) = (Document::new(scene, source), Session::default());
         session.forget_the_scene(&Needs::default(), &document.scene);
         let history = History::new(Settings::of(&document, &session));
-        Model { document, session, state: UiState::new(theme), adapters: Adapters::default(), history }
+        Model {
+            document,
+            session,
+            state: UiState::new(theme),
+            adapters: Adapters::default(),
+            history,
+            beside: standing::Beside::default(),
+        }
     }
 
     /// The same beside graphics devices, and with rays traced where `device` says, if it does.
@@ -147,6 +160,7 @@ impl Model {
     /// Undo does not go behind this.
     fn begin_history(&mut self) {
         self.history = History::new(self.settings());
+        self.beside = standing::Beside::default();
     }
 
     /// Puts the wipe's line where it stands at first, for each scene once.
@@ -211,20 +225,23 @@ impl Model {
 
     /// Whether there is something to undo, and to do again.
     pub fn can_undo_and_redo(&self) -> [bool; 2] {
-        [self.history.can_undo(&self.settings()), self.history.can_redo()]
+        let [back, on] = self.leads_back_and_on();
+        [self.history.can_undo(&self.settings()) || back, self.history.can_redo() || on]
     }
 
-    /// Takes back the last change of a setting.
+    /// Takes back the last change of a setting; before the first goes back to the scene that this one was opened from.
     pub fn undo(&mut self) {
-        if let Some(earlier) = self.history.undo(&self.settings()) {
-            self.go_to(earlier);
+        match self.history.undo(&self.settings()) {
+            Some(earlier) => self.go_to(earlier),
+            None => self.go_back(),
         }
     }
 
     /// Makes the change again that the last undo took back.
     pub fn redo(&mut self) {
-        if let Some(later) = self.history.redo(&self.settings()) {
-            self.go_to(later);
+        match self.history.redo(&self.settings()) {
+            Some(later) => self.go_to(later),
+            None => self.go_on(),
         }
     }
 
@@ -266,6 +283,7 @@ impl Model {
             map: None,
             sweep: None,
             trees: None,
+            cases: None,
             histograms: false,
             probe: None,
             objects: None,

@@ -15,6 +15,8 @@ impl PaneId {
     pub const A: PaneId = PaneId(0);
     /// The second: right of it.
     pub const B: PaneId = PaneId(1);
+    /// The picture of a hard case, which no session has.
+    pub const CASE: PaneId = PaneId(25);
 
     /// The one with this letter, from A to Z.
     pub fn named(name: &str) -> Option<Self> {

@@ -1,7 +1,7 @@
 //! What controls come back to, and what is in hand: nothing that anyone would miss the next day.
 
 use super::{
-    Curve, EffectInHand, ExportMenu, Magnification, Message, PaneId, Panes, PartsState, PictureArea, Remembered, Slide,
+    CasesState, Curve, EffectInHand, ExportMenu, Magnification, Message, PaneId, Panes, PartsState, PictureArea, Remembered, Slide,
     SweepPlan, Theme,
 };
 use scene::Vec3;
@@ -92,6 +92,10 @@ pub struct UiState {
     pub tree_pixels: (u32, u32),
     /// Left, top, right and bottom in points of what the workspace of trees shows beside its controls.
     pub tree_corners: [f32; 4],
+    /// How hard cases are looked at.
+    pub cases: CasesState,
+    /// The id of a workspace that shall be open from the next frame on.
+    pub wished_workspace: Option<&'static str>,
     /// What switched-off settings come back to.
     pub switched_off: Panes<SwitchedOff>,
 }
@@ -190,6 +194,8 @@ impl UiState {
             sweep: SweepState::default(),
             tree_pixels: (0, 0),
             tree_corners: [0.0; 4],
+            cases: CasesState::default(),
+            wished_workspace: None,
             switched_off: Panes::default(),
         }
     }

@@ -1,7 +1,7 @@
 //! What there is to show: results, as those who draw them take them.
 
 use super::{
-    Against, Effort, ErrorHistory, ErrorMap, ErrorPoint, External, LightByBounce, ObjectMap, PaneId, PaneProbe,
+    Against, CasesView, Effort, ErrorHistory, ErrorMap, ErrorPoint, External, LightByBounce, ObjectMap, PaneId, PaneProbe,
     PaneSource, Panes, Progress, Region, ShapesAlong, ShownEffects, TileFacts, TreesView,
 };
 use crate::ruler::ReferenceImage;
@@ -35,6 +35,8 @@ pub struct ViewModel {
     pub sweep: SweepView,
     /// What is known of rays with and without trees.
     pub trees: TreesView,
+    /// What is known of hard cases, whatever scene is open.
+    pub cases: CasesView,
 }
 
 /// What there is to show of a sweep.

@@ -1,6 +1,8 @@
 //! What shall be made: a plain value, stated anew in every frame. Who makes it compares it with what was wanted before.
 
-use super::{Comparison, LightWish, MapWish, ObjectsWish, PaneSource, Panes, ProbeWish, SweepPlan, WantedTrees};
+use super::{
+    Comparison, LightWish, MapWish, ObjectsWish, PaneSource, Panes, ProbeWish, SweepPlan, WantedCases, WantedTrees,
+};
 use film::DisplayTransform;
 use scene::Camera;
 use technique::Shot;
@@ -24,6 +26,8 @@ pub struct Wanted {
     pub sweep: Option<WantedSweep>,
     /// What is traced of trees, where they are looked at.
     pub trees: Option<WantedTrees>,
+    /// Hard cases that are measured, where they are looked at.
+    pub cases: Option<WantedCases>,
     /// Whether histograms of the pictures are looked at.
     pub histograms: bool,
     /// The pixel that is looked into, if one is.

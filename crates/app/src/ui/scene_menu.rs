@@ -86,7 +86,13 @@ fn hard_cases(cx: &mut UiContext, ui: &mut Ui) {
         // one wish takes the place of the other
         cx.commands.push(UiCommand::DrawThumbnails(builtin::names().chain(builtin::hard_names()).collect()));
     }
-    let tallest = (ui.ctx().content_rect().height() - 120.0).max(100.0);
+    let measure = ui.button("Measure them ...");
+    let measure = measure.explained("What each claims, measured here beside what was expected");
+    if cx.dump.note("measure hard cases", "", measure).clicked() {
+        cx.model.state.wished_workspace = Some("cases");
+        ui.close();
+    }
+    let tallest = (ui.ctx().content_rect().height() - 150.0).max(100.0);
     ScrollArea::vertical().max_height(tallest).show(ui, |ui| {
         for name in builtin::hard_names() {
             ui.horizontal(|ui| hard_case(name, cx, ui));

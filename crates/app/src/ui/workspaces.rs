@@ -4,6 +4,7 @@ use super::UiContext;
 use super::theme::palette;
 use super::widgets::icon_and_word;
 use super::workspace::Workspace;
+use super::workspace::cases::Cases;
 use super::workspace::compare::Compare;
 use super::workspace::empty::Empty;
 use super::workspace::sweep::Sweep;
@@ -14,7 +15,7 @@ use egui::{Frame, Margin, Ui};
 /// All that there are, in the order of the rail; the first one is the usual one. The first three are everybody's, to choose
 /// from in the bar.
 fn registry() -> Vec<Box<dyn Workspace>> {
-    vec![Box::<Compare>::default(), Box::new(Sweep), Box::new(Trees), Box::new(Empty)]
+    vec![Box::<Compare>::default(), Box::new(Sweep), Box::new(Trees), Box::new(Empty), Box::<Cases>::default()]
 }
 
 /// How many everybody has.
@@ -50,8 +51,15 @@ impl Workspaces {
         registry().iter().map(|workspace| workspace.id()).collect()
     }
 
-    /// Opens that of the usual ones which the session says, unless another is open.
-    pub fn follow(&mut self, model: &Model) {
+    /// Opens the one that is wished, or that of the usual ones which the session says, unless another is open.
+    pub fn follow(&mut self, model: &mut Model) {
+        if let Some(wished) = model.state.wished_workspace.take() {
+            let place = |offered: &[Box<dyn Workspace>]| offered.iter().position(|workspace| workspace.id() == wished);
+            if place(&self.offered).is_none() {
+                self.offered = registry();
+            }
+            self.open = place(&self.offered).unwrap_or(self.open);
+        }
         if self.open < USUAL {
             let session = &model.session;
             self.open = if session.trees.open { 2 } else { usize::from(session.sweep.open) };

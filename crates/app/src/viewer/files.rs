@@ -68,6 +68,16 @@ impl Viewer {
         }
     }
 
+    /// Takes down what is of another scene where undo, or a case, has brought this one, and reads its file again.
+    pub(super) fn follow_the_scene(&mut self) {
+        if std::mem::replace(&mut self.opened, self.model.document.opened) != self.model.document.opened {
+            self.presentation.clear();
+            self.model.state.scene_fault = None;
+            self.model.state.neighbours.clear();
+            self.watch(Vec::new(), true);
+        }
+    }
+
     fn watch(&self, files: Vec<FileRead>, at_once: bool) {
         let document = &self.model.document;
         let is_file = builtin::text(&document.source).is_none();
@@ -136,6 +146,7 @@ impl Viewer {
             Ok(()) => self.tell(&notes),
         }
         self.presentation.clear();
+        self.opened = self.model.document.opened;
         self.follow_the_file(&asked, files);
         self.judge = reference.map(|reference| Judge::of_its_scene(reference, &self.model, notes));
     }

@@ -1,6 +1,7 @@
 //! Model, workspaces, engine and what they have brought as one: what happens in a frame, whoever has a window for it. The
 //! real one is `window`; tests drive it without any.
 
+mod cases;
 mod effects;
 mod external;
 mod files;
@@ -47,6 +48,8 @@ pub struct Viewer {
     commands: Vec<UiCommand>,
     /// What the next window is to know; `None` if nobody remembers.
     memory: Option<Memory>,
+    /// The scene whose pictures are shown, by [`crate::model::Document::opened`].
+    opened: u64,
     /// Whether the user has asked to read the scene again.
     asked_again: bool,
     /// A picture to compare with, until it is known how large what is seen is.
@@ -61,6 +64,7 @@ impl Viewer {
     /// A viewer at its first frame; `started` is when the program was.
     pub fn new(model: Model, workspaces: Workspaces, engine: Engine, started: Instant) -> Self {
         Viewer {
+            opened: model.document.opened,
             model,
             workspaces,
             engine,
@@ -93,6 +97,7 @@ impl Viewer {
         self.follow_the_reference();
         self.collect_sweep(textures);
         self.collect_trees(textures);
+        self.collect_cases();
         self.collect_objects(textures);
         self.collect_effects();
         self.presentation.update_probe(self.engine.probes.collect());
@@ -201,10 +206,12 @@ impl Viewer {
 
     /// Asks the engine for what is wanted now.
     pub fn ask(&mut self) {
+        self.follow_the_scene();
         let judge = self.take_judge();
         let wanted = self.workspaces.open().wanted(&self.model);
         self.presentation.keep(&wanted);
         self.ask_effects(&wanted);
+        self.engine.ask_cases(&wanted);
         self.engine.ask(&wanted).values().for_each(|job| self.stopwatch.asked(*job));
         judge.into_iter().for_each(|file| self.engine.load_reference(file));
     }
@@ -241,6 +248,7 @@ impl Viewer {
             "paused": state.paused,
             "sweep": self.sweep_dump(),
             "trees": self.trees_dump(),
+            "cases": self.cases_dump(),
             "objects": self.objects_dump(),
             "effects": self.effects_dump(),
             "theme": state.theme.name(),

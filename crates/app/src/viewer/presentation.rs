@@ -55,7 +55,8 @@ impl Presentation {
     pub fn clear(&mut self) {
         let thumbnails = std::mem::take(&mut self.textures.thumbnails);
         self.textures = Textures { thumbnails, ..Textures::default() };
-        self.shown = ViewModel::default();
+        let cases = std::mem::take(&mut self.shown.cases);
+        self.shown = ViewModel { cases, ..ViewModel::default() };
         self.pictures = Panes::default();
     }
 

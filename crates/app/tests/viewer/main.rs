@@ -3,6 +3,7 @@
 #![expect(clippy::expect_used, reason = "a test stops at the first thing that is not as it must be")]
 
 mod camera;
+mod cases;
 mod closer;
 mod comparison;
 mod denoising;

@@ -1,6 +1,7 @@
 //! Workspaces: what the window is used for at a time. A workspace draws all that is below the bar and says what shall be
 //! made for it; scene, session, engine and bar are everybody's.
 
+pub(super) mod cases;
 pub(super) mod compare;
 pub(super) mod empty;
 pub(super) mod sweep;
