@@ -43,6 +43,15 @@ impl Shot {
         line("reference", &self.source, "reference.exr", &options)
     }
 
+    /// The `visavis ladder` line that climbs from the fake to the truth of what is seen, with these options more.
+    pub fn ladder_command(&self, folder: &str, more: Vec<(&'static str, String)>) -> String {
+        let mut options = vec![size_option(self.size)];
+        options.extend(self.camera_options(&self.camera));
+        options.extend(self.changes.options());
+        options.extend(more);
+        line("ladder", &self.source, folder, &options)
+    }
+
     /// Options of `visavis render` that place a camera in this scene. Which way is up is left to the scene where its own
     /// camera says the same.
     pub fn camera_options(&self, camera: &Camera) -> Records {
