@@ -2,19 +2,13 @@
 
 use super::sweep::devices;
 use super::{LadderArgs, interrupt, reference};
-use crate::ladder::{Climber, Reached, chart, csv, json, numbered, repairs_of, text};
-use crate::model::{PlannedTile, SweepLine, SweepMeasure, SweepPlan, TileFacts};
+use crate::ladder::{Climber, Reached, RungMaker, json, save, text};
+use crate::model::repairs_of;
 use crate::ruler::ReferenceImage;
-use crate::sweep::{Onlooker, Sheet, Tile, TileMaker};
+use crate::sweep::{Onlooker, TileMaker};
 use anyhow::Context;
-use film::DisplayTransform;
 use gpu::Gpu;
 use std::io::IsTerminal;
-use std::sync::Arc;
-use technique::{Made, Shot};
-
-/// Pictures in a row of the sheet.
-const COLUMNS: usize = 4;
 
 /// Whoever has asked at a terminal can end it.
 struct Terminal;
@@ -31,17 +25,23 @@ pub fn run(args: &LadderArgs) -> anyhow::Result<()> {
     std::fs::create_dir_all(&args.folder).with_context(|| format!("cannot make the folder {folder}"))?;
     let gpu = Gpu::headless().context("the fake needs a GPU")?;
     let reference = ReferenceImage::of(&reference::obtain(&shot, None)?);
-    let (repairs, idle) = repairs_of(&shot.scene);
+    let (mut repairs, idle) = repairs_of(&shot.scene);
+    repairs.retain(|repair| args.repairs.has(*repair));
     let _heeded = interrupt::heed();
-    let mut climber = Climber::new((&shot, &reference), (&gpu, TileMaker::new(devices())), &Terminal, args.spp)?;
-    let mut count = 0;
-    let reached = climber.climb(&repairs, args.order, |rung| {
-        count += 1;
+    let mut maker = RungMaker::new(&gpu, TileMaker::new(devices()), 0)?;
+    let (maker, onlooker, of_all) = (&mut maker, &Terminal, Some(&reference));
+    let mut climber = Climber { shot: &shot, reference: of_all, maker, onlooker, spp: args.spp };
+    let mut reached: Vec<Reached> = Vec::new();
+    climber.climb(&repairs, args.order, |made| {
+        let rung = made.measured(&reference)?;
         if std::io::stderr().is_terminal() {
-            note!("{count}: {}: relMSE {:.4}, {:.1} ms", rung.rung.title(), rung.errors.errors.rel_mse, rung.anew_ms);
+            let (count, rel_mse) = (reached.len() + 1, rung.errors.errors.rel_mse);
+            note!("{count}: {}: relMSE {rel_mse:.4}, {:.1} ms", rung.rung.title(), rung.anew_ms);
         }
+        reached.push(rung);
+        Ok(())
     })?;
-    save(args, &shot, &reached)?;
+    save(&args.folder, &shot.scene.name, &reached)?;
     if args.json {
         super::print(&format!("{}\n", json(&reached, &idle)))?;
     } else {
@@ -54,50 +54,4 @@ pub fn run(args: &LadderArgs) -> anyhow::Result<()> {
     }
     anyhow::ensure!(!interrupt::is_asked(), "{} rungs are saved: {folder}", reached.len());
     Ok(())
-}
-
-/// A picture a rung, the table, the chart and the sheet; each is there whole or not at all.
-fn save(args: &LadderArgs, shot: &Shot, reached: &[Reached]) -> anyhow::Result<()> {
-    let write = |name: &str, bytes: &[u8]| image_file::write_or_keep(&args.folder.join(name), bytes);
-    let display = DisplayTransform::default();
-    for (index, rung) in reached.iter().enumerate() {
-        let Tile { image, facts, provenance, spp, made_by } = &rung.tile;
-        let (seconds, exposure) = (facts.seconds, display.exposure);
-        let records = provenance.records(Made { spp: *spp, seconds, adapter: made_by, denoised_by: None, exposure });
-        let (width, height) = image.size();
-        let bytes = image_file::encode_rgba8(width, height, &display.rgba8_of(image), &records)?;
-        write(&format!("{}.png", numbered(index, rung.rung)), &bytes)?;
-    }
-    write("ladder.csv", csv(reached).as_bytes())?;
-    write("ladder.svg", chart(&shot.scene.name, reached).as_bytes())?;
-    let sheet = sheet(reached, display);
-    let canvas = sheet.canvas().map_err(|fault| anyhow::anyhow!("{fault}"))?;
-    write("sheet.png", &image_file::encode_rgba8(canvas.size.0, canvas.size.1, &canvas.rgba(), &Vec::new())?)?;
-    Ok(())
-}
-
-/// All rungs side by side with their errors.
-fn sheet(reached: &[Reached], display: DisplayTransform) -> Sheet {
-    let names: Vec<String> = reached.iter().map(|rung| rung.rung.name().to_owned()).collect();
-    let tiles = reached.iter().map(|rung| PlannedTile { names: vec![rung.rung.title().to_owned()], pane: rung.pane });
-    let columns = names.iter().take(COLUMNS).cloned().collect();
-    let rows = names.iter().step_by(COLUMNS).cloned().collect();
-    let facts = |rung: &Reached| TileFacts {
-        errors: Some(rung.errors),
-        // what a frame takes, not what the first one took
-        seconds: 1e-3 * rung.anew_ms,
-        ..rung.tile.facts.clone()
-    };
-    Sheet {
-        plan: SweepPlan {
-            columns: SweepLine { setting: "rung", values: columns },
-            rows: Some(SweepLine { setting: "from", values: rows }),
-            tiles: tiles.collect(),
-            seconds: None,
-        },
-        tiles: reached.iter().map(|rung| Some(Arc::new(rung.tile.clone()))).collect(),
-        facts: reached.iter().map(facts).collect(),
-        measure: SweepMeasure::RelMse,
-        display,
-    }
 }

@@ -47,6 +47,8 @@ pub struct Engine {
     pub(super) sweeper: Option<Sweeper>,
     pub(super) trees: Option<super::trees::TreeStudy>,
     pub(super) cases: Option<super::cases::CaseBench>,
+    /// Made when a ladder is first looked at.
+    pub(super) ladder: Option<super::ladder::LadderStudy>,
     /// Looks into a pixel.
     pub probes: super::probe::Probes,
     /// Finds which shape each pixel shows.
@@ -108,6 +110,7 @@ impl Engine {
             sweeper: None,
             trees: None,
             cases: None,
+            ladder: None,
             probes: Default::default(),
             objects: Default::default(),
             wake,
@@ -119,6 +122,7 @@ impl Engine {
     pub fn move_to(&mut self, window: &Gpu) {
         self.gpu = window.clone();
         self.sweeper = None;
+        self.ladder = None;
         self.show_trees_again();
         self.objects.show_again();
         self.pane_workers.values_mut().for_each(|workers| workers.move_to(window.clone()));
@@ -191,6 +195,7 @@ impl Engine {
         self.light.measure(&wanted.light);
         self.compare(wanted);
         self.ask_sweep(wanted);
+        self.ask_ladder(wanted);
         self.ask_trees(wanted);
         self.probes.follow(wanted, &self.threads, &self.wake);
         self.objects.follow(wanted.objects.as_ref(), &self.threads, &self.wake);

@@ -2,7 +2,7 @@
 
 use super::load::{self, Asked, Loaded, Loader, Opened, ReferenceFile, Refusal};
 use super::{Wake, memory};
-use crate::model::{Document, Model, Remembered, SavedWindow, ViewArgs};
+use crate::model::{Document, EVERYBODYS, Model, Remembered, SavedWindow, ViewArgs};
 use anyhow::bail;
 use scene::Progress;
 use std::sync::mpsc::{Receiver, channel};
@@ -64,10 +64,8 @@ impl Beginning {
         }
         let Document { changes, .. } = &model.document;
         changes.edits.without_effect(model.document.seen()).iter().for_each(|line| note!("note: {line}"));
-        if let Some(workspace) = &args.workspace {
-            model.session.sweep.open = workspace == "sweep";
-            model.session.trees.open = workspace == "trees";
-        }
+        let asked = args.workspace.as_ref().and_then(|asked| EVERYBODYS.into_iter().find(|known| known == asked));
+        model.session.workspace = asked.unwrap_or(model.session.workspace);
         Ok(model)
     }
 }

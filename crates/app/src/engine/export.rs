@@ -6,6 +6,7 @@ use super::report::{ReportToSave, SlideToSave};
 use super::session::SessionToSave;
 use super::worker::{Control, Service, Worker};
 use super::{Picture, Wake};
+use crate::ladder::Reached;
 use crate::model::{Destination, ErrorMap, PaneId, PixelSamples, samples_csv};
 use crate::sweep::Sheet;
 use anyhow::Context;
@@ -26,6 +27,8 @@ pub enum Content {
     Map(Arc<ErrorMap>),
     /// All tiles of a sweep with their captions.
     Sweep(Box<Sheet>),
+    /// All rungs of the ladder of a scene of this name, in a folder.
+    Ladder(String, Vec<Reached>),
     /// What is no picture, in a file whose name may end in anything.
     Text(String),
     /// The samples of a pixel in each pane, of which a table is made.
@@ -122,6 +125,9 @@ fn save(export: &Export, path: &Path) -> anyhow::Result<PathBuf> {
     if let Content::Text(text) = content {
         return Ok(image_file::write_new(path, text.as_bytes())?);
     }
+    if let Content::Ladder(scene, reached) = content {
+        return save_ladder(path, scene, reached);
+    }
     if let Content::Samples(panes) = content {
         return Ok(image_file::write_new(path, samples_csv(panes).as_bytes())?);
     }
@@ -152,6 +158,7 @@ fn save(export: &Export, path: &Path) -> anyhow::Result<PathBuf> {
             Content::Seen(_)
             | Content::Sweep(_)
             | Content::Slide(_)
+            | Content::Ladder(..)
             | Content::Text(_)
             | Content::Samples(_)
             | Content::Session(_)
@@ -166,6 +173,20 @@ fn save(export: &Export, path: &Path) -> anyhow::Result<PathBuf> {
         }
     };
     Ok(image_file::write_new(path, &bytes)?)
+}
+
+/// Into a folder of this name; where there is one, into one with a number behind its name.
+fn save_ladder(folder: &Path, scene: &str, reached: &[Reached]) -> anyhow::Result<PathBuf> {
+    let numbered = (2..1000).map(|number| {
+        let mut name = folder.as_os_str().to_owned();
+        name.push(format!("-{number}"));
+        PathBuf::from(name)
+    });
+    let free = std::iter::once(folder.to_owned()).chain(numbered).find(|folder| !folder.exists());
+    let folder =
+        free.with_context(|| format!("there are a thousand of these already: {}", image_file::shown(folder)))?;
+    crate::ladder::save(&folder, scene, reached)?;
+    Ok(folder)
 }
 
 fn copy(export: &Export, clipboard: &mut Option<arboard::Clipboard>) -> anyhow::Result<()> {
@@ -184,6 +205,7 @@ fn copy(export: &Export, clipboard: &mut Option<arboard::Clipboard>) -> anyhow::
             Pixels { width: canvas.size.0, height: canvas.size.1, rgba: canvas.rgba() }
         }
         Content::Slide(slide) => slide.pixels()?,
+        Content::Ladder(..) => anyhow::bail!("a ladder is a folder of files: save it instead"),
         Content::Report(_) => anyhow::bail!("a report is a file: save it instead"),
         Content::Text(text) => {
             let outcome = opened(clipboard).and_then(|open| open.set_text(text));

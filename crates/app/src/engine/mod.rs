@@ -22,6 +22,7 @@ pub mod export;
 pub mod external;
 pub mod fake;
 pub mod find_scene;
+pub mod ladder;
 pub mod light;
 pub mod load;
 pub mod mailbox;

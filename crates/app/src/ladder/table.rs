@@ -1,6 +1,7 @@
 //! The ladder as a table: for people, for spreadsheets and for programs.
 
-use super::{Reached, Rung};
+use super::Reached;
+use crate::model::Rung;
 use raster::Repair;
 use serde_json::{Value, json};
 use std::fmt::Write;

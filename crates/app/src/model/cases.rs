@@ -219,7 +219,7 @@ impl Model {
                 session.panes.insert(PaneId::B, PaneSettings::from(machine.tracing(view.technique)));
             }
         });
-        self.state.wished_workspace = Some("compare");
+        self.session.workspace = super::COMPARE;
         self.say(Ok(format!("Opened the scene of case {}: {}", case.number, view.measured)));
         Ok(())
     }

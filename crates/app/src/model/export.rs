@@ -17,6 +17,8 @@ pub enum ExportSubject {
     Plot(PlotFile),
     /// All tiles of a sweep with their captions.
     Sweep(SweepFile),
+    /// All rungs of a ladder: a folder of pictures, a table and a chart.
+    Ladder,
     /// The samples of the pixel that is looked into.
     Samples,
     /// No picture, but what makes all of them again.

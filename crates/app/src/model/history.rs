@@ -1,7 +1,8 @@
-//! What undo gives back: the camera, the settings of all panes, what a sweep varies, the scene's sliders and the display.
+//! What undo gives back: the camera, the settings of all panes, what a sweep varies, what a ladder repairs, the scene's sliders and the display.
 
-use super::{Axis, Document, Equal, PaneSource, Panes, Resolution, Session};
+use super::{Axis, Document, Equal, Order, PaneSource, Panes, Resolution, Session};
 use film::DisplayTransform;
+use raster::Repairs;
 use scene::edit::Edits;
 use scene::{Camera, Scene};
 use technique::{PaneSettings, SceneChanges};
@@ -19,6 +20,8 @@ pub struct Settings {
     pub sources: Panes<PaneSource>,
     /// What a sweep varies along columns and rows, what is equal of its tiles, and their seconds.
     pub sweep: (Axis, Axis, Equal, f32),
+    /// What is repaired on a ladder, and in which order.
+    pub ladder: (Repairs, Order),
     /// How all are shown.
     pub display: DisplayTransform,
     /// How many pixels pictures have.
@@ -28,13 +31,14 @@ pub struct Settings {
 impl Settings {
     /// The settings as they stand now.
     pub fn of(document: &Document, session: &Session) -> Self {
-        let Session { panes, sources, sweep, display, resolution, .. } = session;
+        let Session { panes, sources, sweep, ladder, display, resolution, .. } = session;
         Settings {
             camera: document.camera,
             changes: document.changes.clone(),
             panes: panes.clone(),
             sources: sources.clone(),
             sweep: (sweep.columns.clone(), sweep.rows.clone(), sweep.equal, sweep.seconds),
+            ladder: (ladder.repairs, ladder.order),
             display: *display,
             resolution: *resolution,
         }
@@ -46,6 +50,7 @@ impl Settings {
         (session.panes, session.sources) = (self.panes, self.sources);
         let sweep = &mut session.sweep;
         (sweep.columns, sweep.rows, sweep.equal, sweep.seconds) = self.sweep;
+        (session.ladder.repairs, session.ladder.order) = self.ladder;
         (session.display, session.resolution) = (self.display, self.resolution);
     }
 }

@@ -15,6 +15,7 @@ mod export;
 mod file_wish;
 mod first_line;
 mod history;
+mod ladder;
 mod light_parts;
 mod magnification;
 mod message;
@@ -41,6 +42,7 @@ mod view;
 mod view_args;
 mod view_model;
 mod wanted;
+mod workspaces;
 
 pub use cases::{
     CaseCourse, CaseMachine, CaseMark, CaseResult, CasesState, CasesView, WantedCases, off_by, telling_row,
@@ -54,6 +56,7 @@ pub use errors::{ErrorHistory, ErrorPoint};
 pub use export::{Destination, ExportMenu, ExportRequest, ExportSubject, PlotFile, SlideSize, SweepFile};
 pub use file_wish::{FilePurpose, FileWish};
 pub use history::{History, Settings};
+pub use ladder::{LadderSettings, LadderShows, LadderView, Order, Rung, RungFacts, WantedLadder, repaired, repairs_of};
 pub use light_parts::{LightByBounce, LightWish, light_parts};
 pub use magnification::Magnification;
 pub use message::{Message, in_few};
@@ -88,6 +91,7 @@ pub use view::{Line, View};
 pub use view_args::ViewArgs;
 pub use view_model::{Denoising, PaneView, SweepView, ViewModel};
 pub use wanted::{Wanted, WantedPane, WantedSweep};
+pub use workspaces::{CASES, COMPARE, EVERYBODYS, LADDER, SWEEP, TREES};
 
 use scene::{Needs, Scene};
 use technique::{Adapters, DeviceChoice, FakeSettings, Technique};
@@ -282,6 +286,7 @@ impl Model {
             comparisons: Vec::new(),
             map: None,
             sweep: None,
+            ladder: None,
             trees: None,
             cases: None,
             histograms: false,

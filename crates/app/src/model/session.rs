@@ -1,8 +1,8 @@
 //! How it is looked at: what one would want to find again after a pause.
 
 use super::{
-    CompareWith, ComparisonSettings, Line, PaneId, PaneSource, Panes, PlotSettings, ProbeSettings, SweepSettings,
-    TreesSettings, View,
+    COMPARE, CompareWith, ComparisonSettings, LadderSettings, Line, PaneId, PaneSource, Panes, PlotSettings,
+    ProbeSettings, SweepSettings, TreesSettings, View,
 };
 use film::DisplayTransform;
 use raster::Show;
@@ -12,6 +12,8 @@ use technique::{DeviceChoice, PaneSettings, TechniqueName};
 /// The panes and how they are shown.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Session {
+    /// What the window is used for: one of [`EVERYBODYS`](super::EVERYBODYS).
+    pub workspace: &'static str,
     /// How each is made.
     pub panes: Panes<PaneSettings>,
     /// Where the pictures come from that are not made here.
@@ -34,6 +36,8 @@ pub struct Session {
     pub sweep: SweepSettings,
     /// The pixel that is looked into.
     pub probe: ProbeSettings,
+    /// Which rungs a ladder has, and how they are looked at.
+    pub ladder: LadderSettings,
     /// How trees are looked at.
     pub trees: TreesSettings,
 }
@@ -78,6 +82,7 @@ impl Default for Session {
     fn default() -> Self {
         let panes = [(PaneId::A, TechniqueName::Raster), (PaneId::B, TechniqueName::Path)];
         Session {
+            workspace: COMPARE,
             panes: panes.into_iter().map(|(id, technique)| (id, PaneSettings::of(technique))).collect(),
             sources: Panes::default(),
             display: DisplayTransform::default(),
@@ -89,6 +94,7 @@ impl Default for Session {
             plots: PlotSettings::default(),
             sweep: SweepSettings::default(),
             probe: ProbeSettings::default(),
+            ladder: LadderSettings::default(),
             trees: TreesSettings::default(),
         }
     }

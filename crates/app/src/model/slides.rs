@@ -1,6 +1,6 @@
 //! The tutorial's slides as they are shown: each a scene and two presets side by side, in the order of the lecture.
 
-use super::{CompareWith, Model, PaneId, PaneSource, View};
+use super::{COMPARE, CompareWith, LADDER, Model, PaneId, PaneSource, TREES, View};
 use compare::ErrorMetric;
 use film::DisplayTransform;
 use technique::{Preset, SceneChanges};
@@ -164,7 +164,9 @@ impl Model {
     /// Shows a slide: at once if its scene is open, else when it has come. Returns the scene to be opened for it.
     pub fn show_slide(&mut self, slide: &'static Slide) -> Option<&'static str> {
         self.state.awaited_slide = Some(slide);
-        self.session.trees.open = false;
+        if self.session.is_in(TREES) || self.session.is_in(LADDER) {
+            self.session.workspace = COMPARE;
+        }
         if self.document.source != slide.scene {
             return Some(slide.scene);
         }

@@ -1,15 +1,13 @@
 //! What a ray is tested against, with and without a tree: the settings of that workspace, what is to be traced for it, and
 //! what is known of that.
 
-use super::Model;
+use super::{LADDER, Model, TREES};
 use pathtrace::intersect::counted::Structure;
 use scene::{Camera, Vec3};
 
 /// How the workspace is looked at.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TreesSettings {
-    /// Whether it is the workspace in use.
-    pub open: bool,
     /// Of the statue: it has 8 x 4^level triangles.
     pub level: u32,
     /// What the pictures show.
@@ -27,7 +25,7 @@ impl TreesSettings {
 
 impl Default for TreesSettings {
     fn default() -> Self {
-        TreesSettings { open: false, level: 5, show: Counted::Boxes, boxes: None, plot: TreePlot::Seconds }
+        TreesSettings { level: 5, show: Counted::Boxes, boxes: None, plot: TreePlot::Seconds }
     }
 }
 
@@ -194,13 +192,8 @@ pub fn extrapolated(points: &[TreePoint], plot: TreePlot) -> Option<[(f64, f64);
 impl Model {
     /// Left, top, right and bottom in points of what a picture as seen shows.
     pub fn seen_corners(&self) -> [f32; 4] {
-        if self.session.trees.open { self.state.tree_corners } else { self.state.picture.corners }
-    }
-
-    /// Opens the workspace of trees, or goes back to the comparison.
-    pub fn show_trees(&mut self, open: bool) {
-        self.session.trees.open = open;
-        self.session.sweep.open &= !open;
+        let several = self.session.is_in(TREES) || self.session.is_in(LADDER);
+        if several { self.state.seen_corners } else { self.state.picture.corners }
     }
 }
 

@@ -90,12 +90,10 @@ pub struct UiState {
     pub sweep: SweepState,
     /// Width and height in pixels of a picture of rays, as last drawn.
     pub tree_pixels: (u32, u32),
-    /// Left, top, right and bottom in points of what the workspace of trees shows beside its controls.
-    pub tree_corners: [f32; 4],
+    /// Left, top, right and bottom in points of what workspaces of several pictures show beside their controls.
+    pub seen_corners: [f32; 4],
     /// How hard cases are looked at.
     pub cases: CasesState,
-    /// The id of a workspace that shall be open from the next frame on.
-    pub wished_workspace: Option<&'static str>,
     /// What switched-off settings come back to.
     pub switched_off: Panes<SwitchedOff>,
 }
@@ -193,9 +191,8 @@ impl UiState {
             export: ExportMenu::default(),
             sweep: SweepState::default(),
             tree_pixels: (0, 0),
-            tree_corners: [0.0; 4],
+            seen_corners: [0.0; 4],
             cases: CasesState::default(),
-            wished_workspace: None,
             switched_off: Panes::default(),
         }
     }

@@ -1,7 +1,7 @@
 //! What there is to show: results, as those who draw them take them.
 
 use super::{
-    Against, CasesView, Effort, ErrorHistory, ErrorMap, ErrorPoint, External, LightByBounce, ObjectMap, PaneId, PaneProbe,
+    Against, CasesView, Effort, ErrorHistory, ErrorMap, ErrorPoint, External, LadderView, LightByBounce, ObjectMap, PaneId, PaneProbe,
     PaneSource, Panes, Progress, Region, ShapesAlong, ShownEffects, TileFacts, TreesView,
 };
 use crate::ruler::ReferenceImage;
@@ -33,6 +33,8 @@ pub struct ViewModel {
     pub light: Panes<LightByBounce>,
     /// What is known of a sweep's tiles.
     pub sweep: SweepView,
+    /// What is known of a ladder's rungs.
+    pub ladder: LadderView,
     /// What is known of rays with and without trees.
     pub trees: TreesView,
     /// What is known of hard cases, whatever scene is open.

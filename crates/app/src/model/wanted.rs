@@ -1,7 +1,7 @@
 //! What shall be made: a plain value, stated anew in every frame. Who makes it compares it with what was wanted before.
 
 use super::{
-    Comparison, LightWish, MapWish, ObjectsWish, PaneSource, Panes, ProbeWish, SweepPlan, WantedCases, WantedTrees,
+    Comparison, LightWish, MapWish, ObjectsWish, PaneSource, Panes, ProbeWish, SweepPlan, WantedCases, WantedLadder, WantedTrees,
 };
 use film::DisplayTransform;
 use scene::Camera;
@@ -24,6 +24,8 @@ pub struct Wanted {
     pub map: Option<MapWish>,
     /// The tiles that are to be made, where a sweep is looked at.
     pub sweep: Option<WantedSweep>,
+    /// The ladder that is to be climbed, where one is looked at.
+    pub ladder: Option<WantedLadder>,
     /// What is traced of trees, where they are looked at.
     pub trees: Option<WantedTrees>,
     /// Hard cases that are measured, where they are looked at.

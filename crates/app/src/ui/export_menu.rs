@@ -4,8 +4,8 @@
 use super::widgets::{Explained, framed, menu};
 use super::{UiCommand, UiContext, dialogue_button};
 use crate::model::{
-    Destination, ExportRequest, ExportSubject, FilePurpose, FileWish, Model, PaneId, PaneSource, PaneView, PlotFile,
-    SlideSize, SweepFile,
+    Destination, ExportRequest, ExportSubject, FilePurpose, FileWish, LADDER, Model, PaneId, PaneSource, PaneView,
+    PlotFile, SWEEP, SlideSize, SweepFile, TREES,
 };
 use egui::Ui;
 use image_file::{self, Kind};
@@ -19,12 +19,17 @@ pub fn seen_file(model: &Model) -> PathBuf {
 
 /// What is seen as a whole: the picture area, or all tiles of a sweep.
 pub fn seen_subject(model: &Model) -> ExportSubject {
-    if model.session.sweep.open { ExportSubject::Sweep(SweepFile::Picture) } else { ExportSubject::AsSeen }
+    if model.session.is_in(SWEEP) { ExportSubject::Sweep(SweepFile::Picture) } else { ExportSubject::AsSeen }
 }
 
 /// The file for a sweep, in the same folder.
 pub fn sweep_file(model: &Model, file: SweepFile) -> PathBuf {
     folder(model).join(format!("{}.{}", stem(model, ExportSubject::Sweep(file)), file.name().to_lowercase()))
+}
+
+/// The folder for a ladder, in the same folder.
+pub fn ladder_folder(model: &Model) -> PathBuf {
+    folder(model).join(stem(model, ExportSubject::Ladder))
 }
 
 /// The file for the plot of errors, in the same folder.
@@ -60,6 +65,7 @@ fn title(subject: ExportSubject) -> String {
         ExportSubject::Plot(_) => "The plot".into(),
         ExportSubject::Sweep(SweepFile::Picture) => "The sweep".into(),
         ExportSubject::Sweep(SweepFile::Table) => "Its table".into(),
+        ExportSubject::Ladder => "The ladder".into(),
         ExportSubject::Samples => "The samples".into(),
         ExportSubject::Session => "Session".into(),
         ExportSubject::Scene => "Changed scene".into(),
@@ -75,6 +81,7 @@ fn about(subject: ExportSubject) -> Option<&'static str> {
         ExportSubject::Scene => Some(OF_SCENES),
         ExportSubject::Report => Some(OF_REPORTS),
         ExportSubject::Slide(_) => Some(OF_SLIDES),
+        ExportSubject::Ladder => Some(OF_LADDERS),
         _ => None,
     }
 }
@@ -94,6 +101,9 @@ const OF_REPORTS: &str = "Pictures, errors, plots, settings, times, machine and 
 const OF_SLIDES: &str =
     "The pictures of this view with large labels (.png): A or B alone, both, or both and the error map";
 
+const OF_LADDERS: &str =
+    "A folder with a picture of each rung, a table, a chart and a sheet of all: what visavis ladder makes";
+
 /// The folder of pictures; where there is none at all, the current one.
 fn default_folder() -> PathBuf {
     image_file::default_folder().unwrap_or_default()
@@ -109,6 +119,7 @@ fn stem(model: &Model, subject: ExportSubject) -> String {
         },
         (ExportSubject::Plot(_), _) => format!("{}-over-{}", session.plots.measure.name(), session.plots.over.name()),
         (ExportSubject::Sweep(_), _) => sweep_name(model),
+        (ExportSubject::Ladder, _) => "ladder".into(),
         (ExportSubject::Samples, _) => {
             let [column, row] = session.probe.pixel(model.state.picture.size);
             format!("samples-at-{column}-{row}")
@@ -118,7 +129,8 @@ fn stem(model: &Model, subject: ExportSubject) -> String {
         (ExportSubject::Report, _) => "report".into(),
         (ExportSubject::Slide(_), _) => "slide".into(),
         (ExportSubject::ErrorMap, _) => format!("error-{}", session.comparison.metric.name()),
-        (ExportSubject::AsSeen, _) if session.trees.open => format!("trees-level-{}", session.trees.level),
+        (ExportSubject::AsSeen, _) if session.is_in(TREES) => format!("trees-level-{}", session.trees.level),
+        (ExportSubject::AsSeen, _) if session.is_in(LADDER) => format!("rung-{}", session.ladder.selected.name()),
         (ExportSubject::AsSeen, view) => view.name().to_lowercase().replace(' ', "-"),
     };
     format!("visavis-{}-{of}", name_of_scene(model))
@@ -157,11 +169,15 @@ fn sweep_name(model: &Model) -> String {
 
 /// What there is to export, of the comparison, of the sweep or of trees: pictures, and what is whole.
 fn subjects(cx: &UiContext) -> [Vec<ExportSubject>; 2] {
-    if cx.model.session.sweep.open {
+    if cx.model.session.is_in(SWEEP) {
         let files = [SweepFile::Picture, SweepFile::Table].map(ExportSubject::Sweep);
         return [files.to_vec(), vec![ExportSubject::Session, ExportSubject::Scene]];
     }
-    if cx.model.session.trees.open {
+    if cx.model.session.is_in(LADDER) {
+        let pictures = vec![ExportSubject::AsSeen, ExportSubject::Ladder];
+        return [pictures, vec![ExportSubject::Session, ExportSubject::Scene]];
+    }
+    if cx.model.session.is_in(TREES) {
         return [vec![ExportSubject::AsSeen], vec![ExportSubject::Session, ExportSubject::Scene]];
     }
     let panes = cx.model.session.panes.ids().map(ExportSubject::Pane);
@@ -251,12 +267,13 @@ fn file(cx: &mut UiContext, ui: &mut Ui) {
     menu.exr = Kind::of(Path::new(menu.file.trim())).map_or(menu.exr, |kind| kind == Kind::Exr);
     let kind = match subject {
         ExportSubject::Session | ExportSubject::Scene => "toml",
+        ExportSubject::Ladder => "",
         ExportSubject::Sweep(SweepFile::Table) => "csv",
         ExportSubject::Report => "html",
         _ if menu.exr && is_of_two_kinds(subject) => "exr",
         _ => "png",
     };
-    let proposal = usual_folder(cx.model, subject).join(format!("{}.{kind}", stem(cx.model, subject)));
+    let proposal = usual_folder(cx.model, subject).join(stem(cx.model, subject)).with_added_extension(kind);
     let label = ui.label("File");
     let hint = proposal.display().to_string();
     let edit =
@@ -281,7 +298,9 @@ fn file(cx: &mut UiContext, ui: &mut Ui) {
             ui.close();
         }
         // of which there is nothing to be seen elsewhere
-        if [ExportSubject::Session, ExportSubject::Scene, ExportSubject::Report].contains(&subject) {
+        if [ExportSubject::Session, ExportSubject::Scene, ExportSubject::Report, ExportSubject::Ladder]
+            .contains(&subject)
+        {
             return;
         }
         let copy =

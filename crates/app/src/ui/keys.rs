@@ -3,12 +3,13 @@
 
 use super::pressed::{HelpLine, Keys};
 use super::{UiCommand, UiContext, Workspaces, export_menu};
-use crate::model::{Destination, ExportRequest, ExportSubject};
+use crate::model::{COMPARE, Destination, ExportRequest, ExportSubject, LADDER, SWEEP, TREES};
 use egui::{Context, Event, Key, Modifiers, Popup};
 
 /// What the keys do that every workspace has, for the help.
-pub const KEYS: [HelpLine; 18] = [
+pub const KEYS: [HelpLine; 19] = [
     ("S", "sweep: many pictures at once, and back to the comparison"),
+    ("D", "ladder: from the fake to the truth, one defect at a time, and back to the comparison"),
     ("X", "trees: what a ray is tested against, and back to the comparison"),
     ("P", "pause, go on"),
     ("R", "restart"),
@@ -38,7 +39,7 @@ pub fn listen(workspaces: &mut Workspaces, cx: &mut UiContext, context: &Context
         let to = Destination::File(export_menu::session_file(cx.model));
         cx.commands.push(UiCommand::Export(ExportRequest { subject: ExportSubject::Session, to }));
     }
-    if keys.command(Key::P) > 0 && (cx.model.session.sweep.open || cx.model.session.trees.open) {
+    if keys.command(Key::P) > 0 && !cx.model.session.is_in(COMPARE) {
         cx.model.say(Err("a report is of the comparison: Esc goes back to it".into()));
     } else if keys.command(Key::P) > 0 {
         let to = Destination::File(export_menu::report_file(cx.model));
@@ -72,7 +73,7 @@ pub fn listen(workspaces: &mut Workspaces, cx: &mut UiContext, context: &Context
         export_as_seen(cx, Destination::Clipboard);
     }
     // settings of A and B are not changed where nobody sees them
-    let steps_are_seen = !cx.model.session.trees.open;
+    let steps_are_seen = !cx.model.session.is_in(TREES);
     for _ in 0..keys.command(Key::Z) * usize::from(steps_are_seen) {
         cx.model.undo();
     }
@@ -91,12 +92,10 @@ fn export_as_seen(cx: &mut UiContext, to: Destination) {
 
 fn letters(cx: &mut UiContext, keys: &Keys) {
     let turned_over = |key| keys.presses(key) % 2 == 1;
-    if turned_over(Key::S) {
-        cx.model.session.trees.open = false;
-        cx.model.session.sweep.open ^= true;
-    }
-    if turned_over(Key::X) {
-        cx.model.show_trees(!cx.model.session.trees.open);
+    for (key, workspace) in [(Key::S, SWEEP), (Key::D, LADDER), (Key::X, TREES)] {
+        if turned_over(key) {
+            cx.model.turn_to(workspace);
+        }
     }
     let state = &mut cx.model.state;
     state.paused ^= turned_over(Key::P);

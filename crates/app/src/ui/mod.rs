@@ -65,10 +65,23 @@ pub struct Textures {
     pub outline: Option<TextureId>,
     /// The tiles of a sweep, in their order.
     pub tiles: Vec<Option<TextureId>>,
+    /// The pictures of a ladder.
+    pub ladder: LadderTextures,
     /// Rays through the statue, in the order of the structures.
     pub trees: [Option<TextureId>; 3],
     /// Small pictures of built-in scenes, by their names.
     pub thumbnails: HashMap<&'static str, TextureId>,
+}
+
+/// The pictures of a ladder, as egui knows them.
+#[derive(Debug, Default)]
+pub struct LadderTextures {
+    /// Those of its rungs, by [`Rung::place`](crate::model::Rung::place).
+    pub rungs: Vec<Option<TextureId>>,
+    /// The reference that all are measured by.
+    pub reference: Option<TextureId>,
+    /// The map of one rung's errors.
+    pub map: Option<TextureId>,
 }
 
 /// What everything that is drawn in one frame reads, changes and asks for.

@@ -2,7 +2,7 @@
 
 use super::widgets::{Explained, framed, menu};
 use super::{UiCommand, UiContext, dialogue_button};
-use crate::model::{FilePurpose, FileWish};
+use crate::model::{CASES, FilePurpose, FileWish};
 use egui::{
     Atom, Button, Color32, Grid, Image, Rect, Response, RichText, ScrollArea, Sense, TextureId, Ui, Vec2, pos2, vec2,
 };
@@ -89,7 +89,7 @@ fn hard_cases(cx: &mut UiContext, ui: &mut Ui) {
     let measure = ui.button("Measure them ...");
     let measure = measure.explained("What each claims, measured here beside what was expected");
     if cx.dump.note("measure hard cases", "", measure).clicked() {
-        cx.model.state.wished_workspace = Some("cases");
+        cx.model.session.workspace = CASES;
         ui.close();
     }
     let tallest = (ui.ctx().content_rect().height() - 150.0).max(100.0);

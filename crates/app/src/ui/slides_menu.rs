@@ -2,8 +2,27 @@
 
 use super::widgets::{Explained, menu, rows_of_menu};
 use super::{UiCommand, UiContext};
-use crate::model::SLIDES;
+use crate::model::{LADDER, SLIDES, SWEEP, TREES};
 use egui::Ui;
+
+/// Workspaces that answer a question of the lecture: what leads to each and back from it, and what it shows.
+const WORKSPACES: [(&str, [&str; 2], &str); 3] = [
+    (
+        SWEEP,
+        ["Many pictures at once (S)", "Back to the comparison (S)"],
+        "Sweeps: a strip of one setting or a matrix of two, each picture with its error",
+    ),
+    (
+        LADDER,
+        ["What went wrong here? (D)", "Back from the ladder (D)"],
+        "From the fake to the truth, one defect at a time: the error that each leaves, and what its repair costs",
+    ),
+    (
+        TREES,
+        ["What a tree saves (X)", "Back from the trees (X)"],
+        "33 million triangles: what a ray is tested against without a tree and with one",
+    ),
+];
 
 pub fn show(cx: &mut UiContext, ui: &mut Ui) {
     let (response, _) = menu("Slides").ui(ui, |ui| {
@@ -13,22 +32,13 @@ pub fn show(cx: &mut UiContext, ui: &mut Ui) {
 }
 
 fn rows(cx: &mut UiContext, ui: &mut Ui) {
-    let open = cx.model.session.sweep.open;
-    let title = if open { "Back to the comparison (S)" } else { "Many pictures at once (S)" };
-    let item =
-        ui.button(title).explained("Sweeps: a strip of one setting or a matrix of two, each picture with its error");
-    if cx.dump.note("slides sweep", open, item).clicked() {
-        cx.model.session.trees.open = false;
-        cx.model.session.sweep.open = !open;
-        ui.close();
-    }
-    let open = cx.model.session.trees.open;
-    let title = if open { "Back from the trees (X)" } else { "What a tree saves (X)" };
-    let item =
-        ui.button(title).explained("33 million triangles: what a ray is tested against without a tree and with one");
-    if cx.dump.note("slides trees", open, item).clicked() {
-        cx.model.show_trees(!open);
-        ui.close();
+    for (workspace, titles, about) in WORKSPACES {
+        let open = cx.model.session.is_in(workspace);
+        let item = ui.button(titles[usize::from(open)]).explained(about);
+        if cx.dump.note(&format!("slides {workspace}"), open, item).clicked() {
+            cx.model.turn_to(workspace);
+            ui.close();
+        }
     }
     for slide in SLIDES {
         let item = ui.button(slide.title).explained(slide.about);

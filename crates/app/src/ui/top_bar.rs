@@ -3,7 +3,7 @@
 use super::theme::palette;
 use super::widgets::{Explained, Icon, framed, icon_button, menu};
 use super::{UiContext, Workspaces, export_menu, scene_menu, slides_menu};
-use crate::model::Theme;
+use crate::model::{TREES, Theme};
 use egui::{Frame, Margin, TextStyle, Ui};
 
 /// Windows narrower than this, in sizes of the type, have no room for the bar as it is.
@@ -47,7 +47,7 @@ impl Part {
         match self {
             Part::Scene => scene_menu::show(cx, ui),
             Part::Workspace => workspaces.open_mut().bar(cx, ui),
-            Part::Tools => tools(cx, ui),
+            Part::Tools => tools(workspaces, cx, ui),
         }
     }
 }
@@ -75,14 +75,13 @@ fn widths_id() -> egui::Id {
     egui::Id::unique("widths of the bar")
 }
 
-/// Windows narrower than this, in points, have the sweep's button in the menu of slides alone.
+/// Windows narrower than this, in points, have the workspaces in the menu of slides alone.
 const ROOMY: f32 = 900.0;
 
 /// What stands at the right of the bar.
-fn tools(cx: &mut UiContext, ui: &mut Ui) {
+fn tools(workspaces: &Workspaces, cx: &mut UiContext, ui: &mut Ui) {
     if ui.ctx().content_rect().width() >= ROOMY {
-        sweep_button(cx, ui);
-        trees_button(cx, ui);
+        workspaces.buttons(cx, ui);
     }
     slides_menu::show(cx, ui);
     steps(cx, ui);
@@ -100,30 +99,8 @@ fn tools(cx: &mut UiContext, ui: &mut Ui) {
     }
 }
 
-fn sweep_button(cx: &mut UiContext, ui: &mut Ui) {
-    let open = cx.model.session.sweep.open;
-    let hover = "Many pictures at once, of one setting or two, each with its error; again: back to the comparison (S)";
-    let sweep = icon_button(Icon::Sweep, ("Sweep", hover), (true, open), ui);
-    if cx.dump.note("sweep", open, sweep).clicked() {
-        cx.model.session.trees.open = false;
-        cx.model.session.sweep.open = !open;
-        ui.ctx().request_repaint();
-    }
-}
-
-fn trees_button(cx: &mut UiContext, ui: &mut Ui) {
-    let open = cx.model.session.trees.open;
-    let hover =
-        "What a ray is tested against, without a tree and with two kinds of trees; again: back to the comparison (X)";
-    let trees = icon_button(Icon::Trees, ("Trees", hover), (true, open), ui);
-    if cx.dump.note("trees", open, trees).clicked() {
-        cx.model.show_trees(!open);
-        ui.ctx().request_repaint();
-    }
-}
-
 fn steps(cx: &mut UiContext, ui: &mut Ui) {
-    let seen = !cx.model.session.trees.open;
+    let seen = !cx.model.session.is_in(TREES);
     let [can_undo, can_redo] = cx.model.can_undo_and_redo().map(|can| can && seen);
     let hover = "Take back the last change of a setting or of the camera (Ctrl+Z)";
     let undo = icon_button(Icon::Undo, ("Undo", hover), (can_undo, false), ui);

@@ -2,30 +2,42 @@
 
 use super::UiContext;
 use super::theme::palette;
-use super::widgets::icon_and_word;
+use super::widgets::{icon_and_word, icon_button};
 use super::workspace::Workspace;
 use super::workspace::cases::Cases;
 use super::workspace::compare::Compare;
 use super::workspace::empty::Empty;
+use super::workspace::ladder::Ladder;
 use super::workspace::sweep::Sweep;
 use super::workspace::trees::Trees;
-use crate::model::Model;
+use crate::model::{EVERYBODYS, Model};
 use egui::{Frame, Margin, Ui};
 
-/// All that there are, in the order of the rail; the first one is the usual one. The first three are everybody's, to choose
-/// from in the bar.
+/// All that there are, in the order of bar and rail; the first one is the usual one. Those whose ids are among
+/// [`EVERYBODYS`] are, and are kept in sessions.
 fn registry() -> Vec<Box<dyn Workspace>> {
-    vec![Box::<Compare>::default(), Box::new(Sweep), Box::new(Trees), Box::new(Empty), Box::<Cases>::default()]
+    vec![
+        Box::<Compare>::default(),
+        Box::new(Sweep),
+        Box::new(Ladder),
+        Box::new(Trees),
+        Box::<Cases>::default(),
+        Box::new(Empty),
+    ]
 }
 
-/// How many everybody has.
-const USUAL: usize = 3;
+/// The word that a session knows a workspace by; `None` if it is not everybody's.
+fn everybodys(workspace: &dyn Workspace) -> Option<&'static str> {
+    EVERYBODYS.into_iter().find(|known| *known == workspace.id())
+}
 
 /// Those that the window offers, and the one that is open.
 pub struct Workspaces {
     /// Never empty.
     offered: Vec<Box<dyn Workspace>>,
     open: usize,
+    /// What the session said last.
+    followed: Option<&'static str>,
 }
 
 impl Default for Workspaces {
@@ -35,15 +47,15 @@ impl Default for Workspaces {
 }
 
 impl Workspaces {
-    /// The usual workspaces, the one of this id open; all of them, with a rail, where it is none of those.
+    /// Everybody's workspaces, the one of this id open; all of them, with a rail, where it is none of those.
     pub fn beginning_with(id: Option<&str>) -> Self {
         let mut offered = registry();
-        let place = id.and_then(|id| offered.iter().position(|workspace| workspace.id() == id));
-        let open = place.unwrap_or(0);
-        if open < USUAL {
-            offered.truncate(USUAL);
+        let asked = id.filter(|id| !EVERYBODYS.contains(id) && offered.iter().any(|workspace| workspace.id() == *id));
+        if asked.is_none() {
+            offered.retain(|workspace| everybodys(&**workspace).is_some());
         }
-        Workspaces { offered, open }
+        let open = id.and_then(|id| offered.iter().position(|workspace| workspace.id() == id));
+        Workspaces { offered, open: open.unwrap_or(0), followed: None }
     }
 
     /// The ids of all workspaces.
@@ -51,18 +63,13 @@ impl Workspaces {
         registry().iter().map(|workspace| workspace.id()).collect()
     }
 
-    /// Opens the one that is wished, or that of the usual ones which the session says, unless another is open.
-    pub fn follow(&mut self, model: &mut Model) {
-        if let Some(wished) = model.state.wished_workspace.take() {
-            let place = |offered: &[Box<dyn Workspace>]| offered.iter().position(|workspace| workspace.id() == wished);
-            if place(&self.offered).is_none() {
-                self.offered = registry();
-            }
-            self.open = place(&self.offered).unwrap_or(self.open);
-        }
-        if self.open < USUAL {
-            let session = &model.session;
-            self.open = if session.trees.open { 2 } else { usize::from(session.sweep.open) };
+    /// Opens what the session says, once it says something else than before; at first unless another is open.
+    pub fn follow(&mut self, model: &Model) {
+        let said = model.session.workspace;
+        let other_is_open = self.followed.is_none() && everybodys(self.open()).is_none();
+        if self.followed.replace(said) != Some(said) && !other_is_open {
+            let place = self.offered.iter().position(|workspace| workspace.id() == said);
+            self.open = place.unwrap_or(self.open);
         }
     }
 
@@ -76,9 +83,23 @@ impl Workspaces {
         &mut *self.offered[self.open]
     }
 
-    /// Icon and word of each at the left, where there is more than one to choose from.
+    /// A button for each that is everybody's; that of the open one goes back to the usual one.
+    pub fn buttons(&self, cx: &mut UiContext, ui: &mut Ui) {
+        for workspace in &self.offered {
+            let Some(id) = everybodys(&**workspace) else { continue };
+            let open = cx.model.session.is_in(id);
+            let words = (workspace.name(), workspace.about());
+            let button = icon_button(workspace.icon(), words, (true, open), ui);
+            if cx.dump.note(id, open, button).clicked() {
+                cx.model.turn_to(id);
+                ui.ctx().request_repaint();
+            }
+        }
+    }
+
+    /// Icon and word of each at the left, where there are more than everybody's.
     pub fn rail(&mut self, cx: &mut UiContext, ui: &mut Ui) {
-        if self.offered.len() == USUAL {
+        if self.offered.iter().all(|workspace| everybodys(&**workspace).is_some()) {
             return;
         }
         let frame = Frame::new().fill(palette(ui).panel).inner_margin(Margin::same(4));
@@ -88,7 +109,8 @@ impl Workspaces {
                 let tab = icon_and_word(workspace.icon(), workspace.name(), open, ui);
                 if cx.dump.note(&format!("workspace {id}"), open, tab).clicked() {
                     self.open = index;
-                    (cx.model.session.sweep.open, cx.model.session.trees.open) = (index == 1, index == 2);
+                    cx.model.session.workspace = everybodys(&**workspace).unwrap_or(EVERYBODYS[0]);
+                    self.followed = Some(cx.model.session.workspace);
                 }
             }
         });

@@ -6,6 +6,7 @@ mod effects;
 mod external;
 mod files;
 mod judge;
+mod ladder;
 mod objects;
 mod plots;
 mod presentation;
@@ -25,10 +26,11 @@ use crate::engine::export::{Content, Export};
 use crate::engine::load::Asked;
 use crate::engine::memory::Memory;
 use crate::engine::post_process::PaneUpdate;
-use crate::model::{Destination, Drawing, Effort, ExportSubject, Model, PaneId, PaneView};
+use crate::model::{Destination, Drawing, Effort, ExportSubject, LADDER, Model, PaneId, PaneView, TREES};
 use crate::ui::{self, Dump, UiCommand, UiContext, Workspaces};
 use gpu::Gpu;
 use judge::Judge;
+use ladder::MadeLadder;
 use presentation::Presentation;
 use serde_json::{Value, json};
 use std::time::{Duration, Instant};
@@ -58,6 +60,8 @@ pub struct Viewer {
     sweep: MadeSweep,
     /// Finds which effects of light make what.
     effects: Effects,
+    /// The rungs of the ladder that is looked at.
+    ladder: MadeLadder,
 }
 
 impl Viewer {
@@ -77,6 +81,7 @@ impl Viewer {
             judge: None,
             sweep: MadeSweep::default(),
             effects: Effects::default(),
+            ladder: MadeLadder::default(),
         }
     }
 
@@ -96,6 +101,7 @@ impl Viewer {
         }
         self.follow_the_reference();
         self.collect_sweep(textures);
+        self.collect_ladder(textures);
         self.collect_trees(textures);
         self.collect_cases();
         self.collect_objects(textures);
@@ -158,6 +164,7 @@ impl Viewer {
                 ExportSubject::ErrorMap => self.export_map(request.to),
                 ExportSubject::Plot(kind) => self.export_plot(kind, request.to),
                 ExportSubject::Sweep(file) => self.export_sweep(file, request.to),
+                ExportSubject::Ladder => self.export_ladder(request.to),
                 ExportSubject::Samples => self.export_samples(request.to),
                 ExportSubject::Session => self.export_session(request.to),
                 ExportSubject::Scene => self.export_scene(request.to),
@@ -194,8 +201,8 @@ impl Viewer {
 
     /// Exports the picture area as it was drawn, line and labels included.
     pub fn export_as_seen(&mut self, capture: Capture, to: Destination) {
-        if self.model.session.trees.open {
-            let records = self.records_of_trees();
+        if self.model.session.is_in(TREES) || self.model.session.is_in(LADDER) {
+            let records = self.records_of_the_session();
             return self.engine.export(Export { content: Content::Seen(capture), records, to });
         }
         let mut records = self.presentation.records_of_all(&self.model);
@@ -247,6 +254,7 @@ impl Viewer {
             "flicker": state.flicker.map(|pane| pane.name()),
             "paused": state.paused,
             "sweep": self.sweep_dump(),
+            "ladder": self.ladder_dump(),
             "trees": self.trees_dump(),
             "cases": self.cases_dump(),
             "objects": self.objects_dump(),

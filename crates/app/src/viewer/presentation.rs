@@ -44,6 +44,10 @@ pub enum Place {
     Outline,
     /// A tile of a sweep, by its place.
     Tile(usize),
+    /// The picture of a ladder's rung, by its place; behind the last the reference.
+    Rung(usize),
+    /// The map of a rung's errors.
+    LadderMap,
     /// Rays through the statue in one structure, by its place.
     Trees(usize),
     /// A small picture of the built-in scene of this name.

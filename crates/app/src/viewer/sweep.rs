@@ -4,7 +4,7 @@ use super::{Place, TextureStore, Viewer};
 use crate::engine::export::{Content, Export};
 use crate::engine::restore::SESSION;
 use crate::engine::sweep::ShownTile;
-use crate::model::{Destination, SavedSession, SweepFile, SweepView, TileFacts, sweep_csv};
+use crate::model::{Destination, SWEEP, SavedSession, SweepFile, SweepView, TileFacts, sweep_csv};
 use crate::sweep::{Sheet, Tile};
 use egui::TextureFilter;
 use serde_json::{Value, json};
@@ -91,7 +91,7 @@ impl Viewer {
         };
         let tiles: Vec<Value> = sweep.tiles.iter().map(tile).collect();
         json!({
-            "open": self.model.session.sweep.open,
+            "open": self.model.session.is_in(SWEEP),
             "tiles": tiles,
             "reference": sweep.reference.as_ref().map(|r| [r.pictures, u32::from(r.done)]),
         })

@@ -2,7 +2,7 @@
 
 use super::{Place, TextureStore, Viewer};
 use crate::engine::restore::SESSION;
-use crate::model::SavedSession;
+use crate::model::{SavedSession, TREES};
 use egui::TextureFilter;
 use image_file::Records;
 use serde_json::{Value, json};
@@ -26,8 +26,8 @@ impl Viewer {
         }
     }
 
-    /// What a picture of the trees keeps: the session, which opens as them.
-    pub(super) fn records_of_trees(&self) -> Records {
+    /// What a picture of the trees or of a ladder keeps: the session, which opens as them.
+    pub(super) fn records_of_the_session(&self) -> Records {
         let document = &self.model.document;
         vec![(SESSION, SavedSession::of(&self.model, None).text(&document.scene, &document.source))]
     }
@@ -42,6 +42,6 @@ impl Viewer {
             })
         });
         let facts: Vec<Value> = facts.collect();
-        json!({ "open": self.model.session.trees.open, "facts": facts, "points": trees.points.len(), "doing": trees.doing })
+        json!({ "open": self.model.session.is_in(TREES), "facts": facts, "points": trees.points.len(), "doing": trees.doing })
     }
 }

@@ -36,6 +36,7 @@ pub fn choose(wish: &FileWish, window: &Window) -> Choice {
                 ExportSubject::Session => dialogue.set_title("Save the session").add_filter("Sessions", &["toml"]),
                 ExportSubject::Scene => dialogue.set_title("Save the changed scene").add_filter("Scenes", &["toml"]),
                 ExportSubject::Report => dialogue.set_title("Save the report").add_filter("Pages", &["html"]),
+                ExportSubject::Ladder => dialogue.set_title("Save the ladder as a folder of this name"),
                 _ => dialogue.set_title("Save the picture").add_filter("Pictures", &["png", "exr"]),
             };
             Box::pin(filtered.set_file_name(name).save_file())

@@ -11,7 +11,7 @@ use crate::engine::ask::Engine;
 use crate::engine::capture::Capture;
 use crate::engine::load::Opened;
 use crate::engine::memory::{self, Memory};
-use crate::model::{Destination, ExportRequest, Model, Remembered, ViewArgs};
+use crate::model::{Destination, ExportRequest, Model, Remembered, SWEEP, ViewArgs};
 use crate::ui::{UiCommand, Workspaces};
 use crate::viewer::Viewer;
 use reference::Store;
@@ -142,7 +142,7 @@ impl WindowState {
         self.viewer.take_commands().into_iter().for_each(|command| self.handle(command));
         self.viewer.ask();
         let session = &self.viewer.model.session;
-        self.stats.note(if session.sweep.open { "Sweep" } else { session.view.name() }, clock.elapsed());
+        self.stats.note(if session.is_in(SWEEP) { "Sweep" } else { session.view.name() }, clock.elapsed());
         poses.into_iter().for_each(|to| self.capture(&drawn.painting(), to));
         let (shown, next) = self.canvas.present(drawn);
         if shown == Presented::Shown {

@@ -6,6 +6,7 @@ mod bugs;
 mod cases;
 mod closer;
 mod effects;
+mod ladder;
 mod light;
 mod numbers;
 mod parts;
@@ -322,7 +323,7 @@ fn keys_and_menus_ask_the_shell() {
 #[test]
 fn a_second_workspace_has_a_tab_where_it_is_asked_for_and_wants_pictures_of_its_own() {
     let usual = Panels::of("whitted");
-    assert!(usual.harness.query_by_label("Compare").is_none(), "a button of the bar chooses between the usual two");
+    assert!(usual.harness.query_by_label("Empty").is_none(), "buttons of the bar choose among the usual ones");
     let cornell = scene::builtin::named("cornell").expect("a built-in scene");
     let model = Model::new(cornell, "cornell".into(), Theme::Dark);
     let mut panels = Panels::in_workspaces(model, Workspaces::beginning_with(Some("empty")));

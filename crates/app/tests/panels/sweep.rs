@@ -5,8 +5,8 @@ use compare::Errors;
 use egui::{Key, Modifiers};
 use egui_kittest::kittest::{NodeT, Queryable};
 use visavis::model::{
-    Axis, Destination, Equal, ExportRequest, ExportSubject, Model, PaneId, SweepFile, SweepMeasure, Theme, TileErrors,
-    TileFacts, ViewModel,
+    Axis, Destination, Equal, ExportRequest, ExportSubject, Model, PaneId, SWEEP, SweepFile, SweepMeasure, Theme,
+    TileErrors, TileFacts, ViewModel,
 };
 use visavis::ui::{UiCommand, Workspaces};
 
@@ -50,7 +50,9 @@ fn type_values(panels: &mut Panels, name: &str, values: &str) {
 fn a_key_and_a_button_open_it_and_go_back_and_only_what_is_open_is_wanted() {
     let mut panels = panels(ViewModel::default());
     let wanted = panels.wanted();
-    assert!(panels.model.borrow().session.sweep.open && panels.shows("Ready sweeps") && !panels.shows("Side by side"));
+    assert!(
+        panels.model.borrow().session.is_in(SWEEP) && panels.shows("Ready sweeps") && !panels.shows("Side by side")
+    );
     assert_eq!(wanted.panes.ids().count(), 0, "panes are not made meanwhile");
     let sweep = wanted.sweep.expect("tiles to make");
     assert_eq!(sweep.plan.tiles.len(), 3);
@@ -73,7 +75,7 @@ fn a_narrow_window_has_it_in_the_menu_of_slides() {
     for (item, open) in [("Many pictures at once (S)", true), ("Back to the comparison (S)", false)] {
         panels.click("Slides", 0);
         panels.click(item, 0);
-        assert_eq!(panels.model.borrow().session.sweep.open, open);
+        assert_eq!(panels.model.borrow().session.is_in(SWEEP), open);
     }
 }
 
@@ -93,13 +95,13 @@ fn a_tile_becomes_a_or_b_by_mouse_and_keys_and_the_comparison_is_there_again() {
     let mut panels = panels(shown());
     panels.harness.get_by_label_contains("4 spp: 4 spp").click();
     panels.harness.run_steps(3);
-    assert_eq!((spp(&panels, PaneId::A), panels.model.borrow().session.sweep.open), (Some(4), false));
+    assert_eq!((spp(&panels, PaneId::A), panels.model.borrow().session.is_in(SWEEP)), (Some(4), false));
     press(&mut panels, Key::S, Modifiers::NONE);
     panels.harness.get_by_label_contains("16 spp: 16 spp").focus();
     panels.harness.run_steps(2);
     press(&mut panels, Key::Enter, Modifiers::SHIFT);
     assert_eq!((spp(&panels, PaneId::A), spp(&panels, PaneId::B)), (Some(4), Some(16)));
-    assert!(!panels.model.borrow().session.sweep.open);
+    assert!(!panels.model.borrow().session.is_in(SWEEP));
 }
 
 #[test]

@@ -7,7 +7,7 @@ use egui::{Key, Modifiers};
 fn a_case_is_measured_beside_its_picture_seen_to_fail_and_opened() {
     let mut user = User::of("cornell");
     user.change(|model| {
-        model.state.wished_workspace = Some("cases");
+        model.session.workspace = CASES;
         model.state.cases.looked_at = 4;
     });
     let text = |frame: &visavis_tests::Frame, name: &str| frame.value(name).to_owned();

@@ -7,7 +7,7 @@ use std::io::Write;
 use std::net::{TcpListener, TcpStream};
 use std::path::{Path, PathBuf};
 use technique::TechniqueName;
-use visavis::model::{CompareWith, PaneId, PaneSource, SavedSession};
+use visavis::model::{COMPARE, CompareWith, PaneId, PaneSource, SWEEP, SavedSession};
 use visavis_tests::Frame;
 
 const SCENE: &str = "hard/light-touching-wall";
@@ -109,7 +109,7 @@ fn a_receiver_outlives_a_visit_to_the_sweep_unless_the_pane_is_made_here_again()
     stream.write_all(&[begin(24, 16), tile(24, 16, 0.5)].concat()).expect("packets");
     user.wait_for("the picture", |f| of_size([24, 16])(f) && f.state("b")["changes"] == 1);
     let in_the_sweep = |user: &mut User, open| {
-        user.change(|model| model.session.sweep.open = open);
+        user.change(|model| model.session.workspace = if open { SWEEP } else { COMPARE });
         user.wait_for("the other workspace", |f| f.state("sweep")["open"] == open);
     };
     in_the_sweep(&mut user, true);

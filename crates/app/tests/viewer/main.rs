@@ -14,6 +14,7 @@ mod export;
 mod external;
 mod files;
 mod labels;
+mod ladder;
 mod layout;
 mod objects;
 mod plots;

@@ -3,13 +3,14 @@
 use super::export::{export, run};
 use super::{User, both_whole, says};
 use egui::Key;
-use visavis::model::{Axis, SweepSettings};
+use visavis::model::{Axis, COMPARE, SWEEP, SweepSettings};
 use visavis_tests::{Frame, place_of};
 
 /// Opens the sweep of a setting.
 fn sweep(user: &mut User, columns: Axis) -> Frame {
     user.change(|model| {
-        model.session.sweep = SweepSettings { open: true, columns, ..SweepSettings::default() };
+        model.session.workspace = SWEEP;
+        model.session.sweep = SweepSettings { columns, ..SweepSettings::default() };
         model.session.panes[visavis::model::PaneId::B].truth.spp = 4;
     });
     user.wait_for("all tiles", all_done)
@@ -42,7 +43,10 @@ fn all_tiles_are_saved_as_one_picture_of_what_their_commands_render() {
         let place = place_of((one.dimensions(), one.as_raw()), (whole.dimensions(), whole.as_raw()));
         assert!(place.is_some(), "{command}");
     }
-    user.change(|model| model.session.sweep = SweepSettings::default());
+    user.change(|model| {
+        model.session.workspace = COMPARE;
+        model.session.sweep = SweepSettings::default();
+    });
     user.drop_file(&file);
     let opened = user.wait_for("the sweep again", |frame| frame.state("sweep")["open"] == true && all_done(frame));
     assert!(opened.shows("tile 3") && opened.value("Values of Columns") == "0, 1, 2", "{opened:?}");
@@ -84,7 +88,8 @@ fn tiles_that_are_known_are_there_again_at_once_and_only_new_ones_are_made() {
 fn a_sweep_that_is_left_or_changed_ends_at_once() {
     let mut user = User::beside("cornell", egui::vec2(800.0, 500.0), 1.0, technique::DeviceChoice::Cpu);
     user.change(|model| {
-        model.session.sweep = SweepSettings { open: true, ..SweepSettings::default() };
+        model.session.workspace = SWEEP;
+        model.session.sweep = SweepSettings::default();
         // hours of work
         model.session.sweep.columns = Axis::new("spp", "1000000, 2000000");
     });
@@ -110,7 +115,10 @@ fn a_picture_that_is_saved_in_the_middle_of_typing_opens_as_what_it_shows() {
     user.wait_for("the fault", |frame| frame.value("text sweep fault").contains("bounces=mny"));
     let file = user.file("sweep.png");
     export(&mut user, &["The sweep"], &file);
-    user.change(|model| model.session.sweep = SweepSettings::default());
+    user.change(|model| {
+        model.session.workspace = COMPARE;
+        model.session.sweep = SweepSettings::default();
+    });
     user.drop_file(&file);
     let opened = user.wait_for("the sweep again", |frame| frame.state("sweep")["open"] == true && all_done(frame));
     assert_eq!(opened.value("Values of Columns"), "0, 1, 2");

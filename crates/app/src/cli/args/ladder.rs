@@ -5,8 +5,10 @@ use super::seen::{self, Seen};
 use super::usage;
 use super::values::{choice, shown, text};
 use crate::cli::{CliError, Command};
-use crate::ladder::Order;
+use crate::ladder::SPP;
+use crate::model::Order;
 use lexopt::ValueExt;
+use raster::Repairs;
 use std::ffi::OsString;
 use std::path::PathBuf;
 
@@ -18,12 +20,10 @@ pub struct LadderArgs {
     pub folder: PathBuf,
     pub seen: Seen,
     pub order: Order,
+    pub repairs: Repairs,
     pub spp: u32,
     pub json: bool,
 }
-
-/// Samples per pixel of the last rungs, unless something else is said.
-const SPP: u32 = 64;
 
 /// The words on their way.
 pub struct Reading {
@@ -66,6 +66,25 @@ fn of_rungs() -> Vec<CommandOption<Reading>> {
             },
         },
         CommandOption {
+            names: &["--repairs"],
+            value: "NAME+NAME",
+            help: "which defects are repaired, by the names that --repairs of render has, or all (default all)",
+            read: |reading, parser| {
+                let word = text(parser)?;
+                match Repairs::parse(&word) {
+                    Ok(repairs) => reading.args.repairs = repairs,
+                    Err(name) => {
+                        let known = Repairs::names().join(", ");
+                        return usage(format!(
+                            "--repairs {}: expected none, all or names with + between: {known}",
+                            shown(&name)
+                        ));
+                    }
+                }
+                Ok(())
+            },
+        },
+        CommandOption {
             names: &["--spp"],
             value: "N",
             help: "samples per pixel of the last two rungs, Whitted and path tracing (default 64)",
@@ -96,6 +115,7 @@ pub fn parse(parser: lexopt::Parser) -> Result<Command, CliError> {
         folder: PathBuf::new(),
         seen: Seen::default(),
         order: Order::default(),
+        repairs: Repairs::ALL,
         spp: SPP,
         json: false,
     };

@@ -1,7 +1,7 @@
 //! Sweeps beside the UI: a thread that makes tiles and then their reference (`tiles`), and one that turns both into bytes for
 //! the screen and into errors (`show`), so that no picture waits for a figure.
 
-mod show;
+pub(super) mod show;
 mod tiles;
 
 pub use show::ShownTile;
@@ -139,7 +139,7 @@ impl Engine {
 }
 
 /// What tiles are made by beside a window.
-fn devices(gpu: Gpu, adapters: Adapters, threads: Arc<Threads>) -> Devices {
+pub(super) fn devices(gpu: Gpu, adapters: Adapters, threads: Arc<Threads>) -> Devices {
     let on = threads.clone();
     Devices {
         threads,

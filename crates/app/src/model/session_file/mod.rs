@@ -2,6 +2,7 @@
 //! is its version. Settings stand under their names, and only where they are not those of a new pane: what is left out is as
 //! in a new window. `docs/files.md` describes it.
 
+mod ladder;
 mod read;
 mod table;
 mod write;

@@ -1,10 +1,10 @@
 //! A session from the text of its file. What depends on the scene waits until that is open.
 
 use super::table::{Entry, Fault, Table, fault};
-use super::{MOST_BOOKMARKS, SESSION_VERSION, SavedSession, SavedWindow};
+use super::{MOST_BOOKMARKS, SESSION_VERSION, SavedSession, SavedWindow, ladder};
 use crate::model::{
-    Axis, Channel, CompareWith, Cost, Counted, Equal, Line, Measure, PaneId, PaneSource, Panes, Region, Resolution,
-    Session, SweepMeasure, SweepSettings, Theme, TreePlot, TreesSettings, View,
+    Axis, Channel, CompareWith, Cost, Counted, EVERYBODYS, Equal, Line, Measure, PaneId, PaneSource, Panes, Region,
+    Resolution, SWEEP, Session, SweepMeasure, SweepSettings, TREES, Theme, TreePlot, TreesSettings, View,
 };
 use compare::ErrorMetric;
 use image_file::{Kind, shown};
@@ -138,8 +138,12 @@ fn parse(text: &str) -> Result<SessionDraft, Fault> {
     panes.iter().for_each(|(id, pane)| session.set_source(id, pane.source.clone()));
     comparison(table.table("comparison")?, &mut session)?;
     plots(table.table("plots")?, &mut session)?;
-    session.sweep = sweep(table.table("sweep")?)?;
-    session.trees = trees(table.table("trees")?)?;
+    let [mut of_sweep, mut of_trees] = [table.table("sweep")?, table.table("trees")?];
+    was_open(&mut of_sweep, SWEEP, &mut session)?;
+    was_open(&mut of_trees, TREES, &mut session)?;
+    session.sweep = sweep(of_sweep)?;
+    session.ladder = ladder::read(table.table("ladder")?)?;
+    session.trees = trees(of_trees)?;
     probe(table.table("probe")?, &mut session)?;
     let bookmarks = table.read("bookmarks", |entry| entry.tables("bookmarks"))?.unwrap_or_default();
     if let Some(first_too_many) = bookmarks.get(MOST_BOOKMARKS) {
@@ -206,6 +210,8 @@ fn changes(mut table: Table) -> Result<SceneChanges, Fault> {
 fn view(mut table: Table, session: &mut Session) -> Result<bool, Fault> {
     let show = table.read("show", |entry| entry.one_of(&View::ALL, View::word))?;
     session.view = show.unwrap_or(session.view);
+    let workspace = table.read("workspace", |entry| entry.one_of(&EVERYBODYS, |word| word))?;
+    session.workspace = workspace.unwrap_or(session.workspace);
     let lines = [Line::Vertical, Line::Horizontal];
     let line = table.read("line", |entry| entry.one_of(&lines, Line::name))?;
     let of_the_picture = |at| (0.0..=1.0).contains(&at);
@@ -312,6 +318,14 @@ fn plots(mut table: Table, session: &mut Session) -> Result<(), Fault> {
     table.end()
 }
 
+/// Workspaces said themselves whether they were open before `[view]` has said which one is.
+fn was_open(table: &mut Table, workspace: &'static str, session: &mut Session) -> Result<(), Fault> {
+    if table.read("open", |entry| entry.flag())? == Some(true) {
+        session.workspace = workspace;
+    }
+    Ok(())
+}
+
 fn sweep(mut table: Table) -> Result<SweepSettings, Fault> {
     let usual = SweepSettings::default();
     let axis = |entry: Entry| {
@@ -320,7 +334,6 @@ fn sweep(mut table: Table) -> Result<SweepSettings, Fault> {
     };
     let seconds = |seconds| (0.01..=3600.0).contains(&seconds);
     let sweep = SweepSettings {
-        open: table.read("open", |entry| entry.flag())?.unwrap_or(usual.open),
         of: table.read("of", |entry| entry.one_of(&[PaneId::A, PaneId::B], PaneId::name))?.unwrap_or(usual.of),
         columns: table.read("columns", axis)?.unwrap_or(usual.columns),
         rows: table.read("rows", axis)?.unwrap_or(usual.rows),
@@ -344,7 +357,6 @@ fn trees(mut table: Table) -> Result<TreesSettings, Fault> {
     let level = |entry: Entry| whole(entry, "a whole number from 0 to 11", TreesSettings::FINEST as f32);
     let depth = |entry: Entry| whole(entry, "a whole number from 0 to 24", 24.0);
     let trees = TreesSettings {
-        open: table.read("open", |entry| entry.flag())?.unwrap_or(usual.open),
         level: table.read("level", level)?.unwrap_or(usual.level),
         show: table.read("show", |entry| entry.one_of(&Counted::ALL, Counted::name))?.unwrap_or(usual.show),
         boxes: table.read("boxes", depth)?,

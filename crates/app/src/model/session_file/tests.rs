@@ -2,10 +2,11 @@
 
 use super::*;
 use crate::model::{
-    Axis, CompareWith, Counted, Equal, Line, PaneSource, Resolution, SweepMeasure, SweepSettings, TreePlot,
-    TreesSettings, View,
+    Axis, CompareWith, Counted, EVERYBODYS, Equal, LadderSettings, LadderShows, Line, Order, PaneSource, Resolution,
+    Rung, SWEEP, SweepMeasure, SweepSettings, TREES, TreePlot, TreesSettings, View,
 };
 use compare::ErrorMetric;
+use raster::{Repair, Repairs};
 use scene::{Vec3, builtin};
 use std::path::Path;
 use technique::settings::{Kind, OF_SCENES, all_of_panes};
@@ -115,8 +116,7 @@ fn trees_come_back_as_they_were_looked_at() {
     let mut model = model("cornell");
     assert!(!text(&model).contains("[trees]"), "nobody has looked at them");
     let boxes = Some(3);
-    model.session.trees =
-        TreesSettings { open: true, level: 9, show: Counted::Triangles, boxes, plot: TreePlot::Tests };
+    model.session.trees = TreesSettings { level: 9, show: Counted::Triangles, boxes, plot: TreePlot::Tests };
     let read = parsed(&text(&model), &model.document.scene).unwrap();
     assert_eq!(read.session.trees, model.session.trees);
     for (line, said) in [
@@ -135,7 +135,6 @@ fn a_sweep_comes_back_as_it_was_and_what_it_cannot_mean_is_told_with_its_place()
     let mut model = model("cornell");
     assert!(!text(&model).contains("[sweep]"), "nobody has set one up");
     model.session.sweep = SweepSettings {
-        open: true,
         of: PaneId::A,
         columns: Axis::new("bounces", "0, 1, inf"),
         rows: Axis::new("technique", "path, metropolis"),
@@ -323,5 +322,46 @@ fn a_session_is_told_by_its_first_key() {
         ["", "[camera]\nsession = 1", "sessions = 1", "session", "#session = 1", builtin::text("whitted").unwrap()]
     {
         assert!(!is_session(text), "{text}");
+    }
+}
+
+#[test]
+fn a_session_opens_in_its_workspace_and_so_do_those_that_said_it_elsewhere() {
+    let mut model = model("cornell");
+    assert!(!text(&model).contains("workspace"), "the comparison is the usual one");
+    for workspace in EVERYBODYS {
+        model.session.workspace = workspace;
+        assert_eq!(parsed(&text(&model), &model.document.scene).unwrap().session.workspace, workspace);
+    }
+    for (table, workspace) in [("sweep", SWEEP), ("trees", TREES)] {
+        let earlier = format!("session = 1\nscene = \"cornell\"\n[{table}]\nopen = true\n");
+        assert_eq!(parsed(&earlier, &model.document.scene).unwrap().session.workspace, workspace);
+    }
+    let unknown = "session = 1\nscene = \"cornell\"\n[view]\nworkspace = \"lader\"\n";
+    let fault = parsed(unknown, &model.document.scene).expect_err("no such workspace");
+    assert!(fault.contains("4:13: workspace lader: expected") && fault.ends_with("did you mean ladder?"), "{fault}");
+}
+
+#[test]
+fn a_ladder_comes_back_as_it_was_and_what_it_cannot_mean_is_told_with_its_place() {
+    let mut model = model("cornell");
+    assert!(!text(&model).contains("[ladder]"), "nobody has looked at it");
+    model.session.ladder = LadderSettings {
+        repairs: Repairs::NONE.with(Repair::Sky).with(Repair::Fresnel),
+        order: Order::BestFirst,
+        selected: Rung::Repair(Repair::Fresnel),
+        shows: LadderShows::Step,
+    };
+    let read = parsed(&text(&model), &model.document.scene).unwrap();
+    assert_eq!(read.session.ladder, model.session.ladder);
+    for (line, said) in [
+        ("repairs = \"sky+glue\"", "4:11: repairs: glue is none: expected repairs with + between"),
+        ("order = \"worst\"", "4:9: order worst: expected light or best-first"),
+        ("rung = \"skye\"", "did you mean sky?"),
+        ("steps = 2", "steps is no key of [ladder]"),
+    ] {
+        let session = format!("session = 1\nscene = \"cornell\"\n[ladder]\n{line}\n");
+        let fault = parsed(&session, &model.document.scene).expect_err(line);
+        assert!(fault.contains(said), "{fault}");
     }
 }

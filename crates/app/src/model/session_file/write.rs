@@ -1,8 +1,8 @@
 //! A session as the text of its file.
 
-use super::{MOST_BOOKMARKS, SESSION_VERSION, SavedSession};
+use super::{MOST_BOOKMARKS, SESSION_VERSION, SavedSession, ladder};
 use crate::model::{
-    Axis, ComparisonSettings, PaneId, PaneSource, PlotSettings, ProbeSettings, Region, Session, SweepSettings,
+    Axis, COMPARE, ComparisonSettings, PaneId, PaneSource, PlotSettings, ProbeSettings, Region, Session, SweepSettings,
     TreesSettings,
 };
 use compare::ErrorMetric;
@@ -34,6 +34,7 @@ impl SavedSession {
         comparison(&mut text, &self.session.comparison);
         table(&mut text, "[plots]", plots(self.session.plots));
         table(&mut text, "[sweep]", sweep(&self.session.sweep));
+        table(&mut text, "[ladder]", ladder::lines(&self.session.ladder));
         table(&mut text, "[trees]", trees(self.session.trees));
         table(&mut text, "[probe]", probe(self.session.probe));
         // the latest
@@ -45,8 +46,9 @@ impl SavedSession {
     }
 
     fn view(&self) -> Lines {
-        let Session { view, line, wipe, display, resolution, .. } = &self.session;
+        let Session { workspace, view, line, wipe, display, resolution, .. } = &self.session;
         let mut lines = vec![("show", quoted(view.word()))];
+        lines.extend((*workspace != COMPARE).then(|| ("workspace", quoted(workspace))));
         if self.line_placed {
             lines.extend([("line", quoted(line.name())), ("line_at", number(*wipe))]);
         }
@@ -64,7 +66,7 @@ impl SavedSession {
 }
 
 /// Keys and what stands behind them.
-type Lines = Vec<(&'static str, String)>;
+pub type Lines = Vec<(&'static str, String)>;
 
 fn table(text: &mut String, header: &str, lines: Lines) {
     if lines.is_empty() {
@@ -152,7 +154,7 @@ fn sweep(sweep: &SweepSettings) -> Lines {
     if *sweep == SweepSettings::default() {
         return Vec::new();
     }
-    let mut lines = vec![("open", sweep.open.to_string()), ("of", quoted(sweep.of.name()))];
+    let mut lines = vec![("of", quoted(sweep.of.name()))];
     // what is being typed may be none that is read again
     let axes = [("columns", &sweep.columns), ("rows", &sweep.rows)].map(|(key, axis)| (key, axis.text()));
     let whole = axes.into_iter().filter(|(_, text)| Axis::parse(text).is_ok());
@@ -180,8 +182,8 @@ fn trees(trees: TreesSettings) -> Lines {
     if trees == TreesSettings::default() {
         return Vec::new();
     }
-    let TreesSettings { open, level, show, boxes, plot } = trees;
-    let mut lines = vec![("open", open.to_string()), ("level", level.to_string()), ("show", quoted(show.name()))];
+    let TreesSettings { level, show, boxes, plot } = trees;
+    let mut lines = vec![("level", level.to_string()), ("show", quoted(show.name()))];
     lines.extend(boxes.map(|depth| ("boxes", depth.to_string())));
     lines.push(("plot", quoted(plot.name())));
     lines

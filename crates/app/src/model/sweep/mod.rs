@@ -9,7 +9,7 @@ pub use caption::{TileErrors, TileFacts, best, captions, sweep_csv};
 pub use plan::{Line, MOST_TILES, MOST_VALUES, PlannedTile, SweepPlan, TECHNIQUE};
 pub use presets::{SWEEPS, SweepPreset};
 
-use super::{Model, PaneId, PaneSource, Session};
+use super::{COMPARE, Model, PaneId, PaneSource, SWEEP, Session};
 use pathtrace::Bugs;
 use scene::Scene;
 use technique::settings::{Kind, Look, Setting, Value, all_of_panes, of_panes};
@@ -18,8 +18,6 @@ use technique::{PaneSettings, TechniqueName};
 /// What is varied, and how pictures of different values are kept comparable.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SweepSettings {
-    /// Whether this is what the window is used for, in place of the comparison.
-    pub open: bool,
     /// The pane whose settings all tiles have but for what is varied.
     pub of: PaneId,
     /// What is varied from column to column.
@@ -37,7 +35,6 @@ pub struct SweepSettings {
 impl Default for SweepSettings {
     fn default() -> Self {
         SweepSettings {
-            open: false,
             of: PaneId::B,
             columns: Axis::new("spp", "1, 4, 16"),
             rows: Axis::default(),
@@ -195,7 +192,7 @@ impl SweepSettings {
 impl Session {
     /// Opens the sweep of these tiles, whatever has been typed since they were planned.
     pub fn show_sweep(&mut self, plan: &SweepPlan) {
-        self.sweep.open = true;
+        self.workspace = SWEEP;
         let is_shown = |session: &Session| session.sweep_plan().as_ref() == Ok(plan);
         if !is_shown(self) {
             self.sweep.follow(plan);
@@ -269,7 +266,7 @@ impl Model {
     pub fn compare_tile(&mut self, tile: &PlannedTile, pane: PaneId) {
         self.session.panes.insert(pane, tile.pane);
         self.session.set_source(pane, PaneSource::Made);
-        self.session.sweep.open = false;
+        self.session.workspace = COMPARE;
         self.say(Ok(format!("{pane} is {}", tile.name())));
     }
 }
@@ -298,7 +295,7 @@ mod tests {
     #[test]
     fn a_tile_that_is_chosen_becomes_a_pane_of_the_comparison_and_undo_brings_it_back() {
         let mut model = Model::new(scene::builtin::named("cornell").unwrap(), "cornell".into(), Theme::Dark);
-        model.session.sweep.open = true;
+        model.session.workspace = SWEEP;
         let before = model.session.panes.clone();
         let plan = model.sweep_plan().unwrap();
         let received = PaneSource::Received(14158);
@@ -306,7 +303,7 @@ mod tests {
         model.settle(false);
         model.compare_tile(&plan.tiles[1], PaneId::A);
         model.settle(false);
-        assert!(!model.session.sweep.open);
+        assert!(model.session.is_in(COMPARE));
         assert_eq!(model.session.panes[PaneId::A].wished_spp(), Some(4));
         assert_eq!(model.session.source(PaneId::A), &PaneSource::Made, "another program's picture makes room");
         model.undo();
@@ -323,7 +320,7 @@ mod tests {
         session.panes.insert(PaneId::A, PaneSettings::of(TechniqueName::Raster));
         assert!(session.sweep_plan().is_err());
         session.show_sweep(&plan);
-        assert!(session.sweep.open);
+        assert!(session.is_in(SWEEP));
         assert_eq!(session.sweep_plan(), Ok(plan));
     }
 

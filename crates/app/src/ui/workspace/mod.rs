@@ -4,6 +4,7 @@
 pub(super) mod cases;
 pub(super) mod compare;
 pub(super) mod empty;
+pub(super) mod ladder;
 pub(super) mod sweep;
 pub(super) mod trees;
 
@@ -21,8 +22,13 @@ pub trait Workspace {
     /// What it is called on its tab.
     fn name(&self) -> &'static str;
 
-    /// What stands above its name on the rail.
+    /// What stands above its name on the rail, and for it in the bar.
     fn icon(&self) -> Icon;
+
+    /// What it is good for, with the key that opens it: what its button in the bar says under the mouse.
+    fn about(&self) -> &'static str {
+        self.name()
+    }
 
     /// Draws its own buttons into the middle of the bar.
     fn bar(&mut self, _cx: &mut UiContext, _ui: &mut Ui) {}

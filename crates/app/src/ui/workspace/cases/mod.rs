@@ -6,7 +6,7 @@ mod picture;
 mod table;
 
 use super::Workspace;
-use crate::model::{Model, PaneId, PaneSource, Wanted, WantedPane};
+use crate::model::{COMPARE, Model, PaneId, PaneSource, Wanted, WantedPane};
 use crate::ui::UiContext;
 use crate::ui::pressed::{HelpLine, Keys};
 use crate::ui::theme::palette;
@@ -63,7 +63,7 @@ impl Workspace for Cases {
         if list::is_running(cx) {
             cx.model.state.cases.measure([]);
         } else {
-            cx.model.state.wished_workspace = Some("compare");
+            cx.model.session.workspace = COMPARE;
         }
     }
 

@@ -90,7 +90,7 @@ fn numbers_at(map: &ErrorMap, place: Rect, at: Pos2) -> Option<String> {
 }
 
 /// The box in the corner, from top to bottom: name, bar, ticks, and the rest in words. Returns where it is.
-fn legend(cx: &mut UiContext, ui: &Ui, rect: Rect, drawn: &ErrorMap, pixel: Option<String>) -> Rect {
+pub fn legend(cx: &mut UiContext, ui: &Ui, rect: Rect, drawn: &ErrorMap, pixel: Option<String>) -> Rect {
     let map = &drawn.map;
     let painter = ui.painter().with_clip_rect(rect);
     let font = theme::label_font(ui);

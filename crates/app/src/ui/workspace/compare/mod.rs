@@ -19,6 +19,8 @@ pub mod plots;
 mod probe;
 mod region;
 
+pub(super) use map::legend;
+
 use self::parts::Parts;
 use super::Workspace;
 use crate::model::{CompareWith, LightWish, Model, PaneId, ProbeWish, View, Wanted};
@@ -50,6 +52,10 @@ impl Workspace for Compare {
 
     fn icon(&self) -> Icon {
         Icon::Compare
+    }
+
+    fn about(&self) -> &'static str {
+        "Two pictures of one scene, and the map of their errors"
     }
 
     fn bar(&mut self, cx: &mut UiContext, ui: &mut Ui) {

@@ -4,7 +4,7 @@ mod controls;
 mod tiles;
 
 use super::Workspace;
-use crate::model::{Model, PaneId, SWEEPS, Wanted, WantedSweep};
+use crate::model::{COMPARE, Model, PaneId, SWEEPS, Wanted, WantedSweep};
 use crate::ui::pressed::{HelpLine, Keys};
 use crate::ui::widgets::{Icon, choice};
 use crate::ui::{UiContext, controls as common};
@@ -30,6 +30,10 @@ impl Workspace for Sweep {
         Icon::Sweep
     }
 
+    fn about(&self) -> &'static str {
+        "Many pictures at once, of one setting or two, each with its error; again: back to the comparison (S)"
+    }
+
     /// Whose settings all tiles have.
     fn bar(&mut self, cx: &mut UiContext, ui: &mut Ui) {
         let of = cx.model.session.sweep.of;
@@ -49,7 +53,7 @@ impl Workspace for Sweep {
     }
 
     fn escape(&mut self, cx: &mut UiContext) {
-        cx.model.session.sweep.open = false;
+        cx.model.session.workspace = COMPARE;
     }
 
     fn ui(&mut self, cx: &mut UiContext, ui: &mut Ui) {

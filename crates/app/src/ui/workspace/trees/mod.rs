@@ -6,7 +6,7 @@ mod picture;
 mod plot;
 
 use super::Workspace;
-use crate::model::{Model, Wanted, WantedTrees};
+use crate::model::{COMPARE, Model, Wanted, WantedTrees};
 use crate::ui::pressed::{HelpLine, Keys};
 use crate::ui::theme::palette;
 use crate::ui::widgets::Icon;
@@ -29,6 +29,10 @@ impl Workspace for Trees {
         Icon::Trees
     }
 
+    fn about(&self) -> &'static str {
+        "What a ray is tested against, without a tree and with two kinds of trees; again: back to the comparison (X)"
+    }
+
     fn keys(&mut self, cx: &mut UiContext, keys: &Keys) {
         let trees = &mut cx.model.session.trees;
         let finer = keys.presses(Key::CloseBracket) as u32;
@@ -37,7 +41,7 @@ impl Workspace for Trees {
     }
 
     fn escape(&mut self, cx: &mut UiContext) {
-        cx.model.show_trees(false);
+        cx.model.session.workspace = COMPARE;
     }
 
     fn ui(&mut self, cx: &mut UiContext, ui: &mut Ui) {
@@ -50,7 +54,7 @@ impl Workspace for Trees {
         below.size_range(100.0_f32.min(0.5 * room)..=0.6 * room).show(ui, |ui| plot::show(cx, ui));
         egui::CentralPanel::default().show(ui, |ui| picture::show_all(cx, ui));
         let [right, bottom] = [whole.right().min(right), whole.bottom()];
-        cx.model.state.tree_corners = [whole.left(), whole.top(), right, bottom];
+        cx.model.state.seen_corners = [whole.left(), whole.top(), right, bottom];
     }
 
     fn wanted(&self, model: &Model) -> Wanted {
