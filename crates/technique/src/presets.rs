@@ -37,6 +37,13 @@ pub const ALL: &[Preset] = &[
         settings: &[("fake", "fair")],
     },
     Preset {
+        name: "repaired",
+        title: "1 b) Fake, repaired",
+        about: "The fair fake with all that can be repaired of it",
+        technique: Raster,
+        settings: &[("fake", "fair"), ("repairs", "all")],
+    },
+    Preset {
         name: "phong",
         title: "Fake with Phong's highlight",
         about: "k_s max(0, R·V)^p",
