@@ -79,7 +79,7 @@ fn widths_id() -> egui::Id {
 const ROOMY: f32 = 900.0;
 
 /// What stands at the right of the bar.
-fn tools(workspaces: &Workspaces, cx: &mut UiContext, ui: &mut Ui) {
+fn tools(workspaces: &mut Workspaces, cx: &mut UiContext, ui: &mut Ui) {
     if ui.ctx().content_rect().width() >= ROOMY {
         workspaces.buttons(cx, ui);
     }

@@ -84,14 +84,16 @@ impl Workspaces {
     }
 
     /// A button for each that is everybody's; that of the open one goes back to the usual one.
-    pub fn buttons(&self, cx: &mut UiContext, ui: &mut Ui) {
-        for workspace in &self.offered {
+    pub fn buttons(&mut self, cx: &mut UiContext, ui: &mut Ui) {
+        for (index, workspace) in self.offered.iter().enumerate() {
             let Some(id) = everybodys(&**workspace) else { continue };
-            let open = cx.model.session.is_in(id);
+            let open = self.open == index;
             let words = (workspace.name(), workspace.about());
             let button = icon_button(workspace.icon(), words, (true, open), ui);
             if cx.dump.note(id, open, button).clicked() {
-                cx.model.turn_to(id);
+                cx.model.session.workspace = if open { EVERYBODYS[0] } else { id };
+                // from one that no session knows, too
+                self.followed = Some("");
                 ui.ctx().request_repaint();
             }
         }

@@ -70,9 +70,9 @@ fn a_key_and_a_button_open_it_and_go_back_and_only_what_is_open_is_wanted() {
 #[test]
 fn rows_say_the_error_that_is_left_what_is_taken_away_and_what_it_costs() {
     let panels = panels("whitted", shown());
-    assert!(panels.shows("The fake as taught, relMSE 0.500, 5.00 ms"));
-    assert!(panels.shows("Light in place of bytes, relMSE 0.250, taken away 0.250, 6.00 ms"));
-    assert!(panels.shows("Antialiasing, tessellation, relMSE 0.375, taken away −0.125, 42.0 ms"));
+    assert!(panels.shows("The fake as taught, relMSE 0.5000, 5.00 ms"));
+    assert!(panels.shows("Light in place of bytes, relMSE 0.2500, taken away 0.2500, 6.00 ms"));
+    assert!(panels.shows("Antialiasing, tessellation, relMSE 0.3750, taken away −0.1250, 42.0 ms"));
     assert!(panels.shows("A sky, not ambient light, no reference yet, 123 ms"));
     assert!(panels.shows("Soft shadows, waits ..."));
     assert!(panels.shows("No reference yet: errors come with it"));
@@ -105,12 +105,12 @@ fn a_rung_is_selected_by_mouse_and_keys_and_tells_its_paragraph_its_slide_and_it
     panels.harness.run_steps(3);
     assert_eq!(selected(&panels), Rung::Encoding);
     assert!(panels.shows("Its light is clamped") && panels.shows("Slide: Task 1 b: What went wrong here?"));
-    let cost = "relMSE 0.250, FLIP 0.125 (0.250 less than before); 6.00 ms a frame, 2.50 ms where maps stay.";
+    let cost = "relMSE 0.2500, FLIP 0.1250 (0.2500 less than before); 6.00 ms a frame, 2.50 ms where maps stay.";
     assert!(panels.shows(cost));
     // with the keyboard on that row, and over those that the scene has nothing to repair for
     press(&mut panels, Key::ArrowDown, Modifiers::NONE);
     assert_eq!(selected(&panels), Rung::Repair(Repair::Antialiasing));
-    assert!(panels.shows("(0.125 more than before)"));
+    assert!(panels.shows("(0.1250 more than before)"));
     press(&mut panels, Key::ArrowDown, Modifiers::NONE);
     assert_eq!(selected(&panels), Rung::Repair(Repair::SoftShadows));
     press(&mut panels, Key::ArrowUp, Modifiers::NONE);

@@ -42,8 +42,8 @@ pub struct Climb {
 
 type ClimbControl = Control<Option<Job>, Climb>;
 
-/// Pictures of one view that stay for its next ladder: those of two ladders and a half.
-const MOST_KEPT: usize = 5 * Rung::COUNT / 2;
+/// Pictures of one view that stay for its next ladder: those of two ladders.
+const MOST_KEPT: usize = 2 * Rung::COUNT;
 
 /// Climbs one ladder after the other.
 pub struct Climbs {
@@ -70,11 +70,8 @@ impl Service for Climbs {
     type Update = Climb;
 
     fn serve(&mut self, job: Option<Job>, control: &ClimbControl) {
-        let Some(job) = job else {
-            // pictures that nobody looks at
-            self.maker.iter_mut().for_each(RungMaker::forget);
-            return;
-        };
+        // pictures stay: who comes back finds them
+        let Some(job) = job else { return };
         self.in_hand = job.number;
         let watch = ClimbWatch::new(&job, control);
         match self.climb(&job, &watch) {

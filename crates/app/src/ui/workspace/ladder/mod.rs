@@ -21,7 +21,7 @@ pub struct Ladder;
 const SHOWS_KEYS: [Key; LadderShows::ALL.len()] = [Key::Num1, Key::Num2, Key::Num3, Key::Num4];
 
 /// Width of the rungs' panel in sizes of the type, and the most that it takes of the window.
-const WIDTH_OF_ROWS: f32 = 35.0;
+const WIDTH_OF_ROWS: f32 = 36.5;
 const MOST_OF_THE_WINDOW: f32 = 0.46;
 
 impl Workspace for Ladder {

@@ -9,19 +9,19 @@ use crate::ui::widgets::Explained;
 use egui::text::{LayoutJob, TextWrapping};
 use egui::{
     Align2, Checkbox, Color32, EventFilter, FontId, Key, Modifiers, Popup, Rect, Response, Role, Sense, Stroke,
-    StrokeKind, TextStyle, Ui, WidgetInfo, pos2, vec2,
+    StrokeKind, TextStyle, Ui, UiBuilder, WidgetInfo, pos2, vec2,
 };
 
 /// Height of a row in sizes of the type, at least and at most.
-const ROW: [f32; 2] = [1.7, 2.5];
+const ROW: [f32; 2] = [1.7, 2.8];
 /// Lines of the head.
 const HEAD: f32 = 2.6;
 
 /// Widths in sizes of the type: a box, the figure of an error, of what is taken away, of milliseconds.
 const BOX: f32 = 1.8;
 const TITLE: f32 = 13.2;
-const FIGURE: f32 = 3.4;
-const TAKEN: f32 = 4.0;
+const FIGURE: f32 = 3.9;
+const TAKEN: f32 = 4.5;
 const TIME: f32 = 3.6;
 /// A bar that is narrower says nothing.
 const NARROWEST: f32 = 1.0;
@@ -207,7 +207,9 @@ fn tick(cx: &mut UiContext, ui: &mut Ui, rung: Rung, rect: Rect, missing: Option
     let ladder = &mut cx.model.session.ladder;
     let mut on = ladder.repairs.has(repair);
     let place = Rect::from_center_size(rect.center(), vec2(rect.width(), rect.height().min(20.0)));
-    let check = ui.add_enabled_ui(missing.is_none(), |ui| ui.put(place, Checkbox::without_text(&mut on))).inner;
+    // beside the rows' own layout, which it would move
+    let mut beside = ui.new_child(UiBuilder::new().id_salt(("climb", rung.name())).max_rect(place));
+    let check = beside.add_enabled(missing.is_none(), Checkbox::without_text(&mut on));
     let name = format!("Climb {}", rung.title());
     check.widget_info(|| WidgetInfo::selected(Role::CheckBox, missing.is_none(), on, &name));
     let check = check.on_disabled_hover_text(
@@ -251,7 +253,7 @@ fn said_of(rung: Rung, missing: Option<&str>, climbed: bool, shown: &LadderView)
     Said {
         title: rung.title(),
         state,
-        error: facts.and_then(|facts| facts.errors).map(|errors| brief(errors.errors.rel_mse)),
+        error: facts.and_then(|facts| facts.errors).map(|errors| figure(errors.errors.rel_mse)),
         taken: taken.map(signed),
         time: facts.map(|facts| format!("{} ms", milliseconds(facts.anew_ms))),
     }
@@ -259,7 +261,12 @@ fn said_of(rung: Rung, missing: Option<&str>, climbed: bool, shown: &LadderView)
 
 /// With a minus where the error has grown.
 fn signed(taken: f64) -> String {
-    if taken < 0.0 { format!("−{}", brief(-taken)) } else { brief(taken) }
+    if taken < 0.0 { format!("−{}", figure(-taken)) } else { figure(taken) }
+}
+
+/// Four digits behind the point, so that figures below one another can be compared; of what is smaller, how small it is.
+pub fn figure(error: f64) -> String {
+    if error >= 1e-4 { format!("{error:.4}") } else { brief(error) }
 }
 
 /// Three digits.
@@ -315,7 +322,7 @@ mod tests {
 
     #[test]
     fn what_a_rung_makes_worse_has_a_sign() {
-        assert_eq!((signed(0.25), signed(-0.25)), (brief(0.25), format!("−{}", brief(0.25))));
+        assert_eq!([0.25, -0.25, 2e-5, 0.0].map(signed), ["0.2500", "−0.2500", "2.0e-5", "0"]);
         assert_eq!([0.123, 12.34, 1234.5].map(milliseconds), ["0.12", "12.3", "1234"]);
     }
 }

@@ -1,8 +1,7 @@
 //! What there is to say about the rung that is selected: its paragraph, its slide, its error and what it costs.
 
-use super::rows::milliseconds;
+use super::rows::{figure, milliseconds};
 use crate::model::{Rung, RungFacts};
-use crate::ruler::brief;
 use crate::ui::UiContext;
 use crate::ui::theme::palette;
 use egui::{RichText, ScrollArea, Ui};
@@ -36,12 +35,12 @@ fn cost_of(cx: &UiContext, rung: Rung) -> String {
     }
     let Some(facts) = cx.shown.ladder.facts(rung) else { return "Not reached yet.".into() };
     let error = match facts.errors {
-        Some(errors) => format!("relMSE {}, FLIP {}", brief(errors.errors.rel_mse), brief(errors.flip)),
+        Some(errors) => format!("relMSE {}, FLIP {}", figure(errors.errors.rel_mse), figure(errors.flip)),
         None => "no error without a reference".into(),
     };
     let taken = cx.shown.ladder.taken_by(rung).map_or_else(String::new, |taken| {
         let (word, by) = if taken < 0.0 { ("more", -taken) } else { ("less", taken) };
-        format!(" ({} {word} than before)", brief(by))
+        format!(" ({} {word} than before)", figure(by))
     });
     format!("{error}{taken}; {}.", times(rung, facts))
 }
