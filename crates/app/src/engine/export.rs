@@ -2,11 +2,11 @@
 
 use super::capture::{Capture, Pixels};
 use super::changed_scene::SceneToSave;
+use super::ladder::LadderToSave;
 use super::report::{ReportToSave, SlideToSave};
 use super::session::SessionToSave;
 use super::worker::{Control, Service, Worker};
 use super::{Picture, Wake};
-use crate::ladder::Reached;
 use crate::model::{Destination, ErrorMap, PaneId, PixelSamples, samples_csv};
 use crate::sweep::Sheet;
 use anyhow::Context;
@@ -27,8 +27,8 @@ pub enum Content {
     Map(Arc<ErrorMap>),
     /// All tiles of a sweep with their captions.
     Sweep(Box<Sheet>),
-    /// All rungs of the ladder of a scene of this name, in a folder.
-    Ladder(String, Vec<Reached>),
+    /// All rungs of a ladder, in a folder.
+    Ladder(Box<LadderToSave>),
     /// What is no picture, in a file whose name may end in anything.
     Text(String),
     /// The samples of a pixel in each pane, of which a table is made.
@@ -125,8 +125,8 @@ fn save(export: &Export, path: &Path) -> anyhow::Result<PathBuf> {
     if let Content::Text(text) = content {
         return Ok(image_file::write_new(path, text.as_bytes())?);
     }
-    if let Content::Ladder(scene, reached) = content {
-        return save_ladder(path, scene, reached);
+    if let Content::Ladder(ladder) = content {
+        return ladder.save(path);
     }
     if let Content::Samples(panes) = content {
         return Ok(image_file::write_new(path, samples_csv(panes).as_bytes())?);
@@ -173,20 +173,6 @@ fn save(export: &Export, path: &Path) -> anyhow::Result<PathBuf> {
         }
     };
     Ok(image_file::write_new(path, &bytes)?)
-}
-
-/// Into a folder of this name; where there is one, into one with a number behind its name.
-fn save_ladder(folder: &Path, scene: &str, reached: &[Reached]) -> anyhow::Result<PathBuf> {
-    let numbered = (2..1000).map(|number| {
-        let mut name = folder.as_os_str().to_owned();
-        name.push(format!("-{number}"));
-        PathBuf::from(name)
-    });
-    let free = std::iter::once(folder.to_owned()).chain(numbered).find(|folder| !folder.exists());
-    let folder =
-        free.with_context(|| format!("there are a thousand of these already: {}", image_file::shown(folder)))?;
-    crate::ladder::save(&folder, scene, reached)?;
-    Ok(folder)
 }
 
 fn copy(export: &Export, clipboard: &mut Option<arboard::Clipboard>) -> anyhow::Result<()> {

@@ -56,7 +56,9 @@ pub use errors::{ErrorHistory, ErrorPoint};
 pub use export::{Destination, ExportMenu, ExportRequest, ExportSubject, PlotFile, SlideSize, SweepFile};
 pub use file_wish::{FilePurpose, FileWish};
 pub use history::{History, Settings};
-pub use ladder::{LadderSettings, LadderShows, LadderView, Order, Rung, RungFacts, WantedLadder, repaired, repairs_of};
+pub use ladder::{
+    LadderSettings, LadderShows, LadderState, LadderView, Order, Rung, RungFacts, WantedLadder, repaired, repairs_of,
+};
 pub use light_parts::{LightByBounce, LightWish, light_parts};
 pub use magnification::Magnification;
 pub use message::{Message, in_few};

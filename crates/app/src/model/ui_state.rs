@@ -1,7 +1,7 @@
 //! What controls come back to, and what is in hand: nothing that anyone would miss the next day.
 
 use super::{
-    CasesState, Curve, EffectInHand, ExportMenu, Magnification, Message, PaneId, Panes, PartsState, PictureArea, Remembered, Slide,
+    CasesState, Curve, EffectInHand, ExportMenu, LadderState, Magnification, Message, PaneId, Panes, PartsState, PictureArea, Remembered, Slide,
     SweepPlan, Theme,
 };
 use scene::Vec3;
@@ -88,6 +88,8 @@ pub struct UiState {
     pub export: ExportMenu,
     /// The sweep as it was last drawn.
     pub sweep: SweepState,
+    /// What the scene gives the ladder nothing to repair for.
+    pub ladder: LadderState,
     /// Width and height in pixels of a picture of rays, as last drawn.
     pub tree_pixels: (u32, u32),
     /// Left, top, right and bottom in points of what workspaces of several pictures show beside their controls.
@@ -190,6 +192,7 @@ impl UiState {
             pinned: Vec::new(),
             export: ExportMenu::default(),
             sweep: SweepState::default(),
+            ladder: LadderState::default(),
             tree_pixels: (0, 0),
             seen_corners: [0.0; 4],
             cases: CasesState::default(),

@@ -4,7 +4,7 @@ use super::{Place, TextureStore, Viewer};
 use crate::engine::export::{Content, Export};
 use crate::engine::ladder::OF_THE_REFERENCE;
 use crate::engine::sweep::ShownTile;
-use crate::ladder::{Made, Reached};
+use crate::ladder::Made;
 use crate::model::{Destination, LADDER, LadderView, Rung, RungFacts};
 use egui::TextureFilter;
 use serde_json::{Value, json};
@@ -77,15 +77,11 @@ impl Viewer {
 
     /// Writes all rungs into a folder, as `visavis ladder` does.
     pub(super) fn export_ladder(&mut self, to: Destination) {
-        let reached = |made: &Made| {
-            let errors = self.presentation.shown.ladder.facts(made.rung)?.errors?;
-            Some(made.with(errors))
-        };
-        let reached: Option<Vec<Reached>> = self.ladder.rungs.iter().map(reached).collect();
-        let is_whole = self.ladder.rungs.last().is_some_and(|made| made.rung == Rung::Path);
-        match reached.filter(|_| is_whole) {
-            Some(reached) => {
-                let content = Content::Ladder(self.model.document.scene.name.clone(), reached);
+        let rungs = &self.ladder.rungs;
+        let is_whole = rungs.last().is_some_and(|made| made.rung == Rung::Path);
+        match self.engine.ladder_to_save(&self.model.document.scene.name, rungs).filter(|_| is_whole) {
+            Some(ladder) => {
+                let content = Content::Ladder(Box::new(ladder));
                 self.engine.export(Export { content, records: Vec::new(), to });
             }
             None => self.model.say(Err("not all rungs are reached and measured yet; try again in a moment".into())),

@@ -233,6 +233,8 @@ impl Viewer {
     pub fn move_to(&mut self, gpu: &Gpu) {
         self.model.state.thumbnails = [false; 2];
         self.presentation.lose_textures();
+        // it is climbed again, and counts anew
+        self.ladder = MadeLadder::default();
         self.engine.move_to(gpu);
     }
 

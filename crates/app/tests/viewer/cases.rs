@@ -1,6 +1,7 @@
 //! Hard cases: measured and rendered beside the UI, seen to fail, and opened as scenes.
 
 use crate::User;
+use visavis::model::CASES;
 use egui::{Key, Modifiers};
 
 #[test]

@@ -2,6 +2,9 @@
 //! that turns pictures into bytes and errors, and one for the map of a rung's errors.
 
 mod climb;
+mod to_save;
+
+pub use to_save::LadderToSave;
 
 use self::climb::{Climb, Climbs, Job};
 use super::Wake;
@@ -194,6 +197,12 @@ impl Engine {
             self.ladder = LadderStudy::start(self).ok();
         }
         self.ladder.iter_mut().for_each(|ladder| ladder.ask(wanted));
+    }
+
+    /// All that is needed to save the rungs `made` of the ladder of a scene; `None` without a reference.
+    pub fn ladder_to_save(&self, scene: &str, rungs: &[Made]) -> Option<LadderToSave> {
+        let reference = self.ladder.as_ref()?.reference.clone()?;
+        Some(LadderToSave { scene: scene.to_owned(), rungs: rungs.to_vec(), reference })
     }
 
     /// What is new of the ladder since the last call.

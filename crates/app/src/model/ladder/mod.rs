@@ -9,7 +9,7 @@ use super::{COMPARE, ErrorMap, Model, PaneId, PaneSource, PictureArea, Progress,
 use compare::ErrorMetric;
 use raster::{Repair, Repairs};
 use scene::Scene;
-use std::sync::Arc;
+use std::sync::{Arc, Weak};
 use technique::{PaneSettings, Shot, TechniqueName};
 
 /// Which rungs there are, and how they are looked at.
@@ -65,20 +65,11 @@ impl LadderShows {
     }
 }
 
-impl LadderSettings {
-    /// What is repaired of this scene, in the order in which light meets the defects.
-    pub fn repairs_in(&self, scene: &Scene) -> Vec<Repair> {
-        let (useful, _) = repairs_of(scene);
-        useful.into_iter().filter(|repair| self.repairs.has(*repair)).collect()
-    }
-
-    /// Whether a rung is climbed in this scene.
-    pub fn climbs(&self, rung: Rung, scene: &Scene) -> bool {
-        match rung {
-            Rung::Repair(repair) => self.repairs.has(repair) && rung.missing_in(scene).is_none(),
-            _ => true,
-        }
-    }
+/// What a scene lacks for each rung to be one, by [`Rung::place`]: known once for a scene, which may have many shapes.
+#[derive(Debug, Clone, Default)]
+pub struct LadderState {
+    scene: Weak<Scene>,
+    missing: Vec<Option<&'static str>>,
 }
 
 /// What is to be made of a ladder.
@@ -171,6 +162,35 @@ impl LadderView {
 const SIZE: [f32; 2] = [480.0, 270.0];
 
 impl Model {
+    /// Finds out what the scene lacks that is seen now, before the ladder is drawn.
+    pub fn follow_the_ladder(&mut self) {
+        let seen = self.document.seen();
+        if !std::ptr::eq(self.state.ladder.scene.as_ptr(), Arc::as_ptr(seen)) {
+            let missing = Rung::all().map(|rung| rung.missing_in(seen)).collect();
+            self.state.ladder = LadderState { scene: Arc::downgrade(seen), missing };
+        }
+    }
+
+    /// What the scene that is seen lacks for a rung to be one, after "no".
+    pub fn missing_for(&self, rung: Rung) -> Option<&'static str> {
+        let (LadderState { scene, missing }, seen) = (&self.state.ladder, self.document.seen());
+        let known = missing.get(rung.place()).filter(|_| std::ptr::eq(scene.as_ptr(), Arc::as_ptr(seen)));
+        known.copied().unwrap_or_else(|| rung.missing_in(seen))
+    }
+
+    /// Whether a rung is climbed.
+    pub fn climbs(&self, rung: Rung) -> bool {
+        match rung {
+            Rung::Repair(repair) => self.session.ladder.repairs.has(repair) && self.missing_for(rung).is_none(),
+            _ => true,
+        }
+    }
+
+    /// What is repaired, in the order in which light meets the defects.
+    fn repairs_to_climb(&self) -> Vec<Repair> {
+        Repair::ALL.into_iter().filter(|repair| self.climbs(Rung::Repair(*repair))).collect()
+    }
+
     /// What all pictures of the ladder show.
     fn ladder_shot(&self) -> Shot {
         self.document.shot(&PictureArea::new(SIZE, SIZE, 1, [0.0; 4]))
@@ -183,7 +203,7 @@ impl Model {
         let (metric, held) = (comparison.metric, comparison.held[comparison.metric as usize]);
         WantedLadder {
             shot: self.ladder_shot(),
-            repairs: ladder.repairs_in(self.document.seen()),
+            repairs: self.repairs_to_climb(),
             order: ladder.order,
             map: (ladder.shows == LadderShows::Errors).then_some((ladder.selected, metric, held)),
             restarts: self.state.restarts,
@@ -192,9 +212,8 @@ impl Model {
 
     /// Selects the rung so many rows farther down, or up, of those that are climbed; `rows` are all, from the top.
     pub fn step_on_the_ladder(&mut self, rows: &[Rung], steps: i32) {
-        let scene = self.document.seen();
+        let climbed: Vec<Rung> = rows.iter().copied().filter(|rung| self.climbs(*rung)).collect();
         let ladder = &mut self.session.ladder;
-        let climbed: Vec<Rung> = rows.iter().copied().filter(|rung| ladder.climbs(*rung, scene)).collect();
         let at = climbed.iter().position(|rung| *rung == ladder.selected).unwrap_or(0) as i32;
         let next = (at + steps).clamp(0, climbed.len().saturating_sub(1) as i32) as usize;
         ladder.selected = climbed.get(next).copied().unwrap_or_default();
@@ -218,8 +237,9 @@ impl Model {
     pub fn ladder_command(&self) -> String {
         let ladder = &self.session.ladder;
         let mut more = vec![("order", ladder.order.name().to_owned())];
-        let repairs: Repairs = ladder.repairs_in(self.document.seen()).into_iter().collect();
-        let left_out = repairs_of(self.document.seen()).0.len() > repairs.count();
+        let repairs: Repairs = self.repairs_to_climb().into_iter().collect();
+        let useful = Repair::ALL.into_iter().filter(|repair| self.missing_for(Rung::Repair(*repair)).is_none());
+        let left_out = useful.count() > repairs.count();
         more.extend(left_out.then(|| ("repairs", repairs.to_string())));
         self.ladder_shot().ladder_command("ladder", more)
     }

@@ -63,6 +63,7 @@ impl Workspace for Ladder {
     }
 
     fn ui(&mut self, cx: &mut UiContext, ui: &mut Ui) {
+        cx.model.follow_the_ladder();
         let whole = ui.available_rect_before_wrap();
         common::panel(cx, ui, cards::heads, cards::cards);
         let right = ui.available_rect_before_wrap().right();

@@ -55,7 +55,7 @@ pub fn show(cx: &mut UiContext, ui: &mut Ui) {
 }
 
 fn of_rung(cx: &UiContext, rung: Rung) -> Picture {
-    let climbed = cx.model.session.ladder.climbs(rung, cx.model.document.seen());
+    let climbed = cx.model.climbs(rung);
     let reached = cx.shown.ladder.facts(rung).is_some();
     let texture = cx.textures.ladder.rungs.get(rung.place()).copied().flatten().filter(|_| climbed && reached);
     let without = match (climbed, cx.shown.ladder.fault.is_some()) {

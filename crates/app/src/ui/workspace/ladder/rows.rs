@@ -143,8 +143,7 @@ fn head(ui: &mut Ui, columns: &Columns, size: f32) {
 
 fn row(cx: &mut UiContext, ui: &mut Ui, (rung, rect): (Rung, Rect), columns: &Columns, scales: [LogScale; 2]) {
     let ladder = cx.model.session.ladder;
-    let missing = rung.missing_in(cx.model.document.seen());
-    let climbed = ladder.climbs(rung, cx.model.document.seen());
+    let (missing, climbed) = (cx.model.missing_for(rung), cx.model.climbs(rung));
     let part = |[from, to]: [f32; 2]| Rect::from_x_y_ranges(rect.left() + from..=rect.left() + to, rect.y_range());
     let whole = Rect::from_min_max(pos2(rect.left() + columns.title[0] - 3.0, rect.top()), rect.max);
     let response = ui.interact(whole, id_of(rung), Sense::click());

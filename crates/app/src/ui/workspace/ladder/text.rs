@@ -26,11 +26,10 @@ pub fn show(cx: &mut UiContext, ui: &mut Ui) {
 
 /// Its figures in words, or why there are none.
 fn cost_of(cx: &UiContext, rung: Rung) -> String {
-    let scene = cx.model.document.seen();
-    if let Some(what) = rung.missing_in(scene) {
+    if let Some(what) = cx.model.missing_for(rung) {
         return format!("Nothing to repair here: the scene has no {what}.");
     }
-    if !cx.model.session.ladder.climbs(rung, scene) {
+    if !cx.model.climbs(rung) {
         return "Left out: tick its box to climb it.".into();
     }
     let Some(facts) = cx.shown.ladder.facts(rung) else { return "Not reached yet.".into() };
