@@ -1,8 +1,8 @@
 //! What controls come back to, and what is in hand: nothing that anyone would miss the next day.
 
 use super::{
-    CasesState, Curve, EffectInHand, ExportMenu, LadderState, Magnification, Message, PaneId, Panes, PartsState, PictureArea, Remembered, Slide,
-    SweepPlan, Theme,
+    CasesState, Curve, EffectInHand, ExportMenu, LadderState, Magnification, Message, PaneId, Panes, PartsState,
+    PictureArea, Remembered, Slide, SweepPlan, Theme,
 };
 use scene::Vec3;
 use std::path::PathBuf;

@@ -1,8 +1,8 @@
 //! What there is to show: results, as those who draw them take them.
 
 use super::{
-    Against, CasesView, Effort, ErrorHistory, ErrorMap, ErrorPoint, External, LadderView, LightByBounce, ObjectMap, PaneId, PaneProbe,
-    PaneSource, Panes, Progress, Region, ShapesAlong, ShownEffects, TileFacts, TreesView,
+    Against, CasesView, Effort, ErrorHistory, ErrorMap, ErrorPoint, External, LadderView, LightByBounce, ObjectMap,
+    PaneId, PaneProbe, PaneSource, Panes, Progress, Region, ShapesAlong, ShownEffects, TileFacts, TreesView,
 };
 use crate::ruler::ReferenceImage;
 use compare::{Errors, Histogram};

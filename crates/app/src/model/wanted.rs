@@ -1,7 +1,8 @@
 //! What shall be made: a plain value, stated anew in every frame. Who makes it compares it with what was wanted before.
 
 use super::{
-    Comparison, LightWish, MapWish, ObjectsWish, PaneSource, Panes, ProbeWish, SweepPlan, WantedCases, WantedLadder, WantedTrees,
+    Comparison, LightWish, MapWish, ObjectsWish, PaneSource, Panes, ProbeWish, SweepPlan, WantedCases, WantedLadder,
+    WantedTrees,
 };
 use film::DisplayTransform;
 use scene::Camera;

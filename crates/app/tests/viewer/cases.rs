@@ -1,8 +1,8 @@
 //! Hard cases: measured and rendered beside the UI, seen to fail, and opened as scenes.
 
 use crate::User;
-use visavis::model::CASES;
 use egui::{Key, Modifiers};
+use visavis::model::CASES;
 
 #[test]
 fn a_case_is_measured_beside_its_picture_seen_to_fail_and_opened() {
