@@ -200,7 +200,8 @@ pub fn off_by(row: &Row) -> f64 {
 /// The row that says most: the first that fails, or else the one nearest to failing.
 pub fn telling_row(rows: &[Row]) -> Option<&Row> {
     let fails = |row: &&Row| row.verdict == Verdict::Fail;
-    let demanded = rows.iter().filter(|row| row.verdict != Verdict::Information);
+    // of equals the first
+    let demanded = rows.iter().rev().filter(|row| row.verdict != Verdict::Information);
     rows.iter().find(fails).or_else(|| demanded.max_by(|a, b| off_by(a).total_cmp(&off_by(b))))
 }
 

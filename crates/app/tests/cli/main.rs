@@ -5,6 +5,7 @@
 mod bench;
 mod bugs;
 mod changed_scenes;
+mod check;
 mod denoise;
 mod denoising;
 mod device;

@@ -18,7 +18,7 @@ fn a_case_is_measured_beside_its_picture_seen_to_fail_and_opened() {
     user.change(|model| model.state.cases.looked_at = 15);
     user.click("Run this");
     let frame = user.wait_for("rows that pass", |frame| frame.value("text case mark") == "passes");
-    assert!(text(&frame, "case verdict").contains("expected 1 ± 0.00001"), "{}", text(&frame, "case verdict"));
+    assert!(text(&frame, "case verdict").contains("expected 1 ± 1e-5"), "{}", text(&frame, "case verdict"));
     user.click("See it fail");
     user.click("Run this");
     let frame = user.wait_for("rows that fail", |frame| frame.value("text case mark") == "fails");

@@ -10,8 +10,9 @@ use check::{Mark, Relation, Verdict};
 use egui::{Align2, Color32, Pos2, Rect, Stroke, Ui, pos2, vec2};
 use film::Image;
 
-/// Width of a letter in points, roughly: texts stay within the picture by it.
+/// Width of a letter and height of a line beside a ring in points, roughly: texts stay within the picture by them.
 const LETTER: f32 = 8.0;
+const LINE: f32 = 30.0;
 
 /// Radius of a ring in points.
 const RING: f32 = 7.0;
@@ -39,9 +40,13 @@ pub fn show(cx: &mut UiContext, looked_at: Option<&LookedAt>, ui: &mut Ui) {
     let image = shown.filter(|_| is_of_this).and_then(|shown| shown.image.as_ref());
     let camera = cx.model.state.cases.area.camera(&looked_at.scene.camera);
     let frame = camera.frame(room.width() / room.height().max(1.0));
-    for (index, mark) in looked_at.view.marks.iter().enumerate() {
-        let Some(at) = frame.project(mark.at) else { continue };
-        ring(cx, ui, room, (index, mark), [at.x, at.y], image);
+    let seen = looked_at.view.marks.iter().filter_map(|mark| Some((mark, frame.project(mark.at)?)));
+    let seen: Vec<(&Mark, [f32; 2])> = seen.map(|(mark, at)| (mark, [at.x, at.y])).collect();
+    let around = |at: &[f32; 2]| Rect::from_center_size(on(room, *at), vec2(2.0 * RING, 2.0 * RING));
+    let mut taken: Vec<Rect> = seen.iter().map(|(_, at)| around(at)).collect();
+    for (index, (mark, at)) in seen.into_iter().enumerate() {
+        let label = ring(cx, ui, room, (index, mark, at), image, &taken);
+        taken.push(label);
     }
     if cx.model.state.labels {
         labels(cx, looked_at, ui, room);
@@ -51,23 +56,41 @@ pub fn show(cx: &mut UiContext, looked_at: Option<&LookedAt>, ui: &mut Ui) {
     cx.model.state.hint = hints;
 }
 
-/// A ring, what is expected within, and what the picture says so far.
-fn ring(cx: &mut UiContext, ui: &Ui, room: Rect, (index, mark): (usize, &Mark), at: [f32; 2], image: Option<&Image>) {
-    let place: Pos2 = room.min + vec2(at[0], at[1]) * room.size();
+/// Where a point of the picture, in [0, 1]^2, lies on the screen.
+fn on(room: Rect, at: [f32; 2]) -> Pos2 {
+    room.min + vec2(at[0], at[1]) * room.size()
+}
+
+/// A ring, what is expected within, and what the picture says so far: where nothing is yet. Returns where that stands.
+fn ring(
+    cx: &mut UiContext,
+    ui: &Ui,
+    room: Rect,
+    (index, mark, at): (usize, &Mark, [f32; 2]),
+    image: Option<&Image>,
+    taken: &[Rect],
+) -> Rect {
+    let place = on(room, at);
     let painter = ui.painter().with_clip_rect(room);
     painter.circle_stroke(place, RING, Stroke::new(4.0, Color32::from_black_alpha(200)));
     painter.circle_stroke(place, RING, Stroke::new(2.0, Color32::WHITE));
     let here = image.and_then(|image| mean_around(image, at));
     let here = here.map_or_else(String::new, |here| format!(", here {here:.4}"));
     let text = format!("expected {}{here}", number(mark.expected));
-    // beside one another they would cover each other: one below its ring, the next above, and all within the picture
-    let (away, align) = if index % 2 == 0 { (1.0, Align2::CENTER_TOP) } else { (-1.0, Align2::CENTER_BOTTOM) };
-    let half = 0.5 * text.len() as f32 * LETTER;
-    let middle = place.x.clamp(room.left() + half, (room.right() - half).max(room.left() + half));
-    let at = pos2(middle, place.y + away * (RING + 5.0));
-    let box_ = text_box(ui, room, at, align, &text, Color32::WHITE);
-    cx.dump.note_text(&format!("ring {}", index + 1), &text, box_, room);
-    spoken(ui, &format!("ring {}", index + 1), &text, box_, false);
+    let size = vec2(text.len() as f32 * LETTER, LINE);
+    let [first, last] = [room.left() + 0.5 * size.x, room.right() - 0.5 * size.x];
+    let label = |side: f32, row: f32| {
+        let away = side * (RING + 5.0 + (0.5 + row) * LINE);
+        Rect::from_center_size(pos2(place.x.clamp(first, last.max(first)), place.y + away), size)
+    };
+    // below its ring or above it, farther away where another stands
+    let labels = [0.0, 1.0, 2.0].into_iter().flat_map(|row| [label(1.0, row), label(-1.0, row)]);
+    let is_free = |label: &Rect| !taken.iter().any(|other| other.intersects(*label));
+    let label = labels.into_iter().find(is_free).unwrap_or_else(|| label(1.0, 0.0));
+    text_box(ui, room, label.center(), Align2::CENTER_CENTER, &text, Color32::WHITE);
+    cx.dump.note_text(&format!("ring {}", index + 1), &text, label, room);
+    spoken(ui, &format!("ring {}", index + 1), &text, label, false);
+    label
 }
 
 /// The first channel of the pixels around a point, which lies in [0, 1]^2.

@@ -125,13 +125,21 @@ fn cells_of(row: &Row) -> [String; 6] {
 pub fn number(value: f64) -> String {
     match value.abs() {
         0.0 => "0".into(),
-        size if !(1e-3..1e7).contains(&size) => format!("{value:.3e}"),
+        size if !(1e-3..1e7).contains(&size) => {
+            let text = format!("{value:.3e}");
+            let (digits, power) = text.split_once('e').unwrap_or((&text, "0"));
+            format!("{}e{power}", without_zeros(digits))
+        }
         size => {
             let decimals = (8 - size.log10().floor() as i32).clamp(0, 9) as usize;
-            let text = format!("{value:.decimals$}");
-            if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
+            without_zeros(&format!("{value:.decimals$}")).to_owned()
         }
     }
+}
+
+/// Without zeros that end a fraction.
+fn without_zeros(digits: &str) -> &str {
+    if digits.contains('.') { digits.trim_end_matches('0').trim_end_matches('.') } else { digits }
 }
 
 #[cfg(test)]
@@ -141,6 +149,6 @@ mod tests {
     #[test]
     fn numbers_have_the_digits_that_matter() {
         let numbers = [0.0, 1.0, 1.045356176, 0.7052169, 1.680221139e-8, 9999.0, 20_000_000.0].map(number);
-        assert_eq!(numbers, ["0", "1", "1.045356176", "0.7052169", "1.680e-8", "9999", "2.000e7"]);
+        assert_eq!(numbers, ["0", "1", "1.045356176", "0.7052169", "1.68e-8", "9999", "2e7"]);
     }
 }
