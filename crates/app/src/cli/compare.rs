@@ -32,6 +32,7 @@ pub fn run(args: &CompareArgs) -> anyhow::Result<()> {
         refuse_to_overwrite(args, out)?;
         image_file::check_writable(out)?;
     }
+    let shot = if args.effects { Some(effects::shot_of(&args.film)?) } else { None };
     tell_of_denoising(args);
     tell_of_bugs(args);
     let r = match &args.reference {
@@ -55,7 +56,7 @@ pub fn run(args: &CompareArgs) -> anyhow::Result<()> {
     if found.errors.nonfinite > 0 {
         note!("note: {} pixels are not finite and are left out of every mean", found.errors.nonfinite);
     }
-    let effects = if args.effects { Some(NamedEffects::of(&args.film, &pair)?) } else { None };
+    let effects = shot.map(|shot| NamedEffects::of(shot, &pair)).transpose()?;
     let map = match &args.heatmap {
         Some(out) => Some(draw(args, &pair, out, effects.as_ref())?),
         None => None,

@@ -11,7 +11,7 @@ use pathtrace::Tracer;
 use serde_json::{Value, json};
 use std::path::Path;
 use technique::effects::{Effect, EffectMap, EffectShare};
-use technique::{Rank, Threads, Trees};
+use technique::{Rank, Shot, Threads, Trees};
 
 /// Pictures of so many rows have lines of 1.4 pixels; larger ones have wider lines.
 const USUAL_ROWS: f32 = 720.0;
@@ -25,6 +25,14 @@ const HALF_GROUND: f32 = 1.9;
 /// Type of labels as a share of the picture's height, and its least size in pixels.
 const TYPE: (f32, f32) = (1.0 / 34.0, 13.0);
 
+/// What the records of the picture in this file say that it shows.
+///
+/// # Errors
+/// If they do not say it, or what they say cannot be read.
+pub fn shot_of(film: &Path) -> anyhow::Result<Shot> {
+    made_by(film).context("--effects looks at the scene that A shows")?.shot()
+}
+
 /// The effects of a picture and their shares of its error.
 pub struct NamedEffects {
     of_view: EffectsOfView,
@@ -32,12 +40,11 @@ pub struct NamedEffects {
 }
 
 impl NamedEffects {
-    /// Of what the records of the picture in this file say that it shows.
+    /// Of two pictures of this shot.
     ///
     /// # Errors
-    /// If they do not say it, or what they say cannot be read.
-    pub fn of(film: &Path, pair: &Pair) -> anyhow::Result<Self> {
-        let shot = made_by(film).context("--effects looks at the scene that A shows")?.shot()?;
+    /// If there is no memory for them, or the pictures differ in size.
+    pub fn of(shot: Shot, pair: &Pair) -> anyhow::Result<Self> {
         let _trees = Trees::of(&shot.scene, &|_| true);
         let trace = || EffectMap::of(&Tracer::new(&shot.scene), &shot, &|| false);
         let map = Threads::all().turn(Rank::Refinement, trace).context("not enough memory for --effects")?;
