@@ -146,13 +146,13 @@ mod tests {
     #[test]
     fn labels_stand_where_no_other_stands_and_are_left_out_where_there_is_no_such_place() {
         let places = [
-            places(Effect::Sky, &[[0.5, 0.2]]),
-            places(Effect::Caustic, &[[0.5, 0.21], [0.5, 0.6]]),
-            places(Effect::Contact, &[[0.5, 0.61]]),
+            places(Effect::Sky, &[[0.5, 0.25]]),
+            places(Effect::Caustic, &[[0.5, 0.26], [0.5, 0.625]]),
+            places(Effect::Contact, &[[0.5, 0.63]]),
         ];
         let labels = [Effect::Sky, Effect::Caustic, Effect::Contact].map(|effect| (effect, [40.0, 10.0]));
         let put = put_labels(&labels, &places, (PICTURE, PICTURE), Vec::new());
-        assert_eq!(put, [(Effect::Sky, [30.0, 15.0, 70.0, 25.0]), (Effect::Caustic, [30.0, 55.0, 70.0, 65.0])]);
+        assert_eq!(put, [(Effect::Sky, [30.0, 20.0, 70.0, 30.0]), (Effect::Caustic, [30.0, 57.5, 70.0, 67.5])]);
         let below_a_legend = put_labels(&labels[..1], &places, (PICTURE, PICTURE), vec![[0.0, 0.0, 35.0, 50.0]]);
         assert_eq!(below_a_legend, []);
     }
