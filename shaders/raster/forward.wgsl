@@ -118,7 +118,7 @@ fn seen(in: Varying, front: bool) -> vec3f {
         return mirrored(in.position, n.mirroring, object.even) + surface_emission(object, front, in.uv);
     }
     var light = surface(in.position, n, in.uv) + surface_emission(object, front, in.uv);
-    if repaired(REPAIR_REFLECTIVE_SHADOW_MAP) {
+    if repaired(REPAIR_REFLECTIVE_SHADOW_MAP) || repaired(REPAIR_IRRADIANCE_PROBES) {
         light += matt_colour(in.position, n.matt, in.uv) * bounced(in.position, n.matt, in.clip.xy);
     }
     return light;

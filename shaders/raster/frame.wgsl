@@ -68,6 +68,10 @@ struct Lights {
     area_light_edge_u: vec3f,
     area_light_form: u32,
     area_light_edge_v: vec3f,
+    // a corner of the grid of probes, the size of its cells, and a bit for each that lies within something
+    probe_low: vec3f,
+    probe_cell: vec3f,
+    probes_buried: vec4u,
     spheres: array<Sphere, MOST_SPHERES>,
     boxes: array<KnownBox, MOST_BOXES>,
 }

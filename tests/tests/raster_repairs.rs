@@ -208,12 +208,20 @@ fn lamps_with_an_area_light_what_is_in_no_shadow_as_direct_light_does() {
     }
 }
 
-/// How far what a repair adds to a lamp's own light is from what paths add when they may bounce once more.
-fn second_bounce_apart(scene: &Scene, paths: &[Vec3], gather: GatherKnobs) -> f32 {
+/// What paths add to direct light when they may bounce so often.
+fn added_by_bounces(scene: &Scene, bounces: Option<u32>) -> Vec<Vec3> {
+    let settings = PathSettings { bounces, ..PathSettings::default() };
+    let [direct, all] =
+        [of_bounces(scene, 0, 512, LARGER), traced(scene, settings, 512, LARGER)].map(|f| radiances(&f));
+    all.iter().zip(&direct).map(|(all, direct)| *all - *direct).collect()
+}
+
+/// How far what a repair adds to a lamp's own light is from what paths add when they may bounce more often.
+fn bounces_apart(scene: &Scene, paths: &[Vec3], (repair, gather): (Repair, GatherKnobs)) -> f32 {
     let direct = set(&[Repair::AreaLights, Repair::SoftShadows]);
     let knobs = FakeKnobs { gather, ..FakeKnobs::default() };
-    let [without, with] = [direct, direct.with(Repair::ReflectiveShadowMap)]
-        .map(|repairs| radiances(&fake_of(scene, (repairs, knobs), LARGER)));
+    let [without, with] =
+        [direct, direct.with(repair)].map(|repairs| radiances(&fake_of(scene, (repairs, knobs), LARGER)));
     let added: Vec<_> = with.iter().zip(&without).map(|(with, without)| *with - *without).collect();
     share_apart(&added, paths, |_| true)
 }
@@ -223,10 +231,9 @@ fn second_bounce_apart(scene: &Scene, paths: &[Vec3], gather: GatherKnobs) -> f3
 #[test]
 fn patches_add_what_the_second_bounce_of_paths_adds_and_each_lie_takes_it_away_from_that() {
     let scene = matt_cornell();
-    let [one, two] = [0, 1].map(|bounces| radiances(&of_bounces(&scene, bounces, 512, LARGER)));
-    let paths: Vec<_> = two.iter().zip(&one).map(|(two, one)| *two - *one).collect();
+    let paths = added_by_bounces(&scene, Some(1));
     let honest = GatherKnobs::default();
-    let apart = |gather| second_bounce_apart(&scene, &paths, gather);
+    let apart = |gather| bounces_apart(&scene, &paths, (Repair::ReflectiveShadowMap, gather));
     let least = apart(honest);
     assert!(least < 0.12, "{least}");
     let lies = [
@@ -238,6 +245,16 @@ fn patches_add_what_the_second_bounce_of_paths_adds_and_each_lie_takes_it_away_f
         let lied = apart(lie);
         assert!(lied > times * least, "{name}: {lied} of {least}");
     }
+}
+
+/// Of all light that goes on from wall to wall patches have the second bounce alone.
+#[test]
+fn probes_add_what_all_bounces_of_paths_add_and_patches_less() {
+    let scene = matt_cornell();
+    let paths = added_by_bounces(&scene, None);
+    let [patches, probes] = [Repair::ReflectiveShadowMap, Repair::IrradianceProbes]
+        .map(|repair| bounces_apart(&scene, &paths, (repair, GatherKnobs::default())));
+    assert!(probes < 0.15 && patches > 2.0 * probes, "{probes}, and patches {patches}");
 }
 
 #[test]

@@ -122,6 +122,9 @@ fn mirrors_have_the_layout_of_their_structs() {
             area_light_edge_u,
             area_light_form,
             area_light_edge_v,
+            probe_low,
+            probe_cell,
+            probes_buried,
             spheres,
             boxes
         ]

@@ -60,6 +60,8 @@ pub const PATCHES_SEEN: u32 = 0;
 pub const PATCHES_OF_SUN: u32 = 1;
 /// The area light, see [`PATCHES_SEEN`].
 pub const PATCHES_OF_AREA_LIGHT: u32 = 2;
+/// Irradiance probes, see [`PATCHES_SEEN`].
+pub const PATCHES_OF_PROBES: u32 = 3;
 
 /// How shadow maps are looked up: [`crate::ShadowFilter::Hard`].
 pub const FILTER_HARD: u32 = 0;
@@ -190,6 +192,16 @@ pub struct Lights {
     pub area_light_edge_v: Vec3,
     /// Padding, as WGSL aligns it.
     pub unused4: u32,
+    /// A corner of the grid of probes.
+    pub probe_low: Vec3,
+    /// Padding, as WGSL aligns it.
+    pub unused5: u32,
+    /// Size of that grid's cells.
+    pub probe_cell: Vec3,
+    /// Padding, as WGSL aligns it.
+    pub unused6: u32,
+    /// A bit for each probe that lies within something.
+    pub probes_buried: [u32; 4],
     /// The spheres of the scene, as far as they are known.
     pub spheres: [Sphere; MOST_SPHERES],
     /// The boxes of the scene, likewise.

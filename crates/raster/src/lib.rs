@@ -209,8 +209,8 @@ impl Raster {
         } else {
             settings.repairs.without(Repair::Surroundings).without(Repair::Caustics)
         };
-        let idle =
-            [Repair::ReflectiveShadowMap].into_iter().filter(|repair| (repair.row().missing_in)(scene).is_some());
+        let gathered = [Repair::ReflectiveShadowMap, Repair::IrradianceProbes];
+        let idle = gathered.into_iter().filter(|repair| (repair.row().missing_in)(scene).is_some());
         let repairs = idle.fold(repairs, Repairs::without);
         RasterSettings { repairs, ..*settings }
     }

@@ -40,7 +40,7 @@ pub struct Maps {
     filter: ShadowFilter,
     corners: wgpu::Buffer,
     shadow_map: TextureView,
-    patches: TextureView,
+    patches: [TextureView; 2],
     cubes: Vec<TextureView>,
 }
 
@@ -64,7 +64,7 @@ impl Maps {
             filter: plan.filter,
             corners: things.world.small_corners().clone(),
             shadow_map: targets.shadow.map.all.clone(),
-            patches: targets.bounce.patches[0].all.clone(),
+            patches: [targets.bounce.patches[0].all.clone(), targets.bounce.harmonics[0].clone()],
             cubes: targets.cubes.each.iter().map(|cube| cube.all.clone()).collect(),
         })
     }
@@ -151,7 +151,7 @@ pub fn draw(
         if plan.show != Show::CubeFaces {
             frame.shadow_map(&mut encoder, None);
         }
-        frame.patches(&mut encoder);
+        frame.patches(gpu, &mut encoder);
     }
     if plan.show == Show::Picture {
         frame.gather(gpu, &mut encoder);
@@ -230,16 +230,28 @@ impl Frame<'_> {
         caustic::draw(encoder, pipeline, (&self.groups.receivers, view), self.targets.caustics, layer);
     }
 
-    /// What the lights see, as patches that send light on.
-    fn patches(&self, encoder: &mut CommandEncoder) {
-        let (Some(bounce), Some(pipelines)) = (&self.plan.bounce, &self.pipelines.bounce) else { return };
-        bounce::draw_patches(encoder, (self.plan, bounce), pipelines, self.things, self.targets.bounce, self.bound());
+    /// What the lights see, as patches that send light on, or what probes see.
+    fn patches(&self, gpu: &Gpu, encoder: &mut CommandEncoder) {
+        let Some(pipelines) = &self.pipelines.bounce else { return };
+        let (plan, things, targets, bound) = (self.plan, self.things, self.targets.bounce, self.bound());
+        if let Some(bounce) = &plan.bounce {
+            bounce::draw_patches(encoder, (plan, bounce), pipelines, things, targets, bound);
+        }
+        if let Some(views) = plan.probes.clone() {
+            bounce::draw_probes(gpu, encoder, (plan, views), pipelines, things, targets, bound);
+        }
     }
 
     /// What those send to what the picture shows.
     fn gather(&self, gpu: &Gpu, encoder: &mut CommandEncoder) {
-        let (Some(bounce), Some(pipelines)) = (&self.plan.bounce, &self.pipelines.bounce) else { return };
-        bounce::gather(gpu, encoder, (self.plan, bounce), pipelines, self.things, self.targets.bounce, self.bound());
+        let Some(pipelines) = &self.pipelines.bounce else { return };
+        let (plan, things, targets, bound) = (self.plan, self.things, self.targets.bounce, self.bound());
+        if let Some(bounce) = &plan.bounce {
+            bounce::gather(gpu, encoder, (plan, bounce), pipelines, things, targets, bound);
+        }
+        if plan.probes.is_some() {
+            bounce::gather_from_probes(gpu, encoder, plan, pipelines, things, targets, bound);
+        }
     }
 
     fn bound(&self) -> bounce::Bound<'_> {

@@ -142,7 +142,7 @@ impl Pipelines {
             self.caustic = Some(caustic::pipeline(gpu, &self.frame_layout)?);
             compiled = true;
         }
-        if plan.bounce.is_some() {
+        if plan.bounce.is_some() || plan.probes.is_some() {
             let bounce = match self.bounce.take() {
                 Some(bounce) => bounce,
                 None => BouncePipelines::new(gpu)?,

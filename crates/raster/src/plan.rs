@@ -72,6 +72,8 @@ pub struct Plan {
     pub receivers: Range<usize>,
     /// What is gathered of the second bounce.
     pub bounce: Option<Bounce>,
+    /// Which views are the probes', six each, if there are some.
+    pub probes: Option<Range<usize>>,
     /// Which views are the picture's.
     pub picture_views: Range<usize>,
     /// Fair or as taught.
@@ -95,7 +97,7 @@ impl Plan {
         // the shadows of these are known in closed form
         let known = spheres::casters(scene, settings);
         known.iter().for_each(|shape| casting[*shape] = Casting::Nothing);
-        let lights = lights::lights(scene, settings, |shape| casting[shape] != Casting::Nothing);
+        let mut lights = lights::lights(scene, settings, |shape| casting[shape] != Casting::Nothing);
         let repairs = settings.repairs();
         let shows_surroundings = |shape: &usize| match scene.material_of(&scene.shapes[*shape]).bsdf {
             Bsdf::Dielectric { .. } => true,
@@ -114,6 +116,7 @@ impl Plan {
         let receivers = views.len()..views.len() + caustics;
         views.extend((0..caustics).map(|layer| spheres::receivers_view(&lights, layer, scene)));
         let bounce = bounce::plan(scene, &lights, settings, &mut views);
+        let probes = bounce::plan_probes(scene, &mut lights, settings, &mut views);
         let first = views.len();
         views.extend(picture_views(scene, camera, settings));
         let shadow_layers = shadow_layers(scene, fake);
@@ -130,6 +133,7 @@ impl Plan {
             cube_maps,
             receivers,
             bounce,
+            probes,
             fake,
             repairs,
             filter: settings.knobs.filter,
@@ -156,8 +160,13 @@ impl Plan {
             shadow: ShadowPlan { size: self.shadow_size, with_area_light: self.shadow_layers.end > 1 },
             cubes: CubePlan { size: scene.fake.cube_map, count: self.cube_maps.len(), fake },
             caustics: self.receivers.len(),
-            bounce: self.bounce.as_ref().map(|bounce| BounceTargetPlan {
-                layers: bounce.layers.iter().max().map_or(0, |layer| *layer as u32 + 1),
+            bounce: (self.bounce.is_some() || self.probes.is_some()).then(|| BounceTargetPlan {
+                layers: self
+                    .bounce
+                    .as_ref()
+                    .and_then(|bounce| bounce.layers.last())
+                    .map_or(0, |layer| *layer as u32 + 1),
+                probes: self.probes.is_some(),
                 picture: [width, height],
             }),
             picture: PicturePlan { width, height, fake, passes: passes(settings).len() as u32 },

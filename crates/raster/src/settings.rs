@@ -7,7 +7,7 @@ use film::Feature;
 use scene::Scene;
 
 /// Segments of spheres whose tessellation is repaired.
-const REPAIRED_SEGMENTS: u32 = 160;
+pub(crate) const REPAIRED_SEGMENTS: u32 = 160;
 
 /// Size and manner of a picture.
 #[derive(Debug, Clone, Copy, PartialEq)]

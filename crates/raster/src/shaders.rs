@@ -1,6 +1,6 @@
 //! The rasteriser's shaders: every file under `shaders/raster/`. A new one is one line of [`SOURCES`].
 
-use crate::bounce::{self, PATCHES_SIDE};
+use crate::bounce::{self, PATCHES_SIDE, PROBE_FACE, PROBES_SIDE};
 use crate::caustic::{CELLS, SUNS};
 use crate::gpu_data::*;
 use crate::passes::NOWHERE;
@@ -31,6 +31,7 @@ pub const SOURCES: &[Source<'static>] = gpu::wgsl_sources![
     "raster/repair/octahedron.wgsl",
     "raster/repair/patches.wgsl",
     "raster/repair/polygon.wgsl",
+    "raster/repair/probes.wgsl",
     "raster/repair/repairs.wgsl",
     "raster/repair/smooth.wgsl",
     "raster/repair/soft_shadow.wgsl",
@@ -87,10 +88,13 @@ pub fn shared_constants() -> Vec<(&'static str, f64)> {
         MOST_SPHERES,
         NOWHERE,
         PATCHES_OF_AREA_LIGHT,
+        PATCHES_OF_PROBES,
         PATCHES_OF_SUN,
         PATCHES_SEEN,
         PATCHES_SIDE,
         PI,
+        PROBES_SIDE,
+        PROBE_FACE,
         SHADING_BLINN_PHONG,
         SHADING_COOK_TORRANCE,
         SHADING_PHONG,

@@ -79,7 +79,8 @@ fn hidden(p: vec3f, away: vec3f) -> bool {
     var hides = false;
     if SHAPES_HIDE {
         for (var i = 0u; i < SPHERE_COUNT; i++) {
-            hides |= sphere_hides(lights.spheres[i], p, away);
+            // light goes through those of glass, which come first
+            hides |= sphere_hides(lights.spheres[lights.glass_count + i], p, away);
         }
         for (var i = 0u; i < BOX_COUNT; i++) {
             hides |= box_hides(lights.boxes[i], p, away);

@@ -7,6 +7,7 @@
 const PATCHES_SEEN: u32 = 0u;
 const PATCHES_OF_SUN: u32 = 1u;
 const PATCHES_OF_AREA_LIGHT: u32 = 2u;
+const PATCHES_OF_PROBES: u32 = 3u;
 
 // one of PATCHES_*: who looks
 override PATCHES_OF: u32 = PATCHES_SEEN;
@@ -18,7 +19,7 @@ const LEAST_LIT_COSINE: f32 = 0.05;
 struct Patch {
     // place, and packed normal
     @location(0) place: vec4u,
-    // radiance sent back times area, and area; an area of 0 where nothing is seen
+    // radiance sent back times area, and area; an area of 0 where nothing is seen. For probes radiance alone, and packed colour
     @location(1) light: vec4u,
 }
 
@@ -48,16 +49,16 @@ fn patch_at(in: Varying, front: bool) -> Patch {
         discard;
     }
     let place = vec4u(bitcast<vec3u>(in.position), packed_direction(n));
-    return Patch(place, bitcast<vec4u>(light));
+    return Patch(place, light);
 }
 
-fn patch_light(in: Varying, n: vec3f) -> vec4f {
+fn patch_light(in: Varying, n: vec3f) -> vec4u {
     let p = in.position;
     let colour = matt_colour(p, n, in.uv);
     if PATCHES_OF == PATCHES_OF_SUN {
         let cosine = max(dot(n, lights.sun_towards), 0.0);
         let area = view.texel.x / max(cosine, LEAST_LIT_COSINE);
-        return area * vec4f(colour * lights.sun_incident * cosine, 1.0);
+        return bitcast<vec4u>(area * vec4f(colour * lights.sun_incident * cosine, 1.0));
     }
     if PATCHES_OF == PATCHES_OF_AREA_LIGHT {
         let to_light = lights.area_light_position - p;
@@ -71,7 +72,33 @@ fn patch_light(in: Varying, n: vec3f) -> vec4f {
         if AREA_FORM != AREA_FORM_POINT {
             light = whole_area_light(p, n);
         }
-        return area * vec4f(colour * light, 1.0);
+        return bitcast<vec4u>(area * vec4f(colour * light, 1.0));
     }
-    return vec4f(0.0, 0.0, 0.0, 1.0);
+    if PATCHES_OF == PATCHES_OF_PROBES {
+        return vec4u(bitcast<vec3u>(colour * lit_straight(p, n)), pack4x8unorm(vec4f(min(colour, vec3f(1.0)), 1.0)));
+    }
+    return bitcast<vec4u>(vec4f(0.0, 0.0, 0.0, 1.0));
+}
+
+// What a white Lambert surface sends back of the lights and of the sky.
+fn lit_straight(p: vec3f, n: vec3f) -> vec3f {
+    var sum = lights.ambient;
+    if repaired(REPAIR_SKY) {
+        sum *= open_sky(p, n);
+    }
+    if SUN {
+        let cosine = dot(n, lights.sun_towards);
+        sum += sunlit(p, cosine) * max(cosine, 0.0) * lights.sun_incident;
+    }
+    if AREA_LIGHT != AREA_LIGHT_NONE {
+        let to_light = lights.area_light_position - p;
+        let l = normalize(to_light);
+        let cosine = dot(n, l);
+        var light = max(cosine, 0.0) * area_light_incident(to_light, l);
+        if AREA_FORM != AREA_FORM_POINT {
+            light = whole_area_light(p, n);
+        }
+        sum += sees_area_light(p, to_light, cosine) * light;
+    }
+    return sum;
 }

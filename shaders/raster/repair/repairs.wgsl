@@ -15,6 +15,7 @@ const REPAIR_LIGHT_THROUGH_GLASS: u32 = 11u;
 const REPAIR_CAUSTICS: u32 = 12u;
 const REPAIR_AREA_LIGHTS: u32 = 13u;
 const REPAIR_REFLECTIVE_SHADOW_MAP: u32 = 14u;
+const REPAIR_IRRADIANCE_PROBES: u32 = 15u;
 
 // a bit for each
 override REPAIRS: u32 = 0u;

@@ -48,11 +48,7 @@ pub fn gather(
 ) {
     let Some([gather, smooth]) = pipelines.gathering(&bounce.gather) else { return };
     let view = offset(plan.picture_views.start);
-    {
-        let mut pass = begin(encoder, targets.seen.each_ref(), &targets.seen_depth);
-        pass.set_bind_group(0, bound.frame, &[view]);
-        shapes(&mut pass, plan, pipelines, things, (PATCHES_SEEN, bound.object));
-    }
+    draw_seen(encoder, plan, pipelines, things, targets, bound);
     let [places, lights] = targets.patches.each_ref().map(|patches| BindingResource::TextureView(&patches.all));
     let [seen, marks] = targets.seen.each_ref().map(BindingResource::TextureView);
     let patches = bind(gpu, &pipelines.gather_layout, &[places, lights, seen, marks]);
@@ -60,8 +56,22 @@ pub fn gather(
     full_screen(encoder, smooth, &targets.smooth, (bound.gathered, view), None);
 }
 
+/// Where surfaces are that the picture shows.
+pub fn draw_seen(
+    encoder: &mut CommandEncoder,
+    plan: &Plan,
+    pipelines: &BouncePipelines,
+    things: Things<'_>,
+    targets: &super::BounceTargets,
+    bound: Bound<'_>,
+) {
+    let mut pass = begin(encoder, targets.seen.each_ref(), &targets.seen_depth);
+    pass.set_bind_group(0, bound.frame, &[offset(plan.picture_views.start)]);
+    shapes(&mut pass, plan, pipelines, things, (PATCHES_SEEN, bound.object));
+}
+
 /// Lamps are no patches: their light is there already, and one of them is where a light looks from.
-fn shapes(
+pub fn shapes(
     pass: &mut RenderPass<'_>,
     plan: &Plan,
     pipelines: &BouncePipelines,
@@ -77,7 +87,8 @@ fn shapes(
     }
 }
 
-fn full_screen(
+/// One pass over all of a target.
+pub fn full_screen(
     encoder: &mut CommandEncoder,
     pipeline: &RenderPipeline,
     target: &TextureView,
@@ -96,7 +107,8 @@ fn full_screen(
     pass.draw(0..3, 0..1);
 }
 
-fn begin<'e>(encoder: &'e mut CommandEncoder, colours: [&TextureView; 2], depth: &TextureView) -> RenderPass<'e> {
+/// A pass into two targets, empty at first.
+pub fn begin<'e>(encoder: &'e mut CommandEncoder, colours: [&TextureView; 2], depth: &TextureView) -> RenderPass<'e> {
     let depth_ops = wgpu::Operations { load: wgpu::LoadOp::Clear(0.0), store: wgpu::StoreOp::Discard };
     encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
         color_attachments: &colours.map(|colour| Some(attachment(colour))),

@@ -1,16 +1,19 @@
 //! Light of the second bounce, by a reflective shadow map (Dachsbacher and Stamminger 2005): what a light sees is drawn as patches
 //! that send its light on (`patches.wgsl`), kept with the other maps while the camera moves. A frame then draws where surfaces are
 //! at a part of its size, gathers there what the patches send (`gather.wgsl`), takes the mean over the pixels that took all of
-//! them between them (`smooth.wgsl`), and the forward pass looks that up (`bounce.wgsl`).
+//! them between them (`smooth.wgsl`), and the forward pass looks that up (`bounce.wgsl`). In place of patches a grid of probes may
+//! say what falls there (`probes`), of more bounces.
 
 mod draw;
 mod knobs;
 mod pipelines;
+mod probes;
 mod targets;
 
 pub use draw::{Bound, draw_patches, gather};
 pub use knobs::{GatherKnobs, PatchClamp};
 pub use pipelines::{BouncePipelines, Layouts, override_names, patches_of};
+pub use probes::{PROBE_FACE, PROBES_SIDE, draw_probes, gather_from_probes, plan as plan_probes};
 pub use targets::{BounceTargetPlan, BounceTargets, bounce_targets};
 
 use crate::cube;
@@ -56,7 +59,9 @@ pub struct Gather {
 
 /// What of the second bounce a frame gathers; its views are added to `views`.
 pub fn plan(scene: &Scene, lights: &Lights, settings: &RasterSettings, views: &mut Vec<View>) -> Option<Bounce> {
-    if !settings.repairs().has(Repair::ReflectiveShadowMap) {
+    // of several repairs of one defect the last one holds
+    let repairs = settings.repairs();
+    if !repairs.has(Repair::ReflectiveShadowMap) || repairs.has(Repair::IrradianceProbes) {
         return None;
     }
     let first = views.len();
@@ -71,7 +76,7 @@ pub fn plan(scene: &Scene, lights: &Lights, settings: &RasterSettings, views: &m
     let gather = Gather {
         layers: layers.iter().fold(0, |bits, layer| bits | 1 << layer),
         knobs: settings.knobs.gather,
-        blockers: [lights.sphere_count, lights.box_count],
+        blockers: [lights.sphere_count - lights.glass_count, lights.box_count],
     };
     (!layers.is_empty()).then_some(Bounce { views: first..views.len(), layers, gather })
 }

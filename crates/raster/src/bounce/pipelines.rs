@@ -5,7 +5,7 @@ use super::knobs::PatchClamp;
 use super::{Gather, GatherKnobs};
 use crate::build::Build;
 use crate::error::RasterError;
-use crate::gpu_data::{PATCHES_OF_AREA_LIGHT, PATCHES_OF_SUN, PATCHES_SEEN};
+use crate::gpu_data::{PATCHES_OF_AREA_LIGHT, PATCHES_OF_PROBES, PATCHES_OF_SUN, PATCHES_SEEN};
 use crate::pipelines::{Choice, front_face, layout};
 use crate::plan::Plan;
 use crate::shaders;
@@ -57,6 +57,10 @@ pub struct Layouts<'a> {
 pub struct BouncePipelines {
     /// Group 1 of the pass that gathers: patches, and what is seen.
     pub gather_layout: BindGroupLayout,
+    /// Group 1 of what probes are asked: places, light, harmonics.
+    pub probe_layout: BindGroupLayout,
+    probes_module: wgpu::ShaderModule,
+    probes: Option<[RenderPipeline; 3]>,
     patches_module: wgpu::ShaderModule,
     gather_module: wgpu::ShaderModule,
     smooth_module: wgpu::ShaderModule,
@@ -79,6 +83,9 @@ impl BouncePipelines {
         let [array, one] = [TextureViewDimension::D2Array, TextureViewDimension::D2].map(texture);
         Ok(BouncePipelines {
             gather_layout: layout(gpu, &[array, array, one, one]),
+            probe_layout: layout(gpu, &[one; 3]),
+            probes_module: shaders::compose("raster/repair/probes.wgsl")?.create(gpu)?,
+            probes: None,
             patches_module: shaders::compose("raster/repair/patches.wgsl")?.create(gpu)?,
             gather_module: shaders::compose("raster/repair/gather.wgsl")?.create(gpu)?,
             smooth_module: shaders::compose("raster/repair/smooth.wgsl")?.create(gpu)?,
@@ -93,9 +100,10 @@ impl BouncePipelines {
     /// # Errors
     /// [`RasterError::Gpu`] if the device can't take it.
     pub fn prepare(&mut self, gpu: &Gpu, layouts: Layouts<'_>, plan: &Plan) -> Result<bool, RasterError> {
-        let Some(Bounce { layers, gather, .. }) = &plan.bounce else { return Ok(false) };
         let mut compiled = false;
-        let lookers = layers.iter().map(|layer| patches_of(*layer)).chain([PATCHES_SEEN]);
+        let layers = plan.bounce.as_ref().map_or(&[][..], |bounce| &bounce.layers);
+        let of_lights = layers.iter().map(|layer| patches_of(*layer));
+        let lookers = of_lights.chain(plan.probes.as_ref().map(|_| PATCHES_OF_PROBES)).chain([PATCHES_SEEN]);
         for (looker, (_, variant)) in lookers.flat_map(|looker| plan.drawn(None).map(move |drawn| (looker, drawn))) {
             let key = (plan.choice(), looker, variant);
             if !variant.glass && !self.patches.contains_key(&key) {
@@ -103,6 +111,16 @@ impl BouncePipelines {
                 (compiled, _) = (true, self.patches.insert(key, made));
             }
         }
+        if plan.probes.is_some() && self.probes.is_none() {
+            let groups: &[_] = &[layouts.frame, &self.probe_layout];
+            let build = |entry| {
+                let build = Build::of(groups, &self.probes_module, FEATURES);
+                Build { full_screen: true, entry: Some([entry; 2]), ..build }.pipeline(gpu)
+            };
+            let made = gpu.checked("the fake's pipelines", || ["relight", "project", "gather"].map(build))?;
+            (compiled, _) = (true, self.probes.insert(made));
+        }
+        let Some(Bounce { gather, .. }) = &plan.bounce else { return Ok(compiled) };
         if !self.gather.contains_key(gather) {
             let made = gpu.checked("the fake's pipelines", || self.compile_gather(gpu, layouts, gather))?;
             (compiled, _) = (true, self.gather.insert(*gather, made));
@@ -141,6 +159,11 @@ impl BouncePipelines {
     /// What draws patches of a variant for who looks, once it is prepared.
     pub fn patches(&self, choice: Choice, looker: u32, variant: Variant) -> Option<&RenderPipeline> {
         self.patches.get(&(choice, looker, variant))
+    }
+
+    /// What lights what probes see, what makes harmonics of that, and what gathers those, once they are prepared.
+    pub fn probing(&self) -> Option<[&RenderPipeline; 3]> {
+        self.probes.as_ref().map(|pipelines| pipelines.each_ref())
     }
 
     /// What gathers, and what takes means of that, once they are prepared.

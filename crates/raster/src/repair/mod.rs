@@ -41,11 +41,13 @@ pub enum Repair {
     AreaLights,
     /// Lit surfaces light others, once.
     ReflectiveShadowMap,
+    /// Lit surfaces light others, again and again.
+    IrradianceProbes,
 }
 
 impl Repair {
     /// All of them, in the order in which light meets the defects.
-    pub const ALL: [Repair; 15] = [
+    pub const ALL: [Repair; 16] = [
         Repair::Antialiasing,
         Repair::TextureMapping,
         Repair::Sky,
@@ -61,6 +63,7 @@ impl Repair {
         Repair::Caustics,
         Repair::AreaLights,
         Repair::ReflectiveShadowMap,
+        Repair::IrradianceProbes,
     ];
 
     /// What there is to say about it.
@@ -102,6 +105,7 @@ pub(crate) fn shader_numbers() -> [(&'static str, f64); Repair::ALL.len()] {
         ("REPAIR_CAUSTICS", Repair::Caustics),
         ("REPAIR_AREA_LIGHTS", Repair::AreaLights),
         ("REPAIR_REFLECTIVE_SHADOW_MAP", Repair::ReflectiveShadowMap),
+        ("REPAIR_IRRADIANCE_PROBES", Repair::IrradianceProbes),
     ]
     .map(|(name, repair)| (name, f64::from(repair as u32)))
 }

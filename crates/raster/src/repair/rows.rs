@@ -2,6 +2,7 @@
 
 use super::Repair;
 use crate::lights::AreaLight;
+use crate::settings::REPAIRED_SEGMENTS;
 use scene::{Bsdf, Geometry, Scene, Shape, Texture};
 
 /// A repair of the fake, and the defect that it repairs.
@@ -171,6 +172,16 @@ pub const ROWS: [Row; Repair::ALL.len()] = [
         slide: "Path tracing: indirect light",
         missing_in: no_second_bounce,
     },
+    Row {
+        repair: Repair::IrradianceProbes,
+        name: "irradiance-probes",
+        title: "Probes of all light between surfaces",
+        text: "Light goes on from surface to surface. A grid of 5 x 5 x 5 points sees what is around it, keeps it as nine spherical \
+               harmonics (Ramamoorthi and Hanrahan 2001), lights what it sees by that twice more, and then what is between the \
+               points. Takes the place of patches. Blurred as the grid is coarse: light leaks under boxes and through walls.",
+        slide: "Path tracing: indirect light",
+        missing_in: |scene| no_second_bounce(scene).or_else(|| too_large_for_probes(scene)),
+    },
 ];
 
 fn has(scene: &Scene, wanted: impl Fn(&Shape, &Bsdf) -> bool) -> bool {
@@ -211,6 +222,22 @@ fn shadowed_glass(scene: &Scene) -> Option<&'static str> {
         return Some("light that casts shadows");
     }
     glass(scene)
+}
+
+/// What is drawn 750 times must not be large: shapes, and triangles.
+const MOST_FOR_PROBES: [usize; 2] = [200, 120_000];
+
+fn too_large_for_probes(scene: &Scene) -> Option<&'static str> {
+    // as many as balls have that are repaired
+    let segments = scene.fake.segments.max(REPAIRED_SEGMENTS) as usize;
+    let triangles = scene.shapes.iter().map(|shape| match shape.geometry.mesh_of() {
+        Some(mesh) => mesh.triangles().len(),
+        None if matches!(shape.geometry, Geometry::Sphere { .. }) => 2 * segments * segments,
+        None => 12,
+    });
+    let size = [scene.shapes.len(), triangles.sum()];
+    let large = size.iter().zip(MOST_FOR_PROBES).any(|(size, most)| *size > most);
+    large.then_some("size small enough to be drawn from 125 points (200 shapes, 120 000 triangles)")
 }
 
 /// A flat surface does not light itself.
