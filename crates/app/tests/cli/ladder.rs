@@ -79,10 +79,22 @@ fn best_first_begins_with_what_is_worth_most_and_ends_where_the_other_order_does
 }
 
 #[test]
+fn only_the_repairs_that_are_asked_for_are_climbed() {
+    let folder = TestFolder::new();
+    let out = folder.file("rungs").display().to_string();
+    let words =
+        ["ladder", "cornell", "-o", &out, "--size", "24x18", "--spp", "1", "--repairs", "soft-shadows+sky", "--json"];
+    let report = json(&visavis(&words));
+    let names: Vec<_> = report["rungs"].as_array().expect("rungs").iter().map(|rung| rung["name"].clone()).collect();
+    assert_eq!(names, ["as-taught", "encoding", "soft-shadows", "whitted", "path"], "there is no sky to repair");
+}
+
+#[test]
 fn what_is_missing_or_wrong_is_said() {
     let refused = |words: &[&str], line: &str| assert_refused(words, 2, &[line]);
     refused(&["ladder"], "ladder needs a scene: visavis ladder SCENE -o DIR");
     refused(&["ladder", "whitted"], "ladder needs a folder for its pictures: -o DIR");
     refused(&["ladder", "whitted", "-o", "x", "--order", "worst"], "--order worst: expected light or best-first");
+    refused(&["ladder", "whitted", "-o", "x", "--repairs", "sky+glue"], "--repairs glue: expected none, all or names");
     refused(&["ladder", "whitted", "-o", "x", "--spp", "0"], "--spp 0: expected a whole number from 1");
 }

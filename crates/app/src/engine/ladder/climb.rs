@@ -45,6 +45,9 @@ type ClimbControl = Control<Option<Job>, Climb>;
 /// Pictures of one view that stay for its next ladder: those of two ladders.
 const MOST_KEPT: usize = 2 * Rung::COUNT;
 
+/// Pictures of a reference that rungs are measured by: two alone know little of their own noise.
+const FIRST: u32 = 4;
+
 /// Climbs one ladder after the other.
 pub struct Climbs {
     gpu: Gpu,
@@ -198,13 +201,14 @@ impl<'a> ClimbWatch<'a> {
         image.as_ref().map(|(_, image)| image.clone())
     }
 
-    /// The reference to measure by from now on, where it has got finer by half since the last: each has all rungs measured again.
+    /// The reference to measure by from now on, where it has twice the pictures of the last: each has all rungs measured again, and
+    /// those of one are not held against those of another.
     fn finer(&self, reference: &Reference, done: bool) -> Option<Arc<ReferenceImage>> {
         let mut known = self.seen.image.lock().unwrap_or_else(PoisonError::into_inner);
         let before = known.as_ref().map_or(0, |(pictures, _)| *pictures);
         let pictures = reference.replicates;
-        let finer = if done { pictures > before } else { 2 * pictures >= 3 * before && pictures > before };
-        if pictures < 2 || !finer {
+        let finer = if done { pictures > before } else { pictures >= FIRST.max(2 * before) };
+        if !finer {
             return None;
         }
         let image = Arc::new(ReferenceImage::of(reference));
@@ -240,7 +244,6 @@ impl ReferenceWatch for ClimbWatch<'_> {
         self.control.wait();
     }
 
-    /// One picture alone tells nothing of its own noise, and waits for the second.
     fn show(&self, reference: Option<&Reference>, done: bool) {
         let (pictures, seconds) = reference.map_or((0, 0.0), |reference| (reference.replicates, reference.seconds));
         self.seen.pictures.store(pictures, Ordering::Relaxed);

@@ -54,7 +54,8 @@ fn ladder(cx: &mut UiContext, ui: &mut Ui) {
     if let Some(index) = choice(("ladder repairs", "Repairs"), words, ui, cx.dump) {
         cx.model.session.ladder.repairs = AT_ONCE[index].1;
     }
-    let state = reference_state(cx.shown.ladder.reference.as_ref(), cx.model.state.paused);
+    let measured = cx.shown.ladder.rungs.iter().flatten().any(|facts| facts.errors.is_some());
+    let state = reference_state(cx.shown.ladder.reference.as_ref(), (measured, cx.model.state.paused));
     cx.dump.note("text ladder reference", &state, ui.label(&state));
 }
 
@@ -74,10 +75,12 @@ fn explain(order: Order) -> &'static str {
     }
 }
 
-fn reference_state(progress: Option<&Progress>, paused: bool) -> String {
-    let made = progress.filter(|progress| progress.pictures > 0);
-    let Some(Progress { pictures, noise, seconds, done, .. }) = made else {
-        return "No reference yet: errors come with it".into();
+fn reference_state(progress: Option<&Progress>, (measured, paused): (bool, bool)) -> String {
+    let Some(Progress { pictures, noise, seconds, done, .. }) = progress.filter(|_| measured) else {
+        let pictures = progress.map_or(0, |progress| progress.pictures);
+        let made =
+            if pictures == 0 { String::new() } else { format!(": {} so far", counted(pictures as usize, "picture")) };
+        return format!("No reference yet, errors come with it{made}");
     };
     let noise = noise.map_or_else(String::new, |noise| format!(", noise (relMSE) {}", brief(noise)));
     let course = match (done, paused) {
