@@ -43,11 +43,10 @@ pub struct Engine {
     pub(super) dialogues: Dialogues,
     /// Made when they are first asked for.
     pub(super) thumbnails: Option<Thumbnails>,
-    /// Made when they are first asked for, as are trees and hard cases.
+    /// Made when they are first asked for, as are trees, hard cases and ladders.
     pub(super) sweeper: Option<Sweeper>,
     pub(super) trees: Option<super::trees::TreeStudy>,
     pub(super) cases: Option<super::cases::CaseBench>,
-    /// Made when a ladder is first looked at.
     pub(super) ladder: Option<super::ladder::LadderStudy>,
     /// Looks into a pixel.
     pub probes: super::probe::Probes,
@@ -121,8 +120,7 @@ impl Engine {
     /// Goes on with another device of the window: fakes are drawn again, and all that is shown is resolved again.
     pub fn move_to(&mut self, window: &Gpu) {
         self.gpu = window.clone();
-        self.sweeper = None;
-        self.ladder = None;
+        (self.sweeper, self.ladder) = (None, None);
         self.show_trees_again();
         self.objects.show_again();
         self.pane_workers.values_mut().for_each(|workers| workers.move_to(window.clone()));
@@ -194,9 +192,7 @@ impl Engine {
         self.measure_fakes();
         self.light.measure(&wanted.light);
         self.compare(wanted);
-        self.ask_sweep(wanted);
-        self.ask_ladder(wanted);
-        self.ask_trees(wanted);
+        [Engine::ask_sweep, Engine::ask_ladder, Engine::ask_trees].into_iter().for_each(|ask| ask(self, wanted));
         self.probes.follow(wanted, &self.threads, &self.wake);
         self.objects.follow(wanted.objects.as_ref(), &self.threads, &self.wake);
         jobs

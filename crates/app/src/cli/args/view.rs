@@ -150,8 +150,9 @@ pub fn of_the_window() -> Vec<CommandOption<Reading>> {
         },
         CommandOption {
             names: &["--workspace"],
-            value: "compare|sweep|trees|cases",
-            help: "what the window is used for at first: A against B, many pictures at once, what a tree saves, or cases whose answers are known (default compare)",
+            value: "compare|sweep|ladder|trees|cases",
+            help: "what the window is used for at first: A against B, many pictures at once, one defect of the fake after the other, what a \
+                   tree saves, or cases whose answers are known (default compare)",
             read: |reading, parser| {
                 reading.args.workspace = Some(a_workspace(parser)?);
                 Ok(())
