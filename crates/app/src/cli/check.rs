@@ -71,7 +71,7 @@ pub fn run(args: &CheckArgs) -> anyhow::Result<()> {
 /// # Errors
 /// If the device fails.
 pub fn in_short(gpu: &Gpu) -> anyhow::Result<String> {
-    let rows = check::run_on_gpu(gpu, CASES, Effort::Quick, &AtomicBool::new(false), |_, _| true)?;
+    let rows = Runner::new(Machine::Device(gpu), Effort::Quick, &AtomicBool::new(false)).run(CASES, |_, _| true)?;
     let of = |verdict| rows.iter().filter(move |row| row.verdict == verdict);
     let mut text = format!("{} rows pass, {} fail\n", of(Verdict::Pass).count(), of(Verdict::Fail).count());
     of(Verdict::Fail).for_each(|row| text += &format!("  {}. {row}\n", row.case));
