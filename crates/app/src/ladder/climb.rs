@@ -1,11 +1,11 @@
 //! Climbs: makes a picture on each rung, one after the other, in the order of light or the best first.
 
 use super::{Made, Reached, RungMaker};
-use crate::model::{Order, Rung, repaired};
+use crate::model::{Order, Rung, as_taught, repaired};
 use crate::ruler::ReferenceImage;
 use crate::sweep::Onlooker;
 use anyhow::Context;
-use raster::{Repair, Repairs};
+use raster::{RefractedAt, Repair, Repairs};
 use technique::settings::{Value, of_panes};
 use technique::{PaneSettings, Shot, TechniqueName};
 
@@ -41,10 +41,13 @@ impl<O: Onlooker> Climber<'_, O> {
         order: Order,
         mut told: impl FnMut(Made) -> anyhow::Result<()>,
     ) -> anyhow::Result<()> {
-        let mut as_taught = PaneSettings::of(TechniqueName::Raster);
-        as_taught.fake.fake = raster::Fake::AsTaught;
+        let taught = [
+            (Rung::AsTaught, as_taught(RefractedAt::Vertices)),
+            (Rung::Fragments, as_taught(RefractedAt::Fragments)),
+            (Rung::Encoding, repaired(Repairs::NONE)),
+        ];
         let mut last = None;
-        for (rung, pane) in [(Rung::AsTaught, as_taught), (Rung::Encoding, repaired(Repairs::NONE))] {
+        for (rung, pane) in taught.into_iter().filter(|(rung, _)| rung.missing_in(&self.shot.scene).is_none()) {
             let Some(made) = self.reach(rung, pane, TIMES)? else { return Ok(()) };
             last = Some(made.clone());
             told(made)?;

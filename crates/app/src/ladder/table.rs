@@ -2,12 +2,11 @@
 
 use super::Reached;
 use crate::model::Rung;
-use raster::Repair;
 use serde_json::{Value, json};
 use std::fmt::Write;
 
 /// A line a rung with what is left of the error, and a line for each repair that the scene gives nothing to do.
-pub fn text(reached: &[Reached], idle: &[(Repair, &'static str)]) -> String {
+pub fn text(reached: &[Reached], idle: &[(Rung, &'static str)]) -> String {
     let mut text = format!("{:<28} {:>9} {:>8} {:>12} {:>12}\n", "rung", "relMSE", "FLIP", "frame, ms", "all anew, ms");
     for rung in reached {
         let errors = &rung.errors;
@@ -21,8 +20,8 @@ pub fn text(reached: &[Reached], idle: &[(Repair, &'static str)]) -> String {
             rung.anew_ms
         );
     }
-    for (repair, missing) in idle {
-        let _ = writeln!(text, "{:<28} nothing to repair: no {missing}", repair.row().title);
+    for (rung, missing) in idle {
+        let _ = writeln!(text, "{:<28} nothing to repair: no {missing}", rung.title());
     }
     text
 }
@@ -41,7 +40,7 @@ pub fn csv(reached: &[Reached]) -> String {
 }
 
 /// One object with all that is known of each rung.
-pub fn json(reached: &[Reached], idle: &[(Repair, &'static str)]) -> Value {
+pub fn json(reached: &[Reached], idle: &[(Rung, &'static str)]) -> Value {
     let rung = |of: &Reached| {
         let errors = &of.errors.errors;
         json!({
@@ -51,7 +50,7 @@ pub fn json(reached: &[Reached], idle: &[(Repair, &'static str)]) -> Value {
             "spp": of.tile.facts.spp, "made_by": of.tile.made_by, "command": of.tile.command(0.0),
         })
     };
-    let idle = idle.iter().map(|(repair, missing)| json!({ "name": repair.name(), "missing": missing }));
+    let idle = idle.iter().map(|(rung, missing)| json!({ "name": rung.name(), "missing": missing }));
     json!({ "rungs": reached.iter().map(rung).collect::<Vec<_>>(), "idle": idle.collect::<Vec<_>>() })
 }
 

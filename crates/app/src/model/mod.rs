@@ -57,7 +57,8 @@ pub use export::{Destination, ExportMenu, ExportRequest, ExportSubject, PlotFile
 pub use file_wish::{FilePurpose, FileWish};
 pub use history::{History, Settings};
 pub use ladder::{
-    LadderSettings, LadderShows, LadderState, LadderView, Order, Rung, RungFacts, WantedLadder, repaired, repairs_of,
+    LadderSettings, LadderShows, LadderState, LadderView, Order, Rung, RungFacts, WantedLadder, as_taught, repaired,
+    repairs_of,
 };
 pub use light_parts::{LightByBounce, LightWish, light_parts};
 pub use magnification::Magnification;

@@ -3,7 +3,7 @@
 
 mod rung;
 
-pub use rung::{Order, Rung, repaired, repairs_of};
+pub use rung::{Order, Rung, as_taught, repaired, repairs_of};
 
 use super::{COMPARE, ErrorMap, Model, PaneId, PaneSource, PictureArea, Progress, TileErrors};
 use compare::ErrorMetric;
@@ -181,8 +181,8 @@ impl Model {
     /// Whether a rung is climbed.
     pub fn climbs(&self, rung: Rung) -> bool {
         match rung {
-            Rung::Repair(repair) => self.session.ladder.repairs.has(repair) && self.missing_for(rung).is_none(),
-            _ => true,
+            Rung::Repair(repair) if !self.session.ladder.repairs.has(repair) => false,
+            _ => self.missing_for(rung).is_none(),
         }
     }
 

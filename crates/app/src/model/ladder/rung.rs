@@ -1,6 +1,6 @@
 //! A rung of the ladder: what is repaired there, what there is to say about it, and how it is made.
 
-use raster::{Fake, Repair, Repairs};
+use raster::{Fake, RefractedAt, Repair, Repairs};
 use scene::Scene;
 use technique::{PaneSettings, TechniqueName};
 
@@ -33,6 +33,8 @@ pub enum Rung {
     /// What the tutorial's viewer draws.
     #[default]
     AsTaught,
+    /// The same with glass that bends light in every pixel, not at vertices alone.
+    Fragments,
     /// The same in light rather than bytes: the fair fake.
     Encoding,
     /// A defect of the fair fake less.
@@ -45,20 +47,22 @@ pub enum Rung {
 
 impl Rung {
     /// How many there are.
-    pub const COUNT: usize = Repair::ALL.len() + 4;
+    pub const COUNT: usize = Repair::ALL.len() + 5;
 
     /// All of them, from the bottom to the top, in the order in which light meets the defects.
     pub fn all() -> impl DoubleEndedIterator<Item = Rung> + Clone {
         let repairs = Repair::ALL.into_iter().map(Rung::Repair);
-        [Rung::AsTaught, Rung::Encoding].into_iter().chain(repairs).chain([Rung::Whitted, Rung::Path])
+        let taught = [Rung::AsTaught, Rung::Fragments, Rung::Encoding];
+        taught.into_iter().chain(repairs).chain([Rung::Whitted, Rung::Path])
     }
 
     /// Which of [`Rung::all`] it is, from 0.
     pub fn place(self) -> usize {
         match self {
             Rung::AsTaught => 0,
-            Rung::Encoding => 1,
-            Rung::Repair(repair) => 2 + repair as usize,
+            Rung::Fragments => 1,
+            Rung::Encoding => 2,
+            Rung::Repair(repair) => 3 + repair as usize,
             Rung::Whitted => Rung::COUNT - 2,
             Rung::Path => Rung::COUNT - 1,
         }
@@ -68,6 +72,7 @@ impl Rung {
     pub fn name(self) -> &'static str {
         match self {
             Rung::AsTaught => "as-taught",
+            Rung::Fragments => "fragments",
             Rung::Encoding => "encoding",
             Rung::Repair(repair) => repair.name(),
             Rung::Whitted => "whitted",
@@ -79,6 +84,7 @@ impl Rung {
     pub fn title(self) -> &'static str {
         match self {
             Rung::AsTaught => "The fake as taught",
+            Rung::Fragments => "Bent in every pixel",
             Rung::Encoding => "Light in place of bytes",
             Rung::Repair(repair) => repair.row().title,
             Rung::Whitted => "Whitted: trees of rays",
@@ -90,6 +96,10 @@ impl Rung {
     pub fn text(self) -> &'static str {
         match self {
             Rung::AsTaught => "The tutorial's viewer, number for number: everything below is wrong with it.",
+            Rung::Fragments => {
+                "The viewer's material bends light at vertices, and between them directions are interpolated. A fragment shader of one's \
+                 own bends it in every pixel: of a hundred segments that is hardly seen, of eight it is."
+            }
             Rung::Encoding => {
                 "Its light is clamped and its bytes go to the screen as they are, with ambient light that someone has chosen. Instead \
                  light is linear and without bound, sun and sky have the truth's units, and what is shown is encoded."
@@ -109,6 +119,7 @@ impl Rung {
     pub fn slide(self) -> &'static str {
         match self {
             Rung::AsTaught => "Task 1: Faking Whitted with rasterisation",
+            Rung::Fragments => "Other possible solutions: customised shaders",
             Rung::Encoding => "Task 1 b: What went wrong here?",
             Rung::Repair(repair) => repair.row().slide,
             Rung::Whitted => "Task 1 c: Whitted-style ray tracing",
@@ -119,10 +130,18 @@ impl Rung {
     /// What `scene` lacks for the rung to be one, after "no".
     pub fn missing_in(self, scene: &Scene) -> Option<&'static str> {
         match self {
+            Rung::Fragments if !scene.needs().dielectric => Some("glass"),
             Rung::Repair(repair) => (repair.row().missing_in)(scene),
             _ => None,
         }
     }
+}
+
+/// The fake as taught, with glass that bends light there.
+pub fn as_taught(refracted: RefractedAt) -> PaneSettings {
+    let mut pane = PaneSettings::of(TechniqueName::Raster);
+    (pane.fake.fake, pane.fake.knobs.refracted) = (Fake::AsTaught, refracted);
+    pane
 }
 
 /// The fair fake with these repairs.
@@ -132,12 +151,11 @@ pub fn repaired(repairs: Repairs) -> PaneSettings {
     pane
 }
 
-/// The repairs that have something to repair in this scene, and what it lacks for the others.
-pub fn repairs_of(scene: &Scene) -> (Vec<Repair>, Vec<(Repair, &'static str)>) {
-    let missing = |repair: &Repair| (repair.row().missing_in)(scene);
-    let (useful, idle): (Vec<Repair>, Vec<Repair>) =
-        Repair::ALL.into_iter().partition(|repair| missing(repair).is_none());
-    (useful, idle.into_iter().filter_map(|repair| Some((repair, missing(&repair)?))).collect())
+/// The repairs that have something to repair in this scene, and what it lacks for the other rungs.
+pub fn repairs_of(scene: &Scene) -> (Vec<Repair>, Vec<(Rung, &'static str)>) {
+    let useful = Repair::ALL.into_iter().filter(|repair| (repair.row().missing_in)(scene).is_none());
+    let idle = Rung::all().filter_map(|rung| Some((rung, rung.missing_in(scene)?)));
+    (useful.collect(), idle.collect())
 }
 
 #[cfg(test)]
@@ -158,7 +176,11 @@ mod tests {
         let rungs = |name: &str| repairs_of(&scene::builtin::named(name).expect("a built-in scene"));
         assert_eq!(rungs("whitted").0, Repair::ALL);
         let (useful, idle) = rungs("cornell");
-        assert_eq!(useful, [Repair::Antialiasing, Repair::SoftShadows]);
-        assert!(idle.contains(&(Repair::Mirrors, "mirror")) && useful.len() + idle.len() == Repair::ALL.len());
+        let lit = [Repair::AreaLights, Repair::ReflectiveShadowMap, Repair::IrradianceProbes];
+        assert_eq!(useful, [&[Repair::Antialiasing, Repair::SoftShadows][..], &lit].concat());
+        assert!(
+            idle.contains(&(Rung::Repair(Repair::Mirrors), "mirror")) && idle.contains(&(Rung::Fragments, "glass"))
+        );
+        assert_eq!(useful.len() + idle.len(), Repair::ALL.len() + 1);
     }
 }

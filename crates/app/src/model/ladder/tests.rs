@@ -44,7 +44,7 @@ fn what_a_rung_takes_away_is_told_against_the_one_that_was_reached_before_it() {
     }
     let taken = [Rung::AsTaught, sky, Rung::Encoding, Rung::Path].map(|rung| view.taken_by(rung));
     assert_eq!(taken, [None, Some(0.75), Some(-0.25), None]);
-    assert_eq!(view.rows(Order::Light)[..2], [Rung::AsTaught, Rung::Encoding]);
+    assert_eq!(view.rows(Order::Light)[..2], [Rung::AsTaught, Rung::Fragments]);
     let best = view.rows(Order::BestFirst);
     assert_eq!((&best[..3], best.len(), best.last()), (&view.climbed[..], Rung::COUNT, Some(&Rung::Path)));
 }
