@@ -111,7 +111,7 @@ impl<'a> Trial<'a> {
         }
     }
 
-    /// What a row expects, where the run is not spoilt.
+    /// What a row expects: too much in a spoilt run.
     fn demanded(&self, expected: f64) -> f64 {
         if self.runner.spoilt { SPOILT * expected } else { expected }
     }

@@ -119,7 +119,8 @@ impl Viewer {
     fn tell_of_refusal(&mut self, pane: PaneId, picture: &Picture) {
         let known = self.presentation.shown.panes.get(pane).and_then(|shown| shown.refused.as_ref());
         if let Some(why) = picture.refused.as_ref().filter(|why| known != Some(why)) {
-            self.model.say(Err(format!("{pane} goes on on the CPU, the GPU failed: {why}. R tries it again")));
+            let who = if pane == PaneId::CASE { "The picture".to_owned() } else { pane.to_string() };
+            self.model.say(Err(format!("{who} goes on on the CPU, the GPU failed: {why}. R tries it again")));
         }
         let known = self.presentation.shown.panes.get(pane).and_then(|shown| shown.external.as_ref()?.fault.as_ref());
         let fault = picture.external.as_ref().and_then(|external| external.fault.as_ref());

@@ -21,7 +21,9 @@ fn a_case_is_measured_beside_its_picture_seen_to_fail_and_opened() {
     assert!(text(&frame, "case verdict").contains("expected 1 ± 1e-5"), "{}", text(&frame, "case verdict"));
     user.click("See it fail");
     user.click("Run this");
-    let frame = user.wait_for("rows that fail", |frame| frame.value("text case mark") == "fails");
+    let frame = user.wait_for("rows that fail", |frame| {
+        frame.value("text case mark") == "fails" && frame.value("text case course").contains(" rows in ")
+    });
     let verdict = text(&frame, "case verdict");
     assert!(verdict.contains("Fails: path light: every pixel: ") && verdict.contains("expected 1.05 ± "), "{verdict}");
     assert!(text(&frame, "case row 1").starts_with("fail, path light"), "{}", text(&frame, "case row 1"));

@@ -201,7 +201,8 @@ impl Examiner {
         outcome.map(|rows| rows.is_some()).map_err(|fault| {
             // the next run opens it anew
             self.device = None;
-            fault.to_string()
+            // what drivers say may have several
+            fault.to_string().split_whitespace().collect::<Vec<_>>().join(" ")
         })
     }
 

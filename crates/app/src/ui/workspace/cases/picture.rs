@@ -79,14 +79,14 @@ fn ring(
     let text = format!("expected {}{here}", number(mark.expected));
     let size = vec2(text.len() as f32 * LETTER, LINE);
     let [first, last] = [room.left() + 0.5 * size.x, room.right() - 0.5 * size.x];
-    let label = |side: f32, row: f32| {
-        let away = side * (RING + 5.0 + (0.5 + row) * LINE);
-        Rect::from_center_size(pos2(place.x.clamp(first, last.max(first)), place.y + away), size)
-    };
-    // below its ring or above it, farther away where another stands
-    let labels = [0.0, 1.0, 2.0].into_iter().flat_map(|row| [label(1.0, row), label(-1.0, row)]);
+    let label =
+        |x: f32, y: f32| Rect::from_center_size(pos2((place.x + x).clamp(first, last.max(first)), place.y + y), size);
+    // below its ring, above it or beside it, farther away where others stand
+    let [aside, away] = [RING + 5.0 + 0.5 * size.x, RING + 5.0 + 0.5 * LINE];
+    let close = [label(0.0, away), label(0.0, -away), label(aside, 0.0), label(-aside, 0.0)];
+    let far = [label(0.0, away + 1.1 * LINE), label(0.0, -away - 1.1 * LINE)];
     let is_free = |label: &Rect| !taken.iter().any(|other| other.intersects(*label));
-    let label = labels.into_iter().find(is_free).unwrap_or_else(|| label(1.0, 0.0));
+    let label = close.into_iter().chain(far).find(is_free).unwrap_or(close[0]);
     text_box(ui, room, label.center(), Align2::CENTER_CENTER, &text, Color32::WHITE);
     cx.dump.note_text(&format!("ring {}", index + 1), &text, label, room);
     spoken(ui, &format!("ring {}", index + 1), &text, label, false);

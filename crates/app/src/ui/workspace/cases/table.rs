@@ -149,6 +149,6 @@ mod tests {
     #[test]
     fn numbers_have_the_digits_that_matter() {
         let numbers = [0.0, 1.0, 1.045356176, 0.7052169, 1.680221139e-8, 9999.0, 20_000_000.0].map(number);
-        assert_eq!(numbers, ["0", "1", "1.045356176", "0.7052169", "1.68e-8", "9999", "2e7"]);
+        assert_eq!(numbers, ["0", "1", "1.04535618", "0.7052169", "1.68e-8", "9999", "2e7"]);
     }
 }
