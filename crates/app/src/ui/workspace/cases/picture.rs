@@ -131,9 +131,8 @@ fn verdict(cx: &UiContext) -> String {
     let (case, machine) = (cx.model.state.cases.case(), cx.model.state.cases.machine);
     let mark = cx.shown.cases.mark(machine, case);
     let head = format!("Case {} {}", case.number, if mark == CaseMark::Running { "is running" } else { mark.name() });
-    let Some(row) = cx.shown.cases.result(machine, case).and_then(|result| telling_row(&result.rows)) else {
-        return head;
-    };
+    let result = cx.shown.cases.result(machine, case);
+    let Some((result, row)) = result.and_then(|result| Some((result, telling_row(&result.rows)?))) else { return head };
     let what = if row.verdict == Verdict::Fail { "Fails" } else { "Nearest to failing" };
     let (subject, quantity, measured) = (&row.subject, &row.quantity, number(row.measured));
     let allowed = match row.relation {
@@ -144,5 +143,6 @@ fn verdict(cx: &UiContext) -> String {
             format!("expected {} ± {}{share}", number(row.expected), number(row.tolerance))
         }
     };
-    format!("{head}. {what}: {subject}: {quantity}: {measured}, {allowed}")
+    let spoilt = if result.spoilt { " (a twentieth too much on purpose)" } else { "" };
+    format!("{head}. {what}: {subject}: {quantity}: {measured}, {allowed}{spoilt}")
 }
