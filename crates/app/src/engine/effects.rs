@@ -10,6 +10,7 @@ use pathtrace::Tracer;
 use scene::Scene;
 use std::borrow::Cow;
 use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 use technique::effects::{EffectMap, EffectShare};
 use technique::{Rank, Shot, Threads, Trees};
 
@@ -146,10 +147,15 @@ impl Finder {
         let tracer = self.make_ready(&shot.scene, ends)?;
         let map = loop {
             // first pictures go before: what is begun is given up and begun again
-            let gives_way = || ends() || self.threads.are_wanted_by_more_than(RANK);
+            let gave_way = AtomicBool::new(false);
+            let gives_way = || {
+                let gives_way = ends() || self.threads.are_wanted_by_more_than(RANK);
+                gave_way.fetch_or(gives_way, Ordering::Relaxed);
+                gives_way
+            };
             match self.threads.turn_unless(ends, RANK, || EffectMap::of(&tracer, shot, &gives_way))? {
                 Some(map) => break map,
-                None if gives_way() && !ends() => {}
+                None if gave_way.load(Ordering::Relaxed) && !ends() => {}
                 None => return None,
             }
         };

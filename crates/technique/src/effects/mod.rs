@@ -18,6 +18,7 @@ use crate::Shot;
 use light::LightShares;
 use pathtrace::Tracer;
 use rayon::prelude::*;
+use std::sync::atomic::{AtomicBool, Ordering};
 use surfaces::{FirstSurface, Surfaces};
 
 /// What makes a pixel what it is. Of several that hold the first in [`Effect::ALL`] is told.
@@ -111,9 +112,15 @@ impl EffectMap {
     /// The map of a shot, whose scene `tracer` has ready, on the current rayon pool: a pure function of both. `None` once `stop`
     /// says so, and where there is no memory for it.
     pub fn of(tracer: &Tracer, shot: &Shot, stop: &(dyn Fn() -> bool + Sync)) -> Option<Self> {
+        // what was stopped once stays so: a part of the light would be taken for all
+        let stopped = AtomicBool::new(false);
+        let stop = || {
+            let stops = stop();
+            stopped.fetch_or(stops, Ordering::Relaxed) || stops
+        };
         let size = Self::size_for(shot.size);
-        let surfaces = Surfaces::of(tracer, shot, size, stop)?;
-        let light = LightShares::of(tracer, shot, stop)?;
+        let surfaces = Surfaces::of(tracer, shot, size, &stop)?;
+        let light = LightShares::of(tracer, shot, &stop)?;
         let edges = surfaces.shadow_edges();
         let effect = |(cell, (surface, at_edge)): (usize, (&FirstSurface, &bool))| {
             let (x, y) = (cell as u32 % size.0, cell as u32 / size.0);
