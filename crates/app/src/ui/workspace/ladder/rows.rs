@@ -8,8 +8,8 @@ use crate::ui::theme::{figures, palette, semi_bold};
 use crate::ui::widgets::Explained;
 use egui::text::{LayoutJob, TextWrapping};
 use egui::{
-    Align2, Checkbox, Color32, EventFilter, FontId, Key, Modifiers, Popup, Rect, Response, Role, Sense, Stroke,
-    StrokeKind, TextStyle, Ui, UiBuilder, WidgetInfo, pos2, vec2,
+    Align, Align2, Checkbox, Color32, EventFilter, FontId, Key, Layout, Modifiers, Popup, Rect, Response, Role, Sense,
+    Stroke, StrokeKind, TextStyle, Ui, UiBuilder, WidgetInfo, pos2, vec2,
 };
 
 /// Height of a row in sizes of the type, at least and at most.
@@ -205,9 +205,9 @@ fn tick(cx: &mut UiContext, ui: &mut Ui, rung: Rung, rect: Rect, missing: Option
     let Rung::Repair(repair) = rung else { return };
     let ladder = &mut cx.model.session.ladder;
     let mut on = ladder.repairs.has(repair);
-    let place = Rect::from_center_size(rect.center(), vec2(rect.width(), rect.height().min(20.0)));
     // beside the rows' own layout, which it would move
-    let mut beside = ui.new_child(UiBuilder::new().id_salt(("climb", rung.name())).max_rect(place));
+    let place = UiBuilder::new().id_salt(("climb", rung.name())).max_rect(rect);
+    let mut beside = ui.new_child(place.layout(Layout::left_to_right(Align::Center)));
     let check = beside.add_enabled(missing.is_none(), Checkbox::without_text(&mut on));
     let name = format!("Climb {}", rung.title());
     check.widget_info(|| WidgetInfo::selected(Role::CheckBox, missing.is_none(), on, &name));
