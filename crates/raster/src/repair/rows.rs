@@ -175,7 +175,7 @@ pub const ROWS: [Row; Repair::ALL.len()] = [
     Row {
         repair: Repair::IrradianceProbes,
         name: "irradiance-probes",
-        title: "Probes of all light between surfaces",
+        title: "Probes for all bounces",
         text: "Light goes on from surface to surface. A grid of 5 x 5 x 5 points sees what is around it, keeps it as nine spherical \
                harmonics (Ramamoorthi and Hanrahan 2001), lights what it sees by that twice more, and then what is between the \
                points. Takes the place of patches. Blurred as the grid is coarse: light leaks under boxes and through walls.",
