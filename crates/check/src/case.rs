@@ -8,9 +8,9 @@ use crate::{
 /// A hard case: something whose right answer is known, and what it is measured by.
 #[derive(Debug, Clone, Copy)]
 pub struct Case {
-    /// From 1.
+    /// Its place in the list, from 1.
     pub number: u32,
-    /// What it is.
+    /// What it is, in a few words.
     pub title: &'static str,
     /// What must be so, in a sentence.
     pub claim: &'static str,

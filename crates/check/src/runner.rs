@@ -17,12 +17,12 @@ pub enum Effort {
     Full,
 }
 
-/// What renders.
+/// What renders pictures and meets rays.
 #[derive(Clone, Copy)]
 pub enum Machine<'a> {
     /// The processor, on the threads of the pool that it is called in.
     Processor,
-    /// A graphics device.
+    /// A graphics device, as far as that renders cases.
     Device(&'a Gpu),
 }
 
@@ -39,9 +39,9 @@ impl Machine<'_> {
 /// How cases are run.
 #[derive(Clone, Copy)]
 pub struct Runner<'a> {
-    /// What renders.
+    /// What renders, and is checked by that.
     pub machine: Machine<'a>,
-    /// How thoroughly.
+    /// How thoroughly it looks.
     pub effort: Effort,
     /// Whether every expectation is a twentieth too large, to see rows fail: a check is trusted once it was seen to. Rows of
     /// bounds, of nothing and of coarser tolerances pass as before.

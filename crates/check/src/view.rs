@@ -24,7 +24,7 @@ pub struct CaseView {
 /// A point of a scene, and what it looks like from anywhere.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Mark {
-    /// Where it lies.
+    /// Where it lies in the scene.
     pub at: Vec3,
     /// Its radiance in closed form.
     pub expected: f64,
@@ -44,9 +44,9 @@ struct Seen {
 enum How {
     /// By direct light alone, of which the closed form speaks.
     Direct,
-    /// By all light.
+    /// By all light, however often it was scattered.
     Path,
-    /// As the fake.
+    /// As the fake, with its usual settings.
     Fake,
 }
 

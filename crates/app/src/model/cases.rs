@@ -39,9 +39,9 @@ impl CaseMachine {
 pub struct CasesState {
     /// Number of the case that is looked at.
     pub looked_at: u32,
-    /// What measures.
+    /// What measures, and renders the picture.
     pub machine: CaseMachine,
-    /// How thoroughly.
+    /// How thoroughly what is wished next is measured.
     pub effort: Effort,
     /// Whether expectations are wrong on purpose, to see rows fail.
     pub spoilt: bool,
@@ -94,9 +94,9 @@ pub struct WantedCases {
     pub number: u64,
     /// Their numbers, in their order; none ends what is being measured.
     pub cases: Vec<u32>,
-    /// What measures them.
+    /// What they are measured by.
     pub machine: CaseMachine,
-    /// How thoroughly.
+    /// How thoroughly they are measured.
     pub effort: Effort,
     /// Whether expectations are wrong on purpose.
     pub spoilt: bool,
