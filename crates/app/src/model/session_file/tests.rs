@@ -240,7 +240,7 @@ fn what_a_session_cannot_mean_is_told_with_line_and_column() {
         ("[view]\nshow = \"walk\"", "a.toml:4:8: show walk: expected a, b, wipe, side or map"),
         ("[view]\nline_at = 1.5", "a.toml:4:11: line_at: expected a number from 0 to 1"),
         ("[view]\nexposure = nan", "a.toml:4:12: exposure: expected stops from -30 to 30"),
-        ("[view]\n  shw = \"a\"", "a.toml:4:3: shw is no key of [view]: expected show, line, "),
+        ("[view]\n  shw = \"a\"", "a.toml:4:3: shw is no key of [view]: expected show, workspace, line, "),
         ("[camera]\neye = [1, 2]", "a.toml:4:7: eye: expected three numbers, [x, y, z]"),
         ("[camera]\nfov = 180", "a.toml:4:7: fov: expected degrees between 0 and 180"),
         (
