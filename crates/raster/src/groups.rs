@@ -10,8 +10,11 @@ use wgpu::{BindGroup, BindingResource, TextureView};
 
 /// What is bound.
 pub struct Groups {
+    /// Group 0 of shadow passes: a view.
     pub shadow: BindGroup,
+    /// Group 1 of those: a shape's numbers.
     pub object: BindGroup,
+    /// Group 0 of forward passes, but for the picture's.
     pub frame: BindGroup,
     /// The same while caustic maps are drawn: the shadow map is that of what they fall on.
     pub receivers: BindGroup,
@@ -19,11 +22,14 @@ pub struct Groups {
     pub gathered: BindGroup,
     /// ... and as the picture looks it up.
     pub picture: BindGroup,
+    /// Group 1 of forward passes, of shapes that have no cube map ...
     pub without_cube_map: BindGroup,
+    /// ... and of those that have one, in the order of the plan.
     pub with_cube_map: Vec<BindGroup>,
 }
 
 impl Groups {
+    /// Binds a frame's numbers and targets.
     pub fn new(gpu: &Gpu, pipelines: &Pipelines, uniforms: &Uniforms, targets: Targets<'_>) -> Groups {
         let view = || sized::<View>(&uniforms.views);
         let shadow_map = BindingResource::TextureView(&targets.shadow.map.all);

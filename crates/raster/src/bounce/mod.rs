@@ -20,7 +20,7 @@ use crate::cube;
 use crate::gpu_data::{AREA_LIGHT_ONE_SIDED, Lights, View};
 use crate::planes::Planes;
 use crate::repair::Repair;
-use crate::settings::RasterSettings;
+use crate::settings::{RasterSettings, Show};
 use bytemuck::Zeroable;
 use scene::glam::{Mat4, Vec2, Vec4};
 use scene::{Scene, Vec3};
@@ -61,7 +61,8 @@ pub struct Gather {
 pub fn plan(scene: &Scene, lights: &Lights, settings: &RasterSettings, views: &mut Vec<View>) -> Option<Bounce> {
     // of several repairs of one defect the last one holds
     let repairs = settings.repairs();
-    if !repairs.has(Repair::ReflectiveShadowMap) || repairs.has(Repair::IrradianceProbes) {
+    let wished = repairs.has(Repair::ReflectiveShadowMap) && !repairs.has(Repair::IrradianceProbes);
+    if !wished || settings.show != Show::Picture {
         return None;
     }
     let first = views.len();

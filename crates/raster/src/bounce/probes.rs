@@ -8,7 +8,7 @@ use crate::passes::{Things, bind};
 use crate::plan::Plan;
 use crate::planes::Planes;
 use crate::repair::Repair;
-use crate::settings::RasterSettings;
+use crate::settings::{RasterSettings, Show};
 use crate::uniforms::offset;
 use bytemuck::Zeroable;
 use gpu::Gpu;
@@ -36,7 +36,7 @@ pub fn plan(
     settings: &RasterSettings,
     views: &mut Vec<View>,
 ) -> Option<Range<usize>> {
-    if !settings.repairs().has(Repair::IrradianceProbes) {
+    if !settings.repairs().has(Repair::IrradianceProbes) || settings.show != Show::Picture {
         return None;
     }
     let first = views.len();
