@@ -247,6 +247,20 @@ fn patches_add_what_the_second_bounce_of_paths_adds_and_each_lie_takes_it_away_f
     }
 }
 
+/// A floor in the sun, and a wall that has it in its back: it is lit by the floor, and shadows a part of that.
+#[test]
+fn patches_of_the_sun_light_a_wall_in_shade_as_paths_do() {
+    let text = "camera = { eye = [0, 3, 9], target = [0, 1, 0], fov_y = 40 }\n\
+         sun = { towards = [0.3, 1, -1], angular_radius = 0.3, irradiance = [3, 2, 1] }\n\
+         [material.white]\ndiffuse = { albedo = [0.8, 0.8, 0.8] }\nfake = { specular = 0 }\n\
+         [[rectangle]]\nmaterial = \"white\"\ncorner = [-5, 0, 5]\nedge_u = [10, 0, 0]\nedge_v = [0, 0, -10]\n\
+         [[rectangle]]\nmaterial = \"white\"\ncorner = [-3, 0, 0]\nedge_u = [6, 0, 0]\nedge_v = [0, 2.5, 0]\n";
+    let scene = scene::parse(text, "test", Path::new("test.toml")).expect("a scene");
+    let paths = added_by_bounces(&scene, Some(1));
+    let apart = bounces_apart(&scene, &paths, (Repair::ReflectiveShadowMap, GatherKnobs::default()));
+    assert!(apart < 0.2, "{apart}");
+}
+
 /// Of all light that goes on from wall to wall patches have the second bounce alone.
 #[test]
 fn probes_add_what_all_bounces_of_paths_add_and_patches_less() {
