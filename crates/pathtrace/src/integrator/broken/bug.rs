@@ -1,4 +1,6 @@
 //! Names of bugs, and sets of them.
+//!
+//! Twin: `shaders/pathtrace/integrator/broken/wrong.wgsl`.
 
 use super::rows::{ROWS, Row};
 use std::fmt;

@@ -1,5 +1,5 @@
 //! Bugs that students make in their path tracers, each a switch. A bug is a row of [`ROWS`]; what it does stands in
-//! [`wrong`], and [`walk`] is the plain path tracer that it is made in. Without a bug nothing of this runs: pictures are
+//! `wrong.rs`, and `walk.rs` is the plain path tracer that it is made in. Without a bug nothing of this runs: pictures are
 //! then traced by [`super::path`], which knows nothing of it.
 
 mod bug;
