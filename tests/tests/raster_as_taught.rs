@@ -4,7 +4,7 @@
 use film::DisplayTransform;
 use film::Film;
 use gpu::Gpu;
-use raster::{Fake, FakeKnobs, Raster, RasterSettings, shading};
+use raster::{Fake, FakeKnobs, Raster, RasterSettings, RefractedAt, shading};
 use scene::glam::Vec2;
 use scene::{Bsdf, Camera, Geometry, Material, Scene, Shape, Texture, Vec3, builtin};
 use std::f32::consts::{PI, TAU};
@@ -371,4 +371,22 @@ fn the_rim_of_the_glass_is_sampled_four_times() {
         }
     }
     assert!(rim.iter().all(|count| *count > 5), "{rim:?}");
+}
+
+/// The directions of a sphere of few segments are interpolated across wide triangles; of many both are the same.
+#[test]
+fn refraction_in_fragments_is_what_refraction_at_vertices_becomes_with_more_of_them() {
+    let scene = builtin::named("whitted").unwrap();
+    let mut raster = Raster::new(&Gpu::headless().unwrap()).unwrap();
+    let mut apart = |segments: u32| {
+        let [vertices, fragments] = RefractedAt::ALL.map(|refracted| {
+            let knobs = FakeKnobs { segments: Some(segments), refracted, ..FakeKnobs::default() };
+            let settings = RasterSettings { fake: Fake::AsTaught, knobs, ..RasterSettings::new(160, 90) };
+            raster.render(&scene, &scene.camera, &settings).unwrap()
+        });
+        let pairs = vertices.radiances().zip(fragments.radiances());
+        pairs.map(|(a, b)| f64::from((a - b).abs().max_element())).sum::<f64>()
+    };
+    let [coarse, fine] = [8, 256].map(&mut apart);
+    assert!(coarse > 1.0 && fine < 0.1 * coarse, "{fine} of {coarse}");
 }

@@ -3,10 +3,7 @@
 use film::DisplayTransform;
 use film::{Film, colour};
 use gpu::Gpu;
-use raster::{
-    Fake, FakeKnobs, MOST_CUBE_MAPS, Raster, RasterError, RasterSettings, RefractedAt, Shading, ShadowFilter, Show,
-    maps,
-};
+use raster::{Fake, FakeKnobs, MOST_CUBE_MAPS, Raster, RasterError, RasterSettings, Shading, ShadowFilter, Show, maps};
 use scene::glam::Vec2;
 use scene::{Bsdf, Camera, Geometry, Scene, Shape, Vec3, builtin};
 
@@ -166,23 +163,6 @@ fn filters_blur_by_their_kernels() {
     });
     // 4 samples a pixel blend the borders of cells only
     assert!(hard < pcf && pcf < soft, "{hard} levels of hard, {pcf} of PCF, {soft} of PCF soft");
-}
-
-/// The directions of a sphere of few segments are interpolated across wide triangles; of many both are the same.
-#[test]
-fn refraction_in_fragments_is_what_refraction_at_vertices_becomes_with_more_of_them() {
-    let mut studio = Studio::new();
-    let scene = whitted();
-    let mut apart = |segments: u32| {
-        let [vertices, fragments] = RefractedAt::ALL.map(|refracted| {
-            let knobs = FakeKnobs { segments: Some(segments), refracted, ..FakeKnobs::default() };
-            studio.film(&scene, with(Fake::AsTaught, knobs))
-        });
-        let pairs = vertices.radiances().zip(fragments.radiances());
-        pairs.map(|(a, b)| f64::from((a - b).abs().max_element())).sum::<f64>()
-    };
-    let [coarse, fine] = [8, 256].map(&mut apart);
-    assert!(coarse > 1.0 && fine < 0.1 * coarse, "{fine} of {coarse}");
 }
 
 #[test]

@@ -323,21 +323,6 @@ fn help_lists_every_option_and_exits_well() {
 }
 
 #[test]
-fn the_check_prints_a_table_or_rows_of_json() {
-    let table = visavis(&["check", "--quick", "--case", "10,23"]);
-    assert!(table.status.success());
-    let text = String::from_utf8_lossy(&table.stdout);
-    assert!(text.contains("10. Fresnel table") && text.contains("23. A million samples"), "{text}");
-    assert!(text.contains(" pass") && text.contains("0 failed"), "{text}");
-    let report = json(&visavis(&["check", "--quick", "--case", "15", "--device", "gpu", "--json"]));
-    assert_eq!((&report["rows"][0]["device"], &report["failed"]), (&"gpu".into(), &0.into()));
-    let report = json(&visavis(&["check", "--quick", "--case", "10", "--json"]));
-    let rows = report["rows"].as_array().expect("rows");
-    assert!(rows.len() > 10 && rows.iter().all(|row| row["case"] == 10 && row["verdict"] == "pass"));
-    assert_eq!(report["failed"], 0);
-}
-
-#[test]
 fn a_preset_sets_a_slide_and_other_options_change_it() {
     let folder = TestFolder::new();
     let out = folder.file("out.png");
