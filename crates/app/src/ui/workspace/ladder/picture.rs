@@ -47,7 +47,7 @@ pub fn show(cx: &mut UiContext, ui: &mut Ui) {
             }
             None => whole(cx, ui, fitted(room), &rung),
         },
-        LadderShows::Errors => errors(cx, ui, fitted(room), &rung),
+        LadderShows::Errors => errors(cx, ui, room, &rung),
     }
     let hints = std::mem::replace(&mut cx.model.state.hint, false);
     say(cx, ui, room, &[""]);
@@ -122,7 +122,10 @@ fn move_line(cx: &mut UiContext, ui: &Ui, response: &Response, place: Rect) {
     }
 }
 
-fn errors(cx: &mut UiContext, ui: &Ui, place: Rect, rung: &Picture) {
+/// At the foot of the room, so that where there is any the legend stands above it.
+fn errors(cx: &mut UiContext, ui: &Ui, room: Rect, rung: &Picture) {
+    let place = fitted(room);
+    let place = place.translate(vec2(0.0, room.bottom() - place.bottom()));
     let shown = cx.shown;
     let selected = cx.model.session.ladder.selected;
     let map = shown.ladder.map.as_ref().filter(|(of, _)| *of == selected);
@@ -137,7 +140,7 @@ fn errors(cx: &mut UiContext, ui: &Ui, place: Rect, rung: &Picture) {
     let picture = Picture { texture: Some(texture), name: String::new(), without: "" };
     paint(cx, ui, place, place, &picture);
     if cx.model.state.labels {
-        legend(cx, ui, place, map, None);
+        legend(cx, ui, room, map, None);
     }
 }
 
