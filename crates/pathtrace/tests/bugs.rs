@@ -127,7 +127,7 @@ fn direct_light_is_too_bright_by_what_closed_forms_say() {
     for (scene, bug, factor, within) in [
         (cornell(), Bug::WidthTwice, 130.0 / 105.0, 1e-4),
         (cornell(), Bug::NoInversePi, PI, 1e-4),
-        (cornell(), Bug::EmissionTwice, 2.0, 0.06),
+        (cornell(), Bug::EmissionTwice, 2.0, 0.08),
         (cornell(), Bug::ThickLamp, 0.5, 0.02),
         (parsed(LAMP), Bug::AreaMeasure, 9.0, 0.05),
     ] {
@@ -163,7 +163,10 @@ fn a_seed_that_holds_the_time_has_the_noise_of_fewer_samples_about_the_right_mea
     };
     let noise = |bugs| {
         let [a, b] = [1, 2].map(|seed| of(bugs, seed));
-        a.radiances().zip(b.radiances()).map(|(a, b)| f64::from((a - b).length_squared())).sum::<f64>()
+        // of the middle pixel: at the lamp's edge the place in the pixel counts more than light
+        let mut apart: Vec<f32> = a.radiances().zip(b.radiances()).map(|(a, b)| (a - b).length_squared()).collect();
+        apart.sort_by(f32::total_cmp);
+        apart[apart.len() / 2]
     };
     let ratio = noise(only(Bug::FloatSeed)) / noise(Bugs::NONE);
     assert!(ratio > 10.0, "{ratio}");
