@@ -1,7 +1,6 @@
 //! The tutorial's path tracer, plain: one direction at each vertex, one sample of the lights, no way by spheres and no
 //! cones. Its bugs are what [`super::wrong`] makes of each factor; without one it tends to what [`crate::integrator::path`]
-//! tends to. One ray at a time: it is there to be read and to be wrong, and for four kinds of lanes it would take as long to compile
-//! as all else.
+//! tends to. One ray at a time: it is there to be read and to be wrong, and is compiled once, not for each kind of lanes.
 //!
 //! Twin: `shaders/pathtrace/integrator/broken/walk.wgsl`.
 
