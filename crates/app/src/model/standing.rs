@@ -56,6 +56,7 @@ impl Model {
     fn stand_on(&mut self, mut there: Standing) -> Standing {
         // all that was made of either is of the other scene
         there.document.opened = self.document.opened + 1;
+        there.session.workspace = self.session.workspace;
         let document = std::mem::replace(&mut self.document, there.document);
         let session = std::mem::replace(&mut self.session, there.session);
         let history = std::mem::replace(&mut self.history, there.history);

@@ -39,8 +39,9 @@ fn shown() -> ViewModel {
 fn panels(shown: ViewModel) -> Panels {
     let scene = scene::builtin::named("cornell").expect("a built-in scene");
     let adapters = Adapters(vec![Adapter { name: "an adapter".into(), software: true }]);
-    let model = Model::new(scene, "cornell".into(), Theme::Dark).beside(adapters, DeviceChoice::Auto);
-    let mut panels = Panels::with(model, Workspaces::beginning_with(Some("cases")), shown);
+    let mut model = Model::new(scene, "cornell".into(), Theme::Dark).beside(adapters, DeviceChoice::Auto);
+    model.session.workspace = "cases";
+    let mut panels = Panels::with(model, Workspaces::default(), shown);
     panels.harness.run_steps(3);
     panels
 }

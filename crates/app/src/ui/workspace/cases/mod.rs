@@ -45,6 +45,10 @@ impl Workspace for Cases {
         Icon::Cases
     }
 
+    fn about(&self) -> &'static str {
+        "Cases whose right answers are known, measured here and looked at; again: back to the comparison"
+    }
+
     fn keys(&mut self, cx: &mut UiContext, keys: &Keys) {
         let cases = &mut cx.model.state.cases;
         cases.step(keys.presses(Key::CloseBracket) as i64 - keys.presses(Key::OpenBracket) as i64);
