@@ -264,7 +264,7 @@ mod tests {
             ("raster,fair,as-taught", "fair and as-taught both say fake: leave one of them"),
             ("spp=4,spp=5", "spp=4 and spp=5 both say spp: leave one of them"),
             ("path,mis,estimator=light", "mis and estimator=light both say estimator: leave one of them"),
-            ("raster,spp=4", "spp is no setting of raster: expected fake, repairs, shading"),
+            ("raster,spp=4", "spp is no setting of raster: expected fake, repairs, texture-filter"),
             ("path,branches=4", "bounces"),
             ("path,", "a word is empty: expected NAME=VALUE"),
         ] {

@@ -14,7 +14,10 @@ fn a_case_is_measured_beside_its_picture_seen_to_fail_and_opened() {
     let text = |frame: &visavis_tests::Frame, name: &str| frame.value(name).to_owned();
     let frame =
         user.wait_for("the picture of case 4", |frame| frame.value("case picture").contains(" samples a pixel"));
-    assert!(text(&frame, "ring 2").starts_with("expected 0.7052169, here 0.7"), "{}", text(&frame, "ring 2"));
+    let ring = text(&frame, "ring 2");
+    let here = ring.strip_prefix("expected 0.7052169, here ").and_then(|here| here.parse::<f64>().ok());
+    // few samples by then, which are off by some percent
+    assert!(here.is_some_and(|here| (here - 0.7052).abs() < 0.07), "{ring}");
     user.change(|model| model.state.cases.looked_at = 15);
     user.click("Run this");
     let frame = user.wait_for("rows that pass", |frame| frame.value("text case mark") == "passes");

@@ -208,7 +208,7 @@ fn names_of_scenes_come_back_whatever_is_in_them() {
 fn what_a_session_cannot_mean_is_told_with_line_and_column() {
     let scene = builtin::named("whitted").unwrap();
     for (lines, said) in [
-        ("[panes.A]\nspp = 4", "a.toml:4:1: spp is no setting of raster: expected fake, repairs, shading, "),
+        ("[panes.A]\nspp = 4", "a.toml:4:1: spp is no setting of raster: expected fake, repairs, texture-filter, "),
         ("[panes.B]\nspp = \"many\"", "a.toml:4:7: spp=many: expected a whole number from 1 to "),
         ("[panes.B]\nspp = 4.5", "a.toml:4:7: spp=4.5: expected a whole number"),
         ("[panes.B]\nsampler = \"sobl\"", "; did you mean sobol?"),
