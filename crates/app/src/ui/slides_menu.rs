@@ -2,11 +2,11 @@
 
 use super::widgets::{Explained, menu, rows_of_menu};
 use super::{UiCommand, UiContext};
-use crate::model::{LADDER, SLIDES, SWEEP, TREES};
+use crate::model::{CASES, LADDER, SLIDES, SWEEP, TREES};
 use egui::Ui;
 
 /// Workspaces that answer a question of the lecture: what leads to each and back from it, and what it shows.
-const WORKSPACES: [(&str, [&str; 2], &str); 3] = [
+const WORKSPACES: [(&str, [&str; 2], &str); 4] = [
     (
         SWEEP,
         ["Many pictures at once (S)", "Back to the comparison (S)"],
@@ -21,6 +21,11 @@ const WORKSPACES: [(&str, [&str; 2], &str); 3] = [
         TREES,
         ["What a tree saves (X)", "Back from the trees (X)"],
         "33 million triangles: what a ray is tested against without a tree and with one",
+    ),
+    (
+        CASES,
+        ["What must be so", "Back from the hard cases"],
+        "Hard cases: scenes whose right answers are known, measured here and looked at",
     ),
 ];
 

@@ -75,12 +75,13 @@ fn widths_id() -> egui::Id {
     egui::Id::unique("widths of the bar")
 }
 
-/// Windows narrower than this, in points, have the workspaces in the menu of slides alone.
-const ROOMY: f32 = 900.0;
+/// Windows narrower than this, in sizes of the type, have the workspaces in the menu of slides alone: with their buttons the bar
+/// would take two rows of the picture's height.
+const ROOMY: f32 = 86.0;
 
 /// What stands at the right of the bar.
 fn tools(workspaces: &mut Workspaces, cx: &mut UiContext, ui: &mut Ui) {
-    if ui.ctx().content_rect().width() >= ROOMY {
+    if ui.ctx().content_rect().width() >= ROOMY * TextStyle::Body.resolve(ui.style()).size {
         workspaces.buttons(cx, ui);
     }
     slides_menu::show(cx, ui);
