@@ -4,7 +4,7 @@
 //! apart they are, from each other or from what the [`mod@reference`] makes, and the [`error_map`] draws where; the
 //! [`export`] writes files and fills the clipboard, [`mod@report`]s too; [`load`], [`restore`], [`session`] and [`find_scene`] read them, [`beginning`] is what a window begins with, [`watch`] reads a scene again that
 //! has changed on disk, [`memory`] keeps what the next window is to know, [`dialogue`] waits for the system's own,
-//! [`thumbnails`] draws small pictures of scenes and [`sweep`] many pictures of one scene, [`light`] finds out how much each bounce brings [`trees`] what rays are tested against and [`cases`] whether hard cases come out. Every thread is a [`worker::Worker`], fed through a
+//! [`thumbnails`] draws small pictures of scenes and [`sweep`] many pictures of one scene, [`light`] finds out how much each bounce brings, [`trees`] what rays are tested against and [`cases`] whether hard cases come out. Every thread is a [`worker::Worker`], fed through a
 //! [`mailbox::Mailbox`] in which newer wishes replace older ones. The UI thread only posts and collects.
 
 pub mod ask;
