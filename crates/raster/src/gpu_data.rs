@@ -29,9 +29,9 @@ pub const IMAGE_ALPHA: u32 = 16;
 pub const BOARD_AS_FORMULA: u32 = 0;
 /// It is a texture: [`crate::TextureFilter::Bilinear`].
 pub const BOARD_BILINEAR: u32 = 1;
-/// [`crate::TextureFilter::Trilinear`].
+/// The texture is looked up by [`crate::TextureFilter::Trilinear`].
 pub const BOARD_TRILINEAR: u32 = 2;
-/// [`crate::TextureFilter::Anisotropic`].
+/// The texture is looked up by [`crate::TextureFilter::Anisotropic`].
 pub const BOARD_ANISOTROPIC: u32 = 3;
 
 /// [`Lights::area_light_pattern`] where there is no area light.

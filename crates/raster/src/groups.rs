@@ -8,7 +8,7 @@ use crate::uniforms::Uniforms;
 use gpu::Gpu;
 use wgpu::{BindGroup, BindingResource, TextureView};
 
-/// What is bound.
+/// The bind groups of a frame, for all of its passes.
 pub struct Groups {
     /// Group 0 of shadow passes: a view.
     pub shadow: BindGroup,

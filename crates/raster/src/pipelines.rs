@@ -43,7 +43,7 @@ pub struct Choice {
     pub sun: bool,
     /// As in [`Lights::area_light_pattern`].
     pub area_light: u32,
-    /// As in [`Lights::area_light_form`].
+    /// How the area light is integrated, as in [`Lights::area_light_form`].
     pub area_form: u32,
 }
 

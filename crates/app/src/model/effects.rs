@@ -8,7 +8,7 @@ use technique::effects::{Effect, EffectMap, EffectShare, LabelPlaces};
 /// The effects of a view, as they are drawn over its map of errors.
 #[derive(Debug, Clone)]
 pub struct EffectsOfView {
-    /// What is seen.
+    /// Scene, camera and size whose effects are named.
     pub shot: Shot,
     /// The effect of each cell.
     pub map: EffectMap,
@@ -38,7 +38,7 @@ pub struct ShownEffects {
 /// The effect that is looked at alone.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct EffectInHand {
-    /// Which was clicked.
+    /// The row that was clicked, whose effect stays alone in the light.
     pub chosen: Option<Effect>,
     /// Whose row is under the mouse.
     pub hovered: Option<Effect>,

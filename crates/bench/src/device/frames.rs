@@ -62,7 +62,7 @@ fn paths(gpu: &Gpu, scene: &Scene, extent: &Extent) -> Result<(Times, Times), De
 /// Milliseconds: the median of all pictures, and the 99th percentile.
 type Times = [f64; 2];
 
-/// A slider's way.
+/// A slider's way across [`RATIOS`], a picture at each step.
 struct Drag<'a> {
     scene: Scene,
     extent: &'a Extent,

@@ -18,7 +18,7 @@ const MOST: u32 = 1 << 14;
 /// How fast a scene is traced.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Rate {
-    /// The scene's name.
+    /// Name of the scene that was traced.
     pub scene: String,
     /// Rays and paths a second on the device, and by the processor.
     pub device: [f64; 2],

@@ -15,7 +15,7 @@ const PER_CELL: f32 = 0.02;
 /// Where the label of an effect may stand.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LabelPlaces {
-    /// What it names.
+    /// The effect that the label names.
     pub effect: Effect,
     /// Middles of the label, in shares of the picture from its upper left corner, the one with most room first.
     pub at: Vec<[f32; 2]>,

@@ -7,7 +7,7 @@ use super::Effect;
 pub struct Row {
     /// The effect that the row speaks of.
     pub effect: Effect,
-    /// In JSON.
+    /// The name in JSON, and in tables of the command line.
     pub name: &'static str,
     /// On labels and in the table.
     pub title: &'static str,

@@ -6,7 +6,7 @@ use super::values::{shown, size, text};
 use crate::cli::{CliError, Command};
 use std::path::PathBuf;
 
-/// `visavis device-report ...`.
+/// What `visavis device-report` was asked for.
 #[derive(Debug, Clone, PartialEq)]
 pub struct DeviceReportArgs {
     /// Where the page is written to, beside stdout.

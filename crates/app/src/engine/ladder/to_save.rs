@@ -9,7 +9,7 @@ use std::sync::Arc;
 /// A ladder to write.
 #[derive(Debug, Clone)]
 pub struct LadderToSave {
-    /// The scene's name.
+    /// Name of the scene that was climbed, for the chart.
     pub scene: String,
     /// Its rungs in the order in which they were reached.
     pub rungs: Vec<Made>,

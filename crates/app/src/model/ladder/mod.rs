@@ -77,9 +77,9 @@ pub struct LadderState {
 pub struct WantedLadder {
     /// Scene, camera and size of the pictures.
     pub shot: Shot,
-    /// What is repaired.
+    /// The repairs that are climbed, in the order in which light meets the defects.
     pub repairs: Vec<Repair>,
-    /// In which order.
+    /// Which of them comes next.
     pub order: Order,
     /// The rung of whose errors a map is looked at, what its colours show, and where their scale ends.
     pub map: Option<(Rung, ErrorMetric, Option<f32>)>,

@@ -268,7 +268,7 @@ pub fn figure(error: f64) -> String {
     if error >= 1e-4 { format!("{error:.4}") } else { brief(error) }
 }
 
-/// Three digits.
+/// Milliseconds to three digits, without a unit.
 pub fn milliseconds(ms: f64) -> String {
     match ms {
         ms if ms < 9.95 => format!("{ms:.2}"),
